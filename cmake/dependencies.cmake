@@ -1,0 +1,13 @@
+# Outside packages, all from Debian. LCM ships no CMake config, so it is found by hand.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Boost REQUIRED)
+find_package(Threads REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(spdlog REQUIRED)
+find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+find_program(LCM_GEN lcm-gen REQUIRED)
+
+add_library(lcm INTERFACE)
+target_include_directories(lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
+target_link_libraries(lcm INTERFACE ${LCM_LIBRARY})

@@ -1,0 +1,88 @@
+# One target per folder. A folder's headers are reachable only through its target: each target's
+# include path holds a link to its own folder and nothing else, so that a forbidden include does
+# not compile.
+
+function(leonav_expose target folder)
+  set(root ${CMAKE_BINARY_DIR}/include/${target})
+  cmake_path(GET folder PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${root}/${parent})
+  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
+  target_include_directories(${target} PUBLIC ${root})
+endfunction()
+
+# leonav_library(target folder [DEPENDS public...] [PRIVATE private...])
+function(leonav_library target folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
+  add_library(${target} STATIC ${sources})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  leonav_expose(${target} ${folder})
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# leonav_program(target folder [DEPENDS ...]); skipped while the folder has no source.
+function(leonav_program target folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
+  if(sources)
+    add_executable(${target} ${sources})
+    target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/${folder})
+    target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} ${ARG_PRIVATE})
+  endif()
+endfunction()
+
+# leonav_scripts(folder name...): interpreted tools, linked beside the programs.
+function(leonav_scripts folder)
+  file(MAKE_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  foreach(name ${ARGN})
+    if(EXISTS ${CMAKE_SOURCE_DIR}/${folder}/${name})
+      file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder}/${name} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name} SYMBOLIC)
+    endif()
+  endforeach()
+endfunction()
+
+# leonav_lcm_types(target): C++ (and, where asked, other languages') types from lcmtypes/*.lcm.
+function(leonav_lcm_types target)
+  file(GLOB definitions CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/lcmtypes/*.lcm)
+  set(out ${CMAKE_BINARY_DIR}/generated)
+  set(headers)
+  foreach(definition ${definitions})
+    cmake_path(GET definition STEM stem)
+    list(APPEND headers ${out}/leonav/${stem}.hpp)
+  endforeach()
+  add_custom_command(
+    OUTPUT ${headers}
+    COMMAND ${LCM_GEN} --cpp --cpp-hpath ${out} --cpp-std=c++11 ${definitions}
+    DEPENDS ${definitions}
+    COMMENT "lcm-gen")
+  add_custom_target(${target}_generate DEPENDS ${headers})
+  add_library(${target} INTERFACE)
+  add_dependencies(${target} ${target}_generate)
+  target_include_directories(${target} SYSTEM INTERFACE ${out})
+  target_link_libraries(${target} INTERFACE lcm)
+endfunction()
+
+# leonav_test(target folder [DEPENDS ...]): one Catch2 program per folder; skipped while empty.
+function(leonav_test target folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
+  if(NOT sources)
+    return()
+  endif()
+  find_package(Catch2 REQUIRED)
+  add_executable(${target} ${sources})
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test)
+  if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+    target_link_libraries(${target} PRIVATE Catch2::Catch2WithMain)
+  else()
+    target_sources(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test/support/catch2_main.cc)
+    target_link_libraries(${target} PRIVATE Catch2::Catch2)
+  endif()
+  target_compile_definitions(${target} PRIVATE
+    LEONAV_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data"
+    LEONAV_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    LEONAV_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
+  add_test(NAME ${target} COMMAND ${target})
+  set_tests_properties(${target} PROPERTIES TIMEOUT 900)
+endfunction()

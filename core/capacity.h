@@ -1,0 +1,20 @@
+// Every fixed capacity in one place. The wire types in lcmtypes/ carry the same limits: a message
+// that claims more is rejected before it is decoded.
+#pragma once
+#include <cstddef>
+
+namespace leonav {
+
+inline constexpr std::size_t kMaxSatellites = 128;    // satellites in one raw epoch
+inline constexpr std::size_t kMaxSignals = 6;         // signals of one satellite
+inline constexpr std::size_t kMaxObservations = 512;  // signals in one raw epoch, all satellites
+inline constexpr std::size_t kMaxMeasurements = 384;  // code, carrier, Doppler in one epoch
+inline constexpr std::size_t kMaxEphemerisSatellites = 512;  // satellites with stored ephemerides
+inline constexpr std::size_t kMaxEphemeridesPerSatellite = 4;
+inline constexpr std::size_t kMaxOrbitNodes = 12;     // precise states kept per satellite
+inline constexpr std::size_t kMaxImuBlock = 1536;     // IMU samples between two epochs: 500 Hz, 3 s
+inline constexpr std::size_t kMaxImuHistory = 4096;   // IMU samples kept for re-propagation
+inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
+inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once
+
+}  // namespace leonav

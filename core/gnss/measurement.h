@@ -1,0 +1,80 @@
+// A raw epoch after preprocessing: what both estimators consume.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "core/capacity.h"
+#include "core/gnss/satellite_state.h"
+#include "core/gnss/signal.h"
+
+namespace leonav {
+
+// The values are on the wire: append only.
+enum class Observable : std::uint8_t { kCode = 0, kCarrier = 1, kDoppler = 2 };
+
+// Why a satellite or a measurement was used or left out. On the wire: append only.
+enum class Reason : std::uint8_t {
+  kUsed = 0,
+  kDownweighted = 1,    // used, with a robust factor below one
+  kOutlier = 2,         // robust factor zero, or excluded by fault detection
+  kSystemDisabled = 3,  // configuration leaves the system out
+  kNoEphemeris = 4,
+  kEphemerisTooOld = 5,
+  kUnhealthy = 6,
+  kLowElevation = 7,
+  kLowCn0 = 8,
+  kNoUsableSignal = 9,  // no configured signal has a pseudorange
+  kImplausible = 10,    // pseudorange or Doppler out of physical range
+  kSatelliteCap = 11,   // the configured number of satellites per system is reached
+  kCapacity = 12,       // a fixed table was full
+  kNoPosition = 13,     // no approximate position yet, so nothing can be predicted
+  kNotSolved = 14,      // epoch had too few satellites for a solution
+};
+std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
+
+// One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
+// Earth's rotation during flight has been applied.
+struct SatelliteInView {
+  SatelliteId satellite;
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, at transmission
+  Eigen::Vector3d v_e =
+      Eigen::Vector3d::Zero();  // m/s, at transmission, relative to rotating Earth
+  double clock_m = 0.0;         // satellite clock times c
+  double clock_drift_m_s = 0.0;
+  double orbit_sigma_m = 0.0;
+  double ephemeris_age_s = 0.0;
+  OrbitSource source = OrbitSource::kNone;
+  double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
+  double azimuth = 0.0;          // rad
+  double troposphere_m = 0.0;    // slant delay applied
+  double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
+  double cn0_dbhz = 0.0;         // strongest signal
+  Reason reason = Reason::kUsed;
+};
+
+// One scalar range (m) or range rate (m/s), corrected so that the model is
+//   code:    |p_sat - p_antenna| + clock offset of the time base
+//   doppler: range_rate(...) of core/gnss/range_model.h + clock drift of the time base
+// (satellite clock, group delay, troposphere, ionosphere are already out).
+struct Measurement {
+  std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
+  Observable observable = Observable::kCode;
+  SignalCode code;         // first signal
+  SignalCode second_code;  // set for an ionosphere-free combination
+  double value = 0.0;
+  double sigma = 0.0;
+  Reason reason = Reason::kUsed;
+};
+
+struct MeasurementEpoch {
+  std::uint64_t index = 0;  // k
+  GpsTime time;             // receiver's time tag
+  Eigen::Vector3d approximate_p_e =
+      Eigen::Vector3d::Zero();  // used for elevation and delays; zero: none
+  boost::container::static_vector<SatelliteInView, kMaxSatellites> satellites;
+  boost::container::static_vector<Measurement, kMaxMeasurements> measurements;
+};
+
+}  // namespace leonav

@@ -1,0 +1,41 @@
+// Satellite systems and satellite names.
+#pragma once
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace leonav {
+
+// The values are on the wire: append only.
+enum class System : std::uint8_t { kGps = 0, kGalileo = 1, kBeidou = 2, kLeo = 3 };
+inline constexpr std::size_t kSystemCount = 4;
+inline constexpr std::array<System, kSystemCount> kSystems = {System::kGps, System::kGalileo,
+                                                              System::kBeidou, System::kLeo};
+
+constexpr std::size_t index_of(System system) { return static_cast<std::size_t>(system); }
+std::string_view to_string(System system);  // "gps", "galileo", "beidou", "leo"
+std::optional<System> system_from_string(std::string_view name);
+
+// A satellite: system and number within it (GPS PRN 1-63, Galileo 1-50, BeiDou 1-63, LEO 1-399).
+struct SatelliteId {
+  System system = System::kGps;
+  std::uint16_t number = 0;
+  friend constexpr auto operator<=>(const SatelliteId&, const SatelliteId&) = default;
+};
+
+bool is_valid(SatelliteId id);
+
+// RINEX name: letter and two digits. LEO: L01-L99 are 1-99, M00-M99 100-199, N00-N99 200-299,
+// O00-O99 300-399. A blank tens digit ("G 5") is read as zero. nullopt for any other text,
+// including systems that leonav does not use (GLONASS, SBAS, QZSS, NavIC).
+std::optional<SatelliteId> satellite_from_string(std::string_view name);
+std::string to_string(SatelliteId id);
+
+// BeiDou satellites in geostationary orbit (C01-C05, C59-C63): their broadcast orbit has a frame of
+// its own (BDS-SIS-ICD-B1I 3.0, table 5-11) and their D2 message other subframes.
+bool is_beidou_geostationary(SatelliteId id);
+
+}  // namespace leonav

@@ -1,0 +1,61 @@
+// Keeps the ephemerides and precise states received so far and answers "where was satellite s at
+// time t". Fixed capacity, no allocation after construction.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "core/gnss/ephemeris.h"
+#include "core/gnss/satellite_state.h"
+
+namespace leonav {
+
+// One precise state of one satellite, e.g. a line of an SP3 file.
+struct PreciseState {
+  SatelliteId satellite;
+  GpsTime time;
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, centre of mass
+  double clock_s = 0.0;                           // NaN: no clock in this product
+};
+
+enum class LookupStatus : std::uint8_t {
+  kOk = 0,
+  kNoEphemeris,  // nothing stored for this satellite
+  kTooOld,       // nothing stored that is valid at this time
+  kUnhealthy,
+};
+
+struct CatalogOptions {
+  bool use_precise = true;        // precise states before broadcast ones where both exist
+  double max_age_gps_s = 7200.0;  // |t - toe|
+  double max_age_galileo_s = 14400.0;
+  double max_age_beidou_s = 21600.0;
+  double max_age_leo_s = 7200.0;
+  double max_orbit_gap_s = 1000.0;  // precise nodes farther apart than this are not bridged
+  bool galileo_prefers_fnav =
+      false;  // F/NAV (E1,E5a clock) instead of I/NAV (E1,E5b) where both are there
+};
+
+class SatelliteCatalog {
+ public:
+  explicit SatelliteCatalog(const CatalogOptions& options);
+  ~SatelliteCatalog();
+  SatelliteCatalog(SatelliteCatalog&&) noexcept;
+  SatelliteCatalog& operator=(SatelliteCatalog&&) noexcept;
+
+  // False if the ephemeris is not sane (nothing changes). A repeated issue replaces its
+  // predecessor; when full, the oldest of that satellite goes.
+  bool add(const Ephemeris& ephemeris);
+  bool add(const PreciseState& state);
+  void set_klobuchar(const KlobucharModel& model);
+  const KlobucharModel& klobuchar() const;
+
+  // State at `time`; `*ephemeris` (if given) points to the elements used, or nullptr for precise.
+  LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
+                        const Ephemeris** ephemeris = nullptr) const;
+
+ private:
+  struct Storage;
+  std::unique_ptr<Storage> storage_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,36 @@
+// The whole configuration of the navigator. SI units and radians; daemon/config reads it from YAML.
+#pragma once
+#include <Eigen/Core>
+
+#include "core/ekf/ekf_config.h"
+#include "core/gnss/gnss_config.h"
+#include "core/ins/alignment.h"
+#include "core/ins/imu_error_model.h"
+
+namespace leonav {
+
+struct VehicleConfig {
+  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  // m, IMU centre to antenna phase centre
+  Eigen::Vector3d mounting_rpy =
+      Eigen::Vector3d::Zero();  // rad; rotates IMU axes into the body frame
+};
+
+struct RealtimeConfig {
+  double deadline_ekf_s = 0.2;       // D_ekf, data time
+  double deadline_smoother_s = 0.5;  // D_smoother, data time
+  double epoch_interval_s =
+      1.0;  // expected GNSS interval: 1.5 of them without an epoch makes an empty one
+};
+
+struct NavigatorConfig {
+  VehicleConfig vehicle;
+  MotionModel motion = MotionModel::kInertial;
+  ImuErrorModel imu;
+  AlignmentConfig alignment;
+  GnssConfig gnss;
+  EkfConfig ekf;
+  RealtimeConfig realtime;
+  double solution_rate_hz = 200.0;  // published at most this often
+};
+
+}  // namespace leonav

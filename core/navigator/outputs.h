@@ -1,0 +1,144 @@
+// What the navigator tells the world, as plain values; drivers/lcm puts them on the wire.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "core/capacity.h"
+#include "core/gnss/measurement.h"
+#include "core/ins/nav_state.h"
+
+namespace leonav {
+
+// Who gives the answer. On the wire: append only.
+enum class Source : std::uint8_t {
+  kNone = 0,
+  kAligning = 1,
+  kInsOnly = 2,
+  kEkf = 3,
+  kSmoother = 4
+};
+std::string_view to_string(Source source);  // "none", "aligning", "ins", "ekf", "smoother"
+
+// Position, velocity, attitude of the IMU centre at one instant, with 1 sigma in north, east, down.
+struct Solution {
+  std::uint64_t sequence = 0;  // of this output, from 1
+  GpsTime time;
+  Source source = Source::kNone;
+  bool has_attitude = false;
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();
+  double latitude = 0.0, longitude = 0.0, height = 0.0;  // rad, rad, m
+  Eigen::Vector3d v_n = Eigen::Vector3d::Zero();         // m/s, north east down
+  double roll = 0.0, pitch = 0.0, yaw = 0.0;             // rad
+  Eigen::Vector3d sigma_p_n = Eigen::Vector3d::Zero();   // m
+  Eigen::Vector3d sigma_v_n = Eigen::Vector3d::Zero();   // m/s
+  Eigen::Vector3d sigma_rpy = Eigen::Vector3d::Zero();   // rad
+  ImuErrors errors;                                      // of the anchor in use
+  std::uint64_t anchor_epoch = 0;                        // k of the anchor it was propagated from
+  double jump_m = 0.0;  // how far the newest anchor moved the answer; 0 between commits
+};
+
+// One aiding measurement, in the same five fields whatever it is.
+struct AidingReport {
+  SatelliteId satellite;
+  Observable observable = Observable::kCode;
+  SignalCode code, second_code;
+  double observation = 0.0;  // m or m/s
+  double innovation = 0.0;
+  double innovation_variance = 0.0;
+  double test_ratio = 0.0;     // |innovation| / sigma of innovation
+  double weight_factor = 1.0;  // IGG-III
+  Reason reason = Reason::kUsed;
+};
+
+struct SatelliteReport {
+  SatelliteId satellite;
+  Reason reason = Reason::kUsed;          // kUsed if any of its measurements counted
+  double elevation = 0.0, azimuth = 0.0;  // rad
+  double cn0_dbhz = 0.0;
+  double ephemeris_age_s = 0.0;
+  OrbitSource source = OrbitSource::kNone;
+};
+
+// One GNSS epoch as the estimator left it. `solution` is its estimate at the epoch itself.
+struct EpochReport {
+  std::uint64_t sequence = 0;
+  std::uint64_t index = 0;  // k
+  GpsTime time;
+  bool empty = false;  // issued by the Sequencer because no GNSS came
+  Solution solution;
+  int satellites_used = 0;
+  double pdop = 0.0, hdop = 0.0, vdop = 0.0;
+  std::array<double, kMaxTimeBases> clock_m{};  // NaN where not estimated
+  std::array<double, kMaxTimeBases> clock_drift_m_s{};
+  double nis = 0.0;  // normalized innovation squared over all used measurements
+  int nis_degrees = 0;
+  boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;
+  boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
+};
+
+// On the wire: append only.
+enum class EventKind : std::uint8_t {
+  kRejectedInput = 0,  // code: InputFault
+  kDeadlineMiss = 1,   // code: 0 ekf, 1 smoother; value: epoch
+  kFilterReset = 2,
+  kAligned = 3,
+  kImuGap = 4,     // value: seconds
+  kLateEpoch = 5,  // value: seconds late
+  kEmptyEpoch = 6,
+  kSolutionJump = 7,  // value: metres
+  kCapacity = 8,      // a fixed table was full; code says which
+};
+std::string_view to_string(EventKind kind);
+
+// Why an input message was not used. On the wire: append only.
+enum class InputFault : std::uint8_t {
+  kNone = 0,
+  kUndecodable = 1,
+  kUnknownSchema = 2,
+  kNotFinite = 3,
+  kOutOfRange = 4,
+  kTimeBackwards = 5,
+  kDuplicate = 6,
+  kTooMany = 7,
+  kNotSane = 8,
+  kTooFarAhead = 9,
+};
+std::string_view to_string(InputFault fault);
+
+// Who reports. On the wire: append only. Event sequences count per stage, so that their order does
+// not depend on how threads interleave.
+enum class Stage : std::uint8_t { kSequencer = 0, kInertial = 1, kGnss = 2, kSmoother = 3 };
+
+struct Event {
+  std::uint64_t sequence = 0;
+  Stage stage = Stage::kSequencer;
+  GpsTime time;  // data time
+  EventKind kind = EventKind::kRejectedInput;
+  std::uint8_t code = 0;
+  double value = 0.0;
+};
+
+// What became of one epoch's result: part of the journal.
+struct Decision {
+  std::uint64_t sequence = 0;
+  std::uint64_t epoch = 0;
+  GpsTime time;              // IMU data time at which it was decided
+  std::uint8_t mailbox = 0;  // 0 ekf, 1 smoother
+  bool committed = false;
+  std::int32_t iterations = 0;
+};
+
+// Receives outputs in order. Called by the stages; must not block for long and must not throw.
+class OutputSink {
+ public:
+  virtual ~OutputSink() = default;
+  virtual void on_solution(const Solution& solution) = 0;
+  virtual void on_epoch(const EpochReport& report) = 0;
+  virtual void on_event(const Event& event) = 0;
+  virtual void on_decision(const Decision& decision) = 0;
+};
+
+}  // namespace leonav

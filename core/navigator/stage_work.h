@@ -1,0 +1,57 @@
+// What travels between the stages. In the daemon through rings, in Pipeline by a call.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <variant>
+
+#include "core/ekf/ekf.h"
+#include "core/gnss/ephemeris.h"
+#include "core/gnss/observation.h"
+#include "core/gnss/satellite_catalog.h"
+#include "core/ins/imu.h"
+#include "core/navigator/outputs.h"
+
+namespace leonav {
+
+// A GNSS epoch has been issued: from the first IMU sample stamped `deadline_ekf` or later the
+// navigator asks the mailbox for it.
+struct EpochIssued {
+  std::uint64_t index = 0;
+  GpsTime time;          // t_k
+  GpsTime deadline_ekf;  // tau + D_ekf
+};
+
+// Sequencer -> InertialNavigator, in order.
+using InertialWork = std::variant<ImuSample, EpochIssued>;
+
+// An epoch with the IMU samples since the one before it, cut exactly at both ends.
+struct EpochWork {
+  std::uint64_t index = 0;
+  GpsTime time;
+  bool empty = false;  // no GNSS came in time: predict only
+  RawEpoch raw;
+  ImuBlock block;
+};
+
+enum class CommandKind : std::uint8_t { kRestart = 0, kSetHeading = 1 };
+struct Command {
+  CommandKind kind = CommandKind::kRestart;
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+// Sequencer -> GnssStage, in order.
+using GnssWork = std::variant<Ephemeris, PreciseState, KlobucharModel, Command, EpochWork>;
+
+// GnssStage -> InertialNavigator, through the mailbox: the anchor to go on from.
+struct EkfUpdate {
+  std::uint64_t index = 0;
+  bool valid = false;         // false: the filter is not initialized yet
+  bool has_attitude = false;  // false: aligning; `state.q_eb` means nothing
+  NavState state;             // at the epoch
+  Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
+      Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
+  bool gnss_used = false;  // at least one measurement counted in this epoch
+};
+
+}  // namespace leonav

@@ -1,0 +1,25 @@
+// Calendars and other time scales against GPS time.
+#pragma once
+#include "core/time/gps_time.h"
+
+namespace leonav {
+
+struct CalendarTime {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  double second = 0.0;
+};
+
+// Proleptic Gregorian calendar, reading GPS time (no leap seconds).
+GpsTime from_calendar(const CalendarTime& calendar);
+CalendarTime to_calendar(GpsTime time);
+
+// Seconds that GPS time is ahead of UTC at `time` (18 since 2017-01-01). Source: IERS Bulletin C.
+int leap_seconds(GpsTime time);
+
+// BeiDou time is GPS time minus 14 s (BDS-SIS-ICD 3.3); its week 0 is GPS week 1356.
+inline constexpr int kBeidouMinusGpsSeconds = -14;
+inline constexpr int kBeidouWeekZeroInGpsWeeks = 1356;
+// Galileo system time equals GPS time up to nanoseconds; its week 0 is GPS week 1024.
+inline constexpr int kGalileoWeekZeroInGpsWeeks = 1024;
+
+}  // namespace leonav
