@@ -1,0 +1,160 @@
+#include "tools/common/arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <sstream>
+
+namespace leonav {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Arguments::Arguments(std::string program, std::string synopsis, std::string description)
+    : program_(std::move(program)),
+      synopsis_(std::move(synopsis)),
+      description_(std::move(description)) {}
+
+Arguments& Arguments::option(const std::string& name, const std::string& value_name,
+                             const std::string& help, const std::string& fallback) {
+  options_.push_back({name, value_name, help, fallback});
+  return *this;
+}
+
+Arguments& Arguments::flag(const std::string& name, const std::string& help) {
+  options_.push_back({name, "", help, ""});
+  return *this;
+}
+
+const Arguments::Option* Arguments::find(const std::string& name) const {
+  for (const Option& option : options_) {
+    if (option.name == name) return &option;
+  }
+  return nullptr;
+}
+
+void Arguments::fail_unknown(const std::string& name) const {
+  const Option* nearest = nullptr;
+  std::size_t best = 4;  // farther than three edits is no help
+  for (const Option& option : options_) {
+    const std::size_t distance = edit_distance(name, option.name);
+    if (distance < best) {
+      best = distance;
+      nearest = &option;
+    }
+  }
+  throw UsageError("unknown option " + name +
+                   (nearest != nullptr ? "; did you mean " + nearest->name + "?" : "") + " (" +
+                   program_ + " --help lists them)");
+}
+
+bool Arguments::parse(int argc, const char* const* argv) {
+  bool options_end = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (options_end || word.size() < 2 || word[0] != '-') {
+      positional_.push_back(word);
+      continue;
+    }
+    if (word == "--") {
+      options_end = true;
+      continue;
+    }
+    if (word == "--help" || word == "-h") {
+      std::cout << help();
+      return false;
+    }
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const Option* option = name == "-o" ? find("--out") : find(name);
+    if (option == nullptr) fail_unknown(name);
+    std::string value;
+    if (option->value_name.empty()) {
+      if (equals != std::string::npos) throw UsageError(name + " takes no value");
+    } else if (equals != std::string::npos) {
+      value = word.substr(equals + 1);
+    } else {
+      if (i + 1 >= argc) throw UsageError(name + " needs a value: " + option->value_name);
+      value = argv[++i];
+    }
+    values_[option->name].push_back(value);
+  }
+  return true;
+}
+
+bool Arguments::has(const std::string& name) const { return values_.count(name) != 0; }
+
+std::string Arguments::get(const std::string& name) const {
+  const auto given = values_.find(name);
+  if (given != values_.end()) return given->second.back();
+  const Option* option = find(name);
+  return option != nullptr ? option->fallback : "";
+}
+
+std::vector<std::string> Arguments::all(const std::string& name) const {
+  const auto given = values_.find(name);
+  return given != values_.end() ? given->second : std::vector<std::string>{};
+}
+
+double Arguments::number(const std::string& name) const {
+  const std::string text = get(name);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw UsageError(name + " needs a number, not '" + text + "'");
+  }
+  return value;
+}
+
+std::string Arguments::required(const std::string& name) const {
+  const std::string value = get(name);
+  if (value.empty()) throw UsageError(name + " is missing (" + program_ + " --help)");
+  return value;
+}
+
+std::string Arguments::help() const {
+  std::ostringstream text;
+  text << "usage: " << program_ << ' ' << synopsis_ << "\n\n" << description_ << "\n\noptions:\n";
+  std::size_t width = 6;
+  for (const Option& option : options_) {
+    width = std::max(width, option.name.size() + 1 + option.value_name.size());
+  }
+  auto line = [&](const std::string& left, const std::string& right) {
+    text << "  " << left << std::string(width + 2 - left.size(), ' ') << right << '\n';
+  };
+  for (const Option& option : options_) {
+    line(option.value_name.empty() ? option.name : option.name + ' ' + option.value_name,
+         option.help + (option.fallback.empty() ? "" : " [" + option.fallback + "]"));
+  }
+  line("--help", "print this and exit");
+  return text.str();
+}
+
+int run_tool(const std::string& program, int (*body)(int, char**), int argc, char** argv) {
+  try {
+    return body(argc, argv);
+  } catch (const UsageError& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace leonav
