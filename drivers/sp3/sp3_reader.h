@@ -1,0 +1,42 @@
+// Precise orbits in SP3-c and SP3-d.
+// Source: S. Hilla, The Extended Standard Product 3 Orbit Format (SP3-c) 2010, (SP3-d) 2016.
+#pragma once
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/gnss/satellite_catalog.h"
+
+namespace leonav {
+
+struct Sp3Epoch {
+  GpsTime time;
+  std::vector<PreciseState> states;  // sorted by satellite
+};
+
+// A line that was left out and why; the file is usable without it.
+struct Sp3Problem {
+  long line = 0;
+  std::string what;
+};
+
+struct Sp3File {
+  char version = 0;                 // 'c' or 'd'
+  std::string time_system;          // as in the file: "GPS", "GAL", "BDT", "QZS", "UTC"
+  std::string frame;                // e.g. "IGb14"
+  int satellites_listed = 0;        // in the header, all systems
+  std::vector<Sp3Epoch> epochs;     // in increasing time
+  std::uint64_t other_system = 0;   // position lines of systems leonav does not use
+  std::uint64_t bad_positions = 0;  // position 0 0 0: "bad or absent" by the format
+  std::uint64_t bad_clocks = 0;     // clock 999999.999999: the state is kept, its clock is NaN
+  std::uint64_t damaged_lines = 0;
+  bool truncated = false;            // no EOF line
+  std::vector<Sp3Problem> problems;  // the first 20 damaged lines
+};
+
+// Throws FileError if the file cannot be read, is not SP3-c or -d, or holds no usable state.
+Sp3File read_sp3(const std::string& path);
+Sp3File read_sp3(std::istream& stream, const std::string& name);
+
+}  // namespace leonav

@@ -1,0 +1,46 @@
+// UBX-RXM-SFRBX (0x02 0x13): broadcast subframes -> ephemerides and ionosphere coefficients.
+// Source: u-blox ZED-F9P interface description UBX-22008968, sections 1.5 and 3.17.9.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/gnss/ephemeris.h"
+
+namespace leonav {
+
+struct RxmSfrbxCounters {
+  std::uint64_t subframes = 0;  // understood and used
+  std::uint64_t bad_length = 0;
+  std::uint64_t bad_version = 0;
+  std::uint64_t bad_satellite = 0;
+  std::uint64_t other_system = 0;   // SBAS, QZSS, GLONASS, IMES, NavIC
+  std::uint64_t other_message = 0;  // a navigation message leonav does not read (CNAV, B-CNAV, ...)
+  std::uint64_t bad_parity = 0;     // parity or CRC wrong, or the fixed bits are not there
+  std::uint64_t without_time = 0;   // complete, but no RAWX has told the week yet
+  std::uint64_t not_sane = 0;       // decoded elements outside physical bounds
+  std::uint64_t ephemerides = 0;
+};
+
+// What one subframe completed, if anything.
+struct NavigationUpdate {
+  std::optional<Ephemeris> ephemeris;
+  std::optional<KlobucharModel> klobuchar;
+};
+
+class RxmSfrbxDecoder {
+ public:
+  RxmSfrbxDecoder();
+  ~RxmSfrbxDecoder();
+  // `now`: time of the last RAWX, by which truncated week numbers are completed; unset if none yet.
+  NavigationUpdate decode(std::span<const std::uint8_t> payload, GpsTime now);
+  const RxmSfrbxCounters& counters() const { return counters_; }
+
+ private:
+  struct State;
+  RxmSfrbxCounters counters_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,55 @@
+// Finds UBX messages in a stream of bytes: sync characters, length bound, Fletcher checksum.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace leonav {
+
+// A framed message with a good checksum; `payload` is valid until the framer is used again.
+struct UbxMessage {
+  std::uint8_t message_class = 0;
+  std::uint8_t id = 0;
+  std::span<const std::uint8_t> payload;
+};
+
+struct UbxFramerCounters {
+  std::uint64_t messages = 0;       // framed, checksum good
+  std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
+  std::uint64_t bad_checksums = 0;
+  std::uint64_t oversize = 0;  // claimed length above kMaxPayload: taken for a false sync
+};
+
+// The caller appends bytes and takes messages until there are none. A false sync or a damaged
+// message costs only its own bytes: the search resumes one byte after its first.
+class UbxFramer {
+ public:
+  // RXM-RAWX with 255 measurements has 16 + 255 * 32 bytes of payload; nothing else is longer.
+  static constexpr std::size_t kMaxPayload = 16 + 255 * 32;
+
+  // Copies as many of `bytes` as fit and returns how many; never zero unless `bytes` is empty or a
+  // message is still to be taken.
+  std::size_t append(std::span<const std::uint8_t> bytes);
+  // Takes the next message; false: more bytes are needed.
+  bool next(UbxMessage* message);
+  // The stream has ended: counts what is left as skipped after looking for messages inside it
+  // (a false sync near the end must not swallow good messages). Call next() until false after it.
+  void finish() { finished_ = true; }
+
+  const UbxFramerCounters& counters() const { return counters_; }
+
+ private:
+  static constexpr std::size_t kOverhead = 8;  // sync 2, class, id, length 2, checksum 2
+  static constexpr std::size_t kCapacity = 2 * (kMaxPayload + kOverhead);
+
+  void skip(std::size_t count);
+
+  std::array<std::uint8_t, kCapacity> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  bool finished_ = false;
+  UbxFramerCounters counters_;
+};
+
+}  // namespace leonav
