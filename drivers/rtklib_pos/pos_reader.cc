@@ -1,0 +1,83 @@
+#include "drivers/rtklib_pos/pos_reader.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "core/time/calendar.h"
+#include "drivers/text/parse.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+// "2021/04/28 22:19:22.430" or "2155 339562.430".
+bool parse_time(const std::string& first, const std::string& second, GpsTime* time) {
+  CalendarTime c;
+  int week = 0;
+  double tow_s = 0.0;
+  if (std::sscanf(first.c_str(), "%d/%d/%d", &c.year, &c.month, &c.day) == 3) {
+    if (std::sscanf(second.c_str(), "%d:%d:%lf", &c.hour, &c.minute, &c.second) != 3) return false;
+    *time = from_calendar(c);
+    return true;
+  }
+  if (std::sscanf(first.c_str(), "%d", &week) != 1) return false;
+  if (std::sscanf(second.c_str(), "%lf", &tow_s) != 1) return false;
+  *time = GpsTime::from_week_and_tow(week, tow_s);
+  return true;
+}
+
+bool parse_row(const std::string& line, bool ecef, PosRow* row) {
+  std::istringstream words(line);
+  std::string first, second;
+  Eigen::Vector3d position, sigma;
+  if (!(words >> first >> second >> position.x() >> position.y() >> position.z())) return false;
+  if (!position.allFinite() || !parse_time(first, second, &row->time)) return false;
+  if (!(words >> row->quality >> row->satellites)) return false;
+  const bool has_sigma = static_cast<bool>(words >> sigma.x() >> sigma.y() >> sigma.z());
+  if (ecef) {
+    row->position = to_geodetic(position);
+  } else {
+    row->position = {position.x() * kRadiansPerDegree, position.y() * kRadiansPerDegree,
+                     position.z()};
+    if (has_sigma) row->sigma_neu = sigma;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool looks_like_pos(const std::string& path) {
+  std::ifstream file(path);
+  char first = 0;
+  return file.get(first) && first == '%';
+}
+
+PosFile read_pos(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path, 0, "cannot be opened; check the path");
+  PosFile out;
+  std::string line;
+  bool ecef = false;
+  while (std::getline(file, line)) {
+    if (line.rfind('%', 0) == 0) {
+      if (line.find("x-ecef") != std::string::npos) ecef = true;
+      continue;
+    }
+    PosRow row;
+    const bool usable =
+        parse_row(line, ecef, &row) && (out.rows.empty() || row.time > out.rows.back().time);
+    if (usable) {
+      out.rows.push_back(row);
+    } else {
+      ++out.skipped;
+    }
+  }
+  if (out.rows.empty()) throw FileError(path, 0, "no solution in the file");
+  return out;
+}
+
+}  // namespace leonav

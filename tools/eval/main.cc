@@ -1,0 +1,72 @@
+// leonav-eval: errors of one or several runs against a truth.
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+#include "tools/common/arguments.h"
+#include "tools/evaluation/statistics.h"
+
+namespace {
+
+using leonav::Arguments;
+
+leonav::GpsTime parse_time(const std::string& name, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  try {
+    if (colon == std::string::npos) throw std::invalid_argument("no colon");
+    return leonav::GpsTime::from_week_and_tow(std::stoi(text.substr(0, colon)),
+                                              std::stod(text.substr(colon + 1)));
+  } catch (const std::logic_error&) {
+    throw leonav::UsageError(name + " needs WEEK:TOW_SECONDS, not '" + text + "'");
+  }
+}
+
+int body(int argc, char** argv) {
+  Arguments arguments(
+      "leonav-eval", "--truth truth.csv [options] [LABEL=]solution.csv ...",
+      "Compares solutions (solution.csv of leonav-replay, or RTKLIB .pos files) with a truth:\n"
+      "RMSE, mean, percentiles per component, availability, convergence, attitude.");
+  arguments.option("--truth", "FILE", "truth.csv to judge by")
+      .option("--json", "FILE", "write the numbers, with the CDF, as JSON too")
+      .option("--convergence-bound", "M",
+              "3D error that counts as converged when ten epochs in a row stay below", "3")
+      .flag("--remove-offset",
+            "remove the mean north, east, up error first (truth of unknown datum)")
+      .option("--max-truth-gap", "S", "do not interpolate the truth over wider holes", "2")
+      .option("--course-speed", "M_S",
+              "where the truth has no yaw: its course counts as yaw above this speed", "0.7")
+      .option("--up-offset", "M", "added to the truth's height before comparing", "0")
+      .option("--from", "WEEK:TOW", "judge from this GPS time on")
+      .option("--to", "WEEK:TOW", "judge up to this GPS time");
+  if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.positional().empty()) throw leonav::UsageError("no solution given (--help)");
+
+  leonav::ErrorOptions options;
+  options.max_truth_gap_s = arguments.number("--max-truth-gap");
+  options.remove_offset = arguments.has("--remove-offset");
+  options.course_speed_m_s = arguments.number("--course-speed");
+  options.antenna_offset_up_m = arguments.number("--up-offset");
+  if (arguments.has("--from")) options.from = parse_time("--from", arguments.get("--from"));
+  if (arguments.has("--to")) options.to = parse_time("--to", arguments.get("--to"));
+
+  const leonav::Track truth = leonav::load_truth(arguments.required("--truth"));
+  std::vector<leonav::Evaluation> evaluations;
+  for (const std::string& word : arguments.positional()) {
+    const std::size_t equals = word.find('=');
+    const std::string path = equals == std::string::npos ? word : word.substr(equals + 1);
+    const std::string label = equals == std::string::npos ? word : word.substr(0, equals);
+    evaluations.push_back(leonav::evaluate(label, leonav::load_solution(path), truth, options,
+                                           arguments.number("--convergence-bound")));
+  }
+  std::cout << leonav::to_table(evaluations);
+  if (arguments.has("--json")) {
+    std::ofstream file(arguments.get("--json"));
+    file << leonav::to_json(evaluations);
+    if (!file.flush()) throw std::runtime_error(arguments.get("--json") + ": cannot be written");
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return leonav::run_tool("leonav-eval", body, argc, argv); }

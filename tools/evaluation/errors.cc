@@ -1,0 +1,112 @@
+#include "tools/evaluation/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/rotation.h"
+
+namespace leonav {
+namespace {
+
+// The truth at one instant, or nothing where it has a hole. Positions move by less than a
+// millimetre against ECEF interpolation when latitude, longitude and height are taken linearly
+// between neighbours; with velocities at both ends a cubic removes the chord error in turns.
+std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_gap_s) {
+  auto after = std::lower_bound(truth.begin(), truth.end(), time,
+                                [](const TrackPoint& p, GpsTime t) { return p.time < t; });
+  if (after == truth.end()) return std::nullopt;
+  if (after->time == time) return *after;
+  if (after == truth.begin()) return std::nullopt;
+  const TrackPoint& a = *(after - 1);
+  const TrackPoint& b = *after;
+  const double gap = seconds_between(b.time, a.time);
+  if (gap > max_gap_s) return std::nullopt;
+  const double s = seconds_between(time, a.time) / gap;
+  const Eigen::Vector3d pa = to_ecef(a.position), pb = to_ecef(b.position);
+  Eigen::Vector3d p = pa + s * (pb - pa);
+  if (a.v_n && b.v_n) {
+    const Eigen::Vector3d va = rotation_ecef_to_ned(a.position).transpose() * *a.v_n;
+    const Eigen::Vector3d vb = rotation_ecef_to_ned(b.position).transpose() * *b.v_n;
+    const double r = 1.0 - s;
+    p = r * r * (1.0 + 2.0 * s) * pa + s * s * (3.0 - 2.0 * s) * pb +
+        s * r * gap * (r * va - s * vb);
+  }
+  TrackPoint out;
+  out.time = time;
+  out.position = to_geodetic(p);
+  if (a.v_n && b.v_n) out.v_n = *a.v_n + s * (*b.v_n - *a.v_n);
+  if (a.rpy && b.rpy) {
+    Eigen::Vector3d rpy;
+    for (int i = 0; i < 3; ++i) {
+      rpy[i] = wrap_to_pi((*a.rpy)[i] + s * wrap_to_pi((*b.rpy)[i] - (*a.rpy)[i]));
+    }
+    out.rpy = rpy;
+  }
+  return out;
+}
+
+ErrorSample error_of(const TrackPoint& solution, TrackPoint truth, const ErrorOptions& options) {
+  ErrorSample sample;
+  sample.time = solution.time;
+  truth.position.height += options.antenna_offset_up_m;
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(truth.position);
+  const Eigen::Vector3d ned = C_ne * (to_ecef(solution.position) - to_ecef(truth.position));
+  sample.neu = {ned.x(), ned.y(), -ned.z()};
+  sample.sigma_neu = solution.sigma_neu;
+  if (solution.v_n && truth.v_n) {
+    const Eigen::Vector3d v = *solution.v_n - *truth.v_n;
+    sample.velocity_neu = Eigen::Vector3d(v.x(), v.y(), -v.z());
+  }
+  if (solution.rpy && truth.rpy) {
+    Eigen::Vector3d rpy;
+    for (int i = 0; i < 3; ++i) rpy[i] = wrap_to_pi((*solution.rpy)[i] - (*truth.rpy)[i]);
+    sample.rpy = rpy;
+  } else if (solution.rpy && truth.v_n && truth.v_n->head<2>().norm() >= options.course_speed_m_s) {
+    const double course = std::atan2(truth.v_n->y(), truth.v_n->x());
+    sample.rpy = Eigen::Vector3d(0.0, 0.0, wrap_to_pi(solution.rpy->z() - course));
+    sample.yaw_from_course = true;
+  }
+  return sample;
+}
+
+double median_interval(const Track& track) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    steps.push_back(seconds_between(track[i].time, track[i - 1].time));
+  }
+  if (steps.empty()) return 0.0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
+  return steps[steps.size() / 2];
+}
+
+}  // namespace
+
+Comparison compare(const Track& solution, const Track& truth, const ErrorOptions& options) {
+  Comparison comparison;
+  comparison.interval_s = median_interval(solution);
+  const GpsTime from = std::max(truth.front().time, options.from.value_or(truth.front().time));
+  const GpsTime to = std::min(truth.back().time, options.to.value_or(truth.back().time));
+  if (comparison.interval_s > 0.0 && to > from) {
+    comparison.expected_epochs =
+        static_cast<std::size_t>(seconds_between(to, from) / comparison.interval_s + 1e-6) + 1;
+  }
+  for (const TrackPoint& point : solution) {
+    if (point.time < from || point.time > to) continue;
+    ++comparison.solution_epochs;
+    const auto reference = truth_at(truth, point.time, options.max_truth_gap_s);
+    if (!reference) {
+      ++comparison.without_truth;
+      continue;
+    }
+    comparison.errors.push_back(error_of(point, *reference, options));
+  }
+  if (options.remove_offset && !comparison.errors.empty()) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const ErrorSample& sample : comparison.errors) sum += sample.neu;
+    comparison.removed_offset_neu = sum / static_cast<double>(comparison.errors.size());
+    for (ErrorSample& sample : comparison.errors) sample.neu -= comparison.removed_offset_neu;
+  }
+  return comparison;
+}
+
+}  // namespace leonav

@@ -1,0 +1,42 @@
+// Errors of a solution against a truth, epoch by epoch.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "tools/evaluation/track.h"
+
+namespace leonav {
+
+struct ErrorOptions {
+  double max_truth_gap_s = 2.0;   // the truth is not interpolated over wider holes
+  bool remove_offset = false;     // remove the mean north, east, up error: a truth of unknown datum
+  double course_speed_m_s = 0.7;  // where the truth has no yaw: course over ground above this speed
+  std::optional<GpsTime> from, to;   // judge only this span
+  double antenna_offset_up_m = 0.0;  // added to the truth's height
+};
+
+struct ErrorSample {
+  GpsTime time;
+  Eigen::Vector3d neu = Eigen::Vector3d::Zero();  // m, solution minus truth
+  std::optional<Eigen::Vector3d> velocity_neu;    // m/s
+  std::optional<Eigen::Vector3d> rpy;        // rad, each wrapped; roll and pitch 0 with a course
+  bool yaw_from_course = false;              // the reference was course over ground
+  std::optional<Eigen::Vector3d> sigma_neu;  // m, as the solution states it
+  double horizontal() const { return neu.head<2>().norm(); }
+  double three_d() const { return neu.norm(); }
+};
+
+struct Comparison {
+  std::vector<ErrorSample> errors;
+  std::size_t solution_epochs = 0;  // within the judged span
+  std::size_t without_truth = 0;    // of these, not comparable
+  std::size_t expected_epochs = 0;  // the truth's span at the solution's own interval
+  double interval_s = 0.0;          // median spacing of the solution
+  Eigen::Vector3d removed_offset_neu = Eigen::Vector3d::Zero();  // m
+};
+
+// Interpolates the truth (cubic where it has velocities, else linear) to the solution's times.
+Comparison compare(const Track& solution, const Track& truth, const ErrorOptions& options);
+
+}  // namespace leonav

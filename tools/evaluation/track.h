@@ -1,0 +1,30 @@
+// A track to be judged, or to judge by: a solution file or a truth file as plain rows.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+#include "core/time/gps_time.h"
+
+namespace leonav {
+
+struct TrackPoint {
+  GpsTime time;
+  Geodetic position;
+  std::optional<Eigen::Vector3d> v_n;        // m/s, north east down
+  std::optional<Eigen::Vector3d> rpy;        // rad
+  std::optional<Eigen::Vector3d> sigma_neu;  // m, 1 sigma
+};
+
+using Track = std::vector<TrackPoint>;  // times strictly increasing
+
+// truth.csv. Throws FileError.
+Track load_truth(const std::string& path);
+
+// solution.csv, or RTKLIB's .pos (latitude, longitude, height or x, y, z), told apart by content.
+// Throws FileError, also where no row is usable.
+Track load_solution(const std::string& path);
+
+}  // namespace leonav
