@@ -29,7 +29,8 @@ struct AlignedAttitude {
 };
 
 // Follows the attitude with the heading unknown: the gyros turn it, the specific force levels it.
-// When a course or a configured heading is there it gives the whole attitude.
+// When a course or a configured heading is there it gives the whole attitude. Assumes that the body
+// x axis points where the vehicle goes: a start in reverse aligns it the wrong way round.
 class Alignment {
  public:
   explicit Alignment(const AlignmentConfig& config);
@@ -38,17 +39,36 @@ class Alignment {
   bool levelled() const;
 
   // Attitude at the last sample added. `v_e` and `sigma_v` (m/s, per component) are the antenna's
-  // velocity then; nullopt while not levelled or the course cannot be told.
+  // velocity then; nullopt while not levelled or the course cannot be told. To be called at every
+  // epoch, also while standing: an IMU at rest and one in steady motion feel the same, so only this
+  // velocity can confirm a standstill and with it the gyro bias.
   std::optional<AlignedAttitude> attitude(const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e,
-                                          double sigma_v) const;
+                                          double sigma_v);
 
  private:
+  // Sums over a stretch of time, from which mean and spread follow.
+  struct Sums {
+    double seconds = 0.0;
+    Eigen::Vector3d angle = Eigen::Vector3d::Zero();     // integral of the rate, b
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // integral of the specific force, b
+    double force_squared = 0.0;                          // integral of |specific force|^2
+  };
+  void level_at_first(const ImuSample& sample);
+  void level_on(const ImuSample& sample);
+  void watch_for_standstill(const ImuSample& sample);
+  Eigen::Vector3d standing_rate() const;
+
   AlignmentConfig config_;
-  Eigen::Quaterniond q_lb_ =
-      Eigen::Quaterniond::Identity();  // body to local level, heading arbitrary
+  // Body to local level, heading arbitrary.
+  Eigen::Quaterniond q_lb_ = Eigen::Quaterniond::Identity();
   double levelled_for_s_ = 0.0;
-  Eigen::Vector3d standing_gyro_sum_ = Eigen::Vector3d::Zero();
-  double standing_s_ = 0.0;
+  Eigen::Vector3d first_velocity_l_ = Eigen::Vector3d::Zero();  // before levelling: sum of C dv
+  double first_s_ = 0.0;
+  Sums window_;         // the current second
+  bool still_ = false;  // the last whole window looked like a standstill
+  Sums unconfirmed_;    // still windows since the last velocity
+  Sums standing_;       // still windows that a velocity confirmed
+  Eigen::Quaterniond standing_q_lb_ = Eigen::Quaterniond::Identity();  // the attitude then
 };
 
 }  // namespace leonav

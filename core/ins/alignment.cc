@@ -1,0 +1,151 @@
+#include "core/ins/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s^2; levelling needs no better
+constexpr double kStandstillWindow_s = 1.0;
+constexpr double kMaxUnconfirmed_s = 5.0;  // a velocity vouches for no more than this
+constexpr double kStillTimeConstant_s = 2.0;
+// Long against a step or a start at traffic lights, short against the gyro drift that an unknown
+// bias makes.
+constexpr double kMovingTimeConstant_s = 10.0;
+constexpr double kStandingSpeed_m_s = 0.2;
+// Sideslip, the antenna swinging about the IMU and the mounting: what a course is off the heading.
+constexpr double kCourseAgainstHeading = 0.03;  // rad
+
+const Eigen::Vector3d kDown(0.0, 0.0, 1.0);
+
+// The shortest rotation that takes the direction of `from` into that of `to`.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d cross = from.cross(to);
+  const double sine = cross.norm(), cosine = from.dot(to);
+  if (sine < 1e-12 * std::abs(cosine)) {
+    if (cosine > 0.0) return Eigen::Quaterniond::Identity();
+    return quaternion_from_rotation_vector(EIGEN_PI * from.unitOrthogonal());
+  }
+  return quaternion_from_rotation_vector(std::atan2(sine, cosine) / sine * cross);
+}
+
+}  // namespace
+
+Alignment::Alignment(const AlignmentConfig& config) : config_(config) {}
+
+void Alignment::reset() { *this = Alignment(config_); }
+
+bool Alignment::levelled() const { return levelled_for_s_ > 0.0; }
+
+Eigen::Vector3d Alignment::standing_rate() const {
+  if (standing_.seconds <= 0.0) return Eigen::Vector3d::Zero();
+  return standing_.angle / standing_.seconds;
+}
+
+void Alignment::add(const ImuSample& sample) {
+  const Eigen::Vector3d turn = sample.delta_theta_b - standing_rate() * sample.interval_s();
+  q_lb_ = (q_lb_ * quaternion_from_rotation_vector(turn)).normalized();
+  if (levelled()) {
+    level_on(sample);
+  } else {
+    level_at_first(sample);
+  }
+  watch_for_standstill(sample);
+}
+
+// Until the first window is full, l is the body frame of its first sample.
+void Alignment::level_at_first(const ImuSample& sample) {
+  first_velocity_l_ += q_lb_ * sample.delta_velocity_b;
+  first_s_ += sample.interval_s();
+  if (first_s_ < config_.levelling_window_s) return;
+  const Eigen::Vector3d force_l = first_velocity_l_ / first_s_;
+  const bool plausible = std::abs(force_l.norm() - kGravity) < 0.3 * kGravity;
+  if (plausible) {
+    q_lb_ = (rotation_between(-force_l, kDown) * q_lb_).normalized();
+    levelled_for_s_ = first_s_;
+  }
+  first_velocity_l_.setZero();
+  first_s_ = 0.0;
+}
+
+// Turns l so that the mean specific force points up. The error is linear in the specific force:
+// the accelerations of steps and bumps average out.
+void Alignment::level_on(const ImuSample& sample) {
+  const double dt = sample.interval_s();
+  levelled_for_s_ += dt;
+  const double time_constant = still_ ? kStillTimeConstant_s : kMovingTimeConstant_s;
+  const double gain = 1.0 / (kGravity * std::min(time_constant, levelled_for_s_));
+  Eigen::Vector3d correction = gain * (q_lb_ * -sample.delta_velocity_b).cross(kDown);
+  const double limit = 0.1 * dt;  // rad: a shock must not tip the level over
+  if (correction.norm() > limit) correction *= limit / correction.norm();
+  q_lb_ = (quaternion_from_rotation_vector(correction) * q_lb_).normalized();
+}
+
+void Alignment::watch_for_standstill(const ImuSample& sample) {
+  const double dt = sample.interval_s();
+  window_.seconds += dt;
+  window_.angle += sample.delta_theta_b;
+  window_.velocity += sample.delta_velocity_b;
+  window_.force_squared += sample.delta_velocity_b.squaredNorm() / dt;
+  if (window_.seconds < kStandstillWindow_s) return;
+  const Eigen::Vector3d force = window_.velocity / window_.seconds;
+  const double variance = window_.force_squared / window_.seconds - force.squaredNorm();
+  still_ = variance < config_.static_accel_m_s2 * config_.static_accel_m_s2 &&
+           window_.angle.norm() < config_.static_gyro_rad_s * window_.seconds;
+  if (still_) {
+    if (unconfirmed_.seconds > kMaxUnconfirmed_s) unconfirmed_ = Sums();
+    unconfirmed_.seconds += window_.seconds;
+    unconfirmed_.angle += window_.angle;
+  }
+  window_ = Sums();
+}
+
+std::optional<AlignedAttitude> Alignment::attitude(const Eigen::Vector3d& p_e,
+                                                   const Eigen::Vector3d& v_e, double sigma_v) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
+  const Eigen::Vector3d v_n = C_ne * v_e;
+  const double speed = std::hypot(v_n.x(), v_n.y());
+  if (v_n.norm() < kStandingSpeed_m_s + 2.0 * sigma_v &&
+      v_n.norm() < config_.min_course_speed_m_s) {
+    standing_.seconds += unconfirmed_.seconds;
+    standing_.angle += unconfirmed_.angle;
+    standing_q_lb_ = q_lb_;
+  }
+  unconfirmed_ = Sums();
+  if (!levelled()) return std::nullopt;
+
+  double heading = 0.0, heading_sigma = 0.0;
+  if (config_.initial_heading) {
+    heading = *config_.initial_heading;
+    heading_sigma = config_.initial_heading_sigma;
+  } else {
+    if (!(speed >= config_.min_course_speed_m_s)) return std::nullopt;
+    heading_sigma = std::hypot(sigma_v / speed, kCourseAgainstHeading);
+    if (!(heading_sigma < config_.max_course_sigma)) return std::nullopt;
+    heading = std::atan2(v_n.y(), v_n.x());
+  }
+
+  EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
+  const double turn_l = wrap_to_pi(heading - angles.yaw);
+  angles.yaw = heading;
+  const Eigen::Quaterniond q_en(Eigen::Matrix3d(C_ne.transpose()));
+  AlignedAttitude aligned;
+  aligned.q_eb = (q_en * Eigen::Quaterniond(rotation_from_euler(angles))).normalized();
+  aligned.sigma_rpy << config_.levelling_sigma, config_.levelling_sigma, heading_sigma;
+  if (standing_.seconds >= kStandstillWindow_s) {
+    // What stood still turned with the Earth: that is not the gyros' error.
+    const Eigen::Quaterniond q_eb_standing =
+        q_en * quaternion_from_rotation_vector(turn_l * kDown) * standing_q_lb_;
+    const Eigen::Vector3d omega_ie_b =
+        q_eb_standing.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
+    aligned.gyro_bias_b = standing_rate() - omega_ie_b;
+    aligned.gyro_bias_known = true;
+  }
+  return aligned;
+}
+
+}  // namespace leonav
