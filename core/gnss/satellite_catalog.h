@@ -53,6 +53,10 @@ class SatelliteCatalog {
   LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                         const Ephemeris** ephemeris = nullptr) const;
 
+  // The healthy broadcast elements that fit `time` best within the age limits, or nullptr: for the
+  // group delays that a precise product does not carry.
+  const Ephemeris* broadcast_at(SatelliteId satellite, GpsTime time) const;
+
  private:
   struct Storage;
   std::unique_ptr<Storage> storage_;

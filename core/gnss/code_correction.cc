@@ -1,0 +1,133 @@
+#include "core/gnss/code_correction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gnss/group_delay.h"
+#include "core/gnss/ionosphere.h"
+#include "core/gnss/troposphere.h"
+#include "core/gnss/weighting.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kHalfPi = 1.5707963267948966;
+constexpr double kL1Frequency = 1575.42e6;  // Hz
+
+// Klobuchar leaves about half of the delay, and never less than this at zenith on L1 (night, quiet
+// sun: the model's constant 1.5 m is itself uncertain by that order).
+constexpr double kIonosphereFloor = 0.5;  // m
+// Without broadcast coefficients the error may reach the delay itself.
+constexpr double kUnknownModelShare = 1.0;
+
+double square(double x) { return x * x; }
+
+// 1 / sin E, bounded at the value for 5 degrees: how errors of the atmosphere grow downwards.
+double obliquity(double elevation) { return 1.0 / std::max(std::sin(elevation), 0.0872); }
+
+double ionosphere_sigma(const DelayContext& context, double elevation, double delay_m,
+                        double frequency) {
+  const double share = context.klobuchar->valid
+                           ? context.config->ionosphere_model_error
+                           : std::max(kUnknownModelShare, context.config->ionosphere_model_error);
+  // The thin shell at 350 km flattens the growth: obliquity of IS-GPS-200, at most 3.
+  const double slant = std::min(obliquity(elevation), 3.0);
+  const double floor = kIonosphereFloor * slant * square(kL1Frequency / frequency);
+  return std::max(share * delay_m, floor);
+}
+
+double atmosphere_variance(const DelayContext& context, const SatelliteInView& satellite) {
+  if (!context.has_position) return square(kUnknownAtmosphereSigma);
+  return square(context.config->troposphere_model_error_m * obliquity(satellite.elevation));
+}
+
+GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast, SignalCode first,
+                    SignalCode second) {
+  if (satellite.source == OrbitSource::kPrecise || broadcast == nullptr) {
+    return precise_group_delay(satellite.satellite.system, broadcast, first, second);
+  }
+  return group_delay(*broadcast, first, second);
+}
+
+double noise_elevation(const DelayContext& context, const SatelliteInView& satellite) {
+  return context.has_position ? satellite.elevation : kHalfPi;
+}
+
+double frequency_of(const SignalObservation& signal) {
+  return frequency_hz(signal.satellite.system, signal.code.band);
+}
+
+}  // namespace
+
+void correct_direction(const DelayContext& context, const Eigen::Vector3d& p_a_e,
+                       SatelliteInView* satellite) {
+  if (!context.has_position) return;
+  const LookAngles angles = look_angles(satellite->p_e, p_a_e);
+  satellite->elevation = angles.elevation;
+  satellite->azimuth = angles.azimuth;
+  satellite->troposphere_m =
+      saastamoinen_slant_delay_m(context.antenna, angles.elevation, context.time);
+}
+
+Measurement code_measurement(const DelayContext& context, const SignalObservation& first,
+                             const SignalObservation* second, const Ephemeris* broadcast,
+                             int shared_by, SatelliteInView* satellite) {
+  const double sigma0 = context.config->systems[index_of(satellite->satellite.system)].sigma.code_m;
+  const double elevation = noise_elevation(context, *satellite);
+  const double f1 = frequency_of(first);
+  const double noise1 = sigma0 * noise_factor(*context.config, elevation, first.cn0_dbhz);
+
+  Measurement code;
+  code.observable = Observable::kCode;
+  code.code = first.code;
+  double range = first.pseudorange_m;
+  double variance = square(noise1);
+  if (second != nullptr) {
+    const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
+    const double noise2 = sigma0 * noise_factor(*context.config, elevation, second->cn0_dbhz);
+    code.second_code = second->code;
+    range = pair.gamma1 * first.pseudorange_m + pair.gamma2 * second->pseudorange_m;
+    variance = square(combined_sigma(pair, noise1, noise2));
+  } else if (context.has_position) {
+    const LookAngles direction{satellite->elevation, satellite->azimuth};
+    const double delay =
+        klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
+    range -= delay;
+    variance += shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
+  }
+  const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
+  code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m;
+  code.sigma = std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
+                         atmosphere_variance(context, *satellite));
+  return code;
+}
+
+Measurement doppler_measurement(const DelayContext& context, const SignalObservation& first,
+                                const SignalObservation* second, const SatelliteInView& satellite) {
+  const double sigma0 =
+      context.config->systems[index_of(satellite.satellite.system)].sigma.doppler_m_s;
+  const double elevation = noise_elevation(context, satellite);
+  const double f1 = frequency_of(first);
+  const double rate1 = -first.doppler_hz * kSpeedOfLight / f1;
+  const double noise1 = sigma0 * noise_factor(*context.config, elevation, first.cn0_dbhz);
+
+  Measurement doppler;
+  doppler.observable = Observable::kDoppler;
+  doppler.code = first.code;
+  double rate = rate1;
+  doppler.sigma = noise1;
+  if (second != nullptr) {
+    const double f2 = frequency_of(*second);
+    const IonosphereFree pair = ionosphere_free(f1, f2);
+    const double noise2 = sigma0 * noise_factor(*context.config, elevation, second->cn0_dbhz);
+    doppler.second_code = second->code;
+    rate = pair.gamma1 * rate1 - pair.gamma2 * second->doppler_hz * kSpeedOfLight / f2;
+    doppler.sigma = combined_sigma(pair, noise1, noise2);
+  }
+  // The satellite's clock running fast shortens the measured range: its drift comes back in.
+  doppler.value = rate + satellite.clock_drift_m_s;
+  return doppler;
+}
+
+}  // namespace leonav

@@ -1,0 +1,56 @@
+#include "core/gnss/dop.h"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/earth/ellipsoid.h"
+#include "core/gnss/range_model.h"
+
+namespace leonav {
+namespace {
+
+constexpr int kUnknowns = 3 + static_cast<int>(kMaxTimeBases);
+using Row = Eigen::Matrix<double, kUnknowns, 1>;
+using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+
+// Beyond this a position is no position, and rounding decides the digits.
+constexpr double kMaxDop = 1.0e4;
+
+Normal normal_matrix(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e) {
+  Normal normal = Normal::Zero();
+  std::array<bool, kMaxSatellites> seen{};
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCode) continue;
+    if (measurement.reason != Reason::kUsed && measurement.reason != Reason::kDownweighted)
+      continue;
+    if (seen[measurement.satellite_index]) continue;
+    seen[measurement.satellite_index] = true;
+    const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+    Row row = Row::Zero();
+    row.head<3>() = predict_range(satellite, p_a_e).d_range_d_p.transpose();
+    row(3 + static_cast<int>(index_of(satellite.satellite.system))) = 1.0;
+    normal += row * row.transpose();
+  }
+  for (int i = 3; i < kUnknowns; ++i) {
+    if (normal(i, i) == 0.0) normal(i, i) = 1.0;  // a time base nobody uses
+  }
+  return normal;
+}
+
+}  // namespace
+
+Dop dilution_of_precision(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::LDLT<Normal> factor(normal_matrix(epoch, p_a_e));
+  const Normal covariance = factor.solve(Normal::Identity());
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_a_e));
+  const Eigen::Matrix3d q = C_ne * covariance.topLeftCorner<3, 3>() * C_ne.transpose();
+  const Dop dop{std::sqrt(q.trace()), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2))};
+  const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
+  if (!positive || !(dop.pdop < kMaxDop)) return {kNaN, kNaN, kNaN};
+  return dop;
+}
+
+}  // namespace leonav

@@ -1,0 +1,214 @@
+#include "core/gnss/preprocess.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/gnss/code_correction.h"
+#include "core/gnss/signal_selection.h"
+#include "core/gnss/transmission.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kMaxRangeRate = 2.0e4;  // m/s: LEO against a fast vehicle, plus receiver drift
+
+// What is kept beside a SatelliteInView until its measurements are formed.
+struct Candidate {
+  std::size_t satellite_index = 0;
+  std::span<const SignalObservation> observations;
+  SelectedSignals signals;
+  const Ephemeris* broadcast = nullptr;
+};
+using Candidates = boost::container::static_vector<Candidate, kMaxSatellites>;
+
+Reason reason_of(LookupStatus status) {
+  switch (status) {
+    case LookupStatus::kOk:
+      return Reason::kUsed;
+    case LookupStatus::kNoEphemeris:
+      return Reason::kNoEphemeris;
+    case LookupStatus::kTooOld:
+      return Reason::kEphemerisTooOld;
+    case LookupStatus::kUnhealthy:
+      return Reason::kUnhealthy;
+  }
+  return Reason::kNoEphemeris;
+}
+
+Reason reason_without_signal(const SelectedSignals& signals) {
+  if (!signals.any_pseudorange) return Reason::kNoUsableSignal;
+  return signals.any_plausible ? Reason::kLowCn0 : Reason::kImplausible;
+}
+
+double strongest_cn0(std::span<const SignalObservation> observations) {
+  double strongest = 0.0;
+  for (const SignalObservation& signal : observations) {
+    if (signal.cn0_dbhz > strongest) strongest = signal.cn0_dbhz;
+  }
+  return strongest;
+}
+
+bool has_doppler(const SignalObservation& signal) {
+  const double wavelength = wavelength_m(signal.satellite.system, signal.code.band);
+  return std::abs(signal.doppler_hz) * wavelength < kMaxRangeRate;  // NaN: not measured
+}
+
+// Selects signals and finds the satellite; the reason is left in `view`.
+Candidate examine(const DelayContext& context, const SatelliteCatalog& catalog,
+                  std::span<const SignalObservation> observations, const Eigen::Vector3d& p_a_e,
+                  SatelliteInView* view) {
+  const GnssConfig& config = *context.config;
+  Candidate candidate;
+  candidate.observations = observations;
+  view->cn0_dbhz = strongest_cn0(observations);
+  const SystemConfig& system = config.systems[index_of(view->satellite.system)];
+  if (!system.enabled) {
+    view->reason = Reason::kSystemDisabled;
+    return candidate;
+  }
+  candidate.signals = select_signals(observations, system.signals, config.cn0_mask_dbhz);
+  if (candidate.signals.first == nullptr) {
+    view->reason = reason_without_signal(candidate.signals);
+    return candidate;
+  }
+  view->reason = reason_of(satellite_at_transmission(catalog, context.time,
+                                                     candidate.signals.first->pseudorange_m, p_a_e,
+                                                     view, &candidate.broadcast));
+  if (view->reason != Reason::kUsed) return candidate;
+  correct_direction(context, p_a_e, view);
+  if (context.has_position && view->elevation < config.elevation_mask) {
+    view->reason = Reason::kLowElevation;
+  }
+  return candidate;
+}
+
+// Keeps the highest satellites of each system. Equal elevations: the earlier one stays.
+void apply_caps(const GnssConfig& config, MeasurementEpoch* epoch) {
+  for (const System system : kSystems) {
+    const int cap = config.systems[index_of(system)].max_satellites;
+    if (cap <= 0) continue;
+    boost::container::static_vector<SatelliteInView*, kMaxSatellites> used;
+    for (SatelliteInView& view : epoch->satellites) {
+      if (view.satellite.system == system && view.reason == Reason::kUsed) used.push_back(&view);
+    }
+    std::sort(used.begin(), used.end(), [](const SatelliteInView* a, const SatelliteInView* b) {
+      if (a->elevation != b->elevation) return a->elevation > b->elevation;
+      return a->satellite < b->satellite;
+    });
+    for (std::size_t i = static_cast<std::size_t>(cap); i < used.size(); ++i) {
+      used[i]->reason = Reason::kSatelliteCap;
+    }
+  }
+}
+
+bool append(const Candidate& candidate, Measurement measurement, MeasurementEpoch* epoch) {
+  if (!std::isfinite(measurement.value) || !(measurement.sigma > 0.0) ||
+      !std::isfinite(measurement.sigma)) {
+    return true;  // cannot be used, but nothing is full
+  }
+  if (epoch->measurements.size() == epoch->measurements.capacity()) return false;
+  measurement.satellite_index = static_cast<std::uint16_t>(candidate.satellite_index);
+  epoch->measurements.push_back(measurement);
+  return true;
+}
+
+bool append_code(const DelayContext& context, const Candidate& candidate, MeasurementEpoch* epoch) {
+  SatelliteInView* view = &epoch->satellites[candidate.satellite_index];
+  const SelectedSignals& signals = candidate.signals;
+  if (context.config->code_combination == CodeCombination::kIonosphereFree) {
+    return append(
+        candidate,
+        code_measurement(context, *signals.first, signals.second, candidate.broadcast, 1, view),
+        epoch);
+  }
+  bool fits = true;
+  const int count = static_cast<int>(signals.bands.size());
+  for (const SignalObservation* signal : signals.bands) {
+    fits = append(candidate,
+                  code_measurement(context, *signal, nullptr, candidate.broadcast, count, view),
+                  epoch) &&
+           fits;
+  }
+  return fits;
+}
+
+// One Doppler per satellite, since its signals share the receiver's motion and oscillator. The
+// ionosphere drifts by some mm/s on a GNSS signal, which is not worth amplifying the noise
+// threefold; past a LEO satellite its slant delay changes in minutes, and the pair pays.
+bool append_doppler(const DelayContext& context, const Candidate& candidate,
+                    MeasurementEpoch* epoch) {
+  const SatelliteInView& view = epoch->satellites[candidate.satellite_index];
+  const SelectedSignals& signals = candidate.signals;
+  const bool pair = context.config->code_combination == CodeCombination::kIonosphereFree &&
+                    view.satellite.system == System::kLeo && signals.second != nullptr &&
+                    has_doppler(*signals.first) && has_doppler(*signals.second);
+  if (pair) {
+    return append(candidate, doppler_measurement(context, *signals.first, signals.second, view),
+                  epoch);
+  }
+  const SignalObservation* strongest = nullptr;
+  for (const SignalObservation* signal : signals.bands) {
+    if (!has_doppler(*signal)) continue;
+    if (strongest == nullptr || signal->cn0_dbhz > strongest->cn0_dbhz) strongest = signal;
+  }
+  if (strongest == nullptr) return true;
+  return append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
+}
+
+// Observations of one satellite stand together; the first of another one ends the run.
+std::size_t end_of_run(const RawEpoch& raw, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < raw.observations.size() &&
+         raw.observations[end].satellite == raw.observations[begin].satellite) {
+    ++end;
+  }
+  return end;
+}
+
+bool is_listed(const MeasurementEpoch& epoch, SatelliteId id) {
+  return std::any_of(epoch.satellites.begin(), epoch.satellites.end(),
+                     [id](const SatelliteInView& view) { return view.satellite == id; });
+}
+
+}  // namespace
+
+void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const GnssConfig& config,
+                const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch) {
+  epoch->time = raw.time;
+  epoch->approximate_p_e = approximate_p_e;
+  epoch->satellites.clear();
+  epoch->measurements.clear();
+
+  DelayContext context;
+  context.config = &config;
+  context.klobuchar = &catalog.klobuchar();
+  context.time = raw.time;
+  context.has_position = !approximate_p_e.isZero();
+  if (context.has_position) context.antenna = to_geodetic(approximate_p_e);
+
+  Candidates candidates;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < raw.observations.size(); begin = end) {
+    end = end_of_run(raw, begin);
+    const SatelliteId id = raw.observations[begin].satellite;
+    if (index_of(id.system) >= kSystemCount || is_listed(*epoch, id)) continue;
+    if (epoch->satellites.size() == epoch->satellites.capacity()) break;
+    SatelliteInView view;
+    view.satellite = id;
+    candidates.push_back(examine(context, catalog, {raw.observations.data() + begin, end - begin},
+                                 approximate_p_e, &view));
+    candidates.back().satellite_index = epoch->satellites.size();
+    epoch->satellites.push_back(view);
+  }
+  if (context.has_position) apply_caps(config, epoch);
+  for (const Candidate& candidate : candidates) {
+    SatelliteInView& view = epoch->satellites[candidate.satellite_index];
+    if (view.reason != Reason::kUsed) continue;
+    const bool code_fits = append_code(context, candidate, epoch);
+    const bool doppler_fits = append_doppler(context, candidate, epoch);
+    if (!code_fits || !doppler_fits) view.reason = Reason::kCapacity;
+  }
+}
+
+}  // namespace leonav

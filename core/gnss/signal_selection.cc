@@ -1,0 +1,96 @@
+#include "core/gnss/signal_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gnss/weighting.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kMinPseudorange = 2.0e5;  // m
+constexpr double kMaxPseudorange = 6.0e7;
+
+// Place in a list, or its length if absent: smaller is better.
+template <typename List>
+int place_in(const List& list, char wanted) {
+  return static_cast<int>(std::find(list.begin(), list.end(), wanted) - list.begin());
+}
+
+int band_rank(const SignalPreference& preference, char band) {
+  if (band == preference.first_band) return 0;
+  return 1 + place_in(preference.second_bands, band);
+}
+
+// Strict order of the signals of one satellite: better first.
+bool is_better(const SignalPreference& preference, const SignalObservation& a,
+               const SignalObservation& b) {
+  const int band_a = band_rank(preference, a.code.band);
+  const int band_b = band_rank(preference, b.code.band);
+  if (band_a != band_b) return band_a < band_b;
+  if (a.code.band != b.code.band) {
+    return frequency_hz(a.satellite.system, a.code.band) >
+           frequency_hz(b.satellite.system, b.code.band);
+  }
+  const int attribute_a = place_in(preference.attributes, a.code.attribute);
+  const int attribute_b = place_in(preference.attributes, b.code.attribute);
+  if (attribute_a != attribute_b) return attribute_a < attribute_b;
+  return a.code.attribute < b.code.attribute;
+}
+
+bool is_useful_pair(const SignalObservation& a, const SignalObservation& b) {
+  const double fa = frequency_hz(a.satellite.system, a.code.band);
+  const double fb = frequency_hz(b.satellite.system, b.code.band);
+  return fa != fb && combined_sigma(ionosphere_free(fa, fb), 1.0, 1.0) <= kMaxCombinationNoise;
+}
+
+// The pair with the best first and then the best second signal.
+void choose_pair(SelectedSignals* selected) {
+  for (const SignalObservation* a : selected->bands) {
+    for (const SignalObservation* b : selected->bands) {
+      if (a == b || !is_useful_pair(*a, *b)) continue;
+      selected->first = a;
+      selected->second = b;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+bool is_plausible_pseudorange(double pseudorange_m) {
+  return pseudorange_m >= kMinPseudorange && pseudorange_m <= kMaxPseudorange;  // NaN fails
+}
+
+SelectedSignals select_signals(std::span<const SignalObservation> observations,
+                               const SignalPreference& preference, double cn0_mask_dbhz) {
+  SelectedSignals selected;
+  for (const SignalObservation& signal : observations) {
+    if (!(frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) continue;
+    if (!std::isfinite(signal.pseudorange_m) || signal.pseudorange_m == 0.0) continue;
+    selected.any_pseudorange = true;
+    if (!is_plausible_pseudorange(signal.pseudorange_m)) continue;
+    selected.any_plausible = true;
+    if (signal.cn0_dbhz < cn0_mask_dbhz) continue;  // one without C/N0 (NaN) stays
+
+    auto& bands = selected.bands;
+    const auto same_band = std::find_if(
+        bands.begin(), bands.end(),
+        [&](const SignalObservation* other) { return other->code.band == signal.code.band; });
+    if (same_band != bands.end()) {
+      if (is_better(preference, signal, **same_band)) *same_band = &signal;
+    } else if (bands.size() < bands.capacity()) {
+      bands.push_back(&signal);
+    }
+  }
+  std::sort(selected.bands.begin(), selected.bands.end(),
+            [&](const SignalObservation* a, const SignalObservation* b) {
+              return is_better(preference, *a, *b);
+            });
+  if (selected.bands.empty()) return selected;
+  selected.first = selected.bands.front();
+  choose_pair(&selected);
+  return selected;
+}
+
+}  // namespace leonav

@@ -1,0 +1,60 @@
+#include "core/gnss/transmission.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+
+namespace leonav {
+namespace {
+
+// The clock only shifts the instant: two look-ups bring 1 ms of satellite clock below a nanosecond.
+LookupStatus state_at_transmission(const SatelliteCatalog& catalog, SatelliteId id,
+                                   GpsTime by_satellite_clock, SatelliteState* state,
+                                   const Ephemeris** ephemeris) {
+  LookupStatus status = catalog.state_at(id, by_satellite_clock, state, ephemeris);
+  if (status != LookupStatus::kOk) return status;
+  if (!std::isfinite(state->clock_s)) return LookupStatus::kNoEphemeris;  // orbit without clock
+  const GpsTime transmission = by_satellite_clock.plus_seconds(-state->clock_s);
+  return catalog.state_at(id, transmission, state, ephemeris);
+}
+
+Eigen::Vector3d rotate_about_z(const Eigen::Vector3d& v, double angle) {
+  const double s = std::sin(angle), c = std::cos(angle);
+  return {c * v.x() + s * v.y(), -s * v.x() + c * v.y(), v.z()};
+}
+
+}  // namespace
+
+LookupStatus satellite_at_transmission(const SatelliteCatalog& catalog, GpsTime time_tag,
+                                       double pseudorange_m, const Eigen::Vector3d& p_a_e,
+                                       SatelliteInView* satellite, const Ephemeris** broadcast) {
+  SatelliteState state;
+  const Ephemeris* ephemeris = nullptr;
+  const GpsTime sent = time_tag.plus_seconds(-pseudorange_m / kSpeedOfLight);
+  const LookupStatus status =
+      state_at_transmission(catalog, satellite->satellite, sent, &state, &ephemeris);
+  if (status != LookupStatus::kOk) return status;
+  if (ephemeris == nullptr) ephemeris = catalog.broadcast_at(satellite->satellite, sent);
+
+  // While the signal flew the Earth turned: the ECEF frame of reception is ahead by this angle.
+  double flight_time = pseudorange_m / kSpeedOfLight;
+  if (!p_a_e.isZero()) {
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d p = rotate_about_z(state.p_e, kEarthRotationRate * flight_time);
+      flight_time = (p - p_a_e).norm() / kSpeedOfLight;
+    }
+  }
+  const double angle = kEarthRotationRate * flight_time;
+  satellite->p_e = rotate_about_z(state.p_e, angle);
+  satellite->v_e = rotate_about_z(state.v_e, angle);
+  satellite->clock_m = kSpeedOfLight * state.clock_s;
+  satellite->clock_drift_m_s = kSpeedOfLight * state.clock_drift;
+  satellite->orbit_sigma_m = state.sigma_m;
+  satellite->ephemeris_age_s = state.age_s;
+  satellite->source = state.source;
+  *broadcast = ephemeris;
+  return LookupStatus::kOk;
+}
+
+}  // namespace leonav
