@@ -1,0 +1,46 @@
+// The LCM channels by which leonav speaks. A channel's full name is the configured prefix and the
+// name below.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace leonav {
+
+inline constexpr std::string_view kDefaultChannelPrefix = "LEONAV_";
+
+enum class Channel : std::uint8_t {
+  // inputs
+  kImu,
+  kGnssEpoch,
+  kEphemeris,
+  kOrbitClock,
+  kIonosphere,
+  kCommand,
+  // outputs
+  kSolution,
+  kEpoch,
+  kEvent,
+  kDecision,
+  kHealth,
+};
+inline constexpr std::size_t kChannelCount = 11;
+inline constexpr std::array<Channel, 6> kInputChannels = {
+    Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
+    Channel::kOrbitClock, Channel::kIonosphere, Channel::kCommand};
+
+constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
+constexpr bool is_input(Channel channel) { return channel <= Channel::kCommand; }
+
+std::string_view name_of(Channel channel);  // "IMU", "GNSS_EPOCH", ...
+
+// "LEONAV_IMU".
+std::string channel_name(Channel channel, std::string_view prefix = kDefaultChannelPrefix);
+
+// nullopt for a channel that is not leonav's. Does not allocate.
+std::optional<Channel> channel_from_name(std::string_view name,
+                                         std::string_view prefix = kDefaultChannelPrefix);
+
+}  // namespace leonav

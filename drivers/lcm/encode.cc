@@ -1,0 +1,261 @@
+#include "drivers/lcm/encode.h"
+
+#include <algorithm>
+#include <array>
+#include <leonav/command_t.hpp>
+#include <leonav/decision_t.hpp>
+#include <leonav/ephemeris_t.hpp>
+#include <leonav/epoch_t.hpp>
+#include <leonav/event_t.hpp>
+#include <leonav/gnss_epoch_t.hpp>
+#include <leonav/imu_t.hpp>
+#include <leonav/ionosphere_t.hpp>
+#include <leonav/orbit_clock_t.hpp>
+
+#include "drivers/lcm/wire.h"
+
+namespace leonav {
+namespace {
+
+void copy(const Eigen::Vector3d& from, double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+template <typename T>
+void set_header(GpsTime time, std::uint64_t sequence, T* message) {
+  message->time_ns = time.nanoseconds();
+  message->sequence = static_cast<std::int64_t>(sequence);
+  message->schema = wire::kSchema;
+}
+
+// System and number of a satellite, in any message that has them.
+template <typename T>
+void set_satellite(SatelliteId satellite, T* message) {
+  message->system = static_cast<std::int8_t>(satellite.system);
+  message->number = static_cast<std::int16_t>(satellite.number);
+}
+
+void fill(const SignalObservation& from, gnss_observation_t* to) {
+  set_satellite(from.satellite, to);
+  to->band = static_cast<std::int8_t>(from.code.band);
+  to->attribute = static_cast<std::int8_t>(from.code.attribute);
+  to->pseudorange_m = from.pseudorange_m;
+  to->carrier_cycles = from.carrier_cycles;
+  to->doppler_hz = from.doppler_hz;
+  to->cn0_dbhz = static_cast<float>(from.cn0_dbhz);
+  to->lock_time_s = static_cast<float>(from.lock_time_s);
+  to->flags = static_cast<std::int8_t>((from.loss_of_lock ? wire::kFlagLossOfLock : 0) |
+                                       (from.half_cycle_ambiguous ? wire::kFlagHalfCycle : 0));
+}
+
+void fill(const Solution& from, solution_t* to) {
+  set_header(from.time, from.sequence, to);
+  to->source = static_cast<std::int8_t>(from.source);
+  to->has_attitude = from.has_attitude ? 1 : 0;
+  copy(from.p_e, to->p_e);
+  to->latitude_rad = from.latitude;
+  to->longitude_rad = from.longitude;
+  to->height_m = from.height;
+  copy(from.v_n, to->v_n);
+  copy({from.roll, from.pitch, from.yaw}, to->rpy_rad);
+  copy(from.sigma_p_n, to->sigma_p_n);
+  copy(from.sigma_v_n, to->sigma_v_n);
+  copy(from.sigma_rpy, to->sigma_rpy);
+  copy(from.errors.gyro_bias_b, to->gyro_bias_b);
+  copy(from.errors.accel_bias_b, to->accel_bias_b);
+  copy(from.errors.gyro_scale, to->gyro_scale);
+  copy(from.errors.accel_scale, to->accel_scale);
+  to->anchor_epoch = static_cast<std::int64_t>(from.anchor_epoch);
+  to->jump_m = from.jump_m;
+}
+
+void fill(const SatelliteReport& from, satellite_report_t* to) {
+  set_satellite(from.satellite, to);
+  to->reason = static_cast<std::int8_t>(from.reason);
+  to->elevation_rad = static_cast<float>(from.elevation);
+  to->azimuth_rad = static_cast<float>(from.azimuth);
+  to->cn0_dbhz = static_cast<float>(from.cn0_dbhz);
+  to->ephemeris_age_s = static_cast<float>(from.ephemeris_age_s);
+  to->orbit_source = static_cast<std::int8_t>(from.source);
+}
+
+void fill(const AidingReport& from, aiding_t* to) {
+  set_satellite(from.satellite, to);
+  to->observable = static_cast<std::int8_t>(from.observable);
+  to->band = static_cast<std::int8_t>(from.code.band);
+  to->attribute = static_cast<std::int8_t>(from.code.attribute);
+  to->second_band = static_cast<std::int8_t>(from.second_code.band);
+  to->second_attribute = static_cast<std::int8_t>(from.second_code.attribute);
+  to->observation = from.observation;
+  to->innovation = from.innovation;
+  to->innovation_variance = from.innovation_variance;
+  to->test_ratio = static_cast<float>(from.test_ratio);
+  to->weight_factor = static_cast<float>(from.weight_factor);
+  to->reason = static_cast<std::int8_t>(from.reason);
+}
+
+}  // namespace
+
+struct Encoder::Storage {
+  // Kept between calls: their vectors hold their memory.
+  gnss_epoch_t gnss_epoch;
+  orbit_clock_t orbit_clock;
+  epoch_t epoch;
+  std::array<std::uint8_t, wire::kMaxMessageBytes> buffer;
+
+  template <typename T>
+  ByteSpan write(const T& message) {
+    const int size = message.encode(buffer.data(), 0, static_cast<int>(buffer.size()));
+    // Cannot fail: every array is limited by core/capacity.h, and the buffer holds the largest.
+    return {buffer.data(), static_cast<std::size_t>(std::max(size, 0))};
+  }
+};
+
+Encoder::Encoder() : storage_(std::make_unique<Storage>()) {
+  storage_->gnss_epoch.observations.reserve(kMaxObservations);
+  storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
+  storage_->epoch.satellites.reserve(kMaxSatellites);
+  storage_->epoch.aiding.reserve(kMaxMeasurements);
+}
+Encoder::~Encoder() = default;
+Encoder::Encoder(Encoder&&) noexcept = default;
+Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+
+ByteSpan Encoder::encode(const ImuSample& sample, std::uint64_t sequence) {
+  imu_t message;
+  set_header(sample.time, sequence, &message);
+  message.interval_ns = sample.interval_ns;
+  copy(sample.delta_theta_b, message.delta_theta_b);
+  copy(sample.delta_velocity_b, message.delta_velocity_b);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const RawEpoch& epoch, std::uint64_t sequence) {
+  gnss_epoch_t& message = storage_->gnss_epoch;
+  set_header(epoch.time, sequence, &message);
+  message.n = static_cast<std::int32_t>(epoch.observations.size());
+  message.observations.resize(epoch.observations.size());
+  for (std::size_t i = 0; i < epoch.observations.size(); ++i) {
+    fill(epoch.observations[i], &message.observations[i]);
+  }
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const Ephemeris& from, std::uint64_t sequence) {
+  ephemeris_t to;
+  set_header(from.transmission_time, sequence, &to);
+  set_satellite(from.satellite, &to);
+  to.message = static_cast<std::int8_t>(from.message);
+  to.toe_ns = from.toe.nanoseconds();
+  to.toc_ns = from.toc.nanoseconds();
+  to.issue = from.issue;
+  to.issue_clock = from.issue_clock;
+  to.health = from.health;
+  to.accuracy_m = from.accuracy_m;
+  to.sqrt_a = from.sqrt_a;
+  to.eccentricity = from.eccentricity;
+  to.m0 = from.m0;
+  to.delta_n = from.delta_n;
+  to.omega0 = from.omega0;
+  to.omega_dot = from.omega_dot;
+  to.i0 = from.i0;
+  to.i_dot = from.i_dot;
+  to.omega = from.omega;
+  to.cuc = from.cuc;
+  to.cus = from.cus;
+  to.crc = from.crc;
+  to.crs = from.crs;
+  to.cic = from.cic;
+  to.cis = from.cis;
+  to.af0 = from.af0;
+  to.af1 = from.af1;
+  to.af2 = from.af2;
+  for (std::size_t i = 0; i < from.group_delay_s.size(); ++i) {
+    to.group_delay_s[i] = from.group_delay_s[i];
+  }
+  return storage_->write(to);
+}
+
+ByteSpan Encoder::encode(std::span<const PreciseState> states, std::uint64_t sequence) {
+  orbit_clock_t& message = storage_->orbit_clock;
+  const std::size_t n = std::min(states.size(), kMaxEphemerisSatellites);
+  set_header(n == 0 ? GpsTime() : states.front().time, sequence, &message);
+  message.n = static_cast<std::int32_t>(n);
+  message.states.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    set_satellite(states[i].satellite, &message.states[i]);
+    copy(states[i].p_e, message.states[i].p_e);
+    message.states[i].clock_s = states[i].clock_s;
+  }
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence) {
+  ionosphere_t message;
+  set_header(time, sequence, &message);
+  std::copy(model.alpha.begin(), model.alpha.end(), message.alpha);
+  std::copy(model.beta.begin(), model.beta.end(), message.beta);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const Command& command, GpsTime time, std::uint64_t sequence) {
+  command_t message;
+  set_header(time, sequence, &message);
+  message.kind = static_cast<std::int8_t>(command.kind);
+  message.value = command.value;
+  message.sigma = command.sigma;
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const Solution& solution) {
+  solution_t message;
+  fill(solution, &message);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const EpochReport& from) {
+  epoch_t& to = storage_->epoch;
+  set_header(from.time, from.sequence, &to);
+  to.n_satellites = static_cast<std::int32_t>(from.satellites.size());
+  to.n_aiding = static_cast<std::int32_t>(from.aiding.size());
+  to.index = static_cast<std::int64_t>(from.index);
+  to.empty = from.empty ? 1 : 0;
+  fill(from.solution, &to.solution);
+  to.satellites_used = from.satellites_used;
+  to.pdop = from.pdop;
+  to.hdop = from.hdop;
+  to.vdop = from.vdop;
+  std::copy(from.clock_m.begin(), from.clock_m.end(), to.clock_m);
+  std::copy(from.clock_drift_m_s.begin(), from.clock_drift_m_s.end(), to.clock_drift_m_s);
+  to.nis = from.nis;
+  to.nis_degrees = from.nis_degrees;
+  to.satellites.resize(from.satellites.size());
+  for (std::size_t i = 0; i < from.satellites.size(); ++i) {
+    fill(from.satellites[i], &to.satellites[i]);
+  }
+  to.aiding.resize(from.aiding.size());
+  for (std::size_t i = 0; i < from.aiding.size(); ++i) fill(from.aiding[i], &to.aiding[i]);
+  return storage_->write(to);
+}
+
+ByteSpan Encoder::encode(const Event& event) {
+  event_t message;
+  set_header(event.time, event.sequence, &message);
+  message.stage = static_cast<std::int8_t>(event.stage);
+  message.kind = static_cast<std::int8_t>(event.kind);
+  message.code = static_cast<std::int8_t>(event.code);
+  message.value = event.value;
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const Decision& decision) {
+  decision_t message;
+  set_header(decision.time, decision.sequence, &message);
+  message.epoch = static_cast<std::int64_t>(decision.epoch);
+  message.mailbox = static_cast<std::int8_t>(decision.mailbox);
+  message.committed = decision.committed ? 1 : 0;
+  message.iterations = decision.iterations;
+  return storage_->write(message);
+}
+
+}  // namespace leonav

@@ -1,0 +1,48 @@
+// Core structs -> LCM messages as bytes.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/gnss/ephemeris.h"
+#include "core/gnss/observation.h"
+#include "core/gnss/satellite_catalog.h"
+#include "core/ins/imu.h"
+#include "core/navigator/outputs.h"
+#include "core/navigator/stage_work.h"
+
+namespace leonav {
+
+using ByteSpan = std::span<const std::uint8_t>;
+
+// Encodes into a buffer of its own, which the returned span points into until the next call. All
+// memory is taken at construction. One thread at a time. Satellite names and enums are written as
+// they are: what decode.h would refuse must not be encoded.
+class Encoder {
+ public:
+  Encoder();
+  ~Encoder();
+  Encoder(Encoder&&) noexcept;
+  Encoder& operator=(Encoder&&) noexcept;
+
+  // Inputs. `sequence` counts the messages of a channel from 1.
+  ByteSpan encode(const ImuSample& sample, std::uint64_t sequence);
+  ByteSpan encode(const RawEpoch& epoch, std::uint64_t sequence);
+  ByteSpan encode(const Ephemeris& ephemeris, std::uint64_t sequence);
+  // All of one time; the time on the wire is the first one's. At most kMaxEphemerisSatellites.
+  ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
+  ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
+  ByteSpan encode(const Command& command, GpsTime time, std::uint64_t sequence);
+
+  // Outputs.
+  ByteSpan encode(const Solution& solution);
+  ByteSpan encode(const EpochReport& report);
+  ByteSpan encode(const Event& event);
+  ByteSpan encode(const Decision& decision);
+
+ private:
+  struct Storage;
+  std::unique_ptr<Storage> storage_;
+};
+
+}  // namespace leonav

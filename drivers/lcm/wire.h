@@ -1,0 +1,29 @@
+// What encoding and decoding share: the schema version, limits, and where the counts stand.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/time/gps_time.h"
+
+namespace leonav::wire {
+
+inline constexpr std::int32_t kSchema = 1;
+
+// No message that follows lcmtypes/ is longer: the largest is epoch_t at full capacity (22 kB).
+inline constexpr std::size_t kMaxMessageBytes = 32 * 1024;
+
+// Times beyond week 10000 (year 2171) are nonsense and would near the end of the 64-bit range.
+inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
+
+// Encoded layout (LCM: fingerprint, then the members in order, big endian, unpadded). The counts
+// stand before the arrays so that they can be judged before the generated decoder, which resizes
+// its vectors by whatever the wire says, sees them.
+inline constexpr std::size_t kFingerprintBytes = 8;
+inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
+inline constexpr std::size_t kFirstCountOffset = 28;
+inline constexpr std::size_t kSecondCountOffset = 32;
+
+inline constexpr std::uint8_t kFlagLossOfLock = 1;
+inline constexpr std::uint8_t kFlagHalfCycle = 2;
+
+}  // namespace leonav::wire
