@@ -1,0 +1,39 @@
+#include "tools/common/arguments.h"
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+Arguments sample() {
+  Arguments a("tool", "FILE", "Does a thing.");
+  a.option("--out", "DIR", "where to")
+      .option("--rate", "HZ", "how often", "1")
+      .flag("--fast", "hurry");
+  return a;
+}
+}  // namespace
+
+TEST_CASE("options, defaults, repeats and positional words") {
+  Arguments a = sample();
+  const char* argv[] = {"tool", "--out", "x", "file", "--out=y", "--", "--fast"};
+  REQUIRE(a.parse(7, argv));
+  CHECK(a.get("--out") == "y");
+  CHECK(a.all("--out") == std::vector<std::string>{"x", "y"});
+  CHECK(a.number("--rate") == 1.0);
+  CHECK_FALSE(a.has("--fast"));
+  CHECK(a.positional() == std::vector<std::string>{"file", "--fast"});
+}
+
+TEST_CASE("wrong words name the nearest right one") {
+  Arguments a = sample();
+  const char* misspelt[] = {"tool", "--rat", "5"};
+  CHECK_THROWS_WITH(a.parse(3, misspelt),
+                    "unknown option --rat; did you mean --rate? (tool --help lists them)");
+  const char* missing[] = {"tool", "--out"};
+  CHECK_THROWS_AS(a.parse(2, missing), UsageError);
+  const char* not_number[] = {"tool", "--rate=fast"};
+  REQUIRE(a.parse(2, not_number));
+  CHECK_THROWS_AS(a.number("--rate"), UsageError);
+  CHECK_THROWS_AS(a.required("--out"), UsageError);
+}
