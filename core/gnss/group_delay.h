@@ -12,9 +12,9 @@ struct GroupDelay {
   double sigma_m = 0.0;  // 1 sigma of delay_m; large where the message does not tell the delay
 };
 
-// With a broadcast clock. `first` alone: that signal; with `second`: the ionosphere-free combination
-// (f1^2 P1 - f2^2 P2) / (f1^2 - f2^2). A band the system does not have, or twice the same band,
-// gives zero with kUnknownGroupDelaySigma.
+// With a broadcast clock. `first` alone: that signal; with `second`: the ionosphere-free
+// combination (f1^2 P1 - f2^2 P2) / (f1^2 - f2^2). A band the system does not have, or twice the
+// same band, gives zero with kUnknownGroupDelaySigma.
 GroupDelay group_delay(const Ephemeris& ephemeris, SignalCode first, SignalCode second = {});
 
 // With a precise clock, which refers to the ionosphere-free pair its product is made with (GPS

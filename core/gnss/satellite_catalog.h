@@ -43,15 +43,22 @@ class SatelliteCatalog {
   SatelliteCatalog& operator=(SatelliteCatalog&&) noexcept;
 
   // False if the ephemeris is not sane (nothing changes). A repeated issue replaces its
-  // predecessor; when full, the oldest of that satellite goes.
+  // predecessor; when full, what arrived first of that satellite goes, so that wrong times in the
+  // input cannot block a place for good.
   bool add(const Ephemeris& ephemeris);
   bool add(const PreciseState& state);
   void set_klobuchar(const KlobucharModel& model);
   const KlobucharModel& klobuchar() const;
 
   // State at `time`; `*ephemeris` (if given) points to the elements used, or nullptr for precise.
+  // Broadcast: the elements with the nearest toe. A satellite whose newest message says unhealthy
+  // is unhealthy with precise states too. Only kOk changes `*state`.
   LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                         const Ephemeris** ephemeris = nullptr) const;
+
+  // The broadcast elements for `time` whatever their health, or nullptr: they tell the group delays
+  // that a precise clock needs. Valid until the next add().
+  const Ephemeris* ephemeris_at(SatelliteId satellite, GpsTime time) const;
 
   // The healthy broadcast elements that fit `time` best within the age limits, or nullptr: for the
   // group delays that a precise product does not carry.

@@ -23,11 +23,12 @@ struct SatelliteState {
 
 // Orbit and clock from broadcast elements at `time` (system time of transmission). Position as in
 // IS-GPS-200 table 20-IV, BDS-SIS-ICD-B1I table 5-11 (geostationary ones too), Galileo OS-SIS-ICD
-// 5.1.1; velocity by analytic differentiation; clock with -2 r.v/c^2 and without group delay.
+// 5.1.1; velocity by analytic differentiation; clock with -2 r.v/c^2 (of the
+// Kepler orbit) and without group delay.
 // `ephemeris` must be sane (is_sane); the caller checks age and health.
 SatelliteState broadcast_state(const Ephemeris& ephemeris, GpsTime time);
 
-// Elements within physical bounds (finite, eccentricity < 0.1 (BeiDou, GPS, Galileo), semi-major
+// Elements within physical bounds (finite, eccentricity < 0.2 (two Galileos have 0.16), semi-major
 // axis plausible, times set): what a hostile message must pass before it is stored.
 bool is_sane(const Ephemeris& ephemeris);
 
