@@ -1,0 +1,230 @@
+#include "core/gnss/robust_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+constexpr int kMaxNewtonSteps = 15;
+constexpr int kL1Steps = 15;
+constexpr int kPolishSteps = 5;
+constexpr int kMaxExclusions = 16;
+constexpr double kMinReciprocalCondition = 1.0e-11;
+// In units of the result's own standard deviations, squared.
+constexpr double kNegligibleStep = 1.0e-8;
+constexpr double kConvergedStep = 0.25;
+
+using Satellites = std::bitset<kMaxSatellites>;
+
+struct Step {
+  FitStatus status = FitStatus::kTooFewRows;
+  double size = 0.0;  // step^T N step
+};
+
+class Fit {
+ public:
+  Fit(const FitModel& model, FitState* state, FitRows* rows)
+      : model_(model), state_(state), rows_(rows) {}
+
+  FitStatus plain();
+  FitStatus robust(const RobustConfig& config);
+  FitResult result(FitStatus status) const;
+
+ private:
+  void drop_lonely_groups();
+  Step step();
+  template <typename Factor>
+  FitStatus iterate(int steps, Factor factor);
+  void estimate_scale();
+  FitRow* worst_row(double limit);
+  FitStatus snoop(const RobustConfig& config);
+
+  const FitModel& model_;
+  FitState* state_;
+  FitRows* rows_;
+  FitMatrix inverse_ = FitMatrix::Zero();
+  double scale_ = 1.0;
+  int redundancy_ = 0;
+  int unknowns_ = 3;
+};
+
+bool in_use(const FitRow& row) { return row.factor > 0.0 && !row.excluded && !row.alone; }
+
+FitState jacobian_of(const FitRow& row) {
+  FitState jacobian = FitState::Zero();
+  jacobian.head<3>() = row.direction;
+  jacobian(3 + row.group) = 1.0;
+  return jacobian;
+}
+
+double weight_of(const FitRow& row) { return row.factor / (row.sigma * row.sigma); }
+
+void Fit::drop_lonely_groups() {
+  std::array<Satellites, kMaxTimeBases> satellites;
+  for (FitRow& row : *rows_) {
+    row.alone = false;
+    if (in_use(row))
+      satellites[static_cast<std::size_t>(row.group)].set(static_cast<std::size_t>(row.satellite));
+  }
+  std::size_t total = 0;
+  unknowns_ = 3;
+  for (const Satellites& group : satellites) {
+    if (group.count() < 2) continue;
+    total += group.count();
+    ++unknowns_;
+  }
+  redundancy_ = -unknowns_;
+  for (FitRow& row : *rows_) {
+    row.alone = satellites[static_cast<std::size_t>(row.group)].count() < 2;
+    if (in_use(row)) ++redundancy_;
+  }
+  // Two signals of one satellite are two rows but one direction.
+  if (total < static_cast<std::size_t>(unknowns_)) redundancy_ = -1;
+}
+
+// One Gauss-Newton step with the factors as they stand; residuals are those before the step.
+Step Fit::step() {
+  drop_lonely_groups();
+  if (redundancy_ < 0 || unknowns_ < 4) return {FitStatus::kTooFewRows, 0.0};
+  FitMatrix normal = FitMatrix::Zero();
+  FitState right = FitState::Zero();
+  for (const FitRow& row : *rows_) {
+    if (!in_use(row)) continue;
+    const FitState jacobian = jacobian_of(row);
+    normal += weight_of(row) * jacobian * jacobian.transpose();
+    right += weight_of(row) * row.residual * jacobian;
+  }
+  const double unit = normal.diagonal().maxCoeff();
+  for (int i = 3; i < kFitUnknowns; ++i) {
+    if (normal(i, i) == 0.0) normal(i, i) = unit;  // a clock without rows stays where it is
+  }
+  const Eigen::LDLT<FitMatrix> factor(normal);
+  if (factor.info() != Eigen::Success || !factor.isPositive() ||
+      !(factor.rcond() > kMinReciprocalCondition)) {
+    return {FitStatus::kSingular, 0.0};
+  }
+  const FitState change = factor.solve(right);
+  if (!change.allFinite()) return {FitStatus::kSingular, 0.0};
+  inverse_ = factor.solve(FitMatrix::Identity());
+  *state_ += change;
+  model_.linearize(*state_, rows_);
+  return {FitStatus::kOk, change.dot(normal * change)};
+}
+
+// Gauss-Newton with the factors renewed before each step by `factor(row)`.
+template <typename Factor>
+FitStatus Fit::iterate(int steps, Factor factor) {
+  Step last;
+  for (int i = 0; i < steps; ++i) {
+    for (FitRow& row : *rows_) row.factor = factor(row);
+    last = step();
+    if (last.status != FitStatus::kOk) return last.status;
+    if (last.size < kNegligibleStep) break;
+  }
+  return last.size < kConvergedStep ? FitStatus::kOk : FitStatus::kNotConverged;
+}
+
+FitStatus Fit::plain() {
+  model_.linearize(*state_, rows_);
+  return iterate(kMaxNewtonSteps, [](const FitRow&) { return 1.0; });
+}
+
+// 1.4826 times the median of |residual| / sigma. As many of the smallest as there are unknowns are
+// left out: an L1 fit makes that many vanish.
+void Fit::estimate_scale() {
+  boost::container::static_vector<double, kMaxMeasurements> standardized;
+  for (const FitRow& row : *rows_) {
+    if (!row.alone && !row.excluded) standardized.push_back(std::abs(row.residual) / row.sigma);
+  }
+  std::sort(standardized.begin(), standardized.end());
+  const std::size_t unknowns = static_cast<std::size_t>(unknowns_);
+  // With fewer than four degrees of freedom a median of the rest may itself be the gross error.
+  if (standardized.size() < unknowns + 4) {
+    scale_ = 1.0;
+    return;
+  }
+  const double median = standardized[(standardized.size() + unknowns) / 2];
+  scale_ = std::clamp(1.4826 * median, 1.0, kMaxFitScale);
+}
+
+// The row whose residual stands out most against its own standard deviation (Baarda's w-test), if
+// beyond `limit`.
+FitRow* Fit::worst_row(double limit) {
+  FitRow* worst = nullptr;
+  double largest = limit;
+  for (FitRow& row : *rows_) {
+    if (!in_use(row)) continue;
+    const FitState jacobian = jacobian_of(row);
+    const double leverage = weight_of(row) * jacobian.dot(inverse_ * jacobian);
+    const double free = 1.0 - leverage;
+    if (free < 1.0e-6) continue;  // nothing checks this row
+    const double w = std::abs(row.residual) / (row.sigma * scale_ * std::sqrt(free));
+    if (w > largest) {
+      largest = w;
+      worst = &row;
+    }
+  }
+  return worst;
+}
+
+FitStatus Fit::snoop(const RobustConfig& config) {
+  const auto igg3 = [&](const FitRow& row) {
+    return igg3_factor(row.residual / (row.sigma * scale_), config.k0, config.k1);
+  };
+  FitStatus status = FitStatus::kOk;
+  for (int i = 0; i < kMaxExclusions; ++i) {
+    FitRow* worst = worst_row(config.k1);
+    if (worst == nullptr) return status;
+    if (redundancy_ < 2) return FitStatus::kFaulty;
+    worst->excluded = true;
+    status = iterate(kPolishSteps, igg3);
+    if (status == FitStatus::kTooFewRows || status == FitStatus::kSingular) {
+      return FitStatus::kFaulty;
+    }
+  }
+  return FitStatus::kFaulty;
+}
+
+FitStatus Fit::robust(const RobustConfig& config) {
+  FitStatus status = iterate(kL1Steps, [](const FitRow& row) {
+    return 1.0 / std::max(std::abs(row.residual) / row.sigma, 1.0);
+  });
+  if (status == FitStatus::kTooFewRows || status == FitStatus::kSingular) return status;
+  estimate_scale();
+  status = iterate(std::max(config.max_iterations, 1), [&](const FitRow& row) {
+    return igg3_factor(row.residual / (row.sigma * scale_), config.k0, config.k1);
+  });
+  if (status == FitStatus::kTooFewRows) return FitStatus::kFaulty;
+  if (status == FitStatus::kSingular) return status;
+  const FitStatus snooped = snoop(config);
+  return snooped == FitStatus::kOk && status != FitStatus::kOk ? status : snooped;
+}
+
+FitResult Fit::result(FitStatus status) const {
+  FitResult result;
+  result.status = status;
+  result.scale = scale_;
+  result.redundancy = redundancy_;
+  result.covariance = scale_ * scale_ * inverse_;
+  return result;
+}
+
+}  // namespace
+
+FitResult robust_fit(const FitModel& model, const RobustConfig& robust, FitState* state,
+                     FitRows* rows) {
+  for (FitRow& row : *rows) {
+    row.factor = 1.0;
+    row.excluded = false;
+  }
+  Fit fit(model, state, rows);
+  FitStatus status = fit.plain();
+  if (status == FitStatus::kOk && robust.enabled) status = fit.robust(robust);
+  return fit.result(status);
+}
+
+}  // namespace leonav
