@@ -13,7 +13,7 @@ constexpr int kMaxNewtonSteps = 15;
 constexpr int kL1Steps = 15;
 constexpr int kPolishSteps = 5;
 constexpr int kMaxExclusions = 16;
-constexpr double kMinReciprocalCondition = 1.0e-11;
+constexpr double kMinPivotRatio = 1.0e-11;  // below, the geometry does not determine the unknowns
 // In units of the result's own standard deviations, squared.
 constexpr double kNegligibleStep = 1.0e-8;
 constexpr double kConvergedStep = 0.25;
@@ -104,7 +104,7 @@ Step Fit::step() {
   }
   const Eigen::LDLT<FitMatrix> factor(normal);
   if (factor.info() != Eigen::Success || !factor.isPositive() ||
-      !(factor.rcond() > kMinReciprocalCondition)) {
+      !(factor.vectorD().minCoeff() > kMinPivotRatio * factor.vectorD().maxCoeff())) {
     return {FitStatus::kSingular, 0.0};
   }
   const FitState change = factor.solve(right);

@@ -60,10 +60,6 @@ class SatelliteCatalog {
   // that a precise clock needs. Valid until the next add().
   const Ephemeris* ephemeris_at(SatelliteId satellite, GpsTime time) const;
 
-  // The healthy broadcast elements that fit `time` best within the age limits, or nullptr: for the
-  // group delays that a precise product does not carry.
-  const Ephemeris* broadcast_at(SatelliteId satellite, GpsTime time) const;
-
  private:
   struct Storage;
   std::unique_ptr<Storage> storage_;

@@ -35,7 +35,7 @@ LookupStatus satellite_at_transmission(const SatelliteCatalog& catalog, GpsTime 
   const LookupStatus status =
       state_at_transmission(catalog, satellite->satellite, sent, &state, &ephemeris);
   if (status != LookupStatus::kOk) return status;
-  if (ephemeris == nullptr) ephemeris = catalog.broadcast_at(satellite->satellite, sent);
+  if (ephemeris == nullptr) ephemeris = catalog.ephemeris_at(satellite->satellite, sent);
 
   // While the signal flew the Earth turned: the ECEF frame of reception is ahead by this angle.
   double flight_time = pseudorange_m / kSpeedOfLight;
