@@ -1,0 +1,46 @@
+// The lines of a RINEX observation file below the header: epoch lines and satellite records.
+#pragma once
+#include <boost/container/static_vector.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/gnss/observation.h"
+#include "drivers/rinex/observation_header.h"
+
+namespace leonav {
+
+struct EpochLine {
+  GpsTime time;   // as written; unset if blank, which event records may leave
+  int flag = 0;   // 0 measurements, 1 likewise after a power failure, 2-5 events, 6 cycle slips
+  int count = 0;  // satellites, or lines that follow an event
+  std::vector<std::string> satellites;  // RINEX 2 only; the continuation lines come after
+
+  bool is_event() const { return flag > 1; }
+};
+
+// nullopt if the line is not a whole and plausible epoch line. The RINEX 2 form is strict, as
+// nothing marks such a line but its columns.
+std::optional<EpochLine> parse_epoch_line_3(std::string_view line);
+std::optional<EpochLine> parse_epoch_line_2(std::string_view line);
+
+// Names of up to 12 satellites in RINEX 2 from column 32 on; false if one is no letter with two
+// digits. A blank letter is the system of the file.
+bool append_satellites_2(std::string_view line, char file_system, std::size_t count,
+                         std::vector<std::string>* satellites);
+
+// The signals of one satellite.
+struct SatelliteRecord {
+  // Room for every code a header may list, as which ones to keep is decided later.
+  std::vector<SignalObservation> signals;
+  int damaged_fields = 0;  // fields that are no F14.3 numbers
+};
+
+// Reads the fields of `values` (16 columns each: value, loss-of-lock digit, strength digit) as
+// `types` says. Blank and 0.0 are not measured.
+void parse_values(std::string_view values, SatelliteId satellite,
+                  const std::vector<ObservationType>& types, bool strength_in_dbhz,
+                  SatelliteRecord* record);
+
+}  // namespace leonav
