@@ -3,36 +3,19 @@
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
-#include <memory>
 #include <span>
 
 #include "core/ekf/ekf_config.h"
+#include "core/ekf/ekf_state.h"
+#include "core/ekf/ins_transition.h"
+#include "core/ekf/robust_update.h"
 #include "core/gnss/measurement.h"
 #include "core/gnss/point_solution.h"
 #include "core/ins/imu.h"
+#include "core/ins/mechanization.h"
 #include "core/ins/nav_state.h"
 
 namespace leonav {
-
-// Error state, in this order (all errors are "true minus estimate"; position, velocity and attitude
-// errors in ECEF: C_eb_true = exp([attitude x]) C_eb):
-//   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
-//   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s).
-// The constant-velocity model keeps the same order; the states it lacks have zero covariance and
-// take no correction.
-namespace ekf_index {
-inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12,
-                     kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25, kSize = 29;
-inline constexpr int kInsSize = 21;
-}  // namespace ekf_index
-
-using EkfCovariance = Eigen::Matrix<double, ekf_index::kSize, ekf_index::kSize>;
-using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
-
-struct ClockState {
-  Eigen::Vector4d offset_m = Eigen::Vector4d::Zero();
-  Eigen::Vector4d drift_m_s = Eigen::Vector4d::Zero();
-};
 
 // One scalar measurement as the filter treated it; index-parallel to
 // MeasurementEpoch::measurements.
@@ -49,6 +32,11 @@ struct EkfUpdateResult {
   int code_offered = 0;
   int code_rejected = 0;
   double nis = 0.0;  // of the used ones
+  // The measurements agreed with each other but not with the prediction: its covariance was widened
+  // before the update instead of rejecting them.
+  bool prediction_suspect = false;
+  double clock_jump_m =
+      0.0;  // common shift of all code innovations taken up by the clocks; 0: none
   boost::container::static_vector<InnovationReport, kMaxMeasurements> innovations;
 };
 
@@ -56,7 +44,8 @@ class Ekf {
  public:
   Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Eigen::Vector3d& lever_arm_b);
 
-  // Starts from a point solution of the antenna; without attitude: constant-velocity model.
+  // Starts from a point solution of the antenna; without attitude: constant-velocity model. May be
+  // called again: nothing of before remains.
   void initialize(GpsTime time, const PointSolution& point);
   // Goes over to the inertial model: attitude and gyro bias given, covariance of position, velocity
   // and clocks kept; position moves from antenna to IMU centre by the lever arm.
@@ -69,24 +58,40 @@ class Ekf {
   // with grown uncertainty).
   void predict(std::span<const ImuSample> block, GpsTime time);
 
-  // Uses epoch.measurements whose reason is kUsed. Joseph form; IGG-III on standardized
-  // innovations.
+  // Uses the code and Doppler of epoch.measurements whose reason is kUsed, against the state as
+  // predicted to the epoch. IGG-III on standardized innovations; the covariance stays symmetric and
+  // positive (robust_update.h).
   EkfUpdateResult update(const MeasurementEpoch& epoch);
 
   const NavState& state() const { return state_; }
   const ClockState& clocks() const { return clocks_; }
+  const ClockFlags& clocks_known() const { return known_; }
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
 
  private:
+  void predict_sample(const ImuSample& sample);
+  void finish_sub_block();
+  void predict_hole(GpsTime time);
+  void gather(const MeasurementEpoch& epoch);
+  bool start_clocks(const MeasurementEpoch& epoch);
+  void check_prediction(EkfUpdateResult* result);
+  void apply(const EkfVector& correction);
+
   EkfConfig config_;
   ImuErrorModel imu_;
   Eigen::Vector3d lever_arm_b_;
   NavState state_;
   ClockState clocks_;
+  ClockFlags known_;
   EkfCovariance covariance_ = EkfCovariance::Zero();
-  Eigen::Vector3d omega_ib_b_ = Eigen::Vector3d::Zero();  // of the last sample, for the lever arm
+  Mechanization mechanization_;
+  InsTransition transition_;
+  // Of the last sample, errors not removed: for the lever arm.
+  Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
+  GpsTime last_update_;
+  FilterMeasurements measurements_;  // of the epoch at hand
   bool initialized_ = false;
   bool has_attitude_ = false;
 };

@@ -22,10 +22,21 @@ struct EkfConfig {
   // Constant-velocity model: white acceleration, 1 sigma spectral density in (m/s^2)/sqrt(Hz).
   double acceleration_noise_horizontal = 1.0;
   double acceleration_noise_vertical = 0.3;
+  // Over a hole in the IMU data the inertial model moves by the same, its attitude turning by a
+  // random walk of this much, rad/sqrt(s).
+  double hole_attitude_noise = 0.1;
   ClockModel clock;
   RobustConfig robust;
-  // All of the first `k` epochs' innovations beyond this many sigma point to a wrong prediction,
-  // not to outliers: the filter widens its covariance instead of rejecting them all.
+  // Code errors (multipath, atmosphere) stay alike over about this long, s; 0: independent from
+  // epoch to epoch. A filter that takes them as independent averages what does not average and
+  // becomes overconfident: their variance in the gain (not in the outlier test) is multiplied by
+  // (1 + r) / (1 - r), r = exp(-dt / this), which gives a long mean the variance it really has.
+  double code_correlation_time_s = 0.0;
+  double doppler_correlation_time_s = 0.0;
+  // Median standardized innovation of code or Doppler (0.67 when all is well) from which on the
+  // prediction is taken to be wrong, not the measurements: the filter widens its covariance until
+  // they agree instead of rejecting them all.
+  double prediction_suspect_ratio = 3.0;
   double reset_ratio =
       0.7;               // share of code measurements rejected in one epoch that counts as suspect
   int reset_epochs = 3;  // suspect epochs in a row before the filter restarts from a point solution

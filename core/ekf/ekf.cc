@@ -1,0 +1,234 @@
+#include "core/ekf/ekf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/gravity.h"
+#include "core/earth/rotation.h"
+#include "core/ekf/clock_model.h"
+#include "core/ekf/constant_velocity.h"
+#include "core/ekf/measurement_model.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kSubBlock = 0.0245;        // s; the covariance moves once per so much IMU data
+constexpr double kUnknownVelocity = 50.0;   // m/s, 1 sigma where the point solution has none
+constexpr double kUnknownDrift = 300.0;     // m/s, 1 sigma: an oscillator off by 1 ppm
+constexpr double kStandstillAverage = 1.0;  // s of gyro data behind a known gyro bias, at least
+
+double square(double x) { return x * x; }
+
+double relaxed(const GaussMarkov& process, double dt) {
+  return std::exp(-dt / process.correlation_time_s);
+}
+
+// Errors of roll, pitch and yaw as a rotation of the body in n, first order.
+Matrix3d rotation_from_rpy_errors(const Matrix3d& C_nb) {
+  const EulerAngles angles = euler_from_rotation(C_nb);
+  const Matrix3d yaw = rotation_from_euler({0.0, 0.0, angles.yaw});
+  Matrix3d J;
+  J << C_nb.col(0), yaw.col(1), Vector3d::UnitZ();
+  return J;
+}
+
+// Variance of white noise that averages like an error of this correlation time.
+double correlation_inflation(double correlation_time_s, double dt) {
+  if (correlation_time_s <= 0.0 || dt <= 0.0) return 1.0;
+  const double r = std::exp(-dt / correlation_time_s);
+  return (1.0 + r) / (1.0 - r);
+}
+
+}  // namespace
+
+Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& lever_arm_b)
+    : config_(config), imu_(imu), lever_arm_b_(lever_arm_b) {}
+
+void Ekf::initialize(GpsTime time, const PointSolution& point) {
+  state_ = NavState{};
+  state_.time = time;
+  state_.p_e = point.p_e;
+  state_.v_e = point.has_velocity ? point.v_e : Vector3d::Zero();
+  clocks_ = ClockState{};
+  known_ = ClockFlags{};
+  covariance_.setZero();
+  covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
+  covariance_.block<3, 3>(kVelocity, kVelocity) =
+      point.has_velocity ? point.covariance_v_e
+                         : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
+  const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
+  const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    if (!std::isfinite(point.clock_m[base])) continue;
+    start_clock_offset(base, point.clock_m[base], clock_sigma, &clocks_, &covariance_);
+    known_.offset[base] = true;
+    const bool has_drift = point.has_velocity && std::isfinite(point.clock_drift_m_s[base]);
+    start_clock_drift(base, has_drift ? point.clock_drift_m_s[base] : 0.0,
+                      has_drift ? drift_sigma : kUnknownDrift, &clocks_, &covariance_);
+    known_.drift[base] = true;
+  }
+  measured_rate_b_.setZero();
+  last_update_ = time;
+  has_attitude_ = false;
+  initialized_ = true;
+}
+
+void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
+                       const Vector3d& gyro_bias_b, bool gyro_bias_known) {
+  const AntennaMotion before =
+      antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  state_.q_eb = q_eb.normalized();
+  state_.errors = ImuErrors{};
+  if (gyro_bias_known) state_.errors.gyro_bias_b = gyro_bias_b;
+  state_.p_e.setZero();
+  state_.v_e.setZero();
+  const AntennaMotion arm = antenna_motion(state_, measured_rate_b_, lever_arm_b_, true);
+  state_.p_e = before.p_e - arm.p_e;
+  state_.v_e = before.v_e - arm.v_e;
+
+  // Fresh variances of attitude and IMU errors; what was there of them is forgotten.
+  EkfCovariance P = covariance_;
+  P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
+  P.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
+  const Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(before.p_e)).transpose();
+  const Matrix3d J =
+      C_en * rotation_from_rpy_errors(C_en.transpose() * state_.q_eb.toRotationMatrix());
+  P.block<3, 3>(kAttitude, kAttitude) = J * sigma_rpy.cwiseAbs2().asDiagonal() * J.transpose();
+  const double averaged = imu_.angle_random_walk / std::sqrt(kStandstillAverage);
+  const double gyro_bias =
+      gyro_bias_known ? std::min(imu_.gyro_bias.sigma, averaged) : imu_.gyro_bias.sigma;
+  P.diagonal().segment<3>(kGyroBias).setConstant(square(gyro_bias));
+  P.diagonal().segment<3>(kAccelBias).setConstant(square(imu_.accel_bias.sigma));
+  P.diagonal().segment<3>(kGyroScale).setConstant(square(imu_.gyro_scale.sigma));
+  P.diagonal().segment<3>(kAccelScale).setConstant(square(imu_.accel_scale.sigma));
+
+  // From the antenna's error to the IMU's: what attitude and gyro errors move the arm by.
+  EkfCovariance T = EkfCovariance::Identity();
+  T.block<3, 3>(kPosition, kAttitude) = -arm.d_p_d_attitude;
+  T.block<3, 3>(kVelocity, kAttitude) = -arm.d_v_d_attitude;
+  T.block<3, 3>(kVelocity, kGyroBias) = -arm.d_v_d_gyro_bias;
+  T.block<3, 3>(kVelocity, kGyroScale) = -arm.d_v_d_gyro_scale;
+  covariance_.noalias() = T * P * T.transpose();
+  has_attitude_ = true;
+}
+
+void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
+  if (!initialized_) return;
+  const GpsTime start = state_.time;
+  if (has_attitude_) {
+    mechanization_.reset(state_);
+    transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
+  }
+  for (const ImuSample& sample : block) {
+    if (sample.interval_ns <= 0 || sample.time > time) continue;
+    if (has_attitude_)
+      predict_sample(sample);
+    else
+      measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
+  }
+  if (has_attitude_) finish_sub_block();
+  if (time > state_.time) predict_hole(time);
+
+  const double dt = seconds_between(state_.time, start);
+  if (dt <= 0.0) return;
+  state_.errors.gyro_bias_b *= relaxed(imu_.gyro_bias, dt);
+  state_.errors.accel_bias_b *= relaxed(imu_.accel_bias, dt);
+  state_.errors.gyro_scale *= relaxed(imu_.gyro_scale, dt);
+  state_.errors.accel_scale *= relaxed(imu_.accel_scale, dt);
+  propagate_clocks(config_.clock, known_, dt, &clocks_, &covariance_);
+}
+
+void Ekf::predict_sample(const ImuSample& sample) {
+  if (sample.time <= state_.time) return;  // already behind us
+  if (sample.start() > state_.time) {
+    finish_sub_block();
+    predict_hole(sample.start());
+    mechanization_.reset(state_);
+  }
+  const ImuSample part = sample.start() < state_.time ? split(sample, state_.time).after : sample;
+  const Matrix3d C_before = state_.q_eb.toRotationMatrix();
+  mechanization_.advance(part);
+  state_ = mechanization_.state();
+  measured_rate_b_ = part.delta_theta_b / part.interval_s();
+  transition_.add({.C_eb = 0.5 * (C_before + state_.q_eb.toRotationMatrix()),
+                   .f_b = mechanization_.specific_force_b(),
+                   .omega_ib_b = mechanization_.omega_ib_b(),
+                   .interval_s = part.interval_s()});
+  if (transition_.duration_s() >= kSubBlock) finish_sub_block();
+}
+
+void Ekf::finish_sub_block() {
+  transition_.propagate(&covariance_);
+  transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
+}
+
+// Nothing is known of the motion over a hole: it goes on as before, give or take the acceleration
+// and turning of the configuration. Biases and scales keep their variances, which are stationary.
+void Ekf::predict_hole(GpsTime time) {
+  const double dt = seconds_between(time, state_.time);
+  propagate_constant_velocity(state_.p_e, config_.acceleration_noise_horizontal,
+                              config_.acceleration_noise_vertical, dt, &covariance_);
+  state_.p_e += dt * state_.v_e;
+  state_.time = time;
+  if (has_attitude_)
+    covariance_.diagonal().segment<3>(kAttitude).array() +=
+        square(config_.hole_attitude_noise) * dt;
+}
+
+void Ekf::gather(const MeasurementEpoch& epoch) {
+  const AntennaMotion antenna =
+      antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  const double dt = seconds_between(epoch.time, last_update_);
+  const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
+  const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
+  measurements_.clear();
+  for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
+    const Measurement& measurement = epoch.measurements[i];
+    if (measurement.reason != Reason::kUsed || measurement.observable == Observable::kCarrier)
+      continue;
+    if (measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
+        !std::isfinite(measurement.value))
+      continue;
+    const MeasurementPrediction prediction = predict_measurement(
+        measurement, epoch.satellites[measurement.satellite_index], antenna, clocks_);
+    FilterMeasurement& entry = measurements_.emplace_back();
+    entry.index = i;
+    entry.observable = measurement.observable;
+    entry.innovation = measurement.value - prediction.value;
+    entry.variance = square(measurement.sigma);
+    entry.gain_variance =
+        entry.variance *
+        (measurement.observable == Observable::kCode ? code_inflation : doppler_inflation);
+    entry.row = prediction.row;
+  }
+}
+
+void Ekf::apply(const EkfVector& correction) {
+  state_.p_e += correction.segment<3>(kPosition);
+  state_.v_e += correction.segment<3>(kVelocity);
+  if (has_attitude_) {
+    state_.q_eb = (quaternion_from_rotation_vector(correction.segment<3>(kAttitude)) * state_.q_eb)
+                      .normalized();
+  }
+  state_.errors.gyro_bias_b += correction.segment<3>(kGyroBias);
+  state_.errors.accel_bias_b += correction.segment<3>(kAccelBias);
+  state_.errors.gyro_scale += correction.segment<3>(kGyroScale);
+  state_.errors.accel_scale += correction.segment<3>(kAccelScale);
+  clocks_.offset_m += correction.segment<4>(kClock);
+  clocks_.drift_m_s += correction.segment<4>(kClockDrift);
+}
+
+Vector3d Ekf::antenna_position_e() const {
+  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_).p_e;
+}
+
+Vector3d Ekf::antenna_velocity_e() const {
+  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_).v_e;
+}
+
+}  // namespace leonav

@@ -1,0 +1,151 @@
+// The measurement update of Ekf, step by step.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/ekf/clock_model.h"
+#include "core/ekf/ekf.h"
+#include "core/ekf/median.h"
+#include "core/ekf/prediction_check.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
+
+constexpr double kStartClockSigma = 100.0;  // m, a new base's offset: so wide that the measurements
+                                            // it was started from are hardly counted twice
+constexpr double kStartDriftSigma = 10.0;   // m/s, likewise
+constexpr double kUnknownDrift = 300.0;     // m/s, an oscillator off by 1 ppm
+constexpr double kInterSystemDriftSigma = 1.0;  // m/s, between the drifts of two bases
+constexpr double kMaxJumpSigma = 100.0;         // m, widening of the clocks after a jump
+constexpr double kMadToSigma = 1.4826;
+
+std::size_t base_of(const MeasurementEpoch& epoch, std::size_t index) {
+  return index_of(epoch.satellites[epoch.measurements[index].satellite_index].satellite.system);
+}
+
+struct Start {
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+// Where a clock state should start so that most innovations of its base vanish.
+std::optional<Start> start_from(const FilterMeasurements& measurements,
+                                const MeasurementEpoch& epoch, Observable observable,
+                                std::size_t base) {
+  SmallTable innovations;
+  for (const FilterMeasurement& measurement : measurements) {
+    if (measurement.observable == observable && base_of(epoch, measurement.index) == base)
+      innovations.push_back(measurement.innovation);
+  }
+  if (innovations.empty()) return std::nullopt;
+  Start start;
+  start.value = median(innovations);
+  SmallTable deviations;
+  for (const double innovation : innovations)
+    deviations.push_back(std::abs(innovation - start.value));
+  start.sigma = 3.0 * kMadToSigma * median(deviations);
+  return start;
+}
+
+void shift_innovations(Observable observable, double shift, FilterMeasurements* measurements) {
+  for (FilterMeasurement& measurement : *measurements)
+    if (measurement.observable == observable) measurement.innovation -= shift;
+}
+
+}  // namespace
+
+// Starts the clocks of bases that appear for the first time; true if any: the innovations change.
+bool Ekf::start_clocks(const MeasurementEpoch& epoch) {
+  bool started = false;
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    if (known_.offset[base]) continue;
+    const auto code = start_from(measurements_, epoch, Observable::kCode, base);
+    const auto doppler = start_from(measurements_, epoch, Observable::kDoppler, base);
+    if (!code && !doppler) continue;
+    if (!known_.drift[base]) {
+      std::size_t other = 0;
+      while (other < kMaxTimeBases && !known_.drift[other]) ++other;
+      if (other < kMaxTimeBases)
+        copy_clock_drift(other, base, kInterSystemDriftSigma, &clocks_, &covariance_);
+      else if (doppler)
+        start_clock_drift(base, clocks_.drift_m_s(static_cast<Eigen::Index>(base)) + doppler->value,
+                          kStartDriftSigma + doppler->sigma, &clocks_, &covariance_);
+      else
+        start_clock_drift(base, 0.0, kUnknownDrift, &clocks_, &covariance_);
+      known_.drift[base] = true;
+      started = true;
+    }
+    if (code) {
+      start_clock_offset(base, clocks_.offset_m(static_cast<Eigen::Index>(base)) + code->value,
+                         kStartClockSigma + code->sigma, &clocks_, &covariance_);
+      known_.offset[base] = true;
+      started = true;
+    }
+  }
+  return started;
+}
+
+void Ekf::check_prediction(EkfUpdateResult* result) {
+  const double jump = common_shift(measurements_, Observable::kCode, covariance_);
+  if (jump != 0.0) {
+    for (std::size_t base = 0; base < kMaxTimeBases; ++base)
+      if (known_.offset[base]) clocks_.offset_m(static_cast<Eigen::Index>(base)) += jump;
+    // The part of the shift that was not the clock's is left to the update to find.
+    const double variance = std::pow(std::min(std::abs(jump), kMaxJumpSigma), 2);
+    for (std::size_t a = 0; a < kMaxTimeBases; ++a)
+      for (std::size_t b = 0; b < kMaxTimeBases; ++b)
+        if (known_.offset[a] && known_.offset[b])
+          covariance_(kClock + static_cast<Eigen::Index>(a),
+                      kClock + static_cast<Eigen::Index>(b)) += variance;
+    shift_innovations(Observable::kCode, jump, &measurements_);
+    result->clock_jump_m = jump;
+  }
+  for (const Observable observable : {Observable::kDoppler, Observable::kCode}) {
+    const double factor = prediction_inflation(measurements_, observable, covariance_,
+                                               config_.prediction_suspect_ratio);
+    if (factor <= 1.0) continue;
+    inflate(observable, factor, &covariance_);
+    result->prediction_suspect = true;
+  }
+}
+
+EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
+  EkfUpdateResult result;
+  for (const Measurement& measurement : epoch.measurements)
+    result.innovations.push_back({.reason = measurement.reason});
+  if (!initialized_) return result;
+
+  gather(epoch);
+  if (start_clocks(epoch)) gather(epoch);
+  if (config_.robust.enabled) check_prediction(&result);
+  for (const FilterMeasurement& measurement : measurements_) {
+    InnovationReport& report = result.innovations[measurement.index];
+    report.innovation = measurement.innovation;
+    report.innovation_variance =
+        measurement.variance + measurement.row.dot(covariance_ * measurement.row);
+    report.test_ratio = std::abs(report.innovation) / std::sqrt(report.innovation_variance);
+  }
+
+  const RobustUpdateResult update = robust_update(config_.robust, &measurements_, &covariance_);
+  apply(update.correction);
+  result.nis = update.nis;
+  for (const FilterMeasurement& measurement : measurements_) {
+    InnovationReport& report = result.innovations[measurement.index];
+    report.weight_factor = measurement.factor;
+    if (measurement.factor <= 0.0)
+      report.reason = Reason::kOutlier;
+    else if (measurement.factor < 1.0)
+      report.reason = Reason::kDownweighted;
+    if (measurement.factor > 0.0) ++result.used;
+    if (measurement.observable != Observable::kCode) continue;
+    ++result.code_offered;
+    if (measurement.factor <= 0.0) ++result.code_rejected;
+  }
+  if (!measurements_.empty()) last_update_ = epoch.time;
+  return result;
+}
+
+}  // namespace leonav

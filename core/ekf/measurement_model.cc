@@ -1,0 +1,63 @@
+#include "core/ekf/measurement_model.h"
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "core/gnss/range_model.h"
+
+namespace leonav {
+
+using namespace ekf_index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rate_b,
+                             const Vector3d& lever_arm_b, bool has_attitude) {
+  AntennaMotion antenna;
+  antenna.p_e = state.p_e;
+  antenna.v_e = state.v_e;
+  if (!has_attitude) return antenna;
+
+  const Matrix3d C_eb = state.q_eb.toRotationMatrix();
+  const Vector3d gain = (1.0 + state.errors.gyro_scale.array()).inverse();
+  const Vector3d omega_ib_b = (measured_rate_b - state.errors.gyro_bias_b).cwiseProduct(gain);
+  const Vector3d omega_ie{0.0, 0.0, kEarthRotationRate};
+  const Vector3d lever_e = C_eb * lever_arm_b;
+  const Vector3d swing_e = C_eb * omega_ib_b.cross(lever_arm_b);
+  antenna.p_e += lever_e;
+  antenna.v_e += swing_e - omega_ie.cross(lever_e);
+
+  antenna.d_p_d_attitude = -skew(lever_e);
+  antenna.d_v_d_attitude = -skew(swing_e) + skew(omega_ie) * skew(lever_e);
+  const Matrix3d C_lever = C_eb * skew(lever_arm_b);
+  antenna.d_v_d_gyro_bias = C_lever * gain.asDiagonal();
+  antenna.d_v_d_gyro_scale = C_lever * omega_ib_b.cwiseProduct(gain).asDiagonal();
+  return antenna;
+}
+
+MeasurementPrediction predict_measurement(const Measurement& measurement,
+                                          const SatelliteInView& satellite,
+                                          const AntennaMotion& antenna, const ClockState& clocks) {
+  MeasurementPrediction prediction;
+  EkfVector& row = prediction.row;
+  const auto base = static_cast<Eigen::Index>(index_of(satellite.satellite.system));
+  if (measurement.observable == Observable::kCode) {
+    const RangePrediction range = predict_range(satellite, antenna.p_e);
+    prediction.value = range.range_m + clocks.offset_m(base);
+    row.segment<3>(kPosition) = range.d_range_d_p;
+    row.segment<3>(kAttitude) = range.d_range_d_p * antenna.d_p_d_attitude;
+    row(kClock + base) = 1.0;
+  } else if (measurement.observable == Observable::kDoppler) {
+    const RangeRatePrediction rate = predict_range_rate(satellite, antenna.p_e, antenna.v_e);
+    prediction.value = rate.range_rate_m_s + clocks.drift_m_s(base);
+    row.segment<3>(kPosition) = rate.d_rate_d_p;
+    row.segment<3>(kVelocity) = rate.d_rate_d_v;
+    row.segment<3>(kAttitude) =
+        rate.d_rate_d_p * antenna.d_p_d_attitude + rate.d_rate_d_v * antenna.d_v_d_attitude;
+    row.segment<3>(kGyroBias) = rate.d_rate_d_v * antenna.d_v_d_gyro_bias;
+    row.segment<3>(kGyroScale) = rate.d_rate_d_v * antenna.d_v_d_gyro_scale;
+    row(kClockDrift + base) = 1.0;
+  }
+  return prediction;
+}
+
+}  // namespace leonav

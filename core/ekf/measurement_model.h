@@ -1,0 +1,39 @@
+// What the filter expects of a code or Doppler measurement, with its Jacobian.
+#pragma once
+#include <Eigen/Core>
+
+#include "core/ekf/ekf_state.h"
+#include "core/gnss/measurement.h"
+#include "core/ins/nav_state.h"
+
+namespace leonav {
+
+// The antenna as it follows from the inertial state and the lever arm:
+//   p_a = p + C_eb l
+//   v_a = v + C_eb (omega_ib_b x l) - omega_ie x (C_eb l)
+// Without attitude (constant-velocity model) the state is the antenna's own.
+struct AntennaMotion {
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_e = Eigen::Vector3d::Zero();
+  // d p_e / d attitude, d v_e / d attitude, gyro bias, gyro scale; zero without attitude.
+  Eigen::Matrix3d d_p_d_attitude = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d d_v_d_attitude = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d d_v_d_gyro_bias = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d d_v_d_gyro_scale = Eigen::Matrix3d::Zero();
+};
+
+// `measured_rate_b`: the gyros' rate with their errors still in it, rad/s.
+AntennaMotion antenna_motion(const NavState& state, const Eigen::Vector3d& measured_rate_b,
+                             const Eigen::Vector3d& lever_arm_b, bool has_attitude);
+
+struct MeasurementPrediction {
+  double value = 0.0;                 // m or m/s
+  EkfVector row = EkfVector::Zero();  // d value / d error state
+};
+
+// For Observable::kCode and kDoppler; anything else gives zeros.
+MeasurementPrediction predict_measurement(const Measurement& measurement,
+                                          const SatelliteInView& satellite,
+                                          const AntennaMotion& antenna, const ClockState& clocks);
+
+}  // namespace leonav

@@ -1,0 +1,43 @@
+// One epoch's measurement update with IGG-III weights.
+#pragma once
+#include <boost/container/static_vector.hpp>
+#include <cstddef>
+
+#include "core/ekf/ekf_state.h"
+#include "core/gnss/igg3.h"
+#include "core/gnss/measurement.h"
+
+namespace leonav {
+
+// One scalar measurement on its way through the update.
+struct FilterMeasurement {
+  std::size_t index = 0;  // into MeasurementEpoch::measurements
+  Observable observable = Observable::kCode;
+  double innovation = 0.0;
+  double variance = 0.0;       // of the measurement alone: what it is tested against
+  double gain_variance = 0.0;  // likewise, with its correlation in time: what it weighs
+  EkfVector row = EkfVector::Zero();
+  double factor = 1.0;  // out: IGG-III
+};
+
+using FilterMeasurements = boost::container::static_vector<FilterMeasurement, kMaxMeasurements>;
+
+struct RobustUpdateResult {
+  EkfVector correction = EkfVector::Zero();
+  double nis = 0.0;
+};
+
+// Re-weights and solves at most `config.max_iterations` times. The residual that is tested is that
+// against the prediction from all *other* measurements and the prior, over its standard deviation:
+// in the first pass (nothing used yet) that is the standardized innovation, afterwards it also sees
+// outliers that hide behind a poor prior. Where half of the residuals are larger than they should
+// be, all are scaled down first, so that the many are not thrown out for the few.
+//
+// The update is done in the square root of P (P = L L^T, P+ = L (I + L^T H^T R^-1 H L)^-1 L^T):
+// like Joseph's form symmetric and positive semidefinite whatever the rounding, and states with
+// zero variance stay untouched. (Bierman, Factorization Methods for Discrete Sequential Estimation,
+// 1977, ch. 5.)
+RobustUpdateResult robust_update(const RobustConfig& config, FilterMeasurements* measurements,
+                                 EkfCovariance* covariance);
+
+}  // namespace leonav
