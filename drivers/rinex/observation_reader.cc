@@ -9,6 +9,7 @@
 #include "drivers/rinex/calendar_fields.h"
 #include "drivers/rinex/line_source.h"
 #include "drivers/rinex/observation_record.h"
+#include "drivers/rinex/satellite_refusal.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
@@ -21,23 +22,6 @@ constexpr std::size_t kColumnsPerLine2 = 80;
 bool is_measured(const SignalObservation& signal) {
   return std::isfinite(signal.pseudorange_m) || std::isfinite(signal.carrier_cycles) ||
          std::isfinite(signal.doppler_hz);
-}
-
-// Why a satellite is not used; empty if it is.
-std::string_view refusal(std::string_view name) {
-  if (satellite_from_string(name)) return {};
-  switch (name.empty() ? '\0' : name[0]) {
-    case 'R':
-      return "GLONASS satellite (system not used)";
-    case 'S':
-      return "SBAS satellite (system not used)";
-    case 'J':
-      return "QZSS satellite (system not used)";
-    case 'I':
-      return "NavIC satellite (system not used)";
-    default:
-      return "satellite name that is not readable";
-  }
 }
 
 }  // namespace
@@ -215,7 +199,7 @@ void ObservationReader::State::carry_interruptions(SignalObservation* signal) {
 
 void ObservationReader::State::add_satellite(std::string_view name, std::string_view values,
                                              RawEpoch* epoch) {
-  if (const std::string_view reason = refusal(name); !reason.empty()) {
+  if (const std::string_view reason = satellite_refusal(name); !reason.empty()) {
     counts.skip(reason, lines.number());
     return;
   }

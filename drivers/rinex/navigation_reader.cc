@@ -1,0 +1,120 @@
+#include "drivers/rinex/navigation_reader.h"
+
+#include <cmath>
+#include <optional>
+
+#include "drivers/rinex/calendar_fields.h"
+#include "drivers/rinex/line_source.h"
+#include "drivers/rinex/navigation_record.h"
+#include "drivers/rinex/satellite_refusal.h"
+#include "drivers/text/parse.h"
+
+namespace leonav {
+namespace {
+
+NavigationLayout read_first_line(LineSource* lines) {
+  std::string_view line;
+  if (!lines->next(line)) throw FileError(lines->path(), 0, "the file is empty");
+  const std::string_view label = trim(columns(line, 60, 20));
+  const auto version = parse_double(columns(line, 0, 9));
+  const auto fail = [lines](const std::string& what) {
+    throw FileError(lines->path(), lines->number(), what);
+  };
+  if (label != "RINEX VERSION / TYPE" || !version) {
+    fail("does not begin with a RINEX VERSION / TYPE line; give a RINEX navigation file");
+  }
+  if (!(*version >= 2.0 && *version < 4.0)) {
+    fail("RINEX version " + std::string(trim(columns(line, 0, 9))) +
+         " is not supported (2.00 to 3.05 are); convert the file to version 3");
+  }
+  NavigationLayout layout;
+  layout.is_version_2 = *version < 3.0;
+  const std::string_view type = columns(line, 20, 1);
+  // RINEX 2 has a file type for each system: N GPS, G GLONASS, H SBAS, E Galileo.
+  const bool known =
+      type == "N" || (layout.is_version_2 && (type == "G" || type == "H" || type == "E"));
+  if (!known) {
+    fail("this RINEX file is of type '" + std::string(trim(columns(line, 20, 20))) +
+         "', not a navigation file; list it under its own key");
+  }
+  if (type == "G") layout.system = 'R';
+  if (type == "H") layout.system = 'S';
+  if (type == "E") layout.system = 'E';
+  return layout;
+}
+
+// Four coefficients of 12 columns each.
+bool read_coefficients(std::string_view line, std::size_t start, std::array<double, 4>* result) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto value = parse_double(columns(line, start + 12 * i, 12));
+    if (!value) return false;
+    (*result)[i] = *value;
+  }
+  return true;
+}
+
+void read_rest_of_header(LineSource* lines, NavigationFile* file) {
+  bool has_alpha = false, has_beta = false;
+  std::string_view line;
+  while (true) {
+    if (!lines->next(line)) {
+      throw FileError(lines->path(), lines->number(), "the file ends within its header");
+    }
+    const std::string_view label = trim(columns(line, 60, 20));
+    if (label == "END OF HEADER") break;
+    const std::string_view kind = columns(line, 0, 4);
+    const bool v3 = label == "IONOSPHERIC CORR";
+    bool ok = true;
+    if (label == "ION ALPHA" || (v3 && kind == "GPSA")) {
+      ok = has_alpha = read_coefficients(line, v3 ? 5 : 2, &file->klobuchar.alpha);
+    } else if (label == "ION BETA" || (v3 && kind == "GPSB")) {
+      ok = has_beta = read_coefficients(line, v3 ? 5 : 2, &file->klobuchar.beta);
+    }
+    if (!ok) file->counts.skip("ionosphere line that is not readable", lines->number());
+  }
+  file->klobuchar.valid = has_alpha && has_beta;
+}
+
+void take_record(const std::vector<std::string>& record, long line_number,
+                 const NavigationLayout& layout, NavigationFile* file) {
+  if (record.empty()) return;
+  std::string_view reason = satellite_refusal(record_satellite(record[0], layout));
+  Ephemeris ephemeris;
+  if (reason.empty()) reason = parse_navigation_record(record, layout, &ephemeris);
+  if (!reason.empty()) {
+    file->counts.skip(reason, line_number);
+    return;
+  }
+  file->ephemerides.push_back(ephemeris);
+  ++file->counts.used;
+}
+
+}  // namespace
+
+NavigationFile read_navigation(const std::string& path) {
+  // The longest record that exists has eight lines; what follows without a satellite name is junk
+  // of which a line or two suffice to see that the record is damaged.
+  constexpr std::size_t kMaxLines = 16;
+  LineSource lines(path);
+  NavigationFile file;
+  const NavigationLayout layout = read_first_line(&lines);
+  read_rest_of_header(&lines, &file);
+  std::vector<std::string> record;
+  long record_line = 0;
+  std::string_view line;
+  while (lines.next(line)) {
+    if (starts_navigation_record(line, layout)) {
+      take_record(record, record_line, layout, &file);
+      record.assign(1, std::string(line));
+      record_line = lines.number();
+    } else if (record.empty()) {
+      if (!is_blank(line)) file.counts.skip("line outside a record", lines.number());
+    } else if (record.size() < kMaxLines) {
+      record.emplace_back(line);
+    }
+  }
+  take_record(record, record_line, layout, &file);
+  return file;
+}
+
+}  // namespace leonav
