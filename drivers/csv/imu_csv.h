@@ -1,0 +1,33 @@
+// imu.csv: rates and specific forces, body axes forward-right-down, GPS time.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ins/imu.h"
+#include "drivers/csv/csv_rows.h"
+
+namespace leonav {
+
+inline constexpr std::string_view kImuCsvHeader =
+    "gps_week,gps_tow_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,accel_x_m_s2,accel_y_m_s2,accel_z_m_"
+    "s2";
+
+struct ImuCsv {
+  std::vector<ImuSample> samples;  // times strictly increasing
+  CsvReport report;
+  long gaps = 0;  // holes longer than kGapIntervals median intervals
+  std::int64_t median_interval_ns = 0;
+};
+
+// Each row is the mean over (previous stamp, stamp]; the first row, and one after a gap, covers the
+// median interval. Rows that do not parse or do not advance in time are skipped and reported.
+// Throws FileError if the header is another one or fewer than two rows are usable.
+ImuCsv read_imu_csv(const std::string& path);
+inline constexpr double kGapIntervals = 5.0;
+
+// Digits: 1e-12 rad/s, 1e-10 m/s^2. Throws FileError.
+void write_imu_csv(const std::string& path, std::span<const ImuSample> samples);
+
+}  // namespace leonav

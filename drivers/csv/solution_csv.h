@@ -1,0 +1,55 @@
+// solution.csv: the truth columns, then uncertainty, source and geometry of each answer.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/navigator/outputs.h"
+#include "drivers/csv/csv_writer.h"
+#include "drivers/csv/truth_csv.h"
+
+namespace leonav {
+
+inline constexpr std::string_view kSolutionCsvHeader =
+    "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m,v_north_m_s,v_east_m_s,v_down_m_s,"
+    "roll_deg,pitch_deg,yaw_deg,std_north_m,std_east_m,std_down_m,std_v_north_m_s,std_v_east_m_s,"
+    "std_v_down_m_s,std_roll_deg,std_pitch_deg,std_yaw_deg,source,satellites,pdop";
+
+struct SolutionRow {
+  TruthPoint pva;                            // position, velocity, attitude; no attitude: empty
+  std::optional<Eigen::Vector3d> sigma_p_n;  // m, 1 sigma north east down
+  std::optional<Eigen::Vector3d> sigma_v_n;  // m/s
+  std::optional<Eigen::Vector3d> sigma_rpy;  // rad
+  Source source = Source::kNone;
+  std::optional<int> satellites;
+  std::optional<double> pdop;
+};
+
+// The row of a solution; satellites and pdop come from the epoch it belongs to.
+SolutionRow to_solution_row(const Solution& solution, std::optional<int> satellites,
+                            std::optional<double> pdop);
+
+// Digits as in truth.csv; sigmas 1e-4 m and m/s, 1e-6 deg; pdop 1e-2.
+class SolutionCsvWriter {
+ public:
+  explicit SolutionCsvWriter(const std::string& path);  // throws FileError
+  void write(const SolutionRow& row);
+  void close();  // throws FileError if anything could not be written
+  long rows() const { return rows_; }
+
+ private:
+  CsvWriter writer_;
+  long rows_ = 0;
+};
+
+struct SolutionCsv {
+  std::vector<SolutionRow> rows;  // times strictly increasing
+  CsvReport report;
+};
+
+// As read_truth_csv: only time and position must be there.
+SolutionCsv read_solution_csv(const std::string& path);
+
+}  // namespace leonav
