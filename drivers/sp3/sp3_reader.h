@@ -2,7 +2,6 @@
 // Source: S. Hilla, The Extended Standard Product 3 Orbit Format (SP3-c) 2010, (SP3-d) 2016.
 #pragma once
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,8 @@ struct Sp3File {
   std::string time_system;          // as in the file: "GPS", "GAL", "BDT", "QZS", "UTC"
   std::string frame;                // e.g. "IGb14"
   int satellites_listed = 0;        // in the header, all systems
-  std::vector<Sp3Epoch> epochs;     // in increasing time
+  std::vector<Sp3Epoch> epochs;     // in increasing time; times are GPS time
+  std::uint64_t states = 0;         // in all epochs
   std::uint64_t other_system = 0;   // position lines of systems leonav does not use
   std::uint64_t bad_positions = 0;  // position 0 0 0: "bad or absent" by the format
   std::uint64_t bad_clocks = 0;     // clock 999999.999999: the state is kept, its clock is NaN
@@ -37,6 +37,5 @@ struct Sp3File {
 
 // Throws FileError if the file cannot be read, is not SP3-c or -d, or holds no usable state.
 Sp3File read_sp3(const std::string& path);
-Sp3File read_sp3(std::istream& stream, const std::string& name);
 
 }  // namespace leonav

@@ -53,8 +53,10 @@ class RxmRawxDecoder {
   static constexpr std::size_t kSatellites = 64;  // numbers within a system
   static constexpr std::size_t kSignalIds = 16;
 
-  bool decode_measurement(const std::uint8_t* block, GpsTime time, SignalObservation* observation);
-  void update_lock(const std::uint8_t* block, GpsTime time, SignalObservation* observation);
+  bool decode_measurement(const std::uint8_t* bytes, GpsTime time, SignalObservation* observation);
+  void sort_and_drop_duplicates(RawEpoch* epoch);
+  static bool lock_was_lost(const LockState& last, const LockState& now);
+  static std::size_t lock_index(System system);
 
   RxmRawxOptions options_;
   RxmRawxCounters counters_;

@@ -3,10 +3,9 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 
-#include "core/gnss/ephemeris.h"
+#include "drivers/ubx/navigation_frame.h"
 
 namespace leonav {
 
@@ -18,17 +17,15 @@ struct RxmSfrbxCounters {
   std::uint64_t other_system = 0;   // SBAS, QZSS, GLONASS, IMES, NavIC
   std::uint64_t other_message = 0;  // a navigation message leonav does not read (CNAV, B-CNAV, ...)
   std::uint64_t bad_parity = 0;     // parity or CRC wrong, or the fixed bits are not there
-  std::uint64_t without_time = 0;   // complete, but no RAWX has told the week yet
-  std::uint64_t not_sane = 0;       // decoded elements outside physical bounds
+  std::uint64_t bad_week = 0;       // its week number contradicts the receiver's
+  std::uint64_t wrong_satellite = 0;  // it names another satellite than the receiver says
+  std::uint64_t without_time = 0;     // came before a RAWX had told the week
+  std::uint64_t not_sane = 0;         // decoded elements outside physical bounds
   std::uint64_t ephemerides = 0;
 };
 
-// What one subframe completed, if anything.
-struct NavigationUpdate {
-  std::optional<Ephemeris> ephemeris;
-  std::optional<KlobucharModel> klobuchar;
-};
-
+// Collects the subframes of every satellite. An ephemeris is reported when it is complete and says
+// anything that the last one reported for its satellite and message did not.
 class RxmSfrbxDecoder {
  public:
   RxmSfrbxDecoder();
@@ -38,6 +35,11 @@ class RxmSfrbxDecoder {
   const RxmSfrbxCounters& counters() const { return counters_; }
 
  private:
+  SubframeStatus add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
+                     const SubframeOrigin& origin, NavigationUpdate* update);
+  void count(SubframeStatus status);
+  bool is_news(const Ephemeris& ephemeris);
+
   struct State;
   RxmSfrbxCounters counters_;
   std::unique_ptr<State> state_;

@@ -18,7 +18,8 @@ struct UbxFramerCounters {
   std::uint64_t messages = 0;       // framed, checksum good
   std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
   std::uint64_t bad_checksums = 0;
-  std::uint64_t oversize = 0;  // claimed length above kMaxPayload: taken for a false sync
+  std::uint64_t oversize = 0;    // claimed length above kMaxPayload: taken for a false sync
+  std::uint64_t incomplete = 0;  // cut off by the end of the stream
 };
 
 // The caller appends bytes and takes messages until there are none. A false sync or a damaged
@@ -44,8 +45,14 @@ class UbxFramer {
   static constexpr std::size_t kCapacity = 2 * (kMaxPayload + kOverhead);
 
   void skip(std::size_t count);
+  void skip_to_sync();
+  bool checksum_is_good(std::size_t first, std::size_t last) const;
 
   std::array<std::uint8_t, kCapacity> buffer_;
+  std::array<std::uint8_t, kCapacity> sum_;          // of all bytes up to and including this one
+  std::array<std::uint8_t, kCapacity> sum_of_sums_;  // modulo 256, both
+  std::uint8_t last_sum_ = 0;
+  std::uint8_t last_sum_of_sums_ = 0;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   bool finished_ = false;

@@ -1,0 +1,41 @@
+// GPS LNAV: subframes 1 to 3 -> Ephemeris, subframe 4 page 18 -> KlobucharModel.
+// Source: IS-GPS-200N, 20.3.3 (figures 20-1, tables 20-I to 20-III) and 20.3.5 (parity).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "drivers/ubx/navigation_frame.h"
+
+namespace leonav {
+
+// User range accuracy in metres of an index as GPS and BeiDou D1/D2 send it: the nominal value X
+// of IS-GPS-200N 20.3.3.3.1.3 (2.8 m for 1, ...). -1 for 15, "no prediction".
+double nominal_accuracy_m(unsigned index);
+
+// Collects the subframes of one satellite.
+class GpsLnav {
+ public:
+  static constexpr std::size_t kWords = 10;
+  // One subframe: ten words of 30 bits, right-aligned, data bits upright (u-blox has removed the
+  // sign that the parity algorithm gives them).
+  SubframeStatus add(std::span<const std::uint32_t, kWords> words, const SubframeOrigin& origin,
+                     NavigationUpdate* update);
+
+ private:
+  using Bits = std::array<std::uint8_t, 30>;  // ten words of 24 data bits
+  struct Subframe {
+    Bits bits{};
+    GpsTime sent;  // unset: not received yet
+  };
+
+  bool is_complete() const;
+  Ephemeris decode(const SubframeOrigin& origin) const;
+
+  std::array<Subframe, 3> subframes_;
+};
+
+// True if the parity of all ten words is right.
+bool gps_parity_is_good(std::span<const std::uint32_t, GpsLnav::kWords> words);
+
+}  // namespace leonav

@@ -1,0 +1,20 @@
+// Little-endian numbers in a UBX payload.
+#pragma once
+#include <bit>
+#include <cstdint>
+
+namespace leonav {
+
+constexpr std::uint16_t read_u2(const std::uint8_t* p) {
+  return static_cast<std::uint16_t>(p[0] | (p[1] << 8));
+}
+constexpr std::uint32_t read_u4(const std::uint8_t* p) {
+  return read_u2(p) | (static_cast<std::uint32_t>(read_u2(p + 2)) << 16);
+}
+constexpr std::uint64_t read_u8(const std::uint8_t* p) {
+  return read_u4(p) | (static_cast<std::uint64_t>(read_u4(p + 4)) << 32);
+}
+constexpr float read_r4(const std::uint8_t* p) { return std::bit_cast<float>(read_u4(p)); }
+constexpr double read_r8(const std::uint8_t* p) { return std::bit_cast<double>(read_u8(p)); }
+
+}  // namespace leonav

@@ -1,0 +1,62 @@
+#include "drivers/ubx/ubx_decoder.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::uint8_t kClassRxm = 0x02;
+constexpr std::uint8_t kIdSfrbx = 0x13;
+constexpr std::uint8_t kIdRawx = 0x15;
+
+}  // namespace
+
+struct UbxDecoder::State {
+  explicit State(const RxmRawxOptions& options) : rawx(options) {}
+
+  UbxFramer framer;
+  RxmRawxDecoder rawx;
+  RxmSfrbxDecoder sfrbx;
+  RawEpoch epoch;  // kept here: too large for a stack of unknown size
+  GpsTime now;     // of the last RAWX
+  std::uint64_t other_messages = 0;
+};
+
+UbxDecoder::UbxDecoder(const RxmRawxOptions& options) : state_(std::make_unique<State>(options)) {}
+UbxDecoder::~UbxDecoder() = default;
+
+void UbxDecoder::feed(std::span<const std::uint8_t> bytes, UbxHandler* handler) {
+  while (!bytes.empty()) {
+    bytes = bytes.subspan(state_->framer.append(bytes));
+    drain(handler);
+  }
+}
+
+void UbxDecoder::finish(UbxHandler* handler) {
+  state_->framer.finish();
+  drain(handler);
+}
+
+void UbxDecoder::drain(UbxHandler* handler) {
+  UbxMessage message;
+  while (state_->framer.next(&message)) dispatch(message, handler);
+}
+
+void UbxDecoder::dispatch(const UbxMessage& message, UbxHandler* handler) {
+  if (message.message_class == kClassRxm && message.id == kIdRawx) {
+    if (state_->rawx.decode(message.payload, &state_->epoch) != RxmRawxStatus::kOk) return;
+    state_->now = state_->epoch.time;
+    handler->on_epoch(state_->epoch);
+  } else if (message.message_class == kClassRxm && message.id == kIdSfrbx) {
+    const NavigationUpdate update = state_->sfrbx.decode(message.payload, state_->now);
+    if (update.ephemeris) handler->on_ephemeris(*update.ephemeris);
+    if (update.klobuchar) handler->on_klobuchar(*update.klobuchar);
+  } else {
+    ++state_->other_messages;
+  }
+}
+
+UbxCounters UbxDecoder::counters() const {
+  return {state_->framer.counters(), state_->rawx.counters(), state_->sfrbx.counters(),
+          state_->other_messages};
+}
+
+}  // namespace leonav
