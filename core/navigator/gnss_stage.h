@@ -1,6 +1,7 @@
 // Raw epoch -> measurements -> EKF -> anchor and report.
 #pragma once
 #include <cstdint>
+#include <memory>
 
 #include "core/ekf/ekf.h"
 #include "core/gnss/satellite_catalog.h"
@@ -11,13 +12,18 @@
 
 namespace leonav {
 
+// Codes of EventKind::kFilterReset (1 is the Sequencer's: time itself has changed).
+enum class ResetCause : std::uint8_t { kCommand = 0, kTimeBase = 1, kPrediction = 2, kOutage = 3 };
+
 class GnssStage {
  public:
   GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox, OutputSink* sink);
 
   // Allocates nothing, never throws. For an epoch: preprocess, predict over the block, update,
   // align if still needed, deliver to the mailbox, report. Without IMU (constant-velocity model) it
-  // also publishes the solution itself, as there is no inertial tick to do so.
+  // also publishes the solution itself, as there is no inertial tick to do so, and the mailbox is
+  // not used. While aligning the reported position is the antenna's: without attitude the lever arm
+  // has no direction.
   void process(const GnssWork& work);
 
   const Ekf& ekf() const { return ekf_; }
@@ -25,17 +31,37 @@ class GnssStage {
 
  private:
   void process_epoch(const EpochWork& work);
+  void process_command(const Command& command);
+  void use_measurements(const EpochWork& work);
+  bool start_filter(const EpochWork& work);
+  void update_filter(const EpochWork& work);
+  void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
+  bool prediction_is_useless() const;
+  bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
+  void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
+  void align(const EpochWork& work);
+  void set_heading(double heading, double sigma);
+  void deliver(const EpochWork& work);
+  void publish(const EpochWork& work);
+  Source source() const;
+  void emit(EventKind kind, std::uint8_t code, double value, GpsTime time);
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
   OutputSink* sink_;
+  bool inertial_;
   SatelliteCatalog catalog_;
   Ekf ekf_;
   Alignment alignment_;
   std::unique_ptr<MeasurementEpoch> measurements_;
+  std::unique_ptr<MeasurementEpoch> check_measurements_;  // of a point solution beside the filter
   std::unique_ptr<EpochReport> report_;
   std::uint64_t next_report_ = 1, next_solution_ = 1, next_event_ = 1;
   int suspect_epochs_ = 0;
+  bool gnss_used_ = false;  // in the epoch at hand
+  GpsTime last_gnss_time_;  // of the last epoch that used any
+  GpsTime last_reset_time_;
+  GpsTime last_epoch_time_;
 };
 
 }  // namespace leonav

@@ -6,11 +6,25 @@
 
 #include "core/ins/mechanization.h"
 #include "core/navigator/navigator_config.h"
+#include "core/navigator/solution.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
 
 namespace leonav {
 
+// Codes of EventKind::kCapacity from this stage.
+enum class InertialCapacity : std::uint8_t {
+  kHistory = 0,  // an anchor older than the kept samples could not be used
+  kWaiting = 1,  // too many undecided epochs: the oldest was decided before its deadline
+};
+
+// - Before the first valid anchor nothing is published.
+// - An anchor without attitude (aligning) is extrapolated at constant velocity.
+// - A missed epoch leaves the older anchor in use: the answer goes on, its sigma grows.
+// - Short holes in the IMU stream are bridged at the next sample's rates, longer ones at constant
+//   velocity and attitude with grown sigma.
+// - When IMU time runs backwards or leaps, everything is dropped; epochs waiting are decided so
+//   that the journal has one decision for each.
 class InertialNavigator {
  public:
   InertialNavigator(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
@@ -24,17 +38,37 @@ class InertialNavigator {
 
  private:
   void on_sample(const ImuSample& sample);
+  void on_epoch(const EpochIssued& epoch);
   void decide_due_epochs(GpsTime now);
-  void commit(const EkfUpdate& update);
+  void decide(const EpochIssued& epoch, GpsTime now, bool usable);
+  void commit(const EkfUpdate& update, GpsTime now);
+  void step(const ImuSample& sample);
+  void bridge(const ImuSample& next);
+  void forget_before(GpsTime time);
+  void start_over(GpsTime now);
+  void report_jump(const Eigen::Vector3d& old_p_e, const PvaCovariance& old_covariance,
+                   GpsTime now);
+  NavState current(GpsTime now) const;
+  PvaCovariance covariance_at(GpsTime now) const;
+  Source source_at(GpsTime now) const;
+  bool publication_due(const ImuSample& sample);
   void publish(GpsTime now);
+  void emit(EventKind kind, std::uint8_t code, double value, GpsTime now);
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
   OutputSink* sink_;
+  std::int64_t solution_period_ns_;
+  std::int64_t ins_only_after_ns_;
   boost::circular_buffer<ImuSample> history_;    // since the anchor
   boost::circular_buffer<EpochIssued> waiting_;  // issued, not decided
   Mechanization mechanization_;
-  EkfUpdate anchor_;
+  EkfUpdate anchor_;        // valid: there is one
+  double bridged_s_ = 0.0;  // of constant velocity since the anchor
+  GpsTime imu_time_;        // end of the last sample
+  GpsTime last_gnss_time_;  // of the last anchor that used GNSS
+  GpsTime next_solution_due_;
+  double pending_jump_m_ = 0.0;  // not published yet
   Source source_ = Source::kNone;
   std::uint64_t misses_ = 0, next_solution_ = 1, next_decision_ = 1, next_event_ = 1;
 };

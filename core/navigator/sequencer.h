@@ -1,11 +1,13 @@
 // Gives every input its place in one total order and cuts the IMU stream at the GNSS epochs.
 #pragma once
-#include <boost/container/static_vector.hpp>
+#include <array>
+#include <boost/circular_buffer.hpp>
 #include <cstdint>
 #include <memory>
 
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/stage_work.h"
+#include "core/navigator/time_base_watch.h"
 
 namespace leonav {
 
@@ -22,19 +24,32 @@ class StageInputs {
 
 // Decides by data alone, so replay decides alike:
 // - an epoch is issued when the IMU has passed its time; without IMU
-// (MotionModel::kConstantVelocity)
-//   at once;
+//   (MotionModel::kConstantVelocity) at once, and then nothing goes to the inertial stage;
 // - an epoch whose IMU does not come is issued without it when kMaxPending later ones are waiting;
-// - when the IMU has run 1.5 epoch intervals past the last epoch, an empty epoch is issued, so that
-//   blocks stay bounded;
+// - when the IMU has run 1.5 epoch intervals past the last epoch, an empty epoch is issued one
+//   interval after that last one, so that blocks stay bounded; after a hole in the IMU stream it is
+//   issued at the hole's end. The first IMU sample's start counts as an epoch for this;
 // - an epoch not later than the last issued one is late: counted, dropped, reported;
-// - IMU samples must be finite, in range and increasing; a gap is reported and left as a hole.
+// - IMU samples must be finite, in range and increasing. A sample that starts within half of its
+//   interval of the previous one's end is taken to start there (receivers and hosts round stamps):
+//   its increments stay, its interval changes. A later start is a gap, reported and left as a hole;
+//   an earlier one is rejected (kTimeBackwards);
+// - a stamp more than kMaxAheadS beyond everything seen (kTooFarAhead), or behind, is rejected
+//   until a run of consistent ones shows that time itself has changed: then everything restarts in
+//   the new time. GNSS alone does not change it while IMU samples keep arriving in the old one.
 class Sequencer {
  public:
   static constexpr std::size_t kMaxPending = 4;
+  static constexpr double kMaxAheadS = 10.0;
+  static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
+  static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
+  static constexpr std::int64_t kMaxImuIntervalNs = 100'000'000;
+  static constexpr int kImuRunToRestart = 20;
+  static constexpr int kEpochRunToRestart = 5;
 
   Sequencer(const NavigatorConfig& config, StageInputs* stages);
 
+  // None of these allocates or throws.
   void on_imu(const ImuSample& sample);
   void on_raw_epoch(const RawEpoch& epoch);
   void on_ephemeris(const Ephemeris& ephemeris);
@@ -50,22 +65,39 @@ class Sequencer {
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
   };
   const Counters& counters() const { return counters_; }
+  GpsTime imu_time() const { return imu_time_; }  // end of the last accepted sample; may be unset
 
  private:
-  void reject(InputFault fault);
+  InputFault place_imu(ImuSample* sample);
+  void change_time_base(double jump_s);
+  void extend_tail(const ImuSample& sample);
+  InputFault check_epoch_time(GpsTime time);
+  void queue_epoch(const RawEpoch& epoch);
   void issue_ready_epochs();
+  void issue_oldest_pending();
+  GpsTime time_of_due_empty_epoch() const;  // unset: none is due
   void issue(const RawEpoch* raw, GpsTime time);
+  void reject(InputFault fault);
   void emit(EventKind kind, std::uint8_t code, double value);
+  GpsTime newest_epoch_time() const;
 
   NavigatorConfig config_;
   StageInputs* stages_;
+  bool inertial_;
+  Eigen::Matrix3d C_b_imu_;  // IMU axes to body
+  bool mounting_is_identity_;
+  std::int64_t epoch_interval_ns_;
   Counters counters_;
   GpsTime imu_time_;         // end of the last accepted sample
-  GpsTime last_epoch_time_;  // t of the last issued epoch
+  GpsTime last_epoch_time_;  // t of the last issued epoch, or where the IMU stream began
+  bool last_epoch_is_empty_ = true;
   std::uint64_t next_index_ = 1;
   std::uint64_t next_event_ = 1;
-  boost::container::static_vector<std::unique_ptr<RawEpoch>, kMaxPending + 1> pending_;
-  std::unique_ptr<EpochWork> work_;  // block grows here
+  TimeBaseWatch imu_watch_, epoch_watch_;
+  std::array<std::unique_ptr<RawEpoch>, kMaxPending + 1> pending_;  // the first pending_count_
+  std::size_t pending_count_ = 0;
+  boost::circular_buffer<ImuSample> tail_;  // IMU since the last issued epoch
+  std::unique_ptr<GnssWork> work_;          // too large for a thread's stack
 };
 
 }  // namespace leonav

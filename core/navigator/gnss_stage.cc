@@ -1,0 +1,279 @@
+#include "core/navigator/gnss_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "core/gnss/point_solution.h"
+#include "core/gnss/preprocess.h"
+#include "core/navigator/epoch_report.h"
+
+namespace leonav {
+namespace {
+
+constexpr int kMinSatellites = 4;
+constexpr double kMaxPdop = 15.0;
+constexpr double kMaxResidualRms_m = 60.0;
+constexpr int kMinCodesToJudge = 4;
+constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
+constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
+constexpr double kMinResetHeadingSigma = 0.1;  // rad
+
+double norm_of_sigmas(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(std::max(0.0, covariance.trace()));
+}
+
+}  // namespace
+
+GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
+                     OutputSink* sink)
+    : config_(config),
+      mailbox_(ekf_mailbox),
+      sink_(sink),
+      inertial_(config.motion == MotionModel::kInertial),
+      catalog_(config.gnss.catalog),
+      ekf_(config.ekf, config.imu, config.vehicle.lever_arm_b),
+      alignment_(config.alignment),
+      measurements_(std::make_unique<MeasurementEpoch>()),
+      check_measurements_(std::make_unique<MeasurementEpoch>()),
+      report_(std::make_unique<EpochReport>()) {}
+
+void GnssStage::process(const GnssWork& work) {
+  if (const auto* epoch = std::get_if<EpochWork>(&work)) {
+    process_epoch(*epoch);
+  } else if (const auto* ephemeris = std::get_if<Ephemeris>(&work)) {
+    catalog_.add(*ephemeris);
+  } else if (const auto* state = std::get_if<PreciseState>(&work)) {
+    catalog_.add(*state);
+  } else if (const auto* klobuchar = std::get_if<KlobucharModel>(&work)) {
+    catalog_.set_klobuchar(*klobuchar);
+  } else if (const auto* command = std::get_if<Command>(&work)) {
+    process_command(*command);
+  }
+}
+
+void GnssStage::process_epoch(const EpochWork& work) {
+  start_report(work.index, work.time, work.empty, report_.get());
+  last_epoch_time_ = work.time;
+  gnss_used_ = false;
+  if (inertial_ && !ekf_.has_attitude()) {
+    for (const ImuSample& sample : work.block) alignment_.add(sample);
+  }
+  if (ekf_.initialized()) ekf_.predict({work.block.data(), work.block.size()}, work.time);
+  if (!work.empty) use_measurements(work);
+  if (gnss_used_) {
+    last_gnss_time_ = work.time;
+    align(work);
+  }
+  deliver(work);
+  publish(work);
+}
+
+void GnssStage::use_measurements(const EpochWork& work) {
+  if (!ekf_.initialized()) {
+    start_filter(work);
+  } else if (prediction_is_useless()) {
+    PointSolution point;
+    if (solve(work, Eigen::Vector3d::Zero(), &point)) {
+      restart_from(point, work, ResetCause::kOutage);
+      report_point(*measurements_, true, point.p_e, report_.get());
+    } else {
+      report_point(*measurements_, false, Eigen::Vector3d::Zero(), report_.get());
+    }
+  } else {
+    update_filter(work);
+  }
+}
+
+// A point solution good enough to start from; its measurements stay in measurements_.
+bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e,
+                      PointSolution* point) {
+  *point = solve_point(work.raw, catalog_, config_.gnss, config_.ekf.robust, approximate_p_e,
+                       measurements_.get());
+  measurements_->index = work.index;
+  return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
+         point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&
+         point->p_e.allFinite() && point->covariance_p_e.allFinite();
+}
+
+bool GnssStage::start_filter(const EpochWork& work) {
+  PointSolution point;
+  const bool solved = solve(work, Eigen::Vector3d::Zero(), &point);
+  if (solved) {
+    ekf_.initialize(work.time, point);
+    gnss_used_ = true;
+  }
+  report_point(*measurements_, solved, point.p_e, report_.get());
+  return solved;
+}
+
+bool GnssStage::prediction_is_useless() const {
+  const Eigen::Matrix3d covariance =
+      ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
+  return !ekf_.state().p_e.allFinite() || !(norm_of_sigmas(covariance) < kUselessSigma_m);
+}
+
+void GnssStage::update_filter(const EpochWork& work) {
+  preprocess(work.raw, catalog_, config_.gnss, ekf_.antenna_position_e(), measurements_.get());
+  measurements_->index = work.index;
+  const EkfUpdateResult result = ekf_.update(*measurements_);
+  gnss_used_ = result.used > 0;
+  report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
+  judge_prediction(work, result);
+}
+
+// Most codes thrown out, epoch after epoch, is a filter that has lost its way. A point solution is
+// asked before it is believed: where it agrees with the filter, the measurements are to blame.
+void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& result) {
+  const bool suspect = result.code_offered >= kMinCodesToJudge &&
+                       result.code_rejected >= config_.ekf.reset_ratio * result.code_offered;
+  suspect_epochs_ = suspect ? suspect_epochs_ + 1 : 0;
+  if (suspect_epochs_ < config_.ekf.reset_epochs) return;
+  std::swap(measurements_, check_measurements_);
+  PointSolution point;
+  if (solve(work, ekf_.antenna_position_e(), &point)) {
+    const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
+    if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) {
+      restart_from(point, work, ResetCause::kPrediction);
+    }
+  }
+  std::swap(measurements_, check_measurements_);
+}
+
+// The attitude survives, less sure of its heading, unless it has just been given that chance.
+void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause) {
+  const double moved_m = (point.p_e - ekf_.antenna_position_e()).norm();
+  const bool relapse =
+      last_reset_time_.is_set() && seconds_between(work.time, last_reset_time_) < kRelapse_s;
+  const bool keep_attitude =
+      ekf_.has_attitude() && !relapse && ekf_.state().q_eb.coeffs().allFinite();
+  const Eigen::Quaterniond q_eb = ekf_.state().q_eb;
+  const Eigen::Vector3d gyro_bias_b = ekf_.state().errors.gyro_bias_b;
+  EpochReport* report = report_.get();
+  report_state(ekf_, report);
+  Eigen::Vector3d sigma_rpy = report->solution.sigma_rpy;
+  sigma_rpy.head<2>() = sigma_rpy.head<2>().cwiseMax(config_.alignment.levelling_sigma);
+  sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
+
+  ekf_.initialize(work.time, point);
+  if (keep_attitude) {
+    ekf_.set_attitude(q_eb, sigma_rpy, gyro_bias_b, true);
+  } else {
+    alignment_.reset();
+  }
+  gnss_used_ = true;
+  suspect_epochs_ = 0;
+  last_reset_time_ = work.time;
+  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
+}
+
+void GnssStage::align(const EpochWork& work) {
+  const bool fresh = !work.block.empty() && work.block.back().time == work.time;
+  if (!inertial_ || ekf_.has_attitude() || !fresh) return;
+  const Eigen::Matrix3d covariance =
+      ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  const double sigma_v = norm_of_sigmas(covariance) / std::sqrt(3.0);
+  const auto aligned =
+      alignment_.attitude(ekf_.antenna_position_e(), ekf_.antenna_velocity_e(), sigma_v);
+  if (!aligned) return;
+  ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
+                    aligned->gyro_bias_known);
+  emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(), work.time);
+}
+
+void GnssStage::process_command(const Command& command) {
+  if (command.kind == CommandKind::kSetHeading) return set_heading(command.value, command.sigma);
+  ekf_ = Ekf(config_.ekf, config_.imu, config_.vehicle.lever_arm_b);
+  alignment_.reset();
+  suspect_epochs_ = 0;
+  last_gnss_time_ = last_reset_time_ = GpsTime();
+  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kCommand), 0.0,
+       last_epoch_time_);
+}
+
+// Before alignment: as if configured. Afterwards: turns the filter's attitude about the vertical;
+// position, velocity and clocks stay as they are.
+void GnssStage::set_heading(double heading, double sigma) {
+  if (!inertial_) return;
+  if (!ekf_.has_attitude()) {
+    config_.alignment.initial_heading = heading;
+    config_.alignment.initial_heading_sigma = sigma;
+    alignment_ = Alignment(config_.alignment);
+    return;
+  }
+  const NavState state = ekf_.state();
+  PointSolution here;
+  here.status = PointStatus::kOk;
+  here.has_velocity = true;
+  here.p_e = ekf_.antenna_position_e();
+  here.v_e = ekf_.antenna_velocity_e();
+  here.covariance_p_e = ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
+  here.covariance_v_e = ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    const auto i = static_cast<Eigen::Index>(base);
+    const bool offset = ekf_.clocks_known().offset[base], drift = ekf_.clocks_known().drift[base];
+    here.clock_m[base] = offset ? ekf_.clocks().offset_m(i) : kNotMeasured;
+    here.clock_drift_m_s[base] = drift ? ekf_.clocks().drift_m_s(i) : kNotMeasured;
+  }
+  start_report(0, state.time, true, report_.get());
+  report_state(ekf_, report_.get());
+  Eigen::Vector3d sigma_rpy = report_->solution.sigma_rpy;
+  sigma_rpy.z() = sigma;
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(state.p_e));
+  EulerAngles euler = euler_from_rotation(C_ne * state.q_eb.toRotationMatrix());
+  euler.yaw = wrap_to_pi(heading);
+  const Eigen::Matrix3d C_eb = C_ne.transpose() * rotation_from_euler(euler);
+  ekf_.initialize(state.time, here);
+  ekf_.set_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy, state.errors.gyro_bias_b,
+                    true);
+  emit(EventKind::kAligned, 1, sigma, state.time);
+}
+
+void GnssStage::deliver(const EpochWork& work) {
+  if (!inertial_) return;
+  EkfUpdate update;
+  update.index = work.index;
+  update.valid = ekf_.initialized();
+  if (update.valid) {
+    update.has_attitude = ekf_.has_attitude();
+    update.state = ekf_.state();
+    update.covariance = ekf_.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
+    update.gnss_used = gnss_used_;
+  }
+  mailbox_->deliver(work.index, update);
+}
+
+void GnssStage::publish(const EpochWork& work) {
+  report_state(ekf_, report_.get());
+  report_->solution.source = source();
+  report_->solution.anchor_epoch = work.index;
+  report_->sequence = next_report_++;
+  if (!inertial_ && ekf_.initialized()) {
+    report_->solution.sequence = next_solution_++;
+    sink_->on_solution(report_->solution);
+  }
+  sink_->on_epoch(*report_);
+}
+
+Source GnssStage::source() const {
+  if (!ekf_.initialized()) return Source::kNone;
+  if (inertial_ && !ekf_.has_attitude()) return Source::kAligning;
+  const double since_s = seconds_between(last_epoch_time_, last_gnss_time_);
+  const bool recent = since_s <= 2.5 * config_.realtime.epoch_interval_s;
+  return recent ? Source::kEkf : Source::kInsOnly;
+}
+
+void GnssStage::emit(EventKind kind, std::uint8_t code, double value, GpsTime time) {
+  Event event;
+  event.sequence = next_event_++;
+  event.stage = Stage::kGnss;
+  event.time = time;
+  event.kind = kind;
+  event.code = code;
+  event.value = value;
+  sink_->on_event(event);
+}
+
+}  // namespace leonav

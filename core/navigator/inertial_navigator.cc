@@ -1,0 +1,241 @@
+#include "core/navigator/inertial_navigator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/earth/gravity.h"
+#include "core/navigator/covariance_growth.h"
+
+namespace leonav {
+namespace {
+
+// Half of the mailbox: the slots of epochs already decided are free long before they come round.
+constexpr std::size_t kMaxWaiting = kMaxMailboxEpochs / 2;
+constexpr double kMaxBridgeAtRates_s = 0.2;  // beyond, the rates of the next sample say nothing
+constexpr double kLongestHole_s = 10.0;      // beyond, the old answer is worth nothing
+constexpr double kHoleAcceleration = 3.0;    // (m/s^2)/sqrt(Hz), of a vehicle nobody watches
+constexpr double kHoleRotation = 0.5;        // rad/sqrt(s), likewise
+constexpr double kJumpEvent_m = 1.0;
+
+std::int64_t to_nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+}
+
+}  // namespace
+
+InertialNavigator::InertialNavigator(const NavigatorConfig& config,
+                                     TimedMailbox<EkfUpdate>* ekf_mailbox, OutputSink* sink)
+    : config_(config),
+      mailbox_(ekf_mailbox),
+      sink_(sink),
+      solution_period_ns_(
+          config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
+      ins_only_after_ns_(
+          to_nanoseconds(2.5 * config.realtime.epoch_interval_s + config.realtime.deadline_ekf_s)),
+      history_(kMaxImuHistory),
+      waiting_(kMaxWaiting) {}
+
+void InertialNavigator::process(const InertialWork& work) {
+  if (const auto* sample = std::get_if<ImuSample>(&work)) {
+    on_sample(*sample);
+  } else if (const auto* epoch = std::get_if<EpochIssued>(&work)) {
+    on_epoch(*epoch);
+  }
+}
+
+void InertialNavigator::on_epoch(const EpochIssued& epoch) {
+  if (waiting_.full()) {  // the IMU has stopped, so no deadline is ever reached
+    const EpochIssued oldest = waiting_.front();
+    waiting_.pop_front();
+    emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
+         static_cast<double>(oldest.index), imu_time_);
+    decide(oldest, imu_time_, true);
+  }
+  waiting_.push_back(epoch);
+}
+
+void InertialNavigator::on_sample(const ImuSample& sample) {
+  const bool first = !imu_time_.is_set();
+  if (!first &&
+      (sample.time <= imu_time_ || seconds_between(sample.start(), imu_time_) > kLongestHole_s)) {
+    start_over(sample.time);
+  }
+  imu_time_ = sample.time;
+  history_.push_back(sample);  // when full, the oldest goes
+  if (anchor_.valid) step(sample);
+  decide_due_epochs(sample.time);
+  source_ = source_at(sample.time);
+  if (publication_due(sample)) publish(sample.time);
+}
+
+void InertialNavigator::start_over(GpsTime now) {
+  while (!waiting_.empty()) {
+    decide(waiting_.front(), now, false);
+    waiting_.pop_front();
+  }
+  history_.clear();
+  anchor_ = EkfUpdate();
+  bridged_s_ = pending_jump_m_ = 0.0;
+  last_gnss_time_ = next_solution_due_ = GpsTime();
+}
+
+void InertialNavigator::decide_due_epochs(GpsTime now) {
+  while (!waiting_.empty() && waiting_.front().deadline_ekf <= now) {
+    decide(waiting_.front(), now, true);
+    waiting_.pop_front();
+  }
+}
+
+void InertialNavigator::decide(const EpochIssued& epoch, GpsTime now, bool usable) {
+  EkfUpdate update;
+  Decision decision;
+  decision.sequence = next_decision_++;
+  decision.epoch = epoch.index;
+  decision.time = now;
+  decision.committed = mailbox_->take(epoch.index, &update);
+  sink_->on_decision(decision);
+  if (!decision.committed) {
+    ++misses_;
+    emit(EventKind::kDeadlineMiss, 0, static_cast<double>(epoch.index), now);
+  } else if (usable && update.valid) {
+    commit(update, now);
+  }
+}
+
+// Goes on from the new anchor: the samples since then once more.
+void InertialNavigator::commit(const EkfUpdate& update, GpsTime now) {
+  if (update.state.time > now) return;  // the IMU is behind or gone: nothing to propagate with
+  const bool too_old = history_.empty() || history_.front().start() > update.state.time;
+  if (too_old && history_.full()) {
+    emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
+         static_cast<double>(update.index), now);
+    return;
+  }
+  const bool had_answer = anchor_.valid;
+  const Eigen::Vector3d old_p_e = had_answer ? current(now).p_e : Eigen::Vector3d::Zero();
+  const PvaCovariance old_covariance = had_answer ? covariance_at(now) : PvaCovariance::Zero();
+
+  anchor_ = update;
+  if (update.gnss_used) last_gnss_time_ = update.state.time;
+  bridged_s_ = 0.0;
+  forget_before(update.state.time);
+  mechanization_.reset(update.state);
+  for (const ImuSample& sample : history_) step(sample);
+  if (had_answer) report_jump(old_p_e, old_covariance, now);
+}
+
+void InertialNavigator::forget_before(GpsTime time) {
+  while (!history_.empty() && history_.front().time <= time) history_.pop_front();
+  if (!history_.empty() && history_.front().start() < time) {
+    history_.front() = split(history_.front(), time).after;
+  }
+}
+
+void InertialNavigator::step(const ImuSample& sample) {
+  if (!anchor_.has_attitude || sample.time <= mechanization_.state().time) return;
+  if (sample.start() > mechanization_.state().time) bridge(sample);
+  mechanization_.advance(sample);
+}
+
+// Moves the mechanization to the start of `next` over a hole in the stream.
+void InertialNavigator::bridge(const ImuSample& next) {
+  const GpsTime from = mechanization_.state().time;
+  const double hole_s = seconds_between(next.start(), from);
+  if (hole_s <= kMaxBridgeAtRates_s) {
+    const double share = hole_s / next.interval_s();
+    ImuSample filler;
+    filler.time = next.start();
+    filler.interval_ns = next.start().nanoseconds() - from.nanoseconds();
+    filler.delta_theta_b = share * next.delta_theta_b;
+    filler.delta_velocity_b = share * next.delta_velocity_b;
+    mechanization_.advance(filler);
+    return;
+  }
+  NavState state = mechanization_.state();
+  state.p_e += hole_s * state.v_e;
+  state.time = next.start();
+  mechanization_.reset(state);
+  bridged_s_ += hole_s;
+}
+
+void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
+                                    const PvaCovariance& old_covariance, GpsTime now) {
+  const double jump_m = (current(now).p_e - old_p_e).norm();
+  pending_jump_m_ = std::max(pending_jump_m_, jump_m);
+  const double sigma_m = std::sqrt(std::max(0.0, old_covariance.topLeftCorner<3, 3>().trace()));
+  if (jump_m > kJumpEvent_m || jump_m > 3.0 * sigma_m) {
+    emit(EventKind::kSolutionJump, 0, jump_m, now);
+  }
+}
+
+NavState InertialNavigator::current(GpsTime now) const {
+  if (anchor_.has_attitude) return mechanization_.state();
+  NavState state = anchor_.state;
+  state.p_e += seconds_between(now, anchor_.state.time) * state.v_e;
+  state.time = now;
+  return state;
+}
+
+PvaCovariance InertialNavigator::covariance_at(GpsTime now) const {
+  const double elapsed_s = seconds_between(now, anchor_.state.time);
+  if (!anchor_.has_attitude) {
+    return constant_velocity_covariance(anchor_, config_.ekf.acceleration_noise_horizontal,
+                                        elapsed_s);
+  }
+  const NavState& state = mechanization_.state();
+  // Mean specific force since the anchor: what changed the velocity, less gravity.
+  Eigen::Vector3d f_e = -gravity_e(state.p_e);
+  if (elapsed_s > 0.0) f_e += (state.v_e - anchor_.state.v_e) / elapsed_s;
+  PvaCovariance covariance =
+      inertial_covariance(anchor_, config_.imu, f_e, state.q_eb.toRotationMatrix(), elapsed_s);
+  if (bridged_s_ > 0.0) {
+    add_acceleration_noise(kHoleAcceleration, bridged_s_, &covariance);
+    covariance.diagonal().tail<3>().array() += kHoleRotation * kHoleRotation * bridged_s_;
+  }
+  return covariance;
+}
+
+Source InertialNavigator::source_at(GpsTime now) const {
+  if (!anchor_.valid) return Source::kNone;
+  if (!anchor_.has_attitude) return Source::kAligning;
+  const bool recent = last_gnss_time_.is_set() &&
+                      now.nanoseconds() - last_gnss_time_.nanoseconds() <= ins_only_after_ns_;
+  return recent ? Source::kEkf : Source::kInsOnly;
+}
+
+// At most solution_rate_hz on average; a quarter of a period of jitter in the stamps costs nothing.
+bool InertialNavigator::publication_due(const ImuSample& sample) {
+  if (!anchor_.valid || solution_period_ns_ <= 0) return false;
+  const GpsTime earliest = next_solution_due_.plus_nanoseconds(-solution_period_ns_ / 4);
+  if (next_solution_due_.is_set() && sample.time < earliest) return false;
+  next_solution_due_ = next_solution_due_.plus_nanoseconds(solution_period_ns_);
+  if (next_solution_due_ <= sample.time) {
+    next_solution_due_ = sample.time.plus_nanoseconds(solution_period_ns_);
+  }
+  return true;
+}
+
+void InertialNavigator::publish(GpsTime now) {
+  Solution solution;
+  fill_solution(current(now), covariance_at(now), anchor_.has_attitude, &solution);
+  solution.sequence = next_solution_++;
+  solution.source = source_;
+  solution.anchor_epoch = anchor_.index;
+  solution.jump_m = pending_jump_m_;
+  pending_jump_m_ = 0.0;
+  sink_->on_solution(solution);
+}
+
+void InertialNavigator::emit(EventKind kind, std::uint8_t code, double value, GpsTime now) {
+  Event event;
+  event.sequence = next_event_++;
+  event.stage = Stage::kInertial;
+  event.time = now;
+  event.kind = kind;
+  event.code = code;
+  event.value = value;
+  sink_->on_event(event);
+}
+
+}  // namespace leonav

@@ -1,0 +1,75 @@
+#include "core/navigator/input_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leonav {
+
+bool is_plausible(GpsTime time) {
+  constexpr std::int64_t k120YearsNs = 3'786'912'000LL * kNanosecondsPerSecond;
+  return time.nanoseconds() > 0 && time.nanoseconds() < k120YearsNs;
+}
+
+InputFault check(const ImuSample& sample, const ImuLimits& limits) {
+  if (!sample.delta_theta_b.allFinite() || !sample.delta_velocity_b.allFinite()) {
+    return InputFault::kNotFinite;
+  }
+  if (!is_plausible(sample.time) || sample.interval_ns <= 0 ||
+      sample.interval_ns > limits.interval_ns) {
+    return InputFault::kOutOfRange;
+  }
+  const double dt = sample.interval_s();
+  const bool in_range = sample.delta_theta_b.cwiseAbs().maxCoeff() <= limits.rotation_rate * dt &&
+                        sample.delta_velocity_b.cwiseAbs().maxCoeff() <= limits.specific_force * dt;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const PreciseState& state) {
+  if (!state.p_e.allFinite() || std::isinf(state.clock_s)) return InputFault::kNotFinite;
+  if (!is_valid(state.satellite) || !is_plausible(state.time)) return InputFault::kOutOfRange;
+  // From the ground to beyond the geosynchronous orbits; a satellite clock stays below a second.
+  const double radius = state.p_e.norm();
+  const bool in_range = radius > 6.3e6 && radius < 1e8 && !(std::abs(state.clock_s) > 1.0);
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const KlobucharModel& model) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  const bool ok = std::all_of(model.alpha.begin(), model.alpha.end(), finite) &&
+                  std::all_of(model.beta.begin(), model.beta.end(), finite);
+  return ok ? InputFault::kNone : InputFault::kNotFinite;
+}
+
+InputFault check(const Command& command) {
+  if (command.kind != CommandKind::kRestart && command.kind != CommandKind::kSetHeading) {
+    return InputFault::kOutOfRange;
+  }
+  if (!std::isfinite(command.value) || !std::isfinite(command.sigma)) {
+    return InputFault::kNotFinite;
+  }
+  const bool heading = command.kind == CommandKind::kSetHeading;
+  if (heading && (std::abs(command.value) > 7.0 || command.sigma <= 0.0)) {
+    return InputFault::kOutOfRange;
+  }
+  return InputFault::kNone;
+}
+
+std::size_t copy_sane(const RawEpoch& from, RawEpoch* to) {
+  to->time = from.time;
+  to->observations.clear();
+  for (const SignalObservation& observation : from.observations) {
+    if (is_valid(observation.satellite) && observation.code.is_set()) {
+      to->observations.push_back(observation);
+    }
+  }
+  const auto key = [](const SignalObservation& o) { return std::pair(o.satellite, o.code); };
+  auto& kept = to->observations;
+  std::sort(kept.begin(), kept.end(),
+            [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  kept.erase(std::unique(kept.begin(), kept.end(),
+                         [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+             kept.end());
+  return from.observations.size() - kept.size();
+}
+
+}  // namespace leonav

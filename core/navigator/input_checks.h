@@ -1,0 +1,25 @@
+// What an input must satisfy by itself, before its place in time is looked at.
+#pragma once
+#include "core/navigator/outputs.h"
+#include "core/navigator/stage_work.h"
+
+namespace leonav {
+
+// Stamps outside 1980..2100 come from damaged messages; inside, differences cannot overflow.
+bool is_plausible(GpsTime time);
+
+struct ImuLimits {
+  double rotation_rate = 0.0;   // rad/s, per axis
+  double specific_force = 0.0;  // m/s^2, per axis
+  std::int64_t interval_ns = 0;
+};
+InputFault check(const ImuSample& sample, const ImuLimits& limits);
+InputFault check(const PreciseState& state);
+InputFault check(const KlobucharModel& model);
+InputFault check(const Command& command);
+
+// Copies `from`, without the observations no receiver can have made (invalid satellite, same
+// satellite and signal again), sorted as RawEpoch promises. Returns how many were left out.
+std::size_t copy_sane(const RawEpoch& from, RawEpoch* to);
+
+}  // namespace leonav

@@ -1,0 +1,71 @@
+#include "core/navigator/outputs.h"
+
+namespace leonav {
+
+std::string_view to_string(Source source) {
+  switch (source) {
+    case Source::kNone:
+      return "none";
+    case Source::kAligning:
+      return "aligning";
+    case Source::kInsOnly:
+      return "ins";
+    case Source::kEkf:
+      return "ekf";
+    case Source::kSmoother:
+      return "smoother";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(EventKind kind) {
+  switch (kind) {
+    case EventKind::kRejectedInput:
+      return "rejected_input";
+    case EventKind::kDeadlineMiss:
+      return "deadline_miss";
+    case EventKind::kFilterReset:
+      return "filter_reset";
+    case EventKind::kAligned:
+      return "aligned";
+    case EventKind::kImuGap:
+      return "imu_gap";
+    case EventKind::kLateEpoch:
+      return "late_epoch";
+    case EventKind::kEmptyEpoch:
+      return "empty_epoch";
+    case EventKind::kSolutionJump:
+      return "solution_jump";
+    case EventKind::kCapacity:
+      return "capacity";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(InputFault fault) {
+  switch (fault) {
+    case InputFault::kNone:
+      return "none";
+    case InputFault::kUndecodable:
+      return "undecodable";
+    case InputFault::kUnknownSchema:
+      return "unknown_schema";
+    case InputFault::kNotFinite:
+      return "not_finite";
+    case InputFault::kOutOfRange:
+      return "out_of_range";
+    case InputFault::kTimeBackwards:
+      return "time_backwards";
+    case InputFault::kDuplicate:
+      return "duplicate";
+    case InputFault::kTooMany:
+      return "too_many";
+    case InputFault::kNotSane:
+      return "not_sane";
+    case InputFault::kTooFarAhead:
+      return "too_far_ahead";
+  }
+  return "unknown";
+}
+
+}  // namespace leonav

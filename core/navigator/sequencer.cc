@@ -1,0 +1,271 @@
+#include "core/navigator/sequencer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/rotation.h"
+#include "core/gnss/satellite_state.h"
+#include "core/navigator/input_checks.h"
+
+namespace leonav {
+namespace {
+
+constexpr auto kMaxAheadNs =
+    static_cast<std::int64_t>(Sequencer::kMaxAheadS) * kNanosecondsPerSecond;
+
+std::int64_t nanoseconds_between(GpsTime a, GpsTime b) { return a.nanoseconds() - b.nanoseconds(); }
+
+// A stream that errs at every message must not drown the events; the counters have the number.
+bool worth_an_event(std::uint64_t count) { return count <= 16 || count % 256 == 0; }
+
+std::int64_t interval_in_nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(std::max(seconds, 0.05) * 1e9));
+}
+
+}  // namespace
+
+Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
+    : config_(config),
+      stages_(stages),
+      inertial_(config.motion == MotionModel::kInertial),
+      C_b_imu_(
+          rotation_from_euler({config.vehicle.mounting_rpy.x(), config.vehicle.mounting_rpy.y(),
+                               config.vehicle.mounting_rpy.z()})),
+      mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
+      epoch_interval_ns_(interval_in_nanoseconds(config.realtime.epoch_interval_s)),
+      imu_watch_(kImuRunToRestart, kMaxImuIntervalNs),
+      epoch_watch_(kEpochRunToRestart, kMaxAheadNs),
+      tail_(kMaxImuBlock),
+      work_(std::make_unique<GnssWork>()) {
+  for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
+}
+
+void Sequencer::on_imu(const ImuSample& received) {
+  const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxImuIntervalNs};
+  InputFault fault = check(received, limits);
+  ImuSample sample = received;
+  if (fault == InputFault::kNone) fault = place_imu(&sample);
+  if (fault != InputFault::kNone) return reject(fault);
+
+  ++counters_.imu;
+  imu_watch_.clear();
+  imu_time_ = sample.time;
+  if (!inertial_) return;
+  epoch_watch_.clear();  // the IMU keeps time: GNSS alone cannot change it
+  if (!mounting_is_identity_) {
+    sample.delta_theta_b = C_b_imu_ * sample.delta_theta_b;
+    sample.delta_velocity_b = C_b_imu_ * sample.delta_velocity_b;
+  }
+  stages_->push_inertial(sample);
+  extend_tail(sample);
+  issue_ready_epochs();
+}
+
+// Decides whether the sample fits behind the last one and closes what rounding of stamps opened.
+InputFault Sequencer::place_imu(ImuSample* sample) {
+  if (!imu_time_.is_set()) return InputFault::kNone;
+  const GpsTime newest = std::max(imu_time_, newest_epoch_time());
+  if (sample->time == imu_time_) return InputFault::kDuplicate;
+  const bool backwards = sample->time < imu_time_;
+  if (backwards || nanoseconds_between(sample->time, newest) > kMaxAheadNs) {
+    if (!imu_watch_.reject(sample->time)) {
+      return backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead;
+    }
+    change_time_base(seconds_between(sample->time, imu_time_));
+    return InputFault::kNone;
+  }
+  const std::int64_t hole_ns = nanoseconds_between(sample->start(), imu_time_);
+  const std::int64_t tolerance_ns = sample->interval_ns / 2;
+  if (hole_ns < -tolerance_ns) return InputFault::kTimeBackwards;
+  if (hole_ns <= tolerance_ns) {
+    sample->interval_ns = nanoseconds_between(sample->time, imu_time_);
+  } else if (worth_an_event(++counters_.imu_gaps)) {
+    emit(EventKind::kImuGap, 0, static_cast<double>(hole_ns) * 1e-9);
+  }
+  return InputFault::kNone;
+}
+
+// Everything kept belongs to the old time: it goes, and the filter starts over.
+void Sequencer::change_time_base(double jump_s) {
+  emit(EventKind::kFilterReset, 1, jump_s);
+  imu_time_ = GpsTime();
+  last_epoch_time_ = GpsTime();
+  last_epoch_is_empty_ = true;
+  pending_count_ = 0;
+  tail_.clear();
+  imu_watch_.clear();
+  epoch_watch_.clear();
+  *work_ = Command{CommandKind::kRestart, 0.0, 0.0};
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::extend_tail(const ImuSample& sample) {
+  if (!last_epoch_time_.is_set() && pending_count_ == 0) last_epoch_time_ = sample.start();
+  if (sample.time <= last_epoch_time_) return;  // an epoch was issued without waiting for it
+  if (tail_.full()) issue(nullptr, tail_.back().time);
+  const bool across = sample.start() < last_epoch_time_;
+  tail_.push_back(across ? split(sample, last_epoch_time_).after : sample);
+}
+
+void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
+  if (!is_plausible(epoch.time)) return reject(InputFault::kOutOfRange);
+  const InputFault fault = check_epoch_time(epoch.time);
+  if (fault != InputFault::kNone) return reject(fault);
+  if (epoch.time <= last_epoch_time_) {
+    if (worth_an_event(++counters_.late_epochs)) {
+      emit(EventKind::kLateEpoch, 0, seconds_between(last_epoch_time_, epoch.time));
+    }
+    return;
+  }
+  epoch_watch_.clear();
+  ++counters_.epochs;
+  queue_epoch(epoch);
+  issue_ready_epochs();
+}
+
+// kNone also for an epoch that is merely late; the caller tells.
+InputFault Sequencer::check_epoch_time(GpsTime time) {
+  const GpsTime newest = newest_epoch_time();
+  const GpsTime reference = std::max(imu_time_, newest);
+  if (!reference.is_set()) return InputFault::kNone;
+  const std::int64_t ahead_ns = nanoseconds_between(time, reference);
+  if (ahead_ns > kMaxAheadNs || ahead_ns < -kMaxAheadNs) {
+    if (!epoch_watch_.reject(time)) {
+      return ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards;
+    }
+    change_time_base(seconds_between(time, reference));
+    return InputFault::kNone;
+  }
+  if (time == newest && (pending_count_ > 0 || !last_epoch_is_empty_)) {
+    return InputFault::kDuplicate;
+  }
+  if (pending_count_ > 0 && time < newest && time > last_epoch_time_) {
+    return InputFault::kTimeBackwards;
+  }
+  return InputFault::kNone;
+}
+
+void Sequencer::queue_epoch(const RawEpoch& epoch) {
+  // issue_ready_epochs() never leaves more than kMaxPending waiting, so there is room for one.
+  const std::size_t left_out = copy_sane(epoch, pending_[pending_count_].get());
+  ++pending_count_;
+  if (left_out > 0) reject(InputFault::kNotSane);
+}
+
+void Sequencer::issue_ready_epochs() {
+  for (;;) {
+    const bool waiting = pending_count_ > 0;
+    const bool passed = waiting && (!inertial_ || pending_[0]->time <= imu_time_);
+    if (passed) {
+      issue_oldest_pending();
+    } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
+      issue(nullptr, due);
+    } else if (pending_count_ > kMaxPending) {
+      issue_oldest_pending();
+    } else {
+      return;
+    }
+  }
+}
+
+void Sequencer::issue_oldest_pending() {
+  issue(pending_[0].get(), pending_[0]->time);
+  std::rotate(pending_.begin(), pending_.begin() + 1,
+              pending_.begin() + static_cast<std::ptrdiff_t>(pending_count_));
+  --pending_count_;
+}
+
+GpsTime Sequencer::time_of_due_empty_epoch() const {
+  if (!inertial_ || !imu_time_.is_set() || !last_epoch_time_.is_set() || tail_.empty()) return {};
+  const std::int64_t since_ns = nanoseconds_between(imu_time_, last_epoch_time_);
+  if (since_ns < epoch_interval_ns_ + epoch_interval_ns_ / 2) return {};
+  const GpsTime nominal = last_epoch_time_.plus_nanoseconds(epoch_interval_ns_);
+  // Only a hole gets this far ahead. One epoch bridges it, not a burst of them.
+  const GpsTime hole_end = tail_.back().start();
+  return since_ns > 3 * epoch_interval_ns_ && hole_end > last_epoch_time_ ? hole_end : nominal;
+}
+
+void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
+  EpochWork& work = work_->emplace<EpochWork>();
+  work.index = next_index_++;
+  work.time = time;
+  work.empty = raw == nullptr;
+  work.raw.time = time;
+  if (raw != nullptr) work.raw = *raw;
+  while (!tail_.empty() && tail_.front().start() < time) {
+    if (tail_.front().time > time) {
+      const ImuSplit parts = split(tail_.front(), time);
+      work.block.push_back(parts.before);
+      tail_.front() = parts.after;
+      break;
+    }
+    work.block.push_back(tail_.front());
+    tail_.pop_front();
+  }
+  last_epoch_time_ = time;
+  last_epoch_is_empty_ = work.empty;
+  if (work.empty) {
+    ++counters_.empty_epochs;
+    if (worth_an_event(counters_.empty_epochs)) {
+      emit(EventKind::kEmptyEpoch, 0, static_cast<double>(work.index));
+    }
+  }
+  if (inertial_) {
+    stages_->open_epoch(work.index);
+    const GpsTime deadline = imu_time_.plus_seconds(config_.realtime.deadline_ekf_s);
+    stages_->push_inertial(EpochIssued{work.index, time, deadline});
+  }
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_ephemeris(const Ephemeris& ephemeris) {
+  if (!is_valid(ephemeris.satellite) || !is_sane(ephemeris)) return reject(InputFault::kNotSane);
+  ++counters_.ephemerides;
+  *work_ = ephemeris;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_precise_state(const PreciseState& state) {
+  if (const InputFault fault = check(state); fault != InputFault::kNone) return reject(fault);
+  *work_ = state;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_klobuchar(const KlobucharModel& model) {
+  if (const InputFault fault = check(model); fault != InputFault::kNone) return reject(fault);
+  *work_ = model;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_command(const Command& command) {
+  if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);
+  *work_ = command;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_rejected(InputFault fault) { reject(fault); }
+
+void Sequencer::reject(InputFault fault) {
+  const auto index = static_cast<std::size_t>(fault);
+  if (index >= counters_.rejected.size()) return;
+  if (worth_an_event(++counters_.rejected[index])) {
+    emit(EventKind::kRejectedInput, static_cast<std::uint8_t>(fault), 0.0);
+  }
+}
+
+GpsTime Sequencer::newest_epoch_time() const {
+  return pending_count_ > 0 ? pending_[pending_count_ - 1]->time : last_epoch_time_;
+}
+
+void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
+  Event event;
+  event.sequence = next_event_++;
+  event.stage = Stage::kSequencer;
+  event.time = imu_time_.is_set() ? imu_time_ : newest_epoch_time();
+  event.kind = kind;
+  event.code = code;
+  event.value = value;
+  stages_->event(event);
+}
+
+}  // namespace leonav
