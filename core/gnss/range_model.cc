@@ -1,5 +1,7 @@
 #include "core/gnss/range_model.h"
 
+#include <Eigen/Geometry>
+
 #include "core/earth/ellipsoid.h"
 
 namespace leonav {

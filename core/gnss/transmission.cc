@@ -1,6 +1,5 @@
 #include "core/gnss/transmission.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
