@@ -35,12 +35,10 @@ std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_
   out.time = time;
   out.position = to_geodetic(p);
   if (a.v_n && b.v_n) out.v_n = *a.v_n + s * (*b.v_n - *a.v_n);
-  if (a.rpy && b.rpy) {
-    Eigen::Vector3d rpy;
-    for (int i = 0; i < 3; ++i) {
-      rpy[i] = wrap_to_pi((*a.rpy)[i] + s * wrap_to_pi((*b.rpy)[i] - (*a.rpy)[i]));
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (a.rpy[i] && b.rpy[i]) {
+      out.rpy[i] = wrap_to_pi(*a.rpy[i] + s * wrap_to_pi(*b.rpy[i] - *a.rpy[i]));
     }
-    out.rpy = rpy;
   }
   return out;
 }
@@ -57,13 +55,13 @@ ErrorSample error_of(const TrackPoint& solution, TrackPoint truth, const ErrorOp
     const Eigen::Vector3d v = *solution.v_n - *truth.v_n;
     sample.velocity_neu = Eigen::Vector3d(v.x(), v.y(), -v.z());
   }
-  if (solution.rpy && truth.rpy) {
-    Eigen::Vector3d rpy;
-    for (int i = 0; i < 3; ++i) rpy[i] = wrap_to_pi((*solution.rpy)[i] - (*truth.rpy)[i]);
-    sample.rpy = rpy;
-  } else if (solution.rpy && truth.v_n && truth.v_n->head<2>().norm() >= options.course_speed_m_s) {
-    const double course = std::atan2(truth.v_n->y(), truth.v_n->x());
-    sample.rpy = Eigen::Vector3d(0.0, 0.0, wrap_to_pi(solution.rpy->z() - course));
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (solution.rpy[i] && truth.rpy[i])
+      sample.rpy[i] = wrap_to_pi(*solution.rpy[i] - *truth.rpy[i]);
+  }
+  if (solution.rpy[2] && !truth.rpy[2] && truth.v_n &&
+      truth.v_n->head<2>().norm() >= options.course_speed_m_s) {
+    sample.rpy[2] = wrap_to_pi(*solution.rpy[2] - std::atan2(truth.v_n->y(), truth.v_n->x()));
     sample.yaw_from_course = true;
   }
   return sample;

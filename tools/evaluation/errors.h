@@ -1,6 +1,7 @@
 // Errors of a solution against a truth, epoch by epoch.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct ErrorSample {
   GpsTime time;
   Eigen::Vector3d neu = Eigen::Vector3d::Zero();  // m, solution minus truth
   std::optional<Eigen::Vector3d> velocity_neu;    // m/s
-  std::optional<Eigen::Vector3d> rpy;        // rad, each wrapped; roll and pitch 0 with a course
-  bool yaw_from_course = false;              // the reference was course over ground
-  std::optional<Eigen::Vector3d> sigma_neu;  // m, as the solution states it
+  std::array<std::optional<double>, 3> rpy;       // rad, wrapped: roll, pitch, yaw
+  bool yaw_from_course = false;                   // the reference was course over ground
+  std::optional<Eigen::Vector3d> sigma_neu;       // m, as the solution states it
   double horizontal() const { return neu.head<2>().norm(); }
   double three_d() const { return neu.norm(); }
 };

@@ -87,9 +87,9 @@ Evaluation evaluate(const std::string& label, const Track& solution, const Track
   auto component = [&](int i) {
     return column(errors, [i](const ErrorSample& s, auto* out) { out->push_back(s.neu[i]); });
   };
-  auto angle = [&](int i) {
+  auto angle = [&](std::size_t i) {
     return column(errors, [i](const ErrorSample& s, auto* out) {
-      if (s.rpy && (i == 2 || !s.yaw_from_course)) out->push_back((*s.rpy)[i]);
+      if (s.rpy[i]) out->push_back(*s.rpy[i]);
     });
   };
   e.north = distribution_of(component(0));

@@ -1,6 +1,7 @@
 // A track to be judged, or to judge by: a solution file or a truth file as plain rows.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ struct TrackPoint {
   GpsTime time;
   Geodetic position;
   std::optional<Eigen::Vector3d> v_n;        // m/s, north east down
-  std::optional<Eigen::Vector3d> rpy;        // rad
+  std::array<std::optional<double>, 3> rpy;  // rad: roll, pitch, yaw
   std::optional<Eigen::Vector3d> sigma_neu;  // m, 1 sigma
 };
 

@@ -84,7 +84,7 @@ TEST_CASE("without a yaw in the truth the course over ground is the reference, w
   Track truth = straight(101, 0.1, {2.0, 2.0, 0.0}, Eigen::Vector3d::Zero());
   Track solution = straight(10, 1.0, {2.0, 2.0, 0.0}, Eigen::Vector3d::Zero());
   for (TrackPoint& p : truth) p.v_n = Eigen::Vector3d(2.0, 2.0, 0.0);
-  for (TrackPoint& p : solution) p.rpy = Eigen::Vector3d(0.1, 0.0, M_PI / 4 + 0.05);
+  for (TrackPoint& p : solution) p.rpy = {0.1, 0.0, M_PI / 4 + 0.05};
   const Evaluation e = evaluate("x", solution, truth, {}, 3.0);
   REQUIRE(e.yaw);
   CHECK(e.yaw_from_course);
