@@ -1,0 +1,116 @@
+#include "daemon/config/config_groups.h"
+
+#include <numbers>
+
+#include "core/capacity.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMilligal = 1e-5;  // m/s^2
+constexpr double kPpm = 1e-6;
+constexpr double kHour = 3600.0;
+constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
+constexpr double kMillisecond = 1e-3;
+
+// Correlation times from a second to a month.
+constexpr Bounds kCorrelationTime = {1.0, 2.6e6};
+
+void read_thread(ConfigReader& group, ThreadConfig* config) {
+  group.integer("priority", 0, 99, &config->priority);
+  group.integer("cpu", -1, 1023, &config->cpu);
+}
+
+}  // namespace
+
+void read_vehicle(ConfigReader& group, VehicleConfig* config) {
+  group.vector("lever_arm_b_m", {-100.0, 100.0}, &config->lever_arm_b);
+  group.vector("mounting_rpy_deg", {-360.0, 360.0}, &config->mounting_rpy, kDegree);
+}
+
+void read_imu(ConfigReader& group, ImuErrorModel* config) {
+  group.number("angle_random_walk_deg_per_sqrt_h", {1e-6, 100.0}, &config->angle_random_walk,
+               kDegree / kRootHour);
+  group.number("velocity_random_walk_m_s_per_sqrt_h", {1e-6, 100.0}, &config->velocity_random_walk,
+               1.0 / kRootHour);
+  group.number("gyro_bias_deg_per_h", {0.0, 1e6}, &config->gyro_bias.sigma, kDegree / kHour);
+  group.number("gyro_bias_time_s", kCorrelationTime, &config->gyro_bias.correlation_time_s);
+  group.number("accel_bias_mgal", {0.0, 1e6}, &config->accel_bias.sigma, kMilligal);
+  group.number("accel_bias_time_s", kCorrelationTime, &config->accel_bias.correlation_time_s);
+  group.number("gyro_scale_ppm", {0.0, 1e5}, &config->gyro_scale.sigma, kPpm);
+  group.number("gyro_scale_time_s", kCorrelationTime, &config->gyro_scale.correlation_time_s);
+  group.number("accel_scale_ppm", {0.0, 1e5}, &config->accel_scale.sigma, kPpm);
+  group.number("accel_scale_time_s", kCorrelationTime, &config->accel_scale.correlation_time_s);
+}
+
+void read_alignment(ConfigReader& group, AlignmentConfig* config) {
+  group.number("levelling_window_s", {0.05, 60.0}, &config->levelling_window_s);
+  group.number("levelling_sigma_deg", {0.01, 45.0}, &config->levelling_sigma, kDegree);
+  group.number("min_course_speed_m_s", {0.05, 100.0}, &config->min_course_speed_m_s);
+  group.number("max_course_sigma_deg", {0.1, 90.0}, &config->max_course_sigma, kDegree);
+  group.number("initial_heading_deg", {-360.0, 360.0}, &config->initial_heading, kDegree);
+  group.number("initial_heading_sigma_deg", {0.01, 180.0}, &config->initial_heading_sigma, kDegree);
+  group.number("static_gyro_deg_per_s", {0.0, 100.0}, &config->static_gyro_rad_s, kDegree);
+  group.number("static_accel_m_s2", {0.0, 10.0}, &config->static_accel_m_s2);
+}
+
+void read_ekf(ConfigReader& group, NavigatorConfig* config) {
+  group.choice<MotionModel>(
+      "motion",
+      {{"inertial", MotionModel::kInertial}, {"constant_velocity", MotionModel::kConstantVelocity}},
+      &config->motion);
+  EkfConfig& ekf = config->ekf;
+  constexpr Bounds kNoise = {0.0, 1e4};
+  group.number("acceleration_noise_horizontal_m_s2_per_sqrt_hz", {1e-6, 1e3},
+               &ekf.acceleration_noise_horizontal);
+  group.number("acceleration_noise_vertical_m_s2_per_sqrt_hz", {1e-6, 1e3},
+               &ekf.acceleration_noise_vertical);
+  group.number("clock_offset_noise_m_per_sqrt_s", kNoise, &ekf.clock.offset_noise);
+  group.number("clock_drift_noise_m_s_per_sqrt_s", kNoise, &ekf.clock.drift_noise);
+  group.number("inter_system_noise_m_per_sqrt_s", kNoise, &ekf.clock.inter_system_noise);
+  group.number("inter_system_drift_noise_m_s_per_sqrt_s", kNoise,
+               &ekf.clock.inter_system_drift_noise);
+  group.number("reset_ratio", {0.1, 1.0}, &ekf.reset_ratio);
+  group.integer("reset_epochs", 1, 1000, &ekf.reset_epochs);
+}
+
+void read_robust(ConfigReader& group, RobustConfig* config) {
+  group.boolean("enabled", &config->enabled);
+  group.number("k0", {0.1, 100.0}, &config->k0);
+  group.number("k1", {0.1, 1000.0}, &config->k1);
+  group.integer("max_iterations", 1, 100, &config->max_iterations);
+  if (config->k1 <= config->k0) group.fail("k1", "must be greater than k0");
+}
+
+void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads) {
+  RealtimeConfig& realtime = navigator->realtime;
+  group.number("deadline_ekf_ms", {1.0, 1e4}, &realtime.deadline_ekf_s, kMillisecond);
+  group.number("deadline_smoother_ms", {1.0, 1e4}, &realtime.deadline_smoother_s, kMillisecond);
+  group.number("epoch_interval_s", {0.05, 120.0}, &realtime.epoch_interval_s);
+  group.number("solution_rate_hz", {0.01, 1000.0}, &navigator->solution_rate_hz);
+  group.boolean("lock_memory", &threads->lock_memory);
+  group.group("io", [&](ConfigReader& thread) { read_thread(thread, &threads->io); });
+  group.group("ins", [&](ConfigReader& thread) { read_thread(thread, &threads->ins); });
+  group.group("gnss", [&](ConfigReader& thread) { read_thread(thread, &threads->gnss); });
+  group.group("out", [&](ConfigReader& thread) { read_thread(thread, &threads->out); });
+}
+
+void read_lcm(ConfigReader& group, LcmConfig* config) {
+  group.text("url", &config->url);
+  group.text("prefix", &config->prefix);
+  group.integer("receive_queue", 1, 1000000, &config->receive_queue);
+  // liblcm allows 63 characters in a channel's name; the longest of ours has 10.
+  if (config->prefix.size() > 50) group.fail("prefix", "longer than 50 characters");
+  if (config->url.starts_with("tcpq:")) {
+    group.fail("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
+  }
+  if (config->url.empty()) group.fail("url", "must not be empty");
+}
+
+void read_journal(ConfigReader& group, JournalConfig* config) {
+  group.text("path", &config->path);
+  group.number("flush_interval_s", {0.01, 3600.0}, &config->flush_interval_s);
+}
+
+}  // namespace leonav

@@ -1,0 +1,19 @@
+// One function per group of the configuration file.
+#pragma once
+#include "daemon/config/config_reader.h"
+#include "daemon/config/daemon_config.h"
+
+namespace leonav {
+
+void read_vehicle(ConfigReader& group, VehicleConfig* config);
+void read_imu(ConfigReader& group, ImuErrorModel* config);
+void read_alignment(ConfigReader& group, AlignmentConfig* config);
+void read_gnss(ConfigReader& group, GnssConfig* config);
+void read_ekf(ConfigReader& group, NavigatorConfig* config);
+void read_robust(ConfigReader& group, RobustConfig* config);
+// Deadlines and rates belong to the navigator, priorities and processors to the threads.
+void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads);
+void read_lcm(ConfigReader& group, LcmConfig* config);
+void read_journal(ConfigReader& group, JournalConfig* config);
+
+}  // namespace leonav

@@ -1,0 +1,38 @@
+// Everything the configuration file says.
+#pragma once
+#include <string>
+
+#include "core/navigator/navigator_config.h"
+
+namespace leonav {
+
+struct LcmConfig {
+  // ttl=0: messages stay on this host.
+  std::string url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+  std::string prefix = "LEONAV_";
+  int receive_queue = 4096;  // messages per channel that liblcm keeps while `io` is busy
+};
+
+struct JournalConfig {
+  std::string path;  // empty: no journal
+  double flush_interval_s = 1.0;
+};
+
+struct ThreadConfig {
+  int priority = 0;  // SCHED_FIFO priority 1-99; 0: the ordinary scheduler
+  int cpu = -1;      // pinned to this processor; -1: any
+};
+
+struct ThreadsConfig {
+  bool lock_memory = true;  // mlockall
+  ThreadConfig io, ins, gnss, out;
+};
+
+struct DaemonConfig {
+  NavigatorConfig navigator;
+  LcmConfig lcm;
+  JournalConfig journal;
+  ThreadsConfig threads;
+};
+
+}  // namespace leonav

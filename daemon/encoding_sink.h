@@ -1,0 +1,38 @@
+// Outputs as the bytes that go on the wire, whoever takes them: the daemon's rings or replay.
+#pragma once
+#include "core/navigator/outputs.h"
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/encode.h"
+
+namespace leonav {
+
+class MessageTarget {
+ public:
+  virtual ~MessageTarget() = default;
+  // `bytes` are valid during the call.
+  virtual void take(Channel channel, ByteSpan bytes) = 0;
+};
+
+// One per thread; allocates only at construction.
+class EncodingSink : public OutputSink {
+ public:
+  explicit EncodingSink(MessageTarget* target) : target_(target) {}
+  void on_solution(const Solution& solution) override {
+    target_->take(Channel::kSolution, encoder_.encode(solution));
+  }
+  void on_epoch(const EpochReport& report) override {
+    target_->take(Channel::kEpoch, encoder_.encode(report));
+  }
+  void on_event(const Event& event) override {
+    target_->take(Channel::kEvent, encoder_.encode(event));
+  }
+  void on_decision(const Decision& decision) override {
+    target_->take(Channel::kDecision, encoder_.encode(decision));
+  }
+
+ private:
+  MessageTarget* target_;
+  Encoder encoder_;
+};
+
+}  // namespace leonav
