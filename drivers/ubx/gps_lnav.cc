@@ -68,18 +68,14 @@ double nominal_accuracy_m(unsigned index) {
 }
 
 bool gps_parity_is_good(std::span<const std::uint32_t, GpsLnav::kWords> words) {
-  // The last two bits of a subframe's last word are zero by design (20.3.5.2), so word one has a
-  // known predecessor.
-  std::uint32_t d29 = 0, d30 = 0;
   for (const std::uint32_t word : words) {
     const std::uint32_t data = (word >> 6) & 0xFFFFFF;
+    const std::uint32_t d29 = word >> 31, d30 = (word >> 30) & 1u;
     for (std::size_t i = 0; i < kParityRules.size(); ++i) {
       const std::uint32_t previous = kParityRules[i].uses_d29 ? d29 : d30;
       const std::uint32_t expected = (std::popcount(data & kParityRules[i].mask) + previous) & 1u;
       if (((word >> (5 - i)) & 1u) != expected) return false;
     }
-    d29 = (word >> 1) & 1u;
-    d30 = word & 1u;
   }
   return true;
 }

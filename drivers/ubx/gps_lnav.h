@@ -17,8 +17,8 @@ double nominal_accuracy_m(unsigned index);
 class GpsLnav {
  public:
   static constexpr std::size_t kWords = 10;
-  // One subframe: ten words of 30 bits, right-aligned, data bits upright (u-blox has removed the
-  // sign that the parity algorithm gives them).
+  // One subframe: ten words. u-blox turns a whole word over, its two leading bits (D29*, D30* of
+  // the word before) and its parity included, so that the data bits stand upright.
   SubframeStatus add(std::span<const std::uint32_t, kWords> words, const SubframeOrigin& origin,
                      NavigationUpdate* update);
 
@@ -35,7 +35,8 @@ class GpsLnav {
   std::array<Subframe, 3> subframes_;
 };
 
-// True if the parity of all ten words is right.
+// True if the parity of all ten words is right. A word turned over together with its D29* and D30*
+// satisfies the same equations, so each word is checked by itself.
 bool gps_parity_is_good(std::span<const std::uint32_t, GpsLnav::kWords> words);
 
 }  // namespace leonav
