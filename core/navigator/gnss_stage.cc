@@ -204,19 +204,6 @@ void GnssStage::set_heading(double heading, double sigma) {
     return;
   }
   const NavState state = ekf_.state();
-  PointSolution here;
-  here.status = PointStatus::kOk;
-  here.has_velocity = true;
-  here.p_e = ekf_.antenna_position_e();
-  here.v_e = ekf_.antenna_velocity_e();
-  here.covariance_p_e = ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
-  here.covariance_v_e = ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    const auto i = static_cast<Eigen::Index>(base);
-    const bool offset = ekf_.clocks_known().offset[base], drift = ekf_.clocks_known().drift[base];
-    here.clock_m[base] = offset ? ekf_.clocks().offset_m(i) : kNotMeasured;
-    here.clock_drift_m_s[base] = drift ? ekf_.clocks().drift_m_s(i) : kNotMeasured;
-  }
   start_report(0, state.time, true, report_.get());
   report_state(ekf_, report_.get());
   Eigen::Vector3d sigma_rpy = report_->solution.sigma_rpy;
@@ -225,7 +212,6 @@ void GnssStage::set_heading(double heading, double sigma) {
   EulerAngles euler = euler_from_rotation(C_ne * state.q_eb.toRotationMatrix());
   euler.yaw = wrap_to_pi(heading);
   const Eigen::Matrix3d C_eb = C_ne.transpose() * rotation_from_euler(euler);
-  ekf_.initialize(state.time, here);
   ekf_.set_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy, state.errors.gyro_bias_b,
                     true);
   emit(EventKind::kAligned, 1, sigma, state.time);
