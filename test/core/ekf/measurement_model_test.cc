@@ -1,0 +1,132 @@
+#include "core/ekf/measurement_model.h"
+
+#include <cmath>
+
+#include "support/catch.h"
+#include "synthetic.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Vector3d;
+
+struct Situation {
+  NavState state;
+  ClockState clocks;
+  Vector3d rate_b{0.3, -0.2, 0.8};
+  Vector3d lever_b{1.2, -0.4, -1.1};
+};
+
+Situation situation() {
+  Situation s;
+  s.state.p_e = synthetic::start_position();
+  const Eigen::Matrix3d C_en = synthetic::C_en_at(s.state.p_e);
+  s.state.q_eb = Eigen::Quaterniond(C_en * rotation_from_euler({0.1, -0.2, 2.1}));
+  s.state.v_e = C_en * Vector3d{9.0, -14.0, 0.5};
+  s.state.errors.gyro_bias_b << 0.01, -0.02, 0.03;
+  s.state.errors.gyro_scale << 0.02, 0.01, -0.03;
+  s.clocks.offset_m << 1e3, 2e3, 3e3, 4e3;
+  s.clocks.drift_m_s << 10.0, 11.0, 12.0, 13.0;
+  return s;
+}
+
+Situation perturbed(Situation s, int index, double step) {
+  const int axis = index % 3;
+  if (index >= kClockDrift) {
+    s.clocks.drift_m_s(index - kClockDrift) += step;
+  } else if (index >= kClock) {
+    s.clocks.offset_m(index - kClock) += step;
+  } else if (index >= kAccelScale) {
+    s.state.errors.accel_scale(axis) += step;
+  } else if (index >= kGyroScale) {
+    s.state.errors.gyro_scale(axis) += step;
+  } else if (index >= kAccelBias) {
+    s.state.errors.accel_bias_b(axis) += step;
+  } else if (index >= kGyroBias) {
+    s.state.errors.gyro_bias_b(axis) += step;
+  } else if (index >= kAttitude) {
+    s.state.q_eb = quaternion_from_rotation_vector(step * Vector3d::Unit(axis)) * s.state.q_eb;
+  } else if (index >= kVelocity) {
+    s.state.v_e(axis) += step;
+  } else {
+    s.state.p_e(axis) += step;
+  }
+  return s;
+}
+
+double predicted(const Situation& s, const Measurement& measurement, const SatelliteInView& view,
+                 bool has_attitude) {
+  return predict_measurement(measurement, view,
+                             antenna_motion(s.state, s.rate_b, s.lever_b, has_attitude), s.clocks)
+      .value;
+}
+
+}  // namespace
+
+TEST_CASE("every column of the measurement Jacobian is the numerical derivative") {
+  const Situation s = situation();
+  SatelliteInView leo = synthetic::satellite_at(System::kLeo, 120, 1.0, 0.7);
+  leo.p_e = s.state.p_e + 1.2e6 * (leo.p_e - s.state.p_e).normalized();
+  leo.v_e *= 7500.0 / leo.v_e.norm();
+  const SatelliteInView gps = synthetic::satellite_at(System::kGps, 3, 4.0, 0.4);
+  for (const SatelliteInView& view : {gps, leo}) {
+    for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
+      Measurement measurement;
+      measurement.observable = observable;
+      for (const bool has_attitude : {true, false}) {
+        const EkfVector row =
+            predict_measurement(measurement, view,
+                                antenna_motion(s.state, s.rate_b, s.lever_b, has_attitude),
+                                s.clocks)
+                .row;
+        for (int column = 0; column < kSize; ++column) {
+          // Positions need room: a range of 2e7 m has a resolution of 4e-9 m.
+          const double step = column < kVelocity                       ? 20.0
+                              : column >= kClock || column < kAttitude ? 1.0
+                              : column < kGyroBias                     ? 1e-3
+                                                                       : 1e-2;
+          const double numeric =
+              (predicted(perturbed(s, column, step), measurement, view, has_attitude) -
+               predicted(perturbed(s, column, -step), measurement, view, has_attitude)) /
+              (2.0 * step);
+          INFO("column " << column << " observable " << static_cast<int>(observable) << " attitude "
+                         << has_attitude);
+          CHECK(row(column) == Approx(numeric).epsilon(2e-4).margin(2e-6));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the antenna's velocity is the derivative of its position") {
+  const Situation s = situation();
+  // The body turns at the true rate against i; over dt its attitude against e changes by that
+  // less the Earth's rotation.
+  const Vector3d omega_b = (s.rate_b - s.state.errors.gyro_bias_b)
+                               .cwiseQuotient(Vector3d::Ones() + s.state.errors.gyro_scale);
+  const auto at = [&](double t) {
+    NavState moved = s.state;
+    moved.p_e += t * s.state.v_e;
+    const Vector3d omega_ie{0.0, 0.0, kEarthRotationRate};
+    moved.q_eb = quaternion_from_rotation_vector(-t * omega_ie) * s.state.q_eb *
+                 quaternion_from_rotation_vector(t * omega_b);
+    return antenna_motion(moved, s.rate_b, s.lever_b, true).p_e;
+  };
+  constexpr double kDt = 1e-3;
+  const Vector3d numeric = (at(kDt) - at(-kDt)) / (2.0 * kDt);
+  const Vector3d v = antenna_motion(s.state, s.rate_b, s.lever_b, true).v_e;
+  CHECK((numeric - v).norm() < 2e-6);
+}
+
+TEST_CASE("a carrier measurement predicts nothing") {
+  const Situation s = situation();
+  Measurement carrier;
+  carrier.observable = Observable::kCarrier;
+  const auto prediction =
+      predict_measurement(carrier, synthetic::satellite_at(System::kGps, 3, 4.0, 0.4),
+                          antenna_motion(s.state, s.rate_b, s.lever_b, true), s.clocks);
+  CHECK(prediction.row.norm() == 0.0);
+}
+
+}  // namespace leonav
