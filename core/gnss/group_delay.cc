@@ -29,14 +29,12 @@ double frequency_ratio_squared(System system, char numerator, char denominator) 
 // IS-GPS-200 20.3.3.3.3.2: the clock is that of the ionosphere-free L1P/L2P. L5 needs an
 // inter-signal correction that LNAV does not have; the delay is scaled like L2's.
 LinearDelay gps_delay(SignalCode code) {
-  switch (code.band) {
-    case '1':
-      return {{1.0, 0.0}, kSameCarrierSigma};
-    case '2':
-      return {{frequency_ratio_squared(System::kGps, '1', '2'), 0.0}, kSameCarrierSigma};
-    default:
-      return {{frequency_ratio_squared(System::kGps, '1', '5'), 0.0}, kScaledSigma};
+  if (code.band == '1' || code.band == '2') {
+    const bool is_p_code = code.attribute == 'W' || code.attribute == 'P' || code.attribute == 'Y';
+    return {{frequency_ratio_squared(System::kGps, '1', code.band), 0.0},
+            is_p_code ? 0.0 : kSameCarrierSigma};
   }
+  return {{frequency_ratio_squared(System::kGps, '1', code.band), 0.0}, kScaledSigma};
 }
 
 // Galileo OS-SIS-ICD 5.1.5. F/NAV's clock is that of E1/E5a, I/NAV's that of E1/E5b; the other BGD
@@ -159,9 +157,11 @@ GroupDelay precise_group_delay(System system, const Ephemeris* broadcast, Signal
     case System::kLeo:
       return {};
   }
-  if (first.band == reference_first.band && second.band == reference_second.band) return {};
+  const bool is_reference =
+      first.band == reference_first.band && second.band == reference_second.band;
   if (broadcast == nullptr || broadcast->satellite.system != system) {
-    return {0.0, kUnknownGroupDelaySigma};
+    if (!is_reference) return {0.0, kUnknownGroupDelaySigma};
+    return {0.0, first == reference_first ? 0.0 : kSameCarrierSigma};
   }
   LinearDelay form, reference;
   if (!observable_delay(system, broadcast->message, first, second, &form) ||

@@ -1,0 +1,247 @@
+#include "core/gnss/satellite_catalog.h"
+
+#include <limits>
+
+#include "core/capacity.h"
+#include "core/gnss/broadcast_oracle.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+const GpsTime kNoon = GpsTime::from_week_and_tow(2200, 4 * 86400.0 + 43200.0);
+
+Ephemeris gps(int number, double toe_s, std::uint16_t issue) {
+  Ephemeris e;
+  e.satellite = {System::kGps, static_cast<std::uint16_t>(number)};
+  e.toe = e.toc = kNoon.plus_seconds(toe_s);
+  e.transmission_time = e.toe.plus_seconds(-7200.0);
+  e.issue = issue;
+  e.sqrt_a = 5153.7;
+  e.i0 = 0.96;
+  e.accuracy_m = 2.0;
+  return e;
+}
+
+Ephemeris galileo(NavigationMessage message, double toe_s) {
+  Ephemeris e = gps(11, toe_s, 1);
+  e.satellite.system = System::kGalileo;
+  e.message = message;
+  e.sqrt_a = 5440.6;
+  e.transmission_time = e.toe.plus_seconds(600.0);
+  return e;
+}
+
+// Issue of the elements that serve `id` at noon plus `seconds`; -1: none.
+int issue_at(const SatelliteCatalog& catalog, SatelliteId id, double seconds) {
+  SatelliteState state;
+  const Ephemeris* used = nullptr;
+  if (catalog.state_at(id, kNoon.plus_seconds(seconds), &state, &used) != LookupStatus::kOk) {
+    return -1;
+  }
+  return used->issue;
+}
+
+constexpr SatelliteId kG05{System::kGps, 5};
+constexpr SatelliteId kE11{System::kGalileo, 11};
+
+void add_orbit(SatelliteCatalog* catalog, const Ephemeris& e, int first, int last, double step) {
+  for (int i = first; i <= last; ++i) {
+    const GpsTime t = kNoon.plus_seconds(i * step);
+    REQUIRE(catalog->add(PreciseState{e.satellite, t, broadcast_state(e, t).p_e, 1e-5}));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The elements with the nearest toe serve, within their age", "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  SatelliteState state;
+  CHECK(catalog.state_at(kG05, kNoon, &state) == LookupStatus::kNoEphemeris);
+  REQUIRE(catalog.add(gps(5, 7200, 2)));
+  REQUIRE(catalog.add(gps(5, 0, 1)));  // out of order
+  CHECK(issue_at(catalog, kG05, -7200) == 1);
+  CHECK(issue_at(catalog, kG05, 3599) == 1);
+  CHECK(issue_at(catalog, kG05, 3601) == 2);
+  CHECK(issue_at(catalog, kG05, 14400) == 2);
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(14401), &state) == LookupStatus::kTooOld);
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(-7201), &state) == LookupStatus::kTooOld);
+  CHECK(catalog.state_at({System::kGps, 6}, kNoon, &state) == LookupStatus::kNoEphemeris);
+  REQUIRE(catalog.ephemeris_at(kG05, kNoon) != nullptr);
+  CHECK(catalog.ephemeris_at(kG05, kNoon)->issue == 1);
+  CHECK(catalog.ephemeris_at(kG05, kNoon.plus_seconds(1e6)) == nullptr);
+}
+
+TEST_CASE("Of one toe the later transmission serves; a repeated issue replaces",
+          "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  Ephemeris late = gps(5, 0, 9);
+  late.transmission_time = kNoon.plus_seconds(-60);
+  REQUIRE(catalog.add(late));
+  REQUIRE(catalog.add(gps(5, 0, 8)));
+  CHECK(issue_at(catalog, kG05, 0) == 9);
+  Ephemeris again = late;
+  again.af0 = 1e-5;
+  for (std::size_t i = 0; i < 3 * kMaxEphemeridesPerSatellite; ++i) REQUIRE(catalog.add(again));
+  CHECK(catalog.ephemeris_at(kG05, kNoon)->af0 == 1e-5);
+  CHECK(issue_at(catalog, kG05, 0) == 9);
+}
+
+TEST_CASE("Full, what arrived first goes, and wrong times do not block for good",
+          "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  for (int i = 0; i < 8; ++i) {  // a day of nonsense far in the future
+    REQUIRE(catalog.add(gps(5, 1e6 + 7200.0 * i, static_cast<std::uint16_t>(100 + i))));
+  }
+  for (int i = 0; i < 30; ++i) {
+    REQUIRE(catalog.add(gps(5, 7200.0 * i, static_cast<std::uint16_t>(i))));
+    CHECK(issue_at(catalog, kG05, 7200.0 * i) == i);
+  }
+  CHECK(issue_at(catalog, kG05, 7200.0 * 22) == 22);
+  CHECK(issue_at(catalog, kG05, 7200.0 * 20) == -1);
+}
+
+TEST_CASE("Unhealthy satellites are out, by the newest message that was out by then",
+          "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  SatelliteState state;
+  REQUIRE(catalog.add(gps(5, 0, 1)));
+  Ephemeris sick = gps(5, 7200, 2);
+  sick.health = 1;
+  sick.transmission_time = kNoon.plus_seconds(600);
+  REQUIRE(catalog.add(sick));
+  CHECK(catalog.state_at(kG05, kNoon, &state) == LookupStatus::kOk);
+  // Still nearer to the healthy toe, but told by now.
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(700), &state) == LookupStatus::kUnhealthy);
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(7200), &state) == LookupStatus::kUnhealthy);
+  REQUIRE(catalog.ephemeris_at(kG05, kNoon.plus_seconds(7200)) != nullptr);
+}
+
+TEST_CASE("Galileo keeps both messages and serves the preferred one", "[satellite_catalog]") {
+  for (const bool fnav : {false, true}) {
+    CatalogOptions options;
+    options.galileo_prefers_fnav = fnav;
+    SatelliteCatalog catalog(options);
+    Ephemeris i = galileo(NavigationMessage::kGalileoInav, 0);
+    Ephemeris f = galileo(NavigationMessage::kGalileoFnav, 600);
+    i.issue = 10;
+    f.issue = 20;
+    REQUIRE(catalog.add(f));
+    CHECK(issue_at(catalog, kE11, 600) == 20);  // what there is
+    REQUIRE(catalog.add(i));
+    CHECK(issue_at(catalog, kE11, 600) == (fnav ? 20 : 10));
+    CHECK(issue_at(catalog, kE11, 0) == (fnav ? 20 : 10));
+    CHECK(issue_at(catalog, kE11, 14401) == 20);  // I/NAV's has run out
+  }
+}
+
+TEST_CASE("Precise states go before broadcast ones, and broadcast ones stand in",
+          "[satellite_catalog]") {
+  CatalogOptions options;
+  SatelliteCatalog catalog(options);
+  const Ephemeris e = gps(5, 0, 1);
+  SatelliteState state;
+  const Ephemeris* used = &e;
+  add_orbit(&catalog, e, -6, 6, 300.0);
+  REQUIRE(catalog.state_at(kG05, kNoon.plus_seconds(120), &state, &used) == LookupStatus::kOk);
+  CHECK(state.source == OrbitSource::kPrecise);
+  CHECK(used == nullptr);
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(3000), &state) == LookupStatus::kTooOld);
+
+  REQUIRE(catalog.add(e));
+  REQUIRE(catalog.state_at(kG05, kNoon.plus_seconds(120), &state, &used) == LookupStatus::kOk);
+  CHECK(state.source == OrbitSource::kPrecise);
+  REQUIRE(catalog.state_at(kG05, kNoon.plus_seconds(3000), &state, &used) == LookupStatus::kOk);
+  CHECK(state.source == OrbitSource::kBroadcast);
+  CHECK(used != nullptr);
+
+  Ephemeris sick = e;
+  sick.health = 63;
+  REQUIRE(catalog.add(sick));
+  CHECK(catalog.state_at(kG05, kNoon.plus_seconds(120), &state) == LookupStatus::kUnhealthy);
+
+  options.use_precise = false;
+  SatelliteCatalog broadcast_only(options);
+  add_orbit(&broadcast_only, e, -6, 6, 300.0);
+  CHECK(broadcast_only.state_at(kG05, kNoon, &state) == LookupStatus::kNoEphemeris);
+}
+
+TEST_CASE("Nodes come in any order, repeat, and go on for ever", "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  const Ephemeris e = gps(5, 0, 1);
+  SatelliteState state;
+  const auto add = [&](int i, double clock_s) {
+    const GpsTime t = kNoon.plus_seconds(300.0 * i);
+    return catalog.add(PreciseState{e.satellite, t, broadcast_state(e, t).p_e, clock_s});
+  };
+  for (const int i : {3, -2, 5, 0, -4, 4, 1, -1, 2, -3, -5}) REQUIRE(add(i, 0.0));
+  REQUIRE(catalog.state_at(kG05, kNoon.plus_seconds(100), &state) == LookupStatus::kOk);
+  CHECK((state.p_e - broadcast_state(e, kNoon.plus_seconds(100)).p_e).norm() < 1e-3);
+  const double before = state.clock_s;
+  for (const int i : {0, 1}) REQUIRE(add(i, 1e-6));  // a corrected clock
+  REQUIRE(catalog.state_at(kG05, kNoon.plus_seconds(100), &state) == LookupStatus::kOk);
+  CHECK(state.clock_s - before == Approx(1e-6).epsilon(1e-6));
+
+  // A stream that is eight nodes ahead of the present, over two days.
+  for (int i = 6; i < 600; ++i) {
+    REQUIRE(add(i, 0.0));
+    const GpsTime present = kNoon.plus_seconds(300.0 * (i - 8) + 150.0);
+    REQUIRE(catalog.state_at(kG05, present, &state) == LookupStatus::kOk);
+    REQUIRE((state.p_e - broadcast_state(e, present).p_e).norm() < 1e-3);
+  }
+}
+
+TEST_CASE("Bad input changes nothing", "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Ephemeris e = gps(5, 0, 1);
+  e.m0 = nan;
+  CHECK_FALSE(catalog.add(e));
+  const Eigen::Vector3d p(2.6e7, 0, 0);
+  CHECK_FALSE(catalog.add(PreciseState{kG05, GpsTime(), p, 0.0}));
+  CHECK_FALSE(catalog.add(PreciseState{{System::kGps, 64}, kNoon, p, 0.0}));
+  CHECK_FALSE(catalog.add(PreciseState{{static_cast<System>(9), 1}, kNoon, p, 0.0}));
+  CHECK_FALSE(catalog.add(PreciseState{kG05, kNoon, Eigen::Vector3d::Zero(), 0.0}));
+  CHECK_FALSE(catalog.add(PreciseState{kG05, kNoon, {nan, 0, 0}, 0.0}));
+  CHECK_FALSE(catalog.add(PreciseState{kG05, kNoon, p, 999999.999999e-6}));
+  CHECK_FALSE(catalog.add(PreciseState{kG05, kNoon, p, std::numeric_limits<double>::infinity()}));
+  SatelliteState state;
+  CHECK(catalog.state_at(kG05, kNoon, &state) == LookupStatus::kNoEphemeris);
+  REQUIRE(catalog.add(gps(5, 0, 1)));
+  for (const GpsTime t :
+       {GpsTime(), GpsTime::from_nanoseconds(std::numeric_limits<std::int64_t>::min()),
+        GpsTime::from_nanoseconds(std::numeric_limits<std::int64_t>::max())}) {
+    CHECK(catalog.state_at(kG05, t, &state) != LookupStatus::kOk);
+  }
+  CHECK(catalog.state_at({static_cast<System>(250), 3}, kNoon, &state) ==
+        LookupStatus::kNoEphemeris);
+}
+
+TEST_CASE("Every satellite has a place of its own", "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  const std::array<int, kSystemCount> highest = {63, 50, 63, 399};
+  int count = 0;
+  for (const System system : kSystems) {
+    for (int n = 1; n <= highest[index_of(system)]; ++n) {
+      const SatelliteId id{system, static_cast<std::uint16_t>(n)};
+      for (int i = 0; i < 5; ++i) {
+        const double angle = 1e-3 * count + 0.04 * i;
+        const Eigen::Vector3d p(7e6 * std::cos(angle), 7e6 * std::sin(angle), 0.0);
+        REQUIRE(catalog.add(PreciseState{id, kNoon.plus_seconds(40.0 * i), p, 1e-6 * count}));
+      }
+      ++count;
+    }
+  }
+  CHECK(count == static_cast<int>(kMaxEphemerisSatellites));
+  count = 0;
+  for (const System system : kSystems) {
+    for (int n = 1; n <= highest[index_of(system)]; ++n) {
+      SatelliteState state;
+      REQUIRE(catalog.state_at({system, static_cast<std::uint16_t>(n)}, kNoon.plus_seconds(80.0),
+                               &state) == LookupStatus::kOk);
+      CHECK(state.clock_s == Approx(1e-6 * count++).margin(1e-8));
+    }
+  }
+}
+
+}  // namespace leonav
