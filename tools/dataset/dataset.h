@@ -1,0 +1,26 @@
+// dataset.yaml: which files make up a recording.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace leonav {
+
+// Paths are complete: those in the file are relative to it. Empty: not given.
+struct Dataset {
+  std::string path;  // of the dataset.yaml
+  std::string name;
+  std::vector<std::string> observations;    // RINEX or .ubx, in order of time
+  std::vector<std::string> navigation;      // RINEX
+  std::vector<std::string> orbits;          // SP3
+  std::vector<std::string> clocks;          // RINEX clock
+  std::vector<std::string> antenna_models;  // ANTEX
+  std::vector<std::string> imu;             // imu.csv
+  std::vector<std::string> truth;           // truth.csv
+};
+
+// Each key holds a path or a list of paths; "" and [] mean that there is none. Throws FileError
+// with file and line for unreadable YAML, an unknown key (naming the nearest known one) and a key
+// given twice.
+Dataset load_dataset(const std::string& path);
+
+}  // namespace leonav

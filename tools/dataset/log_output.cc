@@ -1,0 +1,76 @@
+#include "tools/dataset/log_output.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace leonav {
+
+LogOutput::LogOutput(const std::string& path, ImportReport* report)
+    : path_(path), part_path_(path + ".part"), report_(report), writer_(part_path_) {
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    names_[i] = channel_name(static_cast<Channel>(i));
+  }
+}
+
+LogOutput::~LogOutput() {
+  if (!writer_) return;
+  writer_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(part_path_, ignored);
+}
+
+void LogOutput::put(GpsTime arrival, Channel channel, ByteSpan bytes) {
+  last_stamp_us_ = std::max(last_stamp_us_ + 1, arrival.nanoseconds() / 1000);
+  if (!writer_->write(last_stamp_us_, names_[index_of(channel)], bytes)) {
+    throw EventLogError(writer_->error());
+  }
+}
+
+void LogOutput::extend_span(GpsTime time) {
+  if (!report_->first.is_set() || time < report_->first) report_->first = time;
+  report_->last = std::max(report_->last, time);
+}
+
+void LogOutput::write(GpsTime arrival, const ImuSample& sample) {
+  put(arrival, Channel::kImu, encoder_.encode(sample, next_sequence(Channel::kImu)));
+  extend_span(sample.time);
+  ++report_->imu_samples;
+}
+
+void LogOutput::write(GpsTime arrival, const RawEpoch& epoch) {
+  put(arrival, Channel::kGnssEpoch, encoder_.encode(epoch, next_sequence(Channel::kGnssEpoch)));
+  extend_span(epoch.time);
+  ++report_->epochs;
+  for (const SignalObservation& observation : epoch.observations) {
+    if (satellites_.insert(observation.satellite).second) {
+      ++report_->satellites[observation.satellite.system];
+    }
+  }
+}
+
+void LogOutput::write(GpsTime arrival, const Ephemeris& ephemeris) {
+  put(arrival, Channel::kEphemeris, encoder_.encode(ephemeris, next_sequence(Channel::kEphemeris)));
+  ++report_->ephemerides;
+}
+
+void LogOutput::write(GpsTime arrival, const KlobucharModel& model) {
+  put(arrival, Channel::kIonosphere,
+      encoder_.encode(model, arrival, next_sequence(Channel::kIonosphere)));
+  ++report_->ionosphere_models;
+}
+
+void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
+  put(arrival, Channel::kOrbitClock, encoder_.encode(states, next_sequence(Channel::kOrbitClock)));
+  ++report_->orbit_epochs;
+}
+
+void LogOutput::commit() {
+  if (!writer_->flush(true)) throw EventLogError(writer_->error());
+  writer_.reset();
+  std::error_code error;
+  std::filesystem::rename(part_path_, path_, error);
+  if (error) throw EventLogError(path_ + ": cannot be given its name: " + error.message());
+}
+
+}  // namespace leonav

@@ -1,0 +1,122 @@
+#include "tools/dataset/product_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace leonav {
+namespace {
+
+constexpr int kIssuesAtStart = 2;
+
+bool is_valid_at(const Ephemeris& e, GpsTime time) {
+  const CatalogOptions limits;
+  double max_age_s = limits.max_age_leo_s;
+  switch (e.satellite.system) {
+    case System::kGps:
+      max_age_s = limits.max_age_gps_s;
+      break;
+    case System::kGalileo:
+      max_age_s = limits.max_age_galileo_s;
+      break;
+    case System::kBeidou:
+      max_age_s = limits.max_age_beidou_s;
+      break;
+    case System::kLeo:
+      break;
+  }
+  return std::abs(seconds_between(time, e.toe)) <= max_age_s;
+}
+
+// Smallest step between two nodes of a product.
+std::int64_t node_interval_ns(const std::vector<OrbitEpoch>& epochs) {
+  std::int64_t interval = 0;
+  for (std::size_t i = 1; i < epochs.size(); ++i) {
+    const std::int64_t step = epochs[i].time.nanoseconds() - epochs[i - 1].time.nanoseconds();
+    if (interval == 0 || step < interval) interval = step;
+  }
+  return interval;
+}
+
+// Sorts by time and puts nodes of one time together; a satellite's first listed state counts.
+std::vector<OrbitEpoch> merged(std::vector<OrbitEpoch> epochs) {
+  std::stable_sort(epochs.begin(), epochs.end(),
+                   [](const OrbitEpoch& a, const OrbitEpoch& b) { return a.time < b.time; });
+  std::vector<OrbitEpoch> result;
+  for (OrbitEpoch& epoch : epochs) {
+    if (result.empty() || result.back().time != epoch.time) {
+      result.push_back(std::move(epoch));
+      continue;
+    }
+    std::vector<PreciseState>& states = result.back().states;
+    std::set<SatelliteId> there;
+    for (const PreciseState& state : states) there.insert(state.satellite);
+    for (const PreciseState& state : epoch.states) {
+      if (there.insert(state.satellite).second) states.push_back(state);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+GpsTime transmission_time(const Ephemeris& ephemeris) {
+  if (ephemeris.transmission_time.is_set()) return ephemeris.transmission_time;
+  const double lead_s = ephemeris.satellite.system == System::kGps ? 7200.0 : 0.0;
+  return ephemeris.toe.plus_seconds(-lead_s);
+}
+
+EphemerisSchedule schedule_ephemerides(std::vector<Ephemeris> ephemerides, GpsTime start) {
+  for (Ephemeris& e : ephemerides) e.transmission_time = transmission_time(e);
+  std::stable_sort(ephemerides.begin(), ephemerides.end(),
+                   [](const Ephemeris& a, const Ephemeris& b) {
+                     return a.transmission_time < b.transmission_time;
+                   });
+  EphemerisSchedule schedule;
+  using Stream = std::pair<SatelliteId, NavigationMessage>;
+  std::set<std::tuple<SatelliteId, NavigationMessage, GpsTime, std::uint16_t>> known;
+  std::map<Stream, std::vector<Ephemeris>> at_start;
+  std::vector<Ephemeris> later;
+  for (const Ephemeris& e : ephemerides) {
+    if (!known.emplace(e.satellite, e.message, e.toe, e.issue).second) {
+      ++schedule.repeated;
+    } else if (e.transmission_time > start) {
+      later.push_back(e);
+    } else if (is_valid_at(e, start)) {
+      at_start[{e.satellite, e.message}].push_back(e);
+    } else {
+      ++schedule.expired;
+    }
+  }
+  for (auto& [stream, list] : at_start) {
+    const std::size_t excess = list.size() > kIssuesAtStart ? list.size() - kIssuesAtStart : 0;
+    schedule.superseded += static_cast<long>(excess);
+    for (std::size_t i = excess; i < list.size(); ++i) schedule.items.push_back({start, list[i]});
+  }
+  for (const Ephemeris& e : later) {
+    const bool needed =
+        is_valid_at(e, start) && at_start.try_emplace({e.satellite, e.message}).second;
+    schedule.items.push_back({needed ? start : e.transmission_time, e});
+  }
+  std::stable_sort(schedule.items.begin(), schedule.items.end(),
+                   [](const ScheduledEphemeris& a, const ScheduledEphemeris& b) {
+                     return a.arrival < b.arrival;
+                   });
+  return schedule;
+}
+
+std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start) {
+  const std::vector<OrbitEpoch> nodes = merged(std::move(epochs));
+  const std::int64_t lead_ns = kNodesAhead * node_interval_ns(nodes);
+  std::vector<ScheduledOrbitEpoch> schedule;
+  for (const OrbitEpoch& node : nodes) {
+    if (node.time.plus_nanoseconds(lead_ns) <= start) continue;
+    schedule.push_back({std::max(start, node.time.plus_nanoseconds(-lead_ns)), node});
+  }
+  return schedule;
+}
+
+}  // namespace leonav

@@ -1,0 +1,59 @@
+// leonav-import: a recording in files -> an LCM event log.
+#include <iostream>
+
+#include "drivers/text/parse.h"
+#include "tools/common/arguments.h"
+#include "tools/dataset/import.h"
+
+namespace {
+
+leonav::GpsTime time_option(const leonav::Arguments& arguments, const std::string& name) {
+  if (!arguments.has(name)) return {};
+  const std::string text = arguments.get(name);
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto week = leonav::parse_int(text.substr(0, colon));
+    const auto tow_s = leonav::parse_double(text.substr(colon + 1));
+    const bool in_range = week && *week >= 0 && *week < 10'000 && tow_s && *tow_s >= 0.0 &&
+                          *tow_s <= double{leonav::kSecondsPerWeek};
+    if (in_range) return leonav::GpsTime::from_week_and_tow(*week, *tow_s);
+  }
+  throw leonav::UsageError(name + " needs WEEK:SECONDS_OF_WEEK in GPS time, not '" + text + "'");
+}
+
+int body(int argc, char** argv) {
+  leonav::Arguments arguments(
+      "leonav-import", "dataset.yaml -o run.lcmlog [options]",
+      "Turns a recording in files into an LCM event log, in the order and at the times a live\n"
+      "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
+      "relative to the file: observations (RINEX 2 or 3, .ubx), navigation (RINEX 2 or 3),\n"
+      "orbits (SP3), clocks, antenna_models, imu (imu.csv), truth; and name.");
+  arguments.option("-o", "FILE", "the log to write")
+      .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")
+      .option("--to", "WEEK:SECONDS", "leave out data after this GPS time")
+      .option("--gnss-latency-ms", "MS", "a GNSS epoch arrives this long after its time", "50");
+  if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.positional().size() != 1) {
+    throw leonav::UsageError("give one dataset.yaml (--help tells more)");
+  }
+  leonav::ImportOptions options;
+  options.from = time_option(arguments, "--from");
+  options.to = time_option(arguments, "--to");
+  if (options.from.is_set() && options.to.is_set() && options.to < options.from) {
+    throw leonav::UsageError("--to is before --from");
+  }
+  options.gnss_latency_s = arguments.number("--gnss-latency-ms") * 1e-3;
+  if (!(options.gnss_latency_s >= 0.0 && options.gnss_latency_s <= 10.0)) {
+    throw leonav::UsageError("--gnss-latency-ms must be within 0 and 10000");
+  }
+  const std::string output = arguments.required("-o");
+  const leonav::Dataset dataset = leonav::load_dataset(arguments.positional()[0]);
+  const leonav::ImportReport report = leonav::import_dataset(dataset, options, output, &std::cerr);
+  std::cout << output << (dataset.name.empty() ? "" : ": " + dataset.name) << "\n"
+            << leonav::to_string(report);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return leonav::run_tool("leonav-import", body, argc, argv); }
