@@ -70,9 +70,9 @@ void TruthColumns::write(CsvWriter& writer, const TruthPoint& point) {
       .number(point.position.longitude / kDegree, 10)
       .number(point.position.height, 4);
   for (int i = 0; i < 3; ++i) {
-    writer.number(point.v_n ? std::optional((*point.v_n)[i]) : std::nullopt, 4);
+    writer.number(point.v_n ? std::optional((*point.v_n)[i]) : std::nullopt, 6);
   }
-  for (const auto& angle : {point.roll, point.pitch, point.yaw}) writer.number(degrees(angle), 6);
+  for (const auto& angle : {point.roll, point.pitch, point.yaw}) writer.number(degrees(angle), 8);
 }
 
 TruthCsv read_truth_csv(const std::string& path) {

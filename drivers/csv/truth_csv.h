@@ -35,7 +35,8 @@ struct TruthCsv {
 // a column or no row is usable.
 TruthCsv read_truth_csv(const std::string& path);
 
-// Digits: 1e-10 deg (0.01 mm), 1e-4 m and m/s, 1e-6 deg of attitude. Throws FileError.
+// Digits: 1e-10 deg (0.01 mm), 1e-4 m, 1e-6 m/s, 1e-8 deg of attitude: enough to start an inertial
+// navigator that stays within a centimetre for minutes. Throws FileError.
 void write_truth_csv(const std::string& path, std::span<const TruthPoint> points);
 
 // The columns shared with solution.csv: reads the current row (see CsvRows::bad) or appends to it.

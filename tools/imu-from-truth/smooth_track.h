@@ -1,0 +1,55 @@
+// A motion without breaks in acceleration or rate, laid through recorded positions.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "drivers/csv/truth_csv.h"
+#include "smoothing_spline.h"
+
+namespace leonav {
+
+struct SmoothTrackOptions {
+  double position_cutoff_hz = 1.0;  // motion faster than this counts as noise of the truth
+  double attitude_cutoff_hz = 0.5;
+  double min_course_speed_m_s = 1.0;  // below, the heading is held
+  double max_turn_rate_rad_s = 0.5;   // at standstill, towards the course of the next start
+  double max_slope = 0.25;            // rad; steeper is a jump of the truth, not a road
+  double max_gap_s = 2.0;             // a wider hole in the truth is an error
+};
+
+struct TrackInstant {
+  Eigen::Vector3d p_e, v_e, a_e;  // a_e: second derivative in the rotating frame
+};
+
+class SmoothTrack {
+ public:
+  // Throws std::runtime_error if the points are too few or have a hole.
+  SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrackOptions& options);
+
+  GpsTime start() const { return start_; }
+  double duration_s() const { return times_.back(); }
+  // `t` in seconds from start(), within the duration.
+  TrackInstant at(double t) const;
+  // Body to ECEF: heading along the course where it moves, pitch along the slope, no roll.
+  Eigen::Quaterniond attitude(double t) const;
+  TruthPoint point(GpsTime time) const;  // everything, as truth.csv has it
+
+  double rms_deviation_m() const { return rms_deviation_m_; }
+  double max_deviation_m() const { return max_deviation_m_; }
+
+ private:
+  void fit_position(const std::vector<TruthPoint>& points, double interval_s);
+  void fit_attitude(double interval_s);
+
+  SmoothTrackOptions options_;
+  GpsTime start_;
+  Eigen::Vector3d origin_e_ = Eigen::Vector3d::Zero();
+  std::vector<double> times_;                // of the truth, s from start
+  std::array<SmoothingSpline, 3> position_;  // e, from origin_e_
+  SmoothingSpline yaw_, pitch_;              // rad, yaw unwrapped
+  double rms_deviation_m_ = 0.0, max_deviation_m_ = 0.0;
+};
+
+}  // namespace leonav
