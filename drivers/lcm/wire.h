@@ -22,6 +22,7 @@ inline constexpr std::size_t kFingerprintBytes = 8;
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
 inline constexpr std::size_t kSecondCountOffset = 32;
+inline constexpr std::size_t kEventStageOffset = 28;
 
 inline constexpr std::uint8_t kFlagLossOfLock = 1;
 inline constexpr std::uint8_t kFlagHalfCycle = 2;

@@ -1,0 +1,26 @@
+#include "daemon/output_groups.h"
+
+#include "drivers/lcm/wire.h"
+
+namespace leonav {
+
+std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes) {
+  switch (channel) {
+    case Channel::kSolution:
+      return 0;
+    case Channel::kDecision:
+      return 1;
+    case Channel::kEpoch:
+      return 2;
+    case Channel::kEvent: {
+      // A damaged one is compared with the sequencer's: it differs from any that is regenerated.
+      const bool has_stage = bytes.size() > wire::kEventStageOffset;
+      const unsigned stage = has_stage ? bytes[wire::kEventStageOffset] : 0U;
+      return 3 + (stage < 4 ? stage : 0U);
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace leonav

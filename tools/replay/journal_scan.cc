@@ -1,0 +1,47 @@
+#include "journal_scan.h"
+
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/event_log.h"
+
+namespace leonav {
+
+std::uint64_t JournalScan::inputs() const {
+  std::uint64_t sum = 0;
+  for (const Channel channel : kInputChannels) sum += messages[index_of(channel)];
+  return sum;
+}
+
+std::string JournalScan::describe() const {
+  std::string text = "inputs:";
+  for (const Channel channel : kInputChannels) {
+    text += (channel == kInputChannels.front() ? " " : ", ") + std::string(name_of(channel)) + " " +
+            std::to_string(messages[index_of(channel)]);
+  }
+  return text;
+}
+
+JournalScan scan_journal(const std::string& path, const std::string& prefix) {
+  EventLogReader log(path);
+  Decoder decoder;
+  JournalScan scan;
+  LogEvent event;
+  while (log.next(&event)) {
+    const auto channel = channel_from_name(event.channel, prefix);
+    if (!channel) {
+      ++scan.other_messages;
+      continue;
+    }
+    ++scan.messages[index_of(*channel)];
+    if (*channel != Channel::kDecision) continue;
+    Decision decision;
+    if (decoder.decode(event.data, &decision).fault != InputFault::kNone) {
+      ++scan.unreadable_decisions;
+    } else if (decision.mailbox == 0 && !decision.committed) {
+      scan.missed_epochs.push_back(decision.epoch);
+    }
+  }
+  scan.truncated = log.truncated();
+  return scan;
+}
+
+}  // namespace leonav

@@ -1,0 +1,28 @@
+// A first look through a log: what it holds, and which deadlines were missed when it was recorded.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/output_groups.h"
+#include "drivers/lcm/channels.h"
+
+namespace leonav {
+
+struct JournalScan {
+  std::array<std::uint64_t, kChannelCount> messages{};  // by channel
+  std::uint64_t other_messages = 0;                     // on channels that are not leonav's
+  std::uint64_t unreadable_decisions = 0;
+  std::vector<std::uint64_t> missed_epochs;  // the EKF's
+  bool truncated = false;                    // the last event is cut short
+
+  std::uint64_t inputs() const;
+  std::string describe() const;  // "IMU 100, GNSS_EPOCH 3, ..."
+  bool is_journal() const { return messages[index_of(Channel::kDecision)] > 0; }
+};
+
+// Throws EventLogError for a file that is absent or damaged.
+JournalScan scan_journal(const std::string& path, const std::string& prefix);
+
+}  // namespace leonav

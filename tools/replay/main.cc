@@ -1,0 +1,112 @@
+// leonav-replay: a recorded log through the navigator, in one thread and as fast as it goes.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "daemon/config/load_config.h"
+#include "journal_scan.h"
+#include "replay_run.h"
+#include "tools/common/arguments.h"
+
+namespace {
+
+using namespace leonav;
+
+Arguments declare() {
+  Arguments arguments(
+      "leonav-replay", "--config FILE --out DIR [options] run.lcmlog",
+      "Feeds an LCM log (of lcm-logger, leonav-import or leonavd's journal) to the "
+      "navigator and writes\nits answers as tables. A journal's deadline misses are "
+      "obeyed, so that its run comes again bit for bit.");
+  arguments.option("--config", "FILE", "configuration, as for leonavd")
+      .option("--out", "DIR",
+              "folder for solution.csv, epochs.csv, satellites.csv, "
+              "measurements.csv and summary.txt")
+      .option("--rate", "HZ",
+              "rows of solution.csv from the continuous solution at this rate "
+              "instead of one per epoch")
+      .option("--set", "KEY=VALUE",
+              "override one configuration key, as in gnss.systems=[gps]; "
+              "may be repeated")
+      .flag("--verify", "compare every output with those in the journal, byte for byte");
+  return arguments;
+}
+
+std::optional<double> rate_of(const Arguments& arguments) {
+  if (!arguments.has("--rate")) return std::nullopt;
+  const double rate = arguments.number("--rate");
+  if (!(rate >= 0.001 && rate <= 1000.0)) throw UsageError("--rate: must be 0.001 to 1000 Hz");
+  return rate;
+}
+
+void require_inputs(const JournalScan& scan, const std::string& log, const std::string& prefix) {
+  if (scan.inputs() > 0) return;
+  throw std::runtime_error(log + ": no inputs on channels " + prefix + "* (" +
+                           std::to_string(scan.other_messages) +
+                           " messages on others); is lcm.prefix right?");
+}
+
+// What went wrong; empty: nothing.
+std::string verdict(const ReplayRun& run, const JournalScan& scan, std::ostream& out) {
+  if (const Verifier* verifier = run.verifier()) {
+    out << "verified outputs: " << verifier->compared() << "\n"
+        << "differences: " << verifier->differences() << "\n";
+    if (verifier->beyond_end() > 0 && scan.truncated) {
+      out << "regenerated beyond the cut end: " << verifier->beyond_end() << "\n";
+    }
+    if (verifier->differences() > 0) {
+      return "the replay differs from the journal: " + verifier->first_difference() +
+             " (same configuration and program as when it was written?)";
+    }
+    if (verifier->compared() == 0) return "nothing to verify: the log holds no recorded outputs";
+  }
+  if (run.statistics().solutions() == 0 && run.statistics().epochs() == 0) {
+    return "the log gave no solution and no epoch: " + scan.describe();
+  }
+  if (run.solution_rows() == 0) {
+    return "no position was found; see summary.txt for the satellites' reasons (" +
+           scan.describe() + ")";
+  }
+  return "";
+}
+
+int replay(int argc, char** argv) {
+  Arguments arguments = declare();
+  if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.positional().size() != 1) throw UsageError("expected one log file");
+  ReplayRun::Options options;
+  options.log = arguments.positional().front();
+  options.out_folder = arguments.required("--out");
+  options.rate_hz = rate_of(arguments);
+  options.verify = arguments.has("--verify");
+  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+
+  const JournalScan scan = scan_journal(options.log, config.lcm.prefix);
+  require_inputs(scan, options.log, config.lcm.prefix);
+  if (scan.truncated) {
+    std::cerr << "leonav-replay: " << options.log << ": its last message is cut short; "
+              << "replaying what is whole\n";
+  }
+  std::filesystem::create_directories(options.out_folder);
+  ReplayRun run(config, options, scan);
+  run.run();
+
+  std::ostringstream summary;
+  run.print_summary(summary);
+  const std::string failure = verdict(run, scan, summary);
+  if (!failure.empty()) summary << "failure: " << failure << "\n";
+  std::cout << summary.str();
+  const std::string path = options.out_folder + "/summary.txt";
+  std::ofstream file(path);
+  file << summary.str();
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+  if (!failure.empty()) throw std::runtime_error(failure);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return leonav::run_tool("leonav-replay", replay, argc, argv); }

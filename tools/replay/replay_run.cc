@@ -1,0 +1,88 @@
+#include "replay_run.h"
+
+#include <iostream>
+
+#include "drivers/lcm/event_log.h"
+
+namespace leonav {
+
+ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const JournalScan& scan)
+    : prefix_(config.lcm.prefix),
+      options_(options),
+      scan_(scan),
+      files_(options.out_folder, options.rate_hz),
+      encoder_(this),
+      pipeline_(config.navigator, this),
+      dispatch_(&pipeline_.sequencer()) {
+  if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
+  for (const std::uint64_t epoch : scan_.missed_epochs) pipeline_.record_miss(epoch);
+}
+
+void ReplayRun::run() {
+  EventLogReader log(options_.log);
+  LogEvent event;
+  std::int64_t next_progress = log.size_bytes() / 10;
+  while (log.next(&event)) {
+    const auto channel = channel_from_name(event.channel, prefix_);
+    if (channel && is_input(*channel)) dispatch_.dispatch(*channel, event.data);
+    if (log.position_bytes() >= next_progress) {
+      std::cerr << "leonav-replay: " << 100 * log.position_bytes() / log.size_bytes() << " %\n";
+      next_progress += log.size_bytes() / 10;
+    }
+  }
+  files_.close();
+  if (verifier_ != nullptr) verifier_->finish(scan_.truncated);
+}
+
+void ReplayRun::on_solution(const Solution& solution) {
+  files_.add(solution);
+  statistics_.add(solution);
+  encoder_.on_solution(solution);
+}
+
+void ReplayRun::on_epoch(const EpochReport& report) {
+  files_.add(report);
+  statistics_.add(report);
+  encoder_.on_epoch(report);
+}
+
+void ReplayRun::on_event(const Event& event) {
+  statistics_.add(event);
+  encoder_.on_event(event);
+}
+
+void ReplayRun::on_decision(const Decision& decision) {
+  statistics_.add(decision);
+  encoder_.on_decision(decision);
+}
+
+void ReplayRun::take(Channel channel, ByteSpan bytes) {
+  const auto group = output_group(channel, bytes);
+  if (!group) return;
+  digest_.add(*group, bytes);
+  if (verifier_ != nullptr) verifier_->compare(*group, bytes);
+}
+
+void ReplayRun::print_summary(std::ostream& out) {
+  const auto& received = dispatch_.counters();
+  for (const Channel channel : kInputChannels) {
+    out << "input " << name_of(channel) << ": " << received.received[index_of(channel)] << "\n";
+    if (received.lost[index_of(channel)] > 0) {
+      out << "lost before us " << name_of(channel) << ": " << received.lost[index_of(channel)]
+          << "\n";
+    }
+  }
+  const auto& rejected = pipeline_.sequencer().counters().rejected;
+  for (std::size_t i = 0; i < rejected.size(); ++i) {
+    if (rejected[i] == 0) continue;
+    out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << rejected[i] << "\n";
+  }
+  statistics_.print(out);
+  out << "solution.csv rows: " << files_.solution_rows() << "\n";
+  for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
+    out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
+  }
+  out << "output hash: " << digest_.hex_digest() << "\n";
+}
+
+}  // namespace leonav

@@ -1,0 +1,58 @@
+// One replay: a log through the Pipeline, its outputs into files, digest and verifier.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/navigator/pipeline.h"
+#include "daemon/config/daemon_config.h"
+#include "daemon/encoding_sink.h"
+#include "daemon/input_dispatch.h"
+#include "journal_scan.h"
+#include "output_digest.h"
+#include "result_files.h"
+#include "run_statistics.h"
+#include "verifier.h"
+
+namespace leonav {
+
+class ReplayRun final : private OutputSink, private MessageTarget {
+ public:
+  struct Options {
+    std::string log;
+    std::string out_folder;
+    std::optional<double> rate_hz;
+    bool verify = false;
+  };
+  ReplayRun(const DaemonConfig& config, const Options& options, const JournalScan& scan);
+
+  // Feeds the whole log. Throws EventLogError, FileError.
+  void run();
+
+  // "key: value" lines; call once, after run().
+  void print_summary(std::ostream& out);
+
+  const RunStatistics& statistics() const { return statistics_; }
+  long solution_rows() const { return files_.solution_rows(); }
+  const Verifier* verifier() const { return verifier_.get(); }
+
+ private:
+  void on_solution(const Solution& solution) override;
+  void on_epoch(const EpochReport& report) override;
+  void on_event(const Event& event) override;
+  void on_decision(const Decision& decision) override;
+  void take(Channel channel, ByteSpan bytes) override;
+
+  std::string prefix_;
+  Options options_;
+  JournalScan scan_;
+  ResultFiles files_;
+  RunStatistics statistics_;
+  OutputDigest digest_;
+  std::unique_ptr<Verifier> verifier_;
+  EncodingSink encoder_;
+  Pipeline pipeline_;
+  InputDispatch dispatch_;
+};
+
+}  // namespace leonav

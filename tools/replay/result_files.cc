@@ -1,0 +1,129 @@
+#include "result_files.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/gnss/satellite.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+constexpr std::string_view kEpochsHeader =
+    "gps_week,gps_tow_s,epoch,empty,source,satellites,pdop,hdop,vdop,clock_gps_m,clock_galileo_m,"
+    "clock_beidou_m,clock_leo_m,drift_gps_m_s,drift_galileo_m_s,drift_beidou_m_s,drift_leo_m_s,nis,"
+    "nis_degrees";
+constexpr std::string_view kSatellitesHeader =
+    "gps_week,gps_tow_s,satellite,reason,used,elevation_deg,azimuth_deg,cn0_dbhz,ephemeris_age_s,"
+    "orbit";
+constexpr std::string_view kMeasurementsHeader =
+    "gps_week,gps_tow_s,satellite,observable,signals,observation,innovation,innovation_sigma,"
+    "test_ratio,weight_factor,reason";
+
+std::string_view name_of(OrbitSource source) {
+  switch (source) {
+    case OrbitSource::kNone:
+      return "none";
+    case OrbitSource::kBroadcast:
+      return "broadcast";
+    case OrbitSource::kPrecise:
+      return "precise";
+  }
+  return "none";
+}
+
+std::string_view name_of(Observable observable) {
+  switch (observable) {
+    case Observable::kCode:
+      return "code";
+    case Observable::kCarrier:
+      return "carrier";
+    case Observable::kDoppler:
+      return "doppler";
+  }
+  return "";
+}
+
+bool is_used(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
+
+}  // namespace
+
+ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_hz)
+    : solution_(folder + "/solution.csv"),
+      epochs_(folder + "/epochs.csv", kEpochsHeader),
+      satellites_file_(folder + "/satellites.csv", kSatellitesHeader),
+      measurements_(folder + "/measurements.csv", kMeasurementsHeader) {
+  if (rate_hz) interval_ns_ = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
+}
+
+void ResultFiles::add(const Solution& solution) {
+  if (!interval_ns_ || solution.source == Source::kNone || solution.time < next_row_) return;
+  solution_.write(to_solution_row(solution, satellites_, pdop_));
+  // The grid is anchored to time itself, so that rows of different runs fall together.
+  next_row_ =
+      GpsTime::from_nanoseconds((solution.time.nanoseconds() / *interval_ns_ + 1) * *interval_ns_);
+}
+
+void ResultFiles::add(const EpochReport& report) {
+  satellites_ = report.satellites_used;
+  pdop_ = report.pdop > 0.0 ? std::optional(report.pdop) : std::nullopt;
+  if (!interval_ns_ && report.solution.source != Source::kNone) {
+    solution_.write(to_solution_row(report.solution, satellites_, pdop_));
+  }
+  epochs_.time(report.time)
+      .number(static_cast<double>(report.index), 0)
+      .number(report.empty ? 1.0 : 0.0, 0)
+      .text(to_string(report.solution.source))
+      .number(report.satellites_used, 0)
+      .number(report.pdop, 2)
+      .number(report.hdop, 2)
+      .number(report.vdop, 2);
+  for (const double clock : report.clock_m) epochs_.number(clock, 3);
+  for (const double drift : report.clock_drift_m_s) epochs_.number(drift, 4);
+  epochs_.number(report.nis, 3).number(report.nis_degrees, 0).end_row();
+  write_satellites(report);
+  write_measurements(report);
+}
+
+void ResultFiles::write_satellites(const EpochReport& report) {
+  for (const SatelliteReport& satellite : report.satellites) {
+    satellites_file_.time(report.time)
+        .text(to_string(satellite.satellite))
+        .text(to_string(satellite.reason))
+        .number(is_used(satellite.reason) ? 1.0 : 0.0, 0)
+        .number(satellite.elevation * kDegrees, 2)
+        .number(satellite.azimuth * kDegrees, 2)
+        .number(satellite.cn0_dbhz, 1)
+        .number(satellite.ephemeris_age_s, 1)
+        .text(name_of(satellite.source))
+        .end_row();
+  }
+}
+
+void ResultFiles::write_measurements(const EpochReport& report) {
+  for (const AidingReport& aiding : report.aiding) {
+    std::string signals = to_string(aiding.code);
+    if (aiding.second_code.is_set()) signals += "+" + to_string(aiding.second_code);
+    measurements_.time(report.time)
+        .text(to_string(aiding.satellite))
+        .text(name_of(aiding.observable))
+        .text(signals)
+        .number(aiding.observation, 4)
+        .number(aiding.innovation, 4)
+        .number(std::sqrt(aiding.innovation_variance), 4)
+        .number(aiding.test_ratio, 3)
+        .number(aiding.weight_factor, 4)
+        .text(to_string(aiding.reason))
+        .end_row();
+  }
+}
+
+void ResultFiles::close() {
+  solution_.close();
+  epochs_.close();
+  satellites_file_.close();
+  measurements_.close();
+}
+
+}  // namespace leonav

@@ -1,0 +1,35 @@
+// The tables a replay leaves behind: solution.csv, epochs.csv, satellites.csv, measurements.csv.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "core/navigator/outputs.h"
+#include "drivers/csv/csv_writer.h"
+#include "drivers/csv/solution_csv.h"
+
+namespace leonav {
+
+class ResultFiles {
+ public:
+  // `rate_hz`: rows of solution.csv from the SOLUTION stream at this rate; nullopt: one row per
+  // epoch, the estimate at the epoch itself. Throws FileError.
+  ResultFiles(const std::string& folder, std::optional<double> rate_hz);
+
+  void add(const Solution& solution);
+  void add(const EpochReport& report);
+  void close();  // throws FileError
+  long solution_rows() const { return solution_.rows(); }
+
+ private:
+  void write_satellites(const EpochReport& report);
+  void write_measurements(const EpochReport& report);
+
+  std::optional<std::int64_t> interval_ns_;
+  GpsTime next_row_;
+  std::optional<int> satellites_;
+  std::optional<double> pdop_;
+  SolutionCsvWriter solution_;
+  CsvWriter epochs_, satellites_file_, measurements_;
+};
+
+}  // namespace leonav

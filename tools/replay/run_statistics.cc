@@ -1,0 +1,57 @@
+#include "run_statistics.h"
+
+#include <algorithm>
+
+namespace leonav {
+namespace {
+
+void print_map(std::ostream& out, const std::string& title,
+               const std::map<std::string, std::uint64_t>& counts) {
+  for (const auto& [name, count] : counts) out << title << " " << name << ": " << count << "\n";
+}
+
+}  // namespace
+
+void RunStatistics::add(const Solution& solution) {
+  ++solutions_;
+  ++solutions_by_source_[std::string(to_string(solution.source))];
+  largest_jump_m_ = std::max(largest_jump_m_, solution.jump_m);
+}
+
+void RunStatistics::add(const EpochReport& report) {
+  ++epochs_;
+  if (report.empty) ++empty_epochs_;
+  used_sum_ += report.satellites_used;
+  for (const SatelliteReport& satellite : report.satellites) {
+    ++satellites_by_reason_[std::string(to_string(satellite.reason))];
+  }
+  for (const AidingReport& aiding : report.aiding) {
+    ++measurements_by_reason_[std::string(to_string(aiding.reason))];
+  }
+}
+
+void RunStatistics::add(const Event& event) {
+  std::string name(to_string(event.kind));
+  if (event.kind == EventKind::kRejectedInput) {
+    name += " " + std::string(to_string(static_cast<InputFault>(event.code)));
+  }
+  ++events_[name];
+}
+
+void RunStatistics::add(const Decision& decision) { ++(decision.committed ? commits_ : misses_); }
+
+void RunStatistics::print(std::ostream& out) const {
+  out << "solutions: " << solutions_ << "\n";
+  print_map(out, "solutions by source", solutions_by_source_);
+  out << "epochs: " << epochs_ << "\nempty epochs: " << empty_epochs_ << "\n"
+      << "results committed: " << commits_ << "\ndeadline misses: " << misses_ << "\n";
+  if (epochs_ > 0) {
+    out << "mean satellites used: " << used_sum_ / static_cast<double>(epochs_) << "\n";
+  }
+  out << "largest jump m: " << largest_jump_m_ << "\n";
+  print_map(out, "satellites", satellites_by_reason_);
+  print_map(out, "measurements", measurements_by_reason_);
+  print_map(out, "events", events_);
+}
+
+}  // namespace leonav

@@ -1,0 +1,34 @@
+// What a run did, in counts.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <ostream>
+#include <string>
+
+#include "core/navigator/outputs.h"
+
+namespace leonav {
+
+class RunStatistics {
+ public:
+  void add(const Solution& solution);
+  void add(const EpochReport& report);
+  void add(const Event& event);
+  void add(const Decision& decision);
+
+  // "key: value" lines.
+  void print(std::ostream& out) const;
+  std::uint64_t solutions() const { return solutions_; }
+  std::uint64_t epochs() const { return epochs_; }
+
+ private:
+  std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, commits_ = 0, misses_ = 0;
+  double used_sum_ = 0.0;
+  double largest_jump_m_ = 0.0;
+  // Ordered maps: they are printed in order.
+  std::map<std::string, std::uint64_t> solutions_by_source_, events_, satellites_by_reason_,
+      measurements_by_reason_;
+};
+
+}  // namespace leonav
