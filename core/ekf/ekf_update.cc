@@ -104,8 +104,8 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
     result->clock_jump_m = jump;
   }
   for (const Observable observable : {Observable::kDoppler, Observable::kCode}) {
-    const double factor = prediction_inflation(measurements_, observable, covariance_,
-                                               config_.prediction_suspect_ratio);
+    const double factor = prediction_inflation(config_.robust, measurements_, observable,
+                                               covariance_, config_.prediction_suspect_ratio);
     if (factor <= 1.0) continue;
     inflate(observable, factor, &covariance_);
     result->prediction_suspect = true;

@@ -13,6 +13,7 @@ using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kMedianSquare = 0.4549;  // median of a chi-square with one degree of freedom
 constexpr double kMaxInflation = 1e6;     // per epoch
+constexpr std::size_t kMinRedundant = 7;  // position, clocks, and enough to check them
 constexpr std::size_t kMinCount = 4;      // fewer do not outvote a prediction ...
 constexpr double kMillisecondStep =
     29'979.0;                          // ... unless off by more than a tenth of a millisecond
@@ -42,8 +43,9 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   return 0.0;
 }
 
-double prediction_inflation(const FilterMeasurements& measurements, Observable observable,
-                            const EkfCovariance& covariance, double suspect) {
+double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,
+                            Observable observable, const EkfCovariance& covariance,
+                            double suspect) {
   SmallTable ratios, factors;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
@@ -53,9 +55,22 @@ double prediction_inflation(const FilterMeasurements& measurements, Observable o
     if (predicted > 0.0)
       factors.push_back((square / kMedianSquare - measurement.variance) / predicted);
   }
-  if (ratios.size() < kMinCount || factors.empty()) return 1.0;
+  if (ratios.size() < kMinRedundant || factors.empty()) return 1.0;
   if (std::sqrt(median(ratios)) < suspect) return 1.0;
-  return std::clamp(median(factors), 1.0, kMaxInflation);
+  const double factor = std::clamp(median(factors), 1.0, kMaxInflation);
+
+  // Would they agree?
+  FilterMeasurements trial;
+  for (const FilterMeasurement& measurement : measurements)
+    if (measurement.observable == observable) trial.push_back(measurement);
+  EkfCovariance wide = covariance;
+  inflate(observable, factor, &wide);
+  const RobustUpdateResult fit = robust_update(robust, &trial, &wide);
+  std::size_t kept = 0;
+  for (const FilterMeasurement& measurement : trial) kept += measurement.factor > 0.0 ? 1 : 0;
+  const double scale = observable == Observable::kCode ? fit.code_scale : fit.doppler_scale;
+  const bool agree = scale < suspect && 4 * kept >= 3 * trial.size();
+  return agree ? factor : 1.0;
 }
 
 void inflate(Observable observable, double factor, EkfCovariance* covariance) {

@@ -15,9 +15,11 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
                     const EkfCovariance& covariance);
 
 // Factor >= 1 on the predicted variance of the innovations of `observable` with which their median
-// square would be as expected; 1 while the median standardized innovation is below `suspect`.
-double prediction_inflation(const FilterMeasurements& measurements, Observable observable,
-                            const EkfCovariance& covariance, double suspect);
+// square would be as expected; 1 while the median standardized innovation is below `suspect`, and 1
+// where the measurements do not agree with each other either once the prior is that wide: then most
+// of them are bad, and following them would carry the filter away.
+double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,
+                            Observable observable, const EkfCovariance& covariance, double suspect);
 
 // P <- D P D with sqrt(factor) on the states an observable sees first (code: position, clock
 // offsets; Doppler: velocity, attitude, clock drifts): stays positive semidefinite.

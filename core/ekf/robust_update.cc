@@ -85,9 +85,11 @@ double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios
 
 // Returns the largest change of a factor.
 double reweight(const RobustConfig& config, const SmallTable& ratios,
-                FilterMeasurements* measurements) {
+                FilterMeasurements* measurements, RobustUpdateResult* result) {
   const double code_scale = scale_of(*measurements, ratios, Observable::kCode);
   const double doppler_scale = scale_of(*measurements, ratios, Observable::kDoppler);
+  result->code_scale = code_scale;
+  result->doppler_scale = doppler_scale;
   double change = 0.0;
   for (std::size_t i = 0; i < measurements->size(); ++i) {
     FilterMeasurement& measurement = (*measurements)[i];
@@ -119,7 +121,7 @@ RobustUpdateResult robust_update(const RobustConfig& config, FilterMeasurements*
     SmallTable ratios;
     for (int pass = 0; pass < config.max_iterations; ++pass) {
       standardize(*measurements, problem, &ratios);
-      const double change = reweight(config, ratios, measurements);
+      const double change = reweight(config, ratios, measurements, &result);
       solve(*measurements, &problem);
       if (change < kFactorTolerance) break;
     }

@@ -25,6 +25,9 @@ using FilterMeasurements = boost::container::static_vector<FilterMeasurement, kM
 struct RobustUpdateResult {
   EkfVector correction = EkfVector::Zero();
   double nis = 0.0;
+  // By how much the residuals are larger than they should be, from their median; 1 if they are not.
+  double code_scale = 1.0;
+  double doppler_scale = 1.0;
 };
 
 // Re-weights and solves at most `config.max_iterations` times. The residual that is tested is that
