@@ -22,6 +22,7 @@ constexpr double kMaxDoppler = 1e5;      // Hz
 constexpr int kMaxCn0 = 80;              // dBHz
 constexpr int kMaxWeek = 8191;           // 2137: 13 bits, as in the newer messages
 constexpr int kLockTimeCeiling = 64500;  // ms: the counter stays there
+constexpr int kNoCarrierStd = 15;        // cpStdev: no estimate
 
 // Bits of trkStat.
 constexpr std::uint8_t kPseudorangeValid = 1;
@@ -143,12 +144,14 @@ bool RxmRawxDecoder::decode_measurement(const std::uint8_t* bytes, GpsTime time,
   observation->doppler_hz = checked(block.doppler_hz, -kMaxDoppler, kMaxDoppler);
   if (block.cn0_dbhz > 0) observation->cn0_dbhz = checked(block.cn0_dbhz, 1, kMaxCn0);
   observation->lock_time_s = block.lock_time_ms * 1e-3;
+  LockState& state = lock_[lock_index(*system)][block.satellite_number][block.signal_id];
+  if (block.carrier_std_index == kNoCarrierStd) state.suspect = true;
   if (std::isfinite(observation->carrier_cycles)) {
     observation->half_cycle_ambiguous = !(block.tracking & kHalfCycleKnown);
-    LockState& state = lock_[lock_index(*system)][block.satellite_number][block.signal_id];
     const bool subtracted = block.tracking & kHalfCycleSubtracted;
-    observation->loss_of_lock = lock_was_lost(state, {time, block.lock_time_ms, subtracted});
-    state = {time, block.lock_time_ms, subtracted};
+    const LockState now{time, block.lock_time_ms, subtracted, false};
+    observation->loss_of_lock = lock_was_lost(state, now);
+    state = now;
   }
   if (std::isnan(observation->pseudorange_m) && std::isnan(observation->carrier_cycles) &&
       std::isnan(observation->doppler_hz)) {
@@ -163,7 +166,7 @@ bool RxmRawxDecoder::decode_measurement(const std::uint8_t* bytes, GpsTime time,
 bool RxmRawxDecoder::lock_was_lost(const LockState& last, const LockState& now) {
   if (now.lock_time_ms == 0) return true;
   if (!last.time.is_set()) return false;  // first seen: nothing to be continuous with
-  if (now.half_cycle_subtracted != last.half_cycle_subtracted) return true;
+  if (last.suspect || now.half_cycle_subtracted != last.half_cycle_subtracted) return true;
   if (now.lock_time_ms < last.lock_time_ms) return true;
   const double elapsed_ms = seconds_between(now.time, last.time) * 1e3;
   // The counter steps in milliseconds and is taken a little before or after the time tag.

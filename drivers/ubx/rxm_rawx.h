@@ -49,6 +49,7 @@ class RxmRawxDecoder {
     GpsTime time;  // last epoch that had this signal's carrier
     std::uint16_t lock_time_ms = 0;
     bool half_cycle_subtracted = false;
+    bool suspect = false;  // since then the receiver tracked on but vouched for nothing
   };
   static constexpr std::size_t kSatellites = 64;  // numbers within a system
   static constexpr std::size_t kSignalIds = 16;
