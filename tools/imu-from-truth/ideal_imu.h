@@ -6,8 +6,8 @@
 
 namespace leonav {
 
-// Increments over (start, start + interval_ns]. Rotation: attitude against i differenced over
-// sub-steps. Velocity: specific force integrated in the turning body frame by Gauss-Legendre.
+// Increments over (start, start + interval_ns]: rate and specific force in the turning body frame,
+// from the track's derivatives in closed form, integrated by three-point Gauss-Legendre.
 ImuSample ideal_sample(const SmoothTrack& track, GpsTime start, std::int64_t interval_ns);
 
 }  // namespace leonav

@@ -118,6 +118,23 @@ Eigen::Quaterniond SmoothTrack::attitude(double t) const {
   return Eigen::Quaterniond(Eigen::Matrix3d(C_ne.transpose() * C_nb)).normalized();
 }
 
+// Earth rate, the local frame's turning with the ellipsoid's curvature (Groves 2013, eq. 5.44), and
+// the rates of yaw and pitch about their axes; roll is zero.
+Eigen::Vector3d SmoothTrack::omega_ib_b(double t) const {
+  const TrackInstant now = at(t);
+  const Geodetic where = to_geodetic(now.p_e);
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(where);
+  const Eigen::Vector3d v_n = C_ne * now.v_e;
+  const double east_turn = v_n.y() / (prime_vertical_radius(where.latitude) + where.height);
+  const double north_turn = v_n.x() / (meridian_radius(where.latitude) + where.height);
+  const Eigen::Vector3d omega_en_n(east_turn, -north_turn, -east_turn * std::tan(where.latitude));
+  const Eigen::Vector3d omega_in_n = kEarthRotationRate * C_ne.col(2) + omega_en_n;
+  const double pitch = pitch_.value(t), yaw_rate = yaw_.first_derivative(t);
+  const Eigen::Vector3d omega_nb_b(-yaw_rate * std::sin(pitch), pitch_.first_derivative(t),
+                                   yaw_rate * std::cos(pitch));
+  return rotation_from_euler({0.0, pitch, yaw_.value(t)}).transpose() * omega_in_n + omega_nb_b;
+}
+
 TruthPoint SmoothTrack::point(GpsTime time) const {
   const double t = seconds_between(time, start_);
   const TrackInstant now = at(t);

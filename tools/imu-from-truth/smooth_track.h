@@ -34,7 +34,8 @@ class SmoothTrack {
   TrackInstant at(double t) const;
   // Body to ECEF: heading along the course where it moves, pitch along the slope, no roll.
   Eigen::Quaterniond attitude(double t) const;
-  TruthPoint point(GpsTime time) const;  // everything, as truth.csv has it
+  Eigen::Vector3d omega_ib_b(double t) const;  // the body's rate against i, rad/s
+  TruthPoint point(GpsTime time) const;        // everything, as truth.csv has it
 
   double rms_deviation_m() const { return rms_deviation_m_; }
   double max_deviation_m() const { return max_deviation_m_; }
