@@ -53,6 +53,39 @@ double noise_elevation(const DelayContext& context, const SatelliteInView& satel
   return context.has_position ? satellite.elevation : kHalfPi;
 }
 
+// Signals chipped at 5 or 10 MHz against 1 MHz: less noise and far less multipath.
+bool is_wideband(System system, char band) {
+  switch (system) {
+    case System::kGps:
+      return band == '5';
+    case System::kGalileo:
+      return band != '1';
+    case System::kBeidou:
+      return band == '5' || band == '6' || band == '7';
+    case System::kLeo:
+      return false;
+  }
+  return false;
+}
+
+double code_noise(const DelayContext& context, double elevation, const SignalObservation& signal) {
+  const System system = signal.satellite.system;
+  const ObservableSigma& sigma = context.config->systems[index_of(system)].sigma;
+  const double factor = is_wideband(system, signal.code.band) ? sigma.wideband_code_factor : 1.0;
+  return sigma.code_m * factor * noise_factor(*context.config, elevation, signal.cn0_dbhz);
+}
+
+// Code less the receiver's delay of its band.
+double unbiased_range(const DelayContext& context, const SignalObservation& signal) {
+  if (context.biases == nullptr) return signal.pseudorange_m;
+  return signal.pseudorange_m - context.biases->offset_m(signal.satellite.system, signal.code.band);
+}
+
+double bias_variance(const DelayContext& context, const SignalObservation& signal) {
+  if (context.biases == nullptr) return 0.0;
+  return context.biases->variance_m2(signal.satellite.system, signal.code.band);
+}
+
 double frequency_of(const SignalObservation& signal) {
   return frequency_hz(signal.satellite.system, signal.code.band);
 }
@@ -72,29 +105,30 @@ void correct_direction(const DelayContext& context, const Eigen::Vector3d& p_a_e
 Measurement code_measurement(const DelayContext& context, const SignalObservation& first,
                              const SignalObservation* second, const Ephemeris* broadcast,
                              int shared_by, SatelliteInView* satellite) {
-  const double sigma0 = context.config->systems[index_of(satellite->satellite.system)].sigma.code_m;
   const double elevation = noise_elevation(context, *satellite);
   const double f1 = frequency_of(first);
-  const double noise1 = sigma0 * noise_factor(*context.config, elevation, first.cn0_dbhz);
+  const double noise1 = code_noise(context, elevation, first);
 
   Measurement code;
   code.observable = Observable::kCode;
   code.code = first.code;
-  double range = first.pseudorange_m;
+  double range = unbiased_range(context, first);
   double variance = square(noise1);
   if (second != nullptr) {
     const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
-    const double noise2 = sigma0 * noise_factor(*context.config, elevation, second->cn0_dbhz);
     code.second_code = second->code;
-    range = pair.gamma1 * first.pseudorange_m + pair.gamma2 * second->pseudorange_m;
-    variance = square(combined_sigma(pair, noise1, noise2));
+    range = pair.gamma1 * range + pair.gamma2 * unbiased_range(context, *second);
+    variance = square(combined_sigma(pair, noise1, code_noise(context, elevation, *second))) +
+               square(pair.gamma1) * bias_variance(context, first) +
+               square(pair.gamma2) * bias_variance(context, *second);
   } else if (context.has_position) {
     const LookAngles direction{satellite->elevation, satellite->azimuth};
     const double delay =
         klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
-    variance += shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
+    variance += bias_variance(context, first) +
+                shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
   code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m;

@@ -2,6 +2,7 @@
 // uncertainty.
 #pragma once
 #include "core/earth/ellipsoid.h"
+#include "core/gnss/band_bias.h"
 #include "core/gnss/gnss_config.h"
 #include "core/gnss/look_angles.h"
 #include "core/gnss/measurement.h"
@@ -16,6 +17,7 @@ struct DelayContext {
   GpsTime time;
   bool has_position = false;  // without one there is no elevation and no atmosphere
   Geodetic antenna;
+  const BandBiases* biases = nullptr;  // of the receiver; may be nullptr
 };
 
 // 1 sigma of all that stays uncorrected while no position is known: atmosphere down to the horizon.

@@ -23,6 +23,8 @@ struct SignalPreference {
 
 struct ObservableSigma {
   double code_m = 1.0;  // one frequency, at zenith
+  // On the code of 5 and 10 MHz chipping rate (GPS L5, Galileo E5/E6, BeiDou B2a/B2b/B3I).
+  double wideband_code_factor = 0.5;
   double carrier_m = 0.003;
   double doppler_m_s = 0.1;
 };

@@ -49,11 +49,13 @@ struct Problem {
   const SatelliteCatalog& catalog;
   const GnssConfig& config;
   const RobustConfig& robust;
+  BandBiases* biases;
 };
 
 // A first position without any assumption; no mask, no atmosphere.
 bool solve_from_nothing(const Problem& problem, MeasurementEpoch* epoch, PositionFit* position) {
-  preprocess(problem.raw, problem.catalog, problem.config, Eigen::Vector3d::Zero(), epoch);
+  preprocess(problem.raw, problem.catalog, problem.config, Eigen::Vector3d::Zero(), epoch,
+             problem.biases);
   fit_position(*epoch, problem.robust, surface_below(*epoch), position);
   if (gives_position(*position)) return true;
   if (position->fit.status == FitStatus::kTooFewRows) return false;
@@ -65,7 +67,7 @@ bool solve_from_nothing(const Problem& problem, MeasurementEpoch* epoch, Positio
 bool solve_from(const Problem& problem, Eigen::Vector3d p_e, MeasurementEpoch* epoch,
                 PositionFit* position) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    preprocess(problem.raw, problem.catalog, problem.config, p_e, epoch);
+    preprocess(problem.raw, problem.catalog, problem.config, p_e, epoch, problem.biases);
     fit_position(*epoch, problem.robust, p_e, position);
     if (!gives_position(*position)) return false;
     const double moved = (position->state.head<3>() - p_e).norm();
@@ -151,8 +153,10 @@ void add_velocity(const Problem& problem, MeasurementEpoch* epoch, PointSolution
 
 PointSolution solve_point(const RawEpoch& raw, const SatelliteCatalog& catalog,
                           const GnssConfig& config, const RobustConfig& robust,
-                          const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch) {
-  const Problem problem{raw, catalog, config, robust};
+                          const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
+                          BandBiases* biases) {
+  BandBiases of_this_epoch;
+  const Problem problem{raw, catalog, config, robust, biases != nullptr ? biases : &of_this_epoch};
   PointSolution solution;
   solution.clock_m.fill(std::numeric_limits<double>::quiet_NaN());
   solution.clock_drift_m_s.fill(std::numeric_limits<double>::quiet_NaN());

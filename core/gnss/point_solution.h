@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/gnss/band_bias.h"
 #include "core/gnss/gnss_config.h"
 #include "core/gnss/igg3.h"
 #include "core/gnss/measurement.h"
@@ -34,9 +35,10 @@ struct PointSolution {
 };
 
 // Solves `raw` from scratch (an approximate position of zero is fine) and leaves in `epoch` the
-// preprocessed measurements at the solution with a reason for each.
+// preprocessed measurements at the solution with a reason for each. `biases` as for preprocess().
 PointSolution solve_point(const RawEpoch& raw, const SatelliteCatalog& catalog,
                           const GnssConfig& config, const RobustConfig& robust,
-                          const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch);
+                          const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
+                          BandBiases* biases = nullptr);
 
 }  // namespace leonav

@@ -150,10 +150,70 @@ bool append_doppler(const DelayContext& context, const Candidate& candidate,
   const SignalObservation* strongest = nullptr;
   for (const SignalObservation* signal : signals.bands) {
     if (!has_doppler(*signal)) continue;
-    if (strongest == nullptr || signal->cn0_dbhz > strongest->cn0_dbhz) strongest = signal;
+    const bool stronger = strongest == nullptr || signal->cn0_dbhz > strongest->cn0_dbhz ||
+                          (std::isnan(strongest->cn0_dbhz) && !std::isnan(signal->cn0_dbhz));
+    if (stronger) strongest = signal;
   }
   if (strongest == nullptr) return true;
   return append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
+}
+
+double single_band_value(const DelayContext& context, const Candidate& candidate,
+                         const SignalObservation& signal, SatelliteInView view, double* sigma) {
+  const Measurement code =
+      code_measurement(context, signal, nullptr, candidate.broadcast, 1, &view);
+  *sigma = code.sigma;
+  return code.value;
+}
+
+const SignalObservation* signal_on(const Candidate& candidate, char band) {
+  for (const SignalObservation* signal : candidate.signals.bands) {
+    if (signal->code.band == band) return signal;
+  }
+  return nullptr;
+}
+
+// The best of the bands that the satellites in use have; bands of a candidate stand best first.
+char reference_band(const GnssConfig& config, System system, const Candidates& candidates,
+                    const MeasurementEpoch& epoch, char present) {
+  const SignalPreference& preference = config.systems[index_of(system)].signals;
+  char best = present;
+  for (const Candidate& candidate : candidates) {
+    const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
+    if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
+    const char band = candidate.signals.bands.front()->code.band;
+    if (best == 0 || band_comes_first(system, preference, band, best)) best = band;
+  }
+  return best;
+}
+
+// `context` without biases: differences are of what the receiver measured.
+void estimate_biases(const DelayContext& context, const Candidates& candidates,
+                     const MeasurementEpoch& epoch, BandBiases* biases) {
+  biases->open(context.time);
+  for (const System system : kSystems) {
+    const char reference =
+        reference_band(*context.config, system, candidates, epoch, biases->reference(system));
+    if (reference == 0) continue;
+    biases->set_reference(system, reference);
+    for (char band = '1'; band <= '9'; ++band) {
+      BandDifferences differences;
+      for (const Candidate& candidate : candidates) {
+        const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
+        if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
+        const SignalObservation* first = signal_on(candidate, reference);
+        const SignalObservation* other = signal_on(candidate, band);
+        if (band == reference || first == nullptr || other == nullptr) continue;
+        double sigma_first = 0.0, sigma_other = 0.0;
+        const double value = single_band_value(context, candidate, *other, view, &sigma_other) -
+                             single_band_value(context, candidate, *first, view, &sigma_first);
+        if (!std::isfinite(value)) continue;
+        differences.values_m.push_back(value);
+        differences.sigma_m = std::hypot(sigma_first, sigma_other);
+      }
+      biases->update(system, band, differences);
+    }
+  }
 }
 
 // Observations of one satellite stand together; the first of another one ends the run.
@@ -174,7 +234,8 @@ bool is_listed(const MeasurementEpoch& epoch, SatelliteId id) {
 }  // namespace
 
 void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const GnssConfig& config,
-                const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch) {
+                const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
+                BandBiases* biases) {
   epoch->time = raw.time;
   epoch->approximate_p_e = approximate_p_e;
   epoch->satellites.clear();
@@ -202,6 +263,10 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     epoch->satellites.push_back(view);
   }
   if (context.has_position) apply_caps(config, epoch);
+  BandBiases of_this_epoch;
+  if (biases == nullptr) biases = &of_this_epoch;
+  estimate_biases(context, candidates, *epoch, biases);
+  context.biases = biases;
   for (const Candidate& candidate : candidates) {
     SatelliteInView& view = epoch->satellites[candidate.satellite_index];
     if (view.reason != Reason::kUsed) continue;

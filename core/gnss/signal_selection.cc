@@ -25,12 +25,8 @@ int band_rank(const SignalPreference& preference, char band) {
 // Strict order of the signals of one satellite: better first.
 bool is_better(const SignalPreference& preference, const SignalObservation& a,
                const SignalObservation& b) {
-  const int band_a = band_rank(preference, a.code.band);
-  const int band_b = band_rank(preference, b.code.band);
-  if (band_a != band_b) return band_a < band_b;
   if (a.code.band != b.code.band) {
-    return frequency_hz(a.satellite.system, a.code.band) >
-           frequency_hz(b.satellite.system, b.code.band);
+    return band_comes_first(a.satellite.system, preference, a.code.band, b.code.band);
   }
   const int attribute_a = place_in(preference.attributes, a.code.attribute);
   const int attribute_b = place_in(preference.attributes, b.code.attribute);
@@ -57,6 +53,13 @@ void choose_pair(SelectedSignals* selected) {
 }
 
 }  // namespace
+
+bool band_comes_first(System system, const SignalPreference& preference, char a, char b) {
+  const int rank_a = band_rank(preference, a);
+  const int rank_b = band_rank(preference, b);
+  if (rank_a != rank_b) return rank_a < rank_b;
+  return frequency_hz(system, a) > frequency_hz(system, b);
+}
 
 bool is_plausible_pseudorange(double pseudorange_m) {
   return pseudorange_m >= kMinPseudorange && pseudorange_m <= kMaxPseudorange;  // NaN fails

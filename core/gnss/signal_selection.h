@@ -22,6 +22,9 @@ struct SelectedSignals {
   bool any_plausible = false;                 // and within the physical range, whatever its C/N0
 };
 
+// Whether band `a` of a system is to be preferred to band `b`: the order of select_signals().
+bool band_comes_first(System system, const SignalPreference& preference, char a, char b);
+
 // Bounds on a pseudorange, receiver clock error of some 30 ms included: a LEO satellite is never
 // nearer than 300 km, a geostationary one never farther than 43,000 km.
 bool is_plausible_pseudorange(double pseudorange_m);

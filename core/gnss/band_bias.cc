@@ -1,0 +1,95 @@
+#include "core/gnss/band_bias.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+// Temperature moves the difference of two front ends by centimetres per minute.
+constexpr double kWalkVariance = 4.0e-4;  // m^2/s
+constexpr double kMaxSpan = 3600.0;       // s; after a longer gap the growth stops mattering
+// Beyond five sigma and this much an epoch is strange; so many in a row are a new delay (the
+// receiver has restarted its tracking).
+constexpr double kStrangeMargin = 10.0;  // m
+constexpr int kStrangeEpochs = 5;
+constexpr double kMedianEfficiency = 1.5708;  // variance of a median against that of a mean
+
+double median_of(boost::container::static_vector<double, kMaxSatellites> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::size_t digit(char band) { return static_cast<std::size_t>(band - '0'); }
+bool is_digit(char band) { return band >= '0' && band <= '9'; }
+
+}  // namespace
+
+void BandBiases::open(GpsTime time) {
+  if (time_.is_set() && time == time_) {
+    systems_ = before_;
+    return;
+  }
+  const double elapsed =
+      time_.is_set() ? std::clamp(std::abs(seconds_between(time, time_)), 0.0, kMaxSpan) : 0.0;
+  for (SystemBiases& system : systems_) {
+    for (Bias& bias : system.bands) {
+      if (bias.variance_m2 >= 0.0) bias.variance_m2 += kWalkVariance * elapsed;
+    }
+  }
+  before_ = systems_;
+  time_ = time;
+}
+
+void BandBiases::set_reference(System system, char band) {
+  SystemBiases& biases = systems_[index_of(system)];
+  if (biases.reference == band) return;
+  biases = SystemBiases{};
+  biases.reference = band;
+}
+
+void BandBiases::update(System system, char band, const BandDifferences& differences) {
+  if (differences.values_m.empty() || !is_digit(band)) return;
+  const double median = median_of(differences.values_m);
+  auto deviations = differences.values_m;
+  for (double& value : deviations) value = std::abs(value - median);
+  const double spread = std::max(1.4826 * median_of(deviations), differences.sigma_m);
+  const double variance =
+      kMedianEfficiency * spread * spread / static_cast<double>(differences.values_m.size());
+
+  Bias& bias = systems_[index_of(system)].bands[digit(band)];
+  if (bias.variance_m2 < 0.0) {
+    bias = {median, variance, 0};
+    return;
+  }
+  const double innovation = median - bias.value_m;
+  const double total = bias.variance_m2 + variance;
+  if (std::abs(innovation) > 5.0 * std::sqrt(total) + kStrangeMargin) {
+    if (++bias.strange_epochs >= kStrangeEpochs) bias = {median, variance, 0};
+    return;
+  }
+  const double gain = bias.variance_m2 / total;
+  bias.value_m += gain * innovation;
+  bias.variance_m2 *= 1.0 - gain;
+  bias.strange_epochs = 0;
+}
+
+const BandBiases::Bias* BandBiases::find(System system, char band) const {
+  const SystemBiases& biases = systems_[index_of(system)];
+  if (!is_digit(band) || band == biases.reference) return nullptr;
+  const Bias& bias = biases.bands[digit(band)];
+  return bias.variance_m2 >= 0.0 ? &bias : nullptr;
+}
+
+double BandBiases::offset_m(System system, char band) const {
+  const Bias* bias = find(system, band);
+  return bias != nullptr ? bias->value_m : 0.0;
+}
+
+double BandBiases::variance_m2(System system, char band) const {
+  const Bias* bias = find(system, band);
+  return bias != nullptr ? bias->variance_m2 : 0.0;
+}
+
+}  // namespace leonav

@@ -1,0 +1,54 @@
+// The receiver's own delay of each band against the first band of its system.
+#pragma once
+#include <array>
+#include <boost/container/static_vector.hpp>
+
+#include "core/capacity.h"
+#include "core/gnss/satellite.h"
+#include "core/time/gps_time.h"
+
+namespace leonav {
+
+// Differences of corrected code, other band minus reference band, of the satellites of one epoch.
+struct BandDifferences {
+  boost::container::static_vector<double, kMaxSatellites> values_m;
+  double sigma_m = 1.0;  // 1 sigma of one difference by the noise model
+};
+
+// Receivers delay their bands differently: a geodetic one by metres, a phone by kilometres (L5 of
+// the drive data set: 2358 m). The clock of a system absorbs that only if all its satellites are
+// measured on the same bands, so each epoch's median over the satellites with both bands is
+// filtered as a slow random walk and taken out. Only differences within a satellite enter: no
+// position is needed beyond the atmosphere's.
+class BandBiases {
+ public:
+  // Opens an epoch. The same `time` again (another pass over it) starts from the state before it.
+  void open(GpsTime time);
+  // The band the others of `system` are compared with; another one than before forgets them.
+  void set_reference(System system, char band);
+  char reference(System system) const { return systems_[index_of(system)].reference; }
+  void update(System system, char band, const BandDifferences& differences);
+
+  // Metres to subtract from the code of `band`, and the variance; zero where nothing is known.
+  double offset_m(System system, char band) const;
+  double variance_m2(System system, char band) const;
+
+ private:
+  struct Bias {
+    double value_m = 0.0;
+    double variance_m2 = -1.0;  // negative: unknown
+    int strange_epochs = 0;
+  };
+  struct SystemBiases {
+    char reference = 0;
+    std::array<Bias, 10> bands;  // by digit of the band
+  };
+  using State = std::array<SystemBiases, kSystemCount>;
+  const Bias* find(System system, char band) const;
+
+  GpsTime time_;
+  State before_{};  // at the end of the epoch before
+  State systems_{};
+};
+
+}  // namespace leonav
