@@ -28,7 +28,7 @@ int body(int argc, char** argv) {
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
       "relative to the file: observations (RINEX 2 or 3, .ubx), navigation (RINEX 2 or 3),\n"
       "orbits (SP3), clocks, antenna_models, imu (imu.csv), truth; and name.");
-  arguments.option("-o", "FILE", "the log to write")
+  arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")
       .option("--to", "WEEK:SECONDS", "leave out data after this GPS time")
       .option("--gnss-latency-ms", "MS", "a GNSS epoch arrives this long after its time", "50");
@@ -46,7 +46,7 @@ int body(int argc, char** argv) {
   if (!(options.gnss_latency_s >= 0.0 && options.gnss_latency_s <= 10.0)) {
     throw leonav::UsageError("--gnss-latency-ms must be within 0 and 10000");
   }
-  const std::string output = arguments.required("-o");
+  const std::string output = arguments.required("--out");
   const leonav::Dataset dataset = leonav::load_dataset(arguments.positional()[0]);
   const leonav::ImportReport report = leonav::import_dataset(dataset, options, output, &std::cerr);
   std::cout << output << (dataset.name.empty() ? "" : ": " + dataset.name) << "\n"
