@@ -30,6 +30,7 @@ TEST_CASE("GPS single signals follow IS-GPS-200", "[group_delay]") {
   CHECK(group_delay(kGps, code("1C")).delay_m == Approx(c * 5 * kNs));
   CHECK(group_delay(kGps, code("2W")).delay_m == Approx(c * 5 * kNs * 77 * 77 / 3600));
   CHECK(group_delay(kGps, code("2W")).sigma_m < 0.5);
+  CHECK(group_delay(kGps, code("5Q")).delay_m == 0.0);
   CHECK(group_delay(kGps, code("5Q")).sigma_m >= 1.0);  // LNAV does not tell L5's
 }
 
