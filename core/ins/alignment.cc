@@ -16,6 +16,7 @@ constexpr double kStillTimeConstant_s = 2.0;
 // Long against a step or a start at traffic lights, short against the gyro drift that an unknown
 // bias makes.
 constexpr double kMovingTimeConstant_s = 10.0;
+constexpr double kMovingKnownBiasTimeConstant_s = 30.0;
 constexpr double kStandingSpeed_m_s = 0.2;
 // Sideslip, the antenna swinging about the IMU and the mounting: what a course is off the heading.
 constexpr double kCourseAgainstHeading = 0.03;  // rad
@@ -77,9 +78,14 @@ void Alignment::level_at_first(const ImuSample& sample) {
 void Alignment::level_on(const ImuSample& sample) {
   const double dt = sample.interval_s();
   levelled_for_s_ += dt;
-  const double time_constant = still_ ? kStillTimeConstant_s : kMovingTimeConstant_s;
+  const Eigen::Vector3d velocity_l = q_lb_ * sample.delta_velocity_b;
+  // The standstill ends with the first push, not with the window that notices it.
+  const bool pushed = std::hypot(velocity_l.x(), velocity_l.y()) > config_.static_accel_m_s2 * dt;
+  const double moving =
+      standing_.seconds > 0.0 ? kMovingKnownBiasTimeConstant_s : kMovingTimeConstant_s;
+  const double time_constant = still_ && !pushed ? kStillTimeConstant_s : moving;
   const double gain = 1.0 / (kGravity * std::min(time_constant, levelled_for_s_));
-  Eigen::Vector3d correction = gain * (q_lb_ * -sample.delta_velocity_b).cross(kDown);
+  Eigen::Vector3d correction = -gain * velocity_l.cross(kDown);
   const double limit = 0.1 * dt;  // rad: a shock must not tip the level over
   if (correction.norm() > limit) correction *= limit / correction.norm();
   q_lb_ = (quaternion_from_rotation_vector(correction) * q_lb_).normalized();

@@ -15,7 +15,7 @@ std::int64_t median_interval(const std::vector<ImuSample>& samples) {
   for (std::size_t i = 1; i < samples.size(); ++i) {
     intervals.push_back(samples[i].time.nanoseconds() - samples[i - 1].time.nanoseconds());
   }
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>((intervals.size() - 1) / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return *middle;
 }

@@ -1,0 +1,177 @@
+#include "core/ins/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "exact_motion.h"
+#include "support/catch.h"
+#include "support/shared_data.h"
+
+using namespace leonav;
+using namespace leonav::test;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDt = 0.01;
+const Geodetic kWhere{40.0 * kDegree, -105.0 * kDegree, 1600.0};
+const Eigen::Matrix3d kC_en = rotation_ecef_to_ned(kWhere).transpose();
+const Eigen::Vector3d kPosition = to_ecef(kWhere);
+const Eigen::Vector3d kGyroBias(0.002, -0.003, 0.001);
+
+// A vehicle on a plane: stands, speeds up along its x axis, drives on. Roll and pitch stay (tilted
+// mounting), the body shakes while it moves.
+struct Ride {
+  EulerAngles angles;
+  double speed = 0.0, acceleration = 0.0, yaw_rate = 0.0, shake = 0.0, t = 0.0;
+  GpsTime time = GpsTime::from_week_and_tow(2400, 0.0);
+
+  Eigen::Vector3d v_e() const {
+    const Eigen::Vector3d v_n(speed * std::cos(angles.yaw), speed * std::sin(angles.yaw), 0.0);
+    return kC_en * v_n;
+  }
+  Eigen::Quaterniond q_eb() const {
+    return Eigen::Quaterniond(Eigen::Matrix3d(kC_en * rotation_from_euler(angles)));
+  }
+  ImuSample step() {
+    t += kDt;
+    speed += acceleration * kDt;
+    angles.yaw = wrap_to_pi(angles.yaw + yaw_rate * kDt);
+    time = time.plus_nanoseconds(10'000'000);
+    const double c = std::cos(angles.yaw), s = std::sin(angles.yaw);
+    const double sway = shake * std::sin(2.0 * std::numbers::pi * 2.0 * t);
+    const double centripetal = speed * yaw_rate;
+    const Eigen::Vector3d force_n(acceleration * c - centripetal * s - sway * s,
+                                  acceleration * s + centripetal * c + sway * c,
+                                  -9.80 + 1.5 * sway);
+    const Eigen::Matrix3d C_nb = rotation_from_euler(angles);
+    const Eigen::Vector3d omega_ie_b = q_eb().conjugate() * Eigen::Vector3d(0, 0, 7.292115e-5);
+    ImuSample sample;
+    sample.time = time;
+    sample.interval_ns = 10'000'000;
+    const Eigen::Vector3d rate =
+        C_nb.transpose() * Eigen::Vector3d(0, 0, yaw_rate) + omega_ie_b + kGyroBias;
+    sample.delta_theta_b = rate * kDt;
+    sample.delta_velocity_b = C_nb.transpose() * force_n * kDt;
+    return sample;
+  }
+};
+
+void run(Ride* ride, Alignment* alignment, double seconds) {
+  for (int i = 0; i < static_cast<int>(std::lround(seconds / kDt)); ++i) {
+    alignment->add(ride->step());
+    // Once a second the GNSS gives a velocity, which may or may not yield an attitude.
+    if (i % 100 == 99) (void)alignment->attitude(kPosition, ride->v_e(), 0.05);
+  }
+}
+
+double tilt_error(const AlignedAttitude& aligned, const Ride& ride) {
+  const Eigen::Vector3d error =
+      rotation_vector_from_quaternion(ride.q_eb().conjugate() * aligned.q_eb);
+  const Eigen::Vector3d error_n = rotation_from_euler(ride.angles) * error;
+  return std::hypot(error_n.x(), error_n.y());
+}
+
+double heading_error(const AlignedAttitude& aligned, const Ride& ride) {
+  const Eigen::Matrix3d C_nb = kC_en.transpose() * aligned.q_eb.toRotationMatrix();
+  return std::abs(wrap_to_pi(euler_from_rotation(C_nb).yaw - ride.angles.yaw));
+}
+
+}  // namespace
+
+TEST_CASE("Stand, then drive off: attitude and gyro bias in all four quadrants", "[ins]") {
+  double worst_tilt = 0.0, worst_heading = 0.0, worst_bias = 0.0;
+  for (const double yaw_deg : {0.0, 45.0, 135.0, 180.0, -135.0, -45.0, -90.0}) {
+    for (const EulerAngles& mounting :
+         {EulerAngles{0, 0, 0}, EulerAngles{0.25, -0.3, 0}, EulerAngles{-0.6, 0.4, 0}}) {
+      Ride ride{{mounting.roll, mounting.pitch, yaw_deg * kDegree}};
+      Alignment alignment({});
+      run(&ride, &alignment, 10.0);
+      CHECK(alignment.levelled());
+      CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05));  // no course yet
+      ride.acceleration = 0.5;
+      ride.shake = 1.5;
+      run(&ride, &alignment, 4.0);
+      const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+      REQUIRE(aligned);
+      worst_tilt = std::max(worst_tilt, tilt_error(*aligned, ride));
+      worst_heading = std::max(worst_heading, heading_error(*aligned, ride));
+      CHECK(aligned->gyro_bias_known);
+      worst_bias = std::max(worst_bias, (aligned->gyro_bias_b - kGyroBias).norm());
+    }
+  }
+  std::cout << "alignment after a standstill: tilt " << worst_tilt / kDegree << " deg, heading "
+            << worst_heading / kDegree << " deg, gyro bias " << worst_bias << " rad/s\n";
+  CHECK(worst_tilt < 0.035);  // levelling_sigma: 2 deg
+  CHECK(worst_heading < 1e-6);
+  CHECK(worst_bias < 1e-5);  // below the Earth's rate: that was told apart
+}
+
+TEST_CASE("Started on the move, shaking: levelled, heading from the course", "[ins]") {
+  double worst_tilt = 0.0;
+  for (const double yaw_deg : {30.0, 120.0, -150.0, -60.0}) {
+    Ride ride{{0.1, -0.2, yaw_deg * kDegree}};
+    ride.speed = 3.0;
+    ride.shake = 2.0;
+    Alignment alignment({});
+    run(&ride, &alignment, 30.0);
+    const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.1);
+    REQUIRE(aligned);
+    worst_tilt = std::max(worst_tilt, tilt_error(*aligned, ride));
+    CHECK_FALSE(aligned->gyro_bias_known);
+    CHECK(aligned->sigma_rpy.z() == Approx(std::hypot(0.1 / 3.0, 0.03)));
+  }
+  std::cout << "alignment on the move: tilt " << worst_tilt / kDegree << " deg\n";
+  CHECK(worst_tilt < 0.07);
+}
+
+TEST_CASE("Steady motion is no standstill", "[ins]") {
+  // Smooth as a standstill to the IMU, in a gentle curve: only the velocity tells.
+  Ride ride{{0.0, 0.0, 1.0}};
+  ride.speed = 10.0;
+  ride.yaw_rate = 0.02;
+  Alignment alignment({});
+  run(&ride, &alignment, 20.0);
+  const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+  REQUIRE(aligned);
+  CHECK_FALSE(aligned->gyro_bias_known);
+  CHECK(aligned->gyro_bias_b.isZero());
+}
+
+TEST_CASE("A configured heading needs no motion", "[ins]") {
+  AlignmentConfig config;
+  config.initial_heading = -2.0;
+  Ride ride{{0.3, 0.1, -2.0}};
+  Alignment alignment(config);
+  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05));  // not levelled
+  run(&ride, &alignment, 3.0);
+  const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+  REQUIRE(aligned);
+  CHECK(heading_error(*aligned, ride) < 1e-6);
+  CHECK(tilt_error(*aligned, ride) < 0.01);
+  CHECK(aligned->sigma_rpy.z() == config.initial_heading_sigma);
+  alignment.reset();
+  CHECK_FALSE(alignment.levelled());
+}
+
+TEST_CASE("No attitude from a slow or uncertain course, nor from a dead sensor", "[ins]") {
+  Ride ride{{0.0, 0.0, 0.5}};
+  ride.speed = 0.5;
+  Alignment alignment({});
+  run(&ride, &alignment, 5.0);
+  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.01));
+  ride.speed = 2.0;
+  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 1.0));
+  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), std::nan("")));
+  CHECK(alignment.attitude(kPosition, ride.v_e(), 0.1));
+
+  Alignment dead({});
+  ImuSample zero;
+  zero.interval_ns = 10'000'000;
+  for (int i = 0; i < 1000; ++i) dead.add(zero);
+  CHECK_FALSE(dead.levelled());
+}
