@@ -122,13 +122,13 @@ void Import::warn_of_missing() {
   }
   if (!dataset_.clocks.empty()) {
     warn(
-        "clocks are not used yet: satellite clocks are interpolated between the orbit file's "
-        "nodes, which costs 1 to 5 cm of range at 5 min spacing and more than 10 cm at 15 min");
+        "clocks are not used yet: satellite clocks are interpolated between the sparser nodes of "
+        "the orbit file, so ranges are worse, by centimetres or more");
   }
   if (!dataset_.antenna_models.empty()) {
     warn(
-        "antenna_models are not used yet: orbits are taken to the satellites' mass centres, which "
-        "costs up to 2 m of range, most of it common to all satellites");
+        "antenna_models are not used yet: precise orbits refer to the satellites' mass centres, so "
+        "ranges are off by up to metres, most of it common to all satellites");
   }
 }
 

@@ -1,0 +1,199 @@
+#include "tools/dataset/import.h"
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/event_log.h"
+#include "drivers/text/parse.h"
+#include "support/catch.h"
+#include "support/shared_data.h"
+#include "support/temporary_file.h"
+#include "tools/dataset/product_schedule.h"
+
+using namespace leonav;
+using namespace leonav::test;
+
+namespace {
+
+struct LogCounts {
+  std::map<std::string, long> events;
+  long faults = 0, epochs_before_time = 0;
+  bool stamps_increase = true;
+};
+
+// Reads the log back through the decoder the daemon uses.
+LogCounts read_log(const std::string& path) {
+  LogCounts counts;
+  EventLogReader reader(path);
+  Decoder decoder;
+  LogEvent event;
+  std::int64_t last_stamp_us = 0;
+  RawEpoch epoch;
+  ImuSample sample;
+  Ephemeris ephemeris;
+  KlobucharModel model;
+  PreciseStates states;
+  while (reader.next(&event)) {
+    ++counts.events[event.channel];
+    if (event.timestamp_us <= last_stamp_us) counts.stamps_increase = false;
+    last_stamp_us = event.timestamp_us;
+    const ByteSpan bytes(event.data);
+    DecodeResult result;
+    if (event.channel == "LEONAV_GNSS_EPOCH") {
+      result = decoder.decode(bytes, &epoch);
+      const std::int64_t late_us = event.timestamp_us - epoch.time.nanoseconds() / 1000;
+      if (late_us < 49'990 || late_us > 60'000) ++counts.epochs_before_time;
+    } else if (event.channel == "LEONAV_IMU") {
+      result = decoder.decode(bytes, &sample);
+    } else if (event.channel == "LEONAV_EPHEMERIS") {
+      result = decoder.decode(bytes, &ephemeris);
+    } else if (event.channel == "LEONAV_IONOSPHERE") {
+      result = decoder.decode(bytes, &model);
+    } else {
+      REQUIRE(event.channel == "LEONAV_ORBIT_CLOCK");
+      result = decoder.decode(bytes, &states);
+    }
+    if (result.fault != InputFault::kNone || result.element_faults != 0) ++counts.faults;
+  }
+  return counts;
+}
+
+const std::string kObservations =
+    "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
+    "G    1 C1C                                                  SYS / # / OBS TYPES\n"
+    "                                                            END OF HEADER\n";
+const std::string kEpochs =
+    "> 2024 05 06 07 08  1.0000000  0  1\nG01  20000000.000\n"
+    "> 2024 05 06 07 08  2.0000000  0  1\nG01  20000000.000\n"
+    "> 2024 05 06 07 08  3.0000000  0  1\nG01  20000000.000\n";
+
+ImportReport import_text(const TemporaryFile& yaml, const ImportOptions& options = {}) {
+  return import_dataset(load_dataset(yaml.path()), options, yaml.beside("out.lcmlog"), nullptr);
+}
+
+}  // namespace
+
+TEST_CASE("the recordings become logs with every epoch and sample", "[import][recorded]") {
+  struct Expected {
+    const char* name;
+    long epochs, imu, gps, galileo, beidou;
+  };
+  // Counted in the files' text. The IMU of walk has 20456 lines: a header and the samples.
+  const Expected sets[] = {{"walk", 536, 20455, 9, 8, 11},
+                           {"drive", 1985, 0, 10, 7, 0},
+                           {"station", 721, 0, 28, 18, 22}};
+  for (const Expected& expected : sets) {
+    const std::string yaml = std::string(expected.name) + "/dataset.yaml";
+    if (!have_shared_data(yaml)) continue;
+    INFO(expected.name);
+    const TemporaryFile place("unused", "");
+    const std::string output = place.beside("run.lcmlog");
+    ImportReport report = import_dataset(load_dataset(shared_data(yaml)), {}, output, nullptr);
+    CHECK(report.epochs == expected.epochs);
+    CHECK(report.imu_samples == expected.imu);
+    CHECK(report.satellites[System::kGps] == expected.gps);
+    CHECK(report.satellites[System::kGalileo] == expected.galileo);
+    CHECK(report.satellites[System::kBeidou] == expected.beidou);
+    CHECK_FALSE(std::filesystem::exists(output + ".part"));
+    LogCounts log = read_log(output);
+    CHECK(log.events["LEONAV_GNSS_EPOCH"] == expected.epochs);
+    CHECK(log.events["LEONAV_IMU"] == expected.imu);
+    CHECK(log.events["LEONAV_EPHEMERIS"] == report.ephemerides);
+    CHECK(log.events["LEONAV_ORBIT_CLOCK"] == report.orbit_epochs);
+    CHECK(report.ephemerides > 0);
+    CHECK(log.faults == 0);
+    CHECK(log.epochs_before_time == 0);
+    CHECK(log.stamps_increase);
+  }
+}
+
+TEST_CASE("a span of time, and a truncated file", "[import]") {
+  const TemporaryFile yaml("set.yaml", "name: s\nobservations: a.obs\n");
+  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs << "> 2024 05 06 07 08  4.00";
+  const ImportReport all = import_text(yaml);
+  CHECK(all.epochs == 3);
+  REQUIRE(all.skipped.size() == 1);
+  CHECK(all.skipped[0].where == yaml.beside("a.obs") + ":10");
+  CHECK(all.warnings.size() == 3);  // navigation and orbits, orbits, imu
+  ImportOptions options;
+  options.from = options.to = all.first.plus_seconds(1.0);
+  CHECK(import_text(yaml, options).epochs == 1);
+  options.from = options.to = all.first.plus_seconds(100.0);
+  CHECK_THROWS_WITH(import_text(yaml, options), Catch::Contains("nothing to write"));
+}
+
+TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
+  const auto message = [](const std::string& yaml_text, const std::string& observations) {
+    const TemporaryFile yaml("set.yaml", yaml_text);
+    std::ofstream(yaml.beside("a.obs")) << observations;
+    std::string what;
+    try {
+      import_text(yaml);
+    } catch (const std::exception& error) {
+      what = error.what();
+    }
+    CHECK_FALSE(std::filesystem::exists(yaml.beside("out.lcmlog")));
+    CHECK_FALSE(std::filesystem::exists(yaml.beside("out.lcmlog.part")));
+    return what;
+  };
+  using Catch::Contains;
+  const std::string good = kObservations + kEpochs;
+  CHECK_THAT(message("name: s\nobservatons: a.obs\n", good),
+             Contains("set.yaml:2") && Contains("'observations'"));
+  CHECK_THAT(message("imu: [\n", good), Contains("set.yaml"));
+  CHECK_THAT(message("- a\n- b\n", good), Contains("set.yaml:1"));
+  CHECK_THAT(message("imu: {a: b}\n", good), Contains("set.yaml:1"));
+  CHECK_THAT(message("name: s\nname: t\n", good), Contains("set.yaml:2") && Contains("twice"));
+  CHECK_THAT(message("observations: b.obs\n", good), Contains("b.obs"));
+  CHECK_THAT(message("observations: a.obs\n", kObservations), Contains("no usable epoch"));
+  CHECK_THAT(message("observations: [a.obs, a.obs]\nnavigation: a.obs\n", good),
+             Contains("a.obs:1") && Contains("not a navigation file"));
+  CHECK_THAT(message("observations: a.obs\norbits: a.obs\n", good), Contains("a.obs"));
+  CHECK_THAT(message("name: nothing\n", good), Contains("nothing to write"));
+}
+
+TEST_CASE("ephemerides arrive when they were sent", "[import]") {
+  const GpsTime start = GpsTime::from_week_and_tow(2300, 100'000.0);
+  const auto make = [&](int number, double toe_s, double sent_s) {
+    Ephemeris e;
+    e.satellite = {System::kGps, static_cast<std::uint16_t>(number)};
+    e.toe = start.plus_seconds(toe_s);
+    e.transmission_time = start.plus_seconds(sent_s);
+    return e;
+  };
+  const auto schedule = schedule_ephemerides(
+      {make(1, 3600, 600), make(1, -3600, -9000), make(1, -1800, -3600), make(1, 0, -60),
+       make(1, 0, -30), make(2, 3600, 40), make(2, 5400, 900), make(3, -10'000, -17'000)},
+      start);
+  CHECK(schedule.repeated == 1);
+  CHECK(schedule.expired == 1);
+  CHECK(schedule.superseded == 1);
+  REQUIRE(schedule.items.size() == 5);
+  const auto item = [&](std::size_t i) {
+    return std::pair(int{schedule.items[i].ephemeris.satellite.number},
+                     seconds_between(schedule.items[i].arrival, start));
+  };
+  CHECK(item(0) == std::pair(1, 0.0));
+  CHECK(item(1) == std::pair(1, 0.0));
+  CHECK(item(2) == std::pair(2, 0.0));  // sent later, but valid and the first of its satellite
+  CHECK(item(3) == std::pair(1, 600.0));
+  CHECK(item(4) == std::pair(2, 900.0));
+  Ephemeris unknown = make(4, 7200, 0);
+  unknown.transmission_time = {};
+  CHECK(transmission_time(unknown) == start);
+}
+
+TEST_CASE("orbit nodes arrive ahead of their time", "[import]") {
+  const GpsTime start = GpsTime::from_week_and_tow(2300, 100'000.0);
+  std::vector<OrbitEpoch> epochs;
+  for (int i = -20; i <= 20; ++i) epochs.push_back({start.plus_seconds(300.0 * i), {}});
+  epochs.push_back(epochs[3]);  // a second file begins where the first ends
+  const auto schedule = schedule_orbits(epochs, start);
+  REQUIRE(schedule.size() == 26);  // from -5 to 20
+  CHECK(schedule.front().epoch.time == start.plus_seconds(-1500.0));
+  CHECK(schedule[11].arrival == start);
+  CHECK(schedule[12].epoch.time == start.plus_seconds(2100.0));
+  CHECK(schedule[12].arrival == start.plus_seconds(300.0));
+}
