@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/ekf/median.h"
 
@@ -14,6 +15,8 @@ using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kFactorTolerance = 1e-3;  // weights that change less have converged
 constexpr double kNormalMedian = 0.6745;   // median of |x| for a standard normal x
+constexpr double kMaxPriorScale = 2.0;  // innovations may be this much larger than they should be
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not tell their scale
 
 // Lower L with P = L L^T for a positive semidefinite P; a state without variance gets a zero
@@ -83,18 +86,19 @@ double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios
   return std::max(1.0, median(of_kind) / kNormalMedian);
 }
 
-// Returns the largest change of a factor.
-double reweight(const RobustConfig& config, const SmallTable& ratios,
-                FilterMeasurements* measurements, RobustUpdateResult* result) {
-  const double code_scale = scale_of(*measurements, ratios, Observable::kCode);
-  const double doppler_scale = scale_of(*measurements, ratios, Observable::kDoppler);
-  result->code_scale = code_scale;
-  result->doppler_scale = doppler_scale;
+// Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
+// excludes, no number of others can bring back.
+double reweight(const RobustConfig& config, const SmallTable& ratios, double max_scale,
+                const SmallTable& limits, FilterMeasurements* measurements,
+                RobustUpdateResult* result) {
+  result->code_scale = scale_of(*measurements, ratios, Observable::kCode);
+  result->doppler_scale = scale_of(*measurements, ratios, Observable::kDoppler);
   double change = 0.0;
   for (std::size_t i = 0; i < measurements->size(); ++i) {
     FilterMeasurement& measurement = (*measurements)[i];
-    const double scale = measurement.observable == Observable::kCode ? code_scale : doppler_scale;
-    const double factor = igg3_factor(ratios[i] / scale, config.k0, config.k1);
+    const bool code = measurement.observable == Observable::kCode;
+    const double scale = std::min(max_scale, code ? result->code_scale : result->doppler_scale);
+    const double factor = std::min(limits[i], igg3_factor(ratios[i] / scale, config.k0, config.k1));
     change = std::max(change, std::abs(factor - measurement.factor));
     measurement.factor = factor;
   }
@@ -119,9 +123,16 @@ RobustUpdateResult robust_update(const RobustConfig& config, FilterMeasurements*
     for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
     solve(*measurements, &problem);
     SmallTable ratios;
-    for (int pass = 0; pass < config.max_iterations; ++pass) {
+    SmallTable limits(measurements->size(), 1.0);
+    for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
+      const bool first = pass == 0;  // nothing used yet: innovations
       standardize(*measurements, problem, &ratios);
-      const double change = reweight(config, ratios, measurements, &result);
+      const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits,
+                                     measurements, &result);
+      if (first) {
+        for (std::size_t i = 0; i < limits.size(); ++i)
+          limits[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
+      }
       solve(*measurements, &problem);
       if (change < kFactorTolerance) break;
     }

@@ -33,8 +33,10 @@ struct RobustUpdateResult {
 // Re-weights and solves at most `config.max_iterations` times. The residual that is tested is that
 // against the prediction from all *other* measurements and the prior, over its standard deviation:
 // in the first pass (nothing used yet) that is the standardized innovation, afterwards it also sees
-// outliers that hide behind a poor prior. Where half of the residuals are larger than they should
-// be, all are scaled down first, so that the many are not thrown out for the few.
+// outliers that hide behind a poor prior. What the innovation test excludes stays out (whether the
+// prior is to be believed is decided before, prediction_check.h). Where half of the residuals are
+// larger than they should be, all are scaled down first, so that the many are not thrown out for
+// the few.
 //
 // The update is done in the square root of P (P = L L^T, P+ = L (I + L^T H^T R^-1 H L)^-1 L^T):
 // like Joseph's form symmetric and positive semidefinite whatever the rounding, and states with
