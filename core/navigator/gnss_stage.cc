@@ -91,7 +91,7 @@ void GnssStage::use_measurements(const EpochWork& work) {
 bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e,
                       PointSolution* point) {
   *point = solve_point(work.raw, catalog_, config_.gnss, config_.ekf.robust, approximate_p_e,
-                       measurements_.get());
+                       measurements_.get(), &band_biases_);
   measurements_->index = work.index;
   return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
          point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&
@@ -116,7 +116,8 @@ bool GnssStage::prediction_is_useless() const {
 }
 
 void GnssStage::update_filter(const EpochWork& work) {
-  preprocess(work.raw, catalog_, config_.gnss, ekf_.antenna_position_e(), measurements_.get());
+  preprocess(work.raw, catalog_, config_.gnss, ekf_.antenna_position_e(), measurements_.get(),
+             &band_biases_);
   measurements_->index = work.index;
   const EkfUpdateResult result = ekf_.update(*measurements_);
   gnss_used_ = result.used > 0;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/ekf/ekf.h"
+#include "core/gnss/band_bias.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
 #include "core/navigator/navigator_config.h"
@@ -51,6 +52,7 @@ class GnssStage {
   OutputSink* sink_;
   bool inertial_;
   SatelliteCatalog catalog_;
+  BandBiases band_biases_;
   Ekf ekf_;
   Alignment alignment_;
   std::unique_ptr<MeasurementEpoch> measurements_;
