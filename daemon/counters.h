@@ -1,0 +1,58 @@
+// What the threads tell `main` of themselves: written by one thread each, read by another.
+#pragma once
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include "core/gnss/satellite.h"
+#include "drivers/lcm/channels.h"
+
+namespace leonav {
+
+// A number of one writer.
+class Gauge {
+ public:
+  void set(std::int64_t value) { value_.store(value, std::memory_order_release); }
+  void add(std::int64_t value) { value_.fetch_add(value, std::memory_order_relaxed); }
+  void raise_to(std::int64_t value) {
+    if (value > get()) set(value);
+  }
+  std::int64_t get() const { return value_.load(std::memory_order_acquire); }
+  std::int64_t take() { return value_.exchange(0, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::int64_t> value_{0};
+};
+
+// Nanoseconds since construction.
+class Stopwatch {
+ public:
+  std::int64_t nanoseconds() const {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() -
+                                                                start_)
+        .count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct EngineCounters {
+  // io
+  std::array<Gauge, kInputChannels.size()> received, lost;
+  std::array<Gauge, 16> rejected;  // by InputFault
+  Gauge empty_epochs, late_epochs, imu_gaps;
+  // ins, or gnss where that publishes
+  Gauge solution_time_ns, source, commits, misses, worst_tick_ns;
+  // gnss
+  std::array<Gauge, kSystemCount> satellites_used;
+  std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
+  Gauge worst_epoch_ns;
+  // any stage
+  Gauge resets;
+  // out
+  Gauge published, journaled, journal_failed;
+};
+
+}  // namespace leonav

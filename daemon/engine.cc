@@ -1,0 +1,206 @@
+#include "daemon/engine.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace leonav {
+namespace {
+
+constexpr std::size_t kInertialRing = 4096;  // 20 s at 200 Hz
+constexpr std::size_t kGnssRing = 32;        // an element can hold 140 kB
+constexpr std::size_t kInputRingBytes = 1 << 20;
+constexpr std::size_t kInertialOutBytes = 4 << 20;  // 50 s of SOLUTION at 200 Hz
+constexpr std::size_t kGnssOutBytes = 1 << 20;
+constexpr std::size_t kMainOutBytes = 128 << 10;
+
+}  // namespace
+
+Engine::Engine(const DaemonConfig& config, MessageTarget* target)
+    : config_(config),
+      target_(target),
+      inertial_ring_(kInertialRing, &inertial_wakeup_),
+      gnss_ring_(kGnssRing, &gnss_wakeup_),
+      io_sink_(kInputRingBytes, &out_wakeup_, &counters_),
+      inertial_sink_(kInertialOutBytes, &out_wakeup_, &counters_),
+      gnss_sink_(kGnssOutBytes, &out_wakeup_, &counters_),
+      main_ring_(kMainOutBytes, &out_wakeup_),
+      inertial_(config.navigator, &ekf_mailbox_, &inertial_sink_),
+      gnss_(config.navigator, &ekf_mailbox_, &gnss_sink_),
+      sequencer_(config.navigator, this),
+      dispatch_(&sequencer_) {
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    channel_names_.push_back(channel_name(static_cast<Channel>(i), config.lcm.prefix));
+  }
+  if (!config.journal.path.empty()) {
+    journal_ = std::make_unique<EventLogWriter>(config.journal.path);
+  }
+  for (Gauge& age : counters_.ephemeris_age_ms) age.set(-1);
+}
+
+Engine::~Engine() { finish(); }
+
+std::vector<std::string> Engine::start() {
+  std::vector<std::string> refused;
+  const ThreadsConfig& threads = config_.threads;
+  if (threads.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    refused.push_back(std::string("memory is not locked: ") + std::strerror(errno));
+  }
+  started_ = true;
+  refused.push_back(out_thread_.start("out", threads.out, [this] { run_out(); }));
+  refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));
+  refused.push_back(inertial_thread_.start("ins", threads.ins, [this] { run_inertial(); }));
+  std::erase(refused, std::string());
+  return refused;
+}
+
+void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us) {
+  bytes = limit_length(bytes);
+  // Before it is dealt with: what a stage does must never be in the journal without its cause.
+  if (journal_ != nullptr) io_sink_.ring().push(channel, timestamp_us, bytes);
+  dispatch_.dispatch(channel, bytes);
+  update_io_counters();
+}
+
+// A slot still in use from kMaxMailboxEpochs ago is left alone: the epoch becomes a miss, which is
+// a decision in the journal like any other.
+void Engine::open_epoch(std::uint64_t index) { ekf_mailbox_.open(index); }
+
+bool Engine::idle() const {
+  // In the order of flow: what a stage has not done could still feed the next one.
+  return inertial_ring_.idle() && gnss_ring_.idle() && io_sink_.ring().idle() &&
+         inertial_sink_.ring().idle() && gnss_sink_.ring().idle() && main_ring_.idle();
+}
+
+bool Engine::finish() {
+  if (started_ && !finished_) {
+    no_more_inputs_.store(true, std::memory_order_release);
+    inertial_wakeup_.notify();
+    gnss_wakeup_.notify();
+    inertial_thread_.join();
+    gnss_thread_.join();
+    no_more_outputs_.store(true, std::memory_order_release);
+    out_wakeup_.notify();
+    out_thread_.join();
+    flush_journal(true);
+  }
+  finished_ = true;
+  return counters_.journal_failed.get() == 0;
+}
+
+void Engine::run_inertial() {
+  for (;;) {
+    const std::uint32_t ticket = inertial_wakeup_.ticket();
+    // Read before looking for work, so that what was pushed before it was set is still done.
+    const bool last_round = no_more_inputs_.load(std::memory_order_acquire);
+    while (inertial_ring_.consume_one([this](const InertialWork& work) {
+      const Stopwatch watch;
+      inertial_.process(work);
+      counters_.worst_tick_ns.raise_to(watch.nanoseconds());
+    })) {
+    }
+    if (last_round) return;
+    inertial_wakeup_.wait(ticket);
+  }
+}
+
+void Engine::run_gnss() {
+  for (;;) {
+    const std::uint32_t ticket = gnss_wakeup_.ticket();
+    const bool last_round = no_more_inputs_.load(std::memory_order_acquire);
+    while (gnss_ring_.consume_one([this](const GnssWork& work) {
+      const Stopwatch watch;
+      gnss_.process(work);
+      if (std::holds_alternative<EpochWork>(work)) {
+        counters_.worst_epoch_ns.raise_to(watch.nanoseconds());
+      }
+    })) {
+    }
+    if (last_round) return;
+    gnss_wakeup_.wait(ticket);
+  }
+}
+
+void Engine::run_out() {
+  Stopwatch since_flush;
+  const auto interval_ns = static_cast<std::int64_t>(config_.journal.flush_interval_s * 1e9);
+  for (;;) {
+    const std::uint32_t ticket = out_wakeup_.ticket();
+    const bool last_round = no_more_outputs_.load(std::memory_order_acquire);
+    while (drain_outputs()) {
+      if (since_flush.nanoseconds() < interval_ns) continue;
+      flush_journal(false);
+      since_flush = Stopwatch();
+    }
+    if (last_round) return;
+    out_wakeup_.wait(ticket);
+  }
+}
+
+// One message of every ring. False: all were empty.
+bool Engine::drain_outputs() {
+  const auto use = [this](const MessageHeader& header, ByteSpan bytes) {
+    write_out(header, bytes);
+  };
+  bool any = false;
+  for (MessageRing* ring :
+       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+    any = ring->consume_one(use) || any;
+  }
+  return any;
+}
+
+void Engine::write_out(const MessageHeader& header, ByteSpan bytes) {
+  if (!is_input(header.channel)) {
+    target_->take(header.channel, bytes);
+    counters_.published.add(1);
+  }
+  write_journal(header, bytes);
+}
+
+void Engine::write_journal(const MessageHeader& header, ByteSpan bytes) {
+  if (journal_ == nullptr || counters_.journal_failed.get() != 0) return;
+  if (journal_->write(header.timestamp_us, channel_names_[index_of(header.channel)], bytes)) {
+    counters_.journaled.add(1);
+  } else {
+    journal_error_ = journal_->error();
+    counters_.journal_failed.set(1);
+  }
+}
+
+void Engine::flush_journal(bool sync) {
+  if (journal_ == nullptr || counters_.journal_failed.get() != 0) return;
+  if (journal_->flush(sync)) return;
+  journal_error_ = journal_->error();
+  counters_.journal_failed.set(1);
+}
+
+RingStatistics Engine::out_ring() const {
+  RingStatistics worst;
+  for (const MessageRing* ring :
+       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+    const RingStatistics one = ring->statistics();
+    worst.high_water_percent = std::max(worst.high_water_percent, one.high_water_percent);
+    worst.waits += one.waits;
+  }
+  return worst;
+}
+
+void Engine::update_io_counters() {
+  const InputDispatch::Counters& inputs = dispatch_.counters();
+  for (std::size_t i = 0; i < kInputChannels.size(); ++i) {
+    counters_.received[i].set(static_cast<std::int64_t>(inputs.received[i]));
+    counters_.lost[i].set(static_cast<std::int64_t>(inputs.lost[i]));
+  }
+  const Sequencer::Counters& sequencer = sequencer_.counters();
+  for (std::size_t i = 0; i < sequencer.rejected.size(); ++i) {
+    counters_.rejected[i].set(static_cast<std::int64_t>(sequencer.rejected[i]));
+  }
+  counters_.empty_epochs.set(static_cast<std::int64_t>(sequencer.empty_epochs));
+  counters_.late_epochs.set(static_cast<std::int64_t>(sequencer.late_epochs));
+  counters_.imu_gaps.set(static_cast<std::int64_t>(sequencer.imu_gaps));
+}
+
+}  // namespace leonav

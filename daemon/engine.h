@@ -1,0 +1,92 @@
+// Everything of the daemon except the LCM socket: the stages in their threads, the rings between
+// them, the journal.
+#pragma once
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/navigator/gnss_stage.h"
+#include "core/navigator/inertial_navigator.h"
+#include "core/navigator/sequencer.h"
+#include "daemon/config/daemon_config.h"
+#include "daemon/counters.h"
+#include "daemon/input_dispatch.h"
+#include "daemon/realtime_thread.h"
+#include "daemon/stage_sink.h"
+#include "daemon/work_ring.h"
+#include "drivers/lcm/event_log.h"
+
+namespace leonav {
+
+// Threads: the caller of receive() is `io`; `ins`, `gnss` and `out` are the engine's own. Rings:
+// io -> ins, io -> gnss, and from io, ins, gnss and the caller of publish() (`main`) to out.
+class Engine final : private StageInputs {
+ public:
+  // `target` gets every output, in the `out` thread. Throws EventLogError if the journal cannot be
+  // created.
+  Engine(const DaemonConfig& config, MessageTarget* target);
+  ~Engine() override;
+
+  // Starts the threads. Returns what the system refused (priorities, ...); empty: nothing.
+  std::vector<std::string> start();
+
+  // An input as it came. One thread; waits while the stages are behind, drops nothing.
+  void receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us);
+
+  // A message of the daemon itself (HEALTH). One thread.
+  void publish(Channel channel, ByteSpan bytes) {
+    main_ring_.push(channel, wall_clock_us(), bytes);
+  }
+
+  // True once everything received so far has been dealt with by all stages.
+  bool idle() const;
+
+  // After the last receive(): lets every stage finish its work, closes the journal. False if the
+  // journal is incomplete; journal_error() says why.
+  bool finish();
+
+  EngineCounters& counters() { return counters_; }
+  RingStatistics inertial_ring() const { return inertial_ring_.statistics(); }
+  RingStatistics gnss_ring() const { return gnss_ring_.statistics(); }
+  RingStatistics out_ring() const;  // the worst of those to `out`
+  // Valid once counters().journal_failed is set.
+  const std::string& journal_error() const { return journal_error_; }
+
+ private:
+  void open_epoch(std::uint64_t index) override;
+  void push_inertial(const InertialWork& work) override { inertial_ring_.push(work); }
+  void push_gnss(const GnssWork& work) override { gnss_ring_.push(work); }
+  void event(const Event& event) override { io_sink_.on_event(event); }
+
+  void run_inertial();
+  void run_gnss();
+  void run_out();
+  bool drain_outputs();
+  void write_out(const MessageHeader& header, ByteSpan bytes);
+  void write_journal(const MessageHeader& header, ByteSpan bytes);
+  void flush_journal(bool sync);
+  void update_io_counters();
+
+  DaemonConfig config_;
+  MessageTarget* target_;
+  EngineCounters counters_;
+  std::unique_ptr<EventLogWriter> journal_;
+  std::string journal_error_;
+  std::vector<std::string> channel_names_;
+  Wakeup inertial_wakeup_, gnss_wakeup_, out_wakeup_;
+  WorkRing<InertialWork> inertial_ring_;
+  WorkRing<GnssWork> gnss_ring_;
+  StageSink io_sink_, inertial_sink_, gnss_sink_;
+  MessageRing main_ring_;
+  TimedMailbox<EkfUpdate> ekf_mailbox_;
+  InertialNavigator inertial_;
+  GnssStage gnss_;
+  Sequencer sequencer_;
+  InputDispatch dispatch_;
+  std::atomic<bool> no_more_inputs_{false}, no_more_outputs_{false};
+  bool started_ = false, finished_ = false;
+  RealtimeThread inertial_thread_, gnss_thread_, out_thread_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,142 @@
+// leonavd: the navigation daemon. Exit codes: 0 stopped cleanly; 1 failure while running; 2 wrong
+// command line; 3 configuration; 4 LCM or network; 5 journal.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <exception>
+
+#include "daemon/config/load_config.h"
+#include "daemon/engine.h"
+#include "daemon/health.h"
+#include "daemon/lcm_link.h"
+#include "tools/common/arguments.h"
+
+namespace {
+
+using namespace leonav;
+
+constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4, kExitJournal = 5;
+
+// Blocked in every thread; `main` takes them one at a time. A second one ends the process at once.
+sigset_t stop_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  return set;
+}
+
+// Publishes HEALTH and logs its changes, once a second, until a signal comes or `io` fails.
+void supervise(Engine* engine, HealthMonitor* health, const std::atomic<bool>& io_failed) {
+  const sigset_t set = stop_signals();
+  const timespec second{1, 0};
+  std::string last;
+  while (!io_failed.load()) {
+    if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
+      spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+      return;
+    }
+    engine->publish(Channel::kHealth, health->next());
+    const std::string now = health->status() + (health->why().empty() ? "" : ": " + health->why());
+    if (now != last) spdlog::info("{}", now);
+    last = now;
+  }
+}
+
+int run(const DaemonConfig& config) {
+  const sigset_t set = stop_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread exists: all inherit it
+  std::signal(SIGPIPE, SIG_IGN);
+
+  LcmPublisher publisher(config.lcm);
+  Engine engine(config, &publisher);
+  LcmReceiver receiver(config.lcm, &engine);
+  for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
+
+  std::atomic<bool> stop{false}, io_failed{false};
+  RealtimeThread io;
+  const std::string refused = io.start("io", config.threads.io, [&] {
+    while (!stop.load()) {
+      if (!receiver.receive(100)) {
+        io_failed.store(true);
+        return;
+      }
+    }
+  });
+  if (!refused.empty()) spdlog::warn("{}", refused);
+  spdlog::info("running; LCM {}, channels {}*, journal {}", config.lcm.url, config.lcm.prefix,
+               config.journal.path.empty() ? "off" : config.journal.path);
+
+  HealthMonitor health(&engine, config.navigator.motion == MotionModel::kInertial);
+  supervise(&engine, &health, io_failed);
+
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // from here on a second signal kills
+  stop.store(true);
+  io.join();
+  if (!engine.finish()) {
+    spdlog::error("{}", engine.journal_error());
+    return kExitJournal;
+  }
+  if (io_failed.load()) {
+    spdlog::error("LCM at '{}' failed while receiving", config.lcm.url);
+    return kExitFailure;
+  }
+  EngineCounters& counters = engine.counters();
+  spdlog::info("stopped; {} messages published, {} journaled, {} deadline misses",
+               counters.published.get(), counters.journaled.get(), counters.misses.get());
+  return 0;
+}
+
+int daemon_main(int argc, char** argv) {
+  Arguments arguments("leonavd", "--config FILE [options]",
+                      "The navigation daemon: takes IMU and GNSS from LCM, publishes position, "
+                      "velocity and attitude.\nSIGTERM and SIGINT end it cleanly, with the journal "
+                      "complete; a second one at once.\nExit codes: 0 stopped cleanly, 1 failure "
+                      "while running, 2 command line, 3 configuration, 4 LCM, 5 journal.");
+  arguments.option("--config", "FILE", "configuration; config/ has commented examples")
+      .option("--lcm-url", "URL", "instead of lcm.url")
+      .option("--journal", "FILE", "instead of journal.path; an LCM log that replays bit for bit")
+      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+  if (!arguments.parse(argc, argv)) return 0;
+  if (!arguments.positional().empty()) {
+    throw UsageError("unexpected argument '" + arguments.positional().front() + "'");
+  }
+  DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  if (arguments.has("--lcm-url")) config.lcm.url = arguments.get("--lcm-url");
+  if (arguments.has("--journal")) config.journal.path = arguments.get("--journal");
+  return run(config);
+}
+
+int guarded_main(int argc, char** argv) {
+  try {
+    return daemon_main(argc, argv);
+  } catch (const UsageError& error) {
+    spdlog::error("{}; leonavd --help lists the options", error.what());
+    return kExitUsage;
+  } catch (const ConfigError& error) {
+    spdlog::error("{}", error.what());
+    return kExitConfig;
+  } catch (const LcmError& error) {
+    spdlog::error("{}", error.what());
+    return kExitLcm;
+  } catch (const EventLogError& error) {
+    spdlog::error("{}", error.what());
+    return kExitJournal;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return kExitFailure;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("leonavd"));
+  spdlog::set_pattern("leonavd %H:%M:%S.%e %l: %v");
+  return guarded_main(argc, argv);
+}

@@ -1,0 +1,60 @@
+// A ring of messages of differing length between two threads: bytes of fixed capacity, no
+// allocation. As WorkRing: a full one makes the producer wait.
+#pragma once
+#include <array>
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstdint>
+#include <cstring>
+
+#include "daemon/backoff.h"
+#include "daemon/wakeup.h"
+#include "daemon/work_ring.h"
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/encode.h"
+#include "drivers/lcm/wire.h"
+
+namespace leonav {
+
+struct MessageHeader {
+  std::int64_t timestamp_us = 0;
+  std::uint32_t size = 0;
+  Channel channel = Channel::kImu;
+};
+
+class MessageRing {
+ public:
+  MessageRing(std::size_t capacity_bytes, Wakeup* consumer);
+
+  // Producer. `bytes` at most wire::kMaxMessageBytes + 1.
+  void push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes);
+
+  // Consumer: calls use(header, bytes) on the oldest message. False: empty.
+  template <typename Use>
+  bool consume_one(Use&& use) {
+    MessageHeader header;
+    if (queue_.read_available() < sizeof header) return false;
+    // A message is pushed in one piece, so with its header its bytes are there too.
+    queue_.pop(reinterpret_cast<std::uint8_t*>(&header), sizeof header);
+    queue_.pop(incoming_.data(), header.size);
+    use(header, ByteSpan(incoming_.data(), header.size));
+    done_.fetch_add(1, std::memory_order_release);
+    return true;
+  }
+
+  bool idle() const {
+    return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
+  }
+  RingStatistics statistics() const;
+
+ private:
+  using Buffer = std::array<std::uint8_t, sizeof(MessageHeader) + wire::kMaxMessageBytes + 1>;
+  std::size_t capacity_;
+  boost::lockfree::spsc_queue<std::uint8_t> queue_;
+  Wakeup* consumer_;
+  Buffer outgoing_;  // the producer's
+  Buffer incoming_;  // the consumer's
+  std::atomic<std::uint64_t> pushed_{0}, done_{0}, waits_{0}, high_water_{0};
+};
+
+}  // namespace leonav

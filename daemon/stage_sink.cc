@@ -1,0 +1,49 @@
+#include "daemon/stage_sink.h"
+
+#include <algorithm>
+
+namespace leonav {
+
+std::int64_t wall_clock_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+void StageSink::on_solution(const Solution& solution) {
+  counters_->solution_time_ns.set(solution.time.nanoseconds());
+  counters_->source.set(static_cast<std::int64_t>(solution.source));
+  encoder_.on_solution(solution);
+}
+
+void StageSink::on_epoch(const EpochReport& report) {
+  std::array<std::int64_t, kSystemCount> used{}, age;
+  age.fill(-1);
+  for (const SatelliteReport& satellite : report.satellites) {
+    if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;
+    const std::size_t system = index_of(satellite.satellite.system);
+    ++used[system];
+    const auto age_ms = static_cast<std::int64_t>(satellite.ephemeris_age_s * 1e3);
+    age[system] = std::max(age[system], age_ms);
+  }
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    counters_->satellites_used[i].set(used[i]);
+    counters_->ephemeris_age_ms[i].set(age[i]);
+  }
+  encoder_.on_epoch(report);
+}
+
+void StageSink::on_event(const Event& event) {
+  if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
+  encoder_.on_event(event);
+}
+
+void StageSink::on_decision(const Decision& decision) {
+  (decision.committed ? counters_->commits : counters_->misses).add(1);
+  encoder_.on_decision(decision);
+}
+
+void StageSink::take(Channel channel, ByteSpan bytes) {
+  ring_.push(channel, wall_clock_us(), bytes);
+}
+
+}  // namespace leonav
