@@ -1,0 +1,67 @@
+#include "allocation_counter.h"
+
+#include <malloc.h>
+
+#include <atomic>
+#include <cstdlib>
+
+// glibc lets a program replace the malloc family by forwarding to its own entry points; operator
+// new and Eigen both end there. Sanitizers bring their own malloc, so under them nothing is
+// replaced and the test's own check of the counter would fail: it is compiled to count operator
+// new.
+namespace leonav::test {
+namespace {
+std::atomic<bool> counting{false};
+std::atomic<std::size_t> allocations{0};
+void note() {
+  if (counting.load(std::memory_order_relaxed)) allocations.fetch_add(1);
+}
+}  // namespace
+
+void note_allocation();
+void note_allocation() { note(); }
+void start_counting_allocations() {
+  allocations = 0;
+  counting = true;
+}
+std::size_t stop_counting_allocations() {
+  counting = false;
+  return allocations;
+}
+
+}  // namespace leonav::test
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#include <new>
+void* operator new(std::size_t size) {
+  leonav::test::note_allocation();
+  if (void* p = std::malloc(size != 0 ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#else
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* p, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  leonav::test::note_allocation();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  leonav::test::note_allocation();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* p, std::size_t size) {
+  leonav::test::note_allocation();
+  return __libc_realloc(p, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  leonav::test::note_allocation();
+  return __libc_memalign(alignment, size);
+}
+}
+#endif

@@ -1,0 +1,49 @@
+// StageInputs that keeps what the Sequencer issues.
+#pragma once
+#include <variant>
+#include <vector>
+
+#include "core/navigator/sequencer.h"
+
+namespace leonav::test {
+
+struct RecordingStages : StageInputs {
+  struct Block {
+    std::uint64_t index = 0;
+    GpsTime time;
+    bool empty = false;
+    std::size_t observations = 0;
+    std::vector<ImuSample> samples;
+  };
+  std::vector<std::uint64_t> opened;
+  std::vector<ImuSample> samples;
+  std::vector<EpochIssued> issued;
+  std::vector<Block> blocks;
+  std::vector<Command> commands;
+  std::vector<Event> events;
+
+  void open_epoch(std::uint64_t index) override { opened.push_back(index); }
+  void push_inertial(const InertialWork& work) override {
+    if (const auto* sample = std::get_if<ImuSample>(&work)) samples.push_back(*sample);
+    if (const auto* epoch = std::get_if<EpochIssued>(&work)) issued.push_back(*epoch);
+  }
+  void push_gnss(const GnssWork& work) override {
+    if (const auto* command = std::get_if<Command>(&work)) commands.push_back(*command);
+    const auto* epoch = std::get_if<EpochWork>(&work);
+    if (epoch == nullptr) return;
+    blocks.push_back({epoch->index,
+                      epoch->time,
+                      epoch->empty,
+                      epoch->raw.observations.size(),
+                      {epoch->block.begin(), epoch->block.end()}});
+  }
+  void event(const Event& event) override { events.push_back(event); }
+
+  std::size_t count(EventKind kind) const {
+    std::size_t n = 0;
+    for (const Event& event : events) n += event.kind == kind ? 1 : 0;
+    return n;
+  }
+};
+
+}  // namespace leonav::test
