@@ -1,0 +1,89 @@
+// Every way to get the configuration wrong names its place and the remedy.
+#include <filesystem>
+
+#include "daemon/config/load_config.h"
+#include "support/catch.h"
+
+namespace {
+
+using leonav::ConfigError;
+using leonav::load_config;
+using leonav::load_config_text;
+
+std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    load_config_text(text, "car.yaml", overrides);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+}  // namespace
+
+TEST_CASE("a wrong configuration is refused with file, line and remedy") {
+  CHECK(error_of("gnss:\n  elevation_mask_dg: 10\n") ==
+        "car.yaml:2: gnss.elevation_mask_dg: unknown key; did you mean 'elevation_mask_deg'?");
+  CHECK(error_of("gnss:\n  elevation_mask_deg: ten\n") ==
+        "car.yaml:2: gnss.elevation_mask_deg: 'ten' is not a number");
+  CHECK(error_of("gnss:\n\n  elevation_mask_deg: 95\n") ==
+        "car.yaml:3: gnss.elevation_mask_deg: 95 is out of range; must be between -90 and 90");
+  CHECK(error_of("gnss: 3\n") ==
+        "car.yaml:1: gnss: expected a group of keys (\"key: value\" lines)");
+  CHECK(error_of("gnss:\n  systems: [gps, glonass]\n") ==
+        "car.yaml:2: gnss.systems: 'glonass' is not one of gps, galileo, beidou, leo");
+  CHECK(error_of("robust:\n  k0: 5\n  k1: 2\n") ==
+        "car.yaml:3: robust.k1: must be greater than k0");
+  CHECK(error_of("robust:\n  k0: 1\n  k0: 2\n").find("given twice") != std::string::npos);
+  CHECK(error_of("ekf:\n  motion: sideways\n").find("inertial, constant_velocity") !=
+        std::string::npos);
+  CHECK(error_of("ekf:\n  reset_epochs: 2.5\n").find("whole number") != std::string::npos);
+  CHECK(error_of("imu:\n  gyro_bias_deg_per_h: .nan\n").find("not a number") != std::string::npos);
+  CHECK(error_of("vehicle:\n  lever_arm_b_m: [1, 2]\n").find("[x, y, z]") != std::string::npos);
+  CHECK(error_of("lcm:\n  url: \"tcpq://host\"\n").find("car.yaml:2: lcm.url") == 0);
+  CHECK(error_of("gnss:\n  gps: [\n").find("car.yaml:") == 0);
+  CHECK(error_of("").find("empty") != std::string::npos);
+  CHECK_THROWS_AS(load_config("absent.yaml"), ConfigError);
+  CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);
+}
+
+TEST_CASE("overrides are judged like the file") {
+  const std::string text = "gnss:\n  elevation_mask_deg: 10\n";
+  const auto config = load_config_text(
+      text, "x", {"gnss.systems=[gps]", "robust.enabled=false", "gnss.gps.max_satellites=5"});
+  CHECK(config.navigator.gnss.systems[0].enabled);
+  CHECK_FALSE(config.navigator.gnss.systems[1].enabled);
+  CHECK(config.navigator.gnss.systems[0].max_satellites == 5);
+  CHECK_FALSE(config.navigator.ekf.robust.enabled);
+  CHECK(config.navigator.gnss.elevation_mask == Approx(10 * 3.14159265358979 / 180));
+  CHECK(error_of(text, {"gnss.sistems=[gps]"}).find("--set gnss.sistems: unknown key") == 0);
+  CHECK(error_of(text, {"gnss.elevation_mask_deg=200"}).find("--set gnss.elevation") == 0);
+  CHECK(error_of(text, {"nonsense"}).find("group.key=value") != std::string::npos);
+}
+
+TEST_CASE("data-sheet units become SI") {
+  const auto imu = load_config_text(
+                       "imu:\n  angle_random_walk_deg_per_sqrt_h: 0.6\n"
+                       "  velocity_random_walk_m_s_per_sqrt_h: 0.06\n"
+                       "  gyro_bias_deg_per_h: 3600\n  accel_bias_mgal: 100000\n"
+                       "  gyro_scale_ppm: 1000\n",
+                       "x")
+                       .navigator.imu;
+  CHECK(imu.angle_random_walk == Approx(0.01 * 3.14159265358979 / 180));
+  CHECK(imu.velocity_random_walk == Approx(0.001));
+  CHECK(imu.gyro_bias.sigma == Approx(3.14159265358979 / 180));
+  CHECK(imu.accel_bias.sigma == Approx(1.0));
+  CHECK(imu.gyro_scale.sigma == Approx(1e-3));
+}
+
+TEST_CASE("the shipped configurations are complete") {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(LEONAV_SOURCE_DIR "/config")) {
+    INFO(entry.path().string());
+    std::vector<std::string> absent;
+    load_config(entry.path().string(), {}, &absent);
+    CHECK(absent == std::vector<std::string>{});
+    ++files;
+  }
+  CHECK(files >= 4);
+}

@@ -1,0 +1,191 @@
+// What is encoded comes back; what is damaged is refused, without allocating by its claims.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/encode.h"
+#include "drivers/lcm/event_log.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace leonav;
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes copy(ByteSpan bytes) { return {bytes.begin(), bytes.end()}; }
+
+ImuSample imu_sample() {
+  ImuSample sample;
+  sample.time = GpsTime::from_week_and_tow(2300, 1000.005);
+  sample.interval_ns = 5'000'000;
+  sample.delta_theta_b = {1e-3, -2e-3, 3e-3};
+  sample.delta_velocity_b = {0.01, 0.02, -0.049};
+  return sample;
+}
+
+RawEpoch raw_epoch(int satellites) {
+  RawEpoch epoch;
+  epoch.time = GpsTime::from_week_and_tow(2300, 1000.0);
+  for (int i = 1; i <= satellites; ++i) {
+    for (const SignalCode code : {SignalCode{'1', 'C'}, SignalCode{'2', 'W'}}) {
+      SignalObservation observation;
+      observation.satellite = {System::kGps, static_cast<std::uint16_t>(i)};
+      observation.code = code;
+      observation.pseudorange_m = 2.1e7 + i;
+      observation.doppler_hz = -1000.0 + i;
+      observation.cn0_dbhz = 40.0;
+      observation.loss_of_lock = i == 2;
+      epoch.observations.push_back(observation);
+    }
+  }
+  return epoch;
+}
+
+}  // namespace
+
+TEST_CASE("inputs survive the wire") {
+  Encoder encoder;
+  Decoder decoder;
+  ImuSample sample;
+  const DecodeResult result = decoder.decode(encoder.encode(imu_sample(), 7), &sample);
+  REQUIRE(result.fault == InputFault::kNone);
+  CHECK(result.sequence == 7);
+  CHECK(sample.time == imu_sample().time);
+  CHECK(sample.interval_ns == 5'000'000);
+  CHECK(sample.delta_theta_b == imu_sample().delta_theta_b);
+  CHECK(sample.delta_velocity_b == imu_sample().delta_velocity_b);
+
+  RawEpoch epoch;
+  REQUIRE(decoder.decode(encoder.encode(raw_epoch(20), 1), &epoch).fault == InputFault::kNone);
+  REQUIRE(epoch.observations.size() == 40);
+  CHECK(epoch.observations[3].loss_of_lock);
+  CHECK(epoch.observations[3].code == SignalCode{'2', 'W'});
+  CHECK(epoch.observations[39].pseudorange_m == 2.1e7 + 20);
+  CHECK(std::isnan(epoch.observations[0].carrier_cycles));
+}
+
+TEST_CASE("single bad observations are left out, copies and disorder dealt with") {
+  Encoder encoder;
+  Decoder decoder;
+  RawEpoch epoch = raw_epoch(3), decoded;
+  epoch.observations[0].satellite.number = 200;
+  epoch.observations[1].pseudorange_m = std::numeric_limits<double>::infinity();
+  std::swap(epoch.observations[4], epoch.observations[5]);
+  epoch.observations[3] = epoch.observations[2];
+  const DecodeResult result = decoder.decode(encoder.encode(epoch, 1), &decoded);
+  CHECK(result.fault == InputFault::kNone);
+  const auto bit = [](InputFault fault) { return 1U << static_cast<unsigned>(fault); };
+  CHECK(result.element_faults ==
+        (bit(InputFault::kOutOfRange) | bit(InputFault::kNotFinite) | bit(InputFault::kDuplicate)));
+  REQUIRE(decoded.observations.size() == 2);
+  CHECK(decoded.observations[0].code == SignalCode{'1', 'C'});
+  CHECK(decoded.observations[1].code == SignalCode{'2', 'W'});
+}
+
+TEST_CASE("wrong values are named") {
+  Encoder encoder;
+  Decoder decoder;
+  ImuSample sample = imu_sample(), out;
+  sample.delta_theta_b[1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(decoder.decode(encoder.encode(sample, 1), &out).fault == InputFault::kNotFinite);
+  sample = imu_sample();
+  sample.interval_ns = 0;
+  CHECK(decoder.decode(encoder.encode(sample, 1), &out).fault == InputFault::kOutOfRange);
+  Bytes bytes = copy(encoder.encode(imu_sample(), 1));
+  bytes[27] = 9;
+  CHECK(decoder.decode(bytes, &out).fault == InputFault::kUnknownSchema);
+  CHECK(decoder.decode(Bytes(40'000, 0), &out).fault == InputFault::kTooMany);
+  Ephemeris ephemeris;  // all zero: not an orbit
+  ephemeris.satellite = {System::kGps, 3};
+  ephemeris.toe = ephemeris.toc = imu_sample().time;
+  CHECK(decoder.decode(encoder.encode(ephemeris, 1), &ephemeris).fault == InputFault::kNotSane);
+}
+
+TEST_CASE("a count larger than the message or the capacity never reaches the allocator") {
+  Encoder encoder;
+  Decoder decoder;
+  RawEpoch epoch;
+  Bytes bytes = copy(encoder.encode(raw_epoch(20), 1));
+  for (const std::uint32_t count : {0x7fffffffU, 0x80000000U, 0xffffffffU, 513U, 512U, 41U, 39U}) {
+    for (std::size_t i = 0; i < 4; ++i)
+      bytes[28 + i] = static_cast<std::uint8_t>(count >> (24 - 8 * i));
+    CHECK(decoder.decode(bytes, &epoch).fault != InputFault::kNone);
+  }
+}
+
+TEST_CASE("truncated and flipped messages never crash and never change a refused output") {
+  Encoder encoder;
+  Decoder decoder;
+  std::mt19937 random(1);
+  const Bytes good = copy(encoder.encode(raw_epoch(12), 1));
+  RawEpoch epoch;
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    CHECK(
+        decoder.decode(Bytes(good.begin(), good.begin() + static_cast<long>(size)), &epoch).fault !=
+        InputFault::kNone);
+  }
+  for (int i = 0; i < 20000; ++i) {
+    Bytes bytes = good;
+    for (int flips = 0; flips < 1 + i % 4; ++flips)
+      bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1U << random() % 8);
+    ImuSample sample;
+    PreciseStates states;
+    Ephemeris ephemeris;
+    if (decoder.decode(bytes, &epoch).fault == InputFault::kNone) {
+      REQUIRE(epoch.observations.size() <= 24);
+    }
+    REQUIRE(decoder.decode(bytes, &sample).fault != InputFault::kNone);
+    REQUIRE(decoder.decode(bytes, &ephemeris).fault != InputFault::kNone);
+    REQUIRE(decoder.decode(bytes, &states).fault != InputFault::kNone);
+  }
+}
+
+TEST_CASE("event logs agree with liblcm's, both ways; damage is told") {
+  const std::string path = std::filesystem::temp_directory_path() / "leonav_event_log_test.lcmlog";
+  const Bytes data = {1, 2, 3, 0xED, 0xA1};
+  {
+    EventLogWriter writer(path);
+    REQUIRE(writer.write(123456, "LEONAV_IMU", data));
+    REQUIRE(writer.write(-5, "X", {}));
+    REQUIRE(writer.flush());
+  }
+  {
+    lcm::LogFile theirs(path, "r");
+    const lcm::LogEvent* event = theirs.readNextEvent();
+    REQUIRE(event != nullptr);
+    CHECK(event->channel == "LEONAV_IMU");
+    CHECK(event->timestamp == 123456);
+    REQUIRE(event->datalen == 5);
+    CHECK(Bytes(static_cast<std::uint8_t*>(event->data),
+                static_cast<std::uint8_t*>(event->data) + 5) == data);
+  }
+  LogEvent event;
+  {
+    EventLogReader mine(path);
+    REQUIRE(mine.next(&event));
+    CHECK(event.data == data);
+    REQUIRE(mine.next(&event));
+    CHECK_FALSE(mine.next(&event));
+    CHECK_FALSE(mine.truncated());
+  }
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  {
+    EventLogReader mine(path);
+    REQUIRE(mine.next(&event));
+    CHECK_FALSE(mine.next(&event));
+    CHECK(mine.truncated());
+  }
+  std::FILE* file = std::fopen(path.c_str(), "r+b");
+  std::fputs("junk", file);
+  std::fclose(file);
+  EventLogReader damaged(path);
+  CHECK_THROWS_AS(damaged.next(&event), EventLogError);
+  std::filesystem::remove(path);
+  CHECK_THROWS_AS(EventLogReader(path), EventLogError);
+}
