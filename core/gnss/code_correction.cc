@@ -49,6 +49,19 @@ GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast
   return group_delay(*broadcast, first, second);
 }
 
+// How fast the troposphere's delay grows as the satellite moves: below 1 mm/s for GNSS, some cm/s
+// for a LEO satellite near the horizon. Central difference over one second.
+double troposphere_rate(const DelayContext& context, const SatelliteInView& satellite) {
+  if (!context.has_position) return 0.0;
+  const Eigen::Vector3d p_a_e = to_ecef(context.antenna);
+  const auto delay_at = [&](double seconds) {
+    const Eigen::Vector3d p_sat_e = satellite.p_e + seconds * satellite.v_e;
+    return saastamoinen_slant_delay_m(context.antenna, look_angles(p_sat_e, p_a_e).elevation,
+                                      context.time);
+  };
+  return delay_at(0.5) - delay_at(-0.5);
+}
+
 double noise_elevation(const DelayContext& context, const SatelliteInView& satellite) {
   return context.has_position ? satellite.elevation : kHalfPi;
 }
@@ -160,7 +173,7 @@ Measurement doppler_measurement(const DelayContext& context, const SignalObserva
     doppler.sigma = combined_sigma(pair, noise1, noise2);
   }
   // The satellite's clock running fast shortens the measured range: its drift comes back in.
-  doppler.value = rate + satellite.clock_drift_m_s;
+  doppler.value = rate + satellite.clock_drift_m_s - troposphere_rate(context, satellite);
   return doppler;
 }
 

@@ -79,8 +79,9 @@ bool solve_from(const Problem& problem, Eigen::Vector3d p_e, MeasurementEpoch* e
 }
 
 Reason reason_of(const FitRow& row) {
-  if (row.excluded || row.factor <= 0.0) return Reason::kOutlier;
-  if (row.alone) return Reason::kNotSolved;
+  if (row.excluded) return Reason::kOutlier;
+  if (row.alone) return Reason::kNotSolved;  // its factor says nothing: nobody fitted its clock
+  if (row.factor <= 0.0) return Reason::kOutlier;
   return row.factor < 1.0 ? Reason::kDownweighted : Reason::kUsed;
 }
 
