@@ -68,6 +68,9 @@ function(leonav_lcm_types target)
   add_library(${target} INTERFACE)
   add_dependencies(${target} ${target}_generate)
   target_include_directories(${target} SYSTEM INTERFACE ${out})
+  # liblcm's coding functions reach doubles through int64_t pointers; under strict aliasing gcc 12
+  # -O2 then decodes arrays of double as zeros.
+  target_compile_options(${target} INTERFACE -fno-strict-aliasing)
   target_link_libraries(${target} INTERFACE lcm)
 endfunction()
 
