@@ -36,6 +36,7 @@ build() {
   local configure=()
   while [ $# -gt 0 ] && [ "$1" != -- ]; do configure+=("$1"); shift; done
   [ $# -gt 0 ] && shift
+  mkdir -p "$leonav_root/build"
   say "Building ($preset)"
   cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
     { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
