@@ -21,6 +21,13 @@ constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to
 constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
 constexpr double kMinResetHeadingSigma = 0.1;  // rad
 
+// A start has nothing to compare its measurements with but each other: it always excludes faults,
+// also where the filter is told to trust everything.
+RobustConfig robust_start(RobustConfig config) {
+  config.enabled = true;
+  return config;
+}
+
 double norm_of_sigmas(const Eigen::Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, covariance.trace()));
 }
@@ -90,8 +97,8 @@ void GnssStage::use_measurements(const EpochWork& work) {
 // A point solution good enough to start from; its measurements stay in measurements_.
 bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e,
                       PointSolution* point) {
-  *point = solve_point(work.raw, catalog_, config_.gnss, config_.ekf.robust, approximate_p_e,
-                       measurements_.get(), &band_biases_);
+  *point = solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
+                       approximate_p_e, measurements_.get(), &band_biases_);
   measurements_->index = work.index;
   return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
          point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/earth/rotation.h"
 #include "core/gnss/satellite_state.h"
@@ -33,8 +34,12 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
                                config.vehicle.mounting_rpy.z()})),
       mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
       epoch_interval_ns_(interval_in_nanoseconds(config.realtime.epoch_interval_s)),
-      imu_watch_(kImuRunToRestart, kMaxImuIntervalNs),
-      epoch_watch_(kEpochRunToRestart, kMaxAheadNs),
+      max_epoch_ahead_ns_(
+          std::max(kMaxAheadNs,
+                   interval_in_nanoseconds(kMaxAheadIntervals * config.realtime.epoch_interval_s))),
+      imu_watch_(kImuRunToRestart, kMaxImuStepNs),
+      epoch_watch_(kEpochRunToRestart, interval_in_nanoseconds(kMaxEpochStepS)),
+      held_(std::make_unique<RawEpoch>()),
       tail_(kMaxImuBlock),
       work_(std::make_unique<GnssWork>()) {
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
@@ -58,6 +63,7 @@ void Sequencer::on_imu(const ImuSample& received) {
   }
   stages_->push_inertial(sample);
   extend_tail(sample);
+  if (std::exchange(is_held_, false)) place_epoch(*held_);  // the IMU's time tells
   issue_ready_epochs();
 }
 
@@ -92,6 +98,7 @@ void Sequencer::change_time_base(double jump_s) {
   last_epoch_time_ = GpsTime();
   last_epoch_is_empty_ = true;
   pending_count_ = 0;
+  is_held_ = false;
   tail_.clear();
   imu_watch_.clear();
   epoch_watch_.clear();
@@ -109,6 +116,30 @@ void Sequencer::extend_tail(const ImuSample& sample) {
 
 void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
   if (!is_plausible(epoch.time)) return reject(InputFault::kOutOfRange);
+  if (is_held_) judge_held(epoch.time);
+  if (!hold(epoch)) place_epoch(epoch);
+}
+
+// Keeps an epoch that comes after an outage, or has a wild stamp, until the next one tells which.
+bool Sequencer::hold(const RawEpoch& epoch) {
+  const GpsTime newest = newest_epoch_time();
+  if (!gnss_keeps_time() || !newest.is_set()) return false;
+  if (nanoseconds_between(epoch.time, newest) <= max_epoch_ahead_ns_) return false;
+  *held_ = epoch;
+  is_held_ = true;
+  return true;
+}
+
+void Sequencer::judge_held(GpsTime next) {
+  is_held_ = false;
+  if (next < held_->time) return reject(InputFault::kTooFarAhead);
+  if (next == held_->time) return reject(InputFault::kDuplicate);  // `next` takes its place
+  ++counters_.epochs;
+  queue_epoch(*held_);
+  issue_ready_epochs();
+}
+
+void Sequencer::place_epoch(const RawEpoch& epoch) {
   const InputFault fault = check_epoch_time(epoch.time);
   if (fault != InputFault::kNone) return reject(fault);
   if (epoch.time <= last_epoch_time_) {
@@ -125,29 +156,31 @@ void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
 
 // kNone also for an epoch that is merely late; the caller tells.
 InputFault Sequencer::check_epoch_time(GpsTime time) {
-  const GpsTime newest = newest_epoch_time();
-  const GpsTime reference = std::max(imu_time_, newest);
+  const GpsTime reference = std::max(imu_time_, newest_epoch_time());
   if (!reference.is_set()) return InputFault::kNone;
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
-  if (ahead_ns > kMaxAheadNs || ahead_ns < -kMaxAheadNs) {
+  if (ahead_ns > max_epoch_ahead_ns_ || ahead_ns < -kMaxAheadNs) {
     if (!epoch_watch_.reject(time)) {
       return ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards;
     }
     change_time_base(seconds_between(time, reference));
     return InputFault::kNone;
   }
-  if (time == newest && (pending_count_ > 0 || !last_epoch_is_empty_)) {
-    return InputFault::kDuplicate;
-  }
-  if (pending_count_ > 0 && time < newest && time > last_epoch_time_) {
-    return InputFault::kTimeBackwards;
-  }
-  return InputFault::kNone;
+  return is_known(time) ? InputFault::kDuplicate : InputFault::kNone;
+}
+
+bool Sequencer::is_known(GpsTime time) const {
+  const auto end = pending_.begin() + static_cast<std::ptrdiff_t>(pending_count_);
+  return (time == last_epoch_time_ && !last_epoch_is_empty_) ||
+         std::any_of(pending_.begin(), end, [&](const auto& slot) { return slot->time == time; });
 }
 
 void Sequencer::queue_epoch(const RawEpoch& epoch) {
   // issue_ready_epochs() never leaves more than kMaxPending waiting, so there is room for one.
   const std::size_t left_out = copy_sane(epoch, pending_[pending_count_].get());
+  for (std::size_t i = pending_count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
+    std::swap(pending_[i], pending_[i - 1]);
+  }
   ++pending_count_;
   if (left_out > 0) reject(InputFault::kNotSane);
 }

@@ -29,18 +29,27 @@ class StageInputs {
 // - when the IMU has run 1.5 epoch intervals past the last epoch, an empty epoch is issued one
 //   interval after that last one, so that blocks stay bounded; after a hole in the IMU stream it is
 //   issued at the hole's end. The first IMU sample's start counts as an epoch for this;
-// - an epoch not later than the last issued one is late: counted, dropped, reported;
+// - an epoch not later than the last issued one is late: counted, dropped, reported; one that is
+//   merely out of order takes its place among those waiting;
 // - IMU samples must be finite, in range and increasing. A sample that starts within half of its
 //   interval of the previous one's end is taken to start there (receivers and hosts round stamps):
 //   its increments stay, its interval changes. A later start is a gap, reported and left as a hole;
 //   an earlier one is rejected (kTimeBackwards);
-// - a stamp more than kMaxAheadS beyond everything seen (kTooFarAhead), or behind, is rejected
+// - an IMU stamp more than kMaxAheadS beyond everything seen (kTooFarAhead), or behind, is rejected
 //   until a run of consistent ones shows that time itself has changed: then everything restarts in
-//   the new time. GNSS alone does not change it while IMU samples keep arriving in the old one.
+//   the new time. The same holds for epochs while the IMU keeps time, except that "too far" is
+//   three epoch intervals where those are longer;
+// - where GNSS alone keeps time (no IMU, or none yet) an outage cannot be told from a wild stamp by
+//   itself. Such an epoch is held until the next one, which tells by being later or earlier than
+//   it. So an outage of any length, or an interval other than configured, costs no epoch;
+// - GNSS does not change the time while IMU samples keep arriving in the old one.
 class Sequencer {
  public:
   static constexpr std::size_t kMaxPending = 4;
   static constexpr double kMaxAheadS = 10.0;
+  static constexpr double kMaxAheadIntervals = 3.0;  // of epochs, where that is more
+  static constexpr double kMaxEpochStepS = 3600.0;   // between epochs of a run in a new time
+  static constexpr std::int64_t kMaxImuStepNs = 1'000'000'000;  // likewise, IMU
   static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxImuIntervalNs = 100'000'000;
@@ -71,7 +80,12 @@ class Sequencer {
   InputFault place_imu(ImuSample* sample);
   void change_time_base(double jump_s);
   void extend_tail(const ImuSample& sample);
+  bool gnss_keeps_time() const { return !inertial_ || !imu_time_.is_set(); }
+  void place_epoch(const RawEpoch& epoch);
+  bool hold(const RawEpoch& epoch);
+  void judge_held(GpsTime next);
   InputFault check_epoch_time(GpsTime time);
+  bool is_known(GpsTime time) const;
   void queue_epoch(const RawEpoch& epoch);
   void issue_ready_epochs();
   void issue_oldest_pending();
@@ -86,7 +100,7 @@ class Sequencer {
   bool inertial_;
   Eigen::Matrix3d C_b_imu_;  // IMU axes to body
   bool mounting_is_identity_;
-  std::int64_t epoch_interval_ns_;
+  std::int64_t epoch_interval_ns_, max_epoch_ahead_ns_;
   Counters counters_;
   GpsTime imu_time_;         // end of the last accepted sample
   GpsTime last_epoch_time_;  // t of the last issued epoch, or where the IMU stream began
@@ -94,8 +108,11 @@ class Sequencer {
   std::uint64_t next_index_ = 1;
   std::uint64_t next_event_ = 1;
   TimeBaseWatch imu_watch_, epoch_watch_;
-  std::array<std::unique_ptr<RawEpoch>, kMaxPending + 1> pending_;  // the first pending_count_
+  std::array<std::unique_ptr<RawEpoch>, kMaxPending + 1>
+      pending_;  // the first pending_count_, by time
   std::size_t pending_count_ = 0;
+  std::unique_ptr<RawEpoch> held_;  // see above; meaningful while is_held_
+  bool is_held_ = false;
   boost::circular_buffer<ImuSample> tail_;  // IMU since the last issued epoch
   std::unique_ptr<GnssWork> work_;          // too large for a thread's stack
 };
