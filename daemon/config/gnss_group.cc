@@ -39,6 +39,7 @@ void read_system(ConfigReader& group, SystemConfig* config) {
   read_letters(group, "attributes", 'A', 'Z', &config->signals.attributes);
   group.integer("max_satellites", 0, 512, &config->max_satellites);
   group.number("code_sigma_m", {1e-3, 1e3}, &config->sigma.code_m);
+  group.number("wideband_code_factor", {0.01, 10.0}, &config->sigma.wideband_code_factor);
   group.number("carrier_sigma_m", {1e-5, 10.0}, &config->sigma.carrier_m);
   group.number("doppler_sigma_m_s", {1e-4, 1e2}, &config->sigma.doppler_m_s);
 }
