@@ -6,12 +6,16 @@
 #include <bitset>
 #include <cmath>
 
+#include "core/gnss/consensus.h"
+
 namespace leonav {
 namespace {
 
 constexpr int kMaxNewtonSteps = 15;
 constexpr int kL1Steps = 15;
 constexpr int kPolishSteps = 5;
+// A plain fit whose largest w-test stays below this has nothing to search for.
+constexpr double kSuspicious = 3.0;
 constexpr int kMaxExclusions = 16;
 constexpr double kMinPivotRatio = 1.0e-11;  // below, the geometry does not determine the unknowns
 // In units of the result's own standard deviations, squared.
@@ -41,6 +45,7 @@ class Fit {
   FitStatus iterate(int steps, Factor factor);
   void estimate_scale();
   FitRow* worst_row(double limit);
+  FitStatus seek_consensus(const RobustConfig& config);
   FitStatus snoop(const RobustConfig& config);
 
   const FitModel& model_;
@@ -133,22 +138,18 @@ FitStatus Fit::plain() {
   return iterate(kMaxNewtonSteps, [](const FitRow&) { return 1.0; });
 }
 
-// 1.4826 times the median of |residual| / sigma. As many of the smallest as there are unknowns are
-// left out: an L1 fit makes that many vanish.
 void Fit::estimate_scale() {
-  boost::container::static_vector<double, kMaxMeasurements> standardized;
+  StandardizedResiduals standardized;
   for (const FitRow& row : *rows_) {
     if (!row.alone && !row.excluded) standardized.push_back(std::abs(row.residual) / row.sigma);
   }
-  std::sort(standardized.begin(), standardized.end());
   const std::size_t unknowns = static_cast<std::size_t>(unknowns_);
   // With fewer than four degrees of freedom a median of the rest may itself be the gross error.
   if (standardized.size() < unknowns + 4) {
     scale_ = 1.0;
     return;
   }
-  const double median = standardized[(standardized.size() + unknowns) / 2];
-  scale_ = std::clamp(1.4826 * median, 1.0, kMaxFitScale);
+  scale_ = std::clamp(robust_scale(&standardized, unknowns), 1.0, kMaxFitScale);
 }
 
 // The row whose residual stands out most against its own standard deviation (Baarda's w-test), if
@@ -189,11 +190,28 @@ FitStatus Fit::snoop(const RobustConfig& config) {
   return FitStatus::kFaulty;
 }
 
+// Moves the start to where most rows agree, if that is elsewhere.
+FitStatus Fit::seek_consensus(const RobustConfig& config) {
+  for (FitRow& row : *rows_) row.factor = 1.0;
+  const std::optional<Consensus> consensus = find_consensus(*rows_);
+  if (!consensus) return FitStatus::kOk;
+  *state_ += consensus->change;
+  model_.linearize(*state_, rows_);
+  return iterate(kPolishSteps, [&](const FitRow& row) {
+    return igg3_factor(row.residual / (row.sigma * consensus->scale), config.k0, config.k1);
+  });
+}
+
 FitStatus Fit::robust(const RobustConfig& config) {
+  const bool suspicious = worst_row(kSuspicious) != nullptr;
   FitStatus status = iterate(kL1Steps, [](const FitRow& row) {
     return 1.0 / std::max(std::abs(row.residual) / row.sigma, 1.0);
   });
   if (status == FitStatus::kTooFewRows || status == FitStatus::kSingular) return status;
+  if (suspicious) {
+    status = seek_consensus(config);
+    if (status == FitStatus::kTooFewRows || status == FitStatus::kSingular) return status;
+  }
   estimate_scale();
   status = iterate(std::max(config.max_iterations, 1), [&](const FitRow& row) {
     return igg3_factor(row.residual / (row.sigma * scale_), config.k0, config.k1);

@@ -1,0 +1,30 @@
+// The state that most rows agree on, for data of which up to a third may be grossly wrong: an L1
+// fit follows few errors that pull one way with much leverage, a vote of small subsets does not.
+#pragma once
+#include <optional>
+
+#include "core/gnss/robust_fit.h"
+
+namespace leonav {
+
+struct Consensus {
+  FitState change = FitState::Zero();  // to add to the state at which the rows were linearized
+  double scale = 1.0;  // robust scatter of residual over sigma there, 1 to kMaxFitScale
+};
+
+// Fits a fixed number of subsets of satellites, each just large enough, improves each fit once with
+// the half of the rows that lies nearest to it, and returns the one with the smallest sum of
+// squared standardized residuals, each bounded (P. J. Rousseeuw and K. Van Driessen,
+// Computing LTS regression for large data sets, 2006, for the subsets and the improvement; the
+// bounded sum is the M-step of an MM-estimate, with the scale of the best half). `rows` not in use
+// take no part. The subsets are drawn by a generator with a fixed seed: the same rows give the same
+// answer. nullopt: fewer than two degrees of freedom, or no change found whose bounded sum is below
+// that of the rows as they stand.
+std::optional<Consensus> find_consensus(const FitRows& rows);
+
+// 1.4826 times the median of |residual| / sigma of `unknowns` fewer values: a fit through as many
+// rows as it has unknowns makes that many vanish. `standardized` is reordered.
+using StandardizedResiduals = boost::container::static_vector<double, kMaxMeasurements>;
+double robust_scale(StandardizedResiduals* standardized, std::size_t unknowns);
+
+}  // namespace leonav
