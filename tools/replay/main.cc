@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "daemon/config/load_config.h"
+#include "configuration.h"
 #include "journal_scan.h"
 #include "replay_run.h"
 #include "tools/common/arguments.h"
@@ -16,11 +16,13 @@ using namespace leonav;
 
 Arguments declare() {
   Arguments arguments(
-      "leonav-replay", "--config FILE --out DIR [options] run.lcmlog",
+      "leonav-replay", "[--config FILE] --out DIR [options] run.lcmlog",
       "Feeds an LCM log (of lcm-logger, leonav-import or leonavd's journal) to the "
       "navigator and writes\nits answers as tables. A journal's deadline misses are "
       "obeyed, so that its run comes again bit for bit.");
-  arguments.option("--config", "FILE", "configuration, as for leonavd")
+  arguments
+      .option("--config", "FILE",
+              "configuration, as for leonavd; a journal holds its own, which is the default")
       .option("--out", "DIR",
               "folder for solution.csv, epochs.csv, satellites.csv, "
               "measurements.csv and summary.txt")
@@ -49,16 +51,17 @@ void require_inputs(const JournalScan& scan, const std::string& log, const std::
 }
 
 // What went wrong; empty: nothing.
-std::string verdict(const ReplayRun& run, const JournalScan& scan, std::ostream& out) {
+std::string verdict(const ReplayRun& run, const JournalScan& scan, const std::string& other_run,
+                    std::ostream& out) {
   if (const Verifier* verifier = run.verifier()) {
-    out << "verified outputs: " << verifier->compared() << "\n"
-        << "differences: " << verifier->differences() << "\n";
+    out << "verified " << verifier->compared() << " outputs, " << verifier->differences()
+        << " differences\n";
     if (verifier->beyond_end() > 0 && scan.truncated) {
       out << "regenerated beyond the cut end: " << verifier->beyond_end() << "\n";
     }
     if (verifier->differences() > 0) {
       return "the replay differs from the journal: " + verifier->first_difference() +
-             " (same configuration and program as when it was written?)";
+             (other_run.empty() ? "" : "; " + other_run);
     }
     if (verifier->compared() == 0) return "nothing to verify: the log holds no recorded outputs";
   }
@@ -81,7 +84,10 @@ int replay(int argc, char** argv) {
   options.out_folder = arguments.required("--out");
   options.rate_hz = rate_of(arguments);
   options.verify = arguments.has("--verify");
-  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  std::optional<std::string> file;
+  if (arguments.has("--config")) file = arguments.get("--config");
+  const auto [config, origin, other_run] =
+      choose_configuration(options.log, file, arguments.all("--set"));
 
   const JournalScan scan = scan_journal(options.log, config.lcm.prefix);
   require_inputs(scan, options.log, config.lcm.prefix);
@@ -94,8 +100,14 @@ int replay(int argc, char** argv) {
   run.run();
 
   std::ostringstream summary;
+  summary << "configuration: " << origin << "\n";
+  if (!other_run.empty()) summary << "note: " << other_run << "\n";
   run.print_summary(summary);
-  const std::string failure = verdict(run, scan, summary);
+  for (const std::string& warning : run.warnings()) {
+    summary << "warning: " << warning << "\n";
+    std::cerr << "leonav-replay: WARNING: " << warning << "\n";
+  }
+  const std::string failure = verdict(run, scan, other_run, summary);
   if (!failure.empty()) summary << "failure: " << failure << "\n";
   std::cout << summary.str();
   const std::string path = options.out_folder + "/summary.txt";

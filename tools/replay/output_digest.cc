@@ -1,25 +1,36 @@
 #include "output_digest.h"
 
+#include <cinttypes>
+#include <cstdio>
+
 namespace leonav {
+namespace {
+
+// Byte by byte: the same on every machine.
+void add_number(std::uint64_t number, Crc64* sum) {
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    sum->process_byte(static_cast<std::uint8_t>(number >> shift));
+  }
+}
+
+}  // namespace
 
 void OutputDigest::add(std::size_t group, ByteSpan bytes) {
   // The length first: otherwise two messages and their concatenation would be one.
-  std::array<std::uint8_t, 8> length;
-  for (std::size_t i = 0; i < 8; ++i) {
-    length[i] = static_cast<std::uint8_t>(std::uint64_t{bytes.size()} >> (56 - 8 * i));
-  }
-  hashes_[group].add(length);
-  hashes_[group].add(bytes);
+  add_number(bytes.size(), &sums_[group]);
+  sums_[group].process_bytes(bytes.data(), bytes.size());
   ++messages_[group];
 }
 
-std::string OutputDigest::hex_digest() {
-  Sha256 all;
-  for (Sha256& hash : hashes_) {
-    const std::string hex = hash.hex_digest();
-    all.add({reinterpret_cast<const std::uint8_t*>(hex.data()), hex.size()});
+std::string OutputDigest::hex_digest() const {
+  Crc64 all;
+  for (std::size_t group = 0; group < sums_.size(); ++group) {
+    add_number(messages_[group], &all);
+    add_number(sums_[group].checksum(), &all);
   }
-  return all.hex_digest();
+  std::array<char, 17> text;
+  std::snprintf(text.data(), text.size(), "%016" PRIx64, std::uint64_t{all.checksum()});
+  return text.data();
 }
 
 }  // namespace leonav

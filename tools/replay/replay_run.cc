@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "drivers/lcm/event_log.h"
+#include "run_warnings.h"
 
 namespace leonav {
 
@@ -83,6 +84,10 @@ void ReplayRun::print_summary(std::ostream& out) {
     out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
   }
   out << "output hash: " << digest_.hex_digest() << "\n";
+}
+
+std::vector<std::string> ReplayRun::warnings() const {
+  return run_warnings(dispatch_.counters(), pipeline_.sequencer().counters(), statistics_);
 }
 
 }  // namespace leonav

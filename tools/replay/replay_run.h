@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/navigator/pipeline.h"
 #include "daemon/config/daemon_config.h"
@@ -31,6 +32,9 @@ class ReplayRun final : private OutputSink, private MessageTarget {
 
   // "key: value" lines; call once, after run().
   void print_summary(std::ostream& out);
+
+  // What must not be overlooked; empty: nothing. After run().
+  std::vector<std::string> warnings() const;
 
   const RunStatistics& statistics() const { return statistics_; }
   long solution_rows() const { return files_.solution_rows(); }

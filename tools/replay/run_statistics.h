@@ -21,9 +21,14 @@ class RunStatistics {
   void print(std::ostream& out) const;
   std::uint64_t solutions() const { return solutions_; }
   std::uint64_t epochs() const { return epochs_; }
+  std::uint64_t epochs_without_position() const { return epochs_without_position_; }
+  const std::map<std::string, std::uint64_t>& satellites_by_reason() const {
+    return satellites_by_reason_;
+  }
 
  private:
-  std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, commits_ = 0, misses_ = 0;
+  std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
+                commits_ = 0, misses_ = 0;
   double used_sum_ = 0.0;
   double largest_jump_m_ = 0.0;
   // Ordered maps: they are printed in order.

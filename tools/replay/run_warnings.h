@@ -1,0 +1,18 @@
+// What a user must not overlook in a run that ended well.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/navigator/sequencer.h"
+#include "daemon/input_dispatch.h"
+#include "run_statistics.h"
+
+namespace leonav {
+
+// One line each where more than half of a stream's messages were not used, or more than half of the
+// epochs gave no position; with the reasons and their counts, most frequent first.
+std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
+                                      const Sequencer::Counters& accepted,
+                                      const RunStatistics& statistics);
+
+}  // namespace leonav
