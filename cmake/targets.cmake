@@ -74,6 +74,24 @@ function(leonav_lcm_types target)
   target_link_libraries(${target} INTERFACE lcm)
 endfunction()
 
+# Catch2 with its main(), compiled once for all test programs.
+function(leonav_catch2)
+  if(TARGET catch2_with_main)
+    return()
+  endif()
+  find_package(Catch2 REQUIRED)
+  if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+    add_library(catch2_with_main INTERFACE)
+    target_link_libraries(catch2_with_main INTERFACE Catch2::Catch2WithMain)
+    return()
+  endif()
+  add_library(catch2_with_main STATIC ${CMAKE_SOURCE_DIR}/test/support/catch2_main.cc)
+  target_link_libraries(catch2_with_main PUBLIC Catch2::Catch2)
+  # gcc 12 under the address sanitizer warns of the library's own std::function in <regex>.
+  target_compile_options(catch2_with_main
+                         PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+endfunction()
+
 # leonav_test(target folder [DEPENDS ...]): one Catch2 program per folder; skipped while empty.
 function(leonav_test target folder)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
@@ -81,18 +99,10 @@ function(leonav_test target folder)
   if(NOT sources)
     return()
   endif()
-  find_package(Catch2 REQUIRED)
+  leonav_catch2()
   add_executable(${target} ${sources})
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test)
-  if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
-    target_link_libraries(${target} PRIVATE Catch2::Catch2WithMain)
-  else()
-    target_sources(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test/support/catch2_main.cc)
-    # gcc 12 under the address sanitizer warns of the library's own std::function in <regex>.
-    set_source_files_properties(${CMAKE_SOURCE_DIR}/test/support/catch2_main.cc
-                                PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
-    target_link_libraries(${target} PRIVATE Catch2::Catch2)
-  endif()
+  target_link_libraries(${target} PRIVATE catch2_with_main)
   target_compile_definitions(${target} PRIVATE
     LEONAV_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data"
     LEONAV_SOURCE_DIR="${CMAKE_SOURCE_DIR}"

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
+
+#include "drivers/lcm/run_configuration.h"
 
 namespace leonav {
 namespace {
@@ -18,9 +21,10 @@ constexpr std::size_t kMainOutBytes = 128 << 10;
 
 }  // namespace
 
-Engine::Engine(const DaemonConfig& config, MessageTarget* target)
+Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks)
     : config_(config),
       target_(target),
+      hooks_(std::move(hooks)),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
       gnss_ring_(kGnssRing, &gnss_wakeup_),
       io_sink_(kInputRingBytes, &out_wakeup_, &counters_),
@@ -36,6 +40,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target)
   }
   if (!config.journal.path.empty()) {
     journal_ = std::make_unique<EventLogWriter>(config.journal.path);
+    journal_configuration();
   }
   for (Gauge& age : counters_.ephemeris_age_ms) age.set(-1);
 }
@@ -68,10 +73,12 @@ void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us)
 // a decision in the journal like any other.
 void Engine::open_epoch(std::uint64_t index) { ekf_mailbox_.open(index); }
 
-bool Engine::idle() const {
+bool Engine::idle() const { return gnss_ring_.idle() && idle_but_gnss(); }
+
+bool Engine::idle_but_gnss() const {
   // In the order of flow: what a stage has not done could still feed the next one.
-  return inertial_ring_.idle() && gnss_ring_.idle() && io_sink_.ring().idle() &&
-         inertial_sink_.ring().idle() && gnss_sink_.ring().idle() && main_ring_.idle();
+  return inertial_ring_.idle() && io_sink_.ring().idle() && inertial_sink_.ring().idle() &&
+         gnss_sink_.ring().idle() && main_ring_.idle();
 }
 
 bool Engine::finish() {
@@ -111,9 +118,11 @@ void Engine::run_gnss() {
     const std::uint32_t ticket = gnss_wakeup_.ticket();
     const bool last_round = no_more_inputs_.load(std::memory_order_acquire);
     while (gnss_ring_.consume_one([this](const GnssWork& work) {
+      const auto* epoch = std::get_if<EpochWork>(&work);
+      if (epoch != nullptr && hooks_.before_epoch) hooks_.before_epoch(epoch->index);
       const Stopwatch watch;
       gnss_.process(work);
-      if (std::holds_alternative<EpochWork>(work)) {
+      if (epoch != nullptr) {
         counters_.worst_epoch_ns.raise_to(watch.nanoseconds());
       }
     })) {
@@ -150,6 +159,15 @@ bool Engine::drain_outputs() {
     any = ring->consume_one(use) || any;
   }
   return any;
+}
+
+void Engine::journal_configuration() {
+  const ConfigText& source = config_.source;
+  if (source.text.empty()) return;
+  const auto bytes = encode(
+      RunConfiguration{"leonavd " LEONAV_VERSION, source.name, source.text, source.overrides});
+  write_journal({wall_clock_us(), static_cast<std::uint32_t>(bytes.size()), Channel::kConfig},
+                bytes);
 }
 
 void Engine::write_out(const MessageHeader& header, ByteSpan bytes) {

@@ -2,6 +2,7 @@
 // them, the journal.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,13 +20,18 @@
 
 namespace leonav {
 
+// Where tests hold a thread still; empty in production.
+struct EngineHooks {
+  std::function<void(std::uint64_t epoch)> before_epoch;  // in `gnss`
+};
+
 // Threads: the caller of receive() is `io`; `ins`, `gnss` and `out` are the engine's own. Rings:
 // io -> ins, io -> gnss, and from io, ins, gnss and the caller of publish() (`main`) to out.
 class Engine final : private StageInputs {
  public:
   // `target` gets every output, in the `out` thread. Throws EventLogError if the journal cannot be
   // created.
-  Engine(const DaemonConfig& config, MessageTarget* target);
+  Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks = {});
   ~Engine() override;
 
   // Starts the threads. Returns what the system refused (priorities, ...); empty: nothing.
@@ -41,6 +47,8 @@ class Engine final : private StageInputs {
 
   // True once everything received so far has been dealt with by all stages.
   bool idle() const;
+  // The same, whatever `gnss` still has to do.
+  bool idle_but_gnss() const;
 
   // After the last receive(): lets every stage finish its work, closes the journal. False if the
   // journal is incomplete; journal_error() says why.
@@ -63,6 +71,7 @@ class Engine final : private StageInputs {
   void run_gnss();
   void run_out();
   bool drain_outputs();
+  void journal_configuration();
   void write_out(const MessageHeader& header, ByteSpan bytes);
   void write_journal(const MessageHeader& header, ByteSpan bytes);
   void flush_journal(bool sync);
@@ -70,6 +79,7 @@ class Engine final : private StageInputs {
 
   DaemonConfig config_;
   MessageTarget* target_;
+  EngineHooks hooks_;
   EngineCounters counters_;
   std::unique_ptr<EventLogWriter> journal_;
   std::string journal_error_;

@@ -18,11 +18,14 @@ constexpr std::size_t kStackBytes = 4U << 20;
 std::string RealtimeThread::start(const std::string& name, const ThreadConfig& config,
                                   std::function<void()> body) {
   body_ = std::move(body);
+  name_ = "leonav-" + name;
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kStackBytes);
   const auto entry = [](void* self) -> void* {
-    static_cast<RealtimeThread*>(self)->body_();
+    auto* thread = static_cast<RealtimeThread*>(self);
+    pthread_setname_np(pthread_self(), thread->name_.c_str());
+    thread->body_();
     return nullptr;
   };
   const int failure = pthread_create(&thread_, &attributes, entry, this);
@@ -31,7 +34,6 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
     throw std::runtime_error("cannot start thread " + name + ": " + std::strerror(failure));
   }
   running_ = true;
-  pthread_setname_np(thread_, ("leonav-" + name).c_str());
   std::string refused;
   if (config.priority > 0) {
     sched_param parameters{};

@@ -24,6 +24,7 @@ class RealtimeThread {
 
  private:
   std::function<void()> body_;
+  std::string name_;
   pthread_t thread_{};
   bool running_ = false;
 };

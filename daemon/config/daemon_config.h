@@ -1,6 +1,7 @@
 // Everything the configuration file says.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/navigator/navigator_config.h"
 
@@ -28,11 +29,19 @@ struct ThreadsConfig {
   ThreadConfig io, ins, gnss, out;
 };
 
+// Where the configuration came from, for the journal.
+struct ConfigText {
+  std::string name;                    // the file
+  std::string text;                    // its content; empty: not from a file
+  std::vector<std::string> overrides;  // group.key=value
+};
+
 struct DaemonConfig {
   NavigatorConfig navigator;
   LcmConfig lcm;
   JournalConfig journal;
   ThreadsConfig threads;
+  ConfigText source;
 };
 
 }  // namespace leonav

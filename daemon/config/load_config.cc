@@ -123,7 +123,8 @@ DaemonConfig load_config_text(const std::string& text, const std::string& name,
     for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);
     ConfigSource source{name, {}};
     ConfigReader reader(&source, root, "");
-    const DaemonConfig config = read_root(reader);
+    DaemonConfig config = read_root(reader);
+    config.source = {name, text, overrides};
     if (absent != nullptr) *absent = source.absent;
     return config;
   } catch (const YAML::Exception& error) {

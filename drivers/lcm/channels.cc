@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::array<std::string_view, kChannelCount> kNames = {
     "IMU",      "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE", "COMMAND",
-    "SOLUTION", "EPOCH",      "EVENT",     "DECISION",    "HEALTH"};
+    "SOLUTION", "EPOCH",      "EVENT",     "DECISION",    "HEALTH",     "CONFIG"};
 
 }  // namespace
 

@@ -25,8 +25,9 @@ enum class Channel : std::uint8_t {
   kEvent,
   kDecision,
   kHealth,
+  kConfig,  // in journals only
 };
-inline constexpr std::size_t kChannelCount = 11;
+inline constexpr std::size_t kChannelCount = 12;
 inline constexpr std::array<Channel, 6> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
     Channel::kOrbitClock, Channel::kIonosphere, Channel::kCommand};

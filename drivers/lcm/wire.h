@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/time/gps_time.h"
 
@@ -26,5 +27,12 @@ inline constexpr std::size_t kEventStageOffset = 28;
 
 inline constexpr std::uint8_t kFlagLossOfLock = 1;
 inline constexpr std::uint8_t kFlagHalfCycle = 2;
+
+// Big endian; `bytes` must hold offset + 4.
+inline std::uint32_t read_uint32(std::span<const std::uint8_t> bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[offset + i];
+  return value;
+}
 
 }  // namespace leonav::wire

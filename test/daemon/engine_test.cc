@@ -9,9 +9,9 @@
 #include "daemon/engine.h"
 #include "daemon/input_dispatch.h"
 #include "daemon/output_groups.h"
+#include "drive_inputs.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
 #include "support/temporary_file.h"
 
 namespace {
@@ -19,51 +19,28 @@ namespace {
 using namespace leonav;
 using Bytes = std::vector<std::uint8_t>;
 
-struct Input {
-  Channel channel;
-  Bytes bytes;
-};
+using test::Input;
 
 // A drive with an outage of two seconds, and now and then a message that is damaged.
 const std::vector<Input>& inputs() {
   static const std::vector<Input> list = [] {
-    test::SyntheticDriveOptions options;
-    options.duration_s = 60.0;
-    options.code_sigma_m = 0.5;
-    options.doppler_sigma_m_s = 0.05;
-    const test::SyntheticDrive drive = test::synthetic_drive(options);
-    Encoder encoder;
     std::vector<Input> made;
-    std::uint64_t count[3] = {0, 0, 0};
-    const auto add = [&](Channel channel, ByteSpan bytes) {
-      made.push_back({channel, Bytes(bytes.begin(), bytes.end())});
-      if (made.size() % 997 == 0) {
-        made.push_back(made.back());
-        made.back().bytes.resize(made.back().bytes.size() / 2);
-      }
-    };
-    test::feed(
-        drive, 0.06,
-        [&](const Ephemeris& e) { add(Channel::kEphemeris, encoder.encode(e, ++count[0])); },
-        [&](const ImuSample& s) { add(Channel::kImu, encoder.encode(s, ++count[1])); },
-        [&](const RawEpoch& e) {
-          if (++count[2] != 30 && count[2] != 31) {
-            add(Channel::kGnssEpoch, encoder.encode(e, count[2]));
-          }
-        });
+    int epochs = 0;
+    test::feed_messages(test::synthetic_drive(test::noisy_drive(60.0)),
+                        [&](Channel channel, ByteSpan bytes) {
+                          if (channel == Channel::kGnssEpoch && (++epochs == 30 || epochs == 31)) {
+                            return;
+                          }
+                          made.push_back({channel, Bytes(bytes.begin(), bytes.end())});
+                          if (made.size() % 997 == 0) {
+                            made.push_back(made.back());
+                            made.back().bytes.resize(made.back().bytes.size() / 2);
+                          }
+                        });
     made.push_back({Channel::kImu, Bytes(100'000, 0x55)});
     return made;
   }();
   return list;
-}
-
-DaemonConfig test_config() {
-  DaemonConfig config;
-  config.navigator.gnss = default_gnss_config();
-  config.navigator.vehicle.lever_arm_b = test::SyntheticDriveOptions().lever_arm_b;
-  config.navigator.imu = {1e-4, 1e-3, {1e-3, 1000.0}, {1e-2, 1000.0}, {1e-3, 1e4}, {1e-3, 1e4}};
-  config.threads.lock_memory = false;
-  return config;
 }
 
 struct Collector final : MessageTarget {
@@ -89,7 +66,7 @@ std::vector<std::uint64_t> missed_epochs(const Collector& outputs) {
 Collector run_pipeline(const std::vector<Input>& list, const std::vector<std::uint64_t>& missed) {
   Collector outputs;
   EncodingSink sink(&outputs);
-  Pipeline pipeline(test_config().navigator, &sink);
+  Pipeline pipeline(test::drive_config().navigator, &sink);
   for (const std::uint64_t epoch : missed) pipeline.record_miss(epoch);
   InputDispatch dispatch(&pipeline.sequencer());
   for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
@@ -99,7 +76,7 @@ Collector run_pipeline(const std::vector<Input>& list, const std::vector<std::ui
 enum class Pace { kFlatOut, kStepByStep };
 
 Collector run_engine(Pace pace, const std::string& journal) {
-  DaemonConfig config = test_config();
+  DaemonConfig config = test::drive_config();
   config.journal.path = journal;
   Collector outputs;
   Engine engine(config, &outputs);
@@ -164,12 +141,15 @@ TEST_CASE("flat out, with whatever misses that gives, the journal gives the same
 TEST_CASE("a journal on a full disk is told, and costs no output") {
   if (!std::filesystem::exists("/dev/full")) return;
   const Collector reference = run_pipeline(inputs(), {});
-  DaemonConfig config = test_config();
+  DaemonConfig config = test::drive_config();
   config.journal.path = "/dev/full";
   Collector outputs;
   Engine engine(config, &outputs);
   engine.start();
-  for (const Input& input : inputs()) engine.receive(input.channel, input.bytes, 1);
+  for (const Input& input : inputs()) {
+    engine.receive(input.channel, input.bytes, 1);
+    while (!engine.idle()) std::this_thread::yield();  // without misses, as the reference
+  }
   CHECK_FALSE(engine.finish());
   CHECK(engine.journal_error().find("/dev/full: cannot be written") == 0);
   CHECK(outputs.groups[0].size() == reference.groups[0].size());

@@ -5,11 +5,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include "drive_inputs.h"
 #include "drivers/lcm/channels.h"
-#include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
 #include "support/temporary_file.h"
 
 namespace {
@@ -17,24 +16,13 @@ namespace {
 using namespace leonav;
 
 void write_log(const std::string& path) {
-  test::SyntheticDriveOptions options;
-  options.duration_s = 40.0;
-  const test::SyntheticDrive drive = test::synthetic_drive(options);
   EventLogWriter log(path);
-  Encoder encoder;
-  std::uint64_t count = 0;
   std::int64_t time_us = 1'000'000;
-  const auto write = [&](Channel channel, ByteSpan bytes) {
-    REQUIRE(log.write(time_us, channel_name(channel), bytes));
-  };
-  test::feed(
-      drive, 0.06,
-      [&](const Ephemeris& e) { write(Channel::kEphemeris, encoder.encode(e, ++count)); },
-      [&](const ImuSample& s) {
-        time_us += 5000;
-        write(Channel::kImu, encoder.encode(s, ++count));
-      },
-      [&](const RawEpoch& e) { write(Channel::kGnssEpoch, encoder.encode(e, ++count)); });
+  test::feed_messages(test::synthetic_drive(test::noisy_drive(40.0)),
+                      [&](Channel channel, ByteSpan bytes) {
+                        if (channel == Channel::kImu) time_us += 5000;
+                        REQUIRE(log.write(time_us, channel_name(channel), bytes));
+                      });
   REQUIRE(log.flush());
 }
 

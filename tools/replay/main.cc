@@ -84,10 +84,10 @@ int replay(int argc, char** argv) {
   options.out_folder = arguments.required("--out");
   options.rate_hz = rate_of(arguments);
   options.verify = arguments.has("--verify");
-  std::optional<std::string> file;
-  if (arguments.has("--config")) file = arguments.get("--config");
+  std::optional<std::string> config_file;
+  if (arguments.has("--config")) config_file = arguments.get("--config");
   const auto [config, origin, other_run] =
-      choose_configuration(options.log, file, arguments.all("--set"));
+      choose_configuration(options.log, config_file, arguments.all("--set"));
 
   const JournalScan scan = scan_journal(options.log, config.lcm.prefix);
   require_inputs(scan, options.log, config.lcm.prefix);

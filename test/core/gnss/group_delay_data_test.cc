@@ -81,7 +81,9 @@ TEST_CASE("Group delays bring recorded signal pairs together", "[group_delay][da
 
   for (Comparison& c : comparisons) {
     std::vector<double> before, after;
-    for (auto& [satellite, values] : c.differences) {
+    for (auto& entry : c.differences) {
+      const auto& satellite = entry.first;
+      auto& values = entry.second;
       const auto e = std::find_if(ephemerides.begin(), ephemerides.end(), [&](const Ephemeris& x) {
         return x.satellite == satellite &&
                (x.message == c.message || (c.system == System::kBeidou));

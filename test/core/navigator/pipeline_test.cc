@@ -5,8 +5,8 @@
 #include <cstring>
 #include <vector>
 
-#include "allocation_counter.h"
 #include "recording_sink.h"
+#include "support/allocation_counter.h"
 #include "support/catch.h"
 #include "support/synthetic_drive.h"
 

@@ -1,0 +1,116 @@
+#include "drivers/lcm/convert.h"
+
+#include <optional>
+#include <utility>
+
+namespace leonav::wire {
+namespace {
+
+template <typename T>
+std::optional<SatelliteId> satellite_of(const T& message) {
+  if (message.system < 0 || message.system >= static_cast<int>(kSystemCount)) return std::nullopt;
+  if (message.number <= 0) return std::nullopt;
+  const SatelliteId id{static_cast<System>(message.system),
+                       static_cast<std::uint16_t>(message.number)};
+  return is_valid(id) ? std::optional(id) : std::nullopt;
+}
+
+bool message_fits_system(System system, std::int8_t message) {
+  switch (static_cast<NavigationMessage>(message)) {
+    case NavigationMessage::kGpsLnav:
+      return system == System::kGps;
+    case NavigationMessage::kGalileoInav:
+    case NavigationMessage::kGalileoFnav:
+      return system == System::kGalileo;
+    case NavigationMessage::kBeidouD1:
+    case NavigationMessage::kBeidouD2:
+      return system == System::kBeidou;
+  }
+  return false;
+}
+
+bool is_uint16(std::int32_t value) { return value >= 0 && value <= 0xffff; }
+
+}  // namespace
+
+InputFault convert(const gnss_observation_t& from, SignalObservation* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite) return InputFault::kOutOfRange;
+  if (from.band < '1' || from.band > '9') return InputFault::kOutOfRange;
+  if (from.attribute < 'A' || from.attribute > 'Z') return InputFault::kOutOfRange;
+  constexpr int kKnownFlags = kFlagLossOfLock | kFlagHalfCycle;
+  if ((from.flags & ~kKnownFlags) != 0) return InputFault::kOutOfRange;
+  // NaN is "not measured"; infinity is nothing.
+  for (const double value : {from.pseudorange_m, from.carrier_cycles, from.doppler_hz,
+                             double{from.cn0_dbhz}, double{from.lock_time_s}}) {
+    if (std::isinf(value)) return InputFault::kNotFinite;
+  }
+  to->satellite = *satellite;
+  to->code = {static_cast<char>(from.band), static_cast<char>(from.attribute)};
+  to->pseudorange_m = from.pseudorange_m;
+  to->carrier_cycles = from.carrier_cycles;
+  to->doppler_hz = from.doppler_hz;
+  to->cn0_dbhz = from.cn0_dbhz;
+  to->lock_time_s = from.lock_time_s;
+  to->loss_of_lock = (from.flags & kFlagLossOfLock) != 0;
+  to->half_cycle_ambiguous = (from.flags & kFlagHalfCycle) != 0;
+  return InputFault::kNone;
+}
+
+InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite) return InputFault::kOutOfRange;
+  if (!all_finite(from.p_e) || std::isinf(from.clock_s)) return InputFault::kNotFinite;
+  to->satellite = *satellite;
+  to->time = time;
+  for (int i = 0; i < 3; ++i) to->p_e[i] = from.p_e[i];
+  to->clock_s = from.clock_s;
+  return InputFault::kNone;
+}
+
+InputFault convert(const ephemeris_t& from, Ephemeris* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite || !message_fits_system(satellite->system, from.message) ||
+      !is_time_or_unset(from.time_ns) || !is_time(from.toe_ns) || !is_time(from.toc_ns) ||
+      !is_uint16(from.issue) || !is_uint16(from.issue_clock) || !is_uint16(from.health)) {
+    return InputFault::kOutOfRange;
+  }
+  *to = Ephemeris();
+  to->satellite = *satellite;
+  to->message = static_cast<NavigationMessage>(from.message);
+  to->transmission_time = GpsTime::from_nanoseconds(from.time_ns);
+  to->toe = GpsTime::from_nanoseconds(from.toe_ns);
+  to->toc = GpsTime::from_nanoseconds(from.toc_ns);
+  to->issue = static_cast<std::uint16_t>(from.issue);
+  to->issue_clock = static_cast<std::uint16_t>(from.issue_clock);
+  to->health = static_cast<std::uint16_t>(from.health);
+  // Every real-valued element, once: what is not listed here does not cross the wire.
+  const std::pair<double, double*> elements[] = {{from.accuracy_m, &to->accuracy_m},
+                                                 {from.sqrt_a, &to->sqrt_a},
+                                                 {from.eccentricity, &to->eccentricity},
+                                                 {from.m0, &to->m0},
+                                                 {from.delta_n, &to->delta_n},
+                                                 {from.omega0, &to->omega0},
+                                                 {from.omega_dot, &to->omega_dot},
+                                                 {from.i0, &to->i0},
+                                                 {from.i_dot, &to->i_dot},
+                                                 {from.omega, &to->omega},
+                                                 {from.cuc, &to->cuc},
+                                                 {from.cus, &to->cus},
+                                                 {from.crc, &to->crc},
+                                                 {from.crs, &to->crs},
+                                                 {from.cic, &to->cic},
+                                                 {from.cis, &to->cis},
+                                                 {from.af0, &to->af0},
+                                                 {from.af1, &to->af1},
+                                                 {from.af2, &to->af2},
+                                                 {from.group_delay_s[0], &to->group_delay_s[0]},
+                                                 {from.group_delay_s[1], &to->group_delay_s[1]}};
+  for (const auto& [value, target] : elements) {
+    if (!std::isfinite(value)) return InputFault::kNotFinite;
+    *target = value;
+  }
+  return is_sane(*to) ? InputFault::kNone : InputFault::kNotSane;
+}
+
+}  // namespace leonav::wire

@@ -1,0 +1,19 @@
+// Counts heap allocations of the test program, by operator new and by malloc alike. Link the target
+// test_allocation_counter.
+#pragma once
+#include <cstddef>
+
+namespace leonav::test {
+
+// Of all threads.
+void start_counting_allocations();
+std::size_t stop_counting_allocations();  // since the start
+
+// Of the daemon's threads by role ("leonav-ins", "leonav-gnss"), each from its first instruction
+// on, all engines together.
+struct ThreadAllocations {
+  std::size_t inertial = 0, gnss = 0;
+};
+ThreadAllocations thread_allocations();
+
+}  // namespace leonav::test
