@@ -16,6 +16,8 @@ constexpr int kSubsets = 100;
 // Beyond so many sigmas one residual is as bad as another. Larger, and a fit that spreads three
 // errors over all rows costs less than the right one that leaves three rows far off.
 constexpr double kBound = 2.5;
+// A vote needs twice as many spare satellites as it is to outvote; for one error the L1 start does.
+constexpr std::size_t kMinRedundancy = 4;
 constexpr double kMinPivotRatio = 1.0e-7;  // a subset of weaker geometry tells nothing
 
 bool in_use(const FitRow& row) { return row.factor > 0.0 && !row.excluded && !row.alone; }
@@ -167,7 +169,7 @@ double Search::bounded_sum(const FitState& change, double scale) {
 }
 
 std::optional<Consensus> Search::run() {
-  if (all_.size() < unknowns_ + 2 || unknowns_ < 4) return std::nullopt;
+  if (all_.size() < unknowns_ + kMinRedundancy || unknowns_ < 4) return std::nullopt;
   std::array<Candidate, kSubsets + 1> candidates;  // the first: no change
   double scale = kMaxFitScale;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -187,7 +189,7 @@ std::optional<Consensus> Search::run() {
   }
   scale = std::max(scale, 1.0);
   std::size_t best = 0;
-  double least = bounded_sum(candidates[0].change, scale);
+  double least = bounded_sum(candidates[0].change, scale) - kBound * kBound;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     if (!std::isfinite(candidates[i].scale)) continue;
     const double sum = bounded_sum(candidates[i].change, scale);

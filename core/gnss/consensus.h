@@ -18,8 +18,8 @@ struct Consensus {
 // Computing LTS regression for large data sets, 2006, for the subsets and the improvement; the
 // bounded sum is the M-step of an MM-estimate, with the scale of the best half). `rows` not in use
 // take no part. The subsets are drawn by a generator with a fixed seed: the same rows give the same
-// answer. nullopt: fewer than two degrees of freedom, or no change found whose bounded sum is below
-// that of the rows as they stand.
+// answer. nullopt: fewer than four spare satellites, or no change found whose bounded sum is
+// lower than that of the rows as they stand by one gross error.
 std::optional<Consensus> find_consensus(const FitRows& rows);
 
 // 1.4826 times the median of |residual| / sigma of `unknowns` fewer values: a fit through as many
