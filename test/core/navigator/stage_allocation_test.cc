@@ -1,0 +1,110 @@
+// No heap allocation with a full sky, precise orbits coming in and every kind of reset.
+#include <cmath>
+
+#include "core/navigator/pipeline.h"
+#include "support/allocation_counter.h"
+#include "support/catch.h"
+#include "support/synthetic_drive.h"
+
+namespace leonav::test {
+namespace {
+
+struct CountingSink : OutputSink {
+  std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0;
+  void on_solution(const Solution&) override { ++solutions; }
+  void on_epoch(const EpochReport& report) override {
+    ++epochs;
+    if (report.satellites.size() >= 40) ++full_epochs;
+    for (const SatelliteReport& s : report.satellites) {
+      if (s.source == OrbitSource::kPrecise && s.reason == Reason::kUsed) ++precise;
+    }
+  }
+  void on_event(const Event& event) override {
+    if (event.kind == EventKind::kFilterReset) ++resets;
+  }
+  void on_decision(const Decision&) override {}
+};
+
+Walker dense_leo() { return {System::kLeo, 16, 24, 7'478e3, 0.96, 0.001}; }
+
+NavigatorConfig full_config(MotionModel motion) {
+  NavigatorConfig config;
+  config.motion = motion;
+  config.gnss = default_gnss_config();
+  for (SystemConfig& system : config.gnss.systems) system.enabled = true;
+  config.vehicle.lever_arm_b = SyntheticDriveOptions().lever_arm_b;
+  config.ekf.prediction_suspect_ratio = 1e9;  // or the filter would not need to be restarted
+  return config;
+}
+
+// Nodes of every GPS satellite, 300 s apart, more than are kept.
+std::vector<PreciseState> precise_states(const SimulatedSky& sky) {
+  std::vector<PreciseState> states;
+  for (int node = -5; node < static_cast<int>(kMaxOrbitNodes) + 5; ++node) {
+    const GpsTime time = kSkyEpoch.plus_seconds(300.0 * node);
+    for (const Ephemeris& e : sky.ephemerides) {
+      if (e.satellite.system != System::kGps) continue;
+      const SatelliteState state = broadcast_state(e, time);
+      states.push_back({e.satellite, time, state.p_e, state.clock_s});
+    }
+  }
+  return states;
+}
+
+TEST_CASE("forty satellites and more, precise orbits, outages, resets: no allocation") {
+  SyntheticDriveOptions options;
+  options.duration_s = 100.0;
+  SimulatedSky sky;
+  sky.add(gps_walker());
+  sky.add(galileo_walker());
+  sky.add({System::kBeidou, 3, 10, 27'906e3, 0.96, 0.0005});
+  sky.add(dense_leo());
+  SyntheticDrive drive;
+  drive.options = options;
+  drive.ephemerides = sky.ephemerides;
+  drive.imu = synthetic_imu(options);
+  drive.epochs = synthetic_epochs(options, sky);
+  SyntheticDriveOptions there = options;  // carried away at 60 s
+  there.start.longitude += 1e-3;
+  const std::vector<RawEpoch> moved = synthetic_epochs(there, sky);
+  for (std::size_t k = 60; k < drive.epochs.size(); ++k) drive.epochs[k] = moved[k];
+  std::erase_if(drive.epochs, [](const RawEpoch& raw) {
+    const double t = seconds_between(raw.time, kSkyEpoch);
+    return t > 40.5 && t < 50.5;
+  });
+  const std::vector<PreciseState> states = precise_states(sky);
+  for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
+    CountingSink sink;
+    Pipeline pipeline(full_config(motion), &sink);
+    Sequencer& sequencer = pipeline.sequencer();
+    std::size_t next_state = 0, seen = 0;
+    start_counting_allocations();
+    feed(
+        drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+        [&](const ImuSample& s) { sequencer.on_imu(s); },
+        [&](const RawEpoch& raw) {
+          for (int i = 0; i < 40 && next_state < states.size(); ++i) {
+            sequencer.on_precise_state(states[next_state++]);
+          }
+          if (++seen == 75) sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
+          if (seen == 80) sequencer.on_command({CommandKind::kSetHeading, 0.5, 0.1});
+          sequencer.on_raw_epoch(raw);
+        });
+    // Time itself leaps, in both streams.
+    for (int i = 0; i < 40; ++i) {
+      ImuSample sample = drive.imu[static_cast<std::size_t>(i)];
+      sample.time = sample.time.plus_seconds(7200.0);
+      sequencer.on_imu(sample);
+    }
+    const std::size_t allocations = stop_counting_allocations();
+    CHECK(allocations == 0);
+    CHECK(next_state == states.size());
+    CHECK(sink.full_epochs > 80);
+    CHECK(sink.precise > 100);
+    CHECK(sink.resets >= 2);
+    CHECK(sink.solutions > 80);
+  }
+}
+
+}  // namespace
+}  // namespace leonav::test
