@@ -51,6 +51,8 @@ struct EngineCounters {
   Gauge worst_epoch_ns;
   // any stage
   Gauge resets;
+  // main
+  Gauge unpublished;  // messages of HEALTH that found no room
   // out
   Gauge published, journaled, journal_failed;
 };

@@ -40,9 +40,10 @@ class Engine final : private StageInputs {
   // An input as it came. One thread; waits while the stages are behind, drops nothing.
   void receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us);
 
-  // A message of the daemon itself (HEALTH). One thread.
+  // A message of the daemon itself (HEALTH). One thread. Where `out` is stuck (a disk that hangs)
+  // the message is dropped and counted: `main` must stay able to take a signal.
   void publish(Channel channel, ByteSpan bytes) {
-    main_ring_.push(channel, wall_clock_us(), bytes);
+    if (!main_ring_.try_push(channel, wall_clock_us(), bytes)) counters_.unpublished.add(1);
   }
 
   // True once everything received so far has been dealt with by all stages.

@@ -53,6 +53,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("filter resets", counters->resets.get(), message);
   add_count("commits", counters->commits.get(), message);
   add_count("published", counters->published.get(), message);
+  add_count("health dropped", counters->unpublished.get(), message);
   add_count("journaled", counters->journaled.get(), message);
   message->n_counts = static_cast<std::int32_t>(message->counts.size());
 }

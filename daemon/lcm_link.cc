@@ -17,6 +17,11 @@ constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr std::uint16_t kDefaultPort = 7667;
 
 std::unique_ptr<lcm::LCM> open_lcm(const std::string& url) {
+  if (url.empty()) throw LcmError("the LCM URL is empty; udpm://239.255.76.67:7667?ttl=0 is usual");
+  if (url.starts_with("tcpq:")) {
+    throw LcmError("LCM URL '" + url +
+                   "': tcpq ends the process when its server is away; use udpm:// or memq://");
+  }
   if (const auto problem = multicast_problem(url)) throw LcmError(*problem);
   auto instance = std::make_unique<lcm::LCM>(url);
   if (!instance->good()) {

@@ -10,23 +10,26 @@ MessageRing::MessageRing(std::size_t capacity_bytes, Wakeup* consumer)
       consumer_(consumer) {}
 
 void MessageRing::push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes) {
+  if (try_push(channel, timestamp_us, bytes)) return;
+  waits_.fetch_add(1, std::memory_order_relaxed);
+  Backoff backoff;
+  do {
+    consumer_->notify();
+    backoff.pause();
+  } while (!try_push(channel, timestamp_us, bytes));
+}
+
+bool MessageRing::try_push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes) {
   bytes = bytes.first(std::min(bytes.size(), wire::kMaxMessageBytes + 1));
   MessageHeader header;
+  const std::size_t total = sizeof header + bytes.size();
+  if (queue_.write_available() < total) return false;
   std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding too: it is copied
   header.timestamp_us = timestamp_us;
   header.size = static_cast<std::uint32_t>(bytes.size());
   header.channel = channel;
   std::memcpy(outgoing_.data(), &header, sizeof header);
   std::copy(bytes.begin(), bytes.end(), outgoing_.begin() + sizeof header);
-  const std::size_t total = sizeof header + bytes.size();
-  if (queue_.write_available() < total) {
-    waits_.fetch_add(1, std::memory_order_relaxed);
-    Backoff backoff;
-    do {
-      consumer_->notify();
-      backoff.pause();
-    } while (queue_.write_available() < total);
-  }
   queue_.push(outgoing_.data(), total);
   const std::uint64_t filled = capacity_ - queue_.write_available();
   if (filled > high_water_.load(std::memory_order_relaxed)) {
@@ -34,6 +37,7 @@ void MessageRing::push(Channel channel, std::int64_t timestamp_us, ByteSpan byte
   }
   pushed_.fetch_add(1, std::memory_order_release);
   consumer_->notify();
+  return true;
 }
 
 RingStatistics MessageRing::statistics() const {

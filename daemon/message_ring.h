@@ -28,6 +28,8 @@ class MessageRing {
 
   // Producer. `bytes` at most wire::kMaxMessageBytes + 1.
   void push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes);
+  // As push(), but where there is no room it returns false instead of waiting.
+  bool try_push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes);
 
   // Consumer: calls use(header, bytes) on the oldest message. False: empty.
   template <typename Use>

@@ -104,7 +104,8 @@ int daemon_main(int argc, char** argv) {
       .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
   if (!arguments.parse(argc, argv)) return 0;
   if (!arguments.positional().empty()) {
-    throw UsageError("unexpected argument '" + arguments.positional().front() + "'");
+    throw UsageError("unexpected argument '" + arguments.positional().front() +
+                     "' (leonavd --help)");
   }
   DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
   if (arguments.has("--lcm-url")) config.lcm.url = arguments.get("--lcm-url");
@@ -116,7 +117,7 @@ int guarded_main(int argc, char** argv) {
   try {
     return daemon_main(argc, argv);
   } catch (const UsageError& error) {
-    spdlog::error("{}; leonavd --help lists the options", error.what());
+    spdlog::error("{}", error.what());
     return kExitUsage;
   } catch (const ConfigError& error) {
     spdlog::error("{}", error.what());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/time/gps_time.h"
-#include "drivers/text/parse.h"
+#include "drivers/text/line_reader.h"
 
 namespace leonav {
 

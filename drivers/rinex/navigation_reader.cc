@@ -4,21 +4,20 @@
 #include <optional>
 
 #include "drivers/rinex/calendar_fields.h"
-#include "drivers/rinex/line_source.h"
 #include "drivers/rinex/navigation_record.h"
 #include "drivers/rinex/satellite_refusal.h"
-#include "drivers/text/parse.h"
+#include "drivers/text/line_reader.h"
 
 namespace leonav {
 namespace {
 
-NavigationLayout read_first_line(LineSource* lines) {
+NavigationLayout read_first_line(LineReader* lines) {
   std::string_view line;
   if (!lines->next(line)) throw FileError(lines->path(), 0, "the file is empty");
   const std::string_view label = trim(columns(line, 60, 20));
   const auto version = parse_double(columns(line, 0, 9));
   const auto fail = [lines](const std::string& what) {
-    throw FileError(lines->path(), lines->number(), what);
+    throw FileError(lines->path(), lines->line_number(), what);
   };
   if (label != "RINEX VERSION / TYPE" || !version) {
     fail("does not begin with a RINEX VERSION / TYPE line; give a RINEX navigation file");
@@ -53,12 +52,12 @@ bool read_coefficients(std::string_view line, std::size_t start, std::array<doub
   return true;
 }
 
-void read_rest_of_header(LineSource* lines, NavigationFile* file) {
+void read_rest_of_header(LineReader* lines, NavigationFile* file) {
   bool has_alpha = false, has_beta = false;
   std::string_view line;
   while (true) {
     if (!lines->next(line)) {
-      throw FileError(lines->path(), lines->number(), "the file ends within its header");
+      throw FileError(lines->path(), lines->line_number(), "the file ends within its header");
     }
     const std::string_view label = trim(columns(line, 60, 20));
     if (label == "END OF HEADER") break;
@@ -70,7 +69,7 @@ void read_rest_of_header(LineSource* lines, NavigationFile* file) {
     } else if (label == "ION BETA" || (v3 && kind == "GPSB")) {
       ok = has_beta = read_coefficients(line, v3 ? 5 : 2, &file->klobuchar.beta);
     }
-    if (!ok) file->counts.skip("ionosphere line that is not readable", lines->number());
+    if (!ok) file->counts.skip("ionosphere line that is not readable", lines->line_number());
   }
   file->klobuchar.valid = has_alpha && has_beta;
 }
@@ -95,7 +94,7 @@ NavigationFile read_navigation(const std::string& path) {
   // The longest record that exists has eight lines; what follows without a satellite name is junk
   // of which a line or two suffice to see that the record is damaged.
   constexpr std::size_t kMaxLines = 16;
-  LineSource lines(path);
+  LineReader lines(path);
   NavigationFile file;
   const NavigationLayout layout = read_first_line(&lines);
   read_rest_of_header(&lines, &file);
@@ -106,9 +105,9 @@ NavigationFile read_navigation(const std::string& path) {
     if (starts_navigation_record(line, layout)) {
       take_record(record, record_line, layout, &file);
       record.assign(1, std::string(line));
-      record_line = lines.number();
+      record_line = lines.line_number();
     } else if (record.empty()) {
-      if (!is_blank(line)) file.counts.skip("line outside a record", lines.number());
+      if (!is_blank(line)) file.counts.skip("line outside a record", lines.line_number());
     } else if (record.size() < kMaxLines) {
       record.emplace_back(line);
     }

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "drivers/rinex/calendar_fields.h"
-#include "drivers/rinex/line_source.h"
 #include "drivers/rinex/observation_record.h"
 #include "drivers/rinex/satellite_refusal.h"
-#include "drivers/text/parse.h"
+#include "drivers/text/line_reader.h"
 
 namespace leonav {
 namespace {
@@ -44,7 +43,7 @@ struct ObservationReader::State {
   bool accept(const EpochLine& line, long line_number, RawEpoch* epoch);
   bool is_version_2() const { return parser.header().is_version_2(); }
 
-  LineSource lines;
+  LineReader lines;
   ObservationHeaderParser parser;
   ReadCounts counts;
   GpsTime last_time;
@@ -61,12 +60,12 @@ void ObservationReader::State::read_header() {
   std::string_view line;
   if (!lines.next(line)) throw FileError(lines.path(), 0, "the file is empty");
   const auto check = [this](const std::optional<std::string>& problem) {
-    if (problem) throw FileError(lines.path(), lines.number(), *problem);
+    if (problem) throw FileError(lines.path(), lines.line_number(), *problem);
   };
   check(parser.first_line(line));
   while (true) {
     if (!lines.next(line)) {
-      throw FileError(lines.path(), lines.number(), "the file ends within its header");
+      throw FileError(lines.path(), lines.line_number(), "the file ends within its header");
     }
     if (trim(columns(line, 60, 20)) == "END OF HEADER") break;
     check(parser.line(line));
@@ -96,7 +95,7 @@ bool ObservationReader::State::next_epoch_line(EpochLine* epoch) {
     }
     const bool marked = !line.empty() && line[0] == '>' && !is_version_2();
     if (marked || (in_sequence && !is_blank(line))) {
-      counts.skip("epoch line that is not readable", lines.number());
+      counts.skip("epoch line that is not readable", lines.line_number());
     }
     if (!is_blank(line)) in_sequence = false;
   }
@@ -131,19 +130,19 @@ void ObservationReader::State::skip_event(const EpochLine& event) {
   std::string_view line;
   for (; left > 0 && lines.next(line); --left) {
     if (starts_epoch(line)) {
-      counts.skip("event with fewer lines than it says", lines.number());
+      counts.skip("event with fewer lines than it says", lines.line_number());
       lines.step_back();
       break;
     }
     if (event.flag == 6) continue;
     if (const auto problem = parser.line(line)) {
-      counts.skip("header line within the file: " + *problem, lines.number());
+      counts.skip("header line within the file: " + *problem, lines.line_number());
     }
     changed = true;
   }
   if (!changed) return;
   if (const auto problem = parser.finish()) {
-    counts.skip("header lines within the file: " + *problem, lines.number());
+    counts.skip("header lines within the file: " + *problem, lines.line_number());
   }
 }
 
@@ -200,7 +199,7 @@ void ObservationReader::State::carry_interruptions(SignalObservation* signal) {
 void ObservationReader::State::add_satellite(std::string_view name, std::string_view values,
                                              RawEpoch* epoch) {
   if (const std::string_view reason = satellite_refusal(name); !reason.empty()) {
-    counts.skip(reason, lines.number());
+    counts.skip(reason, lines.line_number());
     return;
   }
   const SatelliteId satellite = *satellite_from_string(name);
@@ -208,28 +207,29 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
   const ObservationHeader& header = parser.header();
   const auto types = header.types.find(letter);
   if (types == header.types.end()) {
-    counts.skip("satellite of a system without observation types in the header", lines.number());
+    counts.skip("satellite of a system without observation types in the header",
+                lines.line_number());
     return;
   }
   for (const SignalObservation& other : epoch->observations) {
     if (other.satellite == satellite) {
-      counts.skip("satellite that is twice in an epoch", lines.number());
+      counts.skip("satellite that is twice in an epoch", lines.line_number());
       return;
     }
   }
   parse_values(values, satellite, types->second, header.strength_in_dbhz, &record);
   if (record.damaged_fields > 0) {
-    counts.skip("value that is not readable", lines.number(), record.damaged_fields);
+    counts.skip("value that is not readable", lines.line_number(), record.damaged_fields);
   }
   std::size_t added = 0;
   for (SignalObservation& signal : record.signals) {
     carry_interruptions(&signal);
     if (!is_measured(signal)) continue;
     if (added == kMaxSignals) {
-      counts.skip("signal beyond the capacity of a satellite", lines.number());
+      counts.skip("signal beyond the capacity of a satellite", lines.line_number());
     } else if ((added == 0 && satellites_in_epoch == kMaxSatellites) ||
                epoch->observations.size() == kMaxObservations) {
-      counts.skip("signal beyond the capacity of an epoch", lines.number());
+      counts.skip("signal beyond the capacity of an epoch", lines.line_number());
     } else {
       epoch->observations.push_back(signal);
       ++added;
@@ -273,7 +273,7 @@ bool ObservationReader::next(RawEpoch* epoch) {
       state_->skip_event(line);
       continue;
     }
-    const long line_number = state_->lines.number();
+    const long line_number = state_->lines.line_number();
     if (line.flag == 1) {
       state_->power_failed = true;
       state_->seen_since_failure.clear();

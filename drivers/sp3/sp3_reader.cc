@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/time/calendar.h"
-#include "drivers/text/parse.h"
+#include "drivers/text/line_reader.h"
 
 namespace leonav {
 namespace {

@@ -1,11 +1,8 @@
 #include "drivers/text/parse.h"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <system_error>
 
 namespace leonav {
@@ -69,47 +66,6 @@ void split_csv(std::string_view line, std::vector<std::string_view>& fields) {
     if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
-}
-
-LineReader::LineReader(const std::string& path) : path_(path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw FileError(path, 0, "is a directory; give the file inside it");
-  }
-  errno = 0;
-  stream_.open(path, std::ios::binary);
-  if (!stream_) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
-    throw FileError(path, 0,
-                    "cannot be opened (" + reason + "); check the path and that it is readable");
-  }
-}
-
-bool LineReader::next(std::string_view& line) {
-  line_.clear();
-  std::streambuf* const buffer = stream_.rdbuf();
-  bool any = false;
-  for (;;) {
-    const int c = buffer->sbumpc();
-    if (c == std::char_traits<char>::eof()) break;
-    any = true;
-    if (c == '\n') break;
-    if (line_.size() >= kMaxLineLength) {
-      ++line_number_;
-      fail("line is longer than " + std::to_string(kMaxLineLength) +
-           " characters; this is not a text file of the expected format");
-    }
-    line_.push_back(static_cast<char>(c));
-  }
-  if (!any) return false;
-  ++line_number_;
-  if (!line_.empty() && line_.back() == '\r') line_.pop_back();
-  line = line_;
-  return true;
-}
-
-void LineReader::fail(const std::string& message) const {
-  throw FileError(path_, line_number_, message);
 }
 
 }  // namespace leonav

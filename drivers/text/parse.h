@@ -1,7 +1,6 @@
 // Fixed-column and comma-separated text with errors that name file and line.
 #pragma once
 #include <cstddef>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -33,31 +32,5 @@ std::optional<int> parse_int(std::string_view text);
 // Splits at every comma, without quoting; n commas give n + 1 trimmed fields. `fields` views
 // `line`.
 void split_csv(std::string_view line, std::vector<std::string_view>& fields);
-
-// Reads a text file line by line: counts lines, strips LF and CR LF, refuses a line that is too
-// long to be text (a binary file given by mistake).
-class LineReader {
- public:
-  static constexpr std::size_t kMaxLineLength = 65'536;
-
-  // Throws FileError if the file is absent, a directory or unreadable.
-  explicit LineReader(const std::string& path);
-
-  // The next line, valid until the next call; false at the end of the file. A last line without a
-  // line feed counts. Throws FileError if the line is too long or reading fails.
-  bool next(std::string_view& line);
-
-  const std::string& path() const { return path_; }
-  long line_number() const { return line_number_; }  // of the line last returned, from 1
-
-  // Throws FileError for the line last returned.
-  [[noreturn]] void fail(const std::string& message) const;
-
- private:
-  std::string path_;
-  std::ifstream stream_;
-  std::string line_;
-  long line_number_ = 0;
-};
 
 }  // namespace leonav

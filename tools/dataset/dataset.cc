@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "daemon/config/nearest_word.h"
-#include "drivers/text/parse.h"
+#include "drivers/text/line_reader.h"
 
 namespace leonav {
 namespace {

@@ -1,19 +1,8 @@
 #include "drivers/text/parse.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include "support/catch.h"
 
 using namespace leonav;
-
-namespace {
-std::string write(const std::string& name, const std::string& content) {
-  const auto path = std::filesystem::temp_directory_path() / ("leonav_parse_test_" + name);
-  std::ofstream(path, std::ios::binary) << content;
-  return path.string();
-}
-}  // namespace
 
 TEST_CASE("Numbers are read strictly", "[text]") {
   CHECK(parse_double(" -1.25 ") == -1.25);
@@ -50,30 +39,4 @@ TEST_CASE("Commas split, blanks go", "[text]") {
   CHECK(fields == std::vector<std::string_view>{"a", "b", "", "c", ""});
   split_csv("", fields);
   CHECK(fields == std::vector<std::string_view>{""});
-}
-
-TEST_CASE("Lines are counted, line ends stripped, the last one may lack its own", "[text]") {
-  LineReader reader(write("lines", "one\r\n\ntwo"));
-  std::string_view line;
-  REQUIRE(reader.next(line));
-  CHECK(line == "one");
-  REQUIRE(reader.next(line));
-  CHECK(line.empty());
-  REQUIRE(reader.next(line));
-  CHECK(line == "two");
-  CHECK(reader.line_number() == 3);
-  CHECK_FALSE(reader.next(line));
-  CHECK_FALSE(reader.next(line));
-  CHECK_THROWS_WITH(reader.fail("odd"), Catch::Matchers::EndsWith("lines:3: odd"));
-  LineReader empty(write("empty", ""));
-  CHECK_FALSE(empty.next(line));
-}
-
-TEST_CASE("Absent files, folders and binaries are named", "[text]") {
-  CHECK_THROWS_WITH(LineReader("/no/such/file.csv"),
-                    Catch::Matchers::StartsWith("/no/such/file.csv: cannot be opened"));
-  CHECK_THROWS_AS(LineReader(std::filesystem::temp_directory_path().string()), FileError);
-  LineReader binary(write("binary", std::string(LineReader::kMaxLineLength + 1, '\1')));
-  std::string_view line;
-  CHECK_THROWS_AS(binary.next(line), FileError);
 }
