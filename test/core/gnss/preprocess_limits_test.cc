@@ -1,0 +1,167 @@
+// Caps and capacities of the preprocessing, and what an epoch of 40 satellites costs.
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "core/gnss/point_solution.h"
+#include "core/gnss/preprocess.h"
+#include "support/allocation_counter.h"
+#include "support/catch.h"
+#include "support/simulated_sky.h"
+
+using namespace leonav;
+using namespace leonav::test;
+
+namespace {
+
+SimulatedSky sky_of(std::initializer_list<Walker> walkers) {
+  SimulatedSky sky;
+  for (const Walker& walker : walkers) sky.add(walker);
+  return sky;
+}
+
+// Every satellite that has a name: some hundred of them above the horizon.
+SimulatedSky crowded_sky() {
+  return sky_of({{System::kGps, 9, 7, 26'560e3, 0.96, 0.008},
+                 {System::kGalileo, 5, 10, 29'600e3, 0.977, 0.0005},
+                 {System::kBeidou, 5, 8, 27'906e3, 0.96, 0.001},
+                 {System::kLeo, 19, 21, 8'400e3, 0.96, 0.001}});
+}
+
+std::map<SatelliteId, Reason> reasons_of(const MeasurementEpoch& epoch) {
+  std::map<SatelliteId, Reason> reasons;
+  for (const SatelliteInView& view : epoch.satellites) reasons[view.satellite] = view.reason;
+  return reasons;
+}
+
+}  // namespace
+
+TEST_CASE("a cap keeps the highest satellites of its system and touches no other") {
+  const SimulatedReceiver receiver;
+  const SimulatedSky sky = sky_of({gps_walker(), galileo_walker()});
+  const RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  const auto free = std::make_unique<MeasurementEpoch>(),
+             capped = std::make_unique<MeasurementEpoch>();
+  GnssConfig config = default_gnss_config();
+  preprocess(raw, sky.catalog, config, receiver.p_e, free.get());
+  for (int cap = 1; cap <= 4; ++cap) {
+    config.systems[index_of(System::kGps)].max_satellites = cap;
+    preprocess(raw, sky.catalog, config, receiver.p_e, capped.get());
+    const auto reasons = reasons_of(*capped);
+    int kept = 0;
+    double lowest_kept = 10.0, highest_left = -10.0;
+    for (const SatelliteInView& view : free->satellites) {
+      const Reason reason = reasons.at(view.satellite);
+      if (view.satellite.system != System::kGps || view.reason != Reason::kUsed) {
+        CHECK(reason == view.reason);
+      } else if (reason == Reason::kUsed) {
+        ++kept;
+        lowest_kept = std::min(lowest_kept, view.elevation);
+      } else {
+        CHECK(reason == Reason::kSatelliteCap);
+        highest_left = std::max(highest_left, view.elevation);
+      }
+    }
+    CAPTURE(cap);
+    CHECK(kept == cap);
+    CHECK(lowest_kept > highest_left);
+    for (const Measurement& m : capped->measurements) {
+      CHECK(capped->satellites[m.satellite_index].reason == Reason::kUsed);
+    }
+  }
+}
+
+TEST_CASE("more than a hundred satellites in one epoch are solved") {
+  SimulatedReceiver receiver;
+  receiver.elevation_mask = 0.02;
+  receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}};
+  const SimulatedSky sky = crowded_sky();
+  const RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  GnssConfig config = default_gnss_config();
+  config.elevation_mask = 0.02;
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  const PointSolution point =
+      solve_point(raw, sky.catalog, config, RobustConfig{}, Eigen::Vector3d::Zero(), epoch.get());
+  std::printf("%zu satellites in one epoch, %d used\n", epoch->satellites.size(), point.satellites);
+  CHECK(epoch->satellites.size() >= 100);
+  CHECK(point.satellites >= 100);
+  REQUIRE(point.status == PointStatus::kOk);
+  CHECK((point.p_e - receiver.p_e).norm() < 0.1);
+}
+
+TEST_CASE("what does not fit into the table of measurements says so") {
+  SimulatedReceiver receiver;
+  receiver.elevation_mask = 0.02;
+  const SimulatedSky sky = crowded_sky();
+  // Up to five bands each: more codes and Dopplers than the table of measurements holds.
+  receiver.signals = {{{'1', 'C'}, 45.0},
+                      {{'2', 'W'}, 42.0},
+                      {{'5', 'Q'}, 42.0},
+                      {{'7', 'Q'}, 42.0},
+                      {{'6', 'B'}, 42.0}};
+  RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  GnssConfig config = default_gnss_config();
+  config.elevation_mask = 0.02;
+  config.code_combination = CodeCombination::kSingleFrequency;
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  preprocess(raw, sky.catalog, config, receiver.p_e, epoch.get());
+  std::size_t full = 0;
+  for (const SatelliteInView& view : epoch->satellites) {
+    full += view.reason == Reason::kCapacity ? 1 : 0;
+  }
+  std::printf("%zu observations, %zu measurements, %zu satellites without room\n",
+              raw.observations.size(), epoch->measurements.size(), full);
+  CHECK(epoch->measurements.size() == kMaxMeasurements);
+  CHECK(full > 0);
+}
+
+TEST_CASE("preprocessing and point solution allocate nothing, faults or none") {
+  const SimulatedReceiver receiver;
+  const SimulatedSky sky = sky_of({gps_walker(), galileo_walker(), leo_walker()});
+  RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  const GnssConfig config = default_gnss_config();
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  PointSolution point;
+  start_counting_allocations();
+  point =
+      solve_point(raw, sky.catalog, config, RobustConfig{}, Eigen::Vector3d::Zero(), epoch.get());
+  CHECK(stop_counting_allocations() == 0);
+  CHECK(point.status == PointStatus::kOk);
+  for (std::size_t i = 0; i < 6; ++i) raw.observations[i].pseudorange_m += 60.0;
+  start_counting_allocations();
+  point = solve_point(raw, sky.catalog, config, RobustConfig{}, receiver.p_e, epoch.get());
+  CHECK(stop_counting_allocations() == 0);
+  CHECK(point.status == PointStatus::kOk);
+}
+
+TEST_CASE("microseconds for an epoch of about 40 satellites", "[.bench]") {
+  const SimulatedReceiver receiver;
+  const SimulatedSky sky = sky_of({gps_walker(),
+                                   galileo_walker(),
+                                   leo_walker(),
+                                   {System::kBeidou, 3, 8, 27'906e3, 0.96, 0.001}});
+  const RawEpoch clean = simulate_epoch(sky, receiver, 0.0);
+  RawEpoch faulty = clean;
+  for (std::size_t i = 0; i < 6; ++i) faulty.observations[i].pseudorange_m += 60.0;
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  const auto microseconds = [](auto run) {
+    constexpr int kRuns = 300;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kRuns; ++i) run();
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+               .count() /
+           kRuns;
+  };
+  const GnssConfig config = default_gnss_config();
+  const auto solve = [&](const RawEpoch& raw) {
+    solve_point(raw, sky.catalog, config, RobustConfig{}, receiver.p_e, epoch.get());
+  };
+  const double prepared =
+      microseconds([&] { preprocess(clean, sky.catalog, config, receiver.p_e, epoch.get()); });
+  const double solved = microseconds([&] { solve(clean); });
+  const double searched = microseconds([&] { solve(faulty); });
+  std::printf(
+      "%zu satellites: preprocess %.0f us, with solution %.0f us, with three faults %.0f us\n",
+      epoch->satellites.size(), prepared, solved, searched);
+}
