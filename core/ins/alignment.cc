@@ -18,8 +18,6 @@ constexpr double kStillTimeConstant_s = 2.0;
 constexpr double kMovingTimeConstant_s = 10.0;
 constexpr double kMovingKnownBiasTimeConstant_s = 30.0;
 constexpr double kStandingSpeed_m_s = 0.2;
-// Sideslip, the antenna swinging about the IMU and the mounting: what a course is off the heading.
-constexpr double kCourseAgainstHeading = 0.03;  // rad
 
 const Eigen::Vector3d kDown(0.0, 0.0, 1.0);
 
@@ -110,34 +108,51 @@ void Alignment::watch_for_standstill(const ImuSample& sample) {
   window_ = Sums();
 }
 
-std::optional<AlignedAttitude> Alignment::attitude(const Eigen::Vector3d& p_e,
-                                                   const Eigen::Vector3d& v_e, double sigma_v) {
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
-  const Eigen::Vector3d v_n = C_ne * v_e;
-  const double speed = std::hypot(v_n.x(), v_n.y());
-  if (v_n.norm() < kStandingSpeed_m_s + 2.0 * sigma_v &&
-      v_n.norm() < config_.min_course_speed_m_s) {
+void Alignment::confirm_standstill(double speed_3d, double sigma_v) {
+  if (speed_3d < kStandingSpeed_m_s + 2.0 * sigma_v && speed_3d < config_.min_course_speed_m_s) {
     standing_.seconds += unconfirmed_.seconds;
     standing_.angle += unconfirmed_.angle;
     standing_q_lb_ = q_lb_;
   }
   unconfirmed_ = Sums();
+}
+
+void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw) {
+  const auto last = last_heading_;
+  last_heading_ = Heading{levelled_for_s_, relative_yaw};
+  const double speed = std::hypot(v_n.x(), v_n.y());
+  if (!(speed >= config_.min_course_speed_m_s) || !std::isfinite(sigma_v)) return courses_.clear();
+  if (!last || !(levelled_for_s_ > last->time_s)) return;
+  // An antenna at an arm r from the axis the body turns about moves sideways by r * rate: swung on
+  // a circle it goes at right angles to where it points, consistently.
+  const double rate =
+      wrap_to_pi(relative_yaw - last->relative_yaw) / (levelled_for_s_ - last->time_s);
+  const double across = std::hypot(sigma_v, config_.turning_arm_m * rate) / speed;
+  courses_.add({levelled_for_s_, std::atan2(v_n.y(), v_n.x()), relative_yaw,
+                std::hypot(across, config_.course_against_heading)});
+}
+
+std::optional<AlignedAttitude> Alignment::attitude(const Eigen::Vector3d& p_e,
+                                                   const Eigen::Vector3d& v_e, double sigma_v) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
+  const Eigen::Vector3d v_n = C_ne * v_e;
+  confirm_standstill(v_n.norm(), sigma_v);
   if (!levelled()) return std::nullopt;
 
-  double heading = 0.0, heading_sigma = 0.0;
+  EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
+  watch_course(v_n, sigma_v, angles.yaw);
+  double turn_l = 0.0, heading_sigma = 0.0;
   if (config_.initial_heading) {
-    heading = *config_.initial_heading;
+    turn_l = *config_.initial_heading - angles.yaw;
     heading_sigma = config_.initial_heading_sigma;
   } else {
-    if (!(speed >= config_.min_course_speed_m_s)) return std::nullopt;
-    heading_sigma = std::hypot(sigma_v / speed, kCourseAgainstHeading);
-    if (!(heading_sigma < config_.max_course_sigma)) return std::nullopt;
-    heading = std::atan2(v_n.y(), v_n.x());
+    const auto agreement = courses_.agreement();
+    if (!agreement || !(agreement->sigma < config_.max_course_sigma)) return std::nullopt;
+    turn_l = agreement->yaw_offset;
+    heading_sigma = agreement->sigma;
   }
 
-  EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
-  const double turn_l = wrap_to_pi(heading - angles.yaw);
-  angles.yaw = heading;
+  angles.yaw = wrap_to_pi(angles.yaw + turn_l);
   const Eigen::Quaterniond q_en(Eigen::Matrix3d(C_ne.transpose()));
   AlignedAttitude aligned;
   aligned.q_eb = (q_en * Eigen::Quaterniond(rotation_from_euler(angles))).normalized();

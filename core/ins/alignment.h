@@ -4,15 +4,20 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/ins/course_window.h"
 #include "core/ins/imu.h"
 #include "core/ins/nav_state.h"
 
 namespace leonav {
 
 struct AlignmentConfig {
-  double levelling_window_s = 1.0;    // mean specific force over this long
-  double min_course_speed_m_s = 1.0;  // course over ground is heading above this speed
-  double max_course_sigma = 0.35;  // rad; course uncertainty (velocity sigma / speed) must be below
+  double levelling_window_s = 1.0;       // mean specific force over this long
+  double min_course_speed_m_s = 1.0;     // course over ground is heading above this speed
+  double course_window_s = 3.0;          // and must agree with the gyros for this long
+  double max_course_sigma = 0.35;        // rad; the heading's uncertainty must be below
+  double course_against_heading = 0.03;  // rad, 1 sigma: sideslip, mounting, a swinging antenna
+  double turning_arm_m =
+      0.5;  // antenna to the vertical axis the body turns about: sideslip in turns
   std::optional<double> initial_heading;  // rad; set: no motion needed
   double initial_heading_sigma = 0.087;   // rad
   double levelling_sigma = 0.035;         // rad, roll and pitch after levelling
@@ -29,8 +34,10 @@ struct AlignedAttitude {
 };
 
 // Follows the attitude with the heading unknown: the gyros turn it, the specific force levels it.
-// When a course or a configured heading is there it gives the whole attitude. Assumes that the body
-// x axis points where the vehicle goes: a start in reverse aligns it the wrong way round.
+// When a configured heading is there, or courses over ground that agreed with the gyros for
+// `course_window_s` without a stop, it gives the whole attitude. Assumes that the body x axis
+// points where the vehicle goes, within `course_against_heading`: a steady start in reverse or
+// sideways cannot be told from one forward and aligns wrongly by the angle between.
 class Alignment {
  public:
   explicit Alignment(const AlignmentConfig& config);
@@ -41,7 +48,8 @@ class Alignment {
   // Attitude at the last sample added. `v_e` and `sigma_v` (m/s, per component) are the antenna's
   // velocity then; nullopt while not levelled or the course cannot be told. To be called at every
   // epoch, also while standing: an IMU at rest and one in steady motion feel the same, so only this
-  // velocity can confirm a standstill and with it the gyro bias.
+  // velocity can confirm a standstill and with it the gyro bias, and only several agreeing courses
+  // the heading.
   std::optional<AlignedAttitude> attitude(const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e,
                                           double sigma_v);
 
@@ -57,6 +65,8 @@ class Alignment {
   void level_on(const ImuSample& sample);
   void watch_for_standstill(const ImuSample& sample);
   Eigen::Vector3d standing_rate() const;
+  void confirm_standstill(double speed_3d, double sigma_v);
+  void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
 
   AlignmentConfig config_;
   // Body to local level, heading arbitrary.
@@ -69,6 +79,11 @@ class Alignment {
   Sums unconfirmed_;    // still windows since the last velocity
   Sums standing_;       // still windows that a velocity confirmed
   Eigen::Quaterniond standing_q_lb_ = Eigen::Quaterniond::Identity();  // the attitude then
+  CourseWindow courses_{config_.course_window_s};
+  struct Heading {
+    double time_s, relative_yaw;
+  };
+  std::optional<Heading> last_heading_;  // at the last epoch
 };
 
 }  // namespace leonav

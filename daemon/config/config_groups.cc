@@ -49,6 +49,10 @@ void read_alignment(ConfigReader& group, AlignmentConfig* config) {
   group.number("levelling_sigma_deg", {0.01, 45.0}, &config->levelling_sigma, kDegree);
   group.number("min_course_speed_m_s", {0.05, 100.0}, &config->min_course_speed_m_s);
   group.number("max_course_sigma_deg", {0.1, 90.0}, &config->max_course_sigma, kDegree);
+  group.number("course_window_s", {0.1, 60.0}, &config->course_window_s);
+  group.number("course_against_heading_deg", {0.01, 90.0}, &config->course_against_heading,
+               kDegree);
+  group.number("turning_arm_m", {0.0, 100.0}, &config->turning_arm_m);
   group.number("initial_heading_deg", {-360.0, 360.0}, &config->initial_heading, kDegree);
   group.number("initial_heading_sigma_deg", {0.01, 180.0}, &config->initial_heading_sigma, kDegree);
   group.number("static_gyro_deg_per_s", {0.0, 100.0}, &config->static_gyro_rad_s, kDegree);

@@ -1,9 +1,12 @@
 // leonav-eval: errors of one or several runs against a truth.
 #include <fstream>
 #include <iostream>
+#include <numbers>
 #include <stdexcept>
 
+#include "drivers/csv/imu_csv.h"
 #include "tools/common/arguments.h"
+#include "tools/evaluation/gyro_heading.h"
 #include "tools/evaluation/statistics.h"
 
 namespace {
@@ -35,6 +38,11 @@ int body(int argc, char** argv) {
       .option("--max-truth-gap", "S", "do not interpolate the truth over wider holes", "2")
       .option("--course-speed", "M_S",
               "where the truth has no yaw: its course counts as yaw above this speed", "0.7")
+      .option("--max-course-rate", "DEG_S",
+              "also judge yaw against course only where the course turns slower (mean over 2 s)")
+      .option("--imu", "FILE",
+              "imu.csv: also print how its gyros alone, fitted to the truth, follow the course: "
+              "what an estimator can hope for")
       .option("--up-offset", "M", "added to the truth's height before comparing", "0")
       .option("--from", "WEEK:TOW", "judge from this GPS time on")
       .option("--to", "WEEK:TOW", "judge up to this GPS time");
@@ -46,6 +54,9 @@ int body(int argc, char** argv) {
   options.remove_offset = arguments.has("--remove-offset");
   options.course_speed_m_s = arguments.number("--course-speed");
   options.antenna_offset_up_m = arguments.number("--up-offset");
+  if (arguments.has("--max-course-rate")) {
+    options.max_course_rate = arguments.number("--max-course-rate") * std::numbers::pi / 180.0;
+  }
   if (arguments.has("--from")) options.from = parse_time("--from", arguments.get("--from"));
   if (arguments.has("--to")) options.to = parse_time("--to", arguments.get("--to"));
 
@@ -59,6 +70,10 @@ int body(int argc, char** argv) {
                                            arguments.number("--convergence-bound")));
   }
   std::cout << leonav::to_table(evaluations);
+  if (arguments.has("--imu")) {
+    const leonav::ImuCsv imu = leonav::read_imu_csv(arguments.get("--imu"));
+    std::cout << leonav::to_table(leonav::judge_gyro_heading(imu.samples, truth, options));
+  }
   if (arguments.has("--json")) {
     std::ofstream file(arguments.get("--json"));
     file << leonav::to_json(evaluations);

@@ -43,6 +43,11 @@ std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_
   return out;
 }
 
+std::optional<double> course_of(const TrackPoint& truth, const ErrorOptions& options) {
+  if (!truth.v_n || !(truth.v_n->head<2>().norm() >= options.course_speed_m_s)) return std::nullopt;
+  return std::atan2(truth.v_n->y(), truth.v_n->x());
+}
+
 ErrorSample error_of(const TrackPoint& solution, TrackPoint truth, const ErrorOptions& options) {
   ErrorSample sample;
   sample.time = solution.time;
@@ -59,9 +64,9 @@ ErrorSample error_of(const TrackPoint& solution, TrackPoint truth, const ErrorOp
     if (solution.rpy[i] && truth.rpy[i])
       sample.rpy[i] = wrap_to_pi(*solution.rpy[i] - *truth.rpy[i]);
   }
-  if (solution.rpy[2] && !truth.rpy[2] && truth.v_n &&
-      truth.v_n->head<2>().norm() >= options.course_speed_m_s) {
-    sample.rpy[2] = wrap_to_pi(*solution.rpy[2] - std::atan2(truth.v_n->y(), truth.v_n->x()));
+  const auto course = course_of(truth, options);
+  if (solution.rpy[2] && !truth.rpy[2] && course) {
+    sample.rpy[2] = wrap_to_pi(*solution.rpy[2] - *course);
     sample.yaw_from_course = true;
   }
   return sample;
@@ -78,6 +83,22 @@ double median_interval(const Track& track) {
 }
 
 }  // namespace
+
+std::optional<double> course_at(const Track& truth, GpsTime time, const ErrorOptions& options) {
+  const auto point = truth_at(truth, time, options.max_truth_gap_s);
+  return point ? course_of(*point, options) : std::nullopt;
+}
+
+bool course_is_steady(const Track& truth, GpsTime time, const ErrorOptions& options) {
+  if (!options.max_course_rate) return false;
+  // In two steps: a turn of up to half a round within each second is told right.
+  const auto before = course_at(truth, time.plus_nanoseconds(-1'000'000'000), options);
+  const auto now = course_at(truth, time, options);
+  const auto after = course_at(truth, time.plus_nanoseconds(1'000'000'000), options);
+  if (!before || !now || !after) return false;
+  const double turn = wrap_to_pi(*now - *before) + wrap_to_pi(*after - *now);
+  return std::abs(turn) / 2.0 < *options.max_course_rate;
+}
 
 Comparison compare(const Track& solution, const Track& truth, const ErrorOptions& options) {
   Comparison comparison;
@@ -97,6 +118,8 @@ Comparison compare(const Track& solution, const Track& truth, const ErrorOptions
       continue;
     }
     comparison.errors.push_back(error_of(point, *reference, options));
+    ErrorSample& sample = comparison.errors.back();
+    sample.steady_course = sample.yaw_from_course && course_is_steady(truth, point.time, options);
   }
   if (options.remove_offset && !comparison.errors.empty()) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -13,6 +13,8 @@ struct ErrorOptions {
   double max_truth_gap_s = 2.0;   // the truth is not interpolated over wider holes
   bool remove_offset = false;     // remove the mean north, east, up error: a truth of unknown datum
   double course_speed_m_s = 0.7;  // where the truth has no yaw: course over ground above this speed
+  // rad/s; set: of the yaw from course, what falls where the course turns slower is given too
+  std::optional<double> max_course_rate;
   std::optional<GpsTime> from, to;   // judge only this span
   double antenna_offset_up_m = 0.0;  // added to the truth's height
 };
@@ -23,6 +25,7 @@ struct ErrorSample {
   std::optional<Eigen::Vector3d> velocity_neu;    // m/s
   std::array<std::optional<double>, 3> rpy;       // rad, wrapped: roll, pitch, yaw
   bool yaw_from_course = false;                   // the reference was course over ground
+  bool steady_course = false;                     // below max_course_rate, if that is set
   std::optional<Eigen::Vector3d> sigma_neu;       // m, as the solution states it
   double horizontal() const { return neu.head<2>().norm(); }
   double three_d() const { return neu.norm(); }
@@ -36,6 +39,15 @@ struct Comparison {
   double interval_s = 0.0;          // median spacing of the solution
   Eigen::Vector3d removed_offset_neu = Eigen::Vector3d::Zero();  // m
 };
+
+// Course over ground of the truth (rad, clockwise from north); nullopt in holes and below
+// course_speed_m_s.
+std::optional<double> course_at(const Track& truth, GpsTime time, const ErrorOptions& options);
+
+// True where the course turned slower than max_course_rate, on the mean of one second before to one
+// second after. An antenna that is carried at arm's length goes sideways in a turn: there its
+// course is not its heading, whatever the heading's error.
+bool course_is_steady(const Track& truth, GpsTime time, const ErrorOptions& options);
 
 // Interpolates the truth (cubic where it has velocities, else linear) to the solution's times.
 Comparison compare(const Track& solution, const Track& truth, const ErrorOptions& options);

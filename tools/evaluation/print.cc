@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "tools/evaluation/gyro_heading.h"
 #include "tools/evaluation/statistics.h"
 
 namespace leonav {
@@ -41,6 +42,9 @@ std::vector<Row> rows_of(const Evaluation& e) {
   if (e.yaw) {
     rows.emplace_back(e.yaw_from_course ? "yaw_minus_course_deg" : "yaw_deg",
                       scaled(*e.yaw, kDegreesPerRadian));
+  }
+  if (e.yaw_steady) {
+    rows.emplace_back("yaw_steady_course_deg", scaled(*e.yaw_steady, kDegreesPerRadian));
   }
   return rows;
 }
@@ -84,6 +88,10 @@ std::string to_table(const std::vector<Evaluation>& evaluations) {
       out += format("  %-21s%9.3f%9.3f%9.3f%9.3f%9.3f%9.3f\n", name, d.rmse, d.mean, d.p50, d.p95,
                     d.p99, d.worst);
     }
+    if (e.yaw_steady) {
+      out += format("  the course is steady in %zu of the %zu epochs with a course\n",
+                    e.yaw_steady->count, e.yaw->count);
+    }
     out += e.convergence_s
                ? format("  converged below %.2f m (3D, ten epochs in a row) after %.1f s\n",
                         e.convergence_bound_m, *e.convergence_s)
@@ -97,6 +105,23 @@ std::string to_table(const std::vector<Evaluation>& evaluations) {
                     c.removed_offset_neu.y(), c.removed_offset_neu.z());
     }
   }
+  return out;
+}
+
+std::string to_table(const GyroHeading& gyro) {
+  std::string out = "gyros alone, heading minus course (offset and drift fitted to the truth):\n";
+  out +=
+      format("  %-21s%9s%9s%9s%9s%9s%9s\n", "", "count", "rmse", "mean", "50 %", "95 %", "worst");
+  auto row = [&](const char* name, const Distribution& radians) {
+    const Distribution d = scaled(radians, kDegreesPerRadian);
+    out += format("  %-21s%9zu%9.3f%9.3f%9.3f%9.3f%9.3f\n", name, d.count, d.rmse, d.mean, d.p50,
+                  d.p95, d.worst);
+  };
+  row("at_once_deg", gyro.at_once);
+  if (gyro.steady.count > 0) row("steady_course_deg", gyro.steady);
+  row("at_best_delay_deg", gyro.at_best_delay);
+  out += format("  best delay of the heading after the course %.2f s, drift %.3f deg/s\n",
+                gyro.best_delay_s, gyro.drift_rad_s * kDegreesPerRadian);
   return out;
 }
 

@@ -105,6 +105,9 @@ Evaluation evaluate(const std::string& label, const Track& solution, const Track
   e.roll = optional_distribution(angle(0));
   e.pitch = optional_distribution(angle(1));
   e.yaw = optional_distribution(angle(2));
+  e.yaw_steady = optional_distribution(column(errors, [](const ErrorSample& s, auto* out) {
+    if (s.rpy[2] && s.steady_course) out->push_back(*s.rpy[2]);
+  }));
   e.yaw_from_course = std::any_of(errors.begin(), errors.end(),
                                   [](const ErrorSample& s) { return s.yaw_from_course; });
   if (e.comparison.expected_epochs > 0) {

@@ -25,8 +25,9 @@ struct Evaluation {
   std::optional<Distribution> speed;                  // m/s, 3D
   std::optional<Distribution> roll, pitch, yaw;       // rad
   bool yaw_from_course = false;
-  double availability = 0.0;            // answered epochs over expected epochs
-  std::optional<double> convergence_s;  // since the first answer; absent: never
+  std::optional<Distribution> yaw_steady;  // rad, of yaw: where the course is steady
+  double availability = 0.0;               // answered epochs over expected epochs
+  std::optional<double> convergence_s;     // since the first answer; absent: never
   double convergence_bound_m = 3.0;
   std::optional<double> within_three_sigma;  // share of N, E, U errors within 3 stated sigma
 };

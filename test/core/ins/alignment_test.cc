@@ -69,6 +69,16 @@ void run(Ride* ride, Alignment* alignment, double seconds) {
   }
 }
 
+// Goes on until an epoch (one a second) yields an attitude.
+std::optional<int> seconds_to_attitude(Ride* ride, Alignment* alignment, double sigma_v,
+                                       int at_most) {
+  for (int second = 1; second <= at_most; ++second) {
+    for (int i = 0; i < 100; ++i) alignment->add(ride->step());
+    if (alignment->attitude(kPosition, ride->v_e(), sigma_v)) return second;
+  }
+  return std::nullopt;
+}
+
 double tilt_error(const AlignedAttitude& aligned, const Ride& ride) {
   const Eigen::Vector3d error =
       rotation_vector_from_quaternion(ride.q_eb().conjugate() * aligned.q_eb);
@@ -95,7 +105,7 @@ TEST_CASE("Stand, then drive off: attitude and gyro bias in all four quadrants",
       CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05));  // no course yet
       ride.acceleration = 0.5;
       ride.shake = 1.5;
-      run(&ride, &alignment, 4.0);
+      run(&ride, &alignment, 6.0);  // above 1 m/s after two, and three to be sure
       const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
       REQUIRE(aligned);
       worst_tilt = std::max(worst_tilt, tilt_error(*aligned, ride));
@@ -107,7 +117,8 @@ TEST_CASE("Stand, then drive off: attitude and gyro bias in all four quadrants",
   std::cout << "alignment after a standstill: tilt " << worst_tilt / kDegree << " deg, heading "
             << worst_heading / kDegree << " deg, gyro bias " << worst_bias << " rad/s\n";
   CHECK(worst_tilt < 0.035);  // levelling_sigma: 2 deg
-  CHECK(worst_heading < 1e-6);
+  // The gyros carry the mean of three seconds of courses on, while the levelling turns the level.
+  CHECK(worst_heading < 1e-5);
   CHECK(worst_bias < 1e-5);  // below the Earth's rate: that was told apart
 }
 
@@ -119,11 +130,11 @@ TEST_CASE("Started on the move, shaking: levelled, heading from the course", "[i
     ride.shake = 2.0;
     Alignment alignment({});
     run(&ride, &alignment, 30.0);
-    const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.1);
+    const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
     REQUIRE(aligned);
     worst_tilt = std::max(worst_tilt, tilt_error(*aligned, ride));
     CHECK_FALSE(aligned->gyro_bias_known);
-    CHECK(aligned->sigma_rpy.z() == Approx(std::hypot(0.1 / 3.0, 0.03)));
+    CHECK(aligned->sigma_rpy.z() == Approx(std::hypot(0.05 / 3.0, 0.03)).epsilon(0.01));
   }
   std::cout << "alignment on the move: tilt " << worst_tilt / kDegree << " deg\n";
   CHECK(worst_tilt < 0.07);
@@ -165,13 +176,74 @@ TEST_CASE("No attitude from a slow or uncertain course, nor from a dead sensor",
   run(&ride, &alignment, 5.0);
   CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.01));
   ride.speed = 2.0;
-  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 1.0));
-  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), std::nan("")));
-  CHECK(alignment.attitude(kPosition, ride.v_e(), 0.1));
+  CHECK_FALSE(seconds_to_attitude(&ride, &alignment, 1.0, 10));
+  CHECK_FALSE(seconds_to_attitude(&ride, &alignment, std::nan(""), 10));
+  // The first of the four epochs that three seconds take, and the one its turn rate needs.
+  CHECK(seconds_to_attitude(&ride, &alignment, 0.1, 10) == 4);
 
   Alignment dead({});
   ImuSample zero;
   zero.interval_ns = 10'000'000;
   for (int i = 0; i < 1000; ++i) dead.add(zero);
   CHECK_FALSE(dead.levelled());
+}
+
+namespace {
+
+struct HandMotion {
+  double yaw_rate, course_rate, course_minus_yaw, speed;
+};
+
+// A device moved by hand: its antenna goes where the hand takes it, which need not be where the
+// device points. 4 Hz as the recorded walk.
+std::optional<double> hand_alignment_error(const HandMotion& motion, double seconds, Ride* ride,
+                                           Alignment* alignment) {
+  double course = wrap_to_pi(ride->angles.yaw + motion.course_minus_yaw);
+  ride->yaw_rate = motion.yaw_rate;
+  for (int i = 1; i <= static_cast<int>(std::lround(seconds / kDt)); ++i) {
+    alignment->add(ride->step());
+    course = wrap_to_pi(course + motion.course_rate * kDt);
+    if (i % 25 != 0) continue;
+    const Eigen::Vector3d v_n(motion.speed * std::cos(course), motion.speed * std::sin(course),
+                              0.0);
+    const auto aligned = alignment->attitude(kPosition, kC_en * v_n, 0.1);
+    if (aligned) return heading_error(*aligned, *ride) / aligned->sigma_rpy.z();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("Picked up, turned or swung: no false alignment; then walked: a true one", "[ins]") {
+  const HandMotion before[] = {
+      {1.5, 0.0, 1.5, 1.2},    // turned while carried straight
+      {-1.0, 0.0, -0.5, 0.9},  // the other way
+      {0.0, 1.0, 0.3, 1.5},    // carried around a bend without turning
+      {1.6, 1.6, 1.571, 0.8},  // swung at half a metre: course at right angles, consistently
+      {-2.0, -2.0, -1.571, 1.0},
+  };
+  double worst = 0.0;
+  for (const HandMotion& motion : before) {
+    Ride ride{{0.05, 0.1, 2.0}};
+    Alignment alignment({});
+    run(&ride, &alignment, 5.0);
+    CHECK_FALSE(hand_alignment_error(motion, 8.0, &ride, &alignment));
+    // Straight on, the course off the heading by 1 sigma: aligned after the three seconds it needs
+    // to be sure.
+    const auto error = hand_alignment_error({0.0, 0.0, 0.03, 1.3}, 8.0, &ride, &alignment);
+    REQUIRE(error);
+    worst = std::max(worst, *error);
+  }
+  std::cout << "alignment after hand motion: heading error at most " << worst << " sigma\n";
+  CHECK(worst < 2.0);
+}
+
+TEST_CASE("Short or interrupted motion is no evidence", "[ins]") {
+  Ride ride{{0.0, 0.0, 0.5}};
+  Alignment alignment({});
+  run(&ride, &alignment, 3.0);
+  for (int push = 0; push < 5; ++push) {
+    CHECK_FALSE(hand_alignment_error({0.0, 0.0, 1.0, 1.5}, 2.5, &ride, &alignment));
+    CHECK_FALSE(hand_alignment_error({0.0, 0.0, 1.0, 0.1}, 0.5, &ride, &alignment));
+  }
 }
