@@ -41,18 +41,16 @@ std::optional<double> angle_at(const std::vector<Turned>& turned, GpsTime time) 
   return before->angle + share * (after->angle - before->angle);
 }
 
-struct Fit {
-  std::vector<double> residuals;  // rad
-  std::vector<GpsTime> times;
-  double drift = 0.0;  // rad/s
+struct Difference {
+  GpsTime time;
+  double t = 0.0;      // s
+  double angle = 0.0;  // rad, turned minus course, continuous along the line last fitted
 };
 
-// Least squares of offset + drift * time; differences are angles, so the fit starts from
-// neighbours unwrapped and is repeated with every difference taken on the fitted line's turn.
-Fit fit(const std::vector<Turned>& turned, const Track& truth, const ErrorOptions& options,
-        double delay_s) {
-  Fit out;
-  std::vector<double> at, difference;
+// Turned angle minus course wherever the truth has a course, unwrapped from neighbour to neighbour.
+std::vector<Difference> differences(const std::vector<Turned>& turned, const Track& truth,
+                                    const ErrorOptions& options, double delay_s) {
+  std::vector<Difference> out;
   for (const TrackPoint& point : truth) {
     if (options.from && point.time < *options.from) continue;
     if (options.to && point.time > *options.to) continue;
@@ -61,25 +59,45 @@ Fit fit(const std::vector<Turned>& turned, const Track& truth, const ErrorOption
         turned,
         point.time.plus_nanoseconds(static_cast<std::int64_t>(std::llround(delay_s * 1e9))));
     if (!course || !angle) continue;
-    const double last = difference.empty() ? 0.0 : difference.back();
-    difference.push_back(last + wrap_to_pi(*angle - *course - last));
-    at.push_back(seconds_between(point.time, turned.front().time));
-    out.times.push_back(point.time);
+    const double last = out.empty() ? 0.0 : out.back().angle;
+    out.push_back({point.time, seconds_between(point.time, turned.front().time),
+                   last + wrap_to_pi(*angle - *course - last)});
   }
-  if (at.size() < 3) throw std::runtime_error("IMU and the truth's courses have no common time");
+  if (out.size() < 3) throw std::runtime_error("IMU and the truth's courses have no common time");
+  return out;
+}
+
+struct Line {
+  Distribution residuals;  // rad
+  double drift = 0.0;      // rad/s
+};
+
+// Least squares of offset + drift * time, repeated with every difference taken on the fitted line's
+// turn. `differences` keeps those turns, so that a part of them can be fitted afterwards.
+Line fit(std::vector<Difference>* differences) {
+  Line line;
+  std::vector<double> residuals(differences->size());
+  const auto n = static_cast<double>(differences->size());
   for (int pass = 0; pass < 5; ++pass) {
-    const Eigen::Map<const Eigen::ArrayXd> t(at.data(), static_cast<Eigen::Index>(at.size()));
-    const Eigen::Map<const Eigen::ArrayXd> d(difference.data(), t.size());
-    const double t_mean = t.mean(), d_mean = d.mean();
-    out.drift = ((t - t_mean) * (d - d_mean)).sum() / (t - t_mean).square().sum();
-    out.residuals.clear();
-    for (Eigen::Index i = 0; i < t.size(); ++i) {
-      const double line = d_mean + out.drift * (t[i] - t_mean);
-      out.residuals.push_back(wrap_to_pi(d[i] - line));
-      difference[static_cast<std::size_t>(i)] = line + out.residuals.back();
+    double t_mean = 0.0, mean = 0.0, covariance = 0.0, variance = 0.0;
+    for (const Difference& d : *differences) {
+      t_mean += d.t / n;
+      mean += d.angle / n;
+    }
+    for (const Difference& d : *differences) {
+      covariance += (d.t - t_mean) * (d.angle - mean);
+      variance += (d.t - t_mean) * (d.t - t_mean);
+    }
+    line.drift = covariance / variance;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      Difference& d = (*differences)[i];
+      const double on_line = mean + line.drift * (d.t - t_mean);
+      residuals[i] = wrap_to_pi(d.angle - on_line);
+      d.angle = on_line + residuals[i];
     }
   }
-  return out;
+  line.residuals = distribution_of(residuals);
+  return line;
 }
 
 }  // namespace
@@ -89,18 +107,17 @@ GyroHeading judge_gyro_heading(std::span<const ImuSample> imu, const Track& trut
   const std::vector<Turned> turned = integrate(imu);
   if (turned.empty()) throw std::runtime_error("no IMU samples");
   GyroHeading out;
-  const Fit at_once = fit(turned, truth, options, 0.0);
-  out.at_once = distribution_of(at_once.residuals);
+  std::vector<Difference> all = differences(turned, truth, options, 0.0);
+  const Line at_once = fit(&all);
+  out.at_once = at_once.residuals;
   out.drift_rad_s = at_once.drift;
-  std::vector<double> steady;
-  for (std::size_t i = 0; i < at_once.times.size(); ++i) {
-    if (course_is_steady(truth, at_once.times[i], options)) steady.push_back(at_once.residuals[i]);
-  }
-  out.steady = distribution_of(steady);
+  std::erase_if(all,
+                [&](const Difference& d) { return !course_is_steady(truth, d.time, options); });
+  if (all.size() >= 3) out.steady = fit(&all).residuals;
   out.at_best_delay = out.at_once;
   for (int step = 1; step * kDelayStep_s <= kMaxDelay_s + 1e-9; ++step) {
-    const Distribution d =
-        distribution_of(fit(turned, truth, options, step * kDelayStep_s).residuals);
+    std::vector<Difference> delayed = differences(turned, truth, options, step * kDelayStep_s);
+    const Distribution d = fit(&delayed).residuals;
     if (d.rmse >= out.at_best_delay.rmse) continue;
     out.at_best_delay = d;
     out.best_delay_s = step * kDelayStep_s;
