@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <tuple>
@@ -31,14 +32,18 @@ bool is_valid_at(const Ephemeris& e, GpsTime time) {
   return std::abs(seconds_between(time, e.toe)) <= max_age_s;
 }
 
-// Smallest step between two nodes of a product.
-std::int64_t node_interval_ns(const std::vector<OrbitEpoch>& epochs) {
-  std::int64_t interval = 0;
-  for (std::size_t i = 1; i < epochs.size(); ++i) {
-    const std::int64_t step = epochs[i].time.nanoseconds() - epochs[i - 1].time.nanoseconds();
-    if (interval == 0 || step < interval) interval = step;
-  }
-  return interval;
+// Time of a satellite's node `i`; before the first and past the last one as if they went on in the
+// same step. `times` is not empty.
+GpsTime node_time(const std::vector<GpsTime>& times, std::ptrdiff_t i) {
+  const auto count = static_cast<std::ptrdiff_t>(times.size());
+  const auto at = [&](std::ptrdiff_t k) { return times[static_cast<std::size_t>(k)]; };
+  if (i >= 0 && i < count) return at(i);
+  if (count < 2) return at(0);
+  const bool before = i < 0;
+  const GpsTime end = before ? at(0) : at(count - 1);
+  const std::int64_t step = before ? at(1).nanoseconds() - at(0).nanoseconds()
+                                   : at(count - 1).nanoseconds() - at(count - 2).nanoseconds();
+  return end.plus_nanoseconds((before ? i : i - (count - 1)) * step);
 }
 
 // Sorts by time and puts nodes of one time together; a satellite's first listed state counts.
@@ -110,11 +115,26 @@ EphemerisSchedule schedule_ephemerides(std::vector<Ephemeris> ephemerides, GpsTi
 
 std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start) {
   const std::vector<OrbitEpoch> nodes = merged(std::move(epochs));
-  const std::int64_t lead_ns = kNodesAhead * node_interval_ns(nodes);
-  std::vector<ScheduledOrbitEpoch> schedule;
+  // A product of LEO satellites has a node every 30 s, one of GNSS satellites every 900 s: what is
+  // near and what is past is each satellite's own.
+  std::map<SatelliteId, std::vector<GpsTime>> times;
   for (const OrbitEpoch& node : nodes) {
-    if (node.time.plus_nanoseconds(lead_ns) <= start) continue;
-    schedule.push_back({std::max(start, node.time.plus_nanoseconds(-lead_ns)), node});
+    for (const PreciseState& state : node.states) times[state.satellite].push_back(node.time);
+  }
+  std::map<SatelliteId, std::ptrdiff_t> next;
+  std::map<std::pair<GpsTime, GpsTime>, std::vector<PreciseState>> messages;  // arrival, time
+  for (const OrbitEpoch& node : nodes) {
+    for (const PreciseState& state : node.states) {
+      const std::vector<GpsTime>& own = times[state.satellite];
+      const std::ptrdiff_t i = next[state.satellite]++;
+      if (node_time(own, i + kNodesAhead) <= start) continue;
+      const GpsTime arrival = std::max(start, node_time(own, i - kNodesAhead));
+      messages[{arrival, node.time}].push_back(state);
+    }
+  }
+  std::vector<ScheduledOrbitEpoch> schedule;
+  for (auto& [when, states] : messages) {
+    schedule.push_back({when.first, {when.second, std::move(states)}});
   }
   return schedule;
 }

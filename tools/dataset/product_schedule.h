@@ -40,8 +40,9 @@ struct ScheduledOrbitEpoch {
   OrbitEpoch epoch;
 };
 
-// Nodes arrive kNodesAhead intervals before their time, so that interpolation always has them on
-// both sides; not before `start`, and none that lies kNodesAhead intervals or more before it.
+// A satellite's node arrives at the time of the node kNodesAhead before it, so that interpolation
+// always has nodes on both sides; not before `start`, and none that lies kNodesAhead nodes or more
+// before it. Each satellite goes by its own nodes, so that products of different intervals mix.
 // Interpolation needs five on each side; the catalog keeps kMaxOrbitNodes.
 inline constexpr int kNodesAhead = 6;
 std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start);

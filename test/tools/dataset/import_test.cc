@@ -188,7 +188,12 @@ TEST_CASE("ephemerides arrive when they were sent", "[import]") {
 TEST_CASE("orbit nodes arrive ahead of their time", "[import]") {
   const GpsTime start = GpsTime::from_week_and_tow(2300, 100'000.0);
   std::vector<OrbitEpoch> epochs;
-  for (int i = -20; i <= 20; ++i) epochs.push_back({start.plus_seconds(300.0 * i), {}});
+  for (int i = -20; i <= 20; ++i) {
+    PreciseState state;
+    state.satellite = {System::kGps, 1};
+    state.time = start.plus_seconds(300.0 * i);
+    epochs.push_back({state.time, {state}});
+  }
   epochs.push_back(epochs[3]);  // a second file begins where the first ends
   const auto schedule = schedule_orbits(epochs, start);
   REQUIRE(schedule.size() == 26);  // from -5 to 20
