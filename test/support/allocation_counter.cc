@@ -8,9 +8,7 @@
 #include <cstring>
 
 // glibc lets a program replace the malloc family by forwarding to its own entry points; operator
-// new and Eigen both end there. Sanitizers bring their own malloc, so under them nothing is
-// replaced and the test's own check of the counter would fail: it is compiled to count operator
-// new.
+// new and Eigen both end there. Sanitizers bring their own malloc, with hooks for this.
 namespace leonav::test {
 namespace {
 std::atomic<bool> counting{false};
@@ -40,14 +38,14 @@ ThreadAllocations thread_allocations() { return {inertial, gnss}; }
 }  // namespace leonav::test
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#include <new>
-void* operator new(std::size_t size) {
-  leonav::test::note_allocation();
-  if (void* p = std::malloc(size != 0 ? size : 1)) return p;
-  throw std::bad_alloc();
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*,
+                                                                           std::size_t),
+                                                         void (*on_free)(const volatile void*));
+namespace {
+const int hooks_installed = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { leonav::test::note_allocation(); },
+    [](const volatile void*) {});
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 #else
 extern "C" {
 void* __libc_malloc(std::size_t size);
