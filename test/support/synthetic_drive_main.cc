@@ -51,8 +51,10 @@ int body(int argc, char** argv) {
   if (!(duration_s >= 60.0 && duration_s <= 3600.0)) {
     throw leonav::UsageError("--duration must be 60 to 3600");
   }
+  const double seed = arguments.number("--seed");
+  if (!(seed >= 0.0 && seed < 1e15)) throw leonav::UsageError("--seed must be 0 to 1e15");
   const std::string out = arguments.required("--out"), truth_path = arguments.required("--truth");
-  const auto drive = leonav::test::synthetic_drive(noisy(duration_s, arguments.number("--seed")));
+  const auto drive = leonav::test::synthetic_drive(noisy(duration_s, seed));
 
   leonav::ImportReport report;
   leonav::LogOutput log(out, &report);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -115,7 +116,7 @@ double Arguments::number(const std::string& name) const {
   const std::string text = get(name);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
+  if (error != std::errc() || !std::isfinite(value) || end != text.data() + text.size()) {
     throw UsageError(name + " needs a number, not '" + text + "'");
   }
   return value;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "drivers/csv/imu_csv.h"
+#include "drivers/text/parse.h"
 #include "tools/common/arguments.h"
 #include "tools/evaluation/gyro_heading.h"
 #include "tools/evaluation/statistics.h"
@@ -15,13 +16,13 @@ using leonav::Arguments;
 
 leonav::GpsTime parse_time(const std::string& name, const std::string& text) {
   const std::size_t colon = text.find(':');
-  try {
-    if (colon == std::string::npos) throw std::invalid_argument("no colon");
-    return leonav::GpsTime::from_week_and_tow(std::stoi(text.substr(0, colon)),
-                                              std::stod(text.substr(colon + 1)));
-  } catch (const std::logic_error&) {
+  const auto week = leonav::parse_int(text.substr(0, colon));
+  const auto tow_s =
+      colon == std::string::npos ? std::nullopt : leonav::parse_double(text.substr(colon + 1));
+  if (!week || !tow_s || *week < 0 || *week > 10000 || *tow_s < 0.0 || *tow_s >= 604800.0) {
     throw leonav::UsageError(name + " needs WEEK:TOW_SECONDS, not '" + text + "'");
   }
+  return leonav::GpsTime::from_week_and_tow(*week, *tow_s);
 }
 
 int body(int argc, char** argv) {

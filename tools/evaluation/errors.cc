@@ -105,10 +105,13 @@ Comparison compare(const Track& solution, const Track& truth, const ErrorOptions
   comparison.interval_s = median_interval(solution);
   const GpsTime from = std::max(truth.front().time, options.from.value_or(truth.front().time));
   const GpsTime to = std::min(truth.back().time, options.to.value_or(truth.back().time));
-  if (comparison.interval_s > 0.0 && to > from) {
-    comparison.expected_epochs =
-        static_cast<std::size_t>(seconds_between(to, from) / comparison.interval_s + 1e-6) + 1;
-  }
+  const auto epochs_in = [&](GpsTime begin, GpsTime end) -> std::size_t {
+    if (comparison.interval_s <= 0.0 || end < begin) return 0;
+    return static_cast<std::size_t>(seconds_between(end, begin) / comparison.interval_s + 0.01) + 1;
+  };
+  comparison.expected_in_truth = epochs_in(from, to);
+  comparison.expected_epochs =
+      epochs_in(std::max(from, solution.front().time), std::min(to, solution.back().time));
   for (const TrackPoint& point : solution) {
     if (point.time < from || point.time > to) continue;
     ++comparison.solution_epochs;

@@ -35,8 +35,9 @@ struct Comparison {
   std::vector<ErrorSample> errors;
   std::size_t solution_epochs = 0;  // within the judged span
   std::size_t without_truth = 0;    // of these, not comparable
-  std::size_t expected_epochs = 0;  // the truth's span at the solution's own interval
-  double interval_s = 0.0;          // median spacing of the solution
+  std::size_t expected_epochs = 0;  // from the first to the last answer at the solution's interval
+  std::size_t expected_in_truth = 0;  // the same over the truth's whole span
+  double interval_s = 0.0;            // median spacing of the solution
   Eigen::Vector3d removed_offset_neu = Eigen::Vector3d::Zero();  // m
 };
 

@@ -79,9 +79,14 @@ std::string to_table(const std::vector<Evaluation>& evaluations) {
   std::string out;
   for (const Evaluation& e : evaluations) {
     const Comparison& c = e.comparison;
-    out += format("%s: %zu epochs compared of %zu answered, %zu expected: availability %.2f %%\n",
-                  e.label.c_str(), c.errors.size(), c.solution_epochs, c.expected_epochs,
-                  100.0 * e.availability);
+    out += format(
+        "%s: %zu epochs compared of %zu answered; availability %.2f %% of %zu from first to last",
+        e.label.c_str(), c.errors.size(), c.solution_epochs, 100.0 * e.availability,
+        c.expected_epochs);
+    out += format(" answer, of the %zu in the truth's span %.2f %%\n", c.expected_in_truth,
+                  c.expected_in_truth == 0 ? 0.0
+                                           : 100.0 * static_cast<double>(c.solution_epochs) /
+                                                 static_cast<double>(c.expected_in_truth));
     out +=
         format("  %-21s%9s%9s%9s%9s%9s%9s\n", "", "rmse", "mean", "50 %", "95 %", "99 %", "worst");
     for (const auto& [name, d] : rows_of(e)) {
@@ -133,6 +138,7 @@ std::string to_json(const std::vector<Evaluation>& evaluations) {
     out +=
         format(" {\"label\": %s, \"epochs\": %zu, \"answered\": %zu, \"expected\": %zu,",
                json_string(e.label).c_str(), c.errors.size(), c.solution_epochs, c.expected_epochs);
+    out += format(" \"expected_in_truth\": %zu,", c.expected_in_truth);
     out += format(" \"availability\": %.6f, \"interval_s\": %.4f,\n", e.availability, c.interval_s);
     out += format("  \"convergence_bound_m\": %.3f, \"convergence_s\": ", e.convergence_bound_m);
     out += e.convergence_s ? format("%.3f", *e.convergence_s) : "null";

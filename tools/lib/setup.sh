@@ -30,23 +30,23 @@ install_packages() {
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
                        libyaml-cpp-dev libspdlog-dev)
 
-# build PRESET [CMAKE_ARGUMENT...] -- [NINJA_TARGET...]
+# build PRESET [CMAKE_ARGUMENT...]
 build() {
   local preset=$1; shift
-  local configure=()
-  while [ $# -gt 0 ] && [ "$1" != -- ]; do configure+=("$1"); shift; done
-  [ $# -gt 0 ] && shift
+  local configure=("$@")
   mkdir -p "$leonav_root/build"
   say "Building ($preset)"
   cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
     { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
-  ninja -C "$leonav_root/build/$preset" --quiet "$@" || fail "the build failed"
+  ninja -C "$leonav_root/build/$preset" --quiet || fail "the build failed"
 }
 
 # in_namespace COMMAND...: in a network namespace of its own, with LCM's multicast route on loopback.
 in_namespace() {
   local enter=(unshare -n)
-  [ "$(id -u)" = 0 ] || enter=(unshare -rn)
+  unshare -n true 2>/dev/null || enter=(unshare -rn)
+  "${enter[@]}" true 2>/dev/null ||
+    fail "cannot make a network namespace here; run as root, or in a container with the capability SYS_ADMIN"
   "${enter[@]}" bash -c '
     ip link set lo up multicast on || exit 90
     ip route add 224.0.0.0/4 dev lo || exit 90
