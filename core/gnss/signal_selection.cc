@@ -9,6 +9,8 @@ namespace leonav {
 namespace {
 
 constexpr double kMinPseudorange = 2.0e5;  // m
+// A receiver clock of -30 ms takes 9000 km away, more than a LEO satellite's distance.
+constexpr double kMinPseudorangeLeo = -1.0e7;
 constexpr double kMaxPseudorange = 6.0e7;
 
 // Place in a list, or its length if absent: smaller is better.
@@ -61,8 +63,9 @@ bool band_comes_first(System system, const SignalPreference& preference, char a,
   return frequency_hz(system, a) > frequency_hz(system, b);
 }
 
-bool is_plausible_pseudorange(double pseudorange_m) {
-  return pseudorange_m >= kMinPseudorange && pseudorange_m <= kMaxPseudorange;  // NaN fails
+bool is_plausible_pseudorange(System system, double pseudorange_m) {
+  const double smallest = system == System::kLeo ? kMinPseudorangeLeo : kMinPseudorange;
+  return pseudorange_m >= smallest && pseudorange_m <= kMaxPseudorange;  // NaN fails
 }
 
 SelectedSignals select_signals(std::span<const SignalObservation> observations,
@@ -72,7 +75,7 @@ SelectedSignals select_signals(std::span<const SignalObservation> observations,
     if (!(frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) continue;
     if (!std::isfinite(signal.pseudorange_m) || signal.pseudorange_m == 0.0) continue;
     selected.any_pseudorange = true;
-    if (!is_plausible_pseudorange(signal.pseudorange_m)) continue;
+    if (!is_plausible_pseudorange(signal.satellite.system, signal.pseudorange_m)) continue;
     selected.any_plausible = true;
     if (signal.cn0_dbhz < cn0_mask_dbhz) continue;  // one without C/N0 (NaN) stays
 

@@ -25,9 +25,11 @@ struct SelectedSignals {
 // Whether band `a` of a system is to be preferred to band `b`: the order of select_signals().
 bool band_comes_first(System system, const SignalPreference& preference, char a, char b);
 
-// Bounds on a pseudorange, receiver clock error of some 30 ms included: a LEO satellite is never
-// nearer than 300 km, a geostationary one never farther than 43,000 km.
-bool is_plausible_pseudorange(double pseudorange_m);
+// Bounds on a pseudorange, receiver clock error of some 30 ms included: a geostationary satellite
+// is never farther than 43,000 km. A LEO satellite is so near that 3 ms suffice to make its
+// pseudorange negative, which the models take as they take any other: tag and pseudorange share the
+// clock error.
+bool is_plausible_pseudorange(System system, double pseudorange_m);
 
 // `observations`: all signals of one satellite. Bands in the order of the preference (first band,
 // second bands, then the others by falling frequency: a receiver may track none of the preferred

@@ -204,3 +204,28 @@ TEST_CASE("covariance agrees with the scatter of noisy solutions") {
     CHECK(nees < 3.0 + 0.37);
   }
 }
+
+TEST_CASE("LEO satellites at 970 km are used whatever the receiver's clock, negative ranges too") {
+  const SimulatedSky sky = sky_of({gps_walker(), {System::kLeo, 19, 21, 7'348e3, 0.96, 0.0001}});
+  SimulatedReceiver receiver = moving_receiver();
+  receiver.elevation_mask = 0.27;
+  for (const double clock_s : {-3.5e-3, 3.5e-3, -4.5e-3, -20e-3}) {
+    receiver.clock_s = clock_s;
+    const RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+    double shortest = 1e9;
+    for (const SignalObservation& o : raw.observations) {
+      shortest = std::min(shortest, o.pseudorange_m);
+    }
+    const Solved solved = solve(sky, raw);
+    CAPTURE(clock_s, shortest);
+    if (clock_s < -4e-3) CHECK(shortest < 2e5);
+    REQUIRE(solved.point.status == PointStatus::kOk);
+    int leo = 0;
+    for (const SatelliteInView& view : solved.epoch->satellites) {
+      CHECK(view.reason == Reason::kUsed);
+      leo += view.satellite.system == System::kLeo ? 1 : 0;
+    }
+    CHECK(leo >= 8);
+    CHECK((solved.point.p_e - receiver.p_e).norm() < 0.02);
+  }
+}
