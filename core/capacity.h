@@ -5,12 +5,15 @@
 
 namespace leonav {
 
-inline constexpr std::size_t kMaxSatellites = 128;    // satellites in one raw epoch
 inline constexpr std::size_t kMaxSignals = 6;         // signals of one satellite
 inline constexpr std::size_t kMaxObservations = 512;  // signals in one raw epoch, all satellites
-inline constexpr std::size_t kMaxMeasurements = 384;  // code, carrier, Doppler in one epoch
+// Satellites in one raw epoch: with as many places as signals, none can go missing without a word.
+inline constexpr std::size_t kMaxSatellites = kMaxObservations;
+inline constexpr std::size_t kMaxMeasurements = 512;         // code, carrier, Doppler in one epoch
 inline constexpr std::size_t kMaxEphemerisSatellites = 575;  // every satellite that has a name
-inline constexpr std::size_t kMaxEphemeridesPerSatellite = 8;
+// A server may send what is valid for the next hour: Galileo has a set of each of its two messages
+// every ten minutes, and the one in force must stay.
+inline constexpr std::size_t kMaxEphemeridesPerSatellite = 16;
 inline constexpr std::size_t kMaxOrbitNodes = 24;     // precise states kept per satellite
 inline constexpr std::size_t kMaxImuBlock = 1536;     // IMU samples between two epochs: 500 Hz, 3 s
 inline constexpr std::size_t kMaxImuHistory = 4096;   // IMU samples kept for re-propagation

@@ -20,6 +20,7 @@ struct Candidate {
   SelectedSignals signals;
   const Ephemeris* broadcast = nullptr;
 };
+static_assert(kMaxSatellites >= kMaxObservations, "every satellite of a raw epoch has a place");
 using Candidates = boost::container::static_vector<Candidate, kMaxSatellites>;
 
 Reason reason_of(LookupStatus status) {
@@ -83,6 +84,11 @@ Candidate examine(const DelayContext& context, const SatelliteCatalog& catalog,
   return candidate;
 }
 
+bool is_higher(const SatelliteInView& a, const SatelliteInView& b) {
+  if (a.elevation != b.elevation) return a.elevation > b.elevation;
+  return a.satellite < b.satellite;
+}
+
 // Keeps the highest satellites of each system. Equal elevations: the earlier one stays.
 void apply_caps(const GnssConfig& config, MeasurementEpoch* epoch) {
   for (const System system : kSystems) {
@@ -92,51 +98,69 @@ void apply_caps(const GnssConfig& config, MeasurementEpoch* epoch) {
     for (SatelliteInView& view : epoch->satellites) {
       if (view.satellite.system == system && view.reason == Reason::kUsed) used.push_back(&view);
     }
-    std::sort(used.begin(), used.end(), [](const SatelliteInView* a, const SatelliteInView* b) {
-      if (a->elevation != b->elevation) return a->elevation > b->elevation;
-      return a->satellite < b->satellite;
-    });
+    std::sort(used.begin(), used.end(),
+              [](const SatelliteInView* a, const SatelliteInView* b) { return is_higher(*a, *b); });
     for (std::size_t i = static_cast<std::size_t>(cap); i < used.size(); ++i) {
       used[i]->reason = Reason::kSatelliteCap;
     }
   }
 }
 
-bool append(const Candidate& candidate, Measurement measurement, MeasurementEpoch* epoch) {
-  if (!std::isfinite(measurement.value) || !(measurement.sigma > 0.0) ||
-      !std::isfinite(measurement.sigma)) {
-    return true;  // cannot be used, but nothing is full
-  }
-  if (epoch->measurements.size() == epoch->measurements.capacity()) return false;
-  measurement.satellite_index = static_cast<std::uint16_t>(candidate.satellite_index);
-  epoch->measurements.push_back(measurement);
-  return true;
+std::size_t most_measurements(const GnssConfig& config, const Candidate& candidate) {
+  const bool one_code = config.code_combination == CodeCombination::kIonosphereFree;
+  return (one_code ? 1 : candidate.signals.bands.size()) + 1;  // and a Doppler
 }
 
-bool append_code(const DelayContext& context, const Candidate& candidate, MeasurementEpoch* epoch) {
+// Where the measurements would not all fit, the lowest satellites make room.
+void apply_capacity(const GnssConfig& config, const Candidates& candidates,
+                    MeasurementEpoch* epoch) {
+  boost::container::static_vector<const Candidate*, kMaxSatellites> used;
+  std::size_t needed = 0;
+  for (const Candidate& candidate : candidates) {
+    if (epoch->satellites[candidate.satellite_index].reason != Reason::kUsed) continue;
+    used.push_back(&candidate);
+    needed += most_measurements(config, candidate);
+  }
+  if (needed <= epoch->measurements.capacity()) return;
+  std::sort(used.begin(), used.end(), [&](const Candidate* a, const Candidate* b) {
+    return is_higher(epoch->satellites[a->satellite_index], epoch->satellites[b->satellite_index]);
+  });
+  for (; needed > epoch->measurements.capacity(); used.pop_back()) {
+    epoch->satellites[used.back()->satellite_index].reason = Reason::kCapacity;
+    needed -= most_measurements(config, *used.back());
+  }
+}
+
+// apply_capacity() has made room.
+void append(const Candidate& candidate, Measurement measurement, MeasurementEpoch* epoch) {
+  if (!std::isfinite(measurement.value) || !(measurement.sigma > 0.0) ||
+      !std::isfinite(measurement.sigma)) {
+    return;
+  }
+  measurement.satellite_index = static_cast<std::uint16_t>(candidate.satellite_index);
+  epoch->measurements.push_back(measurement);
+}
+
+void append_code(const DelayContext& context, const Candidate& candidate, MeasurementEpoch* epoch) {
   SatelliteInView* view = &epoch->satellites[candidate.satellite_index];
   const SelectedSignals& signals = candidate.signals;
   if (context.config->code_combination == CodeCombination::kIonosphereFree) {
-    return append(
-        candidate,
-        code_measurement(context, *signals.first, signals.second, candidate.broadcast, 1, view),
-        epoch);
+    append(candidate,
+           code_measurement(context, *signals.first, signals.second, candidate.broadcast, 1, view),
+           epoch);
+    return;
   }
-  bool fits = true;
   const int count = static_cast<int>(signals.bands.size());
   for (const SignalObservation* signal : signals.bands) {
-    fits = append(candidate,
-                  code_measurement(context, *signal, nullptr, candidate.broadcast, count, view),
-                  epoch) &&
-           fits;
+    append(candidate, code_measurement(context, *signal, nullptr, candidate.broadcast, count, view),
+           epoch);
   }
-  return fits;
 }
 
 // One Doppler per satellite, since its signals share the receiver's motion and oscillator. The
 // ionosphere drifts by some mm/s on a GNSS signal, which is not worth amplifying the noise
 // threefold; past a LEO satellite its slant delay changes in minutes, and the pair pays.
-bool append_doppler(const DelayContext& context, const Candidate& candidate,
+void append_doppler(const DelayContext& context, const Candidate& candidate,
                     MeasurementEpoch* epoch) {
   const SatelliteInView& view = epoch->satellites[candidate.satellite_index];
   const SelectedSignals& signals = candidate.signals;
@@ -144,8 +168,8 @@ bool append_doppler(const DelayContext& context, const Candidate& candidate,
                     view.satellite.system == System::kLeo && signals.second != nullptr &&
                     has_doppler(*signals.first) && has_doppler(*signals.second);
   if (pair) {
-    return append(candidate, doppler_measurement(context, *signals.first, signals.second, view),
-                  epoch);
+    append(candidate, doppler_measurement(context, *signals.first, signals.second, view), epoch);
+    return;
   }
   const SignalObservation* strongest = nullptr;
   for (const SignalObservation* signal : signals.bands) {
@@ -154,8 +178,8 @@ bool append_doppler(const DelayContext& context, const Candidate& candidate,
                           (std::isnan(strongest->cn0_dbhz) && !std::isnan(signal->cn0_dbhz));
     if (stronger) strongest = signal;
   }
-  if (strongest == nullptr) return true;
-  return append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
+  if (strongest == nullptr) return;
+  append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
 }
 
 double single_band_value(const DelayContext& context, const Candidate& candidate,
@@ -254,7 +278,6 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     end = end_of_run(raw, begin);
     const SatelliteId id = raw.observations[begin].satellite;
     if (index_of(id.system) >= kSystemCount || is_listed(*epoch, id)) continue;
-    if (epoch->satellites.size() == epoch->satellites.capacity()) break;
     SatelliteInView view;
     view.satellite = id;
     candidates.push_back(examine(context, catalog, {raw.observations.data() + begin, end - begin},
@@ -263,16 +286,15 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     epoch->satellites.push_back(view);
   }
   if (context.has_position) apply_caps(config, epoch);
+  apply_capacity(config, candidates, epoch);
   BandBiases of_this_epoch;
   if (biases == nullptr) biases = &of_this_epoch;
   estimate_biases(context, candidates, *epoch, biases);
   context.biases = biases;
   for (const Candidate& candidate : candidates) {
-    SatelliteInView& view = epoch->satellites[candidate.satellite_index];
-    if (view.reason != Reason::kUsed) continue;
-    const bool code_fits = append_code(context, candidate, epoch);
-    const bool doppler_fits = append_doppler(context, candidate, epoch);
-    if (!code_fits || !doppler_fits) view.reason = Reason::kCapacity;
+    if (epoch->satellites[candidate.satellite_index].reason != Reason::kUsed) continue;
+    append_code(context, candidate, epoch);
+    append_doppler(context, candidate, epoch);
   }
 }
 

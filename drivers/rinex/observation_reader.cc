@@ -47,8 +47,7 @@ struct ObservationReader::State {
   ObservationHeaderParser parser;
   ReadCounts counts;
   GpsTime last_time;
-  SatelliteRecord record;               // kept for its memory
-  std::size_t satellites_in_epoch = 0;  // that gave observations
+  SatelliteRecord record;  // kept for its memory
   // A loss of lock reported while the carrier was not measured holds until it is.
   std::set<Signal> interrupted;
   // After a power failure every signal has lost lock when it first comes back.
@@ -227,15 +226,13 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
     if (!is_measured(signal)) continue;
     if (added == kMaxSignals) {
       counts.skip("signal beyond the capacity of a satellite", lines.line_number());
-    } else if ((added == 0 && satellites_in_epoch == kMaxSatellites) ||
-               epoch->observations.size() == kMaxObservations) {
+    } else if (epoch->observations.size() == kMaxObservations) {
       counts.skip("signal beyond the capacity of an epoch", lines.line_number());
     } else {
       epoch->observations.push_back(signal);
       ++added;
     }
   }
-  if (added > 0) ++satellites_in_epoch;
 }
 
 // Whether the epoch can be handed on.
@@ -279,7 +276,6 @@ bool ObservationReader::next(RawEpoch* epoch) {
       state_->seen_since_failure.clear();
     }
     epoch->observations.clear();
-    state_->satellites_in_epoch = 0;
     switch (state_->read_records(line, epoch)) {
       case State::Records::kEndOfFile:
         state_->counts.skip("last epoch, which is cut off", line_number);

@@ -90,30 +90,87 @@ TEST_CASE("more than a hundred satellites in one epoch are solved") {
   CHECK((point.p_e - receiver.p_e).norm() < 0.1);
 }
 
-TEST_CASE("what does not fit into the table of measurements says so") {
+TEST_CASE("of two hundred satellites, most of them LEO, every one has its place and its reason") {
   SimulatedReceiver receiver;
-  receiver.elevation_mask = 0.02;
-  const SimulatedSky sky = crowded_sky();
-  // Up to five bands each: more codes and Dopplers than the table of measurements holds.
-  receiver.signals = {{{'1', 'C'}, 45.0},
-                      {{'2', 'W'}, 42.0},
-                      {{'5', 'Q'}, 42.0},
-                      {{'7', 'Q'}, 42.0},
-                      {{'6', 'B'}, 42.0}};
-  RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  receiver.elevation_mask = -0.43;  // as from high above: the rest is below the mask of use
+  const SimulatedSky sky = sky_of({{System::kGps, 9, 7, 26'560e3, 0.96, 0.008},
+                                   {System::kGalileo, 5, 10, 29'600e3, 0.977, 0.0005},
+                                   {System::kLeo, 19, 21, 9'950e3, 0.96, 0.001}});
+  const RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  std::size_t leo = 0, satellites = 0;
+  for (std::size_t i = 0; i < raw.observations.size(); ++i) {
+    const SatelliteId id = raw.observations[i].satellite;
+    if (i > 0 && raw.observations[i - 1].satellite == id) continue;
+    ++satellites;
+    leo += id.system == System::kLeo ? 1 : 0;
+  }
+  REQUIRE(leo >= 150);
+  REQUIRE(satellites >= leo + 40);
   GnssConfig config = default_gnss_config();
   config.elevation_mask = 0.02;
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  preprocess(raw, sky.catalog, config, receiver.p_e, epoch.get());
+  CHECK(epoch->satellites.size() == satellites);
+  std::size_t used = 0;
+  for (const SatelliteInView& view : epoch->satellites) {
+    CHECK(view.reason == (view.elevation < 0.02 ? Reason::kLowElevation : Reason::kUsed));
+    used += view.reason == Reason::kUsed ? 1 : 0;
+  }
+  std::printf("%zu satellites, %zu of them LEO: %zu used\n", satellites, leo, used);
+  CHECK(used >= 100);
+  CHECK(epoch->measurements.size() == 2 * used);
+}
+
+TEST_CASE("every signal of an epoch from a satellite of its own: all are listed") {
+  RawEpoch raw;
+  raw.time = kSkyEpoch;
+  for (const auto& [system, count] :
+       {std::pair(System::kGps, 63), {System::kGalileo, 50}, {System::kLeo, 399}}) {
+    for (int number = 1; number <= count; ++number) {
+      SignalObservation o;
+      o.satellite = {system, static_cast<std::uint16_t>(number)};
+      o.code = {'1', 'C'};
+      o.pseudorange_m = 2.2e7;
+      o.cn0_dbhz = 45.0;
+      raw.observations.push_back(o);
+    }
+  }
+  REQUIRE(raw.observations.size() == kMaxObservations);
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  preprocess(raw, SatelliteCatalog(CatalogOptions{}), default_gnss_config(),
+             Eigen::Vector3d::Zero(), epoch.get());
+  CHECK(epoch->satellites.size() == kMaxObservations);
+  for (const SatelliteInView& view : epoch->satellites) CHECK(view.reason != Reason::kUsed);
+}
+
+TEST_CASE("what does not fit into the table of measurements says so") {
+  SimulatedReceiver receiver;
+  receiver.elevation_mask = 0.003;
+  const SimulatedSky sky = sky_of({{System::kGps, 9, 7, 26'560e3, 0.96, 0.008},
+                                   {System::kGalileo, 5, 10, 29'600e3, 0.977, 0.0005},
+                                   {System::kBeidou, 5, 9, 27'906e3, 0.96, 0.001},
+                                   {System::kLeo, 19, 21, 9'950e3, 0.96, 0.001}});
+  // Up to six bands each: more codes and Dopplers than the table of measurements holds.
+  receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}, {{'5', 'Q'}, 42.0},
+                      {{'7', 'Q'}, 42.0}, {{'6', 'B'}, 42.0}, {{'8', 'Q'}, 42.0}};
+  RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  GnssConfig config = default_gnss_config();
+  config.elevation_mask = 0.003;
   config.code_combination = CodeCombination::kSingleFrequency;
   const auto epoch = std::make_unique<MeasurementEpoch>();
   preprocess(raw, sky.catalog, config, receiver.p_e, epoch.get());
   std::size_t full = 0;
+  double lowest_used = 10.0, highest_full = -10.0;
   for (const SatelliteInView& view : epoch->satellites) {
     full += view.reason == Reason::kCapacity ? 1 : 0;
+    if (view.reason == Reason::kCapacity) highest_full = std::max(highest_full, view.elevation);
+    if (view.reason == Reason::kUsed) lowest_used = std::min(lowest_used, view.elevation);
   }
   std::printf("%zu observations, %zu measurements, %zu satellites without room\n",
               raw.observations.size(), epoch->measurements.size(), full);
-  CHECK(epoch->measurements.size() == kMaxMeasurements);
+  CHECK(epoch->measurements.size() >= kMaxMeasurements - 6);
   CHECK(full > 0);
+  CHECK(lowest_used > highest_full);
 }
 
 TEST_CASE("preprocessing and point solution allocate nothing, faults or none") {

@@ -169,16 +169,16 @@ TEST_CASE("RINEX 3: a loss of lock without a carrier holds until the carrier is 
 }
 
 TEST_CASE("RINEX 3: more satellites and signals than fit are counted", "[rinex]") {
-  std::string body = epoch_3("1.0000000", 0, 140);
-  for (int i = 1; i <= 140; ++i) {
+  std::string body = epoch_3("1.0000000", 0, 399);
+  for (int i = 1; i <= 399; ++i) {
     char name[8];
-    std::snprintf(name, sizeof name, "%c%02d", i < 100 ? 'L' : 'M', i % 100);
-    body += name + field(2e6) + "\n";
+    std::snprintf(name, sizeof name, "%c%02d", "LMNO"[i / 100], i % 100);
+    body += name + field(2e6) + field(2.1e6) + "\n";
   }
-  const auto read = read_text(header_3("3.05", types_3("L    1 C1C")) + body);
+  const auto read = read_text(header_3("3.05", types_3("L    2 C1C C2W")) + body);
   REQUIRE(read.epochs.size() == 1);
-  CHECK(read.epochs[0].observations.size() == kMaxSatellites);
-  CHECK(read.counts.count_of("signal beyond the capacity of an epoch") == 12);
+  CHECK(read.epochs[0].observations.size() == kMaxObservations);
+  CHECK(read.counts.count_of("signal beyond the capacity of an epoch") == 798 - kMaxObservations);
 
   std::string fields;
   for (int i = 0; i < 8; ++i) fields += field(2e7 + i);
