@@ -17,6 +17,12 @@ static_assert(kFirstPlace[3] + 399 == kMaxEphemerisSatellites);
 
 std::size_t place_of(SatelliteId id) { return kFirstPlace[index_of(id.system)] + id.number - 1; }
 
+// Precise states are of the centre of mass, the signal comes from the antenna: 0.7 to 2.7 m nearer
+// the Earth by block and band of the satellite (IGS antenna models). Until these offsets are
+// applied, what a clock per system does not take up of them is some 0.7 m. A LEO satellite's
+// antenna is within decimetres of its centre of mass.
+constexpr double kAntennaOffsetSigma = 0.7;  // m
+
 struct StoredEphemeris {
   Ephemeris ephemeris;
   std::uint64_t arrival = 0;
@@ -183,6 +189,9 @@ LookupStatus SatelliteCatalog::state_at(SatelliteId satellite, GpsTime time, Sat
   }
   if (options.use_precise &&
       precise_state(track.nodes.data(), track.nodes.size(), time, options.max_orbit_gap_s, state)) {
+    if (satellite.system != System::kLeo) {
+      state->sigma_m = std::hypot(state->sigma_m, kAntennaOffsetSigma);
+    }
     return LookupStatus::kOk;
   }
   if (best == nullptr) {

@@ -90,15 +90,32 @@ TEST_CASE("Of one toe the later transmission serves; a repeated issue replaces",
 TEST_CASE("Full, what arrived first goes, and wrong times do not block for good",
           "[satellite_catalog]") {
   SatelliteCatalog catalog{CatalogOptions{}};
-  for (int i = 0; i < 8; ++i) {  // a day of nonsense far in the future
+  for (int i = 0; i < 16; ++i) {  // a day of nonsense far in the future
     REQUIRE(catalog.add(gps(5, 1e6 + 7200.0 * i, static_cast<std::uint16_t>(100 + i))));
   }
   for (int i = 0; i < 30; ++i) {
     REQUIRE(catalog.add(gps(5, 7200.0 * i, static_cast<std::uint16_t>(i))));
     CHECK(issue_at(catalog, kG05, 7200.0 * i) == i);
   }
-  CHECK(issue_at(catalog, kG05, 7200.0 * 22) == 22);
-  CHECK(issue_at(catalog, kG05, 7200.0 * 20) == -1);
+  CHECK(issue_at(catalog, kG05, 7200.0 * 14) == 14);
+  CHECK(issue_at(catalog, kG05, 7200.0 * 12) == -1);
+}
+
+TEST_CASE("Both Galileo messages an hour ahead leave the sets in force where they are",
+          "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  int sent = 0;
+  for (int now = 0; now < 36; ++now) {  // every ten minutes for six hours
+    for (; sent <= now + 6; ++sent) {
+      for (const NavigationMessage message :
+           {NavigationMessage::kGalileoInav, NavigationMessage::kGalileoFnav}) {
+        Ephemeris e = galileo(message, 600.0 * sent);
+        e.issue = static_cast<std::uint16_t>(sent);
+        REQUIRE(catalog.add(e));
+      }
+    }
+    CHECK(issue_at(catalog, kE11, 600.0 * now) == now);
+  }
 }
 
 TEST_CASE("Unhealthy satellites are out, by the newest message that was out by then",
@@ -164,6 +181,21 @@ TEST_CASE("Precise states go before broadcast ones, and broadcast ones stand in"
   SatelliteCatalog broadcast_only(options);
   add_orbit(&broadcast_only, e, -6, 6, 300.0);
   CHECK(broadcast_only.state_at(kG05, kNoon, &state) == LookupStatus::kNoEphemeris);
+}
+
+TEST_CASE("A precise state of the centre of mass is as sure as its antenna's place",
+          "[satellite_catalog]") {
+  SatelliteCatalog catalog{CatalogOptions{}};
+  Ephemeris leo = gps(5, 0, 1);
+  leo.satellite.system = System::kLeo;
+  leo.sqrt_a = 2734.0;
+  add_orbit(&catalog, gps(5, 0, 1), -6, 6, 300.0);
+  add_orbit(&catalog, leo, -6, 6, 30.0);
+  SatelliteState of_gps, of_leo;
+  REQUIRE(catalog.state_at(kG05, kNoon, &of_gps) == LookupStatus::kOk);
+  REQUIRE(catalog.state_at(leo.satellite, kNoon, &of_leo) == LookupStatus::kOk);
+  CHECK(of_gps.sigma_m == Approx(0.7).margin(0.01));
+  CHECK(of_leo.sigma_m < 0.05);
 }
 
 TEST_CASE("Nodes come in any order, repeat, and go on for ever", "[satellite_catalog]") {
