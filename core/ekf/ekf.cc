@@ -126,13 +126,15 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
   }
   for (const ImuSample& sample : block) {
     if (sample.interval_ns <= 0 || sample.time > time) continue;
+    if (sample.time <= state_.time) continue;  // already behind us
     if (has_attitude_)
       predict_sample(sample);
     else
       measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
+    last_sample_ = sample;
   }
+  if (time > state_.time) predict_hole(time, ImuSample{});
   if (has_attitude_) finish_sub_block();
-  if (time > state_.time) predict_hole(time);
 
   const double dt = seconds_between(state_.time, start);
   if (dt <= 0.0) return;
@@ -144,21 +146,19 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
 }
 
 void Ekf::predict_sample(const ImuSample& sample) {
-  if (sample.time <= state_.time) return;  // already behind us
-  if (sample.start() > state_.time) {
-    finish_sub_block();
-    predict_hole(sample.start());
-    mechanization_.reset(state_);
-  }
-  const ImuSample part = sample.start() < state_.time ? split(sample, state_.time).after : sample;
+  if (sample.start() > state_.time) predict_hole(sample.start(), sample);
+  advance(sample.start() < state_.time ? split(sample, state_.time).after : sample);
+}
+
+void Ekf::advance(const ImuSample& sample) {
   const Matrix3d C_before = state_.q_eb.toRotationMatrix();
-  mechanization_.advance(part);
+  mechanization_.advance(sample);
   state_ = mechanization_.state();
-  measured_rate_b_ = part.delta_theta_b / part.interval_s();
+  measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
   transition_.add({.C_eb = 0.5 * (C_before + state_.q_eb.toRotationMatrix()),
                    .f_b = mechanization_.specific_force_b(),
                    .omega_ib_b = mechanization_.omega_ib_b(),
-                   .interval_s = part.interval_s()});
+                   .interval_s = sample.interval_s()});
   if (transition_.duration_s() >= kSubBlock) finish_sub_block();
 }
 
@@ -167,17 +167,36 @@ void Ekf::finish_sub_block() {
   transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
 }
 
-// Nothing is known of the motion over a hole: it goes on as before, give or take the acceleration
-// and turning of the configuration. Biases and scales keep their variances, which are stationary.
-void Ekf::predict_hole(GpsTime time) {
+// A short hole is a sample that was not measured and is less certain for it.
+void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
+  const auto bridge =
+      has_attitude_ ? bridge_hole(last_sample_, state_.time, time, next) : std::nullopt;
+  if (!bridge) return coast(time);
+  advance(bridge->filler);
+  finish_sub_block();
+  const Matrix3d C_eb = state_.q_eb.toRotationMatrix();
+  const double half = 0.5 * bridge->filler.interval_s();
+  const Matrix3d V = C_eb * bridge->sigma_velocity_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+  covariance_.block<3, 3>(kPosition, kPosition) += half * half * V;
+  covariance_.block<3, 3>(kPosition, kVelocity) += half * V;
+  covariance_.block<3, 3>(kVelocity, kPosition) += half * V;
+  covariance_.block<3, 3>(kVelocity, kVelocity) += V;
+  covariance_.block<3, 3>(kAttitude, kAttitude) +=
+      C_eb * bridge->sigma_theta_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+}
+
+// Nothing is known of the motion: it goes on as before, give or take the acceleration and turning
+// of the configuration. Biases and scales keep their variances, which are stationary.
+void Ekf::coast(GpsTime time) {
+  if (has_attitude_) finish_sub_block();
   const double dt = seconds_between(time, state_.time);
   propagate_constant_velocity(state_.p_e, config_.acceleration_noise_horizontal,
                               config_.acceleration_noise_vertical, dt, &covariance_);
   state_.p_e += dt * state_.v_e;
   state_.time = time;
-  if (has_attitude_)
-    covariance_.diagonal().segment<3>(kAttitude).array() +=
-        square(config_.hole_attitude_noise) * dt;
+  if (!has_attitude_) return;
+  covariance_.diagonal().segment<3>(kAttitude).array() += square(config_.hole_attitude_noise) * dt;
+  mechanization_.reset(state_);
 }
 
 void Ekf::gather(const MeasurementEpoch& epoch) {

@@ -11,6 +11,7 @@
 #include "core/ekf/robust_update.h"
 #include "core/gnss/measurement.h"
 #include "core/gnss/point_solution.h"
+#include "core/ins/bridge.h"
 #include "core/ins/imu.h"
 #include "core/ins/mechanization.h"
 #include "core/ins/nav_state.h"
@@ -54,8 +55,8 @@ class Ekf {
   bool initialized() const { return initialized_; }
   bool has_attitude() const { return has_attitude_; }
 
-  // Predicts to the end of `block`, then to `time` where the block leaves a hole (constant velocity
-  // with grown uncertainty).
+  // Predicts over `block` to `time`. Short holes are bridged (core/ins/bridge.h), also across
+  // blocks; over longer ones the motion goes on at constant velocity with grown uncertainty.
   void predict(std::span<const ImuSample> block, GpsTime time);
 
   // Uses the code and Doppler of epoch.measurements whose reason is kUsed, against the state as
@@ -73,7 +74,9 @@ class Ekf {
  private:
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
-  void predict_hole(GpsTime time);
+  void advance(const ImuSample& sample);
+  void predict_hole(GpsTime time, const ImuSample& next);
+  void coast(GpsTime time);
   void gather(const MeasurementEpoch& epoch);
   bool start_clocks(const MeasurementEpoch& epoch);
   void check_prediction(EkfUpdateResult* result);
@@ -88,6 +91,7 @@ class Ekf {
   EkfCovariance covariance_ = EkfCovariance::Zero();
   Mechanization mechanization_;
   InsTransition transition_;
+  ImuSample last_sample_;  // that was measured, not filled in; interval 0: none yet
   // Of the last sample, errors not removed: for the lever arm.
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
   GpsTime last_update_;

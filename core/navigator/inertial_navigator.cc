@@ -12,10 +12,9 @@ namespace {
 
 // Half of the mailbox: the slots of epochs already decided are free long before they come round.
 constexpr std::size_t kMaxWaiting = kMaxMailboxEpochs / 2;
-constexpr double kMaxBridgeAtRates_s = 0.2;  // beyond, the rates of the next sample say nothing
-constexpr double kLongestHole_s = 10.0;      // beyond, the old answer is worth nothing
-constexpr double kHoleAcceleration = 3.0;    // (m/s^2)/sqrt(Hz), of a vehicle nobody watches
-constexpr double kHoleRotation = 0.5;        // rad/sqrt(s), likewise
+constexpr double kLongestHole_s = 10.0;    // beyond, the old answer is worth nothing
+constexpr double kHoleAcceleration = 3.0;  // (m/s^2)/sqrt(Hz), of a vehicle nobody watches
+constexpr double kHoleRotation = 0.5;      // rad/sqrt(s), likewise
 constexpr double kJumpEvent_m = 1.0;
 
 std::int64_t to_nanoseconds(double seconds) {
@@ -31,8 +30,9 @@ InertialNavigator::InertialNavigator(const NavigatorConfig& config,
       sink_(sink),
       solution_period_ns_(
           config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
-      ins_only_after_ns_(
-          to_nanoseconds(2.5 * config.realtime.epoch_interval_s + config.realtime.deadline_ekf_s)),
+      ins_only_after_ns_(to_nanoseconds(2.5 * config.realtime.epoch_interval_s +
+                                        config.realtime.gnss_latency_allowance_s +
+                                        config.realtime.deadline_ekf_s)),
       history_(kMaxImuHistory),
       waiting_(kMaxWaiting) {}
 
@@ -77,6 +77,8 @@ void InertialNavigator::start_over(GpsTime now) {
   history_.clear();
   anchor_ = EkfUpdate();
   bridged_s_ = pending_jump_m_ = 0.0;
+  bridge_angle_variance_ = bridge_velocity_variance_ = 0.0;
+  last_sample_ = ImuSample();
   last_gnss_time_ = next_solution_due_ = GpsTime();
 }
 
@@ -118,7 +120,7 @@ void InertialNavigator::commit(const EkfUpdate& update, GpsTime now) {
 
   anchor_ = update;
   if (update.gnss_used) last_gnss_time_ = update.state.time;
-  bridged_s_ = 0.0;
+  bridged_s_ = bridge_angle_variance_ = bridge_velocity_variance_ = 0.0;
   forget_before(update.state.time);
   mechanization_.reset(update.state);
   for (const ImuSample& sample : history_) step(sample);
@@ -126,9 +128,14 @@ void InertialNavigator::commit(const EkfUpdate& update, GpsTime now) {
 }
 
 void InertialNavigator::forget_before(GpsTime time) {
-  while (!history_.empty() && history_.front().time <= time) history_.pop_front();
+  while (!history_.empty() && history_.front().time <= time) {
+    last_sample_ = history_.front();
+    history_.pop_front();
+  }
   if (!history_.empty() && history_.front().start() < time) {
-    history_.front() = split(history_.front(), time).after;
+    const ImuSplit parts = split(history_.front(), time);
+    last_sample_ = parts.before;
+    history_.front() = parts.after;
   }
 }
 
@@ -136,20 +143,17 @@ void InertialNavigator::step(const ImuSample& sample) {
   if (!anchor_.has_attitude || sample.time <= mechanization_.state().time) return;
   if (sample.start() > mechanization_.state().time) bridge(sample);
   mechanization_.advance(sample);
+  last_sample_ = sample;
 }
 
 // Moves the mechanization to the start of `next` over a hole in the stream.
 void InertialNavigator::bridge(const ImuSample& next) {
   const GpsTime from = mechanization_.state().time;
   const double hole_s = seconds_between(next.start(), from);
-  if (hole_s <= kMaxBridgeAtRates_s) {
-    const double share = hole_s / next.interval_s();
-    ImuSample filler;
-    filler.time = next.start();
-    filler.interval_ns = next.start().nanoseconds() - from.nanoseconds();
-    filler.delta_theta_b = share * next.delta_theta_b;
-    filler.delta_velocity_b = share * next.delta_velocity_b;
-    mechanization_.advance(filler);
+  if (const auto bridge = bridge_hole(last_sample_, from, next.start(), next)) {
+    mechanization_.advance(bridge->filler);
+    bridge_angle_variance_ += bridge->sigma_theta_b.cwiseAbs2().maxCoeff();
+    bridge_velocity_variance_ += bridge->sigma_velocity_b.cwiseAbs2().maxCoeff();
     return;
   }
   NavState state = mechanization_.state();
@@ -189,6 +193,9 @@ PvaCovariance InertialNavigator::covariance_at(GpsTime now) const {
   if (elapsed_s > 0.0) f_e += (state.v_e - anchor_.state.v_e) / elapsed_s;
   PvaCovariance covariance =
       inertial_covariance(anchor_, config_.imu, f_e, state.q_eb.toRotationMatrix(), elapsed_s);
+  covariance.diagonal().head<3>().array() += bridge_velocity_variance_ * elapsed_s * elapsed_s;
+  covariance.diagonal().segment<3>(3).array() += bridge_velocity_variance_;
+  covariance.diagonal().tail<3>().array() += bridge_angle_variance_;
   if (bridged_s_ > 0.0) {
     add_acceleration_noise(kHoleAcceleration, bridged_s_, &covariance);
     covariance.diagonal().tail<3>().array() += kHoleRotation * kHoleRotation * bridged_s_;

@@ -4,6 +4,7 @@
 #include <boost/circular_buffer.hpp>
 #include <cstdint>
 
+#include "core/ins/bridge.h"
 #include "core/ins/mechanization.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/solution.h"
@@ -21,8 +22,8 @@ enum class InertialCapacity : std::uint8_t {
 // - Before the first valid anchor nothing is published.
 // - An anchor without attitude (aligning) is extrapolated at constant velocity.
 // - A missed epoch leaves the older anchor in use: the answer goes on, its sigma grows.
-// - Short holes in the IMU stream are bridged at the next sample's rates, longer ones at constant
-//   velocity and attitude with grown sigma.
+// - Short holes in the IMU stream are bridged as in the filter (core/ins/bridge.h), longer ones at
+//   constant velocity and attitude with grown sigma.
 // - When IMU time runs backwards or leaps, everything is dropped; epochs waiting are decided so
 //   that the journal has one decision for each.
 class InertialNavigator {
@@ -64,9 +65,12 @@ class InertialNavigator {
   boost::circular_buffer<EpochIssued> waiting_;  // issued, not decided
   Mechanization mechanization_;
   EkfUpdate anchor_;        // valid: there is one
+  ImuSample last_sample_;   // before the mechanization's time
   double bridged_s_ = 0.0;  // of constant velocity since the anchor
-  GpsTime imu_time_;        // end of the last sample
-  GpsTime last_gnss_time_;  // of the last anchor that used GNSS
+  double bridge_angle_variance_ = 0.0,
+         bridge_velocity_variance_ = 0.0;  // of short holes since then
+  GpsTime imu_time_;                       // end of the last sample
+  GpsTime last_gnss_time_;                 // of the last anchor that used GNSS
   GpsTime next_solution_due_;
   double pending_jump_m_ = 0.0;  // not published yet
   Source source_ = Source::kNone;
