@@ -1,0 +1,97 @@
+// GPS by broadcast ephemerides and LEO satellites by precise states alone, through the pipeline.
+#include <algorithm>
+
+#include "core/navigator/pipeline.h"
+#include "recording_sink.h"
+#include "support/catch.h"
+#include "support/synthetic_drive.h"
+
+namespace leonav::test {
+namespace {
+
+NavigatorConfig drive_config(const SyntheticDriveOptions& options) {
+  NavigatorConfig config;
+  config.gnss = default_gnss_config();
+  for (SystemConfig& system : config.gnss.systems) system.enabled = true;
+  config.vehicle.lever_arm_b = options.lever_arm_b;
+  config.imu.angle_random_walk = 1e-4;
+  config.imu.velocity_random_walk = 1e-3;
+  config.imu.gyro_bias = {1e-4, 3600.0};
+  config.imu.accel_bias = {0.01, 3600.0};
+  config.imu.gyro_scale = {1e-4, 3600.0};
+  config.imu.accel_scale = {1e-4, 3600.0};
+  return config;
+}
+
+// As a product tells it: the relativistic part of the orbit's eccentricity is left to the user.
+PreciseState node_of(const Ephemeris& ephemeris, GpsTime time) {
+  const SatelliteState state = broadcast_state(ephemeris, time);
+  PreciseState node;
+  node.satellite = ephemeris.satellite;
+  node.time = time;
+  node.p_e = state.p_e;
+  node.clock_s = state.clock_s + 2.0 * state.p_e.dot(state.v_e) / (kSpeedOfLight * kSpeedOfLight);
+  return node;
+}
+
+bool is_leo(SatelliteId id) { return id.system == System::kLeo; }
+
+TEST_CASE("LEO satellites known by precise states alone take part in the whole pipeline") {
+  SyntheticDriveOptions options;
+  options.duration_s = 90.0;
+  options.galileo = false;
+  options.leo = true;
+  SyntheticDrive drive = synthetic_drive(options);
+  std::vector<Ephemeris> leo;
+  std::copy_if(drive.ephemerides.begin(), drive.ephemerides.end(), std::back_inserter(leo),
+               [](const Ephemeris& e) { return is_leo(e.satellite); });
+  std::erase_if(drive.ephemerides, [](const Ephemeris& e) { return is_leo(e.satellite); });
+  REQUIRE(leo.size() == 182);
+
+  RecordingSink sink;
+  Pipeline pipeline(drive_config(options), &sink);
+  Sequencer& sequencer = pipeline.sequencer();
+  // Nodes every 30 s, each 180 s before its time.
+  double next_node_s = -180.0;
+  const auto send_nodes = [&](double now_s) {
+    for (; next_node_s <= now_s + 180.0; next_node_s += 30.0) {
+      for (const Ephemeris& e : leo) {
+        sequencer.on_precise_state(node_of(e, kSkyEpoch.plus_seconds(next_node_s)));
+      }
+    }
+  };
+  feed(
+      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+      [&](const ImuSample& s) {
+        send_nodes(seconds_between(s.time, kSkyEpoch));
+        sequencer.on_imu(s);
+      },
+      [&](const RawEpoch& r) { sequencer.on_raw_epoch(r); });
+
+  REQUIRE(sink.epochs.size() == 89);
+  double worst_m = 0.0;
+  int fewest_leo = 1000, beyond_letter_l = 0;
+  for (const EpochReport& report : sink.epochs) {
+    if (seconds_between(report.time, kSkyEpoch) < 40.0) continue;
+    const NavState truth = drive.truth_at(report.time);
+    worst_m = std::max(worst_m, (report.solution.p_e - truth.p_e).norm());
+    int used = 0;
+    for (const SatelliteReport& satellite : report.satellites) {
+      if (!is_leo(satellite.satellite) || satellite.reason == Reason::kLowElevation) continue;
+      CHECK(satellite.reason == Reason::kUsed);
+      CHECK(satellite.source == OrbitSource::kPrecise);
+      ++used;
+      beyond_letter_l += satellite.satellite.number >= 100 ? 1 : 0;  // M00 and on
+    }
+    fewest_leo = std::min(fewest_leo, used);
+    CHECK(std::isfinite(report.clock_m[index_of(System::kLeo)]));
+  }
+  CAPTURE(worst_m, fewest_leo, beyond_letter_l);
+  CHECK(worst_m < 0.05);
+  CHECK(fewest_leo >= 3);
+  CHECK(beyond_letter_l > 0);
+  CHECK(sink.epochs.back().solution.source == Source::kEkf);
+}
+
+}  // namespace
+}  // namespace leonav::test
