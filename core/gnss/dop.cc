@@ -1,7 +1,6 @@
 #include "core/gnss/dop.h"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,16 +17,12 @@ using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 // Beyond this a position is no position, and rounding decides the digits.
 constexpr double kMaxDop = 1.0e4;
 
-Normal normal_matrix(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e) {
+Normal normal_matrix(const MeasurementEpoch& epoch, const std::bitset<kMaxSatellites>& used,
+                     const Eigen::Vector3d& p_a_e) {
   Normal normal = Normal::Zero();
-  std::array<bool, kMaxSatellites> seen{};
-  for (const Measurement& measurement : epoch.measurements) {
-    if (measurement.observable != Observable::kCode) continue;
-    if (measurement.reason != Reason::kUsed && measurement.reason != Reason::kDownweighted)
-      continue;
-    if (seen[measurement.satellite_index]) continue;
-    seen[measurement.satellite_index] = true;
-    const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+  for (std::size_t i = 0; i < epoch.satellites.size(); ++i) {
+    if (!used[i]) continue;
+    const SatelliteInView& satellite = epoch.satellites[i];
     Row row = Row::Zero();
     row.head<3>() = predict_range(satellite, p_a_e).d_range_d_p.transpose();
     row(3 + static_cast<int>(index_of(satellite.satellite.system))) = 1.0;
@@ -42,8 +37,20 @@ Normal normal_matrix(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e
 }  // namespace
 
 Dop dilution_of_precision(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e) {
+  std::bitset<kMaxSatellites> used;
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCode) continue;
+    if (measurement.reason != Reason::kUsed && measurement.reason != Reason::kDownweighted)
+      continue;
+    used.set(measurement.satellite_index);
+  }
+  return dilution_of_precision(epoch, used, p_a_e);
+}
+
+Dop dilution_of_precision(const MeasurementEpoch& epoch, const std::bitset<kMaxSatellites>& used,
+                          const Eigen::Vector3d& p_a_e) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::LDLT<Normal> factor(normal_matrix(epoch, p_a_e));
+  const Eigen::LDLT<Normal> factor(normal_matrix(epoch, used, p_a_e));
   const Normal covariance = factor.solve(Normal::Identity());
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_a_e));
   const Eigen::Matrix3d q = C_ne * covariance.topLeftCorner<3, 3>() * C_ne.transpose();

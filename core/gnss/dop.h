@@ -1,6 +1,7 @@
 // Dilution of precision: how the geometry alone turns range errors into position errors.
 #pragma once
 #include <Eigen/Core>
+#include <bitset>
 
 #include "core/gnss/measurement.h"
 
@@ -16,5 +17,9 @@ struct Dop {
 // unit weight, one clock per system, seen from the antenna at `p_a_e`. All NaN where the geometry
 // does not determine a position.
 Dop dilution_of_precision(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e);
+
+// The same of the satellites that `used` says, by their place in epoch.satellites.
+Dop dilution_of_precision(const MeasurementEpoch& epoch, const std::bitset<kMaxSatellites>& used,
+                          const Eigen::Vector3d& p_a_e);
 
 }  // namespace leonav

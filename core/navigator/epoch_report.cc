@@ -1,6 +1,7 @@
 #include "core/navigator/epoch_report.h"
 
 #include <algorithm>
+#include <bitset>
 #include <limits>
 
 #include "core/gnss/dop.h"
@@ -47,10 +48,17 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
   }
 }
 
-// The geometry of what counted in the end, which the epoch's own reasons do not know.
+// The geometry of what counted in the end: the filter's verdicts stand in the report alone. Its
+// aiding holds the epoch's measurements in order, or fewer.
 void report_dop(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e,
                 EpochReport* report) {
-  const Dop dop = dilution_of_precision(epoch, antenna_p_e);
+  std::bitset<kMaxSatellites> used;
+  for (std::size_t i = 0; i < report->aiding.size(); ++i) {
+    const AidingReport& aiding = report->aiding[i];
+    if (aiding.observable != Observable::kCode || !counts(aiding.reason)) continue;
+    used.set(epoch.measurements[i].satellite_index);
+  }
+  const Dop dop = dilution_of_precision(epoch, used, antenna_p_e);
   report->pdop = dop.pdop;
   report->hdop = dop.hdop;
   report->vdop = dop.vdop;
