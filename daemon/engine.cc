@@ -150,13 +150,18 @@ void Engine::run_out() {
 
 // One message of every ring. False: all were empty.
 bool Engine::drain_outputs() {
-  const auto use = [this](const MessageHeader& header, ByteSpan bytes) {
+  const auto write = [this](const MessageHeader& header, ByteSpan bytes) {
     write_out(header, bytes);
   };
-  bool any = false;
-  for (MessageRing* ring :
-       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
-    any = ring->consume_one(use) || any;
+  // An output's causes were pushed before it, so once it is seen they are in the ring of `io`; they
+  // go first. Then a journal replays wherever it is cut.
+  const auto write_after_causes = [&](const MessageHeader& header, ByteSpan bytes) {
+    io_sink_.ring().consume_present(write);
+    write_out(header, bytes);
+  };
+  bool any = io_sink_.ring().consume_one(write);
+  for (MessageRing* ring : {&inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+    any = ring->consume_one(write_after_causes) || any;
   }
   return any;
 }

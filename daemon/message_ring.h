@@ -44,6 +44,15 @@ class MessageRing {
     return true;
   }
 
+  // Consumer: the same for everything that is there at the call. What comes meanwhile is left, so
+  // that a fast producer cannot hold the consumer for ever.
+  template <typename Use>
+  void consume_present(Use&& use) {
+    const std::uint64_t pushed = pushed_.load(std::memory_order_acquire);
+    while (done_.load(std::memory_order_relaxed) < pushed && consume_one(use)) {
+    }
+  }
+
   bool idle() const {
     return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
   }

@@ -1,0 +1,125 @@
+// A journal is of use wherever it ends: every output stands behind the inputs that caused it.
+#include <algorithm>
+#include <deque>
+#include <iostream>
+#include <leonav/imu_t.hpp>
+#include <leonav/solution_t.hpp>
+#include <vector>
+
+#include "core/navigator/pipeline.h"
+#include "daemon/engine.h"
+#include "daemon/input_dispatch.h"
+#include "daemon/output_groups.h"
+#include "drive_inputs.h"
+#include "drivers/lcm/event_log.h"
+#include "support/catch.h"
+#include "support/temporary_file.h"
+
+namespace {
+
+using namespace leonav;
+using Bytes = std::vector<std::uint8_t>;
+
+struct Discard final : MessageTarget {
+  void take(Channel, ByteSpan) override {}
+};
+
+struct Queues final : MessageTarget {
+  std::array<std::deque<Bytes>, kOutputGroups.size()> groups;
+  void take(Channel channel, ByteSpan bytes) override {
+    const auto group = output_group(channel, bytes);
+    if (group) groups[*group].emplace_back(bytes.begin(), bytes.end());
+  }
+};
+
+// As fast as it goes, so that messages wait in every ring to `out`: this is where an output could
+// overtake its cause.
+void record(const std::string& path, double duration_s) {
+  DaemonConfig config = test::drive_config();
+  config.journal.path = path;
+  Discard target;
+  Engine engine(config, &target);
+  engine.start();
+  test::feed_messages(test::synthetic_drive(test::noisy_drive(duration_s)),
+                      [&](Channel channel, ByteSpan bytes) { engine.receive(channel, bytes, 1); });
+  REQUIRE(engine.finish());
+}
+
+struct Recorded {
+  Channel channel;
+  Bytes data;
+};
+
+std::vector<Recorded> read(const std::string& path) {
+  EventLogReader log(path);
+  std::vector<Recorded> list;
+  for (LogEvent event; log.next(&event);) {
+    const auto channel = channel_from_name(event.channel);
+    REQUIRE(channel.has_value());
+    list.push_back({*channel, event.data});
+  }
+  return list;
+}
+
+template <typename Message>
+std::int64_t time_of(const Bytes& bytes) {
+  Message message{};
+  const int size = static_cast<int>(bytes.size());
+  REQUIRE(message.decode(bytes.data(), 0, size) == size);
+  return message.time_ns;
+}
+
+}  // namespace
+
+TEST_CASE("no solution is journaled before the IMU sample that it stands for") {
+  const test::TemporaryFile folder("unused", "");
+  record(folder.beside("journal.lcmlog"), 60.0);
+  std::int64_t last_imu_ns = 0;
+  std::uint64_t solutions = 0, too_early = 0;
+  for (const Recorded& one : read(folder.beside("journal.lcmlog"))) {
+    if (one.channel == Channel::kImu) last_imu_ns = time_of<imu_t>(one.data);
+    if (one.channel != Channel::kSolution) continue;
+    ++solutions;
+    if (time_of<solution_t>(one.data) > last_imu_ns) ++too_early;
+  }
+  std::cout << "journal order: " << solutions << " solutions, " << too_early
+            << " before their IMU sample\n";
+  CHECK(solutions > 5'000);
+  CHECK(too_early == 0);
+}
+
+TEST_CASE("whatever a journal holds, the inputs before it regenerate") {
+  const test::TemporaryFile folder("unused", "");
+  record(folder.beside("journal.lcmlog"), 30.0);
+  Queues regenerated;
+  EncodingSink sink(&regenerated);
+  Pipeline pipeline(test::drive_config().navigator, &sink);
+  InputDispatch dispatch(&pipeline.sequencer());
+  const std::vector<Recorded> journal = read(folder.beside("journal.lcmlog"));
+  Decoder decoder;
+  for (const Recorded& one : journal) {
+    if (one.channel != Channel::kDecision) continue;
+    Decision decision;
+    REQUIRE(decoder.decode(one.data, &decision).fault == InputFault::kNone);
+    if (!decision.committed) pipeline.record_miss(decision.epoch);
+  }
+  std::uint64_t outputs = 0, without_cause = 0, different = 0;
+  for (const Recorded& one : journal) {
+    if (is_input(one.channel)) dispatch.dispatch(one.channel, one.data);
+    const auto group = output_group(one.channel, one.data);
+    if (!group) continue;
+    ++outputs;
+    std::deque<Bytes>& queue = regenerated.groups[*group];
+    if (queue.empty()) {
+      ++without_cause;
+      continue;
+    }
+    if (queue.front() != one.data) ++different;
+    queue.pop_front();
+  }
+  std::cout << "journal order: " << outputs << " outputs, " << without_cause
+            << " before their cause\n";
+  CHECK(outputs > 3'000);
+  CHECK(without_cause == 0);
+  CHECK(different == 0);
+}
