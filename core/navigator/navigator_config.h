@@ -16,10 +16,10 @@ struct VehicleConfig {
 };
 
 struct RealtimeConfig {
-  double deadline_ekf_s = 0.2;       // D_ekf, data time
-  double deadline_smoother_s = 0.5;  // D_smoother, data time
-  double epoch_interval_s =
-      1.0;  // expected GNSS interval: 1.5 of them without an epoch makes an empty one
+  double deadline_ekf_s = 0.2;            // D_ekf, data time
+  double deadline_smoother_s = 0.5;       // D_smoother, data time
+  double epoch_interval_s = 1.0;          // expected GNSS interval
+  double gnss_latency_allowance_s = 0.5;  // how long after its time an epoch may come in
 };
 
 struct NavigatorConfig {

@@ -37,6 +37,9 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
       max_epoch_ahead_ns_(
           std::max(kMaxAheadNs,
                    interval_in_nanoseconds(kMaxAheadIntervals * config.realtime.epoch_interval_s))),
+      gnss_wait_ns_(std::max(
+          epoch_interval_ns_ / 2,
+          static_cast<std::int64_t>(std::llround(config.realtime.gnss_latency_allowance_s * 1e9)))),
       imu_watch_(kImuRunToRestart, kMaxImuStepNs),
       epoch_watch_(kEpochRunToRestart, interval_in_nanoseconds(kMaxEpochStepS)),
       held_(std::make_unique<RawEpoch>()),
@@ -95,7 +98,7 @@ InputFault Sequencer::place_imu(ImuSample* sample) {
 void Sequencer::change_time_base(double jump_s) {
   emit(EventKind::kFilterReset, 1, jump_s);
   imu_time_ = GpsTime();
-  last_epoch_time_ = GpsTime();
+  last_epoch_time_ = last_raw_epoch_time_ = GpsTime();
   last_epoch_is_empty_ = true;
   pending_count_ = 0;
   is_held_ = false;
@@ -109,9 +112,15 @@ void Sequencer::change_time_base(double jump_s) {
 void Sequencer::extend_tail(const ImuSample& sample) {
   if (!last_epoch_time_.is_set() && pending_count_ == 0) last_epoch_time_ = sample.start();
   if (sample.time <= last_epoch_time_) return;  // an epoch was issued without waiting for it
-  if (tail_.full()) issue(nullptr, tail_.back().time);
+  if (tail_.full()) issue(nullptr, cut_of_full_block());
   const bool across = sample.start() < last_epoch_time_;
   tail_.push_back(across ? split(sample, last_epoch_time_).after : sample);
+}
+
+// Leaves room for an epoch under way, as far as a quarter of the block makes room enough.
+GpsTime Sequencer::cut_of_full_block() const {
+  const GpsTime latest = tail_.back().time.plus_nanoseconds(-gnss_wait_ns_);
+  return std::max(latest, tail_[tail_.size() / 4].time);
 }
 
 void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
@@ -142,16 +151,23 @@ void Sequencer::judge_held(GpsTime next) {
 void Sequencer::place_epoch(const RawEpoch& epoch) {
   const InputFault fault = check_epoch_time(epoch.time);
   if (fault != InputFault::kNone) return reject(fault);
-  if (epoch.time <= last_epoch_time_) {
-    if (worth_an_event(++counters_.late_epochs)) {
-      emit(EventKind::kLateEpoch, 0, seconds_between(last_epoch_time_, epoch.time));
-    }
-    return;
-  }
+  if (epoch.time <= last_epoch_time_) return drop_late(epoch.time);
   epoch_watch_.clear();
   ++counters_.epochs;
   queue_epoch(epoch);
   issue_ready_epochs();
+}
+
+// Where an empty epoch took its place, the wait was too short: a quarter more than this latency
+// from now on, for latencies vary.
+void Sequencer::drop_late(GpsTime time) {
+  if (worth_an_event(++counters_.late_epochs)) {
+    emit(EventKind::kLateEpoch, 0, seconds_between(last_epoch_time_, time));
+  }
+  const bool replaced = last_epoch_is_empty_ && imu_time_.is_set() && time > last_raw_epoch_time_;
+  if (!replaced) return;
+  const std::int64_t latency_ns = nanoseconds_between(imu_time_, time);
+  gnss_wait_ns_ = std::max(gnss_wait_ns_, std::min(latency_ns + latency_ns / 4, kMaxGnssLatencyNs));
 }
 
 // kNone also for an epoch that is merely late; the caller tells.
@@ -211,11 +227,13 @@ void Sequencer::issue_oldest_pending() {
 GpsTime Sequencer::time_of_due_empty_epoch() const {
   if (!inertial_ || !imu_time_.is_set() || !last_epoch_time_.is_set() || tail_.empty()) return {};
   const std::int64_t since_ns = nanoseconds_between(imu_time_, last_epoch_time_);
-  if (since_ns < epoch_interval_ns_ + epoch_interval_ns_ / 2) return {};
+  const std::int64_t wait_ns = epoch_interval_ns_ + gnss_wait_ns_;
+  if (since_ns < wait_ns) return {};
   const GpsTime nominal = last_epoch_time_.plus_nanoseconds(epoch_interval_ns_);
   // Only a hole gets this far ahead. One epoch bridges it, not a burst of them.
   const GpsTime hole_end = tail_.back().start();
-  return since_ns > 3 * epoch_interval_ns_ && hole_end > last_epoch_time_ ? hole_end : nominal;
+  const bool hole = since_ns > 2 * wait_ns && hole_end > last_epoch_time_;
+  return hole ? hole_end : nominal;
 }
 
 void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
@@ -237,6 +255,7 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
   }
   last_epoch_time_ = time;
   last_epoch_is_empty_ = work.empty;
+  if (!work.empty) last_raw_epoch_time_ = time;
   if (work.empty) {
     ++counters_.empty_epochs;
     if (worth_an_event(counters_.empty_epochs)) {

@@ -26,9 +26,12 @@ class StageInputs {
 // - an epoch is issued when the IMU has passed its time; without IMU
 //   (MotionModel::kConstantVelocity) at once, and then nothing goes to the inertial stage;
 // - an epoch whose IMU does not come is issued without it when kMaxPending later ones are waiting;
-// - when the IMU has run 1.5 epoch intervals past the last epoch, an empty epoch is issued one
-//   interval after that last one, so that blocks stay bounded; after a hole in the IMU stream it is
-//   issued at the hole's end. The first IMU sample's start counts as an epoch for this;
+// - when the IMU has run one epoch interval and the wait for a GNSS latency past the last epoch, an
+//   empty epoch is issued one interval after that last one, so that blocks stay bounded; after a
+//   hole in the IMU stream it is issued at the hole's end. The first IMU sample's start counts as
+//   an epoch for this. The wait is the configured allowance, at least half an epoch interval; an
+//   epoch that comes after an empty one took its place makes it longer, up to kMaxGnssLatencyNs, so
+//   that a steady latency costs one epoch and not all;
 // - an epoch not later than the last issued one is late: counted, dropped, reported; one that is
 //   merely out of order takes its place among those waiting;
 // - IMU samples must be finite, in range and increasing. A sample that starts within half of its
@@ -48,7 +51,8 @@ class Sequencer {
   static constexpr std::size_t kMaxPending = 4;
   static constexpr double kMaxAheadS = 10.0;
   static constexpr double kMaxAheadIntervals = 3.0;  // of epochs, where that is more
-  static constexpr double kMaxEpochStepS = 3600.0;   // between epochs of a run in a new time
+  static constexpr std::int64_t kMaxGnssLatencyNs = 2'000'000'000;
+  static constexpr double kMaxEpochStepS = 3600.0;  // between epochs of a run in a new time
   static constexpr std::int64_t kMaxImuStepNs = 1'000'000'000;  // likewise, IMU
   static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
@@ -84,11 +88,13 @@ class Sequencer {
   void place_epoch(const RawEpoch& epoch);
   bool hold(const RawEpoch& epoch);
   void judge_held(GpsTime next);
+  void drop_late(GpsTime time);
   InputFault check_epoch_time(GpsTime time);
   bool is_known(GpsTime time) const;
   void queue_epoch(const RawEpoch& epoch);
   void issue_ready_epochs();
   void issue_oldest_pending();
+  GpsTime cut_of_full_block() const;
   GpsTime time_of_due_empty_epoch() const;  // unset: none is due
   void issue(const RawEpoch* raw, GpsTime time);
   void reject(InputFault fault);
@@ -101,9 +107,11 @@ class Sequencer {
   Eigen::Matrix3d C_b_imu_;  // IMU axes to body
   bool mounting_is_identity_;
   std::int64_t epoch_interval_ns_, max_epoch_ahead_ns_;
+  std::int64_t gnss_wait_ns_;  // for an epoch after its time
   Counters counters_;
-  GpsTime imu_time_;         // end of the last accepted sample
-  GpsTime last_epoch_time_;  // t of the last issued epoch, or where the IMU stream began
+  GpsTime imu_time_;             // end of the last accepted sample
+  GpsTime last_epoch_time_;      // t of the last issued epoch, or where the IMU stream began
+  GpsTime last_raw_epoch_time_;  // t of the last issued epoch that was not empty
   bool last_epoch_is_empty_ = true;
   std::uint64_t next_index_ = 1;
   std::uint64_t next_event_ = 1;

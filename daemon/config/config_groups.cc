@@ -96,6 +96,8 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
   group.number("deadline_ekf_ms", {1.0, 1e4}, &realtime.deadline_ekf_s, kMillisecond);
   group.number("deadline_smoother_ms", {1.0, 1e4}, &realtime.deadline_smoother_s, kMillisecond);
   group.number("epoch_interval_s", {0.05, 120.0}, &realtime.epoch_interval_s);
+  group.number("gnss_latency_allowance_ms", {0.0, 2000.0}, &realtime.gnss_latency_allowance_s,
+               kMillisecond);
   group.number("solution_rate_hz", {0.01, 1000.0}, &navigator->solution_rate_hz);
   group.boolean("lock_memory", &threads->lock_memory);
   group.group("io", [&](ConfigReader& thread) { read_thread(thread, &threads->io); });
