@@ -1,0 +1,45 @@
+// The longest messages that core/capacity.h allows fit into the buffers and come back whole.
+#include <leonav/epoch_t.hpp>
+#include <memory>
+
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/encode.h"
+#include "drivers/lcm/wire.h"
+#include "support/catch.h"
+
+using namespace leonav;
+
+TEST_CASE("an epoch at full capacity is encoded whole") {
+  const auto report = std::make_unique<EpochReport>();
+  report->time = GpsTime::from_week_and_tow(2300, 1000.0);
+  report->satellites.resize(kMaxSatellites);
+  report->aiding.resize(kMaxMeasurements);
+  report->aiding.back().observation = 42.0;
+  Encoder encoder;
+  const ByteSpan bytes = encoder.encode(*report);
+  CAPTURE(bytes.size());
+  CHECK(bytes.size() > 31'000);
+  CHECK(bytes.size() <= wire::kMaxMessageBytes);
+  epoch_t message;
+  const int size = static_cast<int>(bytes.size());
+  REQUIRE(message.decode(bytes.data(), 0, size) == size);
+  CHECK(message.n_satellites == static_cast<int>(kMaxSatellites));
+  CHECK(message.n_aiding == static_cast<int>(kMaxMeasurements));
+  CHECK(message.aiding.back().observation == 42.0);
+}
+
+TEST_CASE("precise states of every satellite that has a name come back") {
+  std::vector<PreciseState> states;
+  for (std::size_t i = 0; i < kMaxEphemerisSatellites; ++i) {
+    PreciseState state;
+    state.satellite = {System::kLeo, static_cast<std::uint16_t>(1 + i % 399)};
+    state.time = GpsTime::from_week_and_tow(2300, 1000.0);
+    state.p_e = {7e6, 1e6, 2e6};
+    states.push_back(state);
+  }
+  Encoder encoder;
+  Decoder decoder;
+  PreciseStates back;
+  CHECK(decoder.decode(encoder.encode(states, 1), &back).fault == InputFault::kNone);
+  CHECK(back.size() == kMaxEphemerisSatellites);
+}
