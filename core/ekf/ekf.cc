@@ -37,6 +37,17 @@ Matrix3d rotation_from_rpy_errors(const Matrix3d& C_nb) {
   return J;
 }
 
+// From the IMU's error to the antenna's (direction 1) or back (-1): what attitude and gyro errors
+// move the arm by.
+EkfCovariance to_antenna(const AntennaMotion& arm, double direction) {
+  EkfCovariance T = EkfCovariance::Identity();
+  T.block<3, 3>(kPosition, kAttitude) = direction * arm.d_p_d_attitude;
+  T.block<3, 3>(kVelocity, kAttitude) = direction * arm.d_v_d_attitude;
+  T.block<3, 3>(kVelocity, kGyroBias) = direction * arm.d_v_d_gyro_bias;
+  T.block<3, 3>(kVelocity, kGyroScale) = direction * arm.d_v_d_gyro_scale;
+  return T;
+}
+
 // Variance of white noise that averages like an error of this correlation time.
 double correlation_inflation(double correlation_time_s, double dt) {
   if (correlation_time_s <= 0.0 || dt <= 0.0) return 1.0;
@@ -72,7 +83,6 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
                       has_drift ? drift_sigma : kUnknownDrift, &clocks_, &covariance_);
     known_.drift[base] = true;
   }
-  measured_rate_b_.setZero();
   last_update_ = time;
   has_attitude_ = false;
   initialized_ = true;
@@ -80,48 +90,76 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
 
 void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
                        const Vector3d& gyro_bias_b, bool gyro_bias_known) {
-  const AntennaMotion before =
-      antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  ImuErrors errors;
+  if (gyro_bias_known) errors.gyro_bias_b = gyro_bias_b;
+  const double averaged = imu_.angle_random_walk / std::sqrt(kStandstillAverage);
+  const double gyro_bias =
+      gyro_bias_known ? std::min(imu_.gyro_bias.sigma, averaged) : imu_.gyro_bias.sigma;
+  ImuErrorCovariance covariance = ImuErrorCovariance::Zero();
+  covariance.diagonal() << Vector3d::Constant(square(gyro_bias)),
+      Vector3d::Constant(square(imu_.accel_bias.sigma)),
+      Vector3d::Constant(square(imu_.gyro_scale.sigma)),
+      Vector3d::Constant(square(imu_.accel_scale.sigma));
+  set_attitude(q_eb, sigma_rpy, errors, covariance);
+}
+
+// What was there of attitude and IMU errors is forgotten, with its correlations.
+void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
+                       const ImuErrors& errors, const ImuErrorCovariance& covariance) {
+  const AntennaMotion before = antenna();
+  EkfCovariance P = covariance_;
+  if (has_attitude_) {
+    const EkfCovariance T = to_antenna(before, 1.0);
+    P = T * covariance_ * T.transpose();
+  }
+  P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
+  P.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
+  P.block<12, 12>(kGyroBias, kGyroBias) = covariance;
+  state_.errors = errors;
+  place_attitude(before, q_eb, sigma_rpy, P);
+}
+
+void Ekf::turn_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy) {
+  if (!has_attitude_) return;
+  const AntennaMotion before = antenna();
+  const EkfCovariance T = to_antenna(before, 1.0);
+  EkfCovariance P = T * covariance_ * T.transpose();
+  P.middleRows<3>(kAttitude).setZero();
+  P.middleCols<3>(kAttitude).setZero();
+  place_attitude(before, q_eb, sigma_rpy, P);
+}
+
+// `of_antenna` is the covariance with position and velocity of the antenna, its attitude empty.
+void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
+                         const Vector3d& sigma_rpy, const EkfCovariance& of_antenna) {
   state_.q_eb = q_eb.normalized();
-  state_.errors = ImuErrors{};
-  if (gyro_bias_known) state_.errors.gyro_bias_b = gyro_bias_b;
   state_.p_e.setZero();
   state_.v_e.setZero();
   const AntennaMotion arm = antenna_motion(state_, measured_rate_b_, lever_arm_b_, true);
   state_.p_e = before.p_e - arm.p_e;
   state_.v_e = before.v_e - arm.v_e;
 
-  // Fresh variances of attitude and IMU errors; what was there of them is forgotten.
-  EkfCovariance P = covariance_;
-  P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
-  P.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
+  EkfCovariance P = of_antenna;
   const Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(before.p_e)).transpose();
   const Matrix3d J =
       C_en * rotation_from_rpy_errors(C_en.transpose() * state_.q_eb.toRotationMatrix());
   P.block<3, 3>(kAttitude, kAttitude) = J * sigma_rpy.cwiseAbs2().asDiagonal() * J.transpose();
-  const double averaged = imu_.angle_random_walk / std::sqrt(kStandstillAverage);
-  const double gyro_bias =
-      gyro_bias_known ? std::min(imu_.gyro_bias.sigma, averaged) : imu_.gyro_bias.sigma;
-  P.diagonal().segment<3>(kGyroBias).setConstant(square(gyro_bias));
-  P.diagonal().segment<3>(kAccelBias).setConstant(square(imu_.accel_bias.sigma));
-  P.diagonal().segment<3>(kGyroScale).setConstant(square(imu_.gyro_scale.sigma));
-  P.diagonal().segment<3>(kAccelScale).setConstant(square(imu_.accel_scale.sigma));
-
-  // From the antenna's error to the IMU's: what attitude and gyro errors move the arm by.
-  EkfCovariance T = EkfCovariance::Identity();
-  T.block<3, 3>(kPosition, kAttitude) = -arm.d_p_d_attitude;
-  T.block<3, 3>(kVelocity, kAttitude) = -arm.d_v_d_attitude;
-  T.block<3, 3>(kVelocity, kGyroBias) = -arm.d_v_d_gyro_bias;
-  T.block<3, 3>(kVelocity, kGyroScale) = -arm.d_v_d_gyro_scale;
+  const EkfCovariance T = to_antenna(arm, -1.0);
   covariance_.noalias() = T * P * T.transpose();
   has_attitude_ = true;
 }
 
 void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
-  if (!initialized_) return;
+  if (!initialized_) {
+    if (!block.empty() && block.back().interval_ns > 0) {
+      last_sample_ = block.back();
+      measured_rate_b_ = last_sample_.delta_theta_b / last_sample_.interval_s();
+    }
+    return;
+  }
   const GpsTime start = state_.time;
   if (has_attitude_) {
-    mechanization_.reset(state_);
+    mechanization_.restate(state_);
     transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
   }
   for (const ImuSample& sample : block) {
@@ -200,8 +238,7 @@ void Ekf::coast(GpsTime time) {
 }
 
 void Ekf::gather(const MeasurementEpoch& epoch) {
-  const AntennaMotion antenna =
-      antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  const AntennaMotion motion = antenna();
   const double dt = seconds_between(epoch.time, last_update_);
   const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
   const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
@@ -214,7 +251,7 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
         !std::isfinite(measurement.value))
       continue;
     const MeasurementPrediction prediction = predict_measurement(
-        measurement, epoch.satellites[measurement.satellite_index], antenna, clocks_);
+        measurement, epoch.satellites[measurement.satellite_index], motion, clocks_);
     FilterMeasurement& entry = measurements_.emplace_back();
     entry.index = i;
     entry.observable = measurement.observable;
@@ -242,12 +279,19 @@ void Ekf::apply(const EkfVector& correction) {
   clocks_.drift_m_s += correction.segment<4>(kClockDrift);
 }
 
-Vector3d Ekf::antenna_position_e() const {
-  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_).p_e;
+AntennaMotion Ekf::antenna() const {
+  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
 }
 
-Vector3d Ekf::antenna_velocity_e() const {
-  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_).v_e;
+Vector3d Ekf::antenna_position_e() const { return antenna().p_e; }
+
+Vector3d Ekf::antenna_velocity_e() const { return antenna().v_e; }
+
+bool Ekf::is_finite() const {
+  return state_.p_e.allFinite() && state_.v_e.allFinite() && state_.q_eb.coeffs().allFinite() &&
+         state_.errors.gyro_bias_b.allFinite() && state_.errors.accel_bias_b.allFinite() &&
+         state_.errors.gyro_scale.allFinite() && state_.errors.accel_scale.allFinite() &&
+         clocks_.offset_m.allFinite() && clocks_.drift_m_s.allFinite() && covariance_.allFinite();
 }
 
 }  // namespace leonav

@@ -8,6 +8,7 @@
 #include "core/ekf/ekf_config.h"
 #include "core/ekf/ekf_state.h"
 #include "core/ekf/ins_transition.h"
+#include "core/ekf/measurement_model.h"
 #include "core/ekf/robust_update.h"
 #include "core/gnss/measurement.h"
 #include "core/gnss/point_solution.h"
@@ -30,8 +31,11 @@ struct InnovationReport {
 
 struct EkfUpdateResult {
   int used = 0;  // measurements with a factor above zero
+  // Rejected: without weight, or, where weights are switched off, as far out as if they were not.
   int code_offered = 0;
   int code_rejected = 0;
+  int doppler_offered = 0;
+  int doppler_rejected = 0;
   double nis = 0.0;  // of the used ones
   // The measurements agreed with each other but not with the prediction: its covariance was widened
   // before the update instead of rejecting them.
@@ -46,14 +50,23 @@ class Ekf {
   Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Eigen::Vector3d& lever_arm_b);
 
   // Starts from a point solution of the antenna; without attitude: constant-velocity model. May be
-  // called again: nothing of before remains.
+  // called again: nothing of before remains, except the last IMU sample, which is still what the
+  // body did.
   void initialize(GpsTime time, const PointSolution& point);
   // Goes over to the inertial model: attitude and gyro bias given, covariance of position, velocity
   // and clocks kept; position moves from antenna to IMU centre by the lever arm.
   void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
                     const Eigen::Vector3d& gyro_bias_b, bool gyro_bias_known);
+  // The same with all that is known of the IMU's errors, e.g. by a filter before a restart.
+  void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
+                    const ImuErrors& errors, const ImuErrorCovariance& covariance);
+  // Corrects an attitude from outside: only its own variances and correlations change, and the
+  // antenna stays where it is. Nothing without an attitude.
+  void turn_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
   bool initialized() const { return initialized_; }
   bool has_attitude() const { return has_attitude_; }
+  // False once a number has overflowed: nothing but a new filter helps.
+  bool is_finite() const;
 
   // Predicts over `block` to `time`. Short holes are bridged (core/ins/bridge.h), also across
   // blocks; over longer ones the motion goes on at constant velocity with grown uncertainty.
@@ -74,6 +87,9 @@ class Ekf {
  private:
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
+  AntennaMotion antenna() const;
+  void place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
+                      const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna);
   void advance(const ImuSample& sample);
   void predict_hole(GpsTime time, const ImuSample& next);
   void coast(GpsTime time);

@@ -20,6 +20,8 @@ inline constexpr int kInsSize = 21;
 }  // namespace ekf_index
 
 using EkfCovariance = Eigen::Matrix<double, ekf_index::kSize, ekf_index::kSize>;
+// Of gyro bias, accelerometer bias, gyro scale, accelerometer scale.
+using ImuErrorCovariance = Eigen::Matrix<double, 12, 12>;
 using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
 
 struct ClockState {

@@ -57,6 +57,11 @@ void Mechanization::reset(const NavState& state) {
   previous_ = ImuSample();
 }
 
+void Mechanization::restate(const NavState& state) {
+  if (state.time != state_.time) return reset(state);
+  state_ = state;
+}
+
 void Mechanization::advance(const ImuSample& raw) {
   const ImuSample sample = correct(raw, state_.errors);
   const double dt = sample.interval_s();

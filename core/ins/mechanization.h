@@ -16,6 +16,9 @@ class Mechanization {
  public:
   // Starts at `state`; `state.errors` are removed from every sample.
   void reset(const NavState& state);
+  // Goes on from a corrected state: at the same time the motion behind it still counts for coning
+  // and sculling, which a correction of the state does not interrupt. Otherwise as reset().
+  void restate(const NavState& state);
 
   // `sample.start()` must equal state().time. Integrates to sample.time.
   void advance(const ImuSample& sample);

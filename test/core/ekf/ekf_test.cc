@@ -157,6 +157,78 @@ TEST_CASE("setting the attitude leaves the antenna where it was") {
   CHECK((got - expected).norm() < 1e-4 * expected.norm());
 }
 
+TEST_CASE("started anew in a turn, the IMU's velocity is the antenna's less the arm's swing") {
+  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
+  for (int second = 0; second < 3; ++second) drive.predict({.yaw_rate = 1.0});
+  Generator noise(7);
+  const ImuErrors errors = drive.filter().state().errors;
+  drive.filter().initialize(drive.state().time,
+                            synthetic::point_near(drive.truth(), 1e-3, 1e-3, &noise));
+  drive.filter().set_attitude(drive.state().q_eb, {0.02, 0.02, 0.1}, errors,
+                              ImuErrorCovariance::Identity());
+  CHECK((drive.filter().state().v_e - drive.state().v_e).norm() < 0.02);  // swing: 0.58 m/s
+}
+
+TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as they are") {
+  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
+  for (int second = 0; second < 60; ++second) {
+    drive.predict(slalom(second));
+    drive.update();
+  }
+  Ekf& filter = drive.filter();
+  const NavState before = filter.state();
+  const EkfCovariance P = filter.covariance();
+  const Vector3d p_antenna = filter.antenna_position_e(), v_antenna = filter.antenna_velocity_e();
+  const Eigen::Matrix3d C_en = synthetic::C_en_at(before.p_e);
+  const Eigen::Quaterniond turned =
+      quaternion_from_rotation_vector(C_en * Vector3d{0.0, 0.0, 0.3}) * before.q_eb;
+  filter.turn_attitude(turned, {0.01, 0.01, 0.05});
+  CHECK((filter.antenna_position_e() - p_antenna).norm() < 1e-8);
+  CHECK((filter.antenna_velocity_e() - v_antenna).norm() < 1e-8);
+  CHECK(filter.state().q_eb.angularDistance(turned) < 1e-12);
+  CHECK(filter.state().errors.gyro_bias_b == before.errors.gyro_bias_b);
+  CHECK(filter.state().errors.accel_bias_b == before.errors.accel_bias_b);
+  const int errors = kInsSize - kGyroBias;
+  const auto kept = [&](const EkfCovariance& M) {
+    return M.block(kGyroBias, kGyroBias, errors, errors);
+  };
+  CHECK((kept(filter.covariance()) - kept(P)).norm() < 1e-12 * kept(P).norm());
+  CHECK(filter.covariance().block<3, 3>(kAttitude, kAttitude).trace() ==
+        Approx(2e-4 + 2.5e-3).epsilon(1e-3));
+  Eigen::SelfAdjointEigenSolver<EkfCovariance> eigen(filter.covariance());
+  CHECK(eigen.eigenvalues().minCoeff() > -1e-9);
+}
+
+TEST_CASE("corrections between blocks do not interrupt coning and sculling") {
+  // A sensor that shakes: in one block, and in blocks of two samples.
+  const auto run = [](int per_block) {
+    Ekf filter(EkfConfig{}, synthetic::mems(), Vector3d::Zero());
+    Generator noise(9);
+    synthetic::Truth truth;
+    truth.p_antenna_e = synthetic::start_position();
+    filter.initialize(synthetic::kStart, synthetic::point_near(truth, 1.0, 0.1, &noise));
+    filter.set_attitude(Eigen::Quaterniond(synthetic::C_en_at(truth.p_antenna_e)),
+                        {0.01, 0.01, 0.01}, Vector3d::Zero(), false);
+    std::vector<ImuSample> block;
+    for (int k = 1; k <= 2000; ++k) {
+      ImuSample sample;
+      sample.interval_ns = 5'000'000;
+      sample.time = synthetic::kStart.plus_nanoseconds(k * sample.interval_ns);
+      const double a = 2.0 * M_PI * 0.11 * k;
+      sample.delta_theta_b << 0.02 * std::sin(a), 0.02 * std::cos(a), 0.0;
+      sample.delta_velocity_b << 0.0, 0.0, -9.8 * sample.interval_s();
+      block.push_back(sample);
+      if (k % per_block != 0) continue;
+      filter.predict(block, sample.time);
+      block.clear();
+    }
+    return filter.state().q_eb;
+  };
+  const double difference = run(2000).angularDistance(run(2));
+  WARN("blocks of two samples instead of one of 2000: " << difference << " rad after 10 s");
+  CHECK(difference < 1e-9);
+}
+
 TEST_CASE("a hole in the IMU data widens the covariance and the filter comes back") {
   Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 4);
   for (int second = 0; second < 20; ++second) {
