@@ -103,6 +103,8 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
     shift_innovations(Observable::kCode, jump, &measurements_);
     result->clock_jump_m = jump;
   }
+  // A wider prior without weights would follow every outlier.
+  if (!config_.robust.enabled) return;
   for (const Observable observable : {Observable::kDoppler, Observable::kCode}) {
     const double factor = prediction_inflation(config_.robust, measurements_, observable,
                                                covariance_, config_.prediction_suspect_ratio);
@@ -120,7 +122,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
 
   gather(epoch);
   if (start_clocks(epoch)) gather(epoch);
-  if (config_.robust.enabled) check_prediction(&result);
+  check_prediction(&result);
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];
     report.innovation = measurement.innovation;
@@ -140,9 +142,12 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     else if (measurement.factor < 1.0)
       report.reason = Reason::kDownweighted;
     if (measurement.factor > 0.0) ++result.used;
-    if (measurement.observable != Observable::kCode) continue;
-    ++result.code_offered;
-    if (measurement.factor <= 0.0) ++result.code_rejected;
+    // Without weights nothing is thrown out, but what would be still tells a lost filter.
+    const bool rejected = measurement.factor <= 0.0 ||
+                          (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
+    const bool code = measurement.observable == Observable::kCode;
+    ++(code ? result.code_offered : result.doppler_offered);
+    if (rejected) ++(code ? result.code_rejected : result.doppler_rejected);
   }
   if (!measurements_.empty()) last_update_ = epoch.time;
   return result;

@@ -1,6 +1,7 @@
 #include "core/ekf/prediction_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/ekf/median.h"
@@ -13,12 +14,36 @@ using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kMedianSquare = 0.4549;  // median of a chi-square with one degree of freedom
 constexpr double kMaxInflation = 1e6;     // per epoch
-constexpr std::size_t kMinRedundant = 7;  // position, clocks, and enough to check them
+constexpr int kMinRedundancy = 2;         // beyond position and clocks: enough to check them
+constexpr std::size_t kManyCount = 7;     // or so many, whatever their clocks
 constexpr std::size_t kMinCount = 4;      // fewer do not outvote a prediction ...
 constexpr double kMillisecondStep =
     29'979.0;                          // ... unless off by more than a tenth of a millisecond
 constexpr double kShiftRatio = 5.0;    // shift over predicted sigma
 constexpr double kSpreadShare = 0.33;  // spread about the shift, as a share of it
+
+// Measurements beyond what position (or velocity) and one clock per time base need.
+int redundancy(const FilterMeasurements& measurements) {
+  std::array<bool, kMaxTimeBases> bases{};
+  int count = -3;
+  for (const FilterMeasurement& measurement : measurements) {
+    if (measurement.factor <= 0.0) continue;
+    ++count;
+    for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+      const auto i = static_cast<Eigen::Index>(base);
+      if (measurement.row(kClock + i) != 0.0 || measurement.row(kClockDrift + i) != 0.0)
+        bases[base] = true;
+    }
+  }
+  return count - static_cast<int>(std::count(bases.begin(), bases.end(), true));
+}
+
+// The sum of `count` squared standard normal variables is larger once in a thousand times
+// (Wilson and Hilferty 1931).
+double largest_probable(std::size_t count) {
+  const double share = 2.0 / (9.0 * static_cast<double>(count));
+  return static_cast<double>(count) * std::pow(1.0 - share + 3.09 * std::sqrt(share), 3);
+}
 
 }  // namespace
 
@@ -47,29 +72,35 @@ double prediction_inflation(const RobustConfig& robust, const FilterMeasurements
                             Observable observable, const EkfCovariance& covariance,
                             double suspect) {
   SmallTable ratios, factors;
+  FilterMeasurements offered;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
+    offered.push_back(measurement);
+    offered.back().factor = 1.0;
     const double predicted = measurement.row.dot(covariance * measurement.row);
     const double square = measurement.innovation * measurement.innovation;
     ratios.push_back(square / (predicted + measurement.variance));
     if (predicted > 0.0)
       factors.push_back((square / kMedianSquare - measurement.variance) / predicted);
   }
-  if (ratios.size() < kMinRedundant || factors.empty()) return 1.0;
+  const bool many = offered.size() >= kManyCount;
+  if (factors.empty() || (!many && redundancy(offered) < kMinRedundancy)) return 1.0;
   if (std::sqrt(median(ratios)) < suspect) return 1.0;
   const double factor = std::clamp(median(factors), 1.0, kMaxInflation);
 
+  // Few measurements are soon fitted: they are tested as if nothing stayed alike in time.
+  if (!many)
+    for (FilterMeasurement& measurement : offered) measurement.gain_variance = measurement.variance;
   // Would they agree?
-  FilterMeasurements trial;
-  for (const FilterMeasurement& measurement : measurements)
-    if (measurement.observable == observable) trial.push_back(measurement);
   EkfCovariance wide = covariance;
   inflate(observable, factor, &wide);
-  const RobustUpdateResult fit = robust_update(robust, &trial, &wide);
+  const RobustUpdateResult fit = robust_update(robust, &offered, &wide);
   std::size_t kept = 0;
-  for (const FilterMeasurement& measurement : trial) kept += measurement.factor > 0.0 ? 1 : 0;
+  for (const FilterMeasurement& measurement : offered) kept += measurement.factor > 0.0 ? 1 : 0;
   const double scale = observable == Observable::kCode ? fit.code_scale : fit.doppler_scale;
-  const bool agree = scale < suspect && 4 * kept >= 3 * trial.size();
+  bool agree = scale < suspect && 4 * kept >= 3 * offered.size();
+  if (!many)
+    agree = agree && redundancy(offered) >= kMinRedundancy && fit.nis < largest_probable(kept);
   return agree ? factor : 1.0;
 }
 

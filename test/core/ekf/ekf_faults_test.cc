@@ -135,6 +135,49 @@ TEST_CASE("a prediction 300 m off is noticed and corrected at once") {
   CHECK(walk.error() < 10.0);
 }
 
+TEST_CASE("a jump of the receiver clock goes to the clock without robust weights, too") {
+  EkfConfig config;
+  config.robust.enabled = false;
+  Walk walk(22, config);
+  walk.run(15);
+  walk.truth().clocks.offset_m.array() += kMillisecond;
+  const EkfUpdateResult result = walk.filter().update(walk.next());
+  CHECK(result.clock_jump_m == Approx(kMillisecond).margin(10.0));
+  CHECK(walk.error() < 10.0);
+}
+
+TEST_CASE("a prediction 300 m off is corrected with six codes, too") {
+  Walk walk(24);
+  while (walk.sky().size() > 6) walk.sky().pop_back();
+  for (SatelliteInView& view : walk.sky()) view.satellite.system = System::kGps;
+  walk.run(20);
+  walk.truth().p_antenna_e += Vector3d{200.0, -150.0, 170.0};
+  const EkfUpdateResult result = walk.filter().update(walk.next());
+  CHECK(result.prediction_suspect);
+  CHECK(walk.error() < 30.0);
+  walk.run(5);
+  CHECK(walk.error() < 12.0);
+}
+
+TEST_CASE("faults among six codes do not pass for a wrong prediction") {
+  for (const double fault : {60.0, 500.0, 20'000.0}) {
+    for (std::size_t bad = 3; bad <= 5; ++bad) {
+      CAPTURE(fault, bad);
+      Walk walk(26);
+      while (walk.sky().size() > 6) walk.sky().pop_back();
+      for (SatelliteInView& view : walk.sky()) view.satellite.system = System::kGps;
+      walk.run(20);
+      MeasurementEpoch epoch = walk.next();
+      for (std::size_t satellite = 0; satellite < bad; ++satellite)
+        epoch.measurements[code_of(satellite)].value +=
+            fault * (satellite % 2 == 0 ? 1.0 : -1.3) * (1.0 + static_cast<double>(satellite));
+      const EkfUpdateResult result = walk.filter().update(epoch);
+      CHECK_FALSE(result.prediction_suspect);
+      CHECK(walk.error() < 12.0);
+    }
+  }
+}
+
 TEST_CASE("most codes bad in different ways do not carry the filter away") {
   Walk walk(25);
   walk.run(20);
