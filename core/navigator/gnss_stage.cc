@@ -16,7 +16,8 @@ namespace {
 constexpr int kMinSatellites = 4;
 constexpr double kMaxPdop = 15.0;
 constexpr double kMaxResidualRms_m = 60.0;
-constexpr int kMinCodesToJudge = 4;
+constexpr int kMinToJudge = 4;             // codes or Dopplers
+constexpr int kMinResetRedundancy = 2;     // of a point solution that overthrows a running filter
 constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
 constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
 constexpr double kMinResetHeadingSigma = 0.1;  // rad
@@ -28,8 +29,17 @@ RobustConfig robust_start(RobustConfig config) {
   return config;
 }
 
+// NaN where the covariance is no number.
 double norm_of_sigmas(const Eigen::Matrix3d& covariance) {
-  return std::sqrt(std::max(0.0, covariance.trace()));
+  const double trace = covariance.trace();
+  return trace < 0.0 ? 0.0 : std::sqrt(trace);
+}
+
+// Satellites beyond what a position and one clock per time base need.
+int redundancy(const PointSolution& point) {
+  int bases = 0;
+  for (const double clock_m : point.clock_m) bases += std::isfinite(clock_m) ? 1 : 0;
+  return point.satellites - 3 - bases;
 }
 
 }  // namespace
@@ -68,14 +78,27 @@ void GnssStage::process_epoch(const EpochWork& work) {
   if (inertial_ && !ekf_.has_attitude()) {
     for (const ImuSample& sample : work.block) alignment_.add(sample);
   }
-  if (ekf_.initialized()) ekf_.predict({work.block.data(), work.block.size()}, work.time);
+  ekf_.predict({work.block.data(), work.block.size()}, work.time);
+  drop_broken_filter(work.time);
   if (!work.empty) use_measurements(work);
+  drop_broken_filter(work.time);
   if (gnss_used_) {
     last_gnss_time_ = work.time;
     align(work);
   }
   deliver(work);
   publish(work);
+}
+
+// A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
+void GnssStage::drop_broken_filter(GpsTime time) {
+  if (!ekf_.initialized() || ekf_.is_finite()) return;
+  ekf_ = Ekf(config_.ekf, config_.imu, config_.vehicle.lever_arm_b);
+  alignment_.reset();
+  gnss_used_ = false;
+  suspect_epochs_ = 0;
+  last_reset_time_ = time;
+  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0, time);
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
@@ -132,25 +155,45 @@ void GnssStage::update_filter(const EpochWork& work) {
   judge_prediction(work, result);
 }
 
-// Most codes thrown out, epoch after epoch, is a filter that has lost its way. A point solution is
-// asked before it is believed: where it agrees with the filter, the measurements are to blame.
+// Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
+// solution is asked before it is believed, and must have been checked itself: where it agrees with
+// the filter, the measurements are to blame.
 void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& result) {
-  const bool suspect = result.code_offered >= kMinCodesToJudge &&
-                       result.code_rejected >= config_.ekf.reset_ratio * result.code_offered;
+  const auto most = [&](int rejected, int offered) {
+    return offered >= kMinToJudge && rejected >= config_.ekf.reset_ratio * offered;
+  };
+  const bool code = most(result.code_rejected, result.code_offered);
+  const bool doppler = most(result.doppler_rejected, result.doppler_offered);
+  const bool suspect = code || doppler;
   suspect_epochs_ = suspect ? suspect_epochs_ + 1 : 0;
   if (suspect_epochs_ < config_.ekf.reset_epochs) return;
   std::swap(measurements_, check_measurements_);
   PointSolution point;
-  if (solve(work, ekf_.antenna_position_e(), &point)) {
-    const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
-    if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) {
-      restart_from(point, work, ResetCause::kPrediction);
-    }
+  if (solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy &&
+      contradicts(point, doppler)) {
+    restart_from(point, work, ResetCause::kPrediction);
   }
   std::swap(measurements_, check_measurements_);
 }
 
-// The attitude survives, less sure of its heading, unless it has just been given that chance.
+// Whether the filter is elsewhere than a point solution; with `motion` also whether it moves, or
+// its oscillator runs, otherwise.
+bool GnssStage::contradicts(const PointSolution& point, bool motion) const {
+  const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
+  if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) return true;
+  if (!motion || !point.has_velocity) return false;
+  const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
+  if ((point.v_e - ekf_.antenna_velocity_e()).norm() > limit_m_s) return true;
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    if (!ekf_.clocks_known().drift[base] || !std::isfinite(point.clock_drift_m_s[base])) continue;
+    const double drift_m_s = ekf_.clocks().drift_m_s(static_cast<Eigen::Index>(base));
+    if (std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s) return true;
+  }
+  return false;
+}
+
+// The attitude survives, less sure of its heading, unless it has just been given that chance; what
+// has been learned of the IMU's errors survives with it.
 void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause) {
   const double moved_m = (point.p_e - ekf_.antenna_position_e()).norm();
   const bool relapse =
@@ -158,7 +201,9 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   const bool keep_attitude =
       ekf_.has_attitude() && !relapse && ekf_.state().q_eb.coeffs().allFinite();
   const Eigen::Quaterniond q_eb = ekf_.state().q_eb;
-  const Eigen::Vector3d gyro_bias_b = ekf_.state().errors.gyro_bias_b;
+  const ImuErrors errors = ekf_.state().errors;
+  const ImuErrorCovariance error_covariance =
+      ekf_.covariance().block<12, 12>(ekf_index::kGyroBias, ekf_index::kGyroBias);
   EpochReport* report = report_.get();
   report_state(ekf_, report);
   Eigen::Vector3d sigma_rpy = report->solution.sigma_rpy;
@@ -167,7 +212,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
 
   ekf_.initialize(work.time, point);
   if (keep_attitude) {
-    ekf_.set_attitude(q_eb, sigma_rpy, gyro_bias_b, true);
+    ekf_.set_attitude(q_eb, sigma_rpy, errors, error_covariance);
   } else {
     alignment_.reset();
   }
@@ -202,7 +247,7 @@ void GnssStage::process_command(const Command& command) {
 }
 
 // Before alignment: as if configured. Afterwards: turns the filter's attitude about the vertical;
-// position, velocity and clocks stay as they are.
+// position, velocity, clocks and IMU errors stay as they are.
 void GnssStage::set_heading(double heading, double sigma) {
   if (!inertial_) return;
   if (!ekf_.has_attitude()) {
@@ -220,8 +265,7 @@ void GnssStage::set_heading(double heading, double sigma) {
   EulerAngles euler = euler_from_rotation(C_ne * state.q_eb.toRotationMatrix());
   euler.yaw = wrap_to_pi(heading);
   const Eigen::Matrix3d C_eb = C_ne.transpose() * rotation_from_euler(euler);
-  ekf_.set_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy, state.errors.gyro_bias_b,
-                    true);
+  ekf_.turn_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy);
   emit(EventKind::kAligned, 1, sigma, state.time);
 }
 

@@ -14,7 +14,13 @@
 namespace leonav {
 
 // Codes of EventKind::kFilterReset (1 is the Sequencer's: time itself has changed).
-enum class ResetCause : std::uint8_t { kCommand = 0, kTimeBase = 1, kPrediction = 2, kOutage = 3 };
+enum class ResetCause : std::uint8_t {
+  kCommand = 0,
+  kTimeBase = 1,
+  kPrediction = 2,
+  kOutage = 3,
+  kNotFinite = 4
+};
 
 class GnssStage {
  public:
@@ -38,6 +44,8 @@ class GnssStage {
   void update_filter(const EpochWork& work);
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
   bool prediction_is_useless() const;
+  void drop_broken_filter(GpsTime time);
+  bool contradicts(const PointSolution& point, bool motion) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
   void align(const EpochWork& work);

@@ -241,6 +241,102 @@ TEST_CASE("a second wrong prediction within a minute gives up the attitude too")
   CHECK(sink.epochs.back().solution.has_attitude);
 }
 
+TEST_CASE("without robust weights a vehicle carried away is found again, widening or restarting") {
+  const SyntheticDrive there = drive_of(120.0, 3'000.0);
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  for (const double widen : {3.0, kNeverWiden}) {
+    CAPTURE(widen);
+    NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+    config.ekf.robust.enabled = false;
+    config.ekf.prediction_suspect_ratio = widen;
+    const RecordingSink sink = run(drive, config);
+    CHECK(worst_error(sink, there, 70.0, 120.0) < 5.0);
+  }
+}
+
+TEST_CASE("a filter locked out of all Dopplers is started anew, with codes good or not") {
+  SyntheticDrive drive = drive_of(90.0, 0.0, false);
+  // The oscillator's frequency steps by 50 m/s. Codes follow, as clock jumps.
+  for (RawEpoch& raw : drive.epochs) {
+    const double t = seconds(raw.time) - 40.0;
+    if (t <= 0.0) continue;
+    for (SignalObservation& o : raw.observations) {
+      o.pseudorange_m += 50.0 * t;
+      o.doppler_hz -= 50.0 / wavelength_m(o.satellite.system, o.code.band);
+    }
+  }
+  NavigatorConfig config = stage_config(drive.options, MotionModel::kConstantVelocity);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+  int dopplers = 0;
+  for (const AidingReport& aiding : sink.epochs.back().aiding)
+    if (aiding.observable == Observable::kDoppler && aiding.weight_factor > 0.5) ++dopplers;
+  CHECK(dopplers >= 6);
+  CHECK(worst_error(sink, drive, 50.0, 90.0) < 3.0);
+}
+
+TEST_CASE("a point solution that nothing checks does not overthrow the filter") {
+  SyntheticDrive drive = carried_away(90.0, 60.0, 3'000.0);
+  // Four satellites of one system are left: any four codes fit a position.
+  for (RawEpoch& raw : drive.epochs) {
+    if (seconds(raw.time) < 59.5) continue;
+    std::vector<SatelliteId> seen;
+    const auto surplus = [&](const SignalObservation& o) {
+      if (o.satellite.system != System::kGps) return true;
+      if (std::find(seen.begin(), seen.end(), o.satellite) == seen.end())
+        seen.push_back(o.satellite);
+      return seen.size() > 5;
+    };
+    auto& all = raw.observations;
+    all.erase(std::remove_if(all.begin(), all.end(), surplus), all.end());
+  }
+  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  CHECK(resets(run(drive, config)).empty());
+}
+
+TEST_CASE("numbers that overflow never reach the navigator, and the filter comes back") {
+  const SyntheticDrive drive = drive_of(60.0);
+  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  config.alignment.initial_heading = 0.0;
+  RecordingSink sink;
+  TimedMailbox<EkfUpdate> mailbox;
+  GnssStage stage(config, &mailbox, &sink);
+  for (const Ephemeris& ephemeris : drive.ephemerides) stage.process(GnssWork(ephemeris));
+  std::size_t next = 0;
+  std::uint64_t index = 0;
+  int valid = 0, broken = 0;
+  for (const RawEpoch& raw : drive.epochs) {
+    auto work = std::make_unique<EpochWork>();
+    work->index = ++index;
+    work->raw = raw;
+    while (next < drive.imu.size() && drive.imu[next].time <= raw.time)
+      work->block.push_back(drive.imu[next++]);
+    if (work->block.empty()) continue;
+    work->time = work->block.back().time;
+    const bool hostile = std::abs(seconds(work->time) - 20.0) < 0.5;
+    if (hostile) work->block.back().delta_velocity_b.setConstant(1e300);
+    mailbox.open(work->index);
+    stage.process(GnssWork(*work));
+    EkfUpdate update;
+    REQUIRE(mailbox.take(work->index, &update));
+    if (update.valid) {
+      ++valid;
+      CHECK(update.state.p_e.allFinite());
+      CHECK(update.covariance.allFinite());
+      CHECK(update.covariance.diagonal().maxCoeff() > 0.0);
+    } else if (hostile) {
+      ++broken;
+    }
+  }
+  CHECK(broken <= 1);
+  CHECK(valid >= 50);
+  REQUIRE(resets(sink).size() == 1);
+  CHECK(resets(sink)[0] == ResetCause::kNotFinite);
+  CHECK(stage.ekf().has_attitude());
+}
+
 TEST_CASE("as configured, the filter follows a vehicle that was carried away without a restart") {
   const SyntheticDrive there = drive_of(120.0, 3'000.0);
   const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
