@@ -91,6 +91,7 @@ bool Engine::finish() {
     no_more_outputs_.store(true, std::memory_order_release);
     out_wakeup_.notify();
     out_thread_.join();
+    journal_end();
     flush_journal(true);
   }
   finished_ = true;
@@ -173,6 +174,11 @@ void Engine::journal_configuration() {
       RunConfiguration{"leonavd " LEONAV_VERSION, source.name, source.text, source.overrides});
   write_journal({wall_clock_us(), static_cast<std::uint32_t>(bytes.size()), Channel::kConfig},
                 bytes);
+}
+
+void Engine::journal_end() {
+  const auto bytes = encode_journal_end(journal_ == nullptr ? 0 : journal_->events());
+  write_journal({wall_clock_us(), static_cast<std::uint32_t>(bytes.size()), Channel::kEnd}, bytes);
 }
 
 void Engine::write_out(const MessageHeader& header, ByteSpan bytes) {

@@ -73,6 +73,7 @@ class Engine final : private StageInputs {
   void run_out();
   bool drain_outputs();
   void journal_configuration();
+  void journal_end();
   void write_out(const MessageHeader& header, ByteSpan bytes);
   void write_journal(const MessageHeader& header, ByteSpan bytes);
   void flush_journal(bool sync);

@@ -25,9 +25,10 @@ enum class Channel : std::uint8_t {
   kEvent,
   kDecision,
   kHealth,
-  kConfig,  // in journals only
+  kConfig,  // in journals only: the first message
+  kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 12;
+inline constexpr std::size_t kChannelCount = 13;
 inline constexpr std::array<Channel, 6> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
     Channel::kOrbitClock, Channel::kIonosphere, Channel::kCommand};

@@ -1,6 +1,7 @@
 #include "drivers/lcm/run_configuration.h"
 
 #include <leonav/config_t.hpp>
+#include <leonav/end_t.hpp>
 #include <sstream>
 
 #include "drivers/lcm/wire.h"
@@ -48,6 +49,24 @@ std::optional<RunConfiguration> decode_run_configuration(ByteSpan bytes) {
   std::istringstream lines(message.overrides);
   for (std::string line; std::getline(lines, line);) configuration.overrides.push_back(line);
   return configuration;
+}
+
+std::vector<std::uint8_t> encode_journal_end(std::int64_t messages) {
+  end_t message{};
+  message.sequence = 1;
+  message.schema = wire::kSchema;
+  message.messages = messages;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+std::optional<std::int64_t> decode_journal_end(ByteSpan bytes) {
+  const int size = static_cast<int>(bytes.size());
+  end_t message{};
+  if (message.decode(bytes.data(), 0, size) != size) return std::nullopt;
+  if (message.schema != wire::kSchema) return std::nullopt;
+  return message.messages;
 }
 
 }  // namespace leonav

@@ -1,4 +1,5 @@
-// What a journal's run was made with, as the journal's first message.
+// What frames a journal: what its run was made with, as the first message, and that it was stopped
+// cleanly, as the last.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -20,5 +21,11 @@ std::vector<std::uint8_t> encode(const RunConfiguration& configuration);
 
 // nullopt: damaged, or of another schema.
 std::optional<RunConfiguration> decode_run_configuration(ByteSpan bytes);
+
+// `messages`: in the journal before this one.
+std::vector<std::uint8_t> encode_journal_end(std::int64_t messages);
+
+// The number of messages; nullopt: damaged, or of another schema.
+std::optional<std::int64_t> decode_journal_end(ByteSpan bytes);
 
 }  // namespace leonav

@@ -1,17 +1,21 @@
 // A journal is of use wherever it ends: every output stands behind the inputs that caused it.
-#include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <deque>
+#include <filesystem>
 #include <iostream>
 #include <leonav/imu_t.hpp>
 #include <leonav/solution_t.hpp>
 #include <vector>
 
 #include "core/navigator/pipeline.h"
+#include "daemon/config/load_config.h"
 #include "daemon/engine.h"
 #include "daemon/input_dispatch.h"
 #include "daemon/output_groups.h"
 #include "drive_inputs.h"
 #include "drivers/lcm/event_log.h"
+#include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
 
@@ -34,8 +38,8 @@ struct Queues final : MessageTarget {
 
 // As fast as it goes, so that messages wait in every ring to `out`: this is where an output could
 // overtake its cause.
-void record(const std::string& path, double duration_s) {
-  DaemonConfig config = test::drive_config();
+void record(const std::string& path, double duration_s,
+            DaemonConfig config = test::drive_config()) {
   config.journal.path = path;
   Discard target;
   Engine engine(config, &target);
@@ -122,4 +126,54 @@ TEST_CASE("whatever a journal holds, the inputs before it regenerate") {
   CHECK(outputs > 3'000);
   CHECK(without_cause == 0);
   CHECK(different == 0);
+}
+
+TEST_CASE("a journal cut between any two messages verifies; a clean one must hold every output") {
+  const std::string replay = LEONAV_BIN_DIR "/leonav-replay";
+  if (!std::filesystem::exists(replay)) {
+    std::cout << "SKIPPED: " << replay << " is not built\n";
+    return;
+  }
+  const test::TemporaryFile folder("unused", "");
+  DaemonConfig config = load_config(LEONAV_SOURCE_DIR "/config/drive_ins.yaml",
+                                    {"vehicle.lever_arm_b_m=[0.4, -0.2, -1.1]"});
+  config.threads = ThreadsConfig();
+  config.threads.lock_memory = false;
+  record(folder.beside("journal.lcmlog"), 15.0, config);
+  std::vector<LogEvent> events;
+  EventLogReader log(folder.beside("journal.lcmlog"));
+  for (LogEvent event; log.next(&event);) events.push_back(event);
+  const std::size_t all = events.size();
+  REQUIRE(all > 4'000);
+  CHECK(channel_from_name(events.back().channel) == Channel::kEnd);
+
+  const auto verify = [&](std::size_t kept) {
+    {
+      EventLogWriter cut(folder.beside("cut.lcmlog"));
+      for (std::size_t i = 0; i < kept; ++i) {
+        REQUIRE(cut.write(events[i].timestamp_us, events[i].channel, events[i].data));
+      }
+      REQUIRE(cut.flush());
+    }
+    return std::system((replay + " --verify --out '" + folder.beside("replay") + "' '" +
+                        folder.beside("cut.lcmlog") + "' >'" + folder.beside("text") + "' 2>&1")
+                           .c_str());
+  };
+  CHECK(verify(all) == 0);
+  for (const std::size_t lost : {1, 2, 3, 4, 10, 101, 202, 303, 404, 505, 1001, 2002}) {
+    INFO(lost);
+    CHECK(verify(all - lost) == 0);
+    CHECK(std::system(("grep -q 'the journal was cut; regenerated beyond its end' '" +
+                       folder.beside("text") + "'")
+                          .c_str()) == 0);
+  }
+  // The last solution left out of a journal that says it is complete.
+  std::size_t solution = all - 2;
+  while (channel_from_name(events[solution].channel) != Channel::kSolution) --solution;
+  events.erase(events.begin() + static_cast<std::ptrdiff_t>(solution));
+  events.back().data = encode_journal_end(static_cast<std::int64_t>(events.size() - 1));
+  CHECK(verify(events.size()) != 0);
+  CHECK(std::system(
+            ("grep -q 'outputs regenerated, but not recorded' '" + folder.beside("text") + "'")
+                .c_str()) == 0);
 }

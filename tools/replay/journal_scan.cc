@@ -2,6 +2,7 @@
 
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
+#include "drivers/lcm/run_configuration.h"
 
 namespace leonav {
 
@@ -25,13 +26,15 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   Decoder decoder;
   JournalScan scan;
   LogEvent event;
-  while (log.next(&event)) {
+  for (std::int64_t before = 0; log.next(&event); ++before) {
     const auto channel = channel_from_name(event.channel, prefix);
     if (!channel) {
       ++scan.other_messages;
+      scan.stopped_cleanly = false;
       continue;
     }
     ++scan.messages[index_of(*channel)];
+    scan.stopped_cleanly = *channel == Channel::kEnd && decode_journal_end(event.data) == before;
     if (*channel != Channel::kDecision) continue;
     Decision decision;
     if (decoder.decode(event.data, &decision).fault != InputFault::kNone) {

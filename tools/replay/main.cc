@@ -56,8 +56,8 @@ std::string verdict(const ReplayRun& run, const JournalScan& scan, const std::st
   if (const Verifier* verifier = run.verifier()) {
     out << "verified " << verifier->compared() << " outputs, " << verifier->differences()
         << " differences\n";
-    if (verifier->beyond_end() > 0 && scan.truncated) {
-      out << "regenerated beyond the cut end: " << verifier->beyond_end() << "\n";
+    if (!scan.stopped_cleanly) {
+      out << "the journal was cut; regenerated beyond its end: " << verifier->beyond_end() << "\n";
     }
     if (verifier->differences() > 0) {
       return "the replay differs from the journal: " + verifier->first_difference() +

@@ -32,7 +32,7 @@ void ReplayRun::run() {
     }
   }
   files_.close();
-  if (verifier_ != nullptr) verifier_->finish(scan_.truncated);
+  if (verifier_ != nullptr) verifier_->finish(scan_.stopped_cleanly);
 }
 
 void ReplayRun::on_solution(const Solution& solution) {

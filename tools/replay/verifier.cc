@@ -54,11 +54,11 @@ void Verifier::compare(std::size_t group, ByteSpan regenerated) {
   differ(group, what);
 }
 
-void Verifier::finish(bool journal_cut_short) {
+void Verifier::finish(bool complete) {
   for (std::size_t group = 0; group < groups_.size(); ++group) {
     while (next_recorded(group)) differ(group, "recorded, but not regenerated");
   }
-  if (beyond_end_ > 0 && !journal_cut_short) {
+  if (beyond_end_ > 0 && complete) {
     differences_ += beyond_end_;
     if (first_difference_.empty()) {
       first_difference_ = std::to_string(beyond_end_) + " outputs regenerated, but not recorded";

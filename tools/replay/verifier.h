@@ -18,12 +18,12 @@ class Verifier {
   Verifier(const std::string& journal, const std::string& prefix);
 
   void compare(std::size_t group, ByteSpan regenerated);
-  // After the last output. `journal_cut_short`: outputs may be missing at its end.
-  void finish(bool journal_cut_short);
+  // After the last output. `complete`: the journal was stopped cleanly, so that it must hold all.
+  void finish(bool complete);
 
   std::uint64_t compared() const { return compared_; }
   std::uint64_t differences() const { return differences_; }
-  // Outputs that a journal cut short no longer holds.
+  // Outputs that a journal that was cut does not hold.
   std::uint64_t beyond_end() const { return beyond_end_; }
   // In words; empty: none.
   const std::string& first_difference() const { return first_difference_; }

@@ -38,3 +38,14 @@ TEST_CASE("A run's configuration survives the journal; damage is refused") {
   other_schema[27] = 9;
   CHECK_FALSE(decode_run_configuration(other_schema).has_value());
 }
+
+TEST_CASE("the end of a journal is read back, and refused where damaged") {
+  const auto bytes = leonav::encode_journal_end(123'456'789'012);
+  CHECK(leonav::decode_journal_end(bytes) == 123'456'789'012);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    CHECK_FALSE(leonav::decode_journal_end(ByteSpan(bytes).first(size)).has_value());
+  }
+  std::vector<std::uint8_t> other_schema = bytes;
+  other_schema[27] = 9;
+  CHECK_FALSE(leonav::decode_journal_end(other_schema).has_value());
+}
