@@ -39,7 +39,7 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
     sched_param parameters{};
     parameters.sched_priority = config.priority;
     if (const int error = pthread_setschedparam(thread_, SCHED_FIFO, &parameters)) {
-      refused += "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(error) + "; ";
+      refused += "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(error);
     }
   }
   if (config.cpu >= 0) {
@@ -47,8 +47,8 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
     CPU_ZERO(&cpus);
     CPU_SET(static_cast<unsigned>(config.cpu), &cpus);
     if (const int error = pthread_setaffinity_np(thread_, sizeof cpus, &cpus)) {
-      refused += "thread " + name + ": not pinned to processor " + std::to_string(config.cpu) +
-                 ": " + std::strerror(error) + "; ";
+      refused += (refused.empty() ? "thread " : "; thread ") + name + ": not pinned to processor " +
+                 std::to_string(config.cpu) + ": " + std::strerror(error);
     }
   }
   return refused;

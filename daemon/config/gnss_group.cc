@@ -58,6 +58,7 @@ void read_catalog(ConfigReader& group, CatalogOptions* config) {
 void read_systems(ConfigReader& group, GnssConfig* config) {
   std::vector<std::string> names;
   if (!group.list("systems", &names)) return;
+  if (names.empty()) group.fail("systems", "name at least one of gps, galileo, beidou, leo");
   for (SystemConfig& system : config->systems) system.enabled = false;
   for (const std::string& name : names) {
     const auto system = system_from_string(name);

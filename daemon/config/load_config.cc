@@ -86,6 +86,15 @@ ImuErrorModel default_imu() {
   return imu;
 }
 
+// liblcm subscribes by regular expressions, in which other characters have meanings of their own.
+void check_prefix(const ConfigReader& group, const std::string& prefix) {
+  for (const char c : prefix) {
+    const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-';
+    if (!plain) group.fail("prefix", "only letters, digits, '_' and '-' may be in it");
+  }
+}
+
 DaemonConfig read_root(ConfigReader& root) {
   DaemonConfig config;
   NavigatorConfig& navigator = config.navigator;
@@ -100,7 +109,10 @@ DaemonConfig read_root(ConfigReader& root) {
   root.group("ekf", [&](ConfigReader& r) { read_ekf(r, &navigator); });
   root.group("robust", [&](ConfigReader& r) { read_robust(r, &navigator.ekf.robust); });
   root.group("realtime", [&](ConfigReader& r) { read_realtime(r, &navigator, &config.threads); });
-  root.group("lcm", [&](ConfigReader& r) { read_lcm(r, &config.lcm); });
+  root.group("lcm", [&](ConfigReader& r) {
+    read_lcm(r, &config.lcm);
+    check_prefix(r, config.lcm.prefix);
+  });
   root.group("journal", [&](ConfigReader& r) { read_journal(r, &config.journal); });
   root.finish();
   return config;

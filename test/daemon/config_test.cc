@@ -32,6 +32,14 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
         "car.yaml:1: gnss: expected a group of keys (\"key: value\" lines)");
   CHECK(error_of("gnss:\n  systems: [gps, glonass]\n") ==
         "car.yaml:2: gnss.systems: 'glonass' is not one of gps, galileo, beidou, leo");
+  CHECK(error_of("gnss:\n  systems: []\n") ==
+        "car.yaml:2: gnss.systems: name at least one of gps, galileo, beidou, leo");
+  for (const char* prefix : {"CAR.", "(A|B)_", "CAR*", "CAR 1_"}) {
+    INFO(prefix);
+    CHECK(error_of("lcm:\n  prefix: \"" + std::string(prefix) + "\"\n") ==
+          "car.yaml:2: lcm.prefix: only letters, digits, '_' and '-' may be in it");
+  }
+  CHECK(load_config_text("lcm:\n  prefix: Car-1_\n", "x").lcm.prefix == "Car-1_");
   CHECK(error_of("robust:\n  k0: 5\n  k1: 2\n") ==
         "car.yaml:3: robust.k1: must be greater than k0");
   CHECK(error_of("robust:\n  k0: 1\n  k0: 2\n").find("given twice") != std::string::npos);
