@@ -1,5 +1,6 @@
 // A third of the epochs miss their deadline, forced: the answers go on, each miss is told, and the
 // journal replays byte for byte.
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -99,9 +100,11 @@ TEST_CASE("a third of the epochs miss: answers go on, all is told, and it replay
     if (must_miss(epoch)) expected.insert(epoch);
   }
   CHECK(expected.size() >= 19);
-  CHECK(observer.missed == expected);
-  CHECK(observer.missed_by_event == expected);
-  CHECK(observer.commits == observer.last_decided - expected.size());
+  // A busy machine may miss more: those too must be told and replay.
+  CHECK(std::includes(observer.missed.begin(), observer.missed.end(), expected.begin(),
+                      expected.end()));
+  CHECK(observer.missed_by_event == observer.missed);
+  CHECK(observer.commits == observer.last_decided - observer.missed.size());
   REQUIRE(observer.solution_times.size() > 9'000);
   std::int64_t longest = 0;
   for (std::size_t i = 1; i < observer.solution_times.size(); ++i) {
