@@ -8,6 +8,7 @@
 #include "core/navigator/pipeline.h"
 #include "recording_sink.h"
 #include "support/catch.h"
+#include "support/navigator_config.h"
 #include "support/synthetic_drive.h"
 
 namespace leonav::test {
@@ -16,21 +17,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // A filter that never widens its covariance must be restarted where its prediction is wrong.
 constexpr double kNeverWiden = 1e9;
-
-NavigatorConfig stage_config(const SyntheticDriveOptions& options, MotionModel motion) {
-  NavigatorConfig config;
-  config.motion = motion;
-  config.gnss = default_gnss_config();
-  for (SystemConfig& system : config.gnss.systems) system.enabled = true;
-  config.vehicle.lever_arm_b = options.lever_arm_b;
-  config.imu.angle_random_walk = 1e-4;
-  config.imu.velocity_random_walk = 1e-3;
-  config.imu.gyro_bias = {1e-4, 3600.0};
-  config.imu.accel_bias = {0.01, 3600.0};
-  config.imu.gyro_scale = {1e-4, 3600.0};
-  config.imu.accel_scale = {1e-4, 3600.0};
-  return config;
-}
 
 SyntheticDrive drive_of(double duration_s, double east_m = 0.0, bool imu = true) {
   SyntheticDriveOptions options;
@@ -127,7 +113,7 @@ TEST_CASE("a satellite off by 100 km in mid-run is named an outlier and costs no
     for (const double error_m : {1e5, -1e5, 300.0}) {
       CAPTURE(static_cast<int>(motion), error_m);
       SyntheticDrive drive = drive_of(60.0);
-      const NavigatorConfig config = stage_config(drive.options, motion);
+      const NavigatorConfig config = drive_navigator_config(drive.options, motion);
       const RecordingSink clean = run(drive, config);
       const SatelliteId victim = victim_of(clean);
       damage(&drive, 30.0, 40.5, [&](SignalObservation* o) {
@@ -158,7 +144,7 @@ TEST_CASE("observations that are no numbers cost themselves; an epoch of nothing
   for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -1.0, 0.0, 1e300}) {
     CAPTURE(bad);
     SyntheticDrive drive = drive_of(60.0);
-    const NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+    const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
     const RecordingSink clean = run(drive, config);
     const SatelliteId victim = victim_of(clean);
     damage(&drive, 30.0, 40.5, [&](SignalObservation* o) {
@@ -185,7 +171,7 @@ TEST_CASE("a start with a satellite off by 100 km excludes it, robust weighting 
   for (const bool robust : {true, false}) {
     CAPTURE(robust);
     SyntheticDrive drive = drive_of(20.0, 0.0, false);
-    NavigatorConfig config = stage_config(drive.options, MotionModel::kConstantVelocity);
+    NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
     config.ekf.robust.enabled = robust;
     const SatelliteId victim = victim_of(run(drive, config));
     damage(&drive, 0.0, 1.5, [&](SignalObservation* o) {
@@ -207,7 +193,7 @@ TEST_CASE("a start with a satellite off by 100 km excludes it, robust weighting 
 TEST_CASE("a wrong prediction restarts the filter, which keeps its attitude the first time") {
   const SyntheticDrive there = drive_of(120.0, 3'000.0);
   const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
-  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   config.ekf.prediction_suspect_ratio = kNeverWiden;
   const RecordingSink sink = run(drive, config);
   CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
@@ -232,7 +218,7 @@ TEST_CASE("a second wrong prediction within a minute gives up the attitude too")
   for (std::size_t k = 0; k < drive.epochs.size(); ++k) {
     if (seconds(drive.epochs[k].time) >= 70.0) drive.epochs[k] = there.epochs[k];
   }
-  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   config.ekf.prediction_suspect_ratio = kNeverWiden;
   const RecordingSink sink = run(drive, config);
   CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction, ResetCause::kPrediction});
@@ -246,7 +232,7 @@ TEST_CASE("without robust weights a vehicle carried away is found again, widenin
   const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
   for (const double widen : {3.0, kNeverWiden}) {
     CAPTURE(widen);
-    NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+    NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
     config.ekf.robust.enabled = false;
     config.ekf.prediction_suspect_ratio = widen;
     const RecordingSink sink = run(drive, config);
@@ -265,7 +251,7 @@ TEST_CASE("a filter locked out of all Dopplers is started anew, with codes good 
       o.doppler_hz -= 50.0 / wavelength_m(o.satellite.system, o.code.band);
     }
   }
-  NavigatorConfig config = stage_config(drive.options, MotionModel::kConstantVelocity);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
   config.ekf.prediction_suspect_ratio = kNeverWiden;
   const RecordingSink sink = run(drive, config);
   CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
@@ -291,14 +277,14 @@ TEST_CASE("a point solution that nothing checks does not overthrow the filter") 
     auto& all = raw.observations;
     all.erase(std::remove_if(all.begin(), all.end(), surplus), all.end());
   }
-  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   config.ekf.prediction_suspect_ratio = kNeverWiden;
   CHECK(resets(run(drive, config)).empty());
 }
 
 TEST_CASE("numbers that overflow never reach the navigator, and the filter comes back") {
   const SyntheticDrive drive = drive_of(60.0);
-  NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   config.alignment.initial_heading = 0.0;
   RecordingSink sink;
   TimedMailbox<EkfUpdate> mailbox;
@@ -340,7 +326,8 @@ TEST_CASE("numbers that overflow never reach the navigator, and the filter comes
 TEST_CASE("as configured, the filter follows a vehicle that was carried away without a restart") {
   const SyntheticDrive there = drive_of(120.0, 3'000.0);
   const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
-  const RecordingSink sink = run(drive, stage_config(drive.options, MotionModel::kInertial));
+  const RecordingSink sink =
+      run(drive, drive_navigator_config(drive.options, MotionModel::kInertial));
   CHECK(worst_error(sink, there, 70.0, 120.0) < 5.0);
 }
 
@@ -349,7 +336,8 @@ TEST_CASE("after an outage that leaves the position unknown, the first epoch sta
   std::erase_if(drive.epochs, [](const RawEpoch& raw) {
     return seconds(raw.time) > 60.5 && seconds(raw.time) < 799.5;
   });
-  const NavigatorConfig config = stage_config(drive.options, MotionModel::kConstantVelocity);
+  const NavigatorConfig config =
+      drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
   const RecordingSink sink = run(drive, config);
   CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kOutage});
   CHECK(sink.solutions.size() == drive.epochs.size());
@@ -371,7 +359,7 @@ TEST_CASE("an outage that ends in faults does not start anew from them") {
     raw.observations.erase(end, raw.observations.end());
   }
   const RecordingSink sink =
-      run(drive, stage_config(drive.options, MotionModel::kConstantVelocity));
+      run(drive, drive_navigator_config(drive.options, MotionModel::kConstantVelocity));
   for (const EpochReport& report : sink.epochs) {
     const double t = seconds(report.time);
     if (t < 799.5 || t > 805.5) continue;
@@ -387,7 +375,7 @@ TEST_CASE("an outage that ends in faults does not start anew from them") {
 
 TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
   const SyntheticDrive drive = drive_of(90.0);
-  const NavigatorConfig config = stage_config(drive.options, MotionModel::kInertial);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   for (const bool heading_given : {false, true}) {
     CAPTURE(heading_given);
     RecordingSink sink;

@@ -4,24 +4,11 @@
 #include "core/navigator/pipeline.h"
 #include "recording_sink.h"
 #include "support/catch.h"
+#include "support/navigator_config.h"
 #include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
-
-NavigatorConfig drive_config(const SyntheticDriveOptions& options) {
-  NavigatorConfig config;
-  config.gnss = default_gnss_config();
-  for (SystemConfig& system : config.gnss.systems) system.enabled = true;
-  config.vehicle.lever_arm_b = options.lever_arm_b;
-  config.imu.angle_random_walk = 1e-4;
-  config.imu.velocity_random_walk = 1e-3;
-  config.imu.gyro_bias = {1e-4, 3600.0};
-  config.imu.accel_bias = {0.01, 3600.0};
-  config.imu.gyro_scale = {1e-4, 3600.0};
-  config.imu.accel_scale = {1e-4, 3600.0};
-  return config;
-}
 
 // As a product tells it: the relativistic part of the orbit's eccentricity is left to the user.
 PreciseState node_of(const Ephemeris& ephemeris, GpsTime time) {
@@ -49,7 +36,7 @@ TEST_CASE("LEO satellites known by precise states alone take part in the whole p
   REQUIRE(leo.size() == 182);
 
   RecordingSink sink;
-  Pipeline pipeline(drive_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   Sequencer& sequencer = pipeline.sequencer();
   // Nodes every 30 s, each 180 s before its time.
   double next_node_s = -180.0;

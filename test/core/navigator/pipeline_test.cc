@@ -8,24 +8,11 @@
 #include "recording_sink.h"
 #include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "support/navigator_config.h"
 #include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
-
-NavigatorConfig test_config(const SyntheticDriveOptions& options) {
-  NavigatorConfig config;
-  config.gnss = default_gnss_config();
-  for (SystemConfig& system : config.gnss.systems) system.enabled = true;
-  config.vehicle.lever_arm_b = options.lever_arm_b;
-  config.imu.angle_random_walk = 1e-4;
-  config.imu.velocity_random_walk = 1e-3;
-  config.imu.gyro_bias = {1e-4, 3600.0};
-  config.imu.accel_bias = {0.01, 3600.0};
-  config.imu.gyro_scale = {1e-4, 3600.0};
-  config.imu.accel_scale = {1e-4, 3600.0};
-  return config;
-}
 
 void run(const SyntheticDrive& drive, double latency_s, Pipeline* pipeline) {
   Sequencer& sequencer = pipeline->sequencer();
@@ -76,7 +63,7 @@ TEST_CASE("the whole pipeline finds the truth of a synthetic drive") {
   options.duration_s = 90.0;
   const SyntheticDrive drive = synthetic_drive(options);
   RecordingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   run(drive, 0.06, &pipeline);
   // The epoch at 90 s arrives after the drive's end.
   CHECK(sink.epochs.size() == 89);
@@ -111,7 +98,7 @@ TEST_CASE("with noise the errors are what the sigmas say") {
   options.accel_bias_b << 0.005, -0.005, 0.01;
   const SyntheticDrive drive = synthetic_drive(options);
   RecordingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   run(drive, 0.06, &pipeline);
   const Errors worst = errors_after(sink, drive, 60.0);
   CHECK(worst.position < 4.0);
@@ -132,7 +119,7 @@ TEST_CASE("with noise the errors are what the sigmas say") {
 
 TEST_CASE("a run replays bit for bit, recorded misses included") {
   const SyntheticDrive drive = synthetic_drive(short_drive());
-  const NavigatorConfig config = test_config(drive.options);
+  const NavigatorConfig config = drive_navigator_config(drive.options);
   RecordingSink first, second, undisturbed;
   for (RecordingSink* sink : {&first, &second}) {
     Pipeline pipeline(config, sink);
@@ -166,7 +153,7 @@ TEST_CASE("an outage of twenty seconds: empty epochs, ins, and back without a re
     return seconds(raw.time) > 45.0 && seconds(raw.time) < 65.0;
   });
   RecordingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   run(drive, 0.06, &pipeline);
   CHECK(pipeline.sequencer().counters().empty_epochs >= 18);
   CHECK(sink.count(EventKind::kEmptyEpoch) == 16);  // then only every 256th: counters have the rest
@@ -188,7 +175,7 @@ TEST_CASE("before any ephemeris every epoch still reports its satellites and why
   SyntheticDrive drive = synthetic_drive(options);
   drive.ephemerides.clear();
   RecordingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   run(drive, 0.06, &pipeline);
   CHECK(sink.epochs.size() == 5);
   CHECK(sink.solutions.empty());
@@ -204,7 +191,7 @@ TEST_CASE("before any ephemeris every epoch still reports its satellites and why
 
 TEST_CASE("without IMU the GNSS stage publishes one solution per epoch") {
   const SyntheticDrive drive = synthetic_drive(short_drive());
-  NavigatorConfig config = test_config(drive.options);
+  NavigatorConfig config = drive_navigator_config(drive.options);
   config.motion = MotionModel::kConstantVelocity;
   RecordingSink sink;
   Pipeline pipeline(config, &sink);
@@ -225,7 +212,7 @@ TEST_CASE("a restart forgets, a heading from outside aligns at a standstill") {
   options.standstill_s = 1000.0;
   const SyntheticDrive drive = synthetic_drive(options);
   RecordingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   const double truth_yaw = std::atan2(100.0, 100.0);
   Sequencer& sequencer = pipeline.sequencer();
   std::size_t seen = 0;
@@ -263,7 +250,7 @@ TEST_CASE("once constructed, the stages allocate nothing") {
     return seconds(raw.time) > 30.0 && seconds(raw.time) < 40.0;
   });
   CountingSink sink;
-  Pipeline pipeline(test_config(options), &sink);
+  Pipeline pipeline(drive_navigator_config(options), &sink);
   start_counting_allocations();
   run(drive, 0.06, &pipeline);
   pipeline.sequencer().on_command({CommandKind::kSetHeading, 0.5, 0.1});
