@@ -42,7 +42,7 @@ struct EngineCounters {
   // io
   std::array<Gauge, kInputChannels.size()> received, lost;
   std::array<Gauge, 16> rejected;  // by InputFault
-  Gauge empty_epochs, late_epochs, imu_gaps;
+  Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps;
   // ins, or gnss where that publishes
   Gauge solution_time_ns, source, commits, misses, worst_tick_ns;
   // gnss

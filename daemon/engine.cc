@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "daemon/journal_path.h"
 #include "drivers/lcm/run_configuration.h"
 
 namespace leonav {
@@ -38,10 +39,6 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
   for (std::size_t i = 0; i < kChannelCount; ++i) {
     channel_names_.push_back(channel_name(static_cast<Channel>(i), config.lcm.prefix));
   }
-  if (!config.journal.path.empty()) {
-    journal_ = std::make_unique<EventLogWriter>(config.journal.path);
-    journal_configuration();
-  }
   for (Gauge& age : counters_.ephemeris_age_ms) age.set(-1);
 }
 
@@ -49,6 +46,11 @@ Engine::~Engine() { finish(); }
 
 std::vector<std::string> Engine::start() {
   std::vector<std::string> refused;
+  if (!config_.journal.path.empty()) {
+    config_.journal.path = claim_journal_path(config_.journal.path);
+    journal_ = std::make_unique<EventLogWriter>(config_.journal.path);
+    journal_configuration();
+  }
   const ThreadsConfig& threads = config_.threads;
   if (threads.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     refused.push_back(std::string("memory is not locked: ") + std::strerror(errno));
@@ -227,6 +229,8 @@ void Engine::update_io_counters() {
   for (std::size_t i = 0; i < sequencer.rejected.size(); ++i) {
     counters_.rejected[i].set(static_cast<std::int64_t>(sequencer.rejected[i]));
   }
+  counters_.accepted_imu.set(static_cast<std::int64_t>(sequencer.imu));
+  counters_.accepted_epochs.set(static_cast<std::int64_t>(sequencer.epochs));
   counters_.empty_epochs.set(static_cast<std::int64_t>(sequencer.empty_epochs));
   counters_.late_epochs.set(static_cast<std::int64_t>(sequencer.late_epochs));
   counters_.imu_gaps.set(static_cast<std::int64_t>(sequencer.imu_gaps));

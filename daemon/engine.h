@@ -29,12 +29,13 @@ struct EngineHooks {
 // io -> ins, io -> gnss, and from io, ins, gnss and the caller of publish() (`main`) to out.
 class Engine final : private StageInputs {
  public:
-  // `target` gets every output, in the `out` thread. Throws EventLogError if the journal cannot be
-  // created.
+  // `target` gets every output, in the `out` thread.
   Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks = {});
   ~Engine() override;
 
-  // Starts the threads. Returns what the system refused (priorities, ...); empty: nothing.
+  // Opens the journal and starts the threads. Throws EventLogError if the journal cannot be
+  // created; one that exists is left alone, see journal_path(). Returns what the system refused
+  // (priorities, ...); empty: nothing.
   std::vector<std::string> start();
 
   // An input as it came. One thread; waits while the stages are behind, drops nothing.
@@ -59,6 +60,8 @@ class Engine final : private StageInputs {
   RingStatistics inertial_ring() const { return inertial_ring_.statistics(); }
   RingStatistics gnss_ring() const { return gnss_ring_.statistics(); }
   RingStatistics out_ring() const;  // the worst of those to `out`
+  // After start(): where the journal is written; empty: nowhere.
+  const std::string& journal_path() const { return config_.journal.path; }
   // Valid once counters().journal_failed is set.
   const std::string& journal_error() const { return journal_error_; }
 

@@ -14,6 +14,19 @@
 namespace leonav {
 namespace {
 
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
+constexpr double kImuSilence_s = 0.9;           // next() comes once a second
+constexpr double kIntervalsTolerated = 2.5;     // as until the answer counts as INS only
+constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
+// As the longest hole over which the inertial answer is carried.
+constexpr double kAnswerLife_s = 10.0;
+constexpr double kIntervalsUntilFault = 10.0;
+
+double solution_interval(const NavigatorConfig& config) {
+  if (config.motion != MotionModel::kInertial) return config.realtime.epoch_interval_s;
+  return config.solution_rate_hz > 0.0 ? 1.0 / config.solution_rate_hz : kNever_s;
+}
+
 double resident_megabytes() {
   std::FILE* file = std::fopen("/proc/self/statm", "r");
   if (file == nullptr) return 0.0;
@@ -60,8 +73,20 @@ void add_counts(EngineCounters* counters, health_t* message) {
 
 }  // namespace
 
-std::span<const std::uint8_t> HealthMonitor::next() {
-  judge();
+// An input that ends is a fault by its consequence only: without GNSS the inertial answer goes on.
+HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
+    : engine_(engine),
+      expects_imu_(config.motion == MotionModel::kInertial),
+      imu_{"usable IMU", kImuSilence_s, kNever_s},
+      gnss_{"usable GNSS", kIntervalsTolerated * config.realtime.epoch_interval_s, kNever_s},
+      solution_{
+          "solution",
+          std::max(kShortestSolutionGap_s, kIntervalsTolerated * solution_interval(config)),
+          std::max(kAnswerLife_s, kIntervalsUntilFault * solution_interval(config)),
+      } {}
+
+std::span<const std::uint8_t> HealthMonitor::next(double now_s) {
+  judge(now_s);
   EngineCounters& counters = engine_->counters();
   health_t message{};
   message.time_ns = counters.solution_time_ns.get();
@@ -69,7 +94,9 @@ std::span<const std::uint8_t> HealthMonitor::next() {
   message.schema = wire::kSchema;
   message.status = status_;
   message.why = why_;
-  message.source = std::string(to_string(static_cast<Source>(counters.source.get())));
+  // The last solution's, unless that is worth nothing any more.
+  message.source = std::string(
+      to_string(solution_.dead ? Source::kNone : static_cast<Source>(counters.source.get())));
   message.ekf_misses = counters.misses.get();
   message.worst_tick_us = static_cast<double>(counters.worst_tick_ns.take()) * 1e-3;
   message.worst_ekf_ms = static_cast<double>(counters.worst_epoch_ns.take()) * 1e-6;
@@ -85,37 +112,58 @@ std::span<const std::uint8_t> HealthMonitor::next() {
         age_ms < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(age_ms) * 1e-3;
   }
   message.memory_mb = resident_megabytes();
-  message.uptime_s = static_cast<double>(uptime_.nanoseconds()) * 1e-9;
+  message.uptime_s = now_s;
   add_counts(&counters, &message);
   bytes_.resize(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes_.data(), 0, static_cast<int>(bytes_.size()));
   return bytes_;
 }
 
-void HealthMonitor::judge() {
+void HealthMonitor::judge(double now_s) {
   status_ = "OK";
   why_.clear();
   EngineCounters& counters = engine_->counters();
-  const std::int64_t imu = counters.received[index_of(Channel::kImu)].get();
-  const std::int64_t epochs = counters.received[index_of(Channel::kGnssEpoch)].get();
   const std::int64_t misses = counters.misses.get(), lost = sum(counters.lost);
   const std::uint64_t waits =
       engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
   if (counters.journal_failed.get() != 0) worsen("FAULT", "journal: " + engine_->journal_error());
-  const auto source = static_cast<Source>(counters.source.get());
-  if (source == Source::kNone) worsen("FAULT", "no solution yet");
-  if (source == Source::kAligning) worsen("DEGRADED", "aligning");
-  if (source == Source::kInsOnly) worsen("DEGRADED", "INS only");
-  if (expects_imu_ && imu == last_imu_) worsen("DEGRADED", "no IMU in the last second");
-  // GNSS may come as seldom as it is configured; only one that never came is a fault by itself.
-  if (epochs == 0) worsen("DEGRADED", "no GNSS yet");
+  judge_solution(now_s);
+  if (expects_imu_) judge_stream(counters.accepted_imu.get(), now_s, &imu_);
+  judge_stream(counters.accepted_epochs.get(), now_s, &gnss_);
   if (misses > last_misses_) worsen("DEGRADED", "deadline missed");
   if (lost > last_lost_) worsen("DEGRADED", "inputs lost before they got here");
   if (waits > last_waits_) worsen("DEGRADED", "a queue was full");
-  last_imu_ = imu;
   last_misses_ = misses;
   last_lost_ = lost;
   last_waits_ = waits;
+}
+
+void HealthMonitor::judge_solution(double now_s) {
+  EngineCounters& counters = engine_->counters();
+  const auto source = static_cast<Source>(counters.source.get());
+  if (source == Source::kNone) {
+    worsen("FAULT", "no solution yet");
+    return;
+  }
+  judge_stream(counters.solution_time_ns.get(), now_s, &solution_);
+  if (solution_.dead) return;  // then the last source says nothing
+  if (source == Source::kAligning) worsen("DEGRADED", "aligning");
+  if (source == Source::kInsOnly) {
+    worsen("DEGRADED", expects_imu_ ? "INS only" : "prediction without GNSS");
+  }
+}
+
+void HealthMonitor::judge_stream(std::int64_t number, double now_s, Stream* stream) {
+  if (number != stream->number) {
+    stream->number = number;
+    stream->last_s = now_s;
+  }
+  const double silent_s = now_s - stream->last_s;
+  stream->dead = silent_s > stream->fault_after_s;
+  if (silent_s <= stream->degraded_after_s) return;
+  worsen(stream->dead ? "FAULT" : "DEGRADED",
+         "no " + std::string(stream->name) + " for " +
+             std::to_string(static_cast<std::int64_t>(std::llround(silent_s))) + " s");
 }
 
 void HealthMonitor::worsen(const char* status, const std::string& reason) {

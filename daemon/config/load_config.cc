@@ -43,6 +43,9 @@ void apply_override(const std::string& text, YAML::Node root) {
   bool good = equals != std::string::npos && !keys.empty();
   for (const std::string& key : keys) good = good && !key.empty();
   if (!good) throw ConfigError("--set " + text + ": expected group.key=value");
+  // A journal holds one override in a line.
+  if (text.find('\n') != std::string::npos)
+    throw ConfigError("--set " + path + ": more than a line");
   YAML::Node value;
   try {
     value = YAML::Load(text.substr(equals + 1));
@@ -123,6 +126,21 @@ DaemonConfig read_root(ConfigReader& root) {
 DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides,
                          std::vector<std::string>* absent) {
   return load_config_text(read_file(path), path, overrides, absent);
+}
+
+std::string text_override(const std::string& key, const std::string& value) {
+  static constexpr std::string_view kHex = "0123456789abcdef";
+  std::string text = key + "=\"";
+  for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      text += {'\\', 'x', kHex[byte >> 4], kHex[byte & 0xf]};
+    } else {
+      if (c == '"' || c == '\\') text += '\\';
+      text += c;
+    }
+  }
+  return text + "\"";
 }
 
 DaemonConfig load_config_text(const std::string& text, const std::string& name,

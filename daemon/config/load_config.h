@@ -9,8 +9,7 @@
 namespace leonav {
 
 // what() is "FILE:LINE: group.key: what is wrong; what to do". For a value given on the command
-// line
-// "--set group.key" stands in place of file and line.
+// line "--set group.key" stands in place of file and line.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,6 +21,9 @@ class ConfigError : public std::runtime_error {
 // receives every known key that the file left at its default.
 DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {},
                          std::vector<std::string>* absent = nullptr);
+
+// The override that sets `key` to exactly `value`, which YAML would otherwise read in its own way.
+std::string text_override(const std::string& key, const std::string& value);
 
 // The same from text; `name` stands for the file in errors.
 DaemonConfig load_config_text(const std::string& text, const std::string& name,

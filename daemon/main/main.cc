@@ -68,9 +68,13 @@ int run(const DaemonConfig& config) {
   });
   if (!refused.empty()) spdlog::warn("{}", refused);
   spdlog::info("running; LCM {}, channels {}*, journal {}", config.lcm.url, config.lcm.prefix,
-               config.journal.path.empty() ? "off" : config.journal.path);
+               engine.journal_path().empty() ? "off" : engine.journal_path());
+  if (engine.journal_path() != config.journal.path) {
+    spdlog::warn("journal {} exists and is kept; writing {}", config.journal.path,
+                 engine.journal_path());
+  }
 
-  HealthMonitor health(&engine, config.navigator.motion == MotionModel::kInertial);
+  HealthMonitor health(&engine, config.navigator);
   supervise(&engine, &health, io_failed);
 
   std::signal(SIGTERM, SIG_DFL);
@@ -92,6 +96,19 @@ int run(const DaemonConfig& config) {
   return 0;
 }
 
+// The configuration file with everything the command line changes in it, so that a journal holds it
+// all.
+DaemonConfig configuration(const Arguments& arguments) {
+  std::vector<std::string> overrides = arguments.all("--set");
+  if (arguments.has("--lcm-url")) {
+    overrides.push_back(text_override("lcm.url", arguments.get("--lcm-url")));
+  }
+  if (arguments.has("--journal")) {
+    overrides.push_back(text_override("journal.path", arguments.get("--journal")));
+  }
+  return load_config(arguments.required("--config"), overrides);
+}
+
 int daemon_main(int argc, char** argv) {
   Arguments arguments("leonavd", "--config FILE [options]",
                       "The navigation daemon: takes IMU and GNSS from LCM, publishes position, "
@@ -100,17 +117,16 @@ int daemon_main(int argc, char** argv) {
                       "while running, 2 command line, 3 configuration, 4 LCM, 5 journal.");
   arguments.option("--config", "FILE", "configuration; config/ has commented examples")
       .option("--lcm-url", "URL", "instead of lcm.url")
-      .option("--journal", "FILE", "instead of journal.path; an LCM log that replays bit for bit")
+      .option("--journal", "FILE",
+              "instead of journal.path; an LCM log that replays bit for bit; a file "
+              "that exists is kept, and FILE.1, FILE.2, ... written")
       .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
   if (!arguments.parse(argc, argv)) return 0;
   if (!arguments.positional().empty()) {
     throw UsageError("unexpected argument '" + arguments.positional().front() +
                      "' (leonavd --help)");
   }
-  DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
-  if (arguments.has("--lcm-url")) config.lcm.url = arguments.get("--lcm-url");
-  if (arguments.has("--journal")) config.journal.path = arguments.get("--journal");
-  return run(config);
+  return run(configuration(arguments));
 }
 
 int guarded_main(int argc, char** argv) {

@@ -9,6 +9,7 @@ namespace {
 using leonav::ConfigError;
 using leonav::load_config;
 using leonav::load_config_text;
+using leonav::text_override;
 
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -67,6 +68,21 @@ TEST_CASE("overrides are judged like the file") {
   CHECK(error_of(text, {"gnss.sistems=[gps]"}).find("--set gnss.sistems: unknown key") == 0);
   CHECK(error_of(text, {"gnss.elevation_mask_deg=200"}).find("--set gnss.elevation") == 0);
   CHECK(error_of(text, {"nonsense"}).find("group.key=value") != std::string::npos);
+}
+
+TEST_CASE("a text given as an override arrives as it is, and is judged") {
+  const std::string text = "journal:\n  path: from_file\n";
+  for (const std::string path :
+       {"", "plain.journal", "a: b", "~", "[x]", "it's", "say \"so\"", "back\\slash", "two\nlines",
+        "tab\there", "#1", "caf\xc3\xa9", "\xff\x04", " blank "}) {
+    INFO(path);
+    const std::string one = text_override("journal.path", path);
+    CHECK(one.find('\n') == std::string::npos);
+    CHECK(load_config_text(text, "x", {one}).journal.path == path);
+  }
+  CHECK(error_of(text, {text_override("lcm.url", "tcpq://host")}).find("--set lcm.url: tcpq") == 0);
+  CHECK(error_of(text, {text_override("lcm.url", "")}) == "--set lcm.url: must not be empty");
+  CHECK(error_of(text, {"gnss.systems=[gps,\ngalileo]"}) == "--set gnss.systems: more than a line");
 }
 
 TEST_CASE("data-sheet units become SI") {

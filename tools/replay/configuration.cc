@@ -10,15 +10,24 @@ namespace {
 
 constexpr const char* kThisProgram = "leonavd " LEONAV_VERSION;
 
+// Without the overrides that cannot change an answer.
+std::vector<std::string> navigation_only(std::vector<std::string> overrides) {
+  std::erase_if(overrides, [](const std::string& one) {
+    return one.starts_with("lcm.url=") || one.starts_with("journal.");
+  });
+  return overrides;
+}
+
 std::string compare(const RunConfiguration& recorded, const ConfigText& used) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
   if (recorded.text != used.text) {
     add("the journal was written with another text of configuration (" + recorded.name + ")");
   }
-  if (recorded.overrides != used.overrides) {
+  const auto recorded_overrides = navigation_only(recorded.overrides);
+  if (recorded_overrides != navigation_only(used.overrides)) {
     std::string list;
-    for (const std::string& one : recorded.overrides) list += " --set " + one;
+    for (const std::string& one : recorded_overrides) list += " --set " + one;
     add("the journal was written with" + (list.empty() ? std::string(" no --set") : list));
   }
   if (recorded.program != kThisProgram) {
