@@ -5,6 +5,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
+#include "core/ins/bridge.h"
 
 namespace leonav {
 namespace {
@@ -17,7 +18,6 @@ constexpr double kStillTimeConstant_s = 2.0;
 // bias makes.
 constexpr double kMovingTimeConstant_s = 10.0;
 constexpr double kMovingKnownBiasTimeConstant_s = 30.0;
-constexpr double kStandingSpeed_m_s = 0.2;
 
 const Eigen::Vector3d kDown(0.0, 0.0, 1.0);
 
@@ -46,6 +46,15 @@ Eigen::Vector3d Alignment::standing_rate() const {
 }
 
 void Alignment::add(const ImuSample& sample) {
+  if (last_sample_.interval_ns > 0 && sample.start() > last_sample_.time) {
+    const auto bridge = bridge_hole(last_sample_, last_sample_.time, sample.start(), sample);
+    bridge ? follow(bridge->filler) : reset();
+  }
+  follow(sample);
+  last_sample_ = sample;
+}
+
+void Alignment::follow(const ImuSample& sample) {
   const Eigen::Vector3d turn = sample.delta_theta_b - standing_rate() * sample.interval_s();
   q_lb_ = (q_lb_ * quaternion_from_rotation_vector(turn)).normalized();
   if (levelled()) {
@@ -109,7 +118,7 @@ void Alignment::watch_for_standstill(const ImuSample& sample) {
 }
 
 void Alignment::confirm_standstill(double speed_3d, double sigma_v) {
-  if (speed_3d < kStandingSpeed_m_s + 2.0 * sigma_v && speed_3d < config_.min_course_speed_m_s) {
+  if (may_stand(speed_3d, sigma_v, config_.min_course_speed_m_s)) {
     standing_.seconds += unconfirmed_.seconds;
     standing_.angle += unconfirmed_.angle;
     standing_q_lb_ = q_lb_;
@@ -132,8 +141,9 @@ void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double 
                 std::hypot(across, config_.course_against_heading)});
 }
 
-std::optional<AlignedAttitude> Alignment::attitude(const Eigen::Vector3d& p_e,
-                                                   const Eigen::Vector3d& v_e, double sigma_v) {
+std::optional<AlignedAttitude> Alignment::attitude(
+    const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e, double sigma_v,
+    const std::optional<GivenHeading::Heading>& given) {
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
   const Eigen::Vector3d v_n = C_ne * v_e;
   confirm_standstill(v_n.norm(), sigma_v);
@@ -142,9 +152,9 @@ std::optional<AlignedAttitude> Alignment::attitude(const Eigen::Vector3d& p_e,
   EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
   watch_course(v_n, sigma_v, angles.yaw);
   double turn_l = 0.0, heading_sigma = 0.0;
-  if (config_.initial_heading) {
-    turn_l = *config_.initial_heading - angles.yaw;
-    heading_sigma = config_.initial_heading_sigma;
+  if (given) {
+    turn_l = given->heading - angles.yaw;
+    heading_sigma = given->sigma;
   } else {
     const auto agreement = courses_.agreement();
     if (!agreement || !(agreement->sigma < config_.max_course_sigma)) return std::nullopt;

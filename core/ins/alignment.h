@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/ins/course_window.h"
+#include "core/ins/given_heading.h"
 #include "core/ins/imu.h"
 #include "core/ins/nav_state.h"
 
@@ -18,9 +19,10 @@ struct AlignmentConfig {
   double course_against_heading = 0.03;  // rad, 1 sigma: sideslip, mounting, a swinging antenna
   double turning_arm_m =
       0.5;  // antenna to the vertical axis the body turns about: sideslip in turns
-  std::optional<double> initial_heading;  // rad; set: no motion needed
-  double initial_heading_sigma = 0.087;   // rad
-  double levelling_sigma = 0.035;         // rad, roll and pitch after levelling
+  // rad; set: no motion needed. For who drives the alignment to tell a GivenHeading, once.
+  std::optional<double> initial_heading;
+  double initial_heading_sigma = 0.087;  // rad
+  double levelling_sigma = 0.035;        // rad, roll and pitch after levelling
   double static_gyro_rad_s = 0.05;  // mean rate below this while standing: also gives the gyro bias
   double static_accel_m_s2 = 0.3;   // spread of the specific force below this while standing
 };
@@ -34,7 +36,7 @@ struct AlignedAttitude {
 };
 
 // Follows the attitude with the heading unknown: the gyros turn it, the specific force levels it.
-// When a configured heading is there, or courses over ground that agreed with the gyros for
+// When a given heading is there, or courses over ground that agreed with the gyros for
 // `course_window_s` without a stop, it gives the whole attitude. Assumes that the body x axis
 // points where the vehicle goes, within `course_against_heading`: a steady start in reverse or
 // sideways cannot be told from one forward and aligns wrongly by the angle between.
@@ -42,6 +44,8 @@ class Alignment {
  public:
   explicit Alignment(const AlignmentConfig& config);
   void reset();
+  // Samples in order of time. A short hole between two is bridged (core/ins/bridge.h); what went on
+  // in a longer one nobody knows: everything starts anew.
   void add(const ImuSample& sample);
   bool levelled() const;
 
@@ -49,9 +53,10 @@ class Alignment {
   // velocity then; nullopt while not levelled or the course cannot be told. To be called at every
   // epoch, also while standing: an IMU at rest and one in steady motion feel the same, so only this
   // velocity can confirm a standstill and with it the gyro bias, and only several agreeing courses
-  // the heading.
-  std::optional<AlignedAttitude> attitude(const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e,
-                                          double sigma_v);
+  // the heading, unless it is `given`.
+  std::optional<AlignedAttitude> attitude(
+      const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e, double sigma_v,
+      const std::optional<GivenHeading::Heading>& given = std::nullopt);
 
  private:
   // Sums over a stretch of time, from which mean and spread follow.
@@ -61,6 +66,7 @@ class Alignment {
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // integral of the specific force, b
     double force_squared = 0.0;                          // integral of |specific force|^2
   };
+  void follow(const ImuSample& sample);
   void level_at_first(const ImuSample& sample);
   void level_on(const ImuSample& sample);
   void watch_for_standstill(const ImuSample& sample);
@@ -69,6 +75,7 @@ class Alignment {
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
 
   AlignmentConfig config_;
+  ImuSample last_sample_;  // as measured; interval 0: none yet
   // Body to local level, heading arbitrary.
   Eigen::Quaterniond q_lb_ = Eigen::Quaterniond::Identity();
   double levelled_for_s_ = 0.0;

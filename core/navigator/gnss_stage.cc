@@ -55,7 +55,11 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       alignment_(config.alignment),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
-      report_(std::make_unique<EpochReport>()) {}
+      report_(std::make_unique<EpochReport>()) {
+  const AlignmentConfig& alignment = config_.alignment;
+  if (alignment.initial_heading)
+    given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});
+}
 
 void GnssStage::process(const GnssWork& work) {
   if (const auto* epoch = std::get_if<EpochWork>(&work)) {
@@ -86,6 +90,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
     last_gnss_time_ = work.time;
     align(work);
   }
+  watch_motion(work);
   deliver(work);
   publish(work);
 }
@@ -222,15 +227,29 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
 }
 
+// A given heading that has been used is good again only while nothing has moved since.
+void GnssStage::watch_motion(const EpochWork& work) {
+  for (const ImuSample& sample : work.block)
+    given_heading_.watch(sample, config_.alignment.static_gyro_rad_s);
+  if (!ekf_.initialized()) return;
+  given_heading_.watch(ekf_.antenna_velocity_e().norm(), velocity_sigma(),
+                       config_.alignment.min_course_speed_m_s);
+}
+
+double GnssStage::velocity_sigma() const {
+  const Eigen::Matrix3d covariance =
+      ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  return norm_of_sigmas(covariance) / std::sqrt(3.0);
+}
+
 void GnssStage::align(const EpochWork& work) {
   const bool fresh = !work.block.empty() && work.block.back().time == work.time;
   if (!inertial_ || ekf_.has_attitude() || !fresh) return;
-  const Eigen::Matrix3d covariance =
-      ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
-  const double sigma_v = norm_of_sigmas(covariance) / std::sqrt(3.0);
-  const auto aligned =
-      alignment_.attitude(ekf_.antenna_position_e(), ekf_.antenna_velocity_e(), sigma_v);
+  const auto given = given_heading_.get();
+  const auto aligned = alignment_.attitude(ekf_.antenna_position_e(), ekf_.antenna_velocity_e(),
+                                           velocity_sigma(), given);
   if (!aligned) return;
+  given_heading_.use();
   ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
                     aligned->gyro_bias_known);
   emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(), work.time);
@@ -246,16 +265,13 @@ void GnssStage::process_command(const Command& command) {
        last_epoch_time_);
 }
 
-// Before alignment: as if configured. Afterwards: turns the filter's attitude about the vertical;
+// Before alignment: good for it. Afterwards: turns the filter's attitude about the vertical;
 // position, velocity, clocks and IMU errors stay as they are.
 void GnssStage::set_heading(double heading, double sigma) {
   if (!inertial_) return;
-  if (!ekf_.has_attitude()) {
-    config_.alignment.initial_heading = heading;
-    config_.alignment.initial_heading_sigma = sigma;
-    alignment_ = Alignment(config_.alignment);
-    return;
-  }
+  given_heading_.tell({heading, sigma});
+  if (!ekf_.has_attitude()) return;
+  given_heading_.use();
   const NavState state = ekf_.state();
   start_report(0, state.time, true, report_.get());
   report_state(ekf_, report_.get());

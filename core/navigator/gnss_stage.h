@@ -7,6 +7,7 @@
 #include "core/gnss/band_bias.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
+#include "core/ins/given_heading.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
@@ -48,6 +49,8 @@ class GnssStage {
   bool contradicts(const PointSolution& point, bool motion) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
+  void watch_motion(const EpochWork& work);
+  double velocity_sigma() const;
   void align(const EpochWork& work);
   void set_heading(double heading, double sigma);
   void deliver(const EpochWork& work);
@@ -63,6 +66,7 @@ class GnssStage {
   BandBiases band_biases_;
   Ekf ekf_;
   Alignment alignment_;
+  GivenHeading given_heading_;
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<MeasurementEpoch> check_measurements_;  // of a point solution beside the filter
   std::unique_ptr<EpochReport> report_;

@@ -153,18 +153,17 @@ TEST_CASE("Steady motion is no standstill", "[ins]") {
   CHECK(aligned->gyro_bias_b.isZero());
 }
 
-TEST_CASE("A configured heading needs no motion", "[ins]") {
-  AlignmentConfig config;
-  config.initial_heading = -2.0;
+TEST_CASE("A given heading needs no motion", "[ins]") {
+  const GivenHeading::Heading given{-2.0, 0.05};
   Ride ride{{0.3, 0.1, -2.0}};
-  Alignment alignment(config);
-  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05));  // not levelled
+  Alignment alignment({});
+  CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05, given));  // not levelled
   run(&ride, &alignment, 3.0);
-  const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+  const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05, given);
   REQUIRE(aligned);
   CHECK(heading_error(*aligned, ride) < 1e-6);
   CHECK(tilt_error(*aligned, ride) < 0.01);
-  CHECK(aligned->sigma_rpy.z() == config.initial_heading_sigma);
+  CHECK(aligned->sigma_rpy.z() == given.sigma);
   alignment.reset();
   CHECK_FALSE(alignment.levelled());
 }
@@ -245,5 +244,36 @@ TEST_CASE("Short or interrupted motion is no evidence", "[ins]") {
   for (int push = 0; push < 5; ++push) {
     CHECK_FALSE(hand_alignment_error({0.0, 0.0, 1.0, 1.5}, 2.5, &ride, &alignment));
     CHECK_FALSE(hand_alignment_error({0.0, 0.0, 1.0, 0.1}, 0.5, &ride, &alignment));
+  }
+}
+
+TEST_CASE("A hole in the samples costs no turn if short, and a new start if long", "[ins]") {
+  const auto skip = [](Ride* ride, double seconds) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / kDt)); ++i) ride->step();
+  };
+  for (const double hole_s : {0.1, 0.3, 20.0}) {
+    CAPTURE(hole_s);
+    Ride ride{{0.0, 0.0, 0.5}};
+    Alignment alignment({});
+    run(&ride, &alignment, 10.0);
+    ride.speed = 5.0;
+    REQUIRE(seconds_to_attitude(&ride, &alignment, 0.05, 10) == 4);
+    // Somewhere in the hole it turns at 1 rad/s, and goes on turning.
+    ride.yaw_rate = 1.0;
+    run(&ride, &alignment, 0.1);
+    skip(&ride, hole_s);
+    run(&ride, &alignment, 0.5);
+    ride.yaw_rate = 0.0;
+    const bool bridged = hole_s <= 0.2;
+    CHECK(alignment.levelled() == bridged);
+    const auto waited = seconds_to_attitude(&ride, &alignment, 0.05, 20);
+    REQUIRE(waited);
+    CHECK((*waited >= 4) == !bridged);
+    const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+    REQUIRE(aligned);
+    // Bridged: the window may still hold courses of before, and the filler is an estimate. Anew: the
+    // gyro bias is unknown, and the mean course is two seconds old.
+    CHECK(heading_error(*aligned, ride) < (bridged ? 0.01 : 2.5 * kGyroBias.norm()));
+    CHECK(aligned->gyro_bias_known == bridged);
   }
 }

@@ -1,0 +1,103 @@
+// A heading from outside, by configuration or command.
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "stage_drive.h"
+#include "support/catch.h"
+
+namespace leonav::test {
+namespace {
+
+TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
+  const SyntheticDrive drive = drive_of(90.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  for (const bool heading_given : {false, true}) {
+    CAPTURE(heading_given);
+    RecordingSink sink;
+    Pipeline pipeline(config, &sink);
+    Sequencer& sequencer = pipeline.sequencer();
+    const SyntheticPath path(drive.options);
+    const auto on_epoch = [&](const RawEpoch& raw) {
+      const double t = seconds(raw.time);
+      if (std::abs(t - 50.0) < 0.5) {
+        sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
+        if (heading_given) {
+          const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
+          const Eigen::Matrix3d C_eb = path.state(t).q_eb.toRotationMatrix();
+          sequencer.on_command(
+              {CommandKind::kSetHeading, euler_from_rotation(C_ne * C_eb).yaw, 0.05});
+        }
+      }
+      sequencer.on_raw_epoch(raw);
+    };
+    feed(
+        drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+        [&](const ImuSample& s) { sequencer.on_imu(s); }, on_epoch);
+    CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kCommand});
+    CHECK(sink.count(EventKind::kAligned) == 2);
+    CHECK(sink.epochs.size() == 89);
+    CHECK(sink.epochs.back().solution.has_attitude);
+    CHECK(worst_error(sink, drive, 75.0, 90.0) < 1.0);
+  }
+}
+
+double heading_at(const SyntheticDrive& drive, double t) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
+  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
+      .yaw;
+}
+
+// Restarts the filter at each of these times.
+RecordingSink run_with_restarts(const SyntheticDrive& drive, const NavigatorConfig& config,
+                                const std::vector<double>& restarts_s) {
+  RecordingSink sink;
+  Pipeline pipeline(config, &sink);
+  Sequencer& sequencer = pipeline.sequencer();
+  feed(
+      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+      [&](const ImuSample& s) { sequencer.on_imu(s); },
+      [&](const RawEpoch& raw) {
+        for (const double t : restarts_s)
+          if (std::abs(seconds(raw.time) - t) < 0.5)
+            sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
+        sequencer.on_raw_epoch(raw);
+      });
+  return sink;
+}
+
+// Seconds from `since_s` to the first epoch with an attitude.
+double wait_for_attitude(const RecordingSink& sink, double since_s) {
+  for (const EpochReport& report : sink.epochs) {
+    const double t = seconds(report.time);
+    if (t > since_s + 0.5 && report.solution.has_attitude) return t - since_s;
+  }
+  return 1e9;
+}
+
+TEST_CASE("a configured heading aligns once, and again only while the vehicle stands there") {
+  SyntheticDriveOptions options;
+  options.duration_s = 90.0;
+  options.standstill_s = 30.0;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(options);
+  config.alignment.initial_heading = heading_at(drive, 0.0);
+  // At 65 s the vehicle drives in another direction than it stood.
+  REQUIRE(std::abs(wrap_to_pi(heading_at(drive, 66.0) - heading_at(drive, 0.0))) > 1.0);
+  const RecordingSink sink = run_with_restarts(drive, config, {15.0, 65.0});
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kCommand, ResetCause::kCommand});
+  CHECK(sink.count(EventKind::kAligned) == 3);
+  CHECK(wait_for_attitude(sink, 0.0) < 3.5);
+  CHECK(wait_for_attitude(sink, 15.0) < 3.5);
+  CHECK(wait_for_attitude(sink, 65.0) > 3.5);  // the course takes its time
+  int judged = 0;
+  for (const EpochReport& report : sink.epochs) {
+    if (!report.solution.has_attitude) continue;
+    ++judged;
+    const double off = wrap_to_pi(report.solution.yaw - heading_at(drive, seconds(report.time)));
+    CHECK(std::abs(off) < 4.0 * report.solution.sigma_rpy.z() + 0.002);
+  }
+  CHECK(judged >= 75);
+  CHECK(worst_error(sink, drive, 72.0, 90.0) < 1.0);
+}
+
+}  // namespace
+}  // namespace leonav::test
