@@ -1,0 +1,12 @@
+// Gravitational delay of the signal in the Earth's field.
+#pragma once
+#include <Eigen/Core>
+
+namespace leonav {
+
+// Metres to ADD to the geometric range: 2 GM/c^2 ln((r1 + r2 + rho) / (r1 + r2 - rho)), IERS
+// Conventions (2010), eq. 11.17. 6 mm (LEO) to 20 mm. Both positions of the same instant in one
+// frame, m; zero where they coincide or lie on both sides of the Earth's centre in line with it.
+double shapiro_delay_m(const Eigen::Vector3d& p_sat_e, const Eigen::Vector3d& p_a_e);
+
+}  // namespace leonav
