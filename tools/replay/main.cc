@@ -19,7 +19,9 @@ Arguments declare() {
       "leonav-replay", "[--config FILE] --out DIR [options] run.lcmlog",
       "Feeds an LCM log (of lcm-logger, leonav-import or leonavd's journal) to the "
       "navigator and writes\nits answers as tables. A journal's deadline misses are "
-      "obeyed, so that its run comes again bit for bit.");
+      "obeyed, so that its run comes again bit for bit.\nExit codes: 0 done; 1 a file or the "
+      "configuration cannot be used, the log gave no answer, or --verify found a\ndifference (what "
+      "tables there are and summary.txt are written even so); 2 command line.");
   arguments
       .option("--config", "FILE",
               "configuration, as for leonavd; a journal holds its own, which is the default")
@@ -50,9 +52,30 @@ void require_inputs(const JournalScan& scan, const std::string& log, const std::
                            " messages on others); is lcm.prefix right?");
 }
 
+// Why the log gave no answer that is of use; empty: it gave one. Tables alone prove nothing:
+// without an IMU the inertial configuration still fills them, from the filter, but there is no
+// SOLUTION.
+std::string no_answer(const ReplayRun& run, const JournalScan& scan, bool inertial) {
+  const std::string inputs = " (" + scan.describe() + ")";
+  if (scan.messages[index_of(Channel::kGnssEpoch)] == 0) {
+    return "no position without GNSS: the log has no GNSS_EPOCH" + inputs;
+  }
+  if (inertial && scan.messages[index_of(Channel::kImu)] == 0) {
+    return "ekf.motion is inertial, but the log has no IMU" + inputs +
+           "; use --set ekf.motion=constant_velocity";
+  }
+  if (run.statistics().solutions() == 0 && run.statistics().epochs() == 0) {
+    return "the log gave no solution and no epoch: " + scan.describe();
+  }
+  if (run.statistics().solutions() == 0 || run.solution_rows() == 0) {
+    return "no position was found; see summary.txt for the satellites' reasons" + inputs;
+  }
+  return "";
+}
+
 // What went wrong; empty: nothing.
-std::string verdict(const ReplayRun& run, const JournalScan& scan, const std::string& other_run,
-                    std::ostream& out) {
+std::string verdict(const ReplayRun& run, const JournalScan& scan, bool inertial,
+                    const std::string& other_run, std::ostream& out) {
   if (const Verifier* verifier = run.verifier()) {
     out << "verified " << verifier->compared() << " outputs, " << verifier->differences()
         << " differences\n";
@@ -65,14 +88,7 @@ std::string verdict(const ReplayRun& run, const JournalScan& scan, const std::st
     }
     if (verifier->compared() == 0) return "nothing to verify: the log holds no recorded outputs";
   }
-  if (run.statistics().solutions() == 0 && run.statistics().epochs() == 0) {
-    return "the log gave no solution and no epoch: " + scan.describe();
-  }
-  if (run.solution_rows() == 0) {
-    return "no position was found; see summary.txt for the satellites' reasons (" +
-           scan.describe() + ")";
-  }
-  return "";
+  return no_answer(run, scan, inertial);
 }
 
 int replay(int argc, char** argv) {
@@ -107,7 +123,8 @@ int replay(int argc, char** argv) {
     summary << "warning: " << warning << "\n";
     std::cerr << "leonav-replay: WARNING: " << warning << "\n";
   }
-  const std::string failure = verdict(run, scan, other_run, summary);
+  const bool inertial = config.navigator.motion == MotionModel::kInertial;
+  const std::string failure = verdict(run, scan, inertial, other_run, summary);
   if (!failure.empty()) summary << "failure: " << failure << "\n";
   std::cout << summary.str();
   const std::string path = options.out_folder + "/summary.txt";
