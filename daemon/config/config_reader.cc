@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "daemon/config/load_config.h"
-#include "daemon/config/nearest_word.h"
+#include "drivers/text/nearest_word.h"
 
 namespace leonav {
 namespace {

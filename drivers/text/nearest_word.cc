@@ -1,4 +1,4 @@
-#include "daemon/config/nearest_word.h"
+#include "drivers/text/nearest_word.h"
 
 #include <algorithm>
 #include <numeric>

@@ -30,6 +30,13 @@ TEST_CASE("wrong words name the nearest right one") {
   const char* misspelt[] = {"tool", "--rat", "5"};
   CHECK_THROWS_WITH(a.parse(3, misspelt),
                     "unknown option --rat; did you mean --rate? (tool --help lists them)");
+  const char* one_dash[] = {"tool", "-fas"};
+  CHECK_THROWS_WITH(a.parse(2, one_dash),
+                    "unknown option -fas; did you mean --fast? (tool --help lists them)");
+  const char* far[] = {"tool", "--elsewhere"};
+  CHECK_THROWS_WITH(a.parse(2, far), "unknown option --elsewhere (tool --help lists them)");
+  const char* dashes[] = {"tool", "---"};
+  CHECK_THROWS_AS(a.parse(2, dashes), UsageError);
   const char* missing[] = {"tool", "--out"};
   CHECK_THROWS_AS(a.parse(2, missing), UsageError);
   const char* not_number[] = {"tool", "--rate=fast"};

@@ -6,25 +6,9 @@
 #include <iostream>
 #include <sstream>
 
+#include "drivers/text/nearest_word.h"
+
 namespace leonav {
-namespace {
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-}  // namespace
 
 Arguments::Arguments(std::string program, std::string synopsis, std::string description)
     : program_(std::move(program)),
@@ -50,18 +34,15 @@ const Arguments::Option* Arguments::find(const std::string& name) const {
 }
 
 void Arguments::fail_unknown(const std::string& name) const {
-  const Option* nearest = nullptr;
-  std::size_t best = 4;  // farther than three edits is no help
-  for (const Option& option : options_) {
-    const std::size_t distance = edit_distance(name, option.name);
-    if (distance < best) {
-      best = distance;
-      nearest = &option;
-    }
-  }
+  const auto word = [](const std::string& option) {
+    return option.substr(std::min(option.find_first_not_of('-'), option.size()));
+  };
+  std::vector<std::string> words;
+  for (const Option& option : options_) words.push_back(word(option.name));
+  const auto nearest = nearest_word(word(name), words);
   throw UsageError("unknown option " + name +
-                   (nearest != nullptr ? "; did you mean " + nearest->name + "?" : "") + " (" +
-                   program_ + " --help lists them)");
+                   (nearest ? "; did you mean --" + *nearest + "?" : "") + " (" + program_ +
+                   " --help lists them)");
 }
 
 bool Arguments::parse(int argc, const char* const* argv) {

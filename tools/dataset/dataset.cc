@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "daemon/config/nearest_word.h"
 #include "drivers/text/line_reader.h"
+#include "drivers/text/nearest_word.h"
 
 namespace leonav {
 namespace {
