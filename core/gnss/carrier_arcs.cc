@@ -1,0 +1,297 @@
+#include "core/gnss/carrier_arcs.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+
+#include "core/gnss/carrier_track.h"
+#include "core/gnss/doppler_check.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
+
+std::size_t place_of(SatelliteId id) {
+  constexpr std::array<std::size_t, kSystemCount> kFirst = {0, 63, 113, 176};
+  return kFirst[index_of(id.system)] + id.number - 1u;
+}
+
+CarrierSide side_of(const SignalObservation& observation, double code_shift_m) {
+  CarrierSide side;
+  side.code = observation.code;
+  side.frequency_hz = frequency_hz(observation.satellite.system, observation.code.band);
+  side.wavelength_m = wavelength_m(observation.satellite.system, observation.code.band);
+  side.carrier_m = observation.carrier_cycles * side.wavelength_m;
+  side.code_m = observation.pseudorange_m - code_shift_m;
+  side.doppler_m_s = -observation.doppler_hz * side.wavelength_m;
+  side.lock_time_s = observation.lock_time_s;
+  side.loss_of_lock = observation.loss_of_lock;
+  side.half_cycle_ambiguous = observation.half_cycle_ambiguous;
+  return side;
+}
+
+bool has_carrier(const SignalObservation* observation) {
+  return observation != nullptr && std::isfinite(observation->carrier_cycles) &&
+         index_of(observation->satellite.system) < kSystemCount &&
+         frequency_hz(observation->satellite.system, observation->code.band) > 0.0;
+}
+
+bool is_pair(const CarrierInput& input) {
+  return has_carrier(input.second) && input.second->satellite == input.first->satellite &&
+         frequency_hz(input.first->satellite.system, input.first->code.band) !=
+             frequency_hz(input.first->satellite.system, input.second->code.band);
+}
+
+// The epochs' usual interval: the shortest of late, so that a missing epoch does not count.
+class UsualInterval {
+ public:
+  void add(double interval_s) {
+    constexpr int kMissing = 5;  // so many longer intervals in a row are the usual one
+    const bool longer = usual_s_ > 0.0 && interval_s > 1.1 * usual_s_;
+    longer_ = longer ? longer_ + 1 : 0;
+    if (longer && longer_ < kMissing) return;
+    usual_s_ = interval_s;
+  }
+  double seconds() const { return usual_s_; }
+
+ private:
+  double usual_s_ = 0.0;
+  int longer_ = 0;
+};
+
+}  // namespace
+
+struct CarrierArcs::Storage {
+  explicit Storage(const CycleSlipConfig& config_in) : config(config_in) {}
+
+  struct Current {
+    CarrierTrack* track = nullptr;  // nullptr: no carrier
+    CarrierSample sample;
+    bool continued = false;  // last sample near enough in time, and of the same signals
+    SlipFindings findings;
+  };
+
+  CarrierTrack* track_of(SatelliteId id) { return &tracks[place_of(id)]; }
+  double gap_limit_s(System system) const;
+  void collect(GpsTime time, std::span<const CarrierInput> inputs);
+  ClockJump repair_clock(double interval_s);
+  void check_dopplers(const ClockJump& jump, double interval_s);
+  void begin(Current* current, SlipCauses causes, CarrierStatus* status);
+  void fill(const Current& current, CarrierStatus* status) const;
+  bool refuted(const Current& current, double deviation_m) const;
+  void first_look(const ClockJump& jump, Current* current, CarrierStatus* status);
+
+  CycleSlipConfig config;
+  std::array<CarrierTrack, kMaxEphemerisSatellites> tracks;
+  boost::container::static_vector<Current, kMaxSatellites> current;
+  std::bitset<kMaxEphemerisSatellites> seen;  // in this epoch
+  GpsTime time;
+  UsualInterval usual;
+  std::uint32_t last_arc = 0;
+  int shift_ms = 0;  // by which codes have jumped against carriers since the start
+  bool settled = true;
+};
+
+double CarrierArcs::Storage::gap_limit_s(System system) const {
+  if (system == System::kLeo) return std::max(config.max_gap_leo_s, 1.5 * usual.seconds());
+  return std::max(config.max_gap_s, config.max_gap_intervals * usual.seconds());
+}
+
+void CarrierArcs::Storage::collect(GpsTime now, std::span<const CarrierInput> inputs) {
+  current.clear();
+  seen.reset();
+  const std::size_t count = std::min(inputs.size(), current.capacity());
+  for (const CarrierInput& input : inputs.first(count)) {
+    current.emplace_back();
+    if (!has_carrier(input.first) || !is_valid(input.first->satellite)) continue;
+    const std::size_t place = place_of(input.first->satellite);
+    if (place >= tracks.size() || seen.test(place)) continue;
+    seen.set(place);
+    Current& entry = current.back();
+    entry.track = &tracks[place];
+    entry.track->system = input.first->satellite.system;
+    CarrierSample& sample = entry.sample;
+    sample.time = now;
+    sample.elevation = std::isfinite(input.elevation) ? input.elevation : 0.0;
+    sample.sides = is_pair(input) ? 2 : 1;
+    sample.side[0] = side_of(*input.first, shift_ms * kMillisecond_m);
+    if (sample.sides == 2) sample.side[1] = side_of(*input.second, shift_ms * kMillisecond_m);
+    sample.carrier_shift_m = shift_ms * kMillisecond_m;
+    entry.continued = entry.track->is_same_pair(sample) &&
+                      entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
+  }
+}
+
+// Finds what jumped and takes it out of the samples.
+ClockJump CarrierArcs::Storage::repair_clock(double interval_s) {
+  boost::container::static_vector<ClockJumpSample, kMaxSatellites> samples;
+  for (const Current& entry : current) {
+    if (entry.track == nullptr || !entry.continued) continue;
+    const CarrierSide& before = entry.track->last().side[0];
+    const CarrierSide& now = entry.sample.side[0];
+    // A satellite that was away for an epoch has seen another interval.
+    if (seconds_between(entry.sample.time, entry.track->last().time) != interval_s) continue;
+    samples.push_back({now.code_m - before.code_m, now.carrier_m - before.carrier_m,
+                       0.5 * (now.doppler_m_s + before.doppler_m_s)});
+  }
+  const ClockJump jump =
+      find_clock_jump({samples.data(), samples.size()}, interval_s, usual.seconds());
+  const int apart_ms = jump.code_ms - jump.carrier_ms;
+  shift_ms += apart_ms;
+  for (Current& entry : current) {
+    for (CarrierSide& side : entry.sample.side) side.code_m -= apart_ms * kMillisecond_m;
+    entry.sample.carrier_shift_m = shift_ms * kMillisecond_m;
+  }
+  return jump;
+}
+
+void CarrierArcs::Storage::check_dopplers(const ClockJump& jump, double interval_s) {
+  if (!config.use_doppler || !(interval_s <= config.doppler_max_interval_s)) return;
+  boost::container::static_vector<DopplerRow, kMaxSatellites> rows;
+  boost::container::static_vector<Current*, kMaxSatellites> owners;
+  for (Current& entry : current) {
+    if (entry.track == nullptr || !entry.continued || entry.findings.hard.any()) continue;
+    if (seconds_between(entry.sample.time, entry.track->last().time) != interval_s) continue;
+    DopplerRow row;
+    row.elevation = entry.sample.elevation;
+    for (int i = 0; i < entry.sample.sides; ++i) {
+      const auto side = static_cast<std::size_t>(i);
+      const CarrierSide& before = entry.track->last().side[side];
+      const CarrierSide& now = entry.sample.side[side];
+      row.carrier_change_m[side] =
+          now.carrier_m + now.repair_m - before.carrier_m - before.repair_m;
+      row.mean_rate_m_s[side] = 0.5 * (now.doppler_m_s + before.doppler_m_s);
+      row.wavelength_m[side] = now.wavelength_m;
+    }
+    rows.push_back(row);
+    owners.push_back(&entry);
+  }
+  check_doppler(config, true_interval_s(jump, interval_s), {rows.data(), rows.size()});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].loud) owners[i]->findings.soft |= SlipCause::kDoppler;
+  }
+}
+
+void CarrierArcs::Storage::fill(const Current& entry, CarrierStatus* status) const {
+  status->arc = entry.track->arc;
+  const CarrierSample& last = entry.track->last();
+  for (int i = 0; i < last.sides; ++i) {
+    if (last.side[static_cast<std::size_t>(i)].half_cycle_ambiguous) {
+      status->half_cycle_unresolved = true;
+    }
+  }
+  status->first_m = last.carrier(0);
+  if (last.sides == 2) status->second_m = last.carrier(1);
+}
+
+void CarrierArcs::Storage::begin(Current* entry, SlipCauses causes, CarrierStatus* status) {
+  entry->track->arc = ++last_arc;
+  status->started = true;
+  status->causes |= causes;
+  status->suspected = {};
+  fill(*entry, status);
+}
+
+void CarrierArcs::Storage::first_look(const ClockJump& jump, Current* entry,
+                                      CarrierStatus* status) {
+  CarrierTrack& track = *entry->track;
+  SlipCauses causes = entry->findings.hard;
+  if (track.is_known() && !entry->continued) {
+    const bool is_late = !track.is_continued_by(entry->sample, gap_limit_s(track.system));
+    causes |= is_late ? SlipCause::kGap : SlipCause::kSignalChanged;
+  }
+  if (jump.unrepairable && entry->continued) causes |= SlipCause::kClockJump;
+  if (!track.is_known() || causes.any()) {
+    causes |= entry->findings.soft;
+    track.start(config, entry->sample, entry->continued && !jump.unrepairable);
+    begin(entry, causes, status);
+    return;
+  }
+  track.update(config, entry->sample, !entry->findings.code_outlier && !entry->findings.soft.any());
+  status->suspected = entry->findings.soft;
+  fill(*entry, status);
+}
+
+// Slips of whole or half cycles that leave the geometry-free combination alone within 1.5 cm move
+// the ionosphere-free one by 36 cm or more (2 and 1.5 cycles of GPS L1 and L2; other pairs: more).
+bool CarrierArcs::Storage::refuted(const Current& entry, double deviation_m) const {
+  return entry.findings.geometry_free_quiet &&
+         std::abs(deviation_m) < config.range_change_refuted_m;
+}
+
+CarrierArcs::CarrierArcs(const CycleSlipConfig& config)
+    : storage_(std::make_unique<Storage>(config)) {}
+CarrierArcs::~CarrierArcs() = default;
+CarrierArcs::CarrierArcs(CarrierArcs&&) noexcept = default;
+CarrierArcs& CarrierArcs::operator=(CarrierArcs&&) noexcept = default;
+
+void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, ArcEpoch* epoch) {
+  Storage& s = *storage_;
+  if (!s.settled) settle({}, epoch);
+  *epoch = {};
+  const double interval_s = s.time.is_set() ? seconds_between(time, s.time) : 0.0;
+  if (interval_s > 0.0) s.usual.add(interval_s);
+  s.time = time;
+  s.collect(time, inputs);
+  epoch->clock_jump = s.repair_clock(interval_s);
+  for (Storage::Current& entry : s.current) {
+    if (!entry.continued) continue;
+    entry.findings = entry.track->examine(s.config, &entry.sample);
+  }
+  s.check_dopplers(epoch->clock_jump, interval_s);
+  for (Storage::Current& entry : s.current) {
+    epoch->satellites.emplace_back();
+    if (entry.track == nullptr) continue;
+    s.first_look(epoch->clock_jump, &entry, &epoch->satellites.back());
+  }
+  s.settled = false;
+}
+
+void CarrierArcs::settle(std::span<const RangeRowResult> results, ArcEpoch* epoch) {
+  Storage& s = *storage_;
+  s.settled = true;
+  for (std::size_t i = 0; i < s.current.size(); ++i) {
+    Storage::Current& entry = s.current[i];
+    CarrierStatus* status = i < epoch->satellites.size() ? &epoch->satellites[i] : nullptr;
+    if (entry.track == nullptr || status == nullptr || status->started) continue;
+    const RangeRowResult result = i < results.size() ? results[i] : RangeRowResult();
+    if (result.verdict == RangeVerdict::kConsistent) {
+      if (status->suspected.any()) entry.track->learn_codes(s.config);
+      status->suspected = {};
+      continue;
+    }
+    SlipCauses causes = status->suspected;
+    if (result.verdict == RangeVerdict::kSlipped && !s.refuted(entry, result.deviation_m)) {
+      causes |= SlipCause::kRangeChange;
+    }
+    if (!causes.any()) continue;
+    entry.track->restart(s.config);
+    s.begin(&entry, causes, status);
+  }
+}
+
+CarrierStatus CarrierArcs::end_arc(SatelliteId satellite, SlipCause cause) {
+  CarrierStatus status;
+  Storage& s = *storage_;
+  if (!is_valid(satellite) || index_of(satellite.system) >= kSystemCount) return status;
+  const std::size_t place = place_of(satellite);
+  if (place >= s.tracks.size() || !s.seen.test(place)) return status;
+  Storage::Current entry;
+  entry.track = &s.tracks[place];
+  entry.track->restart(s.config);
+  s.begin(&entry, cause, &status);
+  return status;
+}
+
+void CarrierArcs::reset() {
+  for (CarrierTrack& track : storage_->tracks) track.forget();
+  storage_->current.clear();
+  storage_->seen.reset();
+  storage_->time = {};
+  storage_->usual = {};
+  storage_->settled = true;
+}
+
+}  // namespace leonav

@@ -1,0 +1,91 @@
+// What is remembered of one satellite's carriers, and the tests that need no other satellite.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "core/gnss/cycle_slip_config.h"
+#include "core/gnss/geometry_free.h"
+#include "core/gnss/melbourne_wuebbena.h"
+#include "core/gnss/observation.h"
+#include "core/gnss/slip_cause.h"
+
+namespace leonav {
+
+// One signal at the epoch under way, in metres.
+struct CarrierSide {
+  SignalCode code;
+  double frequency_hz = 0.0;
+  double wavelength_m = 0.0;
+  double carrier_m = kNotMeasured;    // as measured
+  double code_m = kNotMeasured;       // without what the receiver's clock has jumped
+  double doppler_m_s = kNotMeasured;  // as range rate: positive when the range grows
+  double lock_time_s = kNotMeasured;
+  bool loss_of_lock = false;
+  bool half_cycle_ambiguous = false;
+  double repair_m = 0.0;  // half cycles repaired since the arc began
+};
+
+struct CarrierSample {
+  GpsTime time;
+  double elevation = 0.0;        // rad
+  double carrier_shift_m = 0.0;  // what makes carriers continuous over the clock's jumps
+  int sides = 0;                 // 1 or 2
+  std::array<CarrierSide, 2> side;
+
+  double carrier(int i) const {
+    const CarrierSide& s = side[static_cast<std::size_t>(i)];
+    return s.carrier_m + s.repair_m + carrier_shift_m;
+  }
+};
+
+// Tests that were loud. `hard`: the arc is over. `soft`: other errors look alike (of a code, of a
+// Doppler), and a range change within centimetres refutes them.
+struct SlipFindings {
+  SlipCauses hard, soft;
+  bool geometry_free_quiet = false;  // a pair whose difference stayed on its trend
+  bool code_outlier = false;         // the codes are not fit to be learnt from
+};
+
+class CarrierTrack {
+ public:
+  bool is_known() const { return known_; }
+  bool is_same_pair(const CarrierSample& sample) const;
+  // Within `limit_s` of the last sample.
+  bool is_continued_by(const CarrierSample& sample, double limit_s) const;
+  const CarrierSample& last() const { return last_; }
+
+  // Flags and lock times; geometry-free and Melbourne-Wuebbena for a pair; half cycles, which may
+  // set `sample`'s repair_m. The sample must continue the track.
+  SlipFindings examine(const CycleSlipConfig& config, CarrierSample* sample) const;
+
+  // Begins an arc with `sample`. What is known of ionosphere and noise is kept for the same pair
+  // while there is no gap.
+  void start(const CycleSlipConfig& config, const CarrierSample& sample, bool keep);
+  void update(const CycleSlipConfig& config, const CarrierSample& sample, bool with_codes);
+  // Of the last sample, where update() was told not to.
+  void learn_codes(const CycleSlipConfig& config);
+  // Begins an arc with the last sample after all.
+  void restart(const CycleSlipConfig& config);
+  void forget() { known_ = false; }
+
+  std::uint32_t arc = 0;
+  System system = System::kGps;
+
+ private:
+  struct PairTest;
+  PairTest test_pair(const CycleSlipConfig& config, const CarrierSample& sample) const;
+  void judge_pair(const CycleSlipConfig& config, const PairTest& test, const CarrierSample& sample,
+                  SlipFindings* findings) const;
+  void settle_half_cycle(const CycleSlipConfig& config, const PairTest& pair, CarrierSample* sample,
+                         SlipFindings* findings) const;
+
+  bool known_ = false;
+  CarrierSample last_;
+  GeometryFreeTrend geometry_free_;
+  MelbourneWuebbena wide_lane_;
+  // As they were before the last sample, for an arc that is ended there later on.
+  GeometryFreeTrend geometry_free_before_;
+  MelbourneWuebbena wide_lane_before_;
+};
+
+}  // namespace leonav

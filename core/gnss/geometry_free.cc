@@ -1,0 +1,64 @@
+#include "core/gnss/geometry_free.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+constexpr double kScaleMemory = 20.0;  // epochs
+constexpr double kMinScale = 0.7, kMaxScale = 3.0;
+constexpr double kMaxSquare = 9.0;  // one innovation moves the scale by no more than 3 sigma do
+
+Eigen::Matrix2d predicted(const Eigen::Matrix2d& covariance, double t, double walk) {
+  Eigen::Matrix2d transition;
+  transition << 1.0, t, 0.0, 1.0;
+  const double q = walk * walk;
+  Eigen::Matrix2d noise;
+  noise << q * t * t * t / 3.0, q * t * t / 2.0, q * t * t / 2.0, q * t;
+  return transition * covariance * transition.transpose() + noise;
+}
+
+}  // namespace
+
+void GeometryFreeTrend::start(double value_m, const GeometryFreeNoise& noise, bool keep_rate) {
+  const bool keep = keep_rate && rate_known_;
+  const double largest = noise.rate_m_s * noise.rate_m_s;
+  const double rate_variance = keep ? std::min(covariance_(1, 1), largest) : largest;
+  if (!keep) {
+    rate_m_s_ = 0.0;
+    scale_squared_ = 1.0;
+  }
+  value_m_ = value_m;
+  covariance_ = Eigen::Vector2d(noise.value_m * noise.value_m, rate_variance).asDiagonal();
+  rate_known_ = keep;
+}
+
+GeometryFreeTrend::Innovation GeometryFreeTrend::innovation(double value_m, double interval_s,
+                                                            const GeometryFreeNoise& noise) const {
+  const Eigen::Matrix2d covariance = predicted(covariance_, interval_s, noise.rate_walk_m_s);
+  const double white = noise.value_m * noise.value_m * scale_squared_;
+  return {value_m - value_m_ - rate_m_s_ * interval_s, std::sqrt(covariance(0, 0) + white)};
+}
+
+void GeometryFreeTrend::update(double value_m, double interval_s, const GeometryFreeNoise& noise) {
+  const Innovation seen = innovation(value_m, interval_s, noise);
+  skip(interval_s, noise);
+  const double variance = seen.sigma_m * seen.sigma_m;
+  const Eigen::Vector2d gain = covariance_.col(0) / variance;
+  value_m_ += gain(0) * seen.value_m;
+  rate_m_s_ += gain(1) * seen.value_m;
+  covariance_ -= gain * gain.transpose() * variance;
+  // The model's own share of the innovation stays; the white part follows what is seen.
+  const double square = std::min(seen.value_m * seen.value_m / variance, kMaxSquare);
+  scale_squared_ = std::clamp(scale_squared_ * (1.0 + (square - 1.0) / kScaleMemory),
+                              kMinScale * kMinScale, kMaxScale * kMaxScale);
+  rate_known_ = true;
+}
+
+void GeometryFreeTrend::skip(double interval_s, const GeometryFreeNoise& noise) {
+  covariance_ = predicted(covariance_, interval_s, noise.rate_walk_m_s);
+  value_m_ += rate_m_s_ * interval_s;
+}
+
+}  // namespace leonav

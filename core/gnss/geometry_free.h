@@ -1,0 +1,40 @@
+// The geometry-free combination, first minus second carrier: ionosphere and ambiguities alone.
+#pragma once
+#include <Eigen/Core>
+
+namespace leonav {
+
+// 1 sigma, in metres of the combination.
+struct GeometryFreeNoise {
+  double value_m = 0.003;          // white, of one epoch
+  double rate_m_s = 0.0005;        // of the rate when nothing is known
+  double rate_walk_m_s = 0.00002;  // growth of the rate's uncertainty per sqrt(s)
+};
+
+// Follows value and rate by a Kalman filter of two states whose rate walks randomly, so that
+// intervals of every length, gaps and the first epochs of an arc each get the uncertainty they
+// have. Its own innovations widen or narrow the white noise.
+class GeometryFreeTrend {
+ public:
+  struct Innovation {
+    double value_m = 0.0;
+    double sigma_m = 0.0;
+  };
+
+  // A new arc. The rate is the ionosphere's and outlives the ambiguity: it is kept if `keep_rate`.
+  void start(double value_m, const GeometryFreeNoise& noise, bool keep_rate);
+
+  // Of the value `interval_s` after the last update.
+  Innovation innovation(double value_m, double interval_s, const GeometryFreeNoise& noise) const;
+  void update(double value_m, double interval_s, const GeometryFreeNoise& noise);
+  // Time goes on without a value.
+  void skip(double interval_s, const GeometryFreeNoise& noise);
+
+ private:
+  double value_m_ = 0.0, rate_m_s_ = 0.0;
+  Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
+  double scale_squared_ = 1.0;  // of the white noise, running mean of squared innovations
+  bool rate_known_ = false;
+};
+
+}  // namespace leonav

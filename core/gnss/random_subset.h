@@ -1,0 +1,35 @@
+// Random subsets that are the same on every machine.
+#pragma once
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+
+namespace leonav {
+
+// Steele and Vigna, Fast splittable pseudorandom number generators, 2014: integers only. The seed
+// is fixed.
+class RandomSubset {
+ public:
+  // `count` of the places [0, size), each set of them equally likely; count <= size <= N.
+  template <std::size_t N>
+  void choose(std::size_t size, std::size_t count, std::bitset<N>* chosen) {
+    chosen->reset();
+    // Floyd's algorithm: ends after `count` draws.
+    for (std::size_t last = size - count; last < size; ++last) {
+      const std::size_t place = below(last + 1);
+      chosen->set(chosen->test(place) ? last : place);
+    }
+  }
+
+ private:
+  std::size_t below(std::size_t limit) {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<std::size_t>((z ^ (z >> 31)) % limit);
+  }
+
+  std::uint64_t state_ = 1;
+};
+
+}  // namespace leonav

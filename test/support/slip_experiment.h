@@ -1,0 +1,435 @@
+// Runs the cycle slip detectors over epochs of which some carriers have been made to slip, and
+// counts what they find.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+#include "core/gnss/carrier_arcs.h"
+#include "core/gnss/gnss_config.h"
+#include "core/gnss/look_angles.h"
+#include "core/gnss/range_change.h"
+#include "core/gnss/satellite_catalog.h"
+#include "core/gnss/troposphere.h"
+#include "core/gnss/weighting.h"
+
+namespace leonav::test {
+
+inline constexpr double kSlipMask = 0.2617993877991494;  // 15 degrees
+
+// Where a satellite is seen from, and what its carrier should read but for ambiguity, receiver
+// clock and ionosphere.
+struct Prediction {
+  double range_m = 0.0;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // d range / d antenna position
+  double elevation = 0.0;
+  GpsTime issue;  // of the broadcast elements; unset: precise
+};
+
+struct SlipScene {
+  std::vector<RawEpoch> epochs;
+  // Of a satellite with this pseudorange at epoch k; nullopt: no orbit.
+  std::function<std::optional<Prediction>(std::size_t k, SatelliteId, double pseudorange_m)>
+      predict;
+  RangeChangePrior prior;
+  bool use_range_change = true;
+  bool second_signals = true;
+  double clock_walk_m = 0.0;            // satellite clocks, per sqrt(s)
+  double carrier_sigma_m = 0.002;       // of one signal
+  double ionosphere_rate_m_s = 0.0005;  // 1 sigma, of a single frequency's range change
+};
+
+inline Prediction predicted_range(const SatelliteState& state, double flight_s,
+                                  const Eigen::Vector3d& p_e, GpsTime time) {
+  const double turn = kEarthRotationRate * flight_s;
+  Eigen::Vector3d p_s = state.p_e;
+  p_s.x() = std::cos(turn) * state.p_e.x() + std::sin(turn) * state.p_e.y();
+  p_s.y() = -std::sin(turn) * state.p_e.x() + std::cos(turn) * state.p_e.y();
+  Prediction prediction;
+  const Eigen::Vector3d line = p_s - p_e;
+  prediction.elevation = look_angles(p_s, p_e).elevation;
+  prediction.direction = -line.normalized();
+  prediction.range_m =
+      line.norm() - kSpeedOfLight * state.clock_s +
+      saastamoinen_slant_delay_m(to_geodetic(p_e), std::max(prediction.elevation, 0.05), time);
+  return prediction;
+}
+
+// From a catalog as of now and the tag and pseudorange, whose errors in the receiver's clock
+// cancel.
+inline std::optional<Prediction> predict_by_catalog(const SatelliteCatalog& catalog, SatelliteId id,
+                                                    GpsTime tag, double pseudorange_m,
+                                                    const Eigen::Vector3d& p_e) {
+  SatelliteState state;
+  const Ephemeris* ephemeris = nullptr;
+  if (!std::isfinite(pseudorange_m)) return std::nullopt;
+  double sent_s = -pseudorange_m / kSpeedOfLight;  // after the tag, by the satellite's clock
+  if (catalog.state_at(id, tag.plus_seconds(sent_s), &state) != LookupStatus::kOk) {
+    return std::nullopt;
+  }
+  sent_s -= state.clock_s;
+  const GpsTime sent = tag.plus_seconds(sent_s);
+  if (catalog.state_at(id, sent, &state, &ephemeris) != LookupStatus::kOk) return std::nullopt;
+  // What a time in whole nanoseconds leaves out.
+  state.p_e += state.v_e * (sent_s - seconds_between(sent, tag));
+  double flight_s = (state.p_e - p_e).norm() / kSpeedOfLight;
+  Prediction prediction = predicted_range(state, flight_s, p_e, tag);
+  if (ephemeris != nullptr) prediction.issue = ephemeris->toe;
+  return prediction;
+}
+
+struct Injection {
+  std::size_t epoch = 0;
+  SatelliteId satellite;
+  int first = 0, second = 0;  // cycles
+  bool flagged = false;
+};
+
+struct SlipCounts {
+  long satellite_epochs = 0;  // above the mask
+  long injected = 0, at_once = 0, late = 0, missed = 0;
+  long false_alarms = 0;
+  long arcs = 0, first_arcs = 0;
+  std::map<SlipCause, long> share;  // of those found at once; several may share one
+  std::map<SlipCause, long> false_share;
+  std::map<std::string, std::pair<long, long>> by_kind;  // found at once, injected
+  std::map<SlipCause, long> ends;                        // all arcs
+  long clock_jumps = 0;
+  std::vector<std::string> notes;
+  long undecidable = 0;
+
+  double detected() const { return static_cast<double>(at_once) / std::max(1L, injected); }
+  double false_rate() const {
+    return static_cast<double>(false_alarms) / std::max(1L, satellite_epochs);
+  }
+};
+
+inline std::string kind_of(const Injection& slip, bool pair) {
+  if (!pair)
+    return std::abs(slip.first) == 1  ? "single frequency, 1 cycle"
+           : std::abs(slip.first) < 4 ? "single frequency, 2-3"
+                                      : "single frequency, 4+";
+  if (slip.second == 0) return "first only";
+  if (slip.first == 0) return "second only";
+  if (slip.first == slip.second) return std::abs(slip.first) == 1 ? "equal, 1 cycle" : "equal, 2+";
+  return "unequal";
+}
+
+class SlipRun {
+ public:
+  SlipRun(const SlipScene& scene, const CycleSlipConfig& config)
+      : scene_(scene), config_(config), arcs_(config) {}
+
+  SlipCounts run(const std::vector<Injection>& injections = {}) {
+    for (const Injection& slip : injections) by_place_[{slip.epoch, slip.satellite}] = slip;
+    counts_.injected = static_cast<long>(injections.size());
+    for (std::size_t k = 0; k < scene_.epochs.size(); ++k) step(k);
+    for (const auto& [place, slip] : open_) {
+      (void)place;
+      ++counts_.missed;
+      counts_.notes.push_back("missed " + to_string(slip.satellite) + " " +
+                              std::to_string(slip.first) + "/" + std::to_string(slip.second) +
+                              " epoch " + std::to_string(slip.epoch));
+    }
+    return counts_;
+  }
+
+  // Satellite-epochs whose arc goes on from the epoch before, above the mask: of a run without
+  // slips.
+  struct Going {
+    std::size_t epoch;
+    SatelliteId satellite;
+    bool pair;
+  };
+  const std::vector<Going>& going() const { return going_; }
+
+ private:
+  struct Before {
+    std::size_t epoch = 0;
+    double value_m = 0.0, range_m = 0.0;
+    Eigen::Vector3d direction;
+    std::uint32_t arc = 0;
+    GpsTime issue;  // another issue's range differs by metres
+  };
+
+  void step(std::size_t k) {
+    RawEpoch raw = scene_.epochs[k];
+    slip_carriers(k, &raw);
+    std::vector<CarrierInput> inputs;
+    std::vector<std::optional<Prediction>> predictions;
+    collect(k, raw, &inputs, &predictions);
+    ArcEpoch epoch;
+    arcs_.process(raw.time, inputs, &epoch);
+    if (epoch.clock_jump.any()) ++counts_.clock_jumps;
+    std::vector<RangeRowResult> verdicts(inputs.size());
+    if (scene_.use_range_change) check_geometry(k, raw, inputs, predictions, epoch, &verdicts);
+    arcs_.settle(verdicts, &epoch);
+    remember(k, inputs, predictions, epoch);
+    for (std::size_t i = 0; i < inputs.size(); ++i) count(k, inputs[i], epoch.satellites[i]);
+  }
+
+  void slip_carriers(std::size_t k, RawEpoch* raw) {
+    for (SignalObservation& o : raw->observations) {
+      const auto found = by_place_.find({k, o.satellite});
+      if (found != by_place_.end() && touched_.insert({k, o.satellite}).second) {
+        offsets_[o.satellite][0] += found->second.first;
+        offsets_[o.satellite][1] += found->second.second;
+      }
+      const auto offset = offsets_.find(o.satellite);
+      if (offset == offsets_.end()) continue;
+      const char first_band = o.satellite.system == System::kBeidou ? '2' : '1';
+      o.carrier_cycles += offset->second[o.code.band == first_band ? 0 : 1];
+      if (found != by_place_.end() && found->second.flagged) o.loss_of_lock = true;
+    }
+  }
+
+  // Of each satellite the first signal with code and carrier on the first band, and on a second.
+  void collect(std::size_t k, const RawEpoch& raw, std::vector<CarrierInput>* inputs,
+               std::vector<std::optional<Prediction>>* predictions) {
+    const GnssConfig gnss = default_gnss_config();
+    std::map<SatelliteId, std::map<char, const SignalObservation*>> bands;
+    for (const SignalObservation& o : raw.observations) {
+      if (!std::isfinite(o.carrier_cycles) || !std::isfinite(o.pseudorange_m)) continue;
+      bands[o.satellite].insert({o.code.band, &o});
+    }
+    for (const auto& [satellite, signals] : bands) {
+      const SignalPreference& preference = gnss.systems[index_of(satellite.system)].signals;
+      CarrierInput input;
+      const auto first = signals.find(preference.first_band);
+      if (first == signals.end()) continue;
+      input.first = first->second;
+      for (const char band : preference.second_bands) {
+        const auto second = signals.find(band);
+        if (second != signals.end() && input.second == nullptr) input.second = second->second;
+      }
+      if (!scene_.second_signals) input.second = nullptr;
+      // A pair that lacks its second signal for an epoch is left out of it.
+      if (input.second == nullptr && scene_.second_signals && pairs_.count(satellite) > 0) continue;
+      if (input.second != nullptr) pairs_.insert(satellite);
+      const auto prediction = scene_.predict(k, satellite, input.first->pseudorange_m);
+      input.elevation = prediction ? prediction->elevation : 0.0;
+      inputs->push_back(input);
+      predictions->push_back(prediction);
+    }
+  }
+
+  static double combined(const CarrierInput& input, const CarrierStatus& status,
+                         IonosphereFree* factors) {
+    const System system = input.first->satellite.system;
+    *factors = {1.0, 0.0};
+    if (!std::isfinite(status.second_m)) return status.first_m;
+    *factors = ionosphere_free(frequency_hz(system, input.first->code.band),
+                               frequency_hz(system, input.second->code.band));
+    return factors->gamma1 * status.first_m + factors->gamma2 * status.second_m;
+  }
+
+  void check_geometry(std::size_t k, const RawEpoch& raw, const std::vector<CarrierInput>& inputs,
+                      const std::vector<std::optional<Prediction>>& predictions,
+                      const ArcEpoch& epoch, std::vector<RangeRowResult>* verdicts) {
+    if (k == 0) return;
+    const double interval_s = seconds_between(raw.time, scene_.epochs[k - 1].time);
+    std::vector<RangeChangeRow> rows;
+    std::vector<std::size_t> owners;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const CarrierStatus& status = epoch.satellites[i];
+      const auto before = before_.find(inputs[i].first->satellite);
+      if (status.arc == 0 || status.started || !predictions[i] || before == before_.end() ||
+          before->second.epoch + 1 != k || before->second.arc != status.arc ||
+          before->second.issue != predictions[i]->issue) {
+        continue;
+      }
+      const Prediction& now = *predictions[i];
+      IonosphereFree factors;
+      RangeChangeRow row;
+      row.residual_m = combined(inputs[i], status, &factors) - before->second.value_m -
+                       (now.range_m - before->second.range_m);
+      row.direction = now.direction;
+      row.direction_change = now.direction - before->second.direction;
+      const double weight = elevation_factor(now.elevation);
+      const double noise = std::sqrt(2.0) * scene_.carrier_sigma_m * weight *
+                           std::hypot(factors.gamma1, factors.gamma2);
+      const double ionosphere =
+          std::isfinite(status.second_m) ? 0.0 : scene_.ionosphere_rate_m_s * weight * interval_s;
+      row.sigma_m = std::sqrt(noise * noise + ionosphere * ionosphere +
+                              scene_.clock_walk_m * scene_.clock_walk_m * interval_s);
+      row.time_base = static_cast<int>(index_of(inputs[i].first->satellite.system));
+      rows.push_back(row);
+      owners.push_back(i);
+    }
+    const RangeChangeResult result = range_change(rows, scene_.prior, config_);
+    if (result.status == RangeChangeStatus::kUndecidable) ++counts_.undecidable;
+    for (std::size_t i = 0; i < owners.size(); ++i) (*verdicts)[owners[i]] = result.rows[i];
+  }
+
+  void remember(std::size_t k, const std::vector<CarrierInput>& inputs,
+                const std::vector<std::optional<Prediction>>& predictions, const ArcEpoch& epoch) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (!predictions[i] || epoch.satellites[i].arc == 0) continue;
+      IonosphereFree factors;
+      before_[inputs[i].first->satellite] = {k,
+                                             combined(inputs[i], epoch.satellites[i], &factors),
+                                             predictions[i]->range_m,
+                                             predictions[i]->direction,
+                                             epoch.satellites[i].arc,
+                                             predictions[i]->issue};
+    }
+  }
+
+  static constexpr std::size_t kLate = 2;  // epochs
+
+  void count(std::size_t k, const CarrierInput& input, const CarrierStatus& status) {
+    const SatelliteId id = input.first->satellite;
+    const bool pair = std::isfinite(status.second_m);
+    if (status.started) {
+      ++counts_.arcs;
+      if (!status.causes.any()) ++counts_.first_arcs;
+      for (const SlipCause cause : kSlipCauses) counts_.ends[cause] += status.causes.has(cause);
+    }
+    const auto slip = by_place_.find({k, id});
+    if (input.elevation >= kSlipMask) {
+      ++counts_.satellite_epochs;
+      if (!status.started) going_.push_back({k, id, pair});
+    }
+    if (slip != by_place_.end()) {
+      auto& kind = counts_.by_kind[kind_of(slip->second, pair)];
+      ++kind.second;
+      kind.first += status.started;
+      if (!status.started) {
+        open_[id] = slip->second;
+        return;
+      }
+      ++counts_.at_once;
+      for (const SlipCause cause : kSlipCauses) counts_.share[cause] += status.causes.has(cause);
+      open_.erase(id);
+      return;
+    }
+    const auto open = open_.find(id);
+    const bool by_receiver =
+        status.causes.has(SlipCause::kGap) || status.causes.has(SlipCause::kSignalChanged) ||
+        status.causes.has(SlipCause::kLossOfLock) || status.causes.has(SlipCause::kLockTime);
+    if (open != open_.end()) {
+      const bool in_time = k <= open->second.epoch + kLate;
+      if (status.started && in_time) ++counts_.late;
+      if (status.started && !in_time) {
+        ++counts_.missed;
+        counts_.notes.push_back("missed " + to_string(id) + " " +
+                                std::to_string(open->second.first) + "/" +
+                                std::to_string(open->second.second));
+      }
+      if (status.started) open_.erase(open);
+      return;
+    }
+    if (!status.started || by_receiver || !status.causes.any()) return;
+    if (input.elevation < kSlipMask) return;
+    ++counts_.false_alarms;
+    std::string what = "false " + to_string(id) + " epoch " + std::to_string(k) + " elevation " +
+                       std::to_string(static_cast<int>(input.elevation * 57.3)) + ":";
+    for (const SlipCause cause : kSlipCauses) {
+      counts_.false_share[cause] += status.causes.has(cause);
+      if (status.causes.has(cause)) what += " " + std::string(to_string(cause));
+    }
+    counts_.notes.push_back(what);
+  }
+
+  const SlipScene& scene_;
+  CycleSlipConfig config_;
+  CarrierArcs arcs_;
+  SlipCounts counts_;
+  std::map<std::pair<std::size_t, SatelliteId>, Injection> by_place_;
+  std::set<std::pair<std::size_t, SatelliteId>> touched_;
+  std::map<SatelliteId, std::array<double, 2>> offsets_;
+  std::map<SatelliteId, Before> before_;
+  std::map<SatelliteId, Injection> open_;
+  std::set<SatelliteId> pairs_;
+  std::vector<Going> going_;
+};
+
+// Slips at random places of a run without any: a share of them on one frequency, the rest on both,
+// pairs that one combination or the other hardly sees included. `apart`: least number of epochs
+// between two slips of a satellite.
+inline std::vector<Injection> draw_injections(const std::vector<SlipRun::Going>& going,
+                                              double share, std::size_t apart, std::uint64_t seed) {
+  static constexpr int kPairs[][2] = {
+      {1, 1}, {2, 2}, {3, 3}, {5, 5},  {10, 10}, {77, 60}, {9, 7},   {7, 9},   {5, 4},    {4, 3},
+      {4, 5}, {1, 2}, {2, 1}, {1, -1}, {8, 6},   {14, 11}, {18, 14}, {60, 77}, {154, 120}};
+  std::mt19937_64 generator(seed);
+  const auto below = [&](std::size_t limit) {
+    return static_cast<std::size_t>(generator() % limit);
+  };
+  std::vector<Injection> injections;
+  std::map<SatelliteId, std::size_t> last;
+  for (const SlipRun::Going& place : going) {
+    if (below(100'000) >= static_cast<std::size_t>(share * 100'000.0)) continue;
+    const auto before = last.find(place.satellite);
+    if (before != last.end() && place.epoch < before->second + apart) continue;
+    last[place.satellite] = place.epoch;
+    Injection slip{place.epoch, place.satellite, 0, 0, false};
+    // 1 to 1000, small ones as likely as large ones.
+    const auto size = [&] {
+      const int cycles = static_cast<int>(
+          std::lround(std::pow(1000.0, static_cast<double>(below(10'001)) / 10'000.0)));
+      return below(2) == 0 ? cycles : -cycles;
+    };
+    const std::size_t kind = place.pair ? below(5) : 0;
+    if (kind == 0) slip.first = size();
+    if (kind == 1) slip.second = size();
+    if (kind == 2) slip.first = slip.second = size();
+    if (kind >= 3) {
+      const auto& pair = kPairs[below(std::size(kPairs))];
+      const int sign = below(2) == 0 ? 1 : -1;
+      slip.first = sign * pair[0];
+      slip.second = sign * pair[1];
+    }
+    injections.push_back(slip);
+  }
+  return injections;
+}
+
+inline void print_heading() {
+  std::cout << std::left << std::setw(46) << "" << std::right << std::setw(9) << "slips"
+            << std::setw(10) << "at once" << std::setw(7) << "late" << std::setw(8) << "missed"
+            << std::setw(10) << "sat-ep." << std::setw(13) << "false/1000" << '\n';
+}
+
+inline void print_counts(const std::string& name, const SlipCounts& c) {
+  std::cout << std::left << std::setw(46) << name << std::right << std::setw(9) << c.injected
+            << std::setw(8) << std::fixed << std::setprecision(2) << 100.0 * c.detected() << " %"
+            << std::setw(7) << c.late << std::setw(8) << c.injected - c.at_once - c.late
+            << std::setw(10) << c.satellite_epochs << std::setw(13) << std::setprecision(3)
+            << 1000.0 * c.false_rate() << '\n'
+            << std::defaultfloat;
+}
+
+inline void print_ends(const SlipCounts& c) {
+  std::cout << "    arcs " << c.arcs << ", first of a satellite " << c.first_arcs << "; ended by:";
+  for (const auto& [cause, n] : c.ends) {
+    if (n > 0) std::cout << ' ' << to_string(cause) << ' ' << n;
+  }
+  std::cout << "; undecidable epochs " << c.undecidable << ", clock jumps " << c.clock_jumps << '\n';
+}
+
+inline void print_shares(const SlipCounts& c) {
+  std::cout << "    found by:";
+  for (const auto& [cause, n] : c.share) {
+    if (n > 0) {
+      std::cout << ' ' << to_string(cause) << ' ' << std::fixed << std::setprecision(1)
+                << 100.0 * static_cast<double>(n) / std::max(1L, c.at_once) << " %";
+    }
+  }
+  std::cout << "\n    of kind:";
+  for (const auto& [kind, n] : c.by_kind) {
+    std::cout << ' ' << kind << ' ' << n.first << '/' << n.second << ';';
+  }
+  std::cout << '\n' << std::defaultfloat;
+}
+
+}  // namespace leonav::test
