@@ -20,4 +20,12 @@ inline constexpr std::size_t kMaxImuHistory = 4096;   // IMU samples kept for re
 inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
 inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once
 
+// Antenna patterns. A receiver antenna's by azimuth and zenith every 5 degrees; a satellite's by
+// nadir angle alone, every degree to 40 or every two to 80.
+inline constexpr std::size_t kMaxAntennaValues = 73 * 19;
+inline constexpr std::size_t kMaxNadirValues = 41;
+inline constexpr std::size_t kMaxSatelliteAntennaBands = 8;
+inline constexpr std::size_t kMaxReceiverAntennaBands = 24;  // all systems together
+inline constexpr std::size_t kMaxAntennaIntervals = 2;       // of validity kept at once
+
 }  // namespace leonav

@@ -1,0 +1,176 @@
+#include "core/gnss/antenna_catalog.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+
+#include "core/gnss/signal.h"
+
+namespace leonav {
+namespace {
+
+// One band of one satellite's antenna over one interval of validity.
+struct SatelliteBand {
+  char band = 0;
+  GpsTime valid_from, valid_until;
+  std::uint64_t arrival = 0;
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+  double first_angle = 0.0, angle_step = 0.0;
+  int angles = 0;
+  std::array<float, kMaxNadirValues> values{};
+
+  AntennaGridView grid() const {
+    return {first_angle, angle_step, angles, angles > 0 ? 1 : 0, values.data()};
+  }
+  bool holds_at(GpsTime time) const {
+    return (!valid_from.is_set() || valid_from <= time) &&
+           (!valid_until.is_set() || time <= valid_until);
+  }
+};
+
+constexpr std::size_t kMaxEntries = kMaxSatelliteAntennaBands * kMaxAntennaIntervals;
+using SatelliteBands = boost::container::static_vector<SatelliteBand, kMaxEntries>;
+
+SatelliteBand compact(const AntennaPattern& pattern, std::uint64_t arrival) {
+  SatelliteBand entry;
+  entry.band = pattern.band;
+  entry.valid_from = pattern.valid_from;
+  entry.valid_until = pattern.valid_until;
+  entry.arrival = arrival;
+  entry.offset_m = pattern.offset_m;
+  entry.first_angle = pattern.variation.first_angle;
+  entry.angle_step = pattern.variation.angle_step;
+  entry.angles = pattern.variation.angles;
+  std::copy(pattern.variation.values.begin(), pattern.variation.values.end(), entry.values.begin());
+  return entry;
+}
+
+// Where a pattern of this band and start of validity goes: over the same one, into a free place, or
+// over the oldest of its band. nullptr: too many bands.
+SatelliteBand* place_for(const AntennaPattern& pattern, SatelliteBands* bands) {
+  SatelliteBand* oldest = nullptr;
+  std::size_t of_band = 0;
+  for (SatelliteBand& entry : *bands) {
+    if (entry.band != pattern.band) continue;
+    if (entry.valid_from == pattern.valid_from) return &entry;
+    ++of_band;
+    if (oldest == nullptr || entry.arrival < oldest->arrival) oldest = &entry;
+  }
+  if (of_band >= kMaxAntennaIntervals) return oldest;
+  if (bands->size() == bands->capacity()) return nullptr;
+  return &bands->emplace_back();
+}
+
+std::size_t place_of(SatelliteId id) {
+  std::size_t place = static_cast<std::size_t>(id.number) - 1;
+  if (id.system != System::kGps) place += 63;
+  if (id.system == System::kBeidou || id.system == System::kLeo) place += 50;
+  if (id.system == System::kLeo) place += 63;
+  return place;
+}
+
+double distance_hz(System a, char band_a, System b, char band_b) {
+  return std::abs(frequency_hz(a, band_a) - frequency_hz(b, band_b));
+}
+
+}  // namespace
+
+struct AntennaCatalog::Storage {
+  std::array<SatelliteBands, kMaxEphemerisSatellites> satellites;
+  boost::container::static_vector<AntennaPattern, kMaxReceiverAntennaBands> receiver;
+  std::uint64_t arrivals = 0;
+  Counters counters;
+
+  bool add_satellite(const AntennaPattern& pattern) {
+    const AntennaGrid& grid = pattern.variation;
+    if (grid.azimuths > 1 || grid.values.size() > kMaxNadirValues) return false;
+    SatelliteBand* place = place_for(pattern, &satellites[place_of(pattern.satellite)]);
+    if (place == nullptr) return false;
+    *place = compact(pattern, ++arrivals);
+    return true;
+  }
+
+  bool add_receiver(const AntennaPattern& pattern) {
+    for (AntennaPattern& known : receiver) {
+      if (known.satellite != pattern.satellite || known.band != pattern.band) continue;
+      known = pattern;
+      return true;
+    }
+    if (receiver.size() == receiver.capacity()) return false;
+    receiver.push_back(pattern);
+    return true;
+  }
+
+  // The entry that holds at `time` and is nearest in frequency; of several of one band the one
+  // whose validity began last.
+  const SatelliteBand* find(SatelliteId satellite, char band, GpsTime time) const {
+    const SatelliteBand* best = nullptr;
+    double best_hz = satellite.system == System::kLeo ? 1.0 : kMaxNeighbour_hz;
+    for (const SatelliteBand& entry : satellites[place_of(satellite)]) {
+      if (!entry.holds_at(time)) continue;
+      const double hz = distance_hz(satellite.system, band, satellite.system, entry.band);
+      const bool later =
+          best != nullptr && entry.band == best->band && entry.valid_from > best->valid_from;
+      if (best != nullptr ? hz < best_hz || later : hz <= best_hz) {
+        best = &entry;
+        best_hz = hz;
+      }
+    }
+    return best;
+  }
+};
+
+AntennaCatalog::AntennaCatalog() : storage_(std::make_unique<Storage>()) {}
+AntennaCatalog::~AntennaCatalog() = default;
+AntennaCatalog::AntennaCatalog(AntennaCatalog&&) noexcept = default;
+AntennaCatalog& AntennaCatalog::operator=(AntennaCatalog&&) noexcept = default;
+
+bool AntennaCatalog::add(const AntennaPattern& pattern) {
+  const bool added = is_sane(pattern) && (pattern.is_receiver ? storage_->add_receiver(pattern)
+                                                              : storage_->add_satellite(pattern));
+  ++(added ? storage_->counters.added : storage_->counters.refused);
+  return added;
+}
+
+bool AntennaCatalog::has_receiver() const { return !storage_->receiver.empty(); }
+
+bool AntennaCatalog::has_satellite(SatelliteId satellite, GpsTime time) const {
+  if (!is_valid(satellite)) return false;
+  const SatelliteBands& bands = storage_->satellites[place_of(satellite)];
+  return std::any_of(bands.begin(), bands.end(),
+                     [&](const SatelliteBand& entry) { return entry.holds_at(time); });
+}
+
+AntennaRange AntennaCatalog::satellite_range(SatelliteId satellite, char band, GpsTime time,
+                                             const Eigen::Vector3d& p_sat_e,
+                                             const Eigen::Matrix3d& C_es,
+                                             const Eigen::Vector3d& p_a_e) const {
+  if (!is_valid(satellite) || !(frequency_hz(satellite.system, band) > 0.0)) return {};
+  const SatelliteBand* entry = storage_->find(satellite, band, time);
+  if (entry == nullptr) return {};
+  return {satellite_antenna_range_m(entry->offset_m, entry->grid(), p_sat_e, C_es, p_a_e),
+          entry->band == band ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand};
+}
+
+AntennaRange AntennaCatalog::receiver_range(System system, char band,
+                                            const Eigen::Vector3d& u_r) const {
+  if (!(frequency_hz(system, band) > 0.0)) return {};
+  const AntennaPattern* best = nullptr;
+  double best_hz = kMaxNeighbour_hz;
+  for (const AntennaPattern& pattern : storage_->receiver) {
+    const double hz = distance_hz(system, band, pattern.satellite.system, pattern.band);
+    const bool own = hz == best_hz && pattern.satellite.system == system;
+    if (hz < best_hz || own || (best == nullptr && hz <= best_hz)) {
+      best = &pattern;
+      best_hz = hz;
+    }
+  }
+  if (best == nullptr) return {};
+  return {receiver_antenna_range_m(best->offset_m, view(best->variation), u_r),
+          best_hz < 1.0 ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand};
+}
+
+const AntennaCatalog::Counters& AntennaCatalog::counters() const { return storage_->counters; }
+
+}  // namespace leonav

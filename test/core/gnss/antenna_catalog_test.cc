@@ -1,0 +1,151 @@
+#include "core/gnss/antenna_catalog.h"
+
+#include <cmath>
+
+#include "antenna_patterns.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using test::receiver_pattern;
+using test::satellite_pattern;
+
+GpsTime week(int number) { return GpsTime::from_week_and_tow(number, 1.0); }
+
+// Range of a satellite straight above, whose offset points to the antenna.
+AntennaRange overhead(const AntennaCatalog& catalog, SatelliteId id, char band, GpsTime time) {
+  Matrix3d C_es;
+  C_es << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  return catalog.satellite_range(id, band, time, Vector3d(2.6e7, 0, 0), C_es,
+                                 Vector3d(6.4e6, 0, 0));
+}
+
+const Vector3d kZenith(0, 0, -1);
+
+}  // namespace
+
+TEST_CASE("A satellite's pattern serves in its validity, the later one where two do",
+          "[antenna_catalog]") {
+  AntennaCatalog catalog;
+  const SatelliteId g05{System::kGps, 5};
+  AntennaPattern pattern = satellite_pattern(g05, '1', {0, 0, 1000});
+  pattern.valid_from = week(1000);
+  pattern.valid_until = week(1500);
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g05, '1', week(999)).status == AntennaStatus::kNone);
+  CHECK(overhead(catalog, g05, '1', week(1500)).status == AntennaStatus::kOk);
+  CHECK(overhead(catalog, g05, '1', week(1501)).status == AntennaStatus::kNone);
+  CHECK(overhead(catalog, g05, '1', week(1501)).range_m == 0.0);
+  CHECK(overhead(catalog, g05, '1', week(1200)).range_m == Approx(-1.0).margin(1e-7));
+  CHECK(catalog.has_satellite(g05, week(1200)));
+  CHECK_FALSE(catalog.has_satellite(g05, week(1501)));
+  CHECK_FALSE(catalog.has_satellite({System::kGalileo, 5}, week(1200)));
+
+  pattern.offset_m.z() = 2.0;
+  pattern.valid_from = week(1400);
+  pattern.valid_until = GpsTime();
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g05, '1', week(1399)).range_m == Approx(-1.0).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(1450)).range_m == Approx(-2.0).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(2450)).range_m == Approx(-2.0).margin(1e-7));
+
+  pattern.offset_m.z() = 2.5;  // the same start: a correction of it
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g05, '1', week(1450)).range_m == Approx(-2.5).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(1200)).range_m == Approx(-1.0).margin(1e-7));
+
+  pattern.offset_m.z() = 3.0;  // a third interval: the first to come goes
+  pattern.valid_from = week(2000);
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g05, '1', week(2100)).range_m == Approx(-3.0).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(1450)).range_m == Approx(-2.5).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(1200)).status == AntennaStatus::kNone);
+}
+
+TEST_CASE("A missing band takes its neighbour's pattern and says so", "[antenna_catalog]") {
+  AntennaCatalog catalog;
+  const SatelliteId g05{System::kGps, 5}, l05{System::kLeo, 5}, e05{System::kGalileo, 5};
+  REQUIRE(catalog.add(satellite_pattern(g05, '1', {0, 0, 1000})));
+  CHECK(overhead(catalog, g05, '5', week(2000)).status == AntennaStatus::kNone);
+  REQUIRE(catalog.add(satellite_pattern(g05, '2', {0, 0, 2000})));
+  const AntennaRange l5 = overhead(catalog, g05, '5', week(2000));
+  CHECK(l5.status == AntennaStatus::kNeighbourBand);
+  CHECK(l5.range_m == Approx(-2.0).margin(1e-7));
+  CHECK(overhead(catalog, g05, '1', week(2000)).status == AntennaStatus::kOk);
+  CHECK(overhead(catalog, g05, '4', week(2000)).status == AntennaStatus::kNone);
+
+  REQUIRE(catalog.add(satellite_pattern(e05, '7', {0, 0, 700})));
+  REQUIRE(catalog.add(satellite_pattern(e05, '5', {0, 0, 500})));
+  CHECK(overhead(catalog, e05, '8', week(2000)).range_m < -0.4);
+  CHECK(overhead(catalog, e05, '6', week(2000)).range_m == Approx(-0.7).margin(1e-7));
+  CHECK(overhead(catalog, e05, '1', week(2000)).status == AntennaStatus::kNone);
+
+  REQUIRE(catalog.add(satellite_pattern(l05, '1', {0, 0, 100})));
+  CHECK(overhead(catalog, l05, '1', week(2000)).status == AntennaStatus::kOk);
+  CHECK(overhead(catalog, l05, '2', week(2000)).status == AntennaStatus::kNone);
+}
+
+TEST_CASE("A receiver's pattern serves every system by frequency", "[antenna_catalog]") {
+  AntennaCatalog catalog;
+  CHECK_FALSE(catalog.has_receiver());
+  CHECK(catalog.receiver_range(System::kGps, '1', kZenith).status == AntennaStatus::kNone);
+  REQUIRE(catalog.add(receiver_pattern(System::kGps, '2', {0, 0, 120})));
+  REQUIRE(catalog.add(receiver_pattern(System::kGps, '1', {0, 0, 90})));
+  CHECK(catalog.has_receiver());
+  const auto check = [&](System system, char band, double range_m, AntennaStatus status) {
+    const AntennaRange range = catalog.receiver_range(system, band, kZenith);
+    INFO(to_string(system) << band);
+    CHECK(range.range_m == Approx(range_m).margin(1e-9));
+    CHECK(range.status == status);
+  };
+  check(System::kGps, '1', -0.090, AntennaStatus::kOk);
+  check(System::kGps, '5', -0.120, AntennaStatus::kNeighbourBand);
+  check(System::kLeo, '2', -0.120, AntennaStatus::kOk);
+  check(System::kGalileo, '1', -0.090, AntennaStatus::kOk);
+  check(System::kGalileo, '5', -0.120, AntennaStatus::kNeighbourBand);
+  check(System::kBeidou, '2', -0.090, AntennaStatus::kNeighbourBand);
+  check(System::kBeidou, '6', -0.120, AntennaStatus::kNeighbourBand);
+  REQUIRE(catalog.add(receiver_pattern(System::kGalileo, '1', {0, 0, 91})));
+  check(System::kGalileo, '1', -0.091, AntennaStatus::kOk);
+  check(System::kGps, '1', -0.090, AntennaStatus::kOk);
+  REQUIRE(catalog.add(receiver_pattern(System::kGalileo, '1', {0, 0, 92})));
+  check(System::kGalileo, '1', -0.092, AntennaStatus::kOk);
+}
+
+TEST_CASE("The antenna catalogue refuses what it cannot hold and keeps the rest",
+          "[antenna_catalog]") {
+  AntennaCatalog catalog;
+  const SatelliteId c05{System::kBeidou, 5};
+  AntennaPattern wide = satellite_pattern(c05, '1', {0, 0, 1});
+  wide.variation.angle_step = 0.01;
+  wide.variation.angles = static_cast<int>(kMaxNadirValues) + 1;
+  wide.variation.azimuths = 1;
+  wide.variation.values.resize(kMaxNadirValues + 1);
+  REQUIRE(is_sane(wide));
+  CHECK_FALSE(catalog.add(wide));
+  AntennaPattern unsound = satellite_pattern(c05, '1', {0, 0, std::nan("")});
+  CHECK_FALSE(catalog.add(unsound));
+  CHECK(catalog.counters().refused == 2);
+  CHECK_FALSE(catalog.has_satellite(c05, week(2000)));
+  // Every satellite there is, with both intervals of every band it can have.
+  for (const System system : kSystems) {
+    for (std::uint16_t number = 1; number < 400; ++number) {
+      if (!is_valid({system, number})) continue;
+      for (const char band : {'1', '2', '5', '6', '7', '8'}) {
+        AntennaPattern pattern = satellite_pattern({system, number}, band, {0, 0, 1.0 * number});
+        if (!is_sane(pattern)) continue;
+        CHECK(catalog.add(pattern));
+        pattern.valid_from = week(2000);
+        CHECK(catalog.add(pattern));
+      }
+    }
+  }
+  CHECK(overhead(catalog, {System::kLeo, 399}, '1', week(2100)).range_m == Approx(-0.399));
+  CHECK(overhead(catalog, {System::kGps, 63}, '1', week(1999)).range_m == Approx(-0.063));
+  CHECK(overhead(catalog, {System::kGalileo, 1}, '1', week(1999)).range_m == Approx(-0.001));
+}
+
+}  // namespace leonav
