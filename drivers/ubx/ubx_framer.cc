@@ -74,13 +74,21 @@ bool UbxFramer::next(UbxMessage* message) {
     message->payload = std::span(buffer_).subspan(begin_ + 6, length);
     begin_ += length + kOverhead;
     ++counters_.messages;
+    foreign_.interrupt();
     return true;
   }
   if (finished_) skip(end_ - begin_);
   return false;
 }
 
+UbxFramerCounters UbxFramer::counters() const {
+  UbxFramerCounters counters = counters_;
+  counters.foreign = foreign_.counters();
+  return counters;
+}
+
 void UbxFramer::skip(std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) foreign_.take(buffer_[begin_ + i]);
   begin_ += count;
   counters_.bytes_skipped += count;
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/ubx/foreign_messages.h"
+
 namespace leonav {
 
 // A framed message with a good checksum; `payload` is valid until the framer is used again.
@@ -17,6 +19,7 @@ struct UbxMessage {
 struct UbxFramerCounters {
   std::uint64_t messages = 0;       // framed, checksum good
   std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
+  ForeignMessageCounters foreign;   // what of bytes_skipped belongs to other protocols
   std::uint64_t bad_checksums = 0;
   std::uint64_t oversize = 0;    // claimed length above kMaxPayload: taken for a false sync
   std::uint64_t incomplete = 0;  // cut off by the end of the stream
@@ -38,7 +41,7 @@ class UbxFramer {
   // (a false sync near the end must not swallow good messages). Call next() until false after it.
   void finish() { finished_ = true; }
 
-  const UbxFramerCounters& counters() const { return counters_; }
+  UbxFramerCounters counters() const;
 
  private:
   static constexpr std::size_t kOverhead = 8;  // sync 2, class, id, length 2, checksum 2
@@ -57,6 +60,7 @@ class UbxFramer {
   std::size_t end_ = 0;
   bool finished_ = false;
   UbxFramerCounters counters_;
+  ForeignMessages foreign_;
 };
 
 }  // namespace leonav
