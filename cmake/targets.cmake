@@ -111,3 +111,9 @@ function(leonav_test target folder)
   add_test(NAME ${target} COMMAND ${target})
   set_tests_properties(${target} PROPERTIES TIMEOUT 900)
 endfunction()
+
+# leonav_script_test(name script argument...): a test that is a script of the source tree.
+function(leonav_script_test name script)
+  add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/${script} ${ARGN})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 120)
+endfunction()

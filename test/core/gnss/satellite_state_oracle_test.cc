@@ -17,7 +17,9 @@ TEST_CASE("A whole navigation file agrees with RTKLIB", "[oracle]") {
   const char* nav_path = std::getenv("LEONAV_ORBIT_ORACLE_NAV");
   const char* table_path = std::getenv("LEONAV_ORBIT_ORACLE");
   if (nav_path == nullptr || table_path == nullptr) {
-    std::cout << "SKIPPED: LEONAV_ORBIT_ORACLE and LEONAV_ORBIT_ORACLE_NAV name no files\n";
+    std::cout
+        << "SKIPPED (optional): LEONAV_ORBIT_ORACLE and LEONAV_ORBIT_ORACLE_NAV name no files "
+           "(test/oracle/broadcast_orbits.py makes them)\n";
     return;
   }
   using Key = std::tuple<std::string, std::string, int, GpsTime>;
