@@ -40,6 +40,7 @@ class Stopwatch {
 
 struct EngineCounters {
   // io
+  Gauge io_rounds;  // looks for messages, found or not
   std::array<Gauge, kInputChannels.size()> received, lost;
   std::array<Gauge, 16> rejected;  // by InputFault
   Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps;

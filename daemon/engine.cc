@@ -219,6 +219,17 @@ RingStatistics Engine::out_ring() const {
   return worst;
 }
 
+WorkCount Engine::out_work() const {
+  WorkCount sum;
+  for (const MessageRing* ring :
+       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+    const WorkCount one = ring->count();
+    sum.done += one.done;
+    sum.pushed += one.pushed;
+  }
+  return sum;
+}
+
 void Engine::update_io_counters() {
   const InputDispatch::Counters& inputs = dispatch_.counters();
   for (std::size_t i = 0; i < kInputChannels.size(); ++i) {

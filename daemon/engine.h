@@ -60,6 +60,9 @@ class Engine final : private StageInputs {
   RingStatistics inertial_ring() const { return inertial_ring_.statistics(); }
   RingStatistics gnss_ring() const { return gnss_ring_.statistics(); }
   RingStatistics out_ring() const;  // the worst of those to `out`
+  WorkCount inertial_work() const { return inertial_ring_.count(); }
+  WorkCount gnss_work() const { return gnss_ring_.count(); }
+  WorkCount out_work() const;  // of all rings to `out`
   // After start(): where the journal is written; empty: nowhere.
   const std::string& journal_path() const { return config_.journal.path; }
   // Valid once counters().journal_failed is set.

@@ -56,6 +56,11 @@ class MessageRing {
   bool idle() const {
     return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
   }
+  // What was done is read first, so that it is never more than what was pushed.
+  WorkCount count() const {
+    const std::uint64_t done = done_.load(std::memory_order_acquire);
+    return {done, pushed_.load(std::memory_order_acquire)};
+  }
   RingStatistics statistics() const;
 
  private:

@@ -16,6 +16,11 @@ struct RingStatistics {
   std::uint64_t waits = 0;               // how often the producer found it full
 };
 
+// Of a ring, or of all rings to one thread.
+struct WorkCount {
+  std::uint64_t done = 0, pushed = 0;
+};
+
 template <typename T>
 class WorkRing {
  public:
@@ -51,6 +56,11 @@ class WorkRing {
   // Any thread: everything that was pushed has been dealt with.
   bool idle() const {
     return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
+  }
+  // What was done is read first, so that it is never more than what was pushed.
+  WorkCount count() const {
+    const std::uint64_t done = done_.load(std::memory_order_acquire);
+    return {done, pushed_.load(std::memory_order_acquire)};
   }
   RingStatistics statistics() const {
     return {100 * high_water_.load(std::memory_order_relaxed) / capacity_,

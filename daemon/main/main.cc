@@ -12,6 +12,8 @@
 #include "daemon/engine.h"
 #include "daemon/health.h"
 #include "daemon/lcm_link.h"
+#include "daemon/service_manager.h"
+#include "daemon/thread_watch.h"
 #include "tools/common/arguments.h"
 
 namespace {
@@ -29,11 +31,14 @@ sigset_t stop_signals() {
   return set;
 }
 
-// Publishes HEALTH and logs its changes, once a second, until a signal comes or `io` fails.
-void supervise(Engine* engine, HealthMonitor* health, const std::atomic<bool>& io_failed) {
+// Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
+// feeds the watchdog unless a thread hangs.
+void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
+               const std::atomic<bool>& io_failed) {
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
-  std::string last;
+  ThreadWatch watch(engine);
+  std::string last, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
       spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
@@ -43,6 +48,10 @@ void supervise(Engine* engine, HealthMonitor* health, const std::atomic<bool>& i
     const std::string now = health->status() + (health->why().empty() ? "" : ": " + health->why());
     if (now != last) spdlog::info("{}", now);
     last = now;
+    const std::string hanging = watch.hanging();
+    if (hanging.empty()) manager.feed_watchdog();
+    if (!hanging.empty() && hanging != last_hanging) spdlog::error("thread hangs: {}", hanging);
+    last_hanging = hanging;
   }
 }
 
@@ -51,6 +60,8 @@ int run(const DaemonConfig& config) {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread exists: all inherit it
   std::signal(SIGPIPE, SIG_IGN);
 
+  const ServiceManager manager;
+  if (!manager.problem().empty()) spdlog::warn("{}", manager.problem());
   LcmPublisher publisher(config.lcm);
   Engine engine(config, &publisher);
   LcmReceiver receiver(config.lcm, &engine);
@@ -60,6 +71,7 @@ int run(const DaemonConfig& config) {
   RealtimeThread io;
   const std::string refused = io.start("io", config.threads.io, [&] {
     while (!stop.load()) {
+      engine.counters().io_rounds.add(1);
       if (!receiver.receive(100)) {
         io_failed.store(true);
         return;
@@ -75,7 +87,9 @@ int run(const DaemonConfig& config) {
   }
 
   HealthMonitor health(&engine, config.navigator);
-  supervise(&engine, &health, io_failed);
+  manager.ready();
+  supervise(&engine, &health, manager, io_failed);
+  manager.stopping();
 
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGINT, SIG_DFL);
