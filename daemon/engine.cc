@@ -245,6 +245,7 @@ void Engine::update_io_counters() {
   counters_.empty_epochs.set(static_cast<std::int64_t>(sequencer.empty_epochs));
   counters_.late_epochs.set(static_cast<std::int64_t>(sequencer.late_epochs));
   counters_.imu_gaps.set(static_cast<std::int64_t>(sequencer.imu_gaps));
+  counters_.imu_smoothed.set(static_cast<std::int64_t>(sequencer.imu_smoothed));
 }
 
 }  // namespace leonav

@@ -70,26 +70,25 @@ void Sequencer::on_imu(const ImuSample& received) {
   issue_ready_epochs();
 }
 
-// Decides whether the sample fits behind the last one and closes what rounding of stamps opened.
+// Decides whether the sample fits behind the last one and lays it there.
 InputFault Sequencer::place_imu(ImuSample* sample) {
-  if (!imu_time_.is_set()) return InputFault::kNone;
-  const GpsTime newest = std::max(imu_time_, newest_epoch_time());
-  if (sample->time == imu_time_) return InputFault::kDuplicate;
-  const bool backwards = sample->time < imu_time_;
-  if (backwards || nanoseconds_between(sample->time, newest) > kMaxAheadNs) {
-    if (!imu_watch_.reject(sample->time)) {
-      return backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead;
+  const GpsTime last_stamp = imu_stamps_.last_stamp();
+  if (last_stamp.is_set()) {
+    if (sample->time == last_stamp) return InputFault::kDuplicate;
+    const GpsTime newest = std::max(last_stamp, newest_epoch_time());
+    const bool backwards = !imu_stamps_.follows(*sample);
+    if (backwards || nanoseconds_between(sample->time, newest) > kMaxAheadNs) {
+      if (!imu_watch_.reject(sample->time)) {
+        return backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead;
+      }
+      change_time_base(seconds_between(sample->time, last_stamp));
     }
-    change_time_base(seconds_between(sample->time, imu_time_));
-    return InputFault::kNone;
   }
-  const std::int64_t hole_ns = nanoseconds_between(sample->start(), imu_time_);
-  const std::int64_t tolerance_ns = sample->interval_ns / 2;
-  if (hole_ns < -tolerance_ns) return InputFault::kTimeBackwards;
-  if (hole_ns <= tolerance_ns) {
-    sample->interval_ns = nanoseconds_between(sample->time, imu_time_);
-  } else if (worth_an_event(++counters_.imu_gaps)) {
-    emit(EventKind::kImuGap, 0, static_cast<double>(hole_ns) * 1e-9);
+  const ImuStamps::Place place = imu_stamps_.place(imu_time_, sample);
+  if (!place.accepted) return InputFault::kTimeBackwards;
+  if (place.smoothed) ++counters_.imu_smoothed;
+  if (place.hole_ns > 0 && worth_an_event(++counters_.imu_gaps)) {
+    emit(EventKind::kImuGap, 0, static_cast<double>(place.hole_ns) * 1e-9);
   }
   return InputFault::kNone;
 }
@@ -98,6 +97,7 @@ InputFault Sequencer::place_imu(ImuSample* sample) {
 void Sequencer::change_time_base(double jump_s) {
   emit(EventKind::kFilterReset, 1, jump_s);
   imu_time_ = GpsTime();
+  imu_stamps_.clear();
   last_epoch_time_ = last_raw_epoch_time_ = GpsTime();
   last_epoch_is_empty_ = true;
   pending_count_ = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/navigator/imu_stamps.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/time_base_watch.h"
@@ -34,10 +35,9 @@ class StageInputs {
 //   that a steady latency costs one epoch and not all;
 // - an epoch not later than the last issued one is late: counted, dropped, reported; one that is
 //   merely out of order takes its place among those waiting;
-// - IMU samples must be finite, in range and increasing. A sample that starts within half of its
-//   interval of the previous one's end is taken to start there (receivers and hosts round stamps):
-//   its increments stay, its interval changes. A later start is a gap, reported and left as a hole;
-//   an earlier one is rejected (kTimeBackwards);
+// - IMU samples must be finite, in range and increasing (kTimeBackwards). Their stamps may jitter:
+//   ImuStamps lays them end to end; increments stay, intervals change. A gap is reported and left
+//   as a hole;
 // - an IMU stamp more than kMaxAheadS beyond everything seen (kTooFarAhead), or behind, is rejected
 //   until a run of consistent ones shows that time itself has changed: then everything restarts in
 //   the new time. The same holds for epochs while the IMU keeps time, except that "too far" is
@@ -75,6 +75,7 @@ class Sequencer {
   struct Counters {
     std::uint64_t imu = 0, epochs = 0, ephemerides = 0, empty_epochs = 0, late_epochs = 0,
                   imu_gaps = 0;
+    std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter, see ImuStamps
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
   };
   const Counters& counters() const { return counters_; }
@@ -115,6 +116,7 @@ class Sequencer {
   bool last_epoch_is_empty_ = true;
   std::uint64_t next_index_ = 1;
   std::uint64_t next_event_ = 1;
+  ImuStamps imu_stamps_;
   TimeBaseWatch imu_watch_, epoch_watch_;
   std::array<std::unique_ptr<RawEpoch>, kMaxPending + 1>
       pending_;  // the first pending_count_, by time

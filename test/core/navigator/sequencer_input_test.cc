@@ -1,0 +1,51 @@
+// Inputs that are refused by themselves, wherever they stand in time.
+#include "core/navigator/sequencer.h"
+
+#include <limits>
+
+#include "sequencer_rig.h"
+#include "support/catch.h"
+
+namespace leonav::test {
+namespace {
+
+TEST_CASE("observations that no receiver can have made are left out, the rest is sorted") {
+  SequencerRig rig;
+  rig.imu(0, 1000);
+  RawEpoch raw = epoch_at(at_ms(1000));
+  SignalObservation o = raw.observations[0];
+  o.satellite = {System::kGps, 3};
+  raw.observations.push_back(o);
+  raw.observations.push_back(o);  // again
+  o.satellite = {System::kGps, 999};
+  raw.observations.push_back(o);
+  rig.sequencer.on_raw_epoch(raw);
+  REQUIRE(rig.stages.blocks.size() == 1);
+  CHECK(rig.stages.blocks[0].observations == 2);
+  CHECK(rig.rejected(InputFault::kNotSane) == 1);
+}
+
+TEST_CASE("hostile commands, ephemerides and precise states are counted and dropped") {
+  SequencerRig rig;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  rig.sequencer.on_command({CommandKind::kSetHeading, nan, 0.1});
+  rig.sequencer.on_command({CommandKind::kSetHeading, 1.0, -0.1});
+  rig.sequencer.on_command({static_cast<CommandKind>(77), 1.0, 0.1});
+  rig.sequencer.on_ephemeris(Ephemeris());
+  PreciseState state;
+  state.satellite = {System::kGps, 4};
+  state.time = kStart;
+  state.p_e << nan, 0, 0;
+  rig.sequencer.on_precise_state(state);
+  state.p_e.setZero();
+  rig.sequencer.on_precise_state(state);
+  rig.sequencer.on_rejected(InputFault::kUndecodable);
+  CHECK(rig.rejected(InputFault::kNotFinite) == 2);
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
+  CHECK(rig.rejected(InputFault::kNotSane) == 1);
+  CHECK(rig.rejected(InputFault::kUndecodable) == 1);
+  CHECK(rig.stages.commands.empty());
+}
+
+}  // namespace
+}  // namespace leonav::test

@@ -1,0 +1,82 @@
+// Epochs that come late, again, or out of order.
+#include "core/navigator/sequencer.h"
+
+#include <algorithm>
+
+#include "sequencer_rig.h"
+#include "support/catch.h"
+
+namespace leonav::test {
+namespace {
+
+// Epochs as a receiver of this latency delivers them over a minute; those the stages saw.
+std::size_t epochs_used(std::int64_t interval_ms, std::int64_t latency_ms, SequencerRig* rig) {
+  std::int64_t next = interval_ms;
+  for (std::int64_t ms = 5; ms <= 60'000 + latency_ms; ms += 5) {
+    rig->sequencer.on_imu(sample_until(at_ms(ms)));
+    if (next <= 60'000 && ms >= next + latency_ms) {
+      rig->sequencer.on_raw_epoch(epoch_at(at_ms(next)));
+      next += interval_ms;
+    }
+  }
+  const auto& blocks = rig->stages.blocks;
+  return static_cast<std::size_t>(
+      std::count_if(blocks.begin(), blocks.end(), [](const auto& b) { return !b.empty; }));
+}
+
+TEST_CASE("a steady GNSS latency costs no epoch, one beyond the allowance the first ones") {
+  struct Case {
+    std::int64_t interval_ms, latency_ms;
+    std::size_t lost;
+  };
+  // Until the first late epoch teaches the wait, those under way with it are lost too.
+  for (const Case& c : {Case{100, 60, 0}, Case{100, 150, 0}, Case{100, 300, 0}, Case{100, 900, 5},
+                        Case{250, 200, 0}, Case{1000, 300, 0}, Case{1000, 520, 1},
+                        Case{1000, 900, 1}, Case{30'000, 900, 0}}) {
+    CAPTURE(c.interval_ms, c.latency_ms);
+    NavigatorConfig config;
+    config.realtime.epoch_interval_s = static_cast<double>(c.interval_ms) * 1e-3;
+    SequencerRig rig(config);
+    const auto sent = static_cast<std::size_t>(60'000 / c.interval_ms);
+    const std::size_t used = epochs_used(c.interval_ms, c.latency_ms, &rig);
+    CHECK(used + c.lost >= sent);
+    CHECK(rig.sequencer.counters().late_epochs == sent - used);
+    check_tiling(rig.stages);
+  }
+}
+
+TEST_CASE("old epochs delivered again do not lengthen the wait") {
+  SequencerRig rig;
+  for (int k = 1; k <= 3; ++k) {
+    rig.imu(1000 * (k - 1), 1000 * k);
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * k)));
+  }
+  rig.imu(3000, 4500);
+  CHECK(rig.stages.blocks.back().time == at_ms(4000));
+  for (int i = 0; i < 20; ++i) rig.sequencer.on_raw_epoch(epoch_at(at_ms(2000)));
+  rig.imu(4500, 5500);
+  CHECK(rig.stages.blocks.back().time == at_ms(5000));
+}
+
+TEST_CASE("late and repeated epochs are counted and dropped, and cost nothing else") {
+  SequencerRig rig;
+  rig.imu(0, 1010);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  CHECK(rig.rejected(InputFault::kDuplicate) == 1);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(400)));
+  CHECK(rig.sequencer.counters().late_epochs == 1);
+  REQUIRE(rig.stages.count(EventKind::kLateEpoch) == 1);
+  CHECK(rig.stages.events.back().value == Approx(0.6));
+  rig.imu(1010, 2600);  // the empty epoch for 2000 is out
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(2000)));
+  CHECK(rig.sequencer.counters().late_epochs == 2);
+  rig.imu(2600, 3000);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(3000)));
+  CHECK(rig.stages.blocks.back().time == at_ms(3000));
+  CHECK_FALSE(rig.stages.blocks.back().empty);
+  check_tiling(rig.stages);
+}
+
+}  // namespace
+}  // namespace leonav::test
