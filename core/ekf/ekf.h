@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
+#include <limits>
 #include <span>
 
 #include "core/ekf/ekf_config.h"
@@ -37,6 +38,11 @@ struct EkfUpdateResult {
   int doppler_offered = 0;
   int doppler_rejected = 0;
   double nis = 0.0;  // of the used ones
+  // Median of |innovation| over its sigma, all codes or Dopplers offered, over what it is for
+  // normal errors: 1 when all is well, whatever weights or a widened prior make of it. Clock jumps
+  // taken out. NaN: fewer than four.
+  double code_ratio = std::numeric_limits<double>::quiet_NaN();
+  double doppler_ratio = std::numeric_limits<double>::quiet_NaN();
   // The measurements agreed with each other but not with the prediction: its covariance was widened
   // before the update instead of rejecting them.
   bool prediction_suspect = false;

@@ -103,6 +103,8 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
     shift_innovations(Observable::kCode, jump, &measurements_);
     result->clock_jump_m = jump;
   }
+  result->code_ratio = consistency_ratio(measurements_, Observable::kCode, covariance_);
+  result->doppler_ratio = consistency_ratio(measurements_, Observable::kDoppler, covariance_);
   // A wider prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
   for (const Observable observable : {Observable::kDoppler, Observable::kCode}) {

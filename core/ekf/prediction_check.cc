@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/ekf/median.h"
 
@@ -66,6 +67,19 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   const bool huge = observable == Observable::kCode && std::abs(shift) > kMillisecondStep;
   if (agree && (many || huge) && std::abs(shift) > kShiftRatio * sigma) return shift;
   return 0.0;
+}
+
+double consistency_ratio(const FilterMeasurements& measurements, Observable observable,
+                         const EkfCovariance& covariance) {
+  SmallTable ratios;
+  for (const FilterMeasurement& measurement : measurements) {
+    if (measurement.observable != observable) continue;
+    const double variance =
+        measurement.variance + measurement.row.dot(covariance * measurement.row);
+    ratios.push_back(std::abs(measurement.innovation) / std::sqrt(variance));
+  }
+  if (ratios.size() < kMinCount) return std::numeric_limits<double>::quiet_NaN();
+  return median(ratios) / std::sqrt(kMedianSquare);
 }
 
 double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,

@@ -14,6 +14,11 @@ namespace leonav {
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 
+// Median of |innovation| over its predicted sigma, divided by what it is for normal errors. NaN:
+// fewer than four of `observable`.
+double consistency_ratio(const FilterMeasurements& measurements, Observable observable,
+                         const EkfCovariance& covariance);
+
 // Factor >= 1 on the predicted variance of the innovations of `observable` with which their median
 // square would be as expected; 1 while the median standardized innovation is below `suspect`, and 1
 // where the measurements do not agree with each other either once the prior is that wide: then most

@@ -9,6 +9,7 @@
 #include "core/gnss/point_solution.h"
 #include "core/gnss/preprocess.h"
 #include "core/navigator/epoch_report.h"
+#include "core/navigator/solution.h"
 
 namespace leonav {
 namespace {
@@ -49,6 +50,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
     : config_(config),
       mailbox_(ekf_mailbox),
       sink_(sink),
+      events_(Stage::kGnss, sink),
       inertial_(config.motion == MotionModel::kInertial),
       catalog_(config.gnss.catalog),
       ekf_(config.ekf, config.imu, config.vehicle.lever_arm_b),
@@ -91,19 +93,24 @@ void GnssStage::process_epoch(const EpochWork& work) {
     align(work);
   }
   watch_motion(work);
+  report_solution(work);
   deliver(work);
   publish(work);
 }
 
 // A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
 void GnssStage::drop_broken_filter(GpsTime time) {
-  if (!ekf_.initialized() || ekf_.is_finite()) return;
+  if (ekf_.initialized() && !ekf_.is_finite()) drop_filter(time);
+}
+
+void GnssStage::drop_filter(GpsTime time) {
   ekf_ = Ekf(config_.ekf, config_.imu, config_.vehicle.lever_arm_b);
   alignment_.reset();
   gnss_used_ = false;
   suspect_epochs_ = 0;
   last_reset_time_ = time;
-  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0, time);
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
+               time);
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
@@ -157,7 +164,19 @@ void GnssStage::update_filter(const EpochWork& work) {
   const EkfUpdateResult result = ekf_.update(*measurements_);
   gnss_used_ = result.used > 0;
   report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
+  watch_consistency(work, result);
   judge_prediction(work, result);
+}
+
+// A filter that is less right than it says, for long, is somebody's business even where no
+// measurement stands out.
+void GnssStage::watch_consistency(const EpochWork& work, const EkfUpdateResult& result) {
+  const std::array<double, 2> ratios = {result.code_ratio, result.doppler_ratio};
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    if (consistency_[i].add(ratios[i]))
+      events_.emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), consistency_[i].mean(),
+                   work.time);
+  }
 }
 
 // Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
@@ -224,7 +243,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   gnss_used_ = true;
   suspect_epochs_ = 0;
   last_reset_time_ = work.time;
-  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
 }
 
 // A given heading that has been used is good again only while nothing has moved since.
@@ -252,7 +271,8 @@ void GnssStage::align(const EpochWork& work) {
   given_heading_.use();
   ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
                     aligned->gyro_bias_known);
-  emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(), work.time);
+  events_.emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(),
+               work.time);
 }
 
 void GnssStage::process_command(const Command& command) {
@@ -261,8 +281,8 @@ void GnssStage::process_command(const Command& command) {
   alignment_.reset();
   suspect_epochs_ = 0;
   last_gnss_time_ = last_reset_time_ = GpsTime();
-  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kCommand), 0.0,
-       last_epoch_time_);
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kCommand), 0.0,
+               last_epoch_time_);
 }
 
 // Before alignment: good for it. Afterwards: turns the filter's attitude about the vertical;
@@ -282,7 +302,17 @@ void GnssStage::set_heading(double heading, double sigma) {
   euler.yaw = wrap_to_pi(heading);
   const Eigen::Matrix3d C_eb = C_ne.transpose() * rotation_from_euler(euler);
   ekf_.turn_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy);
-  emit(EventKind::kAligned, 1, sigma, state.time);
+  events_.emit(EventKind::kAligned, 1, sigma, state.time);
+}
+
+// What is about to be delivered, checked once more as a whole: finite states could be so far out
+// that their coordinates are not.
+void GnssStage::report_solution(const EpochWork& work) {
+  report_state(ekf_, report_.get());
+  if (is_finite(report_->solution)) return;
+  drop_filter(work.time);
+  report_->solution = Solution();
+  report_->solution.time = work.time;
 }
 
 void GnssStage::deliver(const EpochWork& work) {
@@ -300,7 +330,6 @@ void GnssStage::deliver(const EpochWork& work) {
 }
 
 void GnssStage::publish(const EpochWork& work) {
-  report_state(ekf_, report_.get());
   report_->solution.source = source();
   report_->solution.anchor_epoch = work.index;
   report_->sequence = next_report_++;
@@ -317,17 +346,6 @@ Source GnssStage::source() const {
   const double since_s = seconds_between(last_epoch_time_, last_gnss_time_);
   const bool recent = since_s <= 2.5 * config_.realtime.epoch_interval_s;
   return recent ? Source::kEkf : Source::kInsOnly;
-}
-
-void GnssStage::emit(EventKind kind, std::uint8_t code, double value, GpsTime time) {
-  Event event;
-  event.sequence = next_event_++;
-  event.stage = Stage::kGnss;
-  event.time = time;
-  event.kind = kind;
-  event.code = code;
-  event.value = value;
-  sink_->on_event(event);
 }
 
 }  // namespace leonav

@@ -1,27 +1,21 @@
 // Raw epoch -> measurements -> EKF -> anchor and report.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 
+#include "core/ekf/consistency_watch.h"
 #include "core/ekf/ekf.h"
 #include "core/gnss/band_bias.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
+#include "core/navigator/event_source.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
 
 namespace leonav {
-
-// Codes of EventKind::kFilterReset (1 is the Sequencer's: time itself has changed).
-enum class ResetCause : std::uint8_t {
-  kCommand = 0,
-  kTimeBase = 1,
-  kPrediction = 2,
-  kOutage = 3,
-  kNotFinite = 4
-};
 
 class GnssStage {
  public:
@@ -46,6 +40,8 @@ class GnssStage {
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
   bool prediction_is_useless() const;
   void drop_broken_filter(GpsTime time);
+  void drop_filter(GpsTime time);
+  void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
   bool contradicts(const PointSolution& point, bool motion) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
@@ -53,14 +49,15 @@ class GnssStage {
   double velocity_sigma() const;
   void align(const EpochWork& work);
   void set_heading(double heading, double sigma);
+  void report_solution(const EpochWork& work);
   void deliver(const EpochWork& work);
   void publish(const EpochWork& work);
   Source source() const;
-  void emit(EventKind kind, std::uint8_t code, double value, GpsTime time);
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
   OutputSink* sink_;
+  EventSource events_;
   bool inertial_;
   SatelliteCatalog catalog_;
   BandBiases band_biases_;
@@ -70,7 +67,8 @@ class GnssStage {
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<MeasurementEpoch> check_measurements_;  // of a point solution beside the filter
   std::unique_ptr<EpochReport> report_;
-  std::uint64_t next_report_ = 1, next_solution_ = 1, next_event_ = 1;
+  std::uint64_t next_report_ = 1, next_solution_ = 1;
+  std::array<ConsistencyWatch, 2> consistency_;  // codes, Dopplers
   int suspect_epochs_ = 0;
   bool gnss_used_ = false;  // in the epoch at hand
   GpsTime last_gnss_time_;  // of the last epoch that used any

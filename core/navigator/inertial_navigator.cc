@@ -28,6 +28,7 @@ InertialNavigator::InertialNavigator(const NavigatorConfig& config,
     : config_(config),
       mailbox_(ekf_mailbox),
       sink_(sink),
+      events_(Stage::kInertial, sink),
       solution_period_ns_(
           config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
       ins_only_after_ns_(to_nanoseconds(2.5 * config.realtime.epoch_interval_s +
@@ -48,8 +49,8 @@ void InertialNavigator::on_epoch(const EpochIssued& epoch) {
   if (waiting_.full()) {  // the IMU has stopped, so no deadline is ever reached
     const EpochIssued oldest = waiting_.front();
     waiting_.pop_front();
-    emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
-         static_cast<double>(oldest.index), imu_time_);
+    events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
+                 static_cast<double>(oldest.index), imu_time_);
     decide(oldest, imu_time_, true);
   }
   waiting_.push_back(epoch);
@@ -69,17 +70,30 @@ void InertialNavigator::on_sample(const ImuSample& sample) {
   if (publication_due(sample)) publish(sample.time);
 }
 
-void InertialNavigator::start_over(GpsTime now) {
-  while (!waiting_.empty()) {
-    decide(waiting_.front(), now, false);
-    waiting_.pop_front();
-  }
+void InertialNavigator::forget_anchor() {
   history_.clear();
   anchor_ = EkfUpdate();
   bridged_s_ = pending_jump_m_ = 0.0;
   bridge_angle_variance_ = bridge_velocity_variance_ = 0.0;
   last_sample_ = ImuSample();
-  last_gnss_time_ = next_solution_due_ = GpsTime();
+  last_gnss_time_ = GpsTime();
+}
+
+void InertialNavigator::start_over(GpsTime now) {
+  while (!waiting_.empty()) {
+    decide(waiting_.front(), now, false);
+    waiting_.pop_front();
+  }
+  forget_anchor();
+  next_solution_due_ = GpsTime();
+}
+
+// Numbers have overflowed: no answer until a filter that is sound delivers the next anchor.
+void InertialNavigator::drop_anchor(GpsTime now) {
+  forget_anchor();
+  source_ = Source::kNone;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
+               now);
 }
 
 void InertialNavigator::decide_due_epochs(GpsTime now) {
@@ -99,7 +113,7 @@ void InertialNavigator::decide(const EpochIssued& epoch, GpsTime now, bool usabl
   sink_->on_decision(decision);
   if (!decision.committed) {
     ++misses_;
-    emit(EventKind::kDeadlineMiss, 0, static_cast<double>(epoch.index), now);
+    events_.emit(EventKind::kDeadlineMiss, 0, static_cast<double>(epoch.index), now);
   } else if (usable && update.valid) {
     commit(update, now);
   }
@@ -110,8 +124,8 @@ void InertialNavigator::commit(const EkfUpdate& update, GpsTime now) {
   if (update.state.time > now) return;  // the IMU is behind or gone: nothing to propagate with
   const bool too_old = history_.empty() || history_.front().start() > update.state.time;
   if (too_old && history_.full()) {
-    emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
-         static_cast<double>(update.index), now);
+    events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
+                 static_cast<double>(update.index), now);
     return;
   }
   const bool had_answer = anchor_.valid;
@@ -169,7 +183,7 @@ void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
   pending_jump_m_ = std::max(pending_jump_m_, jump_m);
   const double sigma_m = std::sqrt(std::max(0.0, old_covariance.topLeftCorner<3, 3>().trace()));
   if (jump_m > kJumpEvent_m || jump_m > 3.0 * sigma_m) {
-    emit(EventKind::kSolutionJump, 0, jump_m, now);
+    events_.emit(EventKind::kSolutionJump, 0, jump_m, now);
   }
 }
 
@@ -226,23 +240,13 @@ bool InertialNavigator::publication_due(const ImuSample& sample) {
 void InertialNavigator::publish(GpsTime now) {
   Solution solution;
   fill_solution(current(now), covariance_at(now), anchor_.has_attitude, &solution);
+  if (!is_finite(solution)) return drop_anchor(now);
   solution.sequence = next_solution_++;
   solution.source = source_;
   solution.anchor_epoch = anchor_.index;
   solution.jump_m = pending_jump_m_;
   pending_jump_m_ = 0.0;
   sink_->on_solution(solution);
-}
-
-void InertialNavigator::emit(EventKind kind, std::uint8_t code, double value, GpsTime now) {
-  Event event;
-  event.sequence = next_event_++;
-  event.stage = Stage::kInertial;
-  event.time = now;
-  event.kind = kind;
-  event.code = code;
-  event.value = value;
-  sink_->on_event(event);
 }
 
 }  // namespace leonav

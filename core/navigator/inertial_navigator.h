@@ -6,6 +6,7 @@
 
 #include "core/ins/bridge.h"
 #include "core/ins/mechanization.h"
+#include "core/navigator/event_source.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/solution.h"
 #include "core/navigator/stage_work.h"
@@ -26,6 +27,7 @@ enum class InertialCapacity : std::uint8_t {
 //   constant velocity and attitude with grown sigma.
 // - When IMU time runs backwards or leaps, everything is dropped; epochs waiting are decided so
 //   that the journal has one decision for each.
+// - A solution with a number that is none is never published: the anchor is dropped, with an event.
 class InertialNavigator {
  public:
   InertialNavigator(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
@@ -46,7 +48,9 @@ class InertialNavigator {
   void step(const ImuSample& sample);
   void bridge(const ImuSample& next);
   void forget_before(GpsTime time);
+  void forget_anchor();
   void start_over(GpsTime now);
+  void drop_anchor(GpsTime now);
   void report_jump(const Eigen::Vector3d& old_p_e, const PvaCovariance& old_covariance,
                    GpsTime now);
   NavState current(GpsTime now) const;
@@ -54,11 +58,11 @@ class InertialNavigator {
   Source source_at(GpsTime now) const;
   bool publication_due(const ImuSample& sample);
   void publish(GpsTime now);
-  void emit(EventKind kind, std::uint8_t code, double value, GpsTime now);
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
   OutputSink* sink_;
+  EventSource events_;
   std::int64_t solution_period_ns_;
   std::int64_t ins_only_after_ns_;
   boost::circular_buffer<ImuSample> history_;    // since the anchor
@@ -74,7 +78,7 @@ class InertialNavigator {
   GpsTime next_solution_due_;
   double pending_jump_m_ = 0.0;  // not published yet
   Source source_ = Source::kNone;
-  std::uint64_t misses_ = 0, next_solution_ = 1, next_decision_ = 1, next_event_ = 1;
+  std::uint64_t misses_ = 0, next_solution_ = 1, next_decision_ = 1;
 };
 
 }  // namespace leonav

@@ -38,6 +38,8 @@ std::string_view to_string(EventKind kind) {
       return "solution_jump";
     case EventKind::kCapacity:
       return "capacity";
+    case EventKind::kImprobable:
+      return "improbable";
   }
   return "unknown";
 }

@@ -90,8 +90,19 @@ enum class EventKind : std::uint8_t {
   kEmptyEpoch = 6,
   kSolutionJump = 7,  // value: metres
   kCapacity = 8,      // a fixed table was full; code says which
+  kImprobable = 9,    // code: 0 codes, 1 Dopplers; value: innovations over their sigmas
 };
 std::string_view to_string(EventKind kind);
+
+// Codes of EventKind::kFilterReset: of the Sequencer's (kTimeBase), the GNSS stage's, and the
+// inertial stage's (kNotFinite: it waits for the next anchor).
+enum class ResetCause : std::uint8_t {
+  kCommand = 0,
+  kTimeBase = 1,
+  kPrediction = 2,
+  kOutage = 3,
+  kNotFinite = 4
+};
 
 // Why an input message was not used. On the wire: append only.
 enum class InputFault : std::uint8_t {

@@ -39,6 +39,18 @@ Eigen::Vector3d sigma_of_euler(const Eigen::Matrix3d& attitude_covariance_n, dou
   return sqrt_of_diagonal(covariance).cwiseMin(limit);
 }
 
+bool is_finite(const Solution& solution) {
+  const ImuErrors& errors = solution.errors;
+  const Eigen::Vector4d scalars(solution.latitude, solution.longitude, solution.height,
+                                solution.jump_m);
+  const Eigen::Vector3d angles(solution.roll, solution.pitch, solution.yaw);
+  return solution.p_e.allFinite() && solution.v_n.allFinite() && scalars.allFinite() &&
+         angles.allFinite() && solution.sigma_p_n.allFinite() && solution.sigma_v_n.allFinite() &&
+         solution.sigma_rpy.allFinite() && errors.gyro_bias_b.allFinite() &&
+         errors.accel_bias_b.allFinite() && errors.gyro_scale.allFinite() &&
+         errors.accel_scale.allFinite();
+}
+
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution) {
   const Geodetic geodetic = to_geodetic(state.p_e);

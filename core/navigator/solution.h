@@ -16,6 +16,9 @@ using PvaCovariance = Eigen::Matrix<double, 9, 9>;
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution);
 
+// Every number of it: what is not goes to nobody.
+bool is_finite(const Solution& solution);
+
 // 1 sigma of roll, pitch and yaw from the covariance of the attitude error seen in north, east,
 // down (C_true = exp([error x]) C_nb); at most pi, also where the pitch makes them undefined.
 Eigen::Vector3d sigma_of_euler(const Eigen::Matrix3d& attitude_covariance_n, double pitch,

@@ -115,5 +115,21 @@ TEST_CASE("a start with a satellite off by 100 km excludes it, robust weighting 
   }
 }
 
+TEST_CASE("noise far above what is configured is reported, though nothing stands out") {
+  SyntheticDriveOptions options;
+  options.duration_s = 120.0;
+  options.imu_rate_hz = 1.0;
+  for (const double scale : {1.0, 3.0}) {
+    CAPTURE(scale);
+    options.code_sigma_m = scale * 1.0;  // the default sigmas
+    options.doppler_sigma_m_s = scale * 0.1;
+    const SyntheticDrive drive = synthetic_drive(options);
+    const RecordingSink sink =
+        run(drive, drive_navigator_config(options, MotionModel::kConstantVelocity));
+    CHECK(resets(sink).empty());
+    CHECK((sink.count(EventKind::kImprobable) > 0) == (scale > 2.0));
+  }
+}
+
 }  // namespace
 }  // namespace leonav::test

@@ -273,5 +273,34 @@ TEST_CASE("epochs that pile up while the IMU stands still are each decided once"
   CHECK(rig.sink.solutions.back().anchor_epoch == 200);
 }
 
+TEST_CASE("a solution that is no number is never published; the next anchor answers again") {
+  for (const double push : {1e160, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    CAPTURE(push);
+    Rig rig;
+    rig.feed(0.0, 2.0);
+    rig.issue(1, 2.0, 0.2);
+    rig.mailbox.deliver(1, rig.anchor(1, 2.0));
+    rig.feed(2.0, 3.0);
+    const std::size_t before = rig.sink.solutions.size();
+    CHECK(before == 161);
+    ImuSample hostile = rig.drive.imu[600];
+    hostile.delta_velocity_b.setConstant(push);
+    rig.navigator.process(hostile);
+    rig.feed(3.005, 4.0);
+    CHECK(rig.sink.solutions.size() == before);
+    CHECK(rig.navigator.source() == Source::kNone);
+    REQUIRE(rig.sink.count(EventKind::kFilterReset) == 1);
+    CHECK(rig.sink.events.back().code == static_cast<int>(ResetCause::kNotFinite));
+    rig.issue(2, 4.0, 0.2);
+    rig.mailbox.deliver(2, rig.anchor(2, 4.0));
+    rig.feed(4.0, 5.0);
+    CHECK(rig.sink.solutions.size() == before + 161);
+    for (const Solution& solution : rig.sink.solutions) {
+      CHECK(is_finite(solution));
+      CHECK((solution.p_e - rig.drive.truth_at(solution.time).p_e).norm() < 0.01);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace leonav::test
