@@ -244,6 +244,7 @@ void Engine::update_io_counters() {
   counters_.accepted_epochs.set(static_cast<std::int64_t>(sequencer.epochs));
   counters_.empty_epochs.set(static_cast<std::int64_t>(sequencer.empty_epochs));
   counters_.late_epochs.set(static_cast<std::int64_t>(sequencer.late_epochs));
+  counters_.epochs_without_imu.set(static_cast<std::int64_t>(sequencer.epochs_without_imu));
   counters_.imu_gaps.set(static_cast<std::int64_t>(sequencer.imu_gaps));
   counters_.imu_smoothed.set(static_cast<std::int64_t>(sequencer.imu_smoothed));
 }

@@ -62,6 +62,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   }
   add_count("empty epochs", counters->empty_epochs.get(), message);
   add_count("late epochs", counters->late_epochs.get(), message);
+  add_count("epochs without imu", counters->epochs_without_imu.get(), message);
   add_count("imu gaps", counters->imu_gaps.get(), message);
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("filter resets", counters->resets.get(), message);

@@ -192,7 +192,7 @@ bool Sequencer::is_known(GpsTime time) const {
 }
 
 void Sequencer::queue_epoch(const RawEpoch& epoch) {
-  // issue_ready_epochs() never leaves more than kMaxPending waiting, so there is room for one.
+  // issue_ready_epochs() leaves at most kMaxPendingEpochs waiting, so there is room for one.
   const std::size_t left_out = copy_sane(epoch, pending_[pending_count_].get());
   for (std::size_t i = pending_count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -209,12 +209,24 @@ void Sequencer::issue_ready_epochs() {
       issue_oldest_pending();
     } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
       issue(nullptr, due);
-    } else if (pending_count_ > kMaxPending) {
+    } else if (waited_long_enough()) {
+      if (worth_an_event(++counters_.epochs_without_imu)) {
+        emit(EventKind::kCapacity, static_cast<std::uint8_t>(SequencerCapacity::kPendingEpochs),
+             static_cast<double>(next_index_));
+      }
       issue_oldest_pending();
     } else {
       return;
     }
   }
+}
+
+// The IMU is late, or has stopped.
+bool Sequencer::waited_long_enough() const {
+  if (pending_count_ > kMaxPendingEpochs) return true;
+  if (pending_count_ <= kMinPending) return false;
+  const GpsTime newest = pending_[pending_count_ - 1]->time;
+  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
 }
 
 void Sequencer::issue_oldest_pending() {

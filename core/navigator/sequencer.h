@@ -23,10 +23,17 @@ class StageInputs {
   virtual void event(const Event& event) = 0;  // sequencer's own events, sequence counted per stage
 };
 
+// Codes of EventKind::kCapacity from this stage.
+enum class SequencerCapacity : std::uint8_t {
+  kPendingEpochs = 0,  // value: index of the epoch that was issued without its IMU
+};
+
 // Decides by data alone, so replay decides alike:
 // - an epoch is issued when the IMU has passed its time; without IMU
 //   (MotionModel::kConstantVelocity) at once, and then nothing goes to the inertial stage;
-// - an epoch whose IMU does not come is issued without it when kMaxPending later ones are waiting;
+// - an epoch waits for its IMU until ones more than kMaxImuLatencyNs later wait too, and more than
+//   kMinPending of them, or until kMaxPendingEpochs wait. Then it is issued without all of its IMU:
+//   counted, and reported as kCapacity (SequencerCapacity::kPendingEpochs);
 // - when the IMU has run one epoch interval and the wait for a GNSS latency past the last epoch, an
 //   empty epoch is issued one interval after that last one, so that blocks stay bounded; after a
 //   hole in the IMU stream it is issued at the hole's end. The first IMU sample's start counts as
@@ -48,7 +55,8 @@ class StageInputs {
 // - GNSS does not change the time while IMU samples keep arriving in the old one.
 class Sequencer {
  public:
-  static constexpr std::size_t kMaxPending = 4;
+  static constexpr std::size_t kMinPending = 4;
+  static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;
   static constexpr double kMaxAheadS = 10.0;
   static constexpr double kMaxAheadIntervals = 3.0;  // of epochs, where that is more
   static constexpr std::int64_t kMaxGnssLatencyNs = 2'000'000'000;
@@ -75,7 +83,8 @@ class Sequencer {
   struct Counters {
     std::uint64_t imu = 0, epochs = 0, ephemerides = 0, empty_epochs = 0, late_epochs = 0,
                   imu_gaps = 0;
-    std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter, see ImuStamps
+    std::uint64_t epochs_without_imu = 0;  // issued before their IMU came
+    std::uint64_t imu_smoothed = 0;        // samples of a stream whose stamps jitter, see ImuStamps
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
   };
   const Counters& counters() const { return counters_; }
@@ -94,6 +103,7 @@ class Sequencer {
   bool is_known(GpsTime time) const;
   void queue_epoch(const RawEpoch& epoch);
   void issue_ready_epochs();
+  bool waited_long_enough() const;
   void issue_oldest_pending();
   GpsTime cut_of_full_block() const;
   GpsTime time_of_due_empty_epoch() const;  // unset: none is due
@@ -118,7 +128,7 @@ class Sequencer {
   std::uint64_t next_event_ = 1;
   ImuStamps imu_stamps_;
   TimeBaseWatch imu_watch_, epoch_watch_;
-  std::array<std::unique_ptr<RawEpoch>, kMaxPending + 1>
+  std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1>
       pending_;  // the first pending_count_, by time
   std::size_t pending_count_ = 0;
   std::unique_ptr<RawEpoch> held_;  // see above; meaningful while is_held_
