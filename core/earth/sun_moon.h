@@ -12,10 +12,11 @@ struct SunMoon {
   Eigen::Vector3d moon_e = Eigen::Vector3d::Zero();
 };
 
-// Directions within 1.2e-4 rad (95 %; 2.2e-4 at worst), distances within 8e-5, 1980 to 2060. Series:
-// Meeus, Astronomical Algorithms (1998), chapters 25 (Sun) and 47 (Moon), referred to the equinox of
-// date by the leading terms of nutation (chapter 22); Earth rotation: IAU 1982 sidereal time. UT1 is
-// taken as UTC (they differ by less than 0.9 s, 7e-5 rad), polar motion as zero (2e-6 rad).
+// Directions within 1.2e-4 rad (95 %; 2.2e-4 at worst), distances within 8e-5, 1980 to 2060.
+// Series: Meeus, Astronomical Algorithms (1998), chapters 25 (Sun) and 47 (Moon), referred to the
+// equinox of date by the leading terms of nutation (chapter 22); Earth rotation: IAU 1982 sidereal
+// time. UT1 is taken as UTC (they differ by less than 0.9 s, 7e-5 rad), polar motion as zero (2e-6
+// rad).
 SunMoon sun_moon_positions(GpsTime time);
 
 }  // namespace leonav
