@@ -58,8 +58,7 @@ void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result
     }
     case Channel::kOrbitClock:
       *result = decoder_.decode(bytes, states_.get());
-      if (!good()) break;
-      for (const PreciseState& state : *states_) sequencer_->on_precise_state(state);
+      if (good()) sequencer_->on_precise_states(*states_);
       break;
     case Channel::kIonosphere: {
       KlobucharModel model;

@@ -68,8 +68,8 @@ void GnssStage::process(const GnssWork& work) {
     process_epoch(*epoch);
   } else if (const auto* ephemeris = std::get_if<Ephemeris>(&work)) {
     catalog_.add(*ephemeris);
-  } else if (const auto* state = std::get_if<PreciseState>(&work)) {
-    catalog_.add(*state);
+  } else if (const auto* states = std::get_if<PreciseStates>(&work)) {
+    for (const PreciseState& state : *states) catalog_.add(state);
   } else if (const auto* klobuchar = std::get_if<KlobucharModel>(&work)) {
     catalog_.set_klobuchar(*klobuchar);
   } else if (const auto* command = std::get_if<Command>(&work)) {

@@ -289,10 +289,16 @@ void Sequencer::on_ephemeris(const Ephemeris& ephemeris) {
   stages_->push_gnss(*work_);
 }
 
-void Sequencer::on_precise_state(const PreciseState& state) {
-  if (const InputFault fault = check(state); fault != InputFault::kNone) return reject(fault);
-  *work_ = state;
-  stages_->push_gnss(*work_);
+void Sequencer::on_precise_states(const PreciseStates& states) {
+  auto& good = work_->emplace<PreciseStates>();
+  for (const PreciseState& state : states) {
+    if (const InputFault fault = check(state); fault != InputFault::kNone) {
+      reject(fault);
+    } else {
+      good.push_back(state);
+    }
+  }
+  if (!good.empty()) stages_->push_gnss(*work_);
 }
 
 void Sequencer::on_klobuchar(const KlobucharModel& model) {

@@ -74,7 +74,7 @@ class Sequencer {
   void on_imu(const ImuSample& sample);
   void on_raw_epoch(const RawEpoch& epoch);
   void on_ephemeris(const Ephemeris& ephemeris);
-  void on_precise_state(const PreciseState& state);
+  void on_precise_states(const PreciseStates& states);  // the good ones among them
   void on_klobuchar(const KlobucharModel& model);
   void on_command(const Command& command);
   // A message that could not be decoded or failed validation before it got here.

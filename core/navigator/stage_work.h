@@ -1,6 +1,7 @@
 // What travels between the stages. In the daemon through rings, in Pipeline by a call.
 #pragma once
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <variant>
 
@@ -40,8 +41,12 @@ struct Command {
   double sigma = 0.0;
 };
 
-// Sequencer -> GnssStage, in order.
-using GnssWork = std::variant<Ephemeris, PreciseState, KlobucharModel, Command, EpochWork>;
+// What one message told: at most one state of every satellite that has a name.
+using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemerisSatellites>;
+
+// Sequencer -> GnssStage, in order. A message is one piece of work, however much it tells: the
+// stage may be an epoch's time behind.
+using GnssWork = std::variant<Ephemeris, PreciseStates, KlobucharModel, Command, EpochWork>;
 
 // GnssStage -> InertialNavigator, through the mailbox: the anchor to go on from.
 struct EkfUpdate {

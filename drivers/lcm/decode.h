@@ -1,7 +1,6 @@
 // LCM messages as bytes -> core structs. Every byte is taken to be hostile: a message is either
 // wholly valid or refused with its fault, and nothing is allocated by what the wire claims.
 #pragma once
-#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -16,7 +15,6 @@
 namespace leonav {
 
 using ByteSpan = std::span<const std::uint8_t>;
-using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemerisSatellites>;
 
 struct DecodeResult {
   InputFault fault = InputFault::kNone;  // kNone: the output is valid; otherwise leave it alone

@@ -5,21 +5,20 @@
 #include <thread>
 #include <vector>
 
-#include "core/navigator/pipeline.h"
 #include "daemon/engine.h"
-#include "daemon/input_dispatch.h"
-#include "daemon/output_groups.h"
-#include "drive_inputs.h"
-#include "drivers/lcm/event_log.h"
-#include "support/catch.h"
+#include "engine_runs.h"
 #include "support/temporary_file.h"
 
 namespace {
 
 using namespace leonav;
-using Bytes = std::vector<std::uint8_t>;
-
+using test::Bytes;
+using test::check_same;
+using test::Collector;
 using test::Input;
+using test::missed_epochs;
+using test::read_journal_inputs;
+using test::run_pipeline;
 
 // A drive with an outage of two seconds, and now and then a message that is damaged.
 const std::vector<Input>& inputs() {
@@ -43,36 +42,6 @@ const std::vector<Input>& inputs() {
   return list;
 }
 
-struct Collector final : MessageTarget {
-  std::array<std::vector<Bytes>, kOutputGroups.size()> groups;
-  void take(Channel channel, ByteSpan bytes) override {
-    if (const auto group = output_group(channel, bytes)) {
-      groups[*group].emplace_back(bytes.begin(), bytes.end());
-    }
-  }
-};
-
-std::vector<std::uint64_t> missed_epochs(const Collector& outputs) {
-  Decoder decoder;
-  std::vector<std::uint64_t> missed;
-  for (const Bytes& bytes : outputs.groups[1]) {
-    Decision decision;
-    REQUIRE(decoder.decode(bytes, &decision).fault == InputFault::kNone);
-    if (!decision.committed) missed.push_back(decision.epoch);
-  }
-  return missed;
-}
-
-Collector run_pipeline(const std::vector<Input>& list, const std::vector<std::uint64_t>& missed) {
-  Collector outputs;
-  EncodingSink sink(&outputs);
-  Pipeline pipeline(test::drive_config().navigator, &sink);
-  for (const std::uint64_t epoch : missed) pipeline.record_miss(epoch);
-  InputDispatch dispatch(&pipeline.sequencer());
-  for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
-  return outputs;
-}
-
 enum class Pace { kFlatOut, kStepByStep };
 
 Collector run_engine(Pace pace, const std::string& journal) {
@@ -89,27 +58,6 @@ Collector run_engine(Pace pace, const std::string& journal) {
   }
   REQUIRE(engine.finish());
   return outputs;
-}
-
-std::vector<Input> read_journal_inputs(const std::string& path) {
-  EventLogReader log(path);
-  std::vector<Input> list;
-  LogEvent event;
-  while (log.next(&event)) {
-    const auto channel = channel_from_name(event.channel);
-    REQUIRE(channel.has_value());
-    if (is_input(*channel)) list.push_back({*channel, event.data});
-  }
-  CHECK_FALSE(log.truncated());
-  return list;
-}
-
-void check_same(const Collector& a, const Collector& b) {
-  for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
-    INFO(kOutputGroups[group]);
-    REQUIRE(a.groups[group].size() == b.groups[group].size());
-    CHECK(a.groups[group] == b.groups[group]);
-  }
 }
 
 }  // namespace

@@ -42,9 +42,11 @@ TEST_CASE("LEO satellites known by precise states alone take part in the whole p
   double next_node_s = -180.0;
   const auto send_nodes = [&](double now_s) {
     for (; next_node_s <= now_s + 180.0; next_node_s += 30.0) {
+      PreciseStates nodes;
       for (const Ephemeris& e : leo) {
-        sequencer.on_precise_state(node_of(e, kSkyEpoch.plus_seconds(next_node_s)));
+        nodes.push_back(node_of(e, kSkyEpoch.plus_seconds(next_node_s)));
       }
+      sequencer.on_precise_states(nodes);
     }
   };
   feed(

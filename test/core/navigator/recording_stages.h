@@ -20,6 +20,7 @@ struct RecordingStages : StageInputs {
   std::vector<EpochIssued> issued;
   std::vector<Block> blocks;
   std::vector<Command> commands;
+  std::vector<PreciseStates> precise;
   std::vector<Event> events;
 
   void open_epoch(std::uint64_t index) override { opened.push_back(index); }
@@ -29,6 +30,7 @@ struct RecordingStages : StageInputs {
   }
   void push_gnss(const GnssWork& work) override {
     if (const auto* command = std::get_if<Command>(&work)) commands.push_back(*command);
+    if (const auto* states = std::get_if<PreciseStates>(&work)) precise.push_back(*states);
     const auto* epoch = std::get_if<EpochWork>(&work);
     if (epoch == nullptr) return;
     blocks.push_back({epoch->index,

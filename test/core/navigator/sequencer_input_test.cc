@@ -36,15 +36,35 @@ TEST_CASE("hostile commands, ephemerides and precise states are counted and drop
   state.satellite = {System::kGps, 4};
   state.time = kStart;
   state.p_e << nan, 0, 0;
-  rig.sequencer.on_precise_state(state);
+  rig.sequencer.on_precise_states({state});
   state.p_e.setZero();
-  rig.sequencer.on_precise_state(state);
+  rig.sequencer.on_precise_states({state});
   rig.sequencer.on_rejected(InputFault::kUndecodable);
   CHECK(rig.rejected(InputFault::kNotFinite) == 2);
   CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
   CHECK(rig.rejected(InputFault::kNotSane) == 1);
   CHECK(rig.rejected(InputFault::kUndecodable) == 1);
   CHECK(rig.stages.commands.empty());
+  CHECK(rig.stages.precise.empty());
+}
+
+TEST_CASE("the good states of a message are one piece of work, each bad one is counted") {
+  SequencerRig rig;
+  PreciseStates states;
+  for (std::uint16_t number = 1; number <= 30; ++number) {
+    PreciseState state;
+    state.satellite = {System::kGps, number};
+    state.time = kStart;
+    state.p_e << 2.6e7, 0.0, 0.0;
+    if (number % 10 == 0) state.p_e.x() = 1.0;
+    states.push_back(state);
+  }
+  rig.sequencer.on_precise_states(states);
+  rig.sequencer.on_precise_states({});
+  REQUIRE(rig.stages.precise.size() == 1);
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
+  REQUIRE(rig.stages.precise[0].size() == 27);
+  CHECK(rig.stages.precise[0][9].satellite.number == 11);  // in their order, without the tenth
 }
 
 }  // namespace

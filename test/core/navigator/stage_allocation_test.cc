@@ -83,9 +83,11 @@ TEST_CASE("forty satellites and more, precise orbits, outages, resets: no alloca
         drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
         [&](const ImuSample& s) { sequencer.on_imu(s); },
         [&](const RawEpoch& raw) {
+          PreciseStates message;
           for (int i = 0; i < 40 && next_state < states.size(); ++i) {
-            sequencer.on_precise_state(states[next_state++]);
+            message.push_back(states[next_state++]);
           }
+          sequencer.on_precise_states(message);
           if (++seen == 75) sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
           if (seen == 80) sequencer.on_command({CommandKind::kSetHeading, 0.5, 0.1});
           sequencer.on_raw_epoch(raw);
