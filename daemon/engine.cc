@@ -108,6 +108,7 @@ void Engine::run_inertial() {
     while (inertial_ring_.consume_one([this](const InertialWork& work) {
       const Stopwatch watch;
       inertial_.process(work);
+      counters_.source.set(static_cast<std::int64_t>(inertial_.source()));
       counters_.worst_tick_ns.raise_to(watch.nanoseconds());
     })) {
     }
@@ -117,14 +118,16 @@ void Engine::run_inertial() {
 }
 
 void Engine::run_gnss() {
+  const bool publishes = config_.navigator.motion == MotionModel::kConstantVelocity;
   for (;;) {
     const std::uint32_t ticket = gnss_wakeup_.ticket();
     const bool last_round = no_more_inputs_.load(std::memory_order_acquire);
-    while (gnss_ring_.consume_one([this](const GnssWork& work) {
+    while (gnss_ring_.consume_one([this, publishes](const GnssWork& work) {
       const auto* epoch = std::get_if<EpochWork>(&work);
       if (epoch != nullptr && hooks_.before_epoch) hooks_.before_epoch(epoch->index);
       const Stopwatch watch;
       gnss_.process(work);
+      if (publishes) counters_.source.set(static_cast<std::int64_t>(gnss_.source()));
       if (epoch != nullptr) {
         counters_.worst_epoch_ns.raise_to(watch.nanoseconds());
       }

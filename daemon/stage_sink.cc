@@ -11,7 +11,6 @@ std::int64_t wall_clock_us() {
 
 void StageSink::on_solution(const Solution& solution) {
   counters_->solution_time_ns.set(solution.time.nanoseconds());
-  counters_->source.set(static_cast<std::int64_t>(solution.source));
   encoder_.on_solution(solution);
 }
 

@@ -281,7 +281,7 @@ void GnssStage::process_command(const Command& command) {
   alignment_.reset();
   suspect_epochs_ = 0;
   last_gnss_time_ = last_reset_time_ = GpsTime();
-  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kCommand), 0.0,
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(command.cause), 0.0,
                last_epoch_time_);
 }
 

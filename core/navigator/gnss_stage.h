@@ -28,6 +28,7 @@ class GnssStage {
   // has no direction.
   void process(const GnssWork& work);
 
+  Source source() const;  // of its own answer, after the last work
   const Ekf& ekf() const { return ekf_; }
   const SatelliteCatalog& catalog() const { return catalog_; }
 
@@ -52,7 +53,6 @@ class GnssStage {
   void report_solution(const EpochWork& work);
   void deliver(const EpochWork& work);
   void publish(const EpochWork& work);
-  Source source() const;
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;

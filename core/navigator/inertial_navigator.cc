@@ -42,6 +42,8 @@ void InertialNavigator::process(const InertialWork& work) {
     on_sample(*sample);
   } else if (const auto* epoch = std::get_if<EpochIssued>(&work)) {
     on_epoch(*epoch);
+  } else if (const auto* restart = std::get_if<Restart>(&work)) {
+    on_restart(*restart);
   }
 }
 
@@ -70,13 +72,26 @@ void InertialNavigator::on_sample(const ImuSample& sample) {
   if (publication_due(sample)) publish(sample.time);
 }
 
+void InertialNavigator::on_restart(const Restart& restart) {
+  if (restart.cause == ResetCause::kTimeBase) {
+    start_over(imu_time_);
+  } else {
+    forget_anchor();
+    if (!waiting_.empty()) last_void_epoch_ = waiting_.back().index;
+  }
+  source_ = Source::kNone;
+}
+
 void InertialNavigator::forget_anchor() {
-  history_.clear();
   anchor_ = EkfUpdate();
   bridged_s_ = pending_jump_m_ = 0.0;
   bridge_angle_variance_ = bridge_velocity_variance_ = 0.0;
-  last_sample_ = ImuSample();
   last_gnss_time_ = GpsTime();
+}
+
+void InertialNavigator::forget_samples() {
+  history_.clear();
+  last_sample_ = ImuSample();
 }
 
 void InertialNavigator::start_over(GpsTime now) {
@@ -85,12 +100,14 @@ void InertialNavigator::start_over(GpsTime now) {
     waiting_.pop_front();
   }
   forget_anchor();
+  forget_samples();
   next_solution_due_ = GpsTime();
 }
 
 // Numbers have overflowed: no answer until a filter that is sound delivers the next anchor.
 void InertialNavigator::drop_anchor(GpsTime now) {
   forget_anchor();
+  forget_samples();
   source_ = Source::kNone;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
                now);
@@ -114,7 +131,7 @@ void InertialNavigator::decide(const EpochIssued& epoch, GpsTime now, bool usabl
   if (!decision.committed) {
     ++misses_;
     events_.emit(EventKind::kDeadlineMiss, 0, static_cast<double>(epoch.index), now);
-  } else if (usable && update.valid) {
+  } else if (usable && update.valid && epoch.index > last_void_epoch_) {
     commit(update, now);
   }
 }

@@ -27,6 +27,9 @@ enum class InertialCapacity : std::uint8_t {
 //   constant velocity and attitude with grown sigma.
 // - When IMU time runs backwards or leaps, everything is dropped; epochs waiting are decided so
 //   that the journal has one decision for each.
+// - A restart ends the answer until an anchor that was issued after it. Epochs issued before are
+//   decided at their deadlines, so that none is missed for it, but not used; the samples are kept,
+//   for the next epoch may be older than the command. Where time changed, everything is dropped.
 // - A solution with a number that is none is never published: the anchor is dropped, with an event.
 class InertialNavigator {
  public:
@@ -42,6 +45,7 @@ class InertialNavigator {
  private:
   void on_sample(const ImuSample& sample);
   void on_epoch(const EpochIssued& epoch);
+  void on_restart(const Restart& restart);
   void decide_due_epochs(GpsTime now);
   void decide(const EpochIssued& epoch, GpsTime now, bool usable);
   void commit(const EkfUpdate& update, GpsTime now);
@@ -49,6 +53,7 @@ class InertialNavigator {
   void bridge(const ImuSample& next);
   void forget_before(GpsTime time);
   void forget_anchor();
+  void forget_samples();
   void start_over(GpsTime now);
   void drop_anchor(GpsTime now);
   void report_jump(const Eigen::Vector3d& old_p_e, const PvaCovariance& old_covariance,
@@ -68,9 +73,10 @@ class InertialNavigator {
   boost::circular_buffer<ImuSample> history_;    // since the anchor
   boost::circular_buffer<EpochIssued> waiting_;  // issued, not decided
   Mechanization mechanization_;
-  EkfUpdate anchor_;        // valid: there is one
-  ImuSample last_sample_;   // before the mechanization's time
-  double bridged_s_ = 0.0;  // of constant velocity since the anchor
+  EkfUpdate anchor_;                   // valid: there is one
+  std::uint64_t last_void_epoch_ = 0;  // this and those before it are no anchors any more
+  ImuSample last_sample_;              // before the mechanization's time
+  double bridged_s_ = 0.0;             // of constant velocity since the anchor
   double bridge_angle_variance_ = 0.0,
          bridge_velocity_variance_ = 0.0;  // of short holes since then
   GpsTime imu_time_;                       // end of the last sample

@@ -94,7 +94,7 @@ enum class EventKind : std::uint8_t {
 };
 std::string_view to_string(EventKind kind);
 
-// Codes of EventKind::kFilterReset: of the Sequencer's (kTimeBase), the GNSS stage's, and the
+// Codes of EventKind::kFilterReset: of the Sequencer's (kTimeBase), the GNSS stage's (any), and the
 // inertial stage's (kNotFinite: it waits for the next anchor).
 enum class ResetCause : std::uint8_t {
   kCommand = 0,

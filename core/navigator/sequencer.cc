@@ -95,7 +95,7 @@ InputFault Sequencer::place_imu(ImuSample* sample) {
 
 // Everything kept belongs to the old time: it goes, and the filter starts over.
 void Sequencer::change_time_base(double jump_s) {
-  emit(EventKind::kFilterReset, 1, jump_s);
+  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_time_ = GpsTime();
   imu_stamps_.clear();
   last_epoch_time_ = last_raw_epoch_time_ = GpsTime();
@@ -105,8 +105,7 @@ void Sequencer::change_time_base(double jump_s) {
   tail_.clear();
   imu_watch_.clear();
   epoch_watch_.clear();
-  *work_ = Command{CommandKind::kRestart, 0.0, 0.0};
-  stages_->push_gnss(*work_);
+  push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
 }
 
 void Sequencer::extend_tail(const ImuSample& sample) {
@@ -309,6 +308,14 @@ void Sequencer::on_klobuchar(const KlobucharModel& model) {
 
 void Sequencer::on_command(const Command& command) {
   if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);
+  push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});
+}
+
+// A restart lies between the same two epochs in the work of both stages.
+void Sequencer::push_command(const Command& command) {
+  if (inertial_ && command.kind == CommandKind::kRestart) {
+    stages_->push_inertial(Restart{command.cause});
+  }
   *work_ = command;
   stages_->push_gnss(*work_);
 }

@@ -93,6 +93,7 @@ class Sequencer {
  private:
   InputFault place_imu(ImuSample* sample);
   void change_time_base(double jump_s);
+  void push_command(const Command& command);
   void extend_tail(const ImuSample& sample);
   bool gnss_keeps_time() const { return !inertial_ || !imu_time_.is_set(); }
   void place_epoch(const RawEpoch& epoch);

@@ -22,8 +22,13 @@ struct EpochIssued {
   GpsTime deadline_ekf;  // tau + D_ekf
 };
 
+// The filter starts over: what comes from epochs issued before this is worth nothing.
+struct Restart {
+  ResetCause cause = ResetCause::kCommand;  // or kTimeBase
+};
+
 // Sequencer -> InertialNavigator, in order.
-using InertialWork = std::variant<ImuSample, EpochIssued>;
+using InertialWork = std::variant<ImuSample, EpochIssued, Restart>;
 
 // An epoch with the IMU samples since the one before it, cut exactly at both ends.
 struct EpochWork {
@@ -39,6 +44,7 @@ struct Command {
   CommandKind kind = CommandKind::kRestart;
   double value = 0.0;
   double sigma = 0.0;
+  ResetCause cause = ResetCause::kCommand;  // of a restart; set by the Sequencer
 };
 
 // What one message told: at most one state of every satellite that has a name.

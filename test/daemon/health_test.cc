@@ -122,3 +122,28 @@ TEST_CASE("GNSS that dies beside an IMU is told, by its own name; the answer goe
   CHECK(at_59_s == "DEGRADED: INS only; no usable GNSS for 28 s");
   CHECK(watched.message().source == "ins");
 }
+
+TEST_CASE("a restart takes the source with it, until there is an answer again") {
+  for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
+    CAPTURE(static_cast<int>(motion));
+    Watched watched(motion);
+    Encoder encoder;
+    int epochs = 0;
+    std::string before, after, later;
+    watched.feed([&](Channel channel) {
+      if (channel != Channel::kGnssEpoch) return true;
+      ++epochs;
+      if (epochs == 41) later = watched.at(41.0) + watched.message().source;
+      if (epochs != 40) return true;
+      before = watched.at(40.0) + watched.message().source;
+      watched.receive(Channel::kCommand, encoder.encode(Command(), test::kSkyEpoch, 1));
+      after = watched.at(40.0) + watched.message().source;
+      return true;
+    });
+    CHECK(before == "OK: ekf");
+    CHECK(after == "FAULT: no solution yetnone");
+    const bool inertial = motion == MotionModel::kInertial;
+    CHECK(later == (inertial ? "DEGRADED: aligningaligning" : "OK: ekf"));
+    CHECK(watched.at(60.0) + watched.message().source == "OK: ekf");
+  }
+}

@@ -1,60 +1,14 @@
 #include "core/navigator/inertial_navigator.h"
 
-#include <cmath>
 #include <limits>
 
-#include "recording_sink.h"
+#include "inertial_rig.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
 
-struct Rig {
-  NavigatorConfig config;
-  SyntheticDrive drive;
-  RecordingSink sink;
-  TimedMailbox<EkfUpdate> mailbox;
-  InertialNavigator navigator;
-
-  explicit Rig(double duration_s = 30.0, const NavigatorConfig& c = {})
-      : config(c), drive(make_drive(duration_s)), navigator(c, &mailbox, &sink) {}
-
-  static SyntheticDrive make_drive(double duration_s) {
-    SyntheticDriveOptions options;
-    options.duration_s = duration_s;
-    options.standstill_s = 0.0;
-    options.first_epoch_s = duration_s + 1.0;  // no raw epochs
-    SyntheticDrive drive;
-    drive.options = options;
-    drive.imu = synthetic_imu(options);
-    return drive;
-  }
-  // An anchor at the truth `t` seconds after the start, moved by `offset` metres.
-  EkfUpdate anchor(std::uint64_t index, double t, double offset_m = 0.0) const {
-    EkfUpdate update;
-    update.index = index;
-    update.valid = update.has_attitude = update.gnss_used = true;
-    update.state = drive.truth_at(kSkyEpoch.plus_seconds(t));
-    update.state.p_e.x() += offset_m;
-    update.covariance.diagonal().head<3>().setConstant(1.0);
-    update.covariance.diagonal().segment<3>(3).setConstant(0.01);
-    update.covariance.diagonal().segment<3>(6).setConstant(1e-6);
-    return update;
-  }
-  // Epoch at `t`, issued now with its deadline `deadline_s` after it.
-  void issue(std::uint64_t index, double t, double deadline_s) {
-    mailbox.open(index);
-    const GpsTime time = kSkyEpoch.plus_seconds(t);
-    navigator.process(EpochIssued{index, time, time.plus_seconds(deadline_s)});
-  }
-  void feed(double from_s, double to_s) {
-    for (const ImuSample& sample : drive.imu) {
-      const double t = seconds_between(sample.time, kSkyEpoch);
-      if (t > from_s + 1e-9 && t <= to_s + 1e-9) navigator.process(sample);
-    }
-  }
-};
+using Rig = InertialRig;
 
 TEST_CASE("nothing is published before the first anchor, every sample after it") {
   Rig rig;

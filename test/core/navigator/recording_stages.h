@@ -20,6 +20,8 @@ struct RecordingStages : StageInputs {
   std::vector<EpochIssued> issued;
   std::vector<Block> blocks;
   std::vector<Command> commands;
+  std::vector<Restart> restarts;
+  std::vector<std::size_t> restarts_at_command;  // how many there were at each command
   std::vector<PreciseStates> precise;
   std::vector<Event> events;
 
@@ -27,9 +29,13 @@ struct RecordingStages : StageInputs {
   void push_inertial(const InertialWork& work) override {
     if (const auto* sample = std::get_if<ImuSample>(&work)) samples.push_back(*sample);
     if (const auto* epoch = std::get_if<EpochIssued>(&work)) issued.push_back(*epoch);
+    if (const auto* restart = std::get_if<Restart>(&work)) restarts.push_back(*restart);
   }
   void push_gnss(const GnssWork& work) override {
-    if (const auto* command = std::get_if<Command>(&work)) commands.push_back(*command);
+    if (const auto* command = std::get_if<Command>(&work)) {
+      commands.push_back(*command);
+      restarts_at_command.push_back(restarts.size());
+    }
     if (const auto* states = std::get_if<PreciseStates>(&work)) precise.push_back(*states);
     const auto* epoch = std::get_if<EpochWork>(&work);
     if (epoch == nullptr) return;

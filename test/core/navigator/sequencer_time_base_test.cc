@@ -31,6 +31,28 @@ TEST_CASE("a stray stamp changes nothing; a clock that was set restarts everythi
   CHECK(rig.rejected(InputFault::kTimeBackwards) == Sequencer::kImuRunToRestart - 1);
 }
 
+TEST_CASE("a restart reaches both stages between the same two epochs, with its cause") {
+  SequencerRig rig;
+  rig.imu(0, 100);
+  rig.sequencer.on_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});  // it lies
+  rig.sequencer.on_command({CommandKind::kSetHeading, 1.0, 0.1});
+  rig.imu(86'400'000, 86'400'200);
+  REQUIRE(rig.stages.commands.size() == 3);
+  CHECK(rig.stages.commands[0].cause == ResetCause::kCommand);
+  CHECK(rig.stages.commands[2].cause == ResetCause::kTimeBase);
+  CHECK(rig.stages.restarts_at_command == std::vector<std::size_t>{1, 1, 2});
+  REQUIRE(rig.stages.restarts.size() == 2);
+  CHECK(rig.stages.restarts[0].cause == ResetCause::kCommand);
+  CHECK(rig.stages.restarts[1].cause == ResetCause::kTimeBase);
+
+  NavigatorConfig config;
+  config.motion = MotionModel::kConstantVelocity;  // nobody answers there
+  SequencerRig without_imu(config);
+  without_imu.sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
+  CHECK(without_imu.stages.commands.size() == 1);
+  CHECK(without_imu.stages.restarts.empty());
+}
+
 TEST_CASE("GNSS alone cannot change the time the IMU keeps") {
   SequencerRig rig;
   for (int k = 0; k < 20; ++k) {
