@@ -40,6 +40,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
     channel_names_.push_back(channel_name(static_cast<Channel>(i), config.lcm.prefix));
   }
   for (Gauge& age : counters_.ephemeris_age_ms) age.set(-1);
+  for (Gauge& age : counters_.age_by_source_ms) age.set(-1);
 }
 
 Engine::~Engine() { finish(); }

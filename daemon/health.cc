@@ -44,6 +44,12 @@ void add_count(const std::string& name, std::int64_t value, health_t* message) {
   message->counts.push_back(count);
 }
 
+// NaN for the -1 of "none in use".
+double age_s(const Gauge& age_ms) {
+  const std::int64_t value = age_ms.get();
+  return value < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * 1e-3;
+}
+
 std::int64_t sum(const auto& gauges) {
   std::int64_t total = 0;
   for (const Gauge& gauge : gauges) total += gauge.get();
@@ -65,6 +71,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("epochs without imu", counters->epochs_without_imu.get(), message);
   add_count("imu gaps", counters->imu_gaps.get(), message);
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
+  add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
   add_count("filter resets", counters->resets.get(), message);
   add_count("commits", counters->commits.get(), message);
   add_count("published", counters->published.get(), message);
@@ -109,9 +116,12 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s) {
   }
   for (std::size_t i = 0; i < kSystemCount; ++i) {
     message.satellites_used[i] = static_cast<std::int32_t>(counters.satellites_used[i].get());
-    const std::int64_t age_ms = counters.ephemeris_age_ms[i].get();
-    message.ephemeris_age_s[i] =
-        age_ms < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(age_ms) * 1e-3;
+    message.ephemeris_age_s[i] = age_s(counters.ephemeris_age_ms[i]);
+  }
+  for (std::size_t i = 0; i < counters.satellites_by_source.size(); ++i) {
+    message.satellites_by_source[i] =
+        static_cast<std::int32_t>(counters.satellites_by_source[i].get());
+    message.age_by_source_s[i] = age_s(counters.age_by_source_ms[i]);
   }
   message.memory_mb = resident_megabytes();
   message.uptime_s = now_s;

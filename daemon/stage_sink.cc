@@ -16,13 +16,26 @@ void StageSink::on_solution(const Solution& solution) {
 
 void StageSink::on_epoch(const EpochReport& report) {
   std::array<std::int64_t, kSystemCount> used{}, age;
+  std::array<std::int64_t, 2> by_source{}, age_by_source;  // broadcast, precise
   age.fill(-1);
+  age_by_source.fill(-1);
   for (const SatelliteReport& satellite : report.satellites) {
+    if (orbit_watch_.falls_back(satellite.satellite, satellite.source)) {
+      counters_->orbit_fallbacks.add(1);
+    }
     if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;
     const std::size_t system = index_of(satellite.satellite.system);
     ++used[system];
     const auto age_ms = static_cast<std::int64_t>(satellite.ephemeris_age_s * 1e3);
     age[system] = std::max(age[system], age_ms);
+    if (satellite.source == OrbitSource::kNone) continue;
+    const std::size_t source = satellite.source == OrbitSource::kPrecise ? 1 : 0;
+    ++by_source[source];
+    age_by_source[source] = std::max(age_by_source[source], age_ms);
+  }
+  for (std::size_t i = 0; i < by_source.size(); ++i) {
+    counters_->satellites_by_source[i].set(by_source[i]);
+    counters_->age_by_source_ms[i].set(age_by_source[i]);
   }
   for (std::size_t i = 0; i < kSystemCount; ++i) {
     counters_->satellites_used[i].set(used[i]);

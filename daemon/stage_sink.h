@@ -1,5 +1,6 @@
 // The output end of one stage: encodes into its ring to `out`, and notes what health wants to know.
 #pragma once
+#include "core/navigator/orbit_watch.h"
 #include "daemon/counters.h"
 #include "daemon/encoding_sink.h"
 #include "daemon/message_ring.h"
@@ -25,6 +26,7 @@ class StageSink final : public OutputSink, private MessageTarget {
   MessageRing ring_;
   EncodingSink encoder_;
   EngineCounters* counters_;
+  OrbitWatch orbit_watch_;
 };
 
 // Wall-clock time as LCM logs stamp it: microseconds since 1970.

@@ -62,6 +62,17 @@ double troposphere_rate(const DelayContext& context, const SatelliteInView& sate
   return delay_at(0.5) - delay_at(-0.5);
 }
 
+// Precise states are of the centre of mass, the signal comes from the antenna: 0.7 to 2.7 m nearer
+// the Earth by block and band of the satellite (IGS antenna models). Unless these offsets are
+// applied, what a clock per system does not take up of them is some 0.7 m. A LEO satellite's
+// antenna is within decimetres of its centre of mass.
+double antenna_variance(const SatelliteInView& satellite, bool antenna_known) {
+  constexpr double kAntennaOffsetSigma = 0.7;  // m
+  const bool is_offset =
+      satellite.source == OrbitSource::kPrecise && satellite.satellite.system != System::kLeo;
+  return is_offset && !antenna_known ? square(kAntennaOffsetSigma) : 0.0;
+}
+
 double noise_elevation(const DelayContext& context, const SatelliteInView& satellite) {
   return context.has_position ? satellite.elevation : kHalfPi;
 }
@@ -145,8 +156,9 @@ Measurement code_measurement(const DelayContext& context, const SignalObservatio
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
   code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m;
-  code.sigma = std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
-                         atmosphere_variance(context, *satellite));
+  code.sigma =
+      std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
+                antenna_variance(*satellite, false) + atmosphere_variance(context, *satellite));
   return code;
 }
 

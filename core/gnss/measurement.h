@@ -44,6 +44,8 @@ struct SatelliteInView {
   double clock_m = 0.0;         // satellite clock times c
   double clock_drift_m_s = 0.0;
   double orbit_sigma_m = 0.0;
+  double orbit_sigma_change_m = 0.0;  // as in SatelliteState
+  std::uint32_t orbit_issue = 0;      // likewise
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;
   double elevation = 0.0;        // rad, at the approximate position; 0 if there is none

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/signal.h"
@@ -10,15 +11,15 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kPolynomialNodes = 10;
 constexpr std::size_t kFewestNodes = 5;
 // A polynomial whose last term is larger than this does not describe the orbit.
 constexpr double kLargestTruncation = 1.0;  // m
+// Nodes are rounded to the millimetre: terms below this are noise, and no reason to stop.
+constexpr double kNodeNoise = 1e-3;  // m
 // Orbit and clock product themselves (IGS final: 2-3 cm each, along the line of sight).
 constexpr double kProductSigma = 0.03;  // m
-// What a clock does between two nodes a second apart; grows with the square root of the interval
-// as a random walk does (0.05 m over 15 minutes, 0.01 m over 30 s).
-constexpr double kClockWalk = 1.7e-3;  // m/sqrt(s)
+// A predicted orbit (IGS ultra-rapid, predicted half: 5 cm).
+constexpr double kPredictedSigma = 0.05;  // m
 
 // Nodes [begin, end) that are linked to `anchor` without a gap, at most kPolynomialNodes of them,
 // as symmetric around `time` as they come.
@@ -27,7 +28,7 @@ struct Range {
 };
 
 bool linked(const OrbitNode& a, const OrbitNode& b, double max_gap_s) {
-  return seconds_between(b.time, a.time) <= max_gap_s;
+  return seconds_between(b.time, a.time) <= max_gap_s && !b.maneuver;
 }
 
 Range window_around(const OrbitNode* nodes, std::size_t count, std::size_t before, GpsTime time,
@@ -62,27 +63,33 @@ Eigen::Vector3d inertial(const Eigen::Vector3d& p_e, double seconds) {
 struct Polynomial {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   Eigen::Vector3d derivative = Eigen::Vector3d::Zero();
-  double last_term = 0.0;
+  double last_term = std::numeric_limits<double>::infinity();
 };
 
 // Newton's divided differences, evaluated at zero with the derivative. Nodes enter nearest first,
-// so that the last term is the smallest and tells what leaving out the next one costs.
-Polynomial newton_at_zero(std::array<double, kPolynomialNodes>& t,
+// so that terms shrink while they describe the orbit, and the last one tells what leaving out the
+// next one costs. Near the ends of the nodes they grow again, as high degrees there amplify the
+// nodes' rounding: the polynomial stops at its smallest term. A term's size is judged as if `t`
+// were at least a quarter interval from the nearest node, where every term vanishes.
+Polynomial newton_at_zero(const std::array<double, kPolynomialNodes>& t,
                           std::array<Eigen::Vector3d, kPolynomialNodes>& y, std::size_t n) {
   for (std::size_t order = 1; order < n; ++order) {
     for (std::size_t i = n - 1; i >= order; --i) y[i] = (y[i] - y[i - 1]) / (t[i] - t[i - order]);
   }
-  Polynomial p;
+  const double nearest = std::max(std::abs(t[0]), 0.25 * std::abs(t[1] - t[0]));
+  Polynomial sum, best;
   double product = 1.0, product_rate = 0.0;  // of (0 - t[0]) ... (0 - t[i-1])
+  double size = 1.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector3d term = y[i] * product;
-    p.value += term;
-    p.derivative += y[i] * product_rate;
-    p.last_term = term.norm();
+    sum.value += y[i] * product;
+    sum.derivative += y[i] * product_rate;
+    sum.last_term = y[i].norm() * size;
+    if (i + 1 >= kFewestNodes && sum.last_term <= std::max(best.last_term, kNodeNoise)) best = sum;
     product_rate = product - t[i] * product_rate;
     product *= -t[i];
+    size *= i == 0 ? nearest : std::abs(t[i]);
   }
-  return p;
+  return best;
 }
 
 Polynomial orbit_at(const OrbitNode* nodes, Range range, GpsTime time) {
@@ -103,10 +110,14 @@ Polynomial orbit_at(const OrbitNode* nodes, Range range, GpsTime time) {
   return newton_at_zero(t, y, n);
 }
 
+ClockNode clock_of(const OrbitNode& node) {
+  return {node.time, node.clock_s, node.clock_event, node.clock_predicted};
+}
+
 }  // namespace
 
 bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, double max_gap_s,
-                   SatelliteState* state) {
+                   System system, const PreciseClock* clock, SatelliteState* state) {
   if (count < kFewestNodes || time < nodes[0].time) return false;
   const OrbitNode* above = std::upper_bound(
       nodes, nodes + count, time, [](GpsTime t, const OrbitNode& node) { return t < node.time; });
@@ -116,8 +127,12 @@ bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, doub
   const OrbitNode& b = nodes[before + 1];
   const double interval = seconds_between(b.time, a.time);
   const double since_a = seconds_between(time, a.time);
-  if (interval > max_gap_s || since_a > interval * (1.0 + kOrbitExtrapolation)) return false;
-  if (std::isnan(a.clock_s) || std::isnan(b.clock_s)) return false;
+  if (!linked(a, b, max_gap_s) || since_a > interval * (1.0 + kOrbitExtrapolation)) return false;
+  PreciseClock own;
+  if (clock == nullptr) {
+    if (!interpolate_between(clock_of(a), clock_of(b), time, system, &own)) return false;
+    clock = &own;
+  }
 
   const Range range = window_around(nodes, count, before, time, max_gap_s);
   if (range.end - range.begin < kFewestNodes) return false;
@@ -130,15 +145,17 @@ bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, doub
   state->v_e =
       v_inertial - Eigen::Vector3d(-kEarthRotationRate * p.y(), kEarthRotationRate * p.x(), 0.0);
   constexpr double kPerC2 = 1.0 / (kSpeedOfLight * kSpeedOfLight);
-  const double slope = (b.clock_s - a.clock_s) / interval;
-  state->clock_s = a.clock_s + slope * since_a - 2.0 * p.dot(v_inertial) * kPerC2;
+  state->clock_s = clock->clock_s - 2.0 * p.dot(v_inertial) * kPerC2;
   // d(r.v)/dt = v^2 + r.a, with a of the two-body problem.
   state->clock_drift =
-      slope - 2.0 * (v_inertial.squaredNorm() - kEarthGravitationalConstant / p.norm()) * kPerC2;
-  const double nearest = std::min(std::abs(since_a), std::abs(interval - since_a));
-  state->sigma_m = std::sqrt(kProductSigma * kProductSigma + orbit.last_term * orbit.last_term +
-                             kClockWalk * kClockWalk * nearest);
-  state->age_s = nearest;
+      clock->drift -
+      2.0 * (v_inertial.squaredNorm() - kEarthGravitationalConstant / p.norm()) * kPerC2;
+  const double change_m2 = orbit.last_term * orbit.last_term + clock->change_m2;
+  const double predicted_m = a.orbit_predicted || b.orbit_predicted ? kPredictedSigma : 0.0;
+  state->sigma_change_m = std::sqrt(change_m2);
+  state->sigma_m = std::sqrt(kProductSigma * kProductSigma + predicted_m * predicted_m +
+                             clock->constant_m2 + change_m2);
+  state->age_s = std::min(std::abs(since_a), std::abs(interval - since_a));
   state->source = OrbitSource::kPrecise;
   return true;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/capacity.h"
+#include "core/gnss/node_table.h"
 #include "core/gnss/precise_orbit.h"
 
 namespace leonav {
@@ -17,12 +18,6 @@ static_assert(kFirstPlace[3] + 399 == kMaxEphemerisSatellites);
 
 std::size_t place_of(SatelliteId id) { return kFirstPlace[index_of(id.system)] + id.number - 1; }
 
-// Precise states are of the centre of mass, the signal comes from the antenna: 0.7 to 2.7 m nearer
-// the Earth by block and band of the satellite (IGS antenna models). Until these offsets are
-// applied, what a clock per system does not take up of them is some 0.7 m. A LEO satellite's
-// antenna is within decimetres of its centre of mass.
-constexpr double kAntennaOffsetSigma = 0.7;  // m
-
 struct StoredEphemeris {
   Ephemeris ephemeris;
   std::uint64_t arrival = 0;
@@ -30,9 +25,8 @@ struct StoredEphemeris {
 
 struct Track {
   boost::container::static_vector<StoredEphemeris, kMaxEphemeridesPerSatellite> ephemerides;
-  // In order of time. The arrivals are apart so that the nodes lie together for interpolation.
-  boost::container::static_vector<OrbitNode, kMaxOrbitNodes> nodes;
-  boost::container::static_vector<std::uint64_t, kMaxOrbitNodes> node_arrivals;
+  NodeTable<OrbitNode, kMaxOrbitNodes> orbit;
+  NodeTable<ClockNode, kMaxClockNodes> clock;  // of clock files
 };
 
 bool is_same_issue(const Ephemeris& a, const Ephemeris& b) {
@@ -106,9 +100,38 @@ bool newest_is_unhealthy(const Track& track, GpsTime time, const CatalogOptions&
 
 bool is_sane_node(const PreciseState& state) {
   if (!is_valid(state.satellite) || state.time.nanoseconds() <= 0) return false;
+  const bool has_clock = std::abs(state.clock_s) < 0.1;  // false for NaN
+  if (state.is_clock_only()) return has_clock;
   const double radius = state.p_e.norm();
   if (!(radius > 6.4e6 && radius < 1e8)) return false;  // false for NaN
-  return std::isnan(state.clock_s) || std::abs(state.clock_s) < 0.1;
+  return has_clock || std::isnan(state.clock_s);
+}
+
+// What SatelliteState::issue says: the kind of product in the two highest bits. Broadcast: message,
+// time of ephemeris (it repeats after 4.5 h, twice the longest life of a set) and issue.
+enum class IssueKind : std::uint32_t { kBroadcast = 1, kPrecise = 2, kPreciseWithClocks = 3 };
+
+std::uint32_t issue_of(IssueKind kind) { return static_cast<std::uint32_t>(kind) << 30; }
+
+std::uint32_t issue_of(const Ephemeris& e) {
+  constexpr std::int64_t kToeUnit = 8 * kNanosecondsPerSecond;  // the finest that a message has
+  const auto toe = static_cast<std::uint32_t>(e.toe.nanoseconds() / kToeUnit % 2048);
+  return issue_of(IssueKind::kBroadcast) | static_cast<std::uint32_t>(e.message) << 27 | toe << 16 |
+         e.issue;
+}
+
+// Orbit from the orbit's nodes, clock from the finer clocks where they are.
+bool find_precise(const Track& track, System system, GpsTime time, const CatalogOptions& options,
+                  SatelliteState* state) {
+  PreciseClock clock;
+  const bool fine = interpolate_clock(track.clock.data(), track.clock.size(), time,
+                                      options.max_clock_gap_s, system, &clock);
+  if (!precise_state(track.orbit.data(), track.orbit.size(), time, options.max_orbit_gap_s, system,
+                     fine ? &clock : nullptr, state)) {
+    return false;
+  }
+  state->issue = issue_of(fine ? IssueKind::kPreciseWithClocks : IssueKind::kPrecise);
+  return true;
 }
 
 }  // namespace
@@ -150,25 +173,15 @@ bool SatelliteCatalog::add(const Ephemeris& ephemeris) {
 bool SatelliteCatalog::add(const PreciseState& state) {
   if (!is_sane_node(state)) return false;
   Track& track = storage_->tracks[place_of(state.satellite)];
-  auto& nodes = track.nodes;
-  auto& arrivals = track.node_arrivals;
-  const OrbitNode node{state.time, state.p_e, state.clock_s};
-  const auto not_before = [](const OrbitNode& a, GpsTime t) { return a.time < t; };
-
-  auto place = std::lower_bound(nodes.begin(), nodes.end(), state.time, not_before);
-  if (place != nodes.end() && place->time == state.time) {
-    *place = node;
-    arrivals[static_cast<std::size_t>(place - nodes.begin())] = ++storage_->arrivals;
-    return true;
+  const std::uint64_t arrival = ++storage_->arrivals;
+  if (state.is_clock_only()) {
+    track.clock.insert({state.time, state.clock_s, state.clock_event, state.clock_predicted},
+                       arrival);
+  } else {
+    track.orbit.insert({state.time, state.p_e, state.clock_s, state.clock_event, state.maneuver,
+                        state.clock_predicted, state.orbit_predicted},
+                       arrival);
   }
-  if (nodes.size() == nodes.capacity()) {
-    const auto first = std::min_element(arrivals.begin(), arrivals.end());
-    nodes.erase(nodes.begin() + (first - arrivals.begin()));
-    arrivals.erase(first);
-    place = std::lower_bound(nodes.begin(), nodes.end(), state.time, not_before);
-  }
-  arrivals.insert(arrivals.begin() + (place - nodes.begin()), ++storage_->arrivals);
-  nodes.insert(place, node);
   return true;
 }
 
@@ -181,17 +194,13 @@ LookupStatus SatelliteCatalog::state_at(SatelliteId satellite, GpsTime time, Sat
   if (!is_valid(satellite) || time.nanoseconds() <= 0) return LookupStatus::kNoEphemeris;
   const CatalogOptions& options = storage_->options;
   const Track& track = storage_->tracks[place_of(satellite)];
-  if (track.ephemerides.empty() && track.nodes.empty()) return LookupStatus::kNoEphemeris;
+  if (track.ephemerides.empty() && track.orbit.empty()) return LookupStatus::kNoEphemeris;
 
   const Ephemeris* best = best_ephemeris(track, time, options);
   if (best != nullptr && (!is_healthy(*best) || newest_is_unhealthy(track, time, options))) {
     return LookupStatus::kUnhealthy;
   }
-  if (options.use_precise &&
-      precise_state(track.nodes.data(), track.nodes.size(), time, options.max_orbit_gap_s, state)) {
-    if (satellite.system != System::kLeo) {
-      state->sigma_m = std::hypot(state->sigma_m, kAntennaOffsetSigma);
-    }
+  if (options.use_precise && find_precise(track, satellite.system, time, options, state)) {
     return LookupStatus::kOk;
   }
   if (best == nullptr) {
@@ -199,6 +208,7 @@ LookupStatus SatelliteCatalog::state_at(SatelliteId satellite, GpsTime time, Sat
                                                              : LookupStatus::kTooOld;
   }
   *state = broadcast_state(*best, time);
+  state->issue = issue_of(*best);
   if (ephemeris != nullptr) *ephemeris = best;
   return LookupStatus::kOk;
 }

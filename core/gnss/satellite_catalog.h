@@ -9,12 +9,17 @@
 
 namespace leonav {
 
-// One precise state of one satellite, e.g. a line of an SP3 file.
+// One precise state of one satellite: a line of an SP3 file, or of a clock file (clock only).
 struct PreciseState {
   SatelliteId satellite;
   GpsTime time;
-  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, centre of mass
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, centre of mass; all NaN: clock only
   double clock_s = 0.0;                           // NaN: no clock in this product
+  bool clock_event = false;  // the clock was changed since the state before, or now
+  bool maneuver = false;     // the orbit was changed since the state before, or now
+  bool clock_predicted = false, orbit_predicted = false;  // not from observations
+
+  bool is_clock_only() const { return p_e.array().isNaN().all(); }
 };
 
 enum class LookupStatus : std::uint8_t {
@@ -31,6 +36,7 @@ struct CatalogOptions {
   double max_age_beidou_s = 21600.0;
   double max_age_leo_s = 7200.0;
   double max_orbit_gap_s = 1000.0;  // precise nodes farther apart than this are not bridged
+  double max_clock_gap_s = 45.0;    // likewise those of clock files; else the orbits' clocks serve
   bool galileo_prefers_fnav =
       false;  // F/NAV (E1,E5a clock) instead of I/NAV (E1,E5b) where both are there
 };
@@ -52,7 +58,8 @@ class SatelliteCatalog {
 
   // State at `time`; `*ephemeris` (if given) points to the elements used, or nullptr for precise.
   // Broadcast: the elements with the nearest toe. A satellite whose newest message says unhealthy
-  // is unhealthy with precise states too. Only kOk changes `*state`.
+  // is unhealthy with precise states too. Precise: clocks of clock files where they enclose `time`,
+  // else those that came with the orbits. Only kOk changes `*state`.
   LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                         const Ephemeris** ephemeris = nullptr) const;
 

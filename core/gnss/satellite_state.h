@@ -15,9 +15,12 @@ struct SatelliteState {
   Eigen::Vector3d v_e = Eigen::Vector3d::Zero();  // m/s, relative to the rotating Earth
   double clock_s =
       0.0;  // satellite clock minus system time, relativistic eccentricity term included
-  double clock_drift = 0.0;  // s/s, likewise
-  double sigma_m = 0.0;      // 1 sigma of orbit and clock together along the line of sight
-  double age_s = 0.0;        // |instant - reference time of the product|
+  double clock_drift = 0.0;     // s/s, likewise
+  double sigma_m = 0.0;         // 1 sigma of orbit and clock together along the line of sight
+  double sigma_change_m = 0.0;  // the part of it that is another from epoch to epoch (error of the
+                                // interpolation); the rest passes for a carrier arc's constant
+  double age_s = 0.0;           // |instant - reference time of the product|
+  std::uint32_t issue = 0;      // another one, other elements: their error steps. 0: none
   OrbitSource source = OrbitSource::kNone;
 };
 

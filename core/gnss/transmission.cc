@@ -50,6 +50,8 @@ LookupStatus satellite_at_transmission(const SatelliteCatalog& catalog, GpsTime 
   satellite->clock_m = kSpeedOfLight * state.clock_s;
   satellite->clock_drift_m_s = kSpeedOfLight * state.clock_drift;
   satellite->orbit_sigma_m = state.sigma_m;
+  satellite->orbit_sigma_change_m = state.sigma_change_m;
+  satellite->orbit_issue = state.issue;
   satellite->ephemeris_age_s = state.age_s;
   satellite->source = state.source;
   *broadcast = ephemeris;

@@ -95,6 +95,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
   watch_motion(work);
   report_solution(work);
   deliver(work);
+  watch_orbits();
   publish(work);
 }
 
@@ -338,6 +339,16 @@ void GnssStage::publish(const EpochWork& work) {
     sink_->on_solution(report_->solution);
   }
   sink_->on_epoch(*report_);
+}
+
+void GnssStage::watch_orbits() {
+  for (const SatelliteReport& satellite : report_->satellites) {
+    if (!orbit_watch_.falls_back(satellite.satellite, satellite.source)) continue;
+    // Events are thinned, so that a product that comes and goes does not drown the others.
+    if (++orbit_fallbacks_ > 16 && orbit_fallbacks_ % 256 != 0) continue;
+    events_.emit(EventKind::kOrbitFallback, static_cast<std::uint8_t>(satellite.satellite.system),
+                 satellite.satellite.number, report_->time);
+  }
 }
 
 Source GnssStage::source() const {

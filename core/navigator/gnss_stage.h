@@ -12,6 +12,7 @@
 #include "core/ins/given_heading.h"
 #include "core/navigator/event_source.h"
 #include "core/navigator/navigator_config.h"
+#include "core/navigator/orbit_watch.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
 
@@ -53,6 +54,7 @@ class GnssStage {
   void report_solution(const EpochWork& work);
   void deliver(const EpochWork& work);
   void publish(const EpochWork& work);
+  void watch_orbits();
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
@@ -69,6 +71,8 @@ class GnssStage {
   std::unique_ptr<EpochReport> report_;
   std::uint64_t next_report_ = 1, next_solution_ = 1;
   std::array<ConsistencyWatch, 2> consistency_;  // codes, Dopplers
+  OrbitWatch orbit_watch_;
+  std::uint64_t orbit_fallbacks_ = 0;
   int suspect_epochs_ = 0;
   bool gnss_used_ = false;  // in the epoch at hand
   GpsTime last_gnss_time_;  // of the last epoch that used any

@@ -25,11 +25,15 @@ InputFault check(const ImuSample& sample, const ImuLimits& limits) {
 }
 
 InputFault check(const PreciseState& state) {
-  if (!state.p_e.allFinite() || std::isinf(state.clock_s)) return InputFault::kNotFinite;
+  const bool clock_only = state.is_clock_only() && std::isfinite(state.clock_s);
+  if (!(state.p_e.allFinite() || clock_only) || std::isinf(state.clock_s)) {
+    return InputFault::kNotFinite;
+  }
   if (!is_valid(state.satellite) || !is_plausible(state.time)) return InputFault::kOutOfRange;
   // From the ground to beyond the geosynchronous orbits; a satellite clock stays below a second.
   const double radius = state.p_e.norm();
-  const bool in_range = radius > 6.3e6 && radius < 1e8 && !(std::abs(state.clock_s) > 1.0);
+  const bool in_range =
+      (clock_only || (radius > 6.3e6 && radius < 1e8)) && !(std::abs(state.clock_s) > 1.0);
   return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 

@@ -40,6 +40,8 @@ std::string_view to_string(EventKind kind) {
       return "capacity";
     case EventKind::kImprobable:
       return "improbable";
+    case EventKind::kOrbitFallback:
+      return "orbit_fallback";
   }
   return "unknown";
 }

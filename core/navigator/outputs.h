@@ -88,9 +88,10 @@ enum class EventKind : std::uint8_t {
   kImuGap = 4,     // value: seconds
   kLateEpoch = 5,  // value: seconds late
   kEmptyEpoch = 6,
-  kSolutionJump = 7,  // value: metres
-  kCapacity = 8,      // a fixed table was full; code says which
-  kImprobable = 9,    // code: 0 codes, 1 Dopplers; value: innovations over their sigmas
+  kSolutionJump = 7,    // value: metres
+  kCapacity = 8,        // a fixed table was full; code says which
+  kImprobable = 9,      // code: 0 codes, 1 Dopplers; value: innovations over their sigmas
+  kOrbitFallback = 10,  // precise state lost, broadcast serves; code: system, value: number
 };
 std::string_view to_string(EventKind kind);
 

@@ -52,6 +52,7 @@ void read_catalog(ConfigReader& group, CatalogOptions* config) {
   group.number("max_age_beidou_s", kAge, &config->max_age_beidou_s);
   group.number("max_age_leo_s", kAge, &config->max_age_leo_s);
   group.number("max_orbit_gap_s", kAge, &config->max_orbit_gap_s);
+  group.number("max_clock_gap_s", kAge, &config->max_clock_gap_s);
   group.boolean("galileo_prefers_fnav", &config->galileo_prefers_fnav);
 }
 

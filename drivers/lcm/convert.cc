@@ -60,11 +60,21 @@ InputFault convert(const gnss_observation_t& from, SignalObservation* to) {
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to) {
   const auto satellite = satellite_of(from);
   if (!satellite) return InputFault::kOutOfRange;
-  if (!all_finite(from.p_e) || std::isinf(from.clock_s)) return InputFault::kNotFinite;
+  constexpr int kKnownFlags =
+      kFlagClockEvent | kFlagManeuver | kFlagClockPredicted | kFlagOrbitPredicted;
+  if ((from.flags & ~kKnownFlags) != 0) return InputFault::kOutOfRange;
   to->satellite = *satellite;
   to->time = time;
   for (int i = 0; i < 3; ++i) to->p_e[i] = from.p_e[i];
   to->clock_s = from.clock_s;
+  to->clock_event = (from.flags & kFlagClockEvent) != 0;
+  to->maneuver = (from.flags & kFlagManeuver) != 0;
+  to->clock_predicted = (from.flags & kFlagClockPredicted) != 0;
+  to->orbit_predicted = (from.flags & kFlagOrbitPredicted) != 0;
+  const bool clock_only = to->is_clock_only() && std::isfinite(to->clock_s);
+  if (!(all_finite(from.p_e) || clock_only) || std::isinf(from.clock_s)) {
+    return InputFault::kNotFinite;
+  }
   return InputFault::kNone;
 }
 

@@ -69,6 +69,13 @@ void fill(const Solution& from, solution_t* to) {
   to->jump_m = from.jump_m;
 }
 
+std::int8_t flags_of(const PreciseState& state) {
+  return static_cast<std::int8_t>((state.clock_event ? wire::kFlagClockEvent : 0) |
+                                  (state.maneuver ? wire::kFlagManeuver : 0) |
+                                  (state.clock_predicted ? wire::kFlagClockPredicted : 0) |
+                                  (state.orbit_predicted ? wire::kFlagOrbitPredicted : 0));
+}
+
 void fill(const SatelliteReport& from, satellite_report_t* to) {
   set_satellite(from.satellite, to);
   to->reason = static_cast<std::int8_t>(from.reason);
@@ -184,6 +191,7 @@ ByteSpan Encoder::encode(std::span<const PreciseState> states, std::uint64_t seq
   message.states.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     set_satellite(states[i].satellite, &message.states[i]);
+    message.states[i].flags = flags_of(states[i]);
     copy(states[i].p_e, message.states[i].p_e);
     message.states[i].clock_s = states[i].clock_s;
   }

@@ -28,6 +28,11 @@ inline constexpr std::size_t kEventStageOffset = 28;
 inline constexpr std::uint8_t kFlagLossOfLock = 1;
 inline constexpr std::uint8_t kFlagHalfCycle = 2;
 
+inline constexpr std::uint8_t kFlagClockEvent = 1;
+inline constexpr std::uint8_t kFlagManeuver = 2;
+inline constexpr std::uint8_t kFlagClockPredicted = 4;
+inline constexpr std::uint8_t kFlagOrbitPredicted = 8;
+
 // Big endian; `bytes` must hold offset + 4.
 inline std::uint32_t read_uint32(std::span<const std::uint8_t> bytes, std::size_t offset) {
   std::uint32_t value = 0;

@@ -1,7 +1,6 @@
 #include "drivers/sp3/sp3_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "core/time/calendar.h"
 #include "drivers/text/line_reader.h"
+#include "drivers/text/time_system.h"
 
 namespace leonav {
 namespace {
@@ -80,24 +80,11 @@ class Reader {
     time_system_known_ = true;
     const std::string_view name = trim(columns(line, 9, 3));
     if (name == "ccc" || name.empty()) return;
-    constexpr std::array<std::string_view, 6> kKnown = {"GPS", "GAL", "BDT", "QZS", "UTC", "TAI"};
-    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+    if (!is_known_time_system(name)) {
       lines_.fail("time system '" + std::string(name) +
                   "' is not known; use a file in GPS, GAL, BDT, QZS, TAI or UTC time");
     }
     file_.time_system = name;
-  }
-
-  GpsTime to_gps_time(const CalendarTime& calendar) const {
-    const GpsTime reading = from_calendar(calendar);
-    if (file_.time_system == "BDT") return reading.plus_seconds(-kBeidouMinusGpsSeconds);
-    if (file_.time_system == "TAI") return reading.plus_seconds(-19.0);
-    if (file_.time_system == "UTC") {
-      // The step lies in UTC; asked once more at the result, the day of a step is right too.
-      const GpsTime first = reading.plus_seconds(leap_seconds(reading));
-      return reading.plus_seconds(leap_seconds(first));
-    }
-    return reading;  // Galileo and QZSS time equal GPS time up to nanoseconds
   }
 
   void read_epoch(std::string_view line) {
@@ -111,7 +98,8 @@ class Reader {
         *minute < 0 || *minute > 59 || *second < 0.0 || *second >= 61.0) {
       return damaged("epoch is unreadable; its positions are left out");
     }
-    const GpsTime time = to_gps_time({*year, *month, *day, *hour, *minute, *second});
+    const GpsTime time = gps_time_of(from_calendar({*year, *month, *day, *hour, *minute, *second}),
+                                     file_.time_system);
     if (!file_.epochs.empty() && time <= file_.epochs.back().time) {
       return damaged("epoch is not later than the one before; its positions are left out");
     }
@@ -147,6 +135,7 @@ class Reader {
       return;
     }
     read_clock(line, &state);
+    read_flags(line, &state);
     file_.epochs.back().states.push_back(state);
   }
 
@@ -160,6 +149,21 @@ class Reader {
     state->clock_s = std::numeric_limits<double>::quiet_NaN();
     ++file_.bad_clocks;
     if (!microseconds && !trim(text).empty()) damaged("clock is unreadable; the position is kept");
+  }
+
+  // Columns 75, 76, 79 and 80 of the format (both versions): clock event, predicted clock,
+  // maneuver, predicted orbit.
+  void read_flags(std::string_view line, PreciseState* state) {
+    const auto is = [&](std::size_t column, char letter) {
+      return line.size() > column && line[column] == letter;
+    };
+    state->clock_event = is(74, 'E');
+    state->clock_predicted = is(75, 'P');
+    state->maneuver = is(78, 'M');
+    state->orbit_predicted = is(79, 'P');
+    file_.clock_events += state->clock_event ? 1 : 0;
+    file_.maneuvers += state->maneuver ? 1 : 0;
+    file_.predicted += state->clock_predicted || state->orbit_predicted ? 1 : 0;
   }
 
   static bool is_other_system(std::string_view name) {

@@ -30,6 +30,9 @@ struct Sp3File {
   std::uint64_t other_system = 0;   // position lines of systems leonav does not use
   std::uint64_t bad_positions = 0;  // position 0 0 0: "bad or absent" by the format
   std::uint64_t bad_clocks = 0;     // clock 999999.999999: the state is kept, its clock is NaN
+  std::uint64_t clock_events = 0;   // states flagged E: the clock was changed since the one before
+  std::uint64_t maneuvers = 0;      // flagged M: the orbit was
+  std::uint64_t predicted = 0;      // flagged P: clock, orbit or both
   std::uint64_t damaged_lines = 0;
   bool truncated = false;            // no EOF line
   std::vector<Sp3Problem> problems;  // the first 20 damaged lines

@@ -33,7 +33,8 @@ std::string to_string(const ImportReport& report) {
   if (!report.satellites.empty()) out << ')';
   out << "\n" << report.imu_samples << " IMU samples\n";
   out << report.ephemerides << " ephemerides, " << report.ionosphere_models
-      << " ionosphere models, " << report.orbit_epochs << " precise orbit epochs\n";
+      << " ionosphere models, " << report.orbit_epochs << " precise orbit epochs, "
+      << report.clock_epochs << " precise clock epochs\n";
   if (report.first.is_set()) {
     out << "span: " << to_text(report.first) << " to " << to_text(report.last) << " GPS time, "
         << seconds_between(report.last, report.first) << " s\n";

@@ -17,7 +17,8 @@ struct ImportReport {
     long count = 0;
   };
 
-  long epochs = 0, imu_samples = 0, ephemerides = 0, orbit_epochs = 0, ionosphere_models = 0;
+  long epochs = 0, imu_samples = 0, ephemerides = 0, orbit_epochs = 0, clock_epochs = 0,
+       ionosphere_models = 0;
   std::map<System, long> satellites;  // different ones observed
   GpsTime first, last;                // of epochs and IMU samples
   std::vector<Skip> skipped;

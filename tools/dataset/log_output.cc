@@ -62,7 +62,8 @@ void LogOutput::write(GpsTime arrival, const KlobucharModel& model) {
 
 void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
   put(arrival, Channel::kOrbitClock, encoder_.encode(states, next_sequence(Channel::kOrbitClock)));
-  ++report_->orbit_epochs;
+  const bool clocks = !states.empty() && states.front().is_clock_only();
+  ++(clocks ? report_->clock_epochs : report_->orbit_epochs);
 }
 
 void LogOutput::commit() {

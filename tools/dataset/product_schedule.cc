@@ -113,7 +113,8 @@ EphemerisSchedule schedule_ephemerides(std::vector<Ephemeris> ephemerides, GpsTi
   return schedule;
 }
 
-std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start) {
+std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start,
+                                                 int nodes_ahead) {
   const std::vector<OrbitEpoch> nodes = merged(std::move(epochs));
   // A product of LEO satellites has a node every 30 s, one of GNSS satellites every 900 s: what is
   // near and what is past is each satellite's own.
@@ -127,8 +128,8 @@ std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs,
     for (const PreciseState& state : node.states) {
       const std::vector<GpsTime>& own = times[state.satellite];
       const std::ptrdiff_t i = next[state.satellite]++;
-      if (node_time(own, i + kNodesAhead) <= start) continue;
-      const GpsTime arrival = std::max(start, node_time(own, i - kNodesAhead));
+      if (node_time(own, i + nodes_ahead) <= start) continue;
+      const GpsTime arrival = std::max(start, node_time(own, i - nodes_ahead));
       messages[{arrival, node.time}].push_back(state);
     }
   }

@@ -40,11 +40,16 @@ struct ScheduledOrbitEpoch {
   OrbitEpoch epoch;
 };
 
-// A satellite's node arrives at the time of the node kNodesAhead before it, so that interpolation
-// always has nodes on both sides; not before `start`, and none that lies kNodesAhead nodes or more
-// before it. Each satellite goes by its own nodes, so that products of different intervals mix.
-// Interpolation needs five on each side; the catalog keeps kMaxOrbitNodes.
-inline constexpr int kNodesAhead = 6;
-std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start);
+// A satellite's node arrives at the time of the node `nodes_ahead` before it, so that interpolation
+// always has nodes on both sides; not before `start`, and none that lies `nodes_ahead` nodes or
+// more before it. Each satellite goes by its own nodes, so that products of different intervals
+// mix.
+std::vector<ScheduledOrbitEpoch> schedule_orbits(std::vector<OrbitEpoch> epochs, GpsTime start,
+                                                 int nodes_ahead);
+
+// The orbit's polynomial wants seven nodes on each side (kPolynomialNodes); the catalog keeps
+// kMaxOrbitNodes. Clocks of clock files are linear, and the next pair tells a step from a new rate.
+inline constexpr int kOrbitNodesAhead = 8;
+inline constexpr int kClockNodesAhead = 3;
 
 }  // namespace leonav

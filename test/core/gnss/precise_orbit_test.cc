@@ -26,14 +26,18 @@ std::vector<OrbitNode> sampled(const Ephemeris& e, int first, int last, double s
   std::vector<OrbitNode> nodes;
   for (int i = first; i <= last; ++i) {
     const GpsTime t = e.toe.plus_seconds(i * step);
-    nodes.push_back({t, broadcast_state(e, t).p_e, 1e-4 + 1e-12 * i * step});
+    OrbitNode node;
+    node.time = t;
+    node.p_e = broadcast_state(e, t).p_e;
+    node.clock_s = 1e-4 + 1e-12 * i * step;
+    nodes.push_back(node);
   }
   return nodes;
 }
 
 bool lookup(const std::vector<OrbitNode>& nodes, GpsTime time, SatelliteState* state,
             double max_gap_s = 1000.0) {
-  return precise_state(nodes.data(), nodes.size(), time, max_gap_s, state);
+  return precise_state(nodes.data(), nodes.size(), time, max_gap_s, System::kGps, nullptr, state);
 }
 
 }  // namespace

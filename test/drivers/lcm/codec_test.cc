@@ -146,6 +146,40 @@ TEST_CASE("truncated and flipped messages never crash and never change a refused
   }
 }
 
+TEST_CASE("precise states come back with flags, clocks without positions, and nothing else") {
+  std::vector<PreciseState> states(4);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].satellite = {System::kGalileo, static_cast<std::uint16_t>(i + 1)};
+    states[i].time = GpsTime::from_week_and_tow(2300, 900.0);
+    states[i].p_e = {2.9e7, -1e6, 2e6};
+    states[i].clock_s = -1e-4;
+  }
+  states[0].clock_event = states[0].orbit_predicted = true;
+  states[1].maneuver = states[1].clock_predicted = true;
+  states[2].p_e.setConstant(nan);
+  states[3].clock_s = nan;
+  Encoder encoder;
+  Decoder decoder;
+  PreciseStates back;
+  REQUIRE(decoder.decode(copy(encoder.encode(states, 1)), &back).element_faults == 0);
+  REQUIRE(back.size() == 4);
+  CHECK((back[0].clock_event && back[0].orbit_predicted));
+  CHECK_FALSE((back[0].maneuver || back[0].clock_predicted));
+  CHECK((back[1].maneuver && back[1].clock_predicted));
+  CHECK_FALSE((back[1].clock_event || back[1].orbit_predicted));
+  CHECK(back[2].is_clock_only());
+  CHECK(back[2].clock_s == -1e-4);
+  CHECK(std::isnan(back[3].clock_s));
+  CHECK(back[3].p_e == states[3].p_e);
+  // A position half missing, and neither position nor clock: refused, and nothing else with them.
+  states[0].p_e.y() = nan;
+  states[2].clock_s = nan;
+  CHECK(decoder.decode(copy(encoder.encode(states, 2)), &back).element_faults != 0);
+  REQUIRE(back.size() == 2);
+  CHECK(back[0].maneuver);
+}
+
 TEST_CASE("event logs agree with liblcm's, both ways; damage is told") {
   const std::string path = std::filesystem::temp_directory_path() / "leonav_event_log_test.lcmlog";
   const Bytes data = {1, 2, 3, 0xED, 0xA1};

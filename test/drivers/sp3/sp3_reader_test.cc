@@ -72,6 +72,28 @@ TEST_CASE("SP3 positions come in metres and clocks in seconds") {
   CHECK(file.damaged_lines == 0);
 }
 
+TEST_CASE("SP3 flags of clocks and orbits changed or predicted are read") {
+  const std::string row = "PG01  13040.123456 -20000.654321   9000.000001    123.456789 ";
+  const auto state_of = [&](const std::string& flags) {
+    return read_text(header("GPS") + kEpoch1 + row + flags + "\nEOF\n").epochs.at(0).states.at(0);
+  };
+  // Columns 61-73 are accuracies, 75, 76, 79 and 80 the flags.
+  const PreciseState plain = state_of(" 5  5  5 100"), event = state_of(" 5  5  5 100 E"),
+                     all = state_of("             EP  MP"),
+                     predicted = state_of(" 5  5  5 100  P   P");
+  CHECK_FALSE(
+      (plain.clock_event || plain.maneuver || plain.clock_predicted || plain.orbit_predicted));
+  CHECK(event.clock_event);
+  CHECK_FALSE((event.maneuver || event.clock_predicted || event.orbit_predicted));
+  CHECK((all.clock_event && all.maneuver && all.clock_predicted && all.orbit_predicted));
+  CHECK((predicted.clock_predicted && predicted.orbit_predicted));
+  CHECK_FALSE((predicted.clock_event || predicted.maneuver));
+  const Sp3File counted = read_text(header("GPS") + kEpoch1 + row + "             EP  MP\nEOF\n");
+  CHECK(counted.clock_events == 1);
+  CHECK(counted.maneuvers == 1);
+  CHECK(counted.predicted == 1);
+}
+
 TEST_CASE("SP3 times of other systems become GPS time") {
   const GpsTime midnight = GpsTime::from_week_and_tow(2295, 86400.0);
   const auto offset_of = [&](const std::string& system) {

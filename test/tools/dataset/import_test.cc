@@ -1,9 +1,12 @@
 #include "tools/dataset/import.h"
 
 #include <filesystem>
+#include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
+#include "core/gnss/satellite_catalog.h"
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
@@ -101,12 +104,64 @@ TEST_CASE("the recordings become logs with every epoch and sample", "[import][re
     CHECK(log.events["LEONAV_GNSS_EPOCH"] == expected.epochs);
     CHECK(log.events["LEONAV_IMU"] == expected.imu);
     CHECK(log.events["LEONAV_EPHEMERIS"] == report.ephemerides);
-    CHECK(log.events["LEONAV_ORBIT_CLOCK"] == report.orbit_epochs);
+    CHECK(log.events["LEONAV_ORBIT_CLOCK"] == report.orbit_epochs + report.clock_epochs);
     CHECK(report.ephemerides > 0);
     CHECK(log.faults == 0);
     CHECK(log.epochs_before_time == 0);
     CHECK(log.stamps_increase);
   }
+}
+
+TEST_CASE("precise orbits and clocks of the station are there at every epoch",
+          "[import][recorded]") {
+  if (!have_shared_data("station/dataset.yaml")) return;
+  const TemporaryFile place("unused", "");
+  const std::string output = place.beside("run.lcmlog");
+  const Dataset dataset = load_dataset(shared_data("station/dataset.yaml"));
+  const ImportReport report = import_dataset(dataset, {}, output, nullptr);
+  CHECK(report.orbit_epochs > 24);
+  // 721 epochs from 00:00:00 to 06:00:00 and a few nodes ahead; the file has 782.
+  CHECK(report.clock_epochs >= 721 + 2);
+
+  CatalogOptions options;
+  SatelliteCatalog catalog(options);
+  EventLogReader reader(output);
+  Decoder decoder;
+  LogEvent event;
+  PreciseStates states;
+  RawEpoch epoch;
+  std::set<SatelliteId> covered;
+  long looked_up = 0, precise = 0, fine = 0;
+  while (reader.next(&event)) {
+    if (event.channel == "LEONAV_ORBIT_CLOCK") {
+      REQUIRE(decoder.decode(ByteSpan(event.data), &states).fault == InputFault::kNone);
+      for (const PreciseState& state : states) {
+        CHECK(state.time == states.front().time);
+        CHECK(state.is_clock_only() == states.front().is_clock_only());
+        if (!state.is_clock_only()) covered.insert(state.satellite);
+        REQUIRE(catalog.add(state));
+      }
+    } else if (event.channel == "LEONAV_GNSS_EPOCH") {
+      REQUIRE(decoder.decode(ByteSpan(event.data), &epoch).fault == InputFault::kNone);
+      std::set<SatelliteId> seen;
+      for (const SignalObservation& observation : epoch.observations) {
+        if (!covered.contains(observation.satellite)) continue;
+        if (!seen.insert(observation.satellite).second) continue;
+        SatelliteState state;
+        ++looked_up;
+        const GpsTime sent = epoch.time.plus_seconds(-0.08);
+        if (catalog.state_at(observation.satellite, sent, &state) != LookupStatus::kOk) continue;
+        ++precise;
+        if (state.sigma_change_m < 2e-3) ++fine;  // 80 ms from a clock's node
+      }
+    }
+  }
+  std::cout << "station: " << looked_up << " satellites looked up, " << precise << " precise, "
+            << fine << " by 30 s clocks\n";
+  CHECK(covered.size() == 54);
+  CHECK(looked_up > 10'000);
+  CHECK(precise == looked_up);
+  CHECK(static_cast<double>(fine) > 0.999 * static_cast<double>(looked_up));
 }
 
 TEST_CASE("a span of time, and a truncated file", "[import]") {
@@ -195,7 +250,7 @@ TEST_CASE("orbit nodes arrive ahead of their time", "[import]") {
     epochs.push_back({state.time, {state}});
   }
   epochs.push_back(epochs[3]);  // a second file begins where the first ends
-  const auto schedule = schedule_orbits(epochs, start);
+  const auto schedule = schedule_orbits(epochs, start, 6);
   REQUIRE(schedule.size() == 26);  // from -5 to 20
   CHECK(schedule.front().epoch.time == start.plus_seconds(-1500.0));
   CHECK(schedule[11].arrival == start);

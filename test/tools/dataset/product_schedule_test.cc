@@ -70,7 +70,7 @@ TEST_CASE("a GNSS product of 900 s and a LEO product of 30 s are both there at e
   append_product(kGps, -21'600.0, 32'400.0, 900.0, &epochs);
   append_product(kLeo, -21'600.0, 32'400.0, 30.0, &epochs);
   // The recording starts between two nodes of either.
-  Replay replay(schedule_orbits(epochs, kStart.plus_seconds(407.0)));
+  Replay replay(schedule_orbits(epochs, kStart.plus_seconds(407.0), kOrbitNodesAhead));
   Availability gps, leo;
   for (double t = 407.0; t < 407.0 + 10'800.0; t += 1.0) {
     replay.advance(kStart.plus_seconds(t));
@@ -88,7 +88,7 @@ TEST_CASE("a product whose interval changes with the day goes on without a hole"
   std::vector<OrbitEpoch> epochs;
   append_product(kGps, -21'600.0, 3'600.0, 900.0, &epochs);
   append_product(kGps, 3'900.0, 32'400.0, 300.0, &epochs);
-  Replay replay(schedule_orbits(epochs, kStart));
+  Replay replay(schedule_orbits(epochs, kStart, kOrbitNodesAhead));
   Availability gps;
   for (double t = 0.0; t < 10'800.0; t += 1.0) {
     replay.advance(kStart.plus_seconds(t));
@@ -100,10 +100,10 @@ TEST_CASE("a product whose interval changes with the day goes on without a hole"
 }
 
 TEST_CASE("a satellite with one node, and no nodes at all", "[import]") {
-  CHECK(schedule_orbits({}, kStart).empty());
-  const auto ahead =
-      schedule_orbits({{kStart.plus_seconds(60.0), {on_circle(kLeo, 60.0)}}}, kStart);
+  CHECK(schedule_orbits({}, kStart, kOrbitNodesAhead).empty());
+  const auto ahead = schedule_orbits({{kStart.plus_seconds(60.0), {on_circle(kLeo, 60.0)}}}, kStart,
+                                     kOrbitNodesAhead);
   REQUIRE(ahead.size() == 1);
   CHECK(ahead[0].arrival == kStart.plus_seconds(60.0));
-  CHECK(schedule_orbits({{kStart, {on_circle(kLeo, 0.0)}}}, kStart).empty());
+  CHECK(schedule_orbits({{kStart, {on_circle(kLeo, 0.0)}}}, kStart, kOrbitNodesAhead).empty());
 }
