@@ -181,7 +181,10 @@ std::optional<GpsTime> ClockReader::read_time() const {
 bool ClockReader::read_clock(SatelliteId satellite, PreciseState* state) {
   const auto time = read_time();
   if (!time) return damaged("time is unreadable");
-  const auto clock_s = parse_double(fields_[kValuesBegin]);
+  // The format's E19.12: a number without exponent is one that was cut off.
+  const std::string_view field = fields_[kValuesBegin];
+  const bool complete = field.find_first_of("EeDd") != std::string_view::npos;
+  const auto clock_s = complete ? parse_double(field) : std::nullopt;
   if (!clock_s) return damaged("clock is unreadable");
   if (std::abs(*clock_s) >= kMaxClock) {
     ++counts_.bad_clocks;

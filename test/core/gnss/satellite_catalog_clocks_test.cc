@@ -178,7 +178,7 @@ TEST_CASE("clocks come in any order, repeat, and go on for ever", "[satellite_ca
     CHECK(std::abs(state_at(catalog, t).clock_s - (2e-5 + 1e-11 * t)) < 5e-8);
   }
   for (int i = 40; i < 230; ++i) {
-    REQUIRE(catalog.add(clock_at(30.0 * i, 2e-5)));
+    REQUIRE(catalog.add(clock_at(30.0 * i, 2e-5 + 1e-11 * 30.0 * i)));
     CHECK(state_at(catalog, 30.0 * (i - 3) + 11.0).source == OrbitSource::kPrecise);
   }
   // No clock at all there: no precise state, as there is no broadcast one either.
