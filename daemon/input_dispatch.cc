@@ -19,7 +19,8 @@ ByteSpan limit_length(ByteSpan bytes) {
 InputDispatch::InputDispatch(Sequencer* sequencer)
     : sequencer_(sequencer),
       epoch_(std::make_unique<RawEpoch>()),
-      states_(std::make_unique<PreciseStates>()) {}
+      states_(std::make_unique<PreciseStates>()),
+      antenna_(std::make_unique<AntennaPattern>()) {}
 
 void InputDispatch::dispatch(Channel channel, ByteSpan bytes) {
   ++counters_.received[index_of(channel)];
@@ -66,6 +67,10 @@ void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result
       if (good()) sequencer_->on_klobuchar(model);
       break;
     }
+    case Channel::kAntenna:
+      *result = decoder_.decode(bytes, antenna_.get());
+      if (good()) sequencer_->on_antenna(*antenna_);
+      break;
     case Channel::kCommand: {
       Command command;
       *result = decoder_.decode(bytes, &command);

@@ -83,8 +83,6 @@ struct AntennaCatalog::Storage {
   Counters counters;
 
   bool add_satellite(const AntennaPattern& pattern) {
-    const AntennaGrid& grid = pattern.variation;
-    if (grid.azimuths > 1 || grid.values.size() > kMaxNadirValues) return false;
     SatelliteBand* place = place_for(pattern, &satellites[place_of(pattern.satellite)]);
     if (place == nullptr) return false;
     *place = compact(pattern, ++arrivals);
@@ -127,8 +125,9 @@ AntennaCatalog::AntennaCatalog(AntennaCatalog&&) noexcept = default;
 AntennaCatalog& AntennaCatalog::operator=(AntennaCatalog&&) noexcept = default;
 
 bool AntennaCatalog::add(const AntennaPattern& pattern) {
-  const bool added = is_sane(pattern) && (pattern.is_receiver ? storage_->add_receiver(pattern)
-                                                              : storage_->add_satellite(pattern));
+  const bool added =
+      is_storable(pattern) &&
+      (pattern.is_receiver ? storage_->add_receiver(pattern) : storage_->add_satellite(pattern));
   ++(added ? storage_->counters.added : storage_->counters.refused);
   return added;
 }

@@ -65,6 +65,12 @@ bool is_sane(const AntennaPattern& pattern) {
   return is_sane_grid(pattern.variation);
 }
 
+bool is_storable(const AntennaPattern& pattern) {
+  const AntennaGrid& grid = pattern.variation;
+  return is_sane(pattern) &&
+         (pattern.is_receiver || (grid.azimuths <= 1 && grid.values.size() <= kMaxNadirValues));
+}
+
 AntennaGridView view(const AntennaGrid& grid) {
   return {grid.first_angle, grid.angle_step, grid.angles, grid.azimuths, grid.values.data()};
 }

@@ -49,6 +49,9 @@ struct AntennaPattern {
 // has.
 bool is_sane(const AntennaPattern& pattern);
 
+// Sane, and of a satellite no more than AntennaCatalog keeps: one row, kMaxNadirValues angles.
+bool is_storable(const AntennaPattern& pattern);
+
 // Variation in m, bilinear; beyond the grid's angles the value at its end. `azimuth` in rad, any
 // turn: clockwise from north seen from above (receiver), from body Y towards X (satellite).
 double variation_m(const AntennaGridView& grid, double angle, double azimuth);

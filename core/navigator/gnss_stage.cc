@@ -72,6 +72,8 @@ void GnssStage::process(const GnssWork& work) {
     for (const PreciseState& state : *states) catalog_.add(state);
   } else if (const auto* klobuchar = std::get_if<KlobucharModel>(&work)) {
     catalog_.set_klobuchar(*klobuchar);
+  } else if (const auto* antenna = std::get_if<AntennaPattern>(&work)) {
+    antennas_.add(*antenna);
   } else if (const auto* command = std::get_if<Command>(&work)) {
     process_command(*command);
   }

@@ -6,6 +6,7 @@
 
 #include "core/ekf/consistency_watch.h"
 #include "core/ekf/ekf.h"
+#include "core/gnss/antenna_catalog.h"
 #include "core/gnss/band_bias.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
@@ -32,6 +33,7 @@ class GnssStage {
   Source source() const;  // of its own answer, after the last work
   const Ekf& ekf() const { return ekf_; }
   const SatelliteCatalog& catalog() const { return catalog_; }
+  const AntennaCatalog& antennas() const { return antennas_; }
 
  private:
   void process_epoch(const EpochWork& work);
@@ -62,6 +64,7 @@ class GnssStage {
   EventSource events_;
   bool inertial_;
   SatelliteCatalog catalog_;
+  AntennaCatalog antennas_;
   BandBiases band_biases_;
   Ekf ekf_;
   Alignment alignment_;

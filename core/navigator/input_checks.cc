@@ -44,6 +44,13 @@ InputFault check(const KlobucharModel& model) {
   return ok ? InputFault::kNone : InputFault::kNotFinite;
 }
 
+InputFault check(const AntennaPattern& pattern) {
+  const bool times = (!pattern.valid_from.is_set() || is_plausible(pattern.valid_from)) &&
+                     (!pattern.valid_until.is_set() || is_plausible(pattern.valid_until));
+  if (!times) return InputFault::kOutOfRange;
+  return is_storable(pattern) ? InputFault::kNone : InputFault::kNotSane;
+}
+
 InputFault check(const Command& command) {
   if (command.kind != CommandKind::kRestart && command.kind != CommandKind::kSetHeading) {
     return InputFault::kOutOfRange;

@@ -16,6 +16,7 @@ struct ImuLimits {
 InputFault check(const ImuSample& sample, const ImuLimits& limits);
 InputFault check(const PreciseState& state);
 InputFault check(const KlobucharModel& model);
+InputFault check(const AntennaPattern& pattern);
 InputFault check(const Command& command);
 
 // Copies `from`, without the observations no receiver can have made (invalid satellite, same

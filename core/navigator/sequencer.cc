@@ -306,6 +306,12 @@ void Sequencer::on_klobuchar(const KlobucharModel& model) {
   stages_->push_gnss(*work_);
 }
 
+void Sequencer::on_antenna(const AntennaPattern& pattern) {
+  if (const InputFault fault = check(pattern); fault != InputFault::kNone) return reject(fault);
+  *work_ = pattern;
+  stages_->push_gnss(*work_);
+}
+
 void Sequencer::on_command(const Command& command) {
   if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);
   push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});

@@ -76,6 +76,7 @@ class Sequencer {
   void on_ephemeris(const Ephemeris& ephemeris);
   void on_precise_states(const PreciseStates& states);  // the good ones among them
   void on_klobuchar(const KlobucharModel& model);
+  void on_antenna(const AntennaPattern& pattern);
   void on_command(const Command& command);
   // A message that could not be decoded or failed validation before it got here.
   void on_rejected(InputFault fault);

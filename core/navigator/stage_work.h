@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/ekf/ekf.h"
+#include "core/gnss/antenna_model.h"
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_catalog.h"
@@ -52,7 +53,8 @@ using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemeri
 
 // Sequencer -> GnssStage, in order. A message is one piece of work, however much it tells: the
 // stage may be an epoch's time behind.
-using GnssWork = std::variant<Ephemeris, PreciseStates, KlobucharModel, Command, EpochWork>;
+using GnssWork =
+    std::variant<Ephemeris, PreciseStates, KlobucharModel, AntennaPattern, Command, EpochWork>;
 
 // GnssStage -> InertialNavigator, through the mailbox: the anchor to go on from.
 struct EkfUpdate {

@@ -18,6 +18,7 @@ enum class Channel : std::uint8_t {
   kEphemeris,
   kOrbitClock,
   kIonosphere,
+  kAntenna,
   kCommand,
   // outputs
   kSolution,
@@ -28,10 +29,10 @@ enum class Channel : std::uint8_t {
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 13;
-inline constexpr std::array<Channel, 6> kInputChannels = {
-    Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
-    Channel::kOrbitClock, Channel::kIonosphere, Channel::kCommand};
+inline constexpr std::size_t kChannelCount = 14;
+inline constexpr std::array<Channel, 7> kInputChannels = {
+    Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris, Channel::kOrbitClock,
+    Channel::kIonosphere, Channel::kAntenna,   Channel::kCommand};
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCommand; }

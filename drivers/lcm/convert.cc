@@ -123,4 +123,30 @@ InputFault convert(const ephemeris_t& from, Ephemeris* to) {
   return is_sane(*to) ? InputFault::kNone : InputFault::kNotSane;
 }
 
+InputFault convert(const antenna_t& from, AntennaPattern* to) {
+  const bool known = from.is_receiver == 0 || from.is_receiver == 1;
+  if (!known || from.system < 0 || from.system >= static_cast<int>(kSystemCount) ||
+      from.number < 0 || !is_time_or_unset(from.valid_from_ns) ||
+      !is_time_or_unset(from.valid_until_ns)) {
+    return InputFault::kOutOfRange;
+  }
+  const bool finite = all_finite(from.offset_m) && std::isfinite(from.first_angle_rad) &&
+                      std::isfinite(from.angle_step_rad) &&
+                      std::all_of(from.values_m.begin(), from.values_m.end(),
+                                  [](float value) { return std::isfinite(value); });
+  if (!finite) return InputFault::kNotFinite;
+  to->is_receiver = from.is_receiver == 1;
+  to->satellite = {static_cast<System>(from.system), static_cast<std::uint16_t>(from.number)};
+  to->band = static_cast<char>(from.band);
+  to->valid_from = GpsTime::from_nanoseconds(from.valid_from_ns);
+  to->valid_until = GpsTime::from_nanoseconds(from.valid_until_ns);
+  for (int i = 0; i < 3; ++i) to->offset_m[i] = from.offset_m[i];
+  to->variation.first_angle = from.first_angle_rad;
+  to->variation.angle_step = from.angle_step_rad;
+  to->variation.angles = from.angles;
+  to->variation.azimuths = from.azimuths;
+  to->variation.values.assign(from.values_m.begin(), from.values_m.end());
+  return is_storable(*to) ? InputFault::kNone : InputFault::kNotSane;
+}
+
 }  // namespace leonav::wire

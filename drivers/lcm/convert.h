@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <leonav/antenna_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
 #include <leonav/precise_state_t.hpp>
 
+#include "core/gnss/antenna_model.h"
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_catalog.h"
@@ -27,5 +29,6 @@ bool all_finite(const double (&values)[N]) {
 InputFault convert(const gnss_observation_t& from, SignalObservation* to);
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);
+InputFault convert(const antenna_t& from, AntennaPattern* to);
 
 }  // namespace leonav::wire

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <leonav/antenna_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/gnss_epoch_t.hpp>
@@ -83,11 +84,13 @@ struct Decoder::Storage {
   // Kept between calls: their vectors hold their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
+  antenna_t antenna;
 };
 
 Decoder::Decoder() : storage_(std::make_unique<Storage>()) {
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
+  storage_->antenna.values_m.reserve(kMaxAntennaValues);
 }
 Decoder::~Decoder() = default;
 Decoder::Decoder(Decoder&&) noexcept = default;
@@ -181,6 +184,17 @@ DecodeResult Decoder::decode(ByteSpan bytes, PreciseStates* states) {
     }
   }
   return result;
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, AntennaPattern* pattern) {
+  antenna_t& message = storage_->antenna;
+  message.sequence = 0;
+  InputFault fault = read_array(bytes, kMaxAntennaValues, &message);
+  if (fault == InputFault::kNone && !is_time_or_unset(message.time_ns)) {
+    fault = InputFault::kOutOfRange;
+  }
+  if (fault == InputFault::kNone) fault = convert(message, pattern);
+  return result_of(message, fault);
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {

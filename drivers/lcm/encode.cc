@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <leonav/antenna_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/ephemeris_t.hpp>
@@ -107,6 +108,7 @@ struct Encoder::Storage {
   // Kept between calls: their vectors hold their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
+  antenna_t antenna;
   epoch_t epoch;
   std::array<std::uint8_t, wire::kMaxMessageBytes> buffer;
 
@@ -121,6 +123,7 @@ struct Encoder::Storage {
 Encoder::Encoder() : storage_(std::make_unique<Storage>()) {
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
+  storage_->antenna.values_m.reserve(kMaxAntennaValues);
   storage_->epoch.satellites.reserve(kMaxSatellites);
   storage_->epoch.aiding.reserve(kMaxMeasurements);
 }
@@ -203,6 +206,25 @@ ByteSpan Encoder::encode(const KlobucharModel& model, GpsTime time, std::uint64_
   set_header(time, sequence, &message);
   std::copy(model.alpha.begin(), model.alpha.end(), message.alpha);
   std::copy(model.beta.begin(), model.beta.end(), message.beta);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence) {
+  antenna_t& message = storage_->antenna;
+  const AntennaGrid& grid = pattern.variation;
+  set_header(time, sequence, &message);
+  set_satellite(pattern.satellite, &message);
+  message.is_receiver = pattern.is_receiver ? 1 : 0;
+  message.band = static_cast<std::int8_t>(pattern.band);
+  message.valid_from_ns = pattern.valid_from.nanoseconds();
+  message.valid_until_ns = pattern.valid_until.nanoseconds();
+  copy(pattern.offset_m, message.offset_m);
+  message.first_angle_rad = grid.first_angle;
+  message.angle_step_rad = grid.angle_step;
+  message.angles = grid.angles;
+  message.azimuths = grid.azimuths;
+  message.n = static_cast<std::int32_t>(grid.values.size());
+  message.values_m.assign(grid.values.begin(), grid.values.end());
   return storage_->write(message);
 }
 

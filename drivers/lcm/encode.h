@@ -32,6 +32,7 @@ class Encoder {
   // All of one time; the time on the wire is the first one's. At most kMaxEphemerisSatellites.
   ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
   ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
+  ByteSpan encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const Command& command, GpsTime time, std::uint64_t sequence);
 
   // Outputs.

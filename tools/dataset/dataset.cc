@@ -33,10 +33,12 @@ class DatasetParser {
     if (!key_node.IsScalar()) fail(key_node, "a key must be a word");
     const std::string& key = key_node.Scalar();
     if (!seen_.insert(key).second) fail(key_node, "key '" + key + "' is given twice; keep one");
-    if (key == "name") {
-      if (!value.IsScalar()) fail(value, "'name' must be text");
-      dataset_.name = value.Scalar();
-      return;
+    for (const auto& [name, text] : texts_) {
+      if (key == name) {
+        if (!value.IsScalar() && !value.IsNull()) fail(value, "'" + key + "' must be text");
+        *text = value.IsNull() ? "" : value.Scalar();
+        return;
+      }
     }
     for (const auto& [name, paths] : lists_) {
       if (key == name) {
@@ -70,7 +72,8 @@ class DatasetParser {
   }
 
   [[noreturn]] void fail_unknown(const YAML::Node& node, const std::string& key) const {
-    std::vector<std::string> known = {"name"};
+    std::vector<std::string> known;
+    for (const auto& [name, text] : texts_) known.push_back(name);
     for (const auto& [name, paths] : lists_) known.push_back(name);
     std::string message = "unknown key '" + key + "'";
     if (const auto nearest = nearest_word(key, known)) {
@@ -84,6 +87,8 @@ class DatasetParser {
 
   Dataset dataset_;
   std::set<std::string> seen_;
+  const std::vector<std::pair<std::string, std::string*>> texts_ = {
+      {"name", &dataset_.name}, {"receiver_antenna", &dataset_.receiver_antenna}};
   const std::vector<std::pair<std::string, std::vector<std::string>*>> lists_ = {
       {"observations", &dataset_.observations},
       {"navigation", &dataset_.navigation},

@@ -14,8 +14,9 @@ struct Dataset {
   std::vector<std::string> orbits;          // SP3
   std::vector<std::string> clocks;          // RINEX clock
   std::vector<std::string> antenna_models;  // ANTEX
-  std::vector<std::string> imu;             // imu.csv
-  std::vector<std::string> truth;           // truth.csv
+  std::string receiver_antenna;    // type and radome; empty: as the observations' header has it
+  std::vector<std::string> imu;    // imu.csv
+  std::vector<std::string> truth;  // truth.csv
 };
 
 // Each key holds a path or a list of paths; "" and [] mean that there is none. Throws FileError

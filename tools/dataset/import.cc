@@ -15,6 +15,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/parse.h"
+#include "tools/dataset/antenna_source.h"
 #include "tools/dataset/log_output.h"
 #include "tools/dataset/observation_source.h"
 #include "tools/dataset/product_schedule.h"
@@ -44,6 +45,7 @@ class Import {
                                ": no IMU sample and no GNSS epoch within the time asked for; "
                                "nothing to write");
     }
+    antennas_ = load_antennas(dataset_, observations_.antenna(), start, &report_);
     LogOutput log(output, &report_);
     load_clocks(start);
     schedule(start);
@@ -96,6 +98,7 @@ class Import {
   std::vector<ScheduledEphemeris> ephemerides_;
   std::vector<ScheduledOrbitEpoch> orbits_;
   KlobucharModel klobuchar_;
+  std::vector<AntennaPattern> antennas_;
   std::size_t next_imu_ = 0, next_ephemeris_ = 0, next_orbit_ = 0;
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
@@ -130,11 +133,6 @@ void Import::warn_of_missing() {
     warn(
         "no clocks: satellite clocks are interpolated between the sparser nodes of the orbits, so "
         "that GPS ranges are off by 3 cm (5 minutes) to 4 cm (15 minutes), rms");
-  }
-  if (!dataset_.antenna_models.empty()) {
-    warn(
-        "antenna_models are not used yet: precise orbits refer to the satellites' mass centres, so "
-        "ranges are off by up to metres, most of it common to all satellites");
   }
 }
 
@@ -240,6 +238,7 @@ void Import::schedule(GpsTime start) {
 
 // What is known when the recording begins.
 void Import::send_first(GpsTime start, LogOutput* log) {
+  for (const AntennaPattern& pattern : antennas_) log->write(start, pattern);
   if (klobuchar_.valid) log->write(start, klobuchar_);
   for (ObservationItem& item : before_start_) {
     if (auto* ephemeris = std::get_if<Ephemeris>(&item)) log->write(start, *ephemeris);

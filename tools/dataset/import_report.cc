@@ -35,6 +35,10 @@ std::string to_string(const ImportReport& report) {
   out << report.ephemerides << " ephemerides, " << report.ionosphere_models
       << " ionosphere models, " << report.orbit_epochs << " precise orbit epochs, "
       << report.clock_epochs << " precise clock epochs\n";
+  if (report.satellite_antennas > 0 || !report.receiver_antenna.empty()) {
+    out << "antenna models of " << report.satellite_antennas << " satellites, receiver antenna "
+        << (report.receiver_antenna.empty() ? "unknown" : report.receiver_antenna) << "\n";
+  }
   if (report.first.is_set()) {
     out << "span: " << to_text(report.first) << " to " << to_text(report.last) << " GPS time, "
         << seconds_between(report.last, report.first) << " s\n";

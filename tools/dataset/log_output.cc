@@ -66,6 +66,11 @@ void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
   ++(clocks ? report_->clock_epochs : report_->orbit_epochs);
 }
 
+void LogOutput::write(GpsTime arrival, const AntennaPattern& pattern) {
+  put(arrival, Channel::kAntenna,
+      encoder_.encode(pattern, arrival, next_sequence(Channel::kAntenna)));
+}
+
 void LogOutput::commit() {
   if (!writer_->flush(true)) throw EventLogError(writer_->error());
   writer_.reset();

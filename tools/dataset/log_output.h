@@ -26,6 +26,7 @@ class LogOutput {
   void write(GpsTime arrival, const Ephemeris& ephemeris);
   void write(GpsTime arrival, const KlobucharModel& model);
   void write(GpsTime arrival, std::span<const PreciseState> states);
+  void write(GpsTime arrival, const AntennaPattern& pattern);
 
   // The file is complete: gives it its name.
   void commit();

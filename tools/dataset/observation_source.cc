@@ -17,6 +17,7 @@ class ObservationFile {
  public:
   virtual ~ObservationFile() = default;
   virtual bool next(ObservationItem* item) = 0;
+  virtual std::string antenna() const { return {}; }
   virtual void report(const std::string& path, ImportReport* report) const = 0;
 };
 
@@ -28,6 +29,8 @@ class RinexFile final : public ObservationFile {
     if (!std::holds_alternative<RawEpoch>(*item)) item->emplace<RawEpoch>();
     return reader_.next(&std::get<RawEpoch>(*item));
   }
+
+  std::string antenna() const override { return reader_.header().antenna; }
 
   void report(const std::string& path, ImportReport* report) const override {
     for (const ReadCounts::Skip& skip : reader_.counts().skipped) {
@@ -99,6 +102,7 @@ struct ObservationSource::State {
   std::unique_ptr<ObservationFile> file;
   long epochs_of_file = 0, late_of_file = 0;
   GpsTime last_time;
+  std::string antenna;
 
   const std::string& path() const { return paths[opened - 1]; }
 
@@ -110,6 +114,7 @@ struct ObservationSource::State {
     } else {
       file = std::make_unique<RinexFile>(path);
     }
+    if (antenna.empty()) antenna = file->antenna();
   }
 
   void close() {
@@ -158,6 +163,8 @@ bool ObservationSource::next(ObservationItem* item) {
     ++state_->late_of_file;
   }
 }
+
+const std::string& ObservationSource::antenna() const { return state_->antenna; }
 
 void ObservationSource::finish() { state_->close(); }
 

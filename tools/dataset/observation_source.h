@@ -24,6 +24,8 @@ class ObservationSource {
   // False at the end of the last file. Throws FileError for a file that cannot be read or has no
   // usable epoch.
   bool next(ObservationItem* item);
+  // The antenna that the header of the first file opened names; empty: none, or not opened yet.
+  const std::string& antenna() const;
   // Reports on the file that is open; for when no more is read from it.
   void finish();
 

@@ -27,7 +27,8 @@ int body(int argc, char** argv) {
       "Turns a recording in files into an LCM event log, in the order and at the times a live\n"
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
       "relative to the file: observations (RINEX 2 or 3, .ubx), navigation (RINEX 2 or 3),\n"
-      "orbits (SP3), clocks, antenna_models, imu (imu.csv), truth; and name.");
+      "orbits (SP3), clocks, antenna_models (ANTEX), imu (imu.csv), truth; and as text\n"
+      "name and receiver_antenna (type and radome, where the observations' header is wrong).");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")
       .option("--to", "WEEK:SECONDS", "leave out data after this GPS time")

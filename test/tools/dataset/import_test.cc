@@ -22,7 +22,8 @@ namespace {
 
 struct LogCounts {
   std::map<std::string, long> events;
-  long faults = 0, epochs_before_time = 0;
+  long faults = 0, epochs_before_time = 0, receiver_bands = 0;
+  std::set<SatelliteId> antennas;
   bool stamps_increase = true;
 };
 
@@ -38,6 +39,7 @@ LogCounts read_log(const std::string& path) {
   Ephemeris ephemeris;
   KlobucharModel model;
   PreciseStates states;
+  AntennaPattern antenna;
   while (reader.next(&event)) {
     ++counts.events[event.channel];
     if (event.timestamp_us <= last_stamp_us) counts.stamps_increase = false;
@@ -54,6 +56,10 @@ LogCounts read_log(const std::string& path) {
       result = decoder.decode(bytes, &ephemeris);
     } else if (event.channel == "LEONAV_IONOSPHERE") {
       result = decoder.decode(bytes, &model);
+    } else if (event.channel == "LEONAV_ANTENNA") {
+      result = decoder.decode(bytes, &antenna);
+      if (antenna.is_receiver) ++counts.receiver_bands;
+      if (!antenna.is_receiver) counts.antennas.insert(antenna.satellite);
     } else {
       REQUIRE(event.channel == "LEONAV_ORBIT_CLOCK");
       result = decoder.decode(bytes, &states);
@@ -106,6 +112,9 @@ TEST_CASE("the recordings become logs with every epoch and sample", "[import][re
     CHECK(log.events["LEONAV_EPHEMERIS"] == report.ephemerides);
     CHECK(log.events["LEONAV_ORBIT_CLOCK"] == report.orbit_epochs + report.clock_epochs);
     CHECK(report.ephemerides > 0);
+    const bool with_antennas = std::string(expected.name) == "station";
+    CHECK(log.antennas.size() == (with_antennas ? 107U : 0U));
+    CHECK(log.receiver_bands == (with_antennas ? 2 : 0));
     CHECK(log.faults == 0);
     CHECK(log.epochs_before_time == 0);
     CHECK(log.stamps_increase);
