@@ -220,3 +220,40 @@ TEST_CASE("the numbers of journals end, with a remedy; what is no file is writte
   config.journal.path = folder.beside("absent/journal");
   CHECK_THROWS_AS(Engine(config, &target).start(), EventLogError);
 }
+
+TEST_CASE("antenna models are in the journal and reach the stage that replays it") {
+  const test::TemporaryFile folder("unused", "");
+  DaemonConfig config = test::drive_config();
+  config.journal.path = folder.beside("journal.lcmlog");
+  AntennaPattern antenna;
+  antenna.is_receiver = true;
+  antenna.band = '2';
+  antenna.offset_m = {0.001, -0.002, 0.118};
+  {
+    Discard target;
+    Engine engine(config, &target);
+    engine.start();
+    Encoder encoder;
+    engine.receive(Channel::kAntenna, encoder.encode(antenna, GpsTime(), 1), 1);
+    antenna.is_receiver = false;
+    antenna.satellite = {System::kLeo, 7};
+    engine.receive(Channel::kAntenna, encoder.encode(antenna, GpsTime(), 2), 1);
+    REQUIRE(engine.finish());
+  }
+  Queues outputs;
+  EncodingSink sink(&outputs);
+  Pipeline pipeline(config.navigator, &sink);
+  InputDispatch dispatch(&pipeline.sequencer());
+  std::uint64_t inputs = 0;
+  for (const Recorded& one : read(config.journal.path)) {
+    if (!is_input(one.channel)) continue;
+    dispatch.dispatch(one.channel, one.data);
+    ++inputs;
+  }
+  CHECK(inputs == 2);
+  const AntennaCatalog& antennas = pipeline.gnss().antennas();
+  CHECK(antennas.has_satellite({System::kLeo, 7}, GpsTime::from_week_and_tow(2000, 0.0)));
+  const AntennaRange up = antennas.receiver_range(System::kGps, '2', Eigen::Vector3d(0, 0, -1));
+  CHECK(up.status == AntennaStatus::kOk);
+  CHECK(up.range_m == Approx(-0.118));
+}

@@ -25,13 +25,14 @@ TEST_CASE("observations that no receiver can have made are left out, the rest is
   CHECK(rig.rejected(InputFault::kNotSane) == 1);
 }
 
-TEST_CASE("hostile commands, ephemerides and precise states are counted and dropped") {
+TEST_CASE("hostile commands, ephemerides, antennas and precise states are counted and dropped") {
   SequencerRig rig;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   rig.sequencer.on_command({CommandKind::kSetHeading, nan, 0.1});
   rig.sequencer.on_command({CommandKind::kSetHeading, 1.0, -0.1});
   rig.sequencer.on_command({static_cast<CommandKind>(77), 1.0, 0.1});
   rig.sequencer.on_ephemeris(Ephemeris());
+  rig.sequencer.on_antenna(AntennaPattern());
   PreciseState state;
   state.satellite = {System::kGps, 4};
   state.time = kStart;
@@ -42,7 +43,7 @@ TEST_CASE("hostile commands, ephemerides and precise states are counted and drop
   rig.sequencer.on_rejected(InputFault::kUndecodable);
   CHECK(rig.rejected(InputFault::kNotFinite) == 2);
   CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
-  CHECK(rig.rejected(InputFault::kNotSane) == 1);
+  CHECK(rig.rejected(InputFault::kNotSane) == 2);
   CHECK(rig.rejected(InputFault::kUndecodable) == 1);
   CHECK(rig.stages.commands.empty());
   CHECK(rig.stages.precise.empty());

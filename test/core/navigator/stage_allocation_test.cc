@@ -88,6 +88,10 @@ TEST_CASE("forty satellites and more, precise orbits, outages, resets: no alloca
             message.push_back(states[next_state++]);
           }
           sequencer.on_precise_states(message);
+          AntennaPattern antenna;
+          antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
+          antenna.band = '1';
+          sequencer.on_antenna(antenna);
           if (++seen == 75) sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
           if (seen == 80) sequencer.on_command({CommandKind::kSetHeading, 0.5, 0.1});
           sequencer.on_raw_epoch(raw);
