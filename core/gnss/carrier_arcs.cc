@@ -69,6 +69,7 @@ struct CarrierArcs::Storage {
   struct Current {
     CarrierTrack* track = nullptr;  // nullptr: no carrier
     CarrierSample sample;
+    bool late = false;       // no last sample near enough in time
     bool continued = false;  // last sample near enough in time, and of the same signals
     SlipFindings findings;
   };
@@ -80,6 +81,7 @@ struct CarrierArcs::Storage {
   void check_dopplers(const ClockJump& jump, double interval_s);
   void begin(Current* current, SlipCauses causes, CarrierStatus* status);
   void fill(const Current& current, CarrierStatus* status) const;
+  bool is_cleared(const Current& current) const;
   bool refuted(const Current& current, double deviation_m) const;
   void first_look(const ClockJump& jump, Current* current, CarrierStatus* status);
 
@@ -119,8 +121,8 @@ void CarrierArcs::Storage::collect(GpsTime now, std::span<const CarrierInput> in
     sample.side[0] = side_of(*input.first, shift_ms * kMillisecond_m);
     if (sample.sides == 2) sample.side[1] = side_of(*input.second, shift_ms * kMillisecond_m);
     sample.carrier_shift_m = shift_ms * kMillisecond_m;
-    entry.continued = entry.track->is_same_pair(sample) &&
-                      entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
+    entry.late = !entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
+    entry.continued = !entry.late && entry.track->is_same_pair(sample);
   }
 }
 
@@ -199,12 +201,12 @@ void CarrierArcs::Storage::first_look(const ClockJump& jump, Current* entry,
   CarrierTrack& track = *entry->track;
   SlipCauses causes = entry->findings.hard;
   if (track.is_known() && !entry->continued) {
-    const bool is_late = !track.is_continued_by(entry->sample, gap_limit_s(track.system));
-    causes |= is_late ? SlipCause::kGap : SlipCause::kSignalChanged;
+    causes |= entry->late ? SlipCause::kGap : SlipCause::kSignalChanged;
   }
   if (jump.unrepairable && entry->continued) causes |= SlipCause::kClockJump;
   if (!track.is_known() || causes.any()) {
-    causes |= entry->findings.soft;
+    // What the codes say after their own jump is no finding.
+    if (!jump.unrepairable) causes |= entry->findings.soft;
     track.start(config, entry->sample, entry->continued && !jump.unrepairable);
     begin(entry, causes, status);
     return;
@@ -217,8 +219,14 @@ void CarrierArcs::Storage::first_look(const ClockJump& jump, Current* entry,
 // Slips of whole or half cycles that leave the geometry-free combination alone within 1.5 cm move
 // the ionosphere-free one by 36 cm or more (2 and 1.5 cycles of GPS L1 and L2; other pairs: more).
 bool CarrierArcs::Storage::refuted(const Current& entry, double deviation_m) const {
-  return entry.findings.geometry_free_quiet &&
+  return entry.findings.geometry_free_m < config.geometry_free_quiet_m &&
          std::abs(deviation_m) < config.range_change_refuted_m;
+}
+
+// A pair of slips that leaves the ionosphere-free combination alone (60 and 77 cycles of GPS L1 and
+// L2) moves the geometry-free one by metres: a range change clears a pair only together with it.
+bool CarrierArcs::Storage::is_cleared(const Current& entry) const {
+  return entry.sample.sides == 1 || entry.findings.geometry_free_m < config.geometry_free_clear_m;
 }
 
 CarrierArcs::CarrierArcs(const CycleSlipConfig& config)
@@ -232,10 +240,12 @@ void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, Ar
   if (!s.settled) settle({}, epoch);
   *epoch = {};
   const double interval_s = s.time.is_set() ? seconds_between(time, s.time) : 0.0;
-  if (interval_s > 0.0) s.usual.add(interval_s);
   s.time = time;
+  // The first interval is the usual one until others are seen.
+  if (interval_s > 0.0 && s.usual.seconds() == 0.0) s.usual.add(interval_s);
   s.collect(time, inputs);
   epoch->clock_jump = s.repair_clock(interval_s);
+  if (interval_s > 0.0) s.usual.add(true_interval_s(epoch->clock_jump, interval_s));
   for (Storage::Current& entry : s.current) {
     if (!entry.continued) continue;
     entry.findings = entry.track->examine(s.config, &entry.sample);
@@ -257,7 +267,7 @@ void CarrierArcs::settle(std::span<const RangeRowResult> results, ArcEpoch* epoc
     CarrierStatus* status = i < epoch->satellites.size() ? &epoch->satellites[i] : nullptr;
     if (entry.track == nullptr || status == nullptr || status->started) continue;
     const RangeRowResult result = i < results.size() ? results[i] : RangeRowResult();
-    if (result.verdict == RangeVerdict::kConsistent) {
+    if (result.verdict == RangeVerdict::kConsistent && s.is_cleared(entry)) {
       if (status->suspected.any()) entry.track->learn_codes(s.config);
       status->suspected = {};
       continue;

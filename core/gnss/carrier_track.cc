@@ -130,10 +130,10 @@ void CarrierTrack::judge_pair(const CycleSlipConfig& config, const PairTest& tes
       std::abs(test.geometry_free.value_m) > config.geometry_free_min_m) {
     findings->hard |= SlipCause::kGeometryFree;
   }
-  findings->geometry_free_quiet =
-      config.use_geometry_free &&
-      std::abs(test.geometry_free.value_m) + 2.0 * test.geometry_free.sigma_m <
-          config.geometry_free_quiet_m;
+  if (config.use_geometry_free) {
+    findings->geometry_free_m =
+        std::abs(test.geometry_free.value_m) + 2.0 * test.geometry_free.sigma_m;
+  }
   if (test.wide_lane.sigma_m <= 0.0) return;
   // A slip that the geometry-free combination hides moves both carriers alike, so the difference of
   // the codes against theirs stays; a code gone astray moves it.
@@ -193,33 +193,38 @@ void CarrierTrack::settle_half_cycle(const CycleSlipConfig& config, const PairTe
 }
 
 void CarrierTrack::start(const CycleSlipConfig& config, const CarrierSample& sample, bool keep) {
-  keep = keep && known_;
-  last_ = sample;
-  for (CarrierSide& side : last_.side) side.repair_m = 0.0;
-  known_ = true;
-  if (sample.sides == 2) {
-    geometry_free_.start(geometry_free(last_), geometry_free_noise(config, system, last_), keep);
-    wide_lane_.clear(keep);
-    if (has_codes(last_)) wide_lane_.update(wide_lane_value(last_), wide_lane_sigma(config, last_));
-  }
-  geometry_free_before_ = geometry_free_;
-  wide_lane_before_ = wide_lane_;
+  begin(config, sample, keep && known_, known_ ? seconds_between(sample.time, last_.time) : 0.0);
 }
 
 void CarrierTrack::restart(const CycleSlipConfig& config) {
   geometry_free_ = geometry_free_before_;
   wide_lane_ = wide_lane_before_;
-  start(config, CarrierSample(last_), true);
+  begin(config, CarrierSample(last_), true, last_interval_s_);
+}
+
+void CarrierTrack::begin(const CycleSlipConfig& config, const CarrierSample& sample, bool keep,
+                         double interval_s) {
+  geometry_free_before_ = geometry_free_;
+  wide_lane_before_ = wide_lane_;
+  last_interval_s_ = interval_s;
+  last_ = sample;
+  for (CarrierSide& side : last_.side) side.repair_m = 0.0;
+  known_ = true;
+  if (sample.sides == 1) return;
+  geometry_free_.start(geometry_free(last_), interval_s, geometry_free_noise(config, system, last_),
+                       keep);
+  wide_lane_.clear(keep);
+  learn_codes(config);
 }
 
 void CarrierTrack::update(const CycleSlipConfig& config, const CarrierSample& sample,
                           bool with_codes) {
   geometry_free_before_ = geometry_free_;
   wide_lane_before_ = wide_lane_;
-  const double interval_s = seconds_between(sample.time, last_.time);
+  last_interval_s_ = seconds_between(sample.time, last_.time);
   last_ = sample;
   if (sample.sides == 1) return;
-  geometry_free_.update(geometry_free(sample), interval_s,
+  geometry_free_.update(geometry_free(sample), last_interval_s_,
                         geometry_free_noise(config, system, sample));
   if (with_codes) learn_codes(config);
 }

@@ -1,6 +1,7 @@
 // What is remembered of one satellite's carriers, and the tests that need no other satellite.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/gnss/cycle_slip_config.h"
@@ -42,8 +43,9 @@ struct CarrierSample {
 // Doppler), and a range change within centimetres refutes them.
 struct SlipFindings {
   SlipCauses hard, soft;
-  bool geometry_free_quiet = false;  // a pair whose difference stayed on its trend
-  bool code_outlier = false;         // the codes are not fit to be learnt from
+  // Bound on what a pair's geometry-free combination has left its trend by; infinite if untested.
+  double geometry_free_m = HUGE_VAL;
+  bool code_outlier = false;  // the codes are not fit to be learnt from
 };
 
 class CarrierTrack {
@@ -74,6 +76,8 @@ class CarrierTrack {
  private:
   struct PairTest;
   PairTest test_pair(const CycleSlipConfig& config, const CarrierSample& sample) const;
+  void begin(const CycleSlipConfig& config, const CarrierSample& sample, bool keep,
+             double interval_s);
   void judge_pair(const CycleSlipConfig& config, const PairTest& test, const CarrierSample& sample,
                   SlipFindings* findings) const;
   void settle_half_cycle(const CycleSlipConfig& config, const PairTest& pair, CarrierSample* sample,
@@ -81,6 +85,7 @@ class CarrierTrack {
 
   bool known_ = false;
   CarrierSample last_;
+  double last_interval_s_ = 0.0;  // from the sample before to the last
   GeometryFreeTrend geometry_free_;
   MelbourneWuebbena wide_lane_;
   // As they were before the last sample, for an arc that is ended there later on.

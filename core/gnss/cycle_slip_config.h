@@ -27,8 +27,11 @@ struct CycleSlipConfig {
   double geometry_free_limit = 5.0;   // sigma
   double geometry_free_min_m = 0.02;  // and at least this much; equal slips of one cycle on
                                       // both frequencies of a pair make 4 to 6 cm
-  // A value and twice its sigma below this are quiet.
+  // Bounds on a value and twice its sigma. Below the first a pair has not slipped, unless by more
+  // than range_change_refuted_m; below the second, half a cycle, it has not if the range change
+  // agrees.
   double geometry_free_quiet_m = 0.025;
+  double geometry_free_clear_m = 0.1;
   bool use_melbourne_wuebbena = true;
   double melbourne_wuebbena_limit = 5.0;       // sigma
   double melbourne_wuebbena_min_cycles = 0.6;  // wide-lane cycles

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kScaleMemory = 20.0;  // epochs
 constexpr double kMinScale = 0.7, kMaxScale = 3.0;
+constexpr int kMinUpdates = 3;
 constexpr double kMaxSquare = 9.0;  // one innovation moves the scale by no more than 3 sigma do
 
 Eigen::Matrix2d predicted(const Eigen::Matrix2d& covariance, double t, double walk) {
@@ -21,17 +22,20 @@ Eigen::Matrix2d predicted(const Eigen::Matrix2d& covariance, double t, double wa
 
 }  // namespace
 
-void GeometryFreeTrend::start(double value_m, const GeometryFreeNoise& noise, bool keep_rate) {
-  const bool keep = keep_rate && rate_known_;
+void GeometryFreeTrend::start(double value_m, double interval_s, const GeometryFreeNoise& noise,
+                              bool keep_rate) {
+  const bool keep = keep_rate && updates_ >= kMinUpdates;
   const double largest = noise.rate_m_s * noise.rate_m_s;
-  const double rate_variance = keep ? std::min(covariance_(1, 1), largest) : largest;
+  const double grown = covariance_(1, 1) + noise.rate_walk_m_s * noise.rate_walk_m_s * interval_s;
   if (!keep) {
     rate_m_s_ = 0.0;
     scale_squared_ = 1.0;
   }
   value_m_ = value_m;
-  covariance_ = Eigen::Vector2d(noise.value_m * noise.value_m, rate_variance).asDiagonal();
-  rate_known_ = keep;
+  covariance_ =
+      Eigen::Vector2d(noise.value_m * noise.value_m, keep ? std::min(grown, largest) : largest)
+          .asDiagonal();
+  updates_ = 0;
 }
 
 GeometryFreeTrend::Innovation GeometryFreeTrend::innovation(double value_m, double interval_s,
@@ -53,7 +57,7 @@ void GeometryFreeTrend::update(double value_m, double interval_s, const Geometry
   const double square = std::min(seen.value_m * seen.value_m / variance, kMaxSquare);
   scale_squared_ = std::clamp(scale_squared_ * (1.0 + (square - 1.0) / kScaleMemory),
                               kMinScale * kMinScale, kMaxScale * kMaxScale);
-  rate_known_ = true;
+  updates_ = std::min(updates_ + 1, kMinUpdates);
 }
 
 void GeometryFreeTrend::skip(double interval_s, const GeometryFreeNoise& noise) {

@@ -21,8 +21,10 @@ class GeometryFreeTrend {
     double sigma_m = 0.0;
   };
 
-  // A new arc. The rate is the ionosphere's and outlives the ambiguity: it is kept if `keep_rate`.
-  void start(double value_m, const GeometryFreeNoise& noise, bool keep_rate);
+  // A new arc. The rate is the ionosphere's and outlives the ambiguity: it is kept if `keep_rate`,
+  // unless it stems from so few epochs that it may itself be the reason why the arc before ended.
+  // `interval_s` since the last update.
+  void start(double value_m, double interval_s, const GeometryFreeNoise& noise, bool keep_rate);
 
   // Of the value `interval_s` after the last update.
   Innovation innovation(double value_m, double interval_s, const GeometryFreeNoise& noise) const;
@@ -34,7 +36,7 @@ class GeometryFreeTrend {
   double value_m_ = 0.0, rate_m_s_ = 0.0;
   Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
   double scale_squared_ = 1.0;  // of the white noise, running mean of squared innovations
-  bool rate_known_ = false;
+  int updates_ = 0;             // since the start, bounded
 };
 
 }  // namespace leonav

@@ -27,9 +27,11 @@ constexpr double kFree_m = 1.0e4;
 // with a probability of 2e-6.
 constexpr int kSubsets = 200;
 constexpr int kRefits = 4;
+constexpr double kWidening = 1.25;  // of the sigmas, by step
 // Sets of slips whose costs differ by less than this (chi square, 1 degree of freedom, 3 sigma)
 // explain the rows equally well.
 constexpr double kDecisive = 9.0;
+constexpr double kQuarterCycle_m = 0.05;
 constexpr double kMinLocalRedundancy = 0.02;
 
 using Set = std::bitset<kMaxSatellites>;
@@ -53,6 +55,9 @@ struct Candidate {
   double cost = 0.0;
 };
 
+using Starts = std::array<Set, kSubsets>;
+using Candidates = std::array<Candidate, kSubsets>;
+
 Eigen::Matrix3d square_root(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -62,6 +67,11 @@ bool is_usable(const RangeChangeRow& row) {
   return row.direction.allFinite() && row.direction_change.allFinite() &&
          std::isfinite(row.residual_m) && std::isfinite(row.sigma_m) && row.sigma_m > 0.0 &&
          row.time_base >= 0 && row.time_base < static_cast<int>(kMaxTimeBases);
+}
+
+Matrix row_information(const Row& row) {
+  const double sigma = std::max(row.sigma, kQuarterCycle_m);
+  return row.h * row.h.transpose() / (sigma * sigma);
 }
 
 class Check {
@@ -81,12 +91,14 @@ class Check {
     double standardized() const { return sigma_m > 0.0 ? std::abs(value_m) / sigma_m : 0.0; }
   };
   External external(std::size_t i, const Fit& fit, bool kept, double scale) const;
-  double parameters(const Set& kept, const Fit& fit, double scale) const;
+  double parameters(const Set& kept) const;
   double cost(const Set& kept, const Fit& fit, double scale) const;
-  double scatter(const Vector& state) const;
   Set nearest_half(const Vector& state) const;
   Candidate converge(Set kept, double scale) const;
   Set all() const;
+  void draw(Starts* starts) const;
+  const Candidate& converge_all(const Starts& starts, Candidates* candidates) const;
+  double scatter(const Set& kept) const;
   void search();
   void judge(RangeChangeResult* result);
 
@@ -167,15 +179,15 @@ Check::External Check::external(std::size_t i, const Fit& fit, bool kept, double
   return {value / free, std::sqrt(variance / free)};
 }
 
-// Unknowns that the rows, not their priors, determine.
-double Check::parameters(const Set& kept, const Fit& fit, double scale) const {
-  double sum = 0.0;
+// Unknowns that the rows, not their priors, determine, where what matters is a cycle: a prior of
+// centimetres leaves nothing to determine.
+double Check::parameters(const Set& kept) const {
+  Matrix normal = Matrix::Identity();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!kept.test(i)) continue;
-    const Row& row = rows_[i];
-    sum += row.h.dot(fit.covariance * row.h) / (row.sigma * row.sigma * scale * scale);
+    if (kept.test(i)) normal += row_information(rows_[i]);
   }
-  return sum;
+  const Matrix covariance = Eigen::LDLT<Matrix>(normal).solve(Matrix::Identity());
+  return static_cast<double>(kUnknowns) - covariance.trace();
 }
 
 double Check::cost(const Set& kept, const Fit& fit, double scale) const {
@@ -187,26 +199,13 @@ double Check::cost(const Set& kept, const Fit& fit, double scale) const {
   return sum;
 }
 
-// 1.4826 times the median of |deviation| / sigma, of as many fewer as the subset's fit makes
-// vanish.
-double Check::scatter(const Vector& state) const {
-  Values values;
-  for (const Row& row : rows_) {
-    values.push_back(std::abs(row.residual - row.h.dot(state)) / row.sigma);
-  }
-  const std::size_t place = std::min((values.size() + subset_) / 2, values.size() - 1);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
-}
-
 Set Check::nearest_half(const Vector& state) const {
   Values values, sorted;
   for (const Row& row : rows_) {
     values.push_back(std::abs(row.residual - row.h.dot(state)) / row.sigma);
   }
   sorted = values;
-  const std::size_t half = std::min((values.size() + subset_ + 1) / 2, values.size()) - 1;
+  const std::size_t half = std::min((values.size() + subset_ + 1) / 2, values.size() - 1) - 1;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(half),
                    sorted.end());
   Set kept;
@@ -230,30 +229,39 @@ Candidate Check::converge(Set kept, double scale) const {
   return {kept, cost(kept, fit(kept, scale, false), scale)};
 }
 
-// Fills kept_, doubtful_, scale_ and decided_.
-void Check::search() {
-  RandomSubset draw;
-  std::array<Set, kSubsets> starts;
-  double scale = config_.max_scale;
-  for (Set& start : starts) {
+// The half of the rows nearest to a fit through few, for many drawn few.
+void Check::draw(Starts* starts) const {
+  RandomSubset subsets;
+  for (Set& start : *starts) {
     Set subset;
-    draw.choose(rows_.size(), subset_, &subset);
+    subsets.choose(rows_.size(), subset_, &subset);
     start = nearest_half(fit(subset, 1.0, false).state);
-    const Fit improved = fit(start, 1.0, false);
-    const double seen = scatter(improved.state);
-    if (seen < scale) scale = seen;
   }
-  scale_ = std::max(1.0, scale);
-  std::array<Candidate, kSubsets> candidates;
-  const Candidate* best = &candidates[0];
-  for (int i = 0; i < kSubsets; ++i) {
-    Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-    candidate = converge(starts[static_cast<std::size_t>(i)], scale_);
+}
+
+const Candidate& Check::converge_all(const Starts& starts, Candidates* candidates) const {
+  const Candidate* best = &candidates->front();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    Candidate& candidate = (*candidates)[i];
+    candidate = converge(starts[i], scale_);
     if (candidate.cost < best->cost) best = &candidate;
   }
+  return *best;
+}
+
+// Fills kept_, doubtful_, scale_ and decided_. The sigmas are widened only where the rows that
+// agree best scatter by more than they say: a median over all rows would be that of slips as well.
+void Check::search() {
+  Starts starts;
+  draw(&starts);
+  Candidates candidates;
+  const Candidate* best = &converge_all(starts, &candidates);
+  while (scale_ < config_.max_scale && scatter(best->kept) > kWidening * scale_) {
+    scale_ = std::min(kWidening * scale_, config_.max_scale);
+    best = &converge_all(starts, &candidates);
+  }
   kept_ = best->kept;
-  const double allowance =
-      static_cast<double>(kept_.count()) - parameters(kept_, fit(kept_, scale_, true), scale_);
+  const double allowance = static_cast<double>(kept_.count()) - parameters(kept_);
   const double slipped = static_cast<double>((all() & ~kept_).count());
   decided_ = allowance > 0.75 && allowance > slipped - 0.25;
   for (const Candidate& candidate : candidates) {
@@ -261,13 +269,27 @@ void Check::search() {
   }
 }
 
+// Root mean square of the kept rows' deviations over their sigmas; 0 where too few are spare.
+double Check::scatter(const Set& kept) const {
+  const double spare = static_cast<double>(kept.count()) - parameters(kept);
+  if (spare < 2.0) return 0.0;
+  const Vector state = fit(kept, scale_, false).state;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!kept.test(i)) continue;
+    const double w = (rows_[i].residual - rows_[i].h.dot(state)) / rows_[i].sigma;
+    sum += w * w;
+  }
+  return std::sqrt(sum / spare);
+}
+
 void Check::judge(RangeChangeResult* result) {
   const Fit final_fit = fit(kept_, scale_, true);
   result->change_m = change_root_ * final_fit.state.head<3>();
   result->clock_change_m = centre_m_ + kFree_m * final_fit.state(kClock);
   result->scale = scale_;
-  result->redundancy = static_cast<int>(
-      std::lround(static_cast<double>(kept_.count()) - parameters(kept_, final_fit, scale_)));
+  result->redundancy =
+      static_cast<int>(std::lround(static_cast<double>(kept_.count()) - parameters(kept_)));
   result->status = RangeChangeStatus::kConsistent;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     RangeVerdict& verdict = result->rows[rows_[i].source].verdict;
@@ -299,7 +321,7 @@ RangeChangeResult Check::run(std::size_t count) {
   if (rows_.size() < 2) return result;
   kept_ = all();
   const Fit plain = fit(kept_, 1.0, true);
-  const double unknowns = parameters(kept_, plain, 1.0);
+  const double unknowns = parameters(kept_);
   const double spare = static_cast<double>(rows_.size()) - unknowns;
   if (spare < 0.5) return result;
   double worst = 0.0;
