@@ -62,6 +62,8 @@ TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
   test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
     engine.receive(channel, bytes, 1);
     if (++messages % 1000 == 0) engine.receive(channel, bytes.first(bytes.size() / 2), 1);
+    // A busy machine must not turn every epoch into a miss: there would be no answer to count.
+    while (channel == Channel::kGnssEpoch && !engine.idle()) usleep(100);
   });
   REQUIRE(engine.finish());
   const auto after = test::thread_allocations();
