@@ -168,6 +168,14 @@ double Search::bounded_sum(const FitState& change, double scale) {
   return sum;
 }
 
+// Quantile of the standard normal distribution, p from 0.5 (M. Abramowitz and I. A. Stegun,
+// Handbook of Mathematical Functions, 1964, 26.2.23: to 4.5e-4).
+double normal_quantile(double p) {
+  const double t = std::sqrt(-2.0 * std::log(1.0 - p));
+  return t - (2.515517 + t * (0.802853 + t * 0.010328)) /
+                 (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+}
+
 std::optional<Consensus> Search::run() {
   if (all_.size() < unknowns_ + kMinRedundancy || unknowns_ < 4) return std::nullopt;
   std::array<Candidate, kSubsets + 1> candidates;  // the first: no change
@@ -197,7 +205,6 @@ std::optional<Consensus> Search::run() {
     least = sum;
     best = i;
   }
-  if (best == 0) return std::nullopt;
   return Consensus{candidates[best].change, scale};
 }
 
@@ -208,7 +215,10 @@ double robust_scale(StandardizedResiduals* standardized, std::size_t unknowns) {
       std::min((standardized->size() + unknowns) / 2, standardized->size() - 1);
   const auto middle = standardized->begin() + static_cast<std::ptrdiff_t>(place);
   std::nth_element(standardized->begin(), middle, standardized->end());
-  return 1.4826 * *middle;
+  const double count = static_cast<double>(standardized->size());
+  const double share = (static_cast<double>(place) + 0.5) / count;
+  const double free = std::max(1.0 - static_cast<double>(unknowns) / count, 0.0);
+  return *middle / (std::sqrt(free) * normal_quantile(0.5 + 0.5 * share));
 }
 
 std::optional<Consensus> find_consensus(const FitRows& rows) { return Search(rows).run(); }

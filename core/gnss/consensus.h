@@ -18,12 +18,16 @@ struct Consensus {
 // Computing LTS regression for large data sets, 2006, for the subsets and the improvement; the
 // bounded sum is the M-step of an MM-estimate, with the scale of the best half). `rows` not in use
 // take no part. The subsets are drawn by a generator with a fixed seed: the same rows give the same
-// answer. nullopt: fewer than four spare satellites, or no change found whose bounded sum is
-// lower than that of the rows as they stand by one gross error.
+// answer. The change is zero where none was found whose bounded sum is lower than that of the rows
+// as they stand by one gross error: the scale then still tells which of them are out. nullopt:
+// fewer than four spare satellites.
 std::optional<Consensus> find_consensus(const FitRows& rows);
 
-// 1.4826 times the median of |residual| / sigma of `unknowns` fewer values: a fit through as many
-// rows as it has unknowns makes that many vanish. `standardized` is reordered.
+// Scale of normal errors from the residuals, over sigma, of a fit of `unknowns` unknowns. The value
+// taken lies past the median by half the unknowns, so that it holds for a fit through as many rows
+// too, whose residuals vanish; it is set against what a least-squares fit of normal errors with
+// scale 1 leaves there: the quantile, shrunk by the share of freedom left. `standardized` is
+// reordered; infinite with no more values than unknowns.
 using StandardizedResiduals = boost::container::static_vector<double, kMaxMeasurements>;
 double robust_scale(StandardizedResiduals* standardized, std::size_t unknowns);
 

@@ -190,7 +190,8 @@ FitStatus Fit::snoop(const RobustConfig& config) {
   return FitStatus::kFaulty;
 }
 
-// Moves the start to where most rows agree, if that is elsewhere.
+// Moves the start to where most rows agree, if that is elsewhere, and leaves out there what does
+// not: the scale of the rest is judged without it.
 FitStatus Fit::seek_consensus(const RobustConfig& config) {
   for (FitRow& row : *rows_) row.factor = 1.0;
   const std::optional<Consensus> consensus = find_consensus(*rows_);

@@ -4,6 +4,8 @@
 #include <random>
 
 #include "core/gnss/point_solution.h"
+#include "core/gnss/preprocess.h"
+#include "exhaustive_exclusion.h"
 #include "support/catch.h"
 #include "support/simulated_sky.h"
 
@@ -20,8 +22,16 @@ struct Faults {
   double noise_m = 0.0;      // 1 sigma of white noise on every pseudorange
 };
 
+// What became of the cases called good, but farther than 5 m from the truth: what noise alone does
+// to the fit that is told which satellites are wrong; what nobody can tell, as fewer errors or
+// three others explain the data as well; and what could have been told.
+struct Far {
+  int noise = 0, ambiguous = 0, missed = 0;
+};
+
 struct Tally {
   int cases = 0, wrong = 0, refused = 0;
+  Far far;
 };
 
 constexpr double kElevationMask = 0.2617993877991494;  // of the default configuration
@@ -41,6 +51,22 @@ void add_error(SatelliteId id, double error_m, RawEpoch* raw) {
   }
 }
 
+void classify(const RawEpoch& raw, const SimulatedSky& sky, const SimulatedReceiver& receiver,
+              const std::vector<SatelliteId>& faulty, const Eigen::Vector3d& off, Far* far) {
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  preprocess(raw, sky.catalog, default_gnss_config(), receiver.p_e, epoch.get());
+  const CodeProblem problem(*epoch, receiver.p_e);
+  const auto known = problem.fit(problem.set_of(faulty));
+  REQUIRE(known);
+  if ((off - known->error).norm() < 5.0) {
+    ++far->noise;
+  } else if (problem.is_ambiguous(problem.set_of(faulty))) {
+    ++far->ambiguous;
+  } else {
+    ++far->missed;
+  }
+}
+
 // Every choice of `faults.of` satellites. Wrong: called good, and farther from the truth than
 // 5 m and, where there is noise (which alone makes 5 m), five of its own standard deviations.
 Tally try_all(const SimulatedSky& sky, const SimulatedReceiver& receiver, const Faults& faults) {
@@ -57,9 +83,11 @@ Tally try_all(const SimulatedSky& sky, const SimulatedReceiver& receiver, const 
       if (faults.noise_m > 0.0) o.pseudorange_m += faults.noise_m * normal(generator);
     }
     double error = faults.error_m;
+    std::vector<SatelliteId> faulty;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if ((choice >> i & 1u) == 0) continue;
       add_error(ids[i], error, &raw);
+      faulty.push_back(ids[i]);
       if (faults.alternating) error = -error;
     }
     const PointSolution point = solve_point(raw, sky.catalog, default_gnss_config(), RobustConfig{},
@@ -68,13 +96,17 @@ Tally try_all(const SimulatedSky& sky, const SimulatedReceiver& receiver, const 
     const Eigen::Vector3d off = point.p_e - receiver.p_e;
     if (point.status != PointStatus::kOk) {
       ++tally.refused;
-    } else if (off.norm() > 5.0 &&
-               (faults.noise_m == 0.0 || off.dot(point.covariance_p_e.inverse() * off) > 25.0)) {
-      ++tally.wrong;
+    } else if (off.norm() > 5.0) {
+      const double nees = off.dot(point.covariance_p_e.inverse() * off);
+      if (faults.noise_m == 0.0 || nees > 25.0) ++tally.wrong;
+      classify(raw, sky, receiver, faulty, off, &tally.far);
     }
   }
-  std::printf("%-44s %zu satellites: wrong %3d, refused %3d of %4d\n", faults.name, ids.size(),
-              tally.wrong, tally.refused, tally.cases);
+  std::printf(
+      "%-26s %zu satellites: wrong %d, refused %d of %d; beyond 5 m: by noise %d, "
+      "ambiguous %d, missed %d\n",
+      faults.name, ids.size(), tally.wrong, tally.refused, tally.cases, tally.far.noise,
+      tally.far.ambiguous, tally.far.missed);
   return tally;
 }
 
@@ -97,5 +129,7 @@ TEST_CASE("gross errors are found: one of 100 km, two and three of 50 m") {
     const Tally tally = try_all(sky, receiver, faults);
     CAPTURE(faults.name);
     CHECK(tally.wrong * 50 <= tally.cases);
+    // With other seeds of the noise six of 2288 are missed.
+    CHECK(tally.far.missed * 100 <= (faults.noise_m > 0.0 ? tally.cases : 0));
   }
 }

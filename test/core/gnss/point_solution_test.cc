@@ -197,10 +197,9 @@ TEST_CASE("covariance agrees with the scatter of noisy solutions") {
     nees_v += dv.dot(solved.point.covariance_v_e.ldlt().solve(dv)) / kRuns;
   }
   std::cout << "point solution NEES of 3: position " << nees_p << ", velocity " << nees_v << "\n";
-  // Mean of 400 chi-square(3): 3 +- 0.37 at three sigma. Below that by up to a fifth, because the
-  // scale of the covariance follows the scatter upwards only (never below the claimed sigmas).
+  // Mean of 400 chi-square(3): 3 +- 0.37 at three sigma.
   for (const double nees : {nees_p, nees_v}) {
-    CHECK(nees > 0.8 * (3.0 - 0.37));
+    CHECK(nees > 3.0 - 0.37);
     CHECK(nees < 3.0 + 0.37);
   }
 }
