@@ -214,7 +214,8 @@ FitStatus Fit::robust(const RobustConfig& config) {
     if (status == FitStatus::kTooFewRows || status == FitStatus::kSingular) return status;
   }
   estimate_scale();
-  status = iterate(std::max(config.max_iterations, 1), [&](const FitRow& row) {
+  // The passes that are enough from a prediction may not be from here; a fit is cheap.
+  status = iterate(std::max(config.max_iterations, kMaxNewtonSteps), [&](const FitRow& row) {
     return igg3_factor(row.residual / (row.sigma * scale_), config.k0, config.k1);
   });
   if (status == FitStatus::kTooFewRows) return FitStatus::kFaulty;
