@@ -28,10 +28,14 @@ Normal normal_matrix(const MeasurementEpoch& epoch, const std::bitset<kMaxSatell
     row(3 + static_cast<int>(index_of(satellite.satellite.system))) = 1.0;
     normal += row * row.transpose();
   }
-  for (int i = 3; i < kUnknowns; ++i) {
-    if (normal(i, i) == 0.0) normal(i, i) = 1.0;  // a time base nobody uses
-  }
   return normal;
+}
+
+// Of the clocks that somebody uses; the others have been given a row of their own.
+double trace_of_clocks(const Normal& normal, const Normal& covariance) {
+  double sum = 0.0;
+  for (int i = 3; i < kUnknowns; ++i) sum += normal(i, i) > 0.0 ? covariance(i, i) : 0.0;
+  return sum;
 }
 
 }  // namespace
@@ -50,13 +54,19 @@ Dop dilution_of_precision(const MeasurementEpoch& epoch, const Eigen::Vector3d& 
 Dop dilution_of_precision(const MeasurementEpoch& epoch, const std::bitset<kMaxSatellites>& used,
                           const Eigen::Vector3d& p_a_e) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::LDLT<Normal> factor(normal_matrix(epoch, used, p_a_e));
+  const Normal normal = normal_matrix(epoch, used, p_a_e);
+  Normal regular = normal;
+  for (int i = 3; i < kUnknowns; ++i) {
+    if (normal(i, i) == 0.0) regular(i, i) = 1.0;  // a time base nobody uses
+  }
+  const Eigen::LDLT<Normal> factor(regular);
   const Normal covariance = factor.solve(Normal::Identity());
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_a_e));
   const Eigen::Matrix3d q = C_ne * covariance.topLeftCorner<3, 3>() * C_ne.transpose();
-  const Dop dop{std::sqrt(q.trace()), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2))};
+  const Dop dop{std::sqrt(q.trace()), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2)),
+                std::sqrt(q.trace() + trace_of_clocks(normal, covariance))};
   const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
-  if (!positive || !(dop.pdop < kMaxDop)) return {kNaN, kNaN, kNaN};
+  if (!positive || !(dop.pdop < kMaxDop)) return {kNaN, kNaN, kNaN, kNaN};
   return dop;
 }
 

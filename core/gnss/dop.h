@@ -11,6 +11,8 @@ struct Dop {
   double pdop = 0.0;
   double hdop = 0.0;
   double vdop = 0.0;
+  // Root of the trace of the whole cofactor matrix: position and the clock of every system in use.
+  double gdop = 0.0;
 };
 
 // Of the satellites with a code measurement in use (kUsed or kDownweighted), one row each, all of

@@ -1,4 +1,5 @@
-// leonav-eval: errors of one or several runs against a truth.
+// leonav-eval: errors of one or several runs against a truth; or, with --quality, how good the
+// measurements of a log are.
 #include <fstream>
 #include <iostream>
 #include <numbers>
@@ -6,6 +7,7 @@
 
 #include "drivers/csv/imu_csv.h"
 #include "drivers/text/parse.h"
+#include "quality_mode.h"
 #include "tools/common/arguments.h"
 #include "tools/evaluation/gyro_heading.h"
 #include "tools/evaluation/statistics.h"
@@ -27,9 +29,13 @@ leonav::GpsTime parse_time(const std::string& name, const std::string& text) {
 
 int body(int argc, char** argv) {
   Arguments arguments(
-      "leonav-eval", "--truth truth.csv [options] [LABEL=]solution.csv ...",
+      "leonav-eval",
+      "--truth truth.csv [options] [LABEL=]solution.csv ...\n"
+      "       leonav-eval --quality [--json FILE] [--plots DIR] run.lcmlog",
       "Compares solutions (solution.csv of leonav-replay, or RTKLIB .pos files) with a truth:\n"
-      "RMSE, mean, percentiles per component, availability, convergence, attitude.");
+      "RMSE, mean, percentiles per component, availability, convergence, attitude.\n"
+      "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
+      "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
   arguments.option("--truth", "FILE", "truth.csv to judge by")
       .option("--json", "FILE", "write the numbers, with the CDF, as JSON too")
       .option("--convergence-bound", "M",
@@ -46,8 +52,16 @@ int body(int argc, char** argv) {
               "what an estimator can hope for")
       .option("--up-offset", "M", "added to the truth's height before comparing", "0")
       .option("--from", "WEEK:TOW", "judge from this GPS time on")
-      .option("--to", "WEEK:TOW", "judge up to this GPS time");
+      .option("--to", "WEEK:TOW", "judge up to this GPS time")
+      .flag("--quality", "judge the measurements of an LCM log instead of solutions")
+      .option("--plots", "DIR", "with --quality: PNG plots, index.html and the tables behind them")
+      .option("--mask", "DEG", "with --quality: elevation from which a satellite is usable", "15")
+      .option("--prefix", "PREFIX", "with --quality: of the log's channels", "LEONAV_");
   if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.has("--quality")) return leonav::run_quality(arguments);
+  for (const char* name : {"--plots", "--mask", "--prefix"}) {
+    if (arguments.has(name)) throw leonav::UsageError(std::string(name) + " needs --quality");
+  }
   if (arguments.positional().empty()) throw leonav::UsageError("no solution given (--help)");
 
   leonav::ErrorOptions options;

@@ -1,11 +1,10 @@
 // How an evaluation looks: a table for people, JSON for programs.
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 
+#include "tools/common/format.h"
 #include "tools/evaluation/gyro_heading.h"
 #include "tools/evaluation/statistics.h"
 
@@ -13,15 +12,6 @@ namespace leonav {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(line, sizeof line, pattern, arguments);
-  va_end(arguments);
-  return line;
-}
 
 using Row = std::pair<const char*, Distribution>;
 
@@ -47,19 +37,6 @@ std::vector<Row> rows_of(const Evaluation& e) {
     rows.emplace_back("yaw_steady_course_deg", scaled(*e.yaw_steady, kDegreesPerRadian));
   }
   return rows;
-}
-
-std::string json_string(const std::string& text) {
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      out += format("\\u%04x", c);
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 std::string cdf_json(const std::vector<ErrorSample>& errors, double (ErrorSample::*get)() const) {

@@ -49,7 +49,8 @@ Dop direct(const std::vector<Direction>& sky, int systems) {
     h(i, 3 + static_cast<int>(index_of(direction.system))) = 1.0;
   }
   const Eigen::MatrixXd q = (h.transpose() * h).inverse();
-  return {std::sqrt(q(0, 0) + q(1, 1) + q(2, 2)), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2))};
+  return {std::sqrt(q(0, 0) + q(1, 1) + q(2, 2)), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2)),
+          std::sqrt(q.trace())};
 }
 
 const std::vector<Direction> kSky = {
@@ -69,11 +70,12 @@ TEST_CASE("DOP is that of the direct formula, for one clock and for two") {
     CHECK(dop.pdop == Approx(expected.pdop).epsilon(1e-9));
     CHECK(dop.hdop == Approx(expected.hdop).epsilon(1e-9));
     CHECK(dop.vdop == Approx(expected.vdop).epsilon(1e-9));
+    CHECK(dop.gdop == Approx(expected.gdop).epsilon(1e-9));
   }
 }
 
-// Tetrahedron: one satellite overhead, three at the horizon 120 degrees apart. By hand: GDOP parts
-// HDOP = sqrt(4/3), VDOP = sqrt(4/3).
+// Tetrahedron: one satellite overhead, three at the horizon 120 degrees apart. By hand: HDOP =
+// sqrt(4/3), VDOP = sqrt(4/3), TDOP = sqrt(1/3), GDOP = sqrt(3).
 TEST_CASE("DOP of the textbook's best geometry of four") {
   const Dop dop = dilution_of_precision(*epoch_of({{System::kGps, 0, 90},
                                                    {System::kGps, 0, 0},
@@ -82,6 +84,7 @@ TEST_CASE("DOP of the textbook's best geometry of four") {
                                         to_ecef(kPlace));
   CHECK(dop.hdop == Approx(std::sqrt(4.0 / 3.0)).epsilon(1e-9));
   CHECK(dop.vdop == Approx(std::sqrt(4.0 / 3.0)).epsilon(1e-9));
+  CHECK(dop.gdop == Approx(std::sqrt(3.0)).epsilon(1e-9));
 }
 
 TEST_CASE("DOP counts satellites in use, once each") {
@@ -111,5 +114,6 @@ TEST_CASE("no DOP where the geometry determines no position") {
     CHECK(std::isnan(dop.pdop));
     CHECK(std::isnan(dop.hdop));
     CHECK(std::isnan(dop.vdop));
+    CHECK(std::isnan(dop.gdop));
   }
 }

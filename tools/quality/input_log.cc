@@ -1,0 +1,98 @@
+#include "tools/quality/input_log.h"
+
+#include <memory>
+#include <ostream>
+
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/event_log.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::int64_t kLongLog = 50'000'000;  // bytes
+
+class Reading {
+ public:
+  explicit Reading(const InputHandlers& handlers) : handlers_(handlers) {}
+
+  void take(Channel channel, const std::vector<std::uint8_t>& data) {
+    ++counts.messages[index_of(channel)];
+    if (channel == Channel::kGnssEpoch) return take_epoch(data);
+    if (handlers_.catalog == nullptr) return;
+    const bool is_product = channel == Channel::kEphemeris || channel == Channel::kOrbitClock ||
+                            channel == Channel::kIonosphere;
+    if (is_product && !take_product(channel, data)) ++counts.refused_products;
+  }
+
+  InputCounts counts;
+
+ private:
+  void take_epoch(const std::vector<std::uint8_t>& data) {
+    const DecodeResult result = decoder_.decode(data, epoch_.get());
+    if (result.fault != InputFault::kNone) {
+      ++counts.refused_epochs;
+      return;
+    }
+    if (result.element_faults != 0) ++counts.incomplete_epochs;
+    ++counts.epochs;
+    handlers_.epoch(*epoch_);
+  }
+
+  bool take_product(Channel channel, const std::vector<std::uint8_t>& data) {
+    SatelliteCatalog& catalog = *handlers_.catalog;
+    if (channel == Channel::kEphemeris) {
+      Ephemeris ephemeris;
+      return decoder_.decode(data, &ephemeris).fault == InputFault::kNone && catalog.add(ephemeris);
+    }
+    if (channel == Channel::kIonosphere) {
+      KlobucharModel model;
+      if (decoder_.decode(data, &model).fault != InputFault::kNone) return false;
+      catalog.set_klobuchar(model);
+      return true;
+    }
+    if (decoder_.decode(data, states_.get()).fault != InputFault::kNone) return false;
+    bool all = true;
+    for (const PreciseState& state : *states_) all = catalog.add(state) && all;
+    return all;
+  }
+
+  const InputHandlers& handlers_;
+  Decoder decoder_;
+  std::unique_ptr<RawEpoch> epoch_ = std::make_unique<RawEpoch>();
+  std::unique_ptr<PreciseStates> states_ = std::make_unique<PreciseStates>();
+};
+
+void report_progress(const EventLogReader& log, std::int64_t* next, std::ostream* progress) {
+  if (progress == nullptr || log.size_bytes() < kLongLog || log.position_bytes() < *next) return;
+  *progress << "leonav-eval: " << 100 * log.position_bytes() / log.size_bytes() << " %\n";
+  *next += log.size_bytes() / 10;
+}
+
+}  // namespace
+
+InputCounts read_inputs(const std::string& path, const std::string& prefix,
+                        const InputHandlers& handlers, std::ostream* progress) {
+  EventLogReader log(path);
+  Reading reading(handlers);
+  LogEvent event;
+  std::int64_t next_progress = log.size_bytes() / 10;
+  try {
+    while (log.next(&event)) {
+      const auto channel = channel_from_name(event.channel, prefix);
+      if (channel) {
+        reading.take(*channel, event.data);
+      } else if (event.channel.ends_with(name_of(Channel::kGnssEpoch))) {
+        reading.counts.other_prefix =
+            event.channel.substr(0, event.channel.size() - name_of(Channel::kGnssEpoch).size());
+      }
+      report_progress(log, &next_progress, progress);
+    }
+  } catch (const EventLogError& error) {
+    if (log.position_bytes() == 0) throw;
+    reading.counts.damage = error.what();
+  }
+  reading.counts.truncated = log.truncated();
+  return reading.counts;
+}
+
+}  // namespace leonav
