@@ -30,6 +30,7 @@ struct RtklibOptions {
 struct RtklibResidual {
   SatelliteId satellite;
   double residual_m = 0.0;
+  double azimuth_deg = 0.0, elevation_deg = 0.0;  // to 0.1
 };
 
 struct RtklibEpoch {
@@ -61,7 +62,7 @@ inline std::vector<RtklibEpoch> read_rtklib_status(const std::string& path) {
     std::istringstream fields(line);
     std::string kind, name;
     int week = 0, number = 0;
-    double tow = 0.0, azimuth_deg = 0.0, elevation_deg = 0.0;
+    double tow = 0.0;
     fields >> kind >> week >> tow;
     if (kind == "$POS") {
       Eigen::Vector3d p_e;
@@ -69,9 +70,12 @@ inline std::vector<RtklibEpoch> read_rtklib_status(const std::string& path) {
       epochs.push_back({GpsTime::from_week_and_tow(week, tow), p_e, {}});
     } else if (kind == "$SAT" && !epochs.empty()) {
       RtklibResidual residual;
-      fields >> name >> number >> azimuth_deg >> elevation_deg >> residual.residual_m;
+      fields >> name >> number >> residual.azimuth_deg >> residual.elevation_deg >>
+          residual.residual_m;
       const auto id = satellite_from_string(name);
-      if (id) epochs.back().residuals.push_back({*id, residual.residual_m});
+      if (!id) continue;
+      residual.satellite = *id;
+      epochs.back().residuals.push_back(residual);
     }
   }
   return epochs;
