@@ -25,12 +25,11 @@ Eigen::Matrix2d predicted(const Eigen::Matrix2d& covariance, double t, double wa
 void GeometryFreeTrend::start(double value_m, double interval_s, const GeometryFreeNoise& noise,
                               bool keep_rate) {
   const bool keep = keep_rate && updates_ >= kMinUpdates;
+  if (keep_rate) learn_scale(innovation(value_m, interval_s, noise));
   const double largest = noise.rate_m_s * noise.rate_m_s;
   const double grown = covariance_(1, 1) + noise.rate_walk_m_s * noise.rate_walk_m_s * interval_s;
-  if (!keep) {
-    rate_m_s_ = 0.0;
-    scale_squared_ = 1.0;
-  }
+  if (!keep) rate_m_s_ = 0.0;
+  if (!keep_rate) scale_squared_ = 1.0;
   value_m_ = value_m;
   covariance_ =
       Eigen::Vector2d(noise.value_m * noise.value_m, keep ? std::min(grown, largest) : largest)
@@ -53,11 +52,16 @@ void GeometryFreeTrend::update(double value_m, double interval_s, const Geometry
   value_m_ += gain(0) * seen.value_m;
   rate_m_s_ += gain(1) * seen.value_m;
   covariance_ -= gain * gain.transpose() * variance;
-  // The model's own share of the innovation stays; the white part follows what is seen.
-  const double square = std::min(seen.value_m * seen.value_m / variance, kMaxSquare);
+  learn_scale(seen);
+  updates_ = std::min(updates_ + 1, kMinUpdates);
+}
+
+// The model's own share of the innovation stays; the white part follows what is seen.
+void GeometryFreeTrend::learn_scale(const Innovation& seen) {
+  const double square =
+      std::min(seen.value_m * seen.value_m / (seen.sigma_m * seen.sigma_m), kMaxSquare);
   scale_squared_ = std::clamp(scale_squared_ * (1.0 + (square - 1.0) / kScaleMemory),
                               kMinScale * kMinScale, kMaxScale * kMaxScale);
-  updates_ = std::min(updates_ + 1, kMinUpdates);
 }
 
 void GeometryFreeTrend::skip(double interval_s, const GeometryFreeNoise& noise) {

@@ -33,6 +33,8 @@ class GeometryFreeTrend {
   void skip(double interval_s, const GeometryFreeNoise& noise);
 
  private:
+  void learn_scale(const Innovation& seen);
+
   double value_m_ = 0.0, rate_m_s_ = 0.0;
   Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
   double scale_squared_ = 1.0;  // of the white noise, running mean of squared innovations
