@@ -9,7 +9,7 @@
 namespace leonav {
 namespace {
 
-constexpr std::int64_t kLongLog = 50'000'000;  // bytes
+constexpr std::int64_t kLongLog = 5'000'000;  // bytes
 
 class Reading {
  public:
@@ -62,16 +62,18 @@ class Reading {
   std::unique_ptr<PreciseStates> states_ = std::make_unique<PreciseStates>();
 };
 
-void report_progress(const EventLogReader& log, std::int64_t* next, std::ostream* progress) {
+void report_progress(const EventLogReader& log, std::int64_t* next, const std::string& what,
+                     std::ostream* progress) {
   if (progress == nullptr || log.size_bytes() < kLongLog || log.position_bytes() < *next) return;
-  *progress << "leonav-eval: " << 100 * log.position_bytes() / log.size_bytes() << " %\n";
+  *progress << "leonav-eval: " << what << 100 * log.position_bytes() / log.size_bytes() << " %\n";
   *next += log.size_bytes() / 10;
 }
 
 }  // namespace
 
 InputCounts read_inputs(const std::string& path, const std::string& prefix,
-                        const InputHandlers& handlers, std::ostream* progress) {
+                        const InputHandlers& handlers, std::ostream* progress,
+                        const std::string& what) {
   EventLogReader log(path);
   Reading reading(handlers);
   LogEvent event;
@@ -85,7 +87,7 @@ InputCounts read_inputs(const std::string& path, const std::string& prefix,
         reading.counts.other_prefix =
             event.channel.substr(0, event.channel.size() - name_of(Channel::kGnssEpoch).size());
       }
-      report_progress(log, &next_progress, progress);
+      report_progress(log, &next_progress, what, progress);
     }
   } catch (const EventLogError& error) {
     if (log.position_bytes() == 0) throw;

@@ -31,9 +31,10 @@ struct InputHandlers {
 };
 
 // Reads to the end, or to where the log is damaged: what stands before is good. Progress goes to
-// `progress` (nullptr: none) in steps of a tenth, for logs above 50 MB. Throws EventLogError if
-// the file cannot be opened, is empty, or is no log from its first byte on.
+// `progress` (nullptr: none) in steps of a tenth of a log above 5 MB, with `what` is being done.
+// Throws EventLogError if the file cannot be opened, is empty, or is no log from its first byte on.
 InputCounts read_inputs(const std::string& path, const std::string& prefix,
-                        const InputHandlers& handlers, std::ostream* progress);
+                        const InputHandlers& handlers, std::ostream* progress,
+                        const std::string& what = "");
 
 }  // namespace leonav

@@ -97,7 +97,7 @@ std::string signals(const Quality& q) {
   std::string alone;
   for (const auto& [id, satellite] : q.satellites)
     if (satellite.one_frequency) alone += " " + to_string(id);
-  if (!alone.empty()) out += "  one frequency alone, so no MP at all:" + alone + "\n";
+  if (!alone.empty()) out += "  never two carriers, so no MP at all:" + alone + "\n";
   return out;
 }
 

@@ -250,12 +250,14 @@ Quality analyse_quality(const std::string& log, const QualityOptions& options,
   quality.options = options;
   Census census(config_of(options));
   const auto count = [&](const RawEpoch& raw) { census.add(raw); };
-  const InputCounts first = read_inputs(log, options.prefix, {count, nullptr}, progress);
+  const InputCounts first =
+      read_inputs(log, options.prefix, {count, nullptr}, progress, "counting ");
   quality.times = census.times();
   if (quality.times.epochs == 0) fail_without_epochs(log, first, options.prefix);
   Analysis analysis(census, options, &quality);
   const auto analyse = [&](const RawEpoch& raw) { analysis.add(raw); };
-  quality.inputs = read_inputs(log, options.prefix, {analyse, analysis.catalog()}, progress);
+  quality.inputs =
+      read_inputs(log, options.prefix, {analyse, analysis.catalog()}, progress, "judging ");
   analysis.finish();
   return quality;
 }
