@@ -56,16 +56,18 @@ double max_age_s(System system, const CatalogOptions& options) {
   return 0.0;
 }
 
-// Whether `a` serves `time` better than `b`: preferred message, nearer toe, later transmission,
-// later arrival.
+// Whether `a` serves `time` better than `b`: nearer toe, preferred message, later transmission,
+// later arrival. Galileo sends each batch of elements in both messages, with the same toe and
+// IODnav and the clock of each message's pair (OS-SIS-ICD 5.1.3, 5.1.9), and the group delays make
+// either clock serve any signal: which message it is matters less than an older batch.
 bool is_better(const StoredEphemeris& a, const StoredEphemeris& b, GpsTime time,
                const CatalogOptions& options) {
-  const bool preferred_a = is_preferred_message(a.ephemeris, options);
-  const bool preferred_b = is_preferred_message(b.ephemeris, options);
-  if (preferred_a != preferred_b) return preferred_a;
   const double age_a = std::abs(seconds_between(time, a.ephemeris.toe));
   const double age_b = std::abs(seconds_between(time, b.ephemeris.toe));
   if (age_a != age_b) return age_a < age_b;
+  const bool preferred_a = is_preferred_message(a.ephemeris, options);
+  const bool preferred_b = is_preferred_message(b.ephemeris, options);
+  if (preferred_a != preferred_b) return preferred_a;
   if (a.ephemeris.transmission_time != b.ephemeris.transmission_time) {
     return a.ephemeris.transmission_time > b.ephemeris.transmission_time;
   }

@@ -37,8 +37,8 @@ struct CatalogOptions {
   double max_age_leo_s = 7200.0;
   double max_orbit_gap_s = 1000.0;  // precise nodes farther apart than this are not bridged
   double max_clock_gap_s = 45.0;    // likewise those of clock files; else the orbits' clocks serve
-  bool galileo_prefers_fnav =
-      false;  // F/NAV (E1,E5a clock) instead of I/NAV (E1,E5b) where both are there
+  // F/NAV (E1,E5a clock) instead of I/NAV (E1,E5b) where both are there for one toe.
+  bool galileo_prefers_fnav = false;
 };
 
 class SatelliteCatalog {

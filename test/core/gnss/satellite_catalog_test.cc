@@ -134,21 +134,32 @@ TEST_CASE("Unhealthy satellites are out, by the newest message that was out by t
   REQUIRE(catalog.ephemeris_at(kG05, kNoon.plus_seconds(7200)) != nullptr);
 }
 
-TEST_CASE("Galileo keeps both messages and serves the preferred one", "[satellite_catalog]") {
+TEST_CASE("Of one toe Galileo's preferred message serves, but never an older batch",
+          "[satellite_catalog]") {
   for (const bool fnav : {false, true}) {
     CatalogOptions options;
     options.galileo_prefers_fnav = fnav;
     SatelliteCatalog catalog(options);
-    Ephemeris i = galileo(NavigationMessage::kGalileoInav, 0);
-    Ephemeris f = galileo(NavigationMessage::kGalileoFnav, 600);
-    i.issue = 10;
-    f.issue = 20;
-    REQUIRE(catalog.add(f));
-    CHECK(issue_at(catalog, kE11, 600) == 20);  // what there is
-    REQUIRE(catalog.add(i));
-    CHECK(issue_at(catalog, kE11, 600) == (fnav ? 20 : 10));
-    CHECK(issue_at(catalog, kE11, 0) == (fnav ? 20 : 10));
-    CHECK(issue_at(catalog, kE11, 14401) == 20);  // I/NAV's has run out
+    const auto preferred = fnav ? NavigationMessage::kGalileoFnav : NavigationMessage::kGalileoInav;
+    const auto other = fnav ? NavigationMessage::kGalileoInav : NavigationMessage::kGalileoFnav;
+    const auto add = [&](NavigationMessage message, double toe_s, std::uint16_t issue) {
+      Ephemeris e = galileo(message, toe_s);
+      e.issue = issue;
+      REQUIRE(catalog.add(e));
+    };
+    add(other, 0, 1);
+    CHECK(issue_at(catalog, kE11, 600) == 1);  // what there is
+    add(preferred, 0, 2);
+    CHECK(issue_at(catalog, kE11, 600) == 2);
+    add(other, 600, 3);  // the next batch, told by the other message first
+    CHECK(issue_at(catalog, kE11, 600) == 3);
+    CHECK(issue_at(catalog, kE11, 0) == 2);
+    CHECK(issue_at(catalog, kE11, 14000) == 3);
+    add(preferred, 600, 4);
+    CHECK(issue_at(catalog, kE11, 600) == 4);
+    CHECK(issue_at(catalog, kE11, 14401) == 4);
+    add(other, 14400, 5);  // four hours younger
+    CHECK(issue_at(catalog, kE11, 14400) == 5);
   }
 }
 
