@@ -6,11 +6,11 @@
 
 namespace leonav {
 
-class EventSource {
+class EventNumbering {
  public:
-  EventSource(Stage stage, OutputSink* sink) : stage_(stage), sink_(sink) {}
+  explicit EventNumbering(Stage stage) : stage_(stage) {}
 
-  void emit(EventKind kind, std::uint8_t code, double value, GpsTime time) {
+  Event next(EventKind kind, std::uint8_t code, double value, GpsTime time) {
     Event event;
     event.sequence = next_++;
     event.stage = stage_;
@@ -18,13 +18,26 @@ class EventSource {
     event.kind = kind;
     event.code = code;
     event.value = value;
-    sink_->on_event(event);
+    return event;
   }
 
  private:
   Stage stage_;
-  OutputSink* sink_;
   std::uint64_t next_ = 1;
+};
+
+// Of a stage that publishes them itself.
+class EventSource {
+ public:
+  EventSource(Stage stage, OutputSink* sink) : numbering_(stage), sink_(sink) {}
+
+  void emit(EventKind kind, std::uint8_t code, double value, GpsTime time) {
+    sink_->on_event(numbering_.next(kind, code, value, time));
+  }
+
+ private:
+  EventNumbering numbering_;
+  OutputSink* sink_;
 };
 
 }  // namespace leonav

@@ -341,14 +341,8 @@ GpsTime Sequencer::newest_epoch_time() const {
 }
 
 void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
-  Event event;
-  event.sequence = next_event_++;
-  event.stage = Stage::kSequencer;
-  event.time = imu_time_.is_set() ? imu_time_ : newest_epoch_time();
-  event.kind = kind;
-  event.code = code;
-  event.value = value;
-  stages_->event(event);
+  const GpsTime time = imu_time_.is_set() ? imu_time_ : newest_epoch_time();
+  stages_->event(events_.next(kind, code, value, time));
 }
 
 }  // namespace leonav

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/navigator/event_source.h"
 #include "core/navigator/imu_stamps.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/stage_work.h"
@@ -127,7 +128,7 @@ class Sequencer {
   GpsTime last_raw_epoch_time_;  // t of the last issued epoch that was not empty
   bool last_epoch_is_empty_ = true;
   std::uint64_t next_index_ = 1;
-  std::uint64_t next_event_ = 1;
+  EventNumbering events_{Stage::kSequencer};
   ImuStamps imu_stamps_;
   TimeBaseWatch imu_watch_, epoch_watch_;
   std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1>
