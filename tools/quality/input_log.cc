@@ -9,6 +9,7 @@
 namespace leonav {
 namespace {
 
+constexpr double kJump_s = 10.0;
 constexpr std::int64_t kLongLog = 5'000'000;  // bytes
 
 class Reading {
@@ -24,6 +25,15 @@ class Reading {
     if (is_product && !take_product(channel, data)) ++counts.refused_products;
   }
 
+  // The epoch that waits.
+  void hand_on() {
+    if (!waits_) return;
+    waits_ = false;
+    last_ = waiting_->time;
+    ++counts.epochs;
+    handlers_.epoch(*waiting_);
+  }
+
   InputCounts counts;
 
  private:
@@ -34,8 +44,20 @@ class Reading {
       return;
     }
     if (result.element_faults != 0) ++counts.incomplete_epochs;
-    ++counts.epochs;
-    handlers_.epoch(*epoch_);
+    put_in_order();
+  }
+
+  // What has been read waits for the one after it, which may show that it is astray.
+  void put_in_order() {
+    if (waits_ && epoch_->time <= waiting_->time) {
+      ++counts.disordered_epochs;
+      const bool jumped = !last_.is_set() || seconds_between(waiting_->time, last_) > kJump_s;
+      if (!jumped || epoch_->time <= last_) return;
+    } else {
+      hand_on();
+    }
+    std::swap(epoch_, waiting_);
+    waits_ = true;
   }
 
   bool take_product(Channel channel, const std::vector<std::uint8_t>& data) {
@@ -59,6 +81,9 @@ class Reading {
   const InputHandlers& handlers_;
   Decoder decoder_;
   std::unique_ptr<RawEpoch> epoch_ = std::make_unique<RawEpoch>();
+  std::unique_ptr<RawEpoch> waiting_ = std::make_unique<RawEpoch>();
+  bool waits_ = false;
+  GpsTime last_;  // handed on
   std::unique_ptr<PreciseStates> states_ = std::make_unique<PreciseStates>();
 };
 
@@ -93,6 +118,7 @@ InputCounts read_inputs(const std::string& path, const std::string& prefix,
     if (log.position_bytes() == 0) throw;
     reading.counts.damage = error.what();
   }
+  reading.hand_on();
   reading.counts.truncated = log.truncated();
   return reading.counts;
 }

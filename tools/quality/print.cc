@@ -35,7 +35,7 @@ std::string head(const Quality& q) {
   const auto note = [&](std::uint64_t count, const char* what) {
     if (count > 0) out += format("  %llu %s\n", n(count), what);
   };
-  note(t.backwards, "epochs left out: not later than one before them");
+  note(t.backwards, "epochs left out: out of order in time");
   note(q.inputs.refused_epochs, "epochs left out: malformed messages");
   note(q.inputs.incomplete_epochs, "epochs with malformed observations, which were left out");
   note(q.inputs.refused_products, "ephemerides, orbits or ionosphere messages refused");

@@ -253,6 +253,7 @@ Quality analyse_quality(const std::string& log, const QualityOptions& options,
   const InputCounts first =
       read_inputs(log, options.prefix, {count, nullptr}, progress, "counting ");
   quality.times = census.times();
+  quality.times.backwards += first.disordered_epochs;
   if (quality.times.epochs == 0) fail_without_epochs(log, first, options.prefix);
   Analysis analysis(census, options, &quality);
   const auto analyse = [&](const RawEpoch& raw) { analysis.add(raw); };

@@ -244,6 +244,32 @@ TEST_CASE("leonav-eval --quality: table, JSON, plots; bad logs are named") {
   fails("--prefix OTHER_ '" + log.file.path() + "'", "give --prefix LEONAV_");
 }
 
+// One damaged time: at the beginning, in the middle, ahead by a year or behind.
+TEST_CASE("an epoch with a wrong time is left out and takes no other with it") {
+  const SyntheticLog log;
+  for (const auto& [place, offset_s] : std::vector<std::pair<int, double>>{
+           {0, 3.0e7}, {100, 3.0e7}, {100, 50.0}, {100, -3.0e7}, {0, -3.0e7}}) {
+    CAPTURE(place, offset_s);
+    const TemporaryFile file("run.lcmlog", "");
+    {
+      EventLogWriter writer(file.path());
+      Encoder encoder;
+      std::uint64_t n = 0;
+      for (const Ephemeris& e : log.sky.ephemerides)
+        REQUIRE(writer.write(1, "LEONAV_EPHEMERIS", encoder.encode(e, ++n)));
+      for (int k = 0; k < 150; ++k) {
+        RawEpoch raw = log.epoch(k);
+        if (k == place) raw.time = raw.time.plus_seconds(offset_s);
+        REQUIRE(writer.write(2 + k, "LEONAV_GNSS_EPOCH", encoder.encode(raw, ++n)));
+      }
+    }
+    const Quality quality = analyse_quality(file.path(), {}, nullptr);
+    const bool early_start = place == 0 && offset_s < 0.0;  // cannot be told from a long gap
+    CHECK(quality.times.epochs == (early_start ? 150 : 149));
+    CHECK(quality.times.backwards == (early_start ? 0 : 1));
+  }
+}
+
 TEST_CASE("a log cut short or damaged is judged up to there, and says so") {
   const SyntheticLog log;
   const std::string bytes = text_of(log.file.path());
