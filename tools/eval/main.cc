@@ -10,6 +10,7 @@
 #include "quality_mode.h"
 #include "tools/common/arguments.h"
 #include "tools/evaluation/gyro_heading.h"
+#include "tools/evaluation/residuals.h"
 #include "tools/evaluation/statistics.h"
 
 namespace {
@@ -31,9 +32,11 @@ int body(int argc, char** argv) {
   Arguments arguments(
       "leonav-eval",
       "--truth truth.csv [options] [LABEL=]solution.csv ...\n"
+      "       leonav-eval --residuals measurements.csv\n"
       "       leonav-eval --quality [--json FILE] [--plots DIR] run.lcmlog",
       "Compares solutions (solution.csv of leonav-replay, or RTKLIB .pos files) with a truth:\n"
       "RMSE, mean, percentiles per component, availability, convergence, attitude.\n"
+      "With --residuals: what the estimator left of its measurements, by system and elevation.\n"
       "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
       "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
   arguments.option("--truth", "FILE", "truth.csv to judge by")
@@ -53,6 +56,7 @@ int body(int argc, char** argv) {
       .option("--up-offset", "M", "added to the truth's height before comparing", "0")
       .option("--from", "WEEK:TOW", "judge from this GPS time on")
       .option("--to", "WEEK:TOW", "judge up to this GPS time")
+      .option("--residuals", "FILE", "measurements.csv of leonav-replay; needs no truth")
       .flag("--quality", "judge the measurements of an LCM log instead of solutions")
       .option("--plots", "DIR", "with --quality: PNG plots, index.html and the tables behind them")
       .option("--mask", "DEG", "with --quality: elevation from which a satellite is usable", "15")
@@ -61,6 +65,10 @@ int body(int argc, char** argv) {
   if (arguments.has("--quality")) return leonav::run_quality(arguments);
   for (const char* name : {"--plots", "--mask", "--prefix"}) {
     if (arguments.has(name)) throw leonav::UsageError(std::string(name) + " needs --quality");
+  }
+  if (arguments.has("--residuals")) {
+    std::cout << leonav::to_table(leonav::read_residuals(arguments.get("--residuals")));
+    if (arguments.positional().empty() && !arguments.has("--truth")) return 0;
   }
   if (arguments.positional().empty()) throw leonav::UsageError("no solution given (--help)");
 

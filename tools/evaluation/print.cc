@@ -79,6 +79,12 @@ std::string to_table(const std::vector<Evaluation>& evaluations) {
                         e.convergence_bound_m, *e.convergence_s)
                : format("  did not converge below %.2f m (3D, ten epochs in a row)\n",
                         e.convergence_bound_m);
+    if (e.settled_s) {
+      out +=
+          format("  below %.2f m (3D) for good after %.1f s; at the end N %.3f E %.3f U %.3f m\n",
+                 e.convergence_bound_m, *e.settled_s, c.errors.back().neu.x(),
+                 c.errors.back().neu.y(), c.errors.back().neu.z());
+    }
     if (e.within_three_sigma) {
       out += format("  within three stated sigma: %.2f %%\n", 100.0 * *e.within_three_sigma);
     }
@@ -119,6 +125,8 @@ std::string to_json(const std::vector<Evaluation>& evaluations) {
     out += format(" \"availability\": %.6f, \"interval_s\": %.4f,\n", e.availability, c.interval_s);
     out += format("  \"convergence_bound_m\": %.3f, \"convergence_s\": ", e.convergence_bound_m);
     out += e.convergence_s ? format("%.3f", *e.convergence_s) : "null";
+    out += ", \"settled_s\": ";
+    out += e.settled_s ? format("%.3f", *e.settled_s) : "null";
     out += ", \"within_three_sigma\": ";
     out += e.within_three_sigma ? format("%.6f", *e.within_three_sigma) : "null";
     out += format(",\n  \"removed_offset_neu_m\": [%.4f, %.4f, %.4f]", c.removed_offset_neu.x(),

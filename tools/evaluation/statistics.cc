@@ -75,6 +75,13 @@ std::optional<double> share_within_three_sigma(const std::vector<ErrorSample>& e
 
 }  // namespace
 
+std::optional<double> settling_time_s(const std::vector<ErrorSample>& errors, double bound_m) {
+  std::size_t settled = errors.size();
+  while (settled > 0 && errors[settled - 1].three_d() < bound_m) --settled;
+  if (settled == errors.size()) return std::nullopt;
+  return seconds_between(errors[settled].time, errors.front().time);
+}
+
 Evaluation evaluate(const std::string& label, const Track& solution, const Track& truth,
                     const ErrorOptions& options, double convergence_bound_m) {
   Evaluation e;
@@ -116,6 +123,7 @@ Evaluation evaluate(const std::string& label, const Track& solution, const Track
   }
   e.convergence_bound_m = convergence_bound_m;
   e.convergence_s = convergence_time_s(errors, convergence_bound_m);
+  e.settled_s = settling_time_s(errors, convergence_bound_m);
   e.within_three_sigma = share_within_three_sigma(errors);
   return e;
 }

@@ -28,6 +28,7 @@ struct Evaluation {
   std::optional<Distribution> yaw_steady;  // rad, of yaw: where the course is steady
   double availability = 0.0;               // answered epochs over expected epochs
   std::optional<double> convergence_s;     // since the first answer; absent: never
+  std::optional<double> settled_s;  // likewise; from here on always below; absent: not at the end
   double convergence_bound_m = 3.0;
   std::optional<double> within_three_sigma;  // share of N, E, U errors within 3 stated sigma
 };
@@ -39,6 +40,10 @@ Evaluation evaluate(const std::string& label, const Track& solution, const Track
 // Time from the first sample until the first of ten consecutive epochs whose 3D error is below
 // `bound_m` (the papers' rule). nullopt: never.
 std::optional<double> convergence_time_s(const std::vector<ErrorSample>& errors, double bound_m);
+
+// Time from the first sample until the 3D error stays below `bound_m` to the end. nullopt: the last
+// one is not.
+std::optional<double> settling_time_s(const std::vector<ErrorSample>& errors, double bound_m);
 
 // A table for people, one row per component, one block per run; and the same as JSON.
 std::string to_table(const std::vector<Evaluation>& evaluations);

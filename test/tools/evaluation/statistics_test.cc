@@ -108,3 +108,15 @@ TEST_CASE("stated sigmas are checked against the errors") {
   for (TrackPoint& p : solution) p.sigma_neu = Eigen::Vector3d(0.3, 0.3, 0.3);
   CHECK(*evaluate("x", solution, truth, {}, 3.0).within_three_sigma == Approx(2.0 / 3.0));
 }
+
+TEST_CASE("settled is from where on the error never again exceeds the bound") {
+  const Track truth = straight(101, 1.0, {1, 0, 0}, Eigen::Vector3d::Zero());
+  Track solution = straight(50, 1.0, {1, 0, 0}, {0, 0.01, 0});
+  solution[20] = point(20.0, {20, 0.5, 0});
+  const Evaluation e = evaluate("x", solution, truth, {}, 0.1);
+  REQUIRE(e.settled_s);
+  CHECK(*e.settled_s == Approx(21.0));
+  CHECK(*e.convergence_s == Approx(0.0));
+  solution.back() = point(49.0, {49, 0.5, 0});
+  CHECK_FALSE(evaluate("x", solution, truth, {}, 0.1).settled_s);
+}
