@@ -94,7 +94,7 @@ class Check {
   double parameters(const Set& kept) const;
   double cost(const Set& kept, const Fit& fit, double scale) const;
   Set nearest_half(const Vector& state) const;
-  Candidate converge(Set kept, double scale) const;
+  Set agreeing(const Set& kept) const;
   Set all() const;
   void draw(Starts* starts) const;
   const Candidate& converge_all(const Starts& starts, Candidates* candidates) const;
@@ -213,20 +213,15 @@ Set Check::nearest_half(const Vector& state) const {
   return kept;
 }
 
-// Alternates between fitting the rows kept and keeping the rows that agree with the fit.
-Candidate Check::converge(Set kept, double scale) const {
-  Fit best;
-  for (int i = 0; i < kRefits; ++i) {
-    best = fit(kept, scale, true);
-    Set next;
-    for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const External seen = external(row, best, kept.test(row), scale);
-      next.set(row, seen.standardized() <= config_.range_change_limit);
-    }
-    if (next == kept) break;
-    kept = next;
+// The rows that agree with a fit of the rows kept.
+Set Check::agreeing(const Set& kept) const {
+  const Fit of_kept = fit(kept, scale_, true);
+  Set next;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const External seen = external(row, of_kept, kept.test(row), scale_);
+    next.set(row, seen.standardized() <= config_.range_change_limit);
   }
-  return {kept, cost(kept, fit(kept, scale, false), scale)};
+  return next;
 }
 
 // The half of the rows nearest to a fit through few, for many drawn few.
@@ -239,11 +234,31 @@ void Check::draw(Starts* starts) const {
   }
 }
 
+// Alternates from each start between fitting the rows kept and keeping the rows that agree with the
+// fit. Most starts soon meet the way of an earlier one, and end where that ended.
 const Candidate& Check::converge_all(const Starts& starts, Candidates* candidates) const {
+  struct Visit {
+    Set kept;
+    std::size_t start = 0;
+  };
+  boost::container::static_vector<Visit, kSubsets * kRefits> visits;
   const Candidate* best = &candidates->front();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     Candidate& candidate = (*candidates)[i];
-    candidate = converge(starts[i], scale_);
+    Set kept = starts[i];
+    bool met = false;
+    for (int refit = 0; refit < kRefits && !met; ++refit) {
+      const auto visit = std::find_if(visits.begin(), visits.end(),
+                                      [&](const Visit& v) { return v.kept == kept; });
+      met = visit != visits.end();
+      if (met && visit->start != i) candidate = (*candidates)[visit->start];
+      if (met && visit->start == i)
+        candidate = {kept, cost(kept, fit(kept, scale_, false), scale_)};
+      if (met) break;
+      visits.push_back({kept, i});
+      kept = agreeing(kept);
+    }
+    if (!met) candidate = {kept, cost(kept, fit(kept, scale_, false), scale_)};
     if (candidate.cost < best->cost) best = &candidate;
   }
   return *best;
