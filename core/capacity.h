@@ -20,6 +20,9 @@ inline constexpr std::size_t kMaxImuBlock = 1536;    // IMU samples between two 
 inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-propagation
 // Raw epochs that wait for an IMU which is late: 2 s at 20 Hz.
 inline constexpr std::size_t kMaxPendingEpochs = 40;
+// Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
+inline constexpr std::size_t kMaxArcs = 64;
+
 inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
 inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once
 

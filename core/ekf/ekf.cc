@@ -6,6 +6,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/gravity.h"
 #include "core/earth/rotation.h"
+#include "core/ekf/ambiguities.h"
 #include "core/ekf/clock_model.h"
 #include "core/ekf/constant_velocity.h"
 #include "core/ekf/measurement_model.h"
@@ -39,8 +40,8 @@ Matrix3d rotation_from_rpy_errors(const Matrix3d& C_nb) {
 
 // From the IMU's error to the antenna's (direction 1) or back (-1): what attitude and gyro errors
 // move the arm by.
-EkfCovariance to_antenna(const AntennaMotion& arm, double direction) {
-  EkfCovariance T = EkfCovariance::Identity();
+EkfCovariance to_antenna(const AntennaMotion& arm, double direction, Eigen::Index states) {
+  EkfCovariance T = EkfCovariance::Identity(states, states);
   T.block<3, 3>(kPosition, kAttitude) = direction * arm.d_p_d_attitude;
   T.block<3, 3>(kVelocity, kAttitude) = direction * arm.d_v_d_attitude;
   T.block<3, 3>(kVelocity, kGyroBias) = direction * arm.d_v_d_gyro_bias;
@@ -48,30 +49,39 @@ EkfCovariance to_antenna(const AntennaMotion& arm, double direction) {
   return T;
 }
 
-// Variance of white noise that averages like an error of this correlation time.
-double correlation_inflation(double correlation_time_s, double dt) {
-  if (correlation_time_s <= 0.0 || dt <= 0.0) return 1.0;
-  const double r = std::exp(-dt / correlation_time_s);
-  return (1.0 + r) / (1.0 - r);
-}
-
 }  // namespace
 
 Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& lever_arm_b)
     : config_(config), imu_(imu), lever_arm_b_(lever_arm_b) {}
 
+void Ekf::reset() {
+  initialize(GpsTime(), PointSolution());
+  last_sample_ = ImuSample();
+  measured_rate_b_.setZero();
+  known_ = ClockFlags{};
+  initialized_ = false;
+}
+
 void Ekf::initialize(GpsTime time, const PointSolution& point) {
   state_ = NavState{};
   state_.time = time;
   state_.p_e = point.p_e;
-  state_.v_e = point.has_velocity ? point.v_e : Vector3d::Zero();
+  if (config_.vertical_arm) state_.p_e -= vertical_arm_e(point.p_e);
+  const bool moves = !config_.static_point;
+  state_.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   clocks_ = ClockState{};
   known_ = ClockFlags{};
-  covariance_.setZero();
+  ambiguities_.clear();
+  wet_delay_m_ = 0.0;
+  carrier_clock_m_ = 0.0;
+  covariance_.setZero(kSize, kSize);
+  covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
-  covariance_.block<3, 3>(kVelocity, kVelocity) =
-      point.has_velocity ? point.covariance_v_e
-                         : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
+  if (moves) {
+    covariance_.block<3, 3>(kVelocity, kVelocity) =
+        point.has_velocity ? point.covariance_v_e
+                           : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
+  }
   const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
   const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
@@ -109,7 +119,7 @@ void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy
   const AntennaMotion before = antenna();
   EkfCovariance P = covariance_;
   if (has_attitude_) {
-    const EkfCovariance T = to_antenna(before, 1.0);
+    const EkfCovariance T = to_antenna(before, 1.0, covariance_.rows());
     P = T * covariance_ * T.transpose();
   }
   P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
@@ -122,7 +132,7 @@ void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy
 void Ekf::turn_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy) {
   if (!has_attitude_) return;
   const AntennaMotion before = antenna();
-  const EkfCovariance T = to_antenna(before, 1.0);
+  const EkfCovariance T = to_antenna(before, 1.0, covariance_.rows());
   EkfCovariance P = T * covariance_ * T.transpose();
   P.middleRows<3>(kAttitude).setZero();
   P.middleCols<3>(kAttitude).setZero();
@@ -144,7 +154,7 @@ void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& 
   const Matrix3d J =
       C_en * rotation_from_rpy_errors(C_en.transpose() * state_.q_eb.toRotationMatrix());
   P.block<3, 3>(kAttitude, kAttitude) = J * sigma_rpy.cwiseAbs2().asDiagonal() * J.transpose();
-  const EkfCovariance T = to_antenna(arm, -1.0);
+  const EkfCovariance T = to_antenna(arm, -1.0, P.rows());
   covariance_.noalias() = T * P * T.transpose();
   has_attitude_ = true;
 }
@@ -181,6 +191,11 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
   state_.errors.gyro_scale *= relaxed(imu_.gyro_scale, dt);
   state_.errors.accel_scale *= relaxed(imu_.accel_scale, dt);
   propagate_clocks(config_.clock, known_, dt, &clocks_, &covariance_);
+  propagate_ambiguities(ambiguities_, dt, &covariance_);
+  if (config_.wet_delay_sigma_m > 0.0)
+    covariance_(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
+  if (config_.use_carrier)
+    covariance_(kCarrierClock, kCarrierClock) += square(config_.carrier_clock_noise) * dt;
 }
 
 void Ekf::predict_sample(const ImuSample& sample) {
@@ -228,6 +243,10 @@ void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
 void Ekf::coast(GpsTime time) {
   if (has_attitude_) finish_sub_block();
   const double dt = seconds_between(time, state_.time);
+  if (config_.static_point) {
+    state_.time = time;
+    return;
+  }
   propagate_constant_velocity(state_.p_e, config_.acceleration_noise_horizontal,
                               config_.acceleration_noise_vertical, dt, &covariance_);
   state_.p_e += dt * state_.v_e;
@@ -237,34 +256,7 @@ void Ekf::coast(GpsTime time) {
   mechanization_.reset(state_);
 }
 
-void Ekf::gather(const MeasurementEpoch& epoch) {
-  const AntennaMotion motion = antenna();
-  const double dt = seconds_between(epoch.time, last_update_);
-  const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
-  const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
-  measurements_.clear();
-  for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
-    const Measurement& measurement = epoch.measurements[i];
-    if (measurement.reason != Reason::kUsed || measurement.observable == Observable::kCarrier)
-      continue;
-    if (measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
-        !std::isfinite(measurement.value))
-      continue;
-    const MeasurementPrediction prediction = predict_measurement(
-        measurement, epoch.satellites[measurement.satellite_index], motion, clocks_);
-    FilterMeasurement& entry = measurements_.emplace_back();
-    entry.index = i;
-    entry.observable = measurement.observable;
-    entry.innovation = measurement.value - prediction.value;
-    entry.variance = square(measurement.sigma);
-    entry.gain_variance =
-        entry.variance *
-        (measurement.observable == Observable::kCode ? code_inflation : doppler_inflation);
-    entry.row = prediction.row;
-  }
-}
-
-void Ekf::apply(const EkfVector& correction) {
+void Ekf::apply(const EkfCorrection& correction) {
   state_.p_e += correction.segment<3>(kPosition);
   state_.v_e += correction.segment<3>(kVelocity);
   if (has_attitude_) {
@@ -277,10 +269,20 @@ void Ekf::apply(const EkfVector& correction) {
   state_.errors.accel_scale += correction.segment<3>(kAccelScale);
   clocks_.offset_m += correction.segment<4>(kClock);
   clocks_.drift_m_s += correction.segment<4>(kClockDrift);
+  wet_delay_m_ += correction(kWetDelay);
+  carrier_clock_m_ += correction(kCarrierClock);
+  for (std::size_t i = 0; i < ambiguities_.size(); ++i)
+    ambiguities_[i].value_m += correction(kSize + static_cast<Eigen::Index>(i));
 }
 
 AntennaMotion Ekf::antenna() const {
-  return antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  AntennaMotion motion = antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
+  if (!has_attitude_ && config_.vertical_arm) motion.p_e += vertical_arm_e(state_.p_e);
+  return motion;
+}
+
+Vector3d Ekf::vertical_arm_e(const Vector3d& p_e) const {
+  return rotation_ecef_to_ned(to_geodetic(p_e)).transpose() * Vector3d(0.0, 0.0, lever_arm_b_.z());
 }
 
 Vector3d Ekf::antenna_position_e() const { return antenna().p_e; }
@@ -291,7 +293,8 @@ bool Ekf::is_finite() const {
   return state_.p_e.allFinite() && state_.v_e.allFinite() && state_.q_eb.coeffs().allFinite() &&
          state_.errors.gyro_bias_b.allFinite() && state_.errors.accel_bias_b.allFinite() &&
          state_.errors.gyro_scale.allFinite() && state_.errors.accel_scale.allFinite() &&
-         clocks_.offset_m.allFinite() && clocks_.drift_m_s.allFinite() && covariance_.allFinite();
+         clocks_.offset_m.allFinite() && clocks_.drift_m_s.allFinite() &&
+         std::isfinite(wet_delay_m_) && covariance_.allFinite();
 }
 
 }  // namespace leonav

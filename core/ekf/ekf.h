@@ -1,7 +1,8 @@
-// The tightly coupled extended Kalman filter: code and Doppler of every satellite against the
-// inertial prediction (or a constant-velocity one).
+// The tightly coupled extended Kalman filter: code, carrier and Doppler of every satellite against
+// the inertial prediction (or a constant-velocity or static one).
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <limits>
 #include <span>
@@ -25,6 +26,7 @@ namespace leonav {
 struct InnovationReport {
   double innovation = 0.0;
   double innovation_variance = 0.0;
+  double residual = 0.0;  // what the update left of the innovation
   double test_ratio = 0.0;
   double weight_factor = 0.0;
   Reason reason = Reason::kUsed;
@@ -33,10 +35,10 @@ struct InnovationReport {
 struct EkfUpdateResult {
   int used = 0;  // measurements with a factor above zero
   // Rejected: without weight, or, where weights are switched off, as far out as if they were not.
-  int code_offered = 0;
-  int code_rejected = 0;
-  int doppler_offered = 0;
-  int doppler_rejected = 0;
+  std::array<int, kObservables> offered{};  // per Observable
+  std::array<int, kObservables> rejected{};
+  int arcs_restarted = 0;  // rejected too often in a row: their ambiguities begin anew
+  int arcs_without_place = 0;
   double nis = 0.0;  // of the used ones
   // Median of |innovation| over its sigma, all codes or Dopplers offered, over what it is for
   // normal errors: 1 when all is well, whatever weights or a widened prior make of it. Clock jumps
@@ -59,6 +61,8 @@ class Ekf {
   // called again: nothing of before remains, except the last IMU sample, which is still what the
   // body did.
   void initialize(GpsTime time, const PointSolution& point);
+  // Forgets all but its configuration.
+  void reset();
   // Goes over to the inertial model: attitude and gyro bias given, covariance of position, velocity
   // and clocks kept; position moves from antenna to IMU centre by the lever arm.
   void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
@@ -78,14 +82,16 @@ class Ekf {
   // blocks; over longer ones the motion goes on at constant velocity with grown uncertainty.
   void predict(std::span<const ImuSample> block, GpsTime time);
 
-  // Uses the code and Doppler of epoch.measurements whose reason is kUsed, against the state as
-  // predicted to the epoch. IGG-III on standardized innovations; the covariance stays symmetric and
-  // positive (robust_update.h).
+  // Uses the code, carrier and Doppler of epoch.measurements whose reason is kUsed, against the
+  // state as predicted to the epoch, linearized at epoch.approximate_p_e if that is given. IGG-III
+  // on standardized innovations; the covariance stays symmetric and positive (robust_update.h).
   EkfUpdateResult update(const MeasurementEpoch& epoch);
 
   const NavState& state() const { return state_; }
   const ClockState& clocks() const { return clocks_; }
   const ClockFlags& clocks_known() const { return known_; }
+  double wet_delay_m() const { return wet_delay_m_; }
+  const Ambiguities& ambiguities() const { return ambiguities_; }
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
@@ -94,15 +100,23 @@ class Ekf {
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
   AntennaMotion antenna() const;
+  Eigen::Vector3d vertical_arm_e(const Eigen::Vector3d& p_e) const;
   void place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna);
   void advance(const ImuSample& sample);
   void predict_hole(GpsTime time, const ImuSample& next);
   void coast(GpsTime time);
+  void drop_ended_arcs(const MeasurementEpoch& epoch);
   void gather(const MeasurementEpoch& epoch);
+  int ambiguity_of(const Measurement& carrier, SatelliteId satellite,
+                   const FilterMeasurement& entry, GpsTime time);
+  void disturb_ambiguities(const MeasurementEpoch& epoch);
+  void close_carrier(const FilterMeasurement& measurement, GpsTime time, EkfUpdateResult* result);
+  void shift_ambiguities(double shift_m);
+  void take_up_clock_jump(EkfUpdateResult* result);
   bool start_clocks(const MeasurementEpoch& epoch);
   void check_prediction(EkfUpdateResult* result);
-  void apply(const EkfVector& correction);
+  void apply(const EkfCorrection& correction);
 
   EkfConfig config_;
   ImuErrorModel imu_;
@@ -110,7 +124,10 @@ class Ekf {
   NavState state_;
   ClockState clocks_;
   ClockFlags known_;
-  EkfCovariance covariance_ = EkfCovariance::Zero();
+  double wet_delay_m_ = 0.0;
+  double carrier_clock_m_ = 0.0;
+  Ambiguities ambiguities_;
+  EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
   Mechanization mechanization_;
   InsTransition transition_;
   ImuSample last_sample_;  // that was measured, not filled in; interval 0: none yet
@@ -118,6 +135,8 @@ class Ekf {
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
   GpsTime last_update_;
   FilterMeasurements measurements_;  // of the epoch at hand
+  RobustUpdate robust_update_;
+  int arcs_without_place_ = 0;  // in the epoch at hand
   bool initialized_ = false;
   bool has_attitude_ = false;
 };

@@ -8,6 +8,7 @@ namespace leonav {
 enum class MotionModel : unsigned char {
   kInertial,          // 21 INS error states, driven by the IMU
   kConstantVelocity,  // position and velocity, driven by acceleration noise (GNSS only)
+  kStatic,            // a fixed point (GNSS only)
 };
 
 struct ClockModel {
@@ -25,6 +26,20 @@ struct EkfConfig {
   // Over a hole in the IMU data the inertial model moves by the same, its attitude turning by a
   // random walk of this much, rad/sqrt(s).
   double hole_attitude_noise = 0.1;
+  bool static_point = false;  // MotionModel::kStatic: neither velocity nor acceleration
+  // Without attitude the antenna is this lever arm's vertical part above the point in question;
+  // else (a vehicle waiting for its alignment) the state is the antenna's.
+  bool vertical_arm = false;
+  // Zenith wet delay beyond the modelled one: 1 sigma at the start (0: not estimated), and random
+  // walk in m/sqrt(s) (1.7e-4 is 1 cm in an hour).
+  double wet_delay_sigma_m = 0.0;
+  double wet_delay_noise = 1.7e-4;
+  // Carriers beside code and Doppler, with an ambiguity per arc.
+  bool use_carrier = false;
+  // Receivers that count carriers by another clock than codes (phones): random walk of one against
+  // the other, m/sqrt(s), steps included; 0: one clock.
+  double carrier_clock_noise = 0.0;
+  double max_arc_gap_s = 120.0;  // an ambiguity not observed for longer is dropped
   ClockModel clock;
   RobustConfig robust;
   // Code errors (multipath, atmosphere) stay alike over about this long, s; 0: independent from

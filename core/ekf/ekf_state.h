@@ -1,28 +1,42 @@
-// The filter's error state: order, covariance, clocks.
+// The filter's error state: order, covariance, clocks, ambiguities.
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
 
 #include "core/capacity.h"
+#include "core/ekf/bounded_matrix.h"
+#include "core/gnss/satellite.h"
+#include "core/time/gps_time.h"
 
 namespace leonav {
 
 // Error state, in this order (all errors are "true minus estimate"; position, velocity and attitude
 // errors in ECEF: C_eb_true = exp([attitude x]) C_eb):
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
-//   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s).
-// The constant-velocity model keeps the same order; the states it lacks have zero covariance and
-// take no correction.
+//   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s),
+//   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), and
+//   one ambiguity (m) per carrier arc under way.
+// The constant-velocity and static models keep the same order; the states they lack have zero
+// covariance and take no correction.
 namespace ekf_index {
 inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12,
-                     kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25, kSize = 29;
+                     kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25,
+                     kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // ambiguities follow
 inline constexpr int kInsSize = 21;
+inline constexpr int kMaxSize = kSize + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 
-using EkfCovariance = Eigen::Matrix<double, ekf_index::kSize, ekf_index::kSize>;
+// Square, kSize and the arcs under way; its storage has a fixed capacity.
+using EkfCovariance = BoundedMatrix<ekf_index::kMaxSize, ekf_index::kMaxSize>;
+// Likewise one number per state.
+using EkfCorrection = BoundedVector<ekf_index::kMaxSize>;
+// Of the states before the ambiguities: what a measurement's Jacobian has besides a one for its own
+// ambiguity.
+using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
 // Of gyro bias, accelerometer bias, gyro scale, accelerometer scale.
 using ImuErrorCovariance = Eigen::Matrix<double, 12, 12>;
-using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
 
 struct ClockState {
   Eigen::Vector4d offset_m = Eigen::Vector4d::Zero();
@@ -35,5 +49,17 @@ struct ClockFlags {
   std::array<bool, kMaxTimeBases> offset{};
   std::array<bool, kMaxTimeBases> drift{};
 };
+
+// The constant of one carrier arc: what its carrier measures beyond the code's model, m.
+struct Ambiguity {
+  std::uint32_t arc = 0;
+  SatelliteId satellite;
+  double value_m = 0.0;
+  double wander = 0.0;  // m/sqrt(s), random walk
+  GpsTime last_used;
+  int rejected = 0;  // epochs in a row
+};
+// Index-parallel to the error state from ekf_index::kSize on.
+using Ambiguities = boost::container::static_vector<Ambiguity, kMaxArcs>;
 
 }  // namespace leonav

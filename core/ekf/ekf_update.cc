@@ -21,6 +21,9 @@ constexpr double kUnknownDrift = 300.0;     // m/s, an oscillator off by 1 ppm
 constexpr double kInterSystemDriftSigma = 1.0;  // m/s, between the drifts of two bases
 constexpr double kMaxJumpSigma = 100.0;         // m, widening of the clocks after a jump
 constexpr double kMadToSigma = 1.4826;
+constexpr double kMillisecond_m = 299'792.458;
+constexpr double kMillisecondTolerance = 50.0;  // m
+constexpr double kStepSigma = 10.0;             // m, of a step told by codes alone
 
 std::size_t base_of(const MeasurementEpoch& epoch, std::size_t index) {
   return index_of(epoch.satellites[epoch.measurements[index].satellite_index].satellite.system);
@@ -88,28 +91,49 @@ bool Ekf::start_clocks(const MeasurementEpoch& epoch) {
   return started;
 }
 
-void Ekf::check_prediction(EkfUpdateResult* result) {
+// All ambiguities by a step of the clock that their carriers did not make. Whole milliseconds are
+// taken as exact; of any other step the codes tell no more than their noise allows.
+void Ekf::shift_ambiguities(double shift_m) {
+  if (shift_m == 0.0 || ambiguities_.empty()) return;
+  const double whole = kMillisecond_m * std::round(shift_m / kMillisecond_m);
+  const bool exact = std::abs(shift_m - whole) < kMillisecondTolerance;
+  for (Ambiguity& ambiguity : ambiguities_) ambiguity.value_m += exact ? whole : shift_m;
+  const auto count = static_cast<Eigen::Index>(ambiguities_.size());
+  if (!exact) covariance_.block(kSize, kSize, count, count).array() += std::pow(kStepSigma, 2);
+}
+
+// A clock that steps takes the carriers along, or, in some receivers, does not: then the
+// ambiguities make up for it.
+void Ekf::take_up_clock_jump(EkfUpdateResult* result) {
   const double jump = common_shift(measurements_, Observable::kCode, covariance_);
-  if (jump != 0.0) {
-    for (std::size_t base = 0; base < kMaxTimeBases; ++base)
-      if (known_.offset[base]) clocks_.offset_m(static_cast<Eigen::Index>(base)) += jump;
-    // The part of the shift that was not the clock's is left to the update to find.
-    const double variance = std::pow(std::min(std::abs(jump), kMaxJumpSigma), 2);
-    for (std::size_t a = 0; a < kMaxTimeBases; ++a)
-      for (std::size_t b = 0; b < kMaxTimeBases; ++b)
-        if (known_.offset[a] && known_.offset[b])
-          covariance_(kClock + static_cast<Eigen::Index>(a),
-                      kClock + static_cast<Eigen::Index>(b)) += variance;
-    shift_innovations(Observable::kCode, jump, &measurements_);
-    result->clock_jump_m = jump;
-  }
+  if (jump == 0.0) return;
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base)
+    if (known_.offset[base]) clocks_.offset_m(static_cast<Eigen::Index>(base)) += jump;
+  // The part of the shift that was not the clock's is left to the update to find.
+  const double variance = std::pow(std::min(std::abs(jump), kMaxJumpSigma), 2);
+  for (std::size_t a = 0; a < kMaxTimeBases; ++a)
+    for (std::size_t b = 0; b < kMaxTimeBases; ++b)
+      if (known_.offset[a] && known_.offset[b])
+        covariance_(kClock + static_cast<Eigen::Index>(a), kClock + static_cast<Eigen::Index>(b)) +=
+            variance;
+  shift_innovations(Observable::kCode, jump, &measurements_);
+  const double of_carriers = common_shift(measurements_, Observable::kCarrier, covariance_);
+  shift_ambiguities(of_carriers - jump);
+  shift_innovations(Observable::kCarrier, of_carriers, &measurements_);
+  result->clock_jump_m = jump;
+}
+
+void Ekf::check_prediction(EkfUpdateResult* result) {
+  take_up_clock_jump(result);
   result->code_ratio = consistency_ratio(measurements_, Observable::kCode, covariance_);
   result->doppler_ratio = consistency_ratio(measurements_, Observable::kDoppler, covariance_);
   // A wider prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
-  for (const Observable observable : {Observable::kDoppler, Observable::kCode}) {
-    const double factor = prediction_inflation(config_.robust, measurements_, observable,
-                                               covariance_, config_.prediction_suspect_ratio);
+  for (const Observable observable :
+       {Observable::kDoppler, Observable::kCode, Observable::kCarrier}) {
+    const double factor =
+        prediction_inflation(config_.robust, measurements_, observable, covariance_,
+                             config_.prediction_suspect_ratio, &robust_update_);
     if (factor <= 1.0) continue;
     inflate(observable, factor, &covariance_);
     result->prediction_suspect = true;
@@ -122,23 +146,29 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     result.innovations.push_back({.reason = measurement.reason});
   if (!initialized_) return result;
 
+  drop_ended_arcs(epoch);
+  disturb_ambiguities(epoch);
   gather(epoch);
   if (start_clocks(epoch)) gather(epoch);
+  result.arcs_without_place = arcs_without_place_;
   check_prediction(&result);
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];
     report.innovation = measurement.innovation;
     report.innovation_variance =
-        measurement.variance + measurement.row.dot(covariance_ * measurement.row);
+        measurement.variance + predicted_variance(measurement, covariance_);
     report.test_ratio = std::abs(report.innovation) / std::sqrt(report.innovation_variance);
   }
 
-  const RobustUpdateResult update = robust_update(config_.robust, &measurements_, &covariance_);
+  const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
   apply(update.correction);
   result.nis = update.nis;
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];
     report.weight_factor = measurement.factor;
+    report.residual = measurement.innovation -
+                      measurement.row.dot(update.correction.head<kSize>()) -
+                      (measurement.ambiguity >= 0 ? update.correction(measurement.ambiguity) : 0.0);
     if (measurement.factor <= 0.0)
       report.reason = Reason::kOutlier;
     else if (measurement.factor < 1.0)
@@ -147,9 +177,10 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     // Without weights nothing is thrown out, but what would be still tells a lost filter.
     const bool rejected = measurement.factor <= 0.0 ||
                           (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
-    const bool code = measurement.observable == Observable::kCode;
-    ++(code ? result.code_offered : result.doppler_offered);
-    if (rejected) ++(code ? result.code_rejected : result.doppler_rejected);
+    if (measurement.ambiguity >= 0) close_carrier(measurement, epoch.time, &result);
+    const auto kind = static_cast<std::size_t>(measurement.observable);
+    ++result.offered[kind];
+    if (rejected) ++result.rejected[kind];
   }
   if (!measurements_.empty()) last_update_ = epoch.time;
   return result;

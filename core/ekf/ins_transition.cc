@@ -140,12 +140,12 @@ void InsTransition::propagate(EkfCovariance* covariance) const {
       Vector3d::Constant(decay(model_.accel_scale, duration_s_));
 
   // Phi P: the upper nine rows are full, the rows of biases and scales only shrink.
-  Eigen::Matrix<double, 9, kSize> rows;
+  BoundedMatrix<9, kMaxSize> rows;
   rows.noalias() = top_ * P.topRows<kInsSize>();
   P.middleRows<kInsSize - 9>(9) = decays.asDiagonal() * P.middleRows<kInsSize - 9>(9);
   P.topRows<9>() = rows;
   // (Phi P) Phi^T, likewise by columns.
-  Eigen::Matrix<double, kSize, 9> columns;
+  BoundedMatrix<kMaxSize, 9> columns;
   columns.noalias() = P.leftCols<kInsSize>() * top_.transpose();
   P.middleCols<kInsSize - 9>(9) = P.middleCols<kInsSize - 9>(9) * decays.asDiagonal();
   P.leftCols<9>() = columns;

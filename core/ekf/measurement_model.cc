@@ -36,17 +36,23 @@ AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rat
 
 MeasurementPrediction predict_measurement(const Measurement& measurement,
                                           const SatelliteInView& satellite,
-                                          const AntennaMotion& antenna, const ClockState& clocks) {
+                                          const AntennaMotion& antenna, const ClockState& clocks,
+                                          double wet_delay_m, double carrier_clock_m) {
   MeasurementPrediction prediction;
   EkfVector& row = prediction.row;
   const auto base = static_cast<Eigen::Index>(index_of(satellite.satellite.system));
-  if (measurement.observable == Observable::kCode) {
+  if (measurement.observable != Observable::kDoppler) {
     const RangePrediction range = predict_range(satellite, antenna.p_e);
-    prediction.value = range.range_m + clocks.offset_m(base);
+    prediction.value = range.range_m + clocks.offset_m(base) + satellite.wet_mapping * wet_delay_m;
     row.segment<3>(kPosition) = range.d_range_d_p;
     row.segment<3>(kAttitude) = range.d_range_d_p * antenna.d_p_d_attitude;
     row(kClock + base) = 1.0;
-  } else if (measurement.observable == Observable::kDoppler) {
+    row(kWetDelay) = satellite.wet_mapping;
+    if (measurement.observable == Observable::kCarrier) {
+      prediction.value += carrier_clock_m;
+      row(kCarrierClock) = 1.0;
+    }
+  } else {
     const RangeRatePrediction rate = predict_range_rate(satellite, antenna.p_e, antenna.v_e);
     prediction.value = rate.range_rate_m_s + clocks.drift_m_s(base);
     row.segment<3>(kPosition) = rate.d_rate_d_p;

@@ -1,4 +1,4 @@
-// What the filter expects of a code or Doppler measurement, with its Jacobian.
+// What the filter expects of a code, carrier or Doppler measurement, with its Jacobian.
 #pragma once
 #include <Eigen/Core>
 
@@ -31,9 +31,11 @@ struct MeasurementPrediction {
   EkfVector row = EkfVector::Zero();  // d value / d error state
 };
 
-// For Observable::kCode and kDoppler; anything else gives zeros.
+// `wet_delay_m`: at zenith, beyond the modelled one. `carrier_clock_m`: of the carriers against
+// the codes. A carrier is predicted without its ambiguity.
 MeasurementPrediction predict_measurement(const Measurement& measurement,
                                           const SatelliteInView& satellite,
-                                          const AntennaMotion& antenna, const ClockState& clocks);
+                                          const AntennaMotion& antenna, const ClockState& clocks,
+                                          double wet_delay_m, double carrier_clock_m);
 
 }  // namespace leonav

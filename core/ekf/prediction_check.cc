@@ -54,7 +54,7 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
     innovations.push_back(measurement.innovation);
-    variances.push_back(measurement.variance + measurement.row.dot(covariance * measurement.row));
+    variances.push_back(measurement.variance + predicted_variance(measurement, covariance));
   }
   if (innovations.empty()) return 0.0;
   const double shift = median(innovations);
@@ -74,8 +74,7 @@ double consistency_ratio(const FilterMeasurements& measurements, Observable obse
   SmallTable ratios;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
-    const double variance =
-        measurement.variance + measurement.row.dot(covariance * measurement.row);
+    const double variance = measurement.variance + predicted_variance(measurement, covariance);
     ratios.push_back(std::abs(measurement.innovation) / std::sqrt(variance));
   }
   if (ratios.size() < kMinCount) return std::numeric_limits<double>::quiet_NaN();
@@ -83,15 +82,15 @@ double consistency_ratio(const FilterMeasurements& measurements, Observable obse
 }
 
 double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,
-                            Observable observable, const EkfCovariance& covariance,
-                            double suspect) {
+                            Observable observable, const EkfCovariance& covariance, double suspect,
+                            RobustUpdate* robust_update) {
   SmallTable ratios, factors;
   FilterMeasurements offered;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
     offered.push_back(measurement);
     offered.back().factor = 1.0;
-    const double predicted = measurement.row.dot(covariance * measurement.row);
+    const double predicted = predicted_variance(measurement, covariance);
     const double square = measurement.innovation * measurement.innovation;
     ratios.push_back(square / (predicted + measurement.variance));
     if (predicted > 0.0)
@@ -108,10 +107,10 @@ double prediction_inflation(const RobustConfig& robust, const FilterMeasurements
   // Would they agree?
   EkfCovariance wide = covariance;
   inflate(observable, factor, &wide);
-  const RobustUpdateResult fit = robust_update(robust, &offered, &wide);
+  const RobustUpdateResult fit = (*robust_update)(robust, &offered, &wide);
   std::size_t kept = 0;
   for (const FilterMeasurement& measurement : offered) kept += measurement.factor > 0.0 ? 1 : 0;
-  const double scale = observable == Observable::kCode ? fit.code_scale : fit.doppler_scale;
+  const double scale = fit.scale[static_cast<std::size_t>(observable)];
   bool agree = scale < suspect && 4 * kept >= 3 * offered.size();
   if (!many)
     agree = agree && redundancy(offered) >= kMinRedundancy && fit.nis < largest_probable(kept);
@@ -119,16 +118,17 @@ double prediction_inflation(const RobustConfig& robust, const FilterMeasurements
 }
 
 void inflate(Observable observable, double factor, EkfCovariance* covariance) {
-  EkfVector scale = EkfVector::Ones();
+  EkfCorrection scale = EkfCorrection::Ones(covariance->rows());
   const double root = std::sqrt(factor);
-  if (observable == Observable::kCode) {
+  if (observable != Observable::kDoppler) {
     scale.segment<3>(kPosition).setConstant(root);
     scale.segment<4>(kClock).setConstant(root);
   } else {
     scale.segment<6>(kVelocity).setConstant(root);
     scale.segment<4>(kClockDrift).setConstant(root);
   }
-  *covariance = scale.asDiagonal() * (*covariance) * scale.asDiagonal();
+  covariance->array().colwise() *= scale.array();
+  covariance->array().rowwise() *= scale.transpose().array();
 }
 
 }  // namespace leonav

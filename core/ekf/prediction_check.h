@@ -24,10 +24,11 @@ double consistency_ratio(const FilterMeasurements& measurements, Observable obse
 // where the measurements do not agree with each other either once the prior is that wide: then most
 // of them are bad, and following them would carry the filter away.
 double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,
-                            Observable observable, const EkfCovariance& covariance, double suspect);
+                            Observable observable, const EkfCovariance& covariance, double suspect,
+                            RobustUpdate* robust_update);
 
-// P <- D P D with sqrt(factor) on the states an observable sees first (code: position, clock
-// offsets; Doppler: velocity, attitude, clock drifts): stays positive semidefinite.
+// P <- D P D with sqrt(factor) on the states an observable sees first (code, carrier: position,
+// clock offsets; Doppler: velocity, attitude, clock drifts): stays positive semidefinite.
 void inflate(Observable observable, double factor, EkfCovariance* covariance);
 
 }  // namespace leonav

@@ -10,6 +10,7 @@
 namespace leonav {
 namespace {
 
+using ekf_index::kMaxSize;
 using ekf_index::kSize;
 using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
@@ -21,59 +22,20 @@ constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not tell their 
 
 // Lower L with P = L L^T for a positive semidefinite P; a state without variance gets a zero
 // column.
-EkfCovariance semidefinite_cholesky(const EkfCovariance& P) {
-  EkfCovariance L = EkfCovariance::Zero();
-  for (int j = 0; j < kSize; ++j) {
+void semidefinite_cholesky(const EkfCovariance& P, EkfCovariance* root) {
+  const Eigen::Index n = P.rows();
+  EkfCovariance& L = *root;
+  L.setZero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
     if (P(j, j) <= 0.0) continue;
-    const double pivot = P(j, j) - L.row(j).head(j).squaredNorm();
+    const Eigen::Index below = n - j;
+    auto column = L.col(j).tail(below);
+    column = P.col(j).tail(below);
+    column.noalias() -= L.block(j, 0, below, j) * L.row(j).head(j).transpose();
     // Rounding may eat a pivot of a nearly perfect correlation: it keeps a trace of its variance.
-    const double root = std::sqrt(std::max(pivot, 1e-14 * P(j, j)));
-    L(j, j) = root;
-    for (int i = j + 1; i < kSize; ++i)
-      L(i, j) = (P(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / root;
-  }
-  return L;
-}
-
-// The weighted problem in the coordinates z = L^-1 x, where the prior is the identity.
-struct Whitened {
-  EkfCovariance L;
-  Eigen::Matrix<double, kSize, Eigen::Dynamic, Eigen::ColMajor, kSize, kMaxMeasurements> rows;
-  EkfCovariance information = EkfCovariance::Identity();
-  Eigen::LLT<EkfCovariance> root;
-  EkfVector solution = EkfVector::Zero();
-  EkfVector gradient = EkfVector::Zero();
-};
-
-void solve(const FilterMeasurements& measurements, Whitened* problem) {
-  problem->information.setIdentity();
-  problem->gradient.setZero();
-  for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const FilterMeasurement& measurement = measurements[i];
-    if (measurement.factor <= 0.0) continue;
-    const double weight = measurement.factor / measurement.gain_variance;
-    const auto g = problem->rows.col(static_cast<Eigen::Index>(i));
-    problem->information.selfadjointView<Eigen::Lower>().rankUpdate(g, weight);
-    problem->gradient += weight * measurement.innovation * g;
-  }
-  problem->root.compute(problem->information);
-  problem->solution = problem->root.solve(problem->gradient);
-}
-
-// |residual against all others| over its standard deviation, per measurement.
-void standardize(const FilterMeasurements& measurements, const Whitened& problem,
-                 SmallTable* ratios) {
-  ratios->clear();
-  for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const FilterMeasurement& measurement = measurements[i];
-    EkfVector g = problem.rows.col(static_cast<Eigen::Index>(i));
-    const double residual = measurement.innovation - g.dot(problem.solution);
-    problem.root.matrixL().solveInPlace(g);
-    const double variance = g.squaredNorm();  // of the prediction, this measurement included
-    const double weight = measurement.factor / measurement.gain_variance;
-    const double freedom = std::max(1.0 - weight * variance, 1e-12);
-    const double sigma = std::sqrt(measurement.variance + variance / freedom);
-    ratios->push_back(std::abs(residual) / freedom / sigma);
+    const double pivot = std::sqrt(std::max(column(0), 1e-14 * P(j, j)));
+    column(0) = pivot;
+    column.tail(below - 1) /= pivot;
   }
 }
 
@@ -91,13 +53,16 @@ double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios
 double reweight(const RobustConfig& config, const SmallTable& ratios, double max_scale,
                 const SmallTable& limits, FilterMeasurements* measurements,
                 RobustUpdateResult* result) {
-  result->code_scale = scale_of(*measurements, ratios, Observable::kCode);
-  result->doppler_scale = scale_of(*measurements, ratios, Observable::kDoppler);
+  for (std::size_t kind = 0; kind < kObservables; ++kind)
+    result->scale[kind] = scale_of(*measurements, ratios, static_cast<Observable>(kind));
   double change = 0.0;
   for (std::size_t i = 0; i < measurements->size(); ++i) {
     FilterMeasurement& measurement = (*measurements)[i];
-    const bool code = measurement.observable == Observable::kCode;
-    const double scale = std::min(max_scale, code ? result->code_scale : result->doppler_scale);
+    // Carriers that fit no better than this have slipped, however many they are.
+    const double limit =
+        measurement.observable == Observable::kCarrier ? kMaxPriorScale : max_scale;
+    const double scale =
+        std::min(limit, result->scale[static_cast<std::size_t>(measurement.observable)]);
     const double factor = std::min(limits[i], igg3_factor(ratios[i] / scale, config.k0, config.k1));
     change = std::max(change, std::abs(factor - measurement.factor));
     measurement.factor = factor;
@@ -107,48 +72,126 @@ double reweight(const RobustConfig& config, const SmallTable& ratios, double max
 
 }  // namespace
 
-RobustUpdateResult robust_update(const RobustConfig& config, FilterMeasurements* measurements,
-                                 EkfCovariance* covariance) {
+double predicted_variance(const FilterMeasurement& measurement, const EkfCovariance& covariance) {
+  const auto core = covariance.topLeftCorner<kSize, kSize>();
+  double variance = measurement.row.dot(core * measurement.row);
+  if (measurement.ambiguity >= 0) {
+    variance += 2.0 * covariance.col(measurement.ambiguity).head<kSize>().dot(measurement.row) +
+                covariance(measurement.ambiguity, measurement.ambiguity);
+  }
+  return variance;
+}
+
+// The weighted problem in the coordinates z = L^-1 x, where the prior is the identity.
+struct RobustUpdate::Workspace {
+  static constexpr int kTable = kMaxSize * static_cast<int>(kMaxMeasurements);
+  using Rows = Eigen::Map<Eigen::Matrix<double, kMaxSize, static_cast<int>(kMaxMeasurements)>>;
+
+  EkfCovariance L;
+  EkfCovariance information;
+  Eigen::LLT<EkfCovariance, Eigen::Lower> root;
+  EkfCorrection solution, gradient;
+  // A column per measurement: its row times L, the same weighted, the same solved by the root.
+  std::unique_ptr<double[]> storage = std::make_unique<double[]>(2 * kTable);
+  Rows rows{storage.get()}, weighted{storage.get() + kTable};
+  Eigen::Index states = 0, count = 0;
+
+  void begin(const FilterMeasurements& measurements, const EkfCovariance& covariance) {
+    states = covariance.rows();
+    count = static_cast<Eigen::Index>(measurements.size());
+    semidefinite_cholesky(covariance, &L);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const FilterMeasurement& measurement = measurements[static_cast<std::size_t>(i)];
+      auto g = rows.col(i).head(states);
+      g.noalias() = L.topRows<kSize>().transpose() * measurement.row;
+      if (measurement.ambiguity >= 0) g += L.row(measurement.ambiguity).transpose();
+    }
+  }
+
+  void solve(const FilterMeasurements& measurements) {
+    information.setIdentity(states, states);
+    gradient.setZero(states);
+    Eigen::Index used = 0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const FilterMeasurement& measurement = measurements[static_cast<std::size_t>(i)];
+      if (measurement.factor <= 0.0) continue;
+      const double weight = measurement.factor / measurement.gain_variance;
+      const auto g = rows.col(i).head(states);
+      weighted.col(used++).head(states) = std::sqrt(weight) * g;
+      gradient += weight * measurement.innovation * g;
+    }
+    if (used > 0)
+      information.selfadjointView<Eigen::Lower>().rankUpdate(weighted.topLeftCorner(states, used));
+    root.compute(information);
+    solution = gradient;
+    root.solveInPlace(solution);
+  }
+
+  // |residual against all others| over its standard deviation, per measurement.
+  void standardize(const FilterMeasurements& measurements, SmallTable* ratios) {
+    auto solved = weighted.topLeftCorner(states, count);
+    solved = rows.topLeftCorner(states, count);
+    root.matrixL().solveInPlace(solved);
+    ratios->clear();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const FilterMeasurement& measurement = measurements[static_cast<std::size_t>(i)];
+      const double residual = measurement.innovation - rows.col(i).head(states).dot(solution);
+      const double variance = solved.col(i).squaredNorm();  // of the prediction, this one included
+      const double weight = measurement.factor / measurement.gain_variance;
+      const double freedom = std::max(1.0 - weight * variance, 1e-12);
+      const double sigma = std::sqrt(measurement.variance + variance / freedom);
+      ratios->push_back(std::abs(residual) / freedom / sigma);
+    }
+  }
+};
+
+RobustUpdate::RobustUpdate() : workspace_(std::make_unique<Workspace>()) {}
+RobustUpdate::~RobustUpdate() = default;
+RobustUpdate::RobustUpdate(RobustUpdate&&) noexcept = default;
+RobustUpdate& RobustUpdate::operator=(RobustUpdate&&) noexcept = default;
+
+RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
+                                            FilterMeasurements* measurements,
+                                            EkfCovariance* covariance) {
   RobustUpdateResult result;
+  result.correction.setZero(covariance->rows());
   if (measurements->empty()) return result;
 
-  Whitened problem;
-  problem.L = semidefinite_cholesky(*covariance);
-  problem.rows.resize(kSize, static_cast<Eigen::Index>(measurements->size()));
-  for (std::size_t i = 0; i < measurements->size(); ++i)
-    problem.rows.col(static_cast<Eigen::Index>(i)).noalias() =
-        problem.L.transpose() * (*measurements)[i].row;
-
+  Workspace& problem = *workspace_;
+  problem.begin(*measurements, *covariance);
   if (config.enabled) {
     for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
-    solve(*measurements, &problem);
+    problem.solve(*measurements);
     SmallTable ratios;
     SmallTable limits(measurements->size(), 1.0);
     for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
       const bool first = pass == 0;  // nothing used yet: innovations
-      standardize(*measurements, problem, &ratios);
+      problem.standardize(*measurements, &ratios);
       const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits,
                                      measurements, &result);
       if (first) {
         for (std::size_t i = 0; i < limits.size(); ++i)
           limits[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
       }
-      solve(*measurements, &problem);
+      problem.solve(*measurements);
       if (change < kFactorTolerance) break;
     }
   } else {
     for (FilterMeasurement& measurement : *measurements) measurement.factor = 1.0;
-    solve(*measurements, &problem);
+    problem.solve(*measurements);
   }
 
-  result.correction = problem.L * problem.solution;
+  result.correction.noalias() = problem.L * problem.solution;
   for (const FilterMeasurement& measurement : *measurements)
     result.nis += measurement.factor / measurement.gain_variance * measurement.innovation *
                   measurement.innovation;
   result.nis -= problem.gradient.dot(problem.solution);
   // W = L U^-T with U U^T the information; P+ = W W^T.
-  const EkfCovariance W_transposed = problem.root.matrixL().solve(problem.L.transpose());
-  covariance->noalias() = W_transposed.transpose() * W_transposed;
+  EkfCovariance W_transposed = problem.L.transpose();
+  problem.root.matrixL().solveInPlace(W_transposed);
+  covariance->setZero();
+  covariance->selfadjointView<Eigen::Lower>().rankUpdate(W_transposed.transpose());
+  covariance->triangularView<Eigen::StrictlyUpper>() = covariance->transpose();
   return result;
 }
 

@@ -49,6 +49,16 @@ void BandBiases::set_reference(System system, char band) {
   biases.reference = band;
 }
 
+void BandBiases::set_partner(System system, char band, double gamma) {
+  systems_[index_of(system)].partner = band;
+  systems_[index_of(system)].partner_gamma = gamma;
+}
+
+bool BandBiases::is_usual_pair(System system, char first, char second) const {
+  const SystemBiases& biases = systems_[index_of(system)];
+  return biases.partner != 0 && first == biases.reference && second == biases.partner;
+}
+
 void BandBiases::update(System system, char band, const BandDifferences& differences) {
   if (differences.values_m.empty() || !is_digit(band)) return;
   const double median = median_of(differences.values_m);
@@ -82,14 +92,26 @@ const BandBiases::Bias* BandBiases::find(System system, char band) const {
   return bias.variance_m2 >= 0.0 ? &bias : nullptr;
 }
 
-double BandBiases::offset_m(System system, char band) const {
+double BandBiases::delay_m(System system, char band) const {
   const Bias* bias = find(system, band);
   return bias != nullptr ? bias->value_m : 0.0;
 }
 
+// The usual pair's clock is delayed by gamma times its partner's delay.
+double BandBiases::offset_m(System system, char band) const {
+  const SystemBiases& biases = systems_[index_of(system)];
+  return delay_m(system, band) - biases.partner_gamma * delay_m(system, biases.partner);
+}
+
 double BandBiases::variance_m2(System system, char band) const {
-  const Bias* bias = find(system, band);
-  return bias != nullptr ? bias->variance_m2 : 0.0;
+  const SystemBiases& biases = systems_[index_of(system)];
+  const Bias* own = find(system, band);
+  const Bias* partner = find(system, biases.partner);
+  const double gamma = biases.partner_gamma;
+  if (own == partner)
+    return own != nullptr ? (1.0 - gamma) * (1.0 - gamma) * own->variance_m2 : 0.0;
+  return (own != nullptr ? own->variance_m2 : 0.0) +
+         (partner != nullptr ? gamma * gamma * partner->variance_m2 : 0.0);
 }
 
 }  // namespace leonav

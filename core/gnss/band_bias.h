@@ -20,6 +20,10 @@ struct BandDifferences {
 // measured on the same bands, so each epoch's median over the satellites with both bands is
 // filtered as a slow random walk and taken out. Only differences within a satellite enter: no
 // position is needed beyond the atmosphere's.
+//
+// What is taken out is noisy and drifts with the ionosphere model's error. So where codes are
+// combined in pairs, the clock is that of the usual pair, which then needs no correction at all,
+// and the others are brought to it.
 class BandBiases {
  public:
   // Opens an epoch. The same `time` again (another pass over it) starts from the state before it.
@@ -27,9 +31,15 @@ class BandBiases {
   // The band the others of `system` are compared with; another one than before forgets them.
   void set_reference(System system, char band);
   char reference(System system) const { return systems_[index_of(system)].reference; }
+  // The band that forms the usual pair with the reference band; 0: the clock is that of the
+  // reference band alone. `gamma`: its factor in the ionosphere-free combination.
+  void set_partner(System system, char band, double gamma);
+  char partner(System system) const { return systems_[index_of(system)].partner; }
+  bool is_usual_pair(System system, char first, char second) const;
   void update(System system, char band, const BandDifferences& differences);
 
-  // Metres to subtract from the code of `band`, and the variance; zero where nothing is known.
+  // Metres to subtract from the code of `band`, and the variance; zero where nothing is known. Not
+  // for the usual pair together.
   double offset_m(System system, char band) const;
   double variance_m2(System system, char band) const;
 
@@ -40,11 +50,13 @@ class BandBiases {
     int strange_epochs = 0;
   };
   struct SystemBiases {
-    char reference = 0;
+    char reference = 0, partner = 0;
+    double partner_gamma = 0.0;
     std::array<Bias, 10> bands;  // by digit of the band
   };
   using State = std::array<SystemBiases, kSystemCount>;
   const Bias* find(System system, char band) const;
+  double delay_m(System system, char band) const;  // against the reference band
 
   GpsTime time_;
   State before_{};  // at the end of the epoch before

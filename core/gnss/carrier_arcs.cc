@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cmath>
+#include <utility>
 
 #include "core/gnss/carrier_track.h"
 #include "core/gnss/doppler_check.h"
@@ -76,7 +77,7 @@ struct CarrierArcs::Storage {
 
   CarrierTrack* track_of(SatelliteId id) { return &tracks[place_of(id)]; }
   double gap_limit_s(System system) const;
-  void collect(GpsTime time, std::span<const CarrierInput> inputs);
+  void collect(GpsTime now, GpsTime previous, std::span<const CarrierInput> inputs);
   ClockJump repair_clock(double interval_s);
   void check_dopplers(const ClockJump& jump, double interval_s);
   void begin(Current* current, SlipCauses causes, CarrierStatus* status);
@@ -101,7 +102,8 @@ double CarrierArcs::Storage::gap_limit_s(System system) const {
   return std::max(config.max_gap_s, config.max_gap_intervals * usual.seconds());
 }
 
-void CarrierArcs::Storage::collect(GpsTime now, std::span<const CarrierInput> inputs) {
+void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
+                                   std::span<const CarrierInput> inputs) {
   current.clear();
   seen.reset();
   const std::size_t count = std::min(inputs.size(), current.capacity());
@@ -121,7 +123,9 @@ void CarrierArcs::Storage::collect(GpsTime now, std::span<const CarrierInput> in
     sample.side[0] = side_of(*input.first, shift_ms * kMillisecond_m);
     if (sample.sides == 2) sample.side[1] = side_of(*input.second, shift_ms * kMillisecond_m);
     sample.carrier_shift_m = shift_ms * kMillisecond_m;
-    entry.late = !entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
+    // Nothing but the pair's combination tells of a slip while a satellite was away.
+    const bool blind = sample.sides == 1 && entry.track->last().time != previous;
+    entry.late = blind || !entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
     entry.continued = !entry.late && entry.track->is_same_pair(sample);
   }
 }
@@ -240,10 +244,10 @@ void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, Ar
   if (!s.settled) settle({}, epoch);
   *epoch = {};
   const double interval_s = s.time.is_set() ? seconds_between(time, s.time) : 0.0;
-  s.time = time;
+  const GpsTime previous = std::exchange(s.time, time);
   // The first interval is the usual one until others are seen.
   if (interval_s > 0.0 && s.usual.seconds() == 0.0) s.usual.add(interval_s);
-  s.collect(time, inputs);
+  s.collect(time, previous, inputs);
   epoch->clock_jump = s.repair_clock(interval_s);
   if (interval_s > 0.0) s.usual.add(true_interval_s(epoch->clock_jump, interval_s));
   for (Storage::Current& entry : s.current) {

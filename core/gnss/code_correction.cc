@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/earth/tides.h"
 #include "core/gnss/group_delay.h"
 #include "core/gnss/ionosphere.h"
+#include "core/gnss/path_correction.h"
 #include "core/gnss/troposphere.h"
 #include "core/gnss/weighting.h"
 
@@ -116,19 +118,43 @@ double frequency_of(const SignalObservation& signal) {
 
 }  // namespace
 
+DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobuchar, GpsTime time,
+                           const Eigen::Vector3d& p_a_e) {
+  DelayContext context;
+  context.config = &config;
+  context.klobuchar = &klobuchar;
+  context.time = time;
+  context.has_position = !p_a_e.isZero();
+  if (!context.has_position) return context;
+  context.antenna = to_geodetic(p_a_e);
+  context.C_er = rotation_ecef_to_ned(context.antenna).transpose();
+  const SunMoon bodies = sun_moon_positions(time);
+  context.p_sun_e = bodies.sun_e;
+  context.tide_e = solid_earth_tide(p_a_e, time, bodies);
+  return context;
+}
+
 void correct_direction(const DelayContext& context, const Eigen::Vector3d& p_a_e,
                        SatelliteInView* satellite) {
   if (!context.has_position) return;
   const LookAngles angles = look_angles(satellite->p_e, p_a_e);
   satellite->elevation = angles.elevation;
   satellite->azimuth = angles.azimuth;
+  const ZenithDelays zenith = saastamoinen_zenith_delays(context.antenna);
+  const TroposphereMapping mapping = niell_mapping(context.antenna, angles.elevation, context.time);
   satellite->troposphere_m =
-      saastamoinen_slant_delay_m(context.antenna, angles.elevation, context.time);
+      zenith.hydrostatic_m * mapping.hydrostatic + zenith.wet_m * mapping.wet;
+  satellite->wet_mapping = mapping.wet;
+  satellite->path_m = path_delay_m(context, p_a_e, *satellite);
 }
 
-Measurement code_measurement(const DelayContext& context, const SignalObservation& first,
+Measurement code_measurement(const DelayContext& given, const SignalObservation& first,
                              const SignalObservation* second, const Ephemeris* broadcast,
                              int shared_by, SatelliteInView* satellite) {
+  DelayContext context = given;
+  if (second != nullptr && given.biases != nullptr &&
+      given.biases->is_usual_pair(first.satellite.system, first.code.band, second->code.band))
+    context.biases = nullptr;
   const double elevation = noise_elevation(context, *satellite);
   const double f1 = frequency_of(first);
   const double noise1 = code_noise(context, elevation, first);
@@ -155,10 +181,12 @@ Measurement code_measurement(const DelayContext& context, const SignalObservatio
                 shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
-  code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m;
-  code.sigma =
-      std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
-                antenna_variance(*satellite, false) + atmosphere_variance(context, *satellite));
+  const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);
+  code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m -
+               satellite->path_m - antenna.range_m;
+  code.sigma = std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
+                         antenna_variance(*satellite, antenna.known) +
+                         atmosphere_variance(context, *satellite));
   return code;
 }
 

@@ -2,6 +2,7 @@
 // uncertainty.
 #pragma once
 #include "core/earth/ellipsoid.h"
+#include "core/gnss/antenna_catalog.h"
 #include "core/gnss/band_bias.h"
 #include "core/gnss/gnss_config.h"
 #include "core/gnss/look_angles.h"
@@ -18,7 +19,16 @@ struct DelayContext {
   bool has_position = false;  // without one there is no elevation and no atmosphere
   Geodetic antenna;
   const BandBiases* biases = nullptr;  // of the receiver; may be nullptr
+  const AntennaCatalog* antennas = nullptr;
+  Eigen::Matrix3d C_er =
+      Eigen::Matrix3d::Identity();  // receiver antenna's axes, forward-right-down
+  Eigen::Vector3d p_sun_e = Eigen::Vector3d::Zero();
+  Eigen::Vector3d tide_e = Eigen::Vector3d::Zero();  // of the ground under the antenna, m
 };
+
+// At `p_a_e`, or zero if unknown; the antenna's axes north, east, down.
+DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobuchar, GpsTime time,
+                           const Eigen::Vector3d& p_a_e);
 
 // 1 sigma of all that stays uncorrected while no position is known: atmosphere down to the horizon.
 inline constexpr double kUnknownAtmosphereSigma = 15.0;  // m

@@ -6,7 +6,8 @@ namespace leonav {
 // sigma" are on standardized quantities.
 struct CycleSlipConfig {
   // --- Gaps. An arc survives the longer of max_gap_s and max_gap_intervals epoch intervals; for
-  // LEO satellites of max_gap_leo_s and 1.5 intervals. ---
+  // LEO satellites of max_gap_leo_s and 1.5 intervals. One of a single frequency survives no epoch
+  // without its satellite: no detector sees across it. ---
   double max_gap_s = 10.0;
   double max_gap_leo_s = 3.0;
   double max_gap_intervals = 2.5;

@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 
+#include "core/gnss/cycle_slip_config.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/gnss/signal.h"
 
@@ -39,6 +40,7 @@ struct SystemConfig {
 enum class WeightModel : unsigned char {
   kElevation,  // sigma0 above 30 degrees, sigma0 / (2 sin E) below (Remote Sensing 2024 eq. 35)
   kCn0,        // variance scaled by 10^((cn0_reference - C/N0) / 10), at least the elevation's
+  kSine,       // sigma0 / sin E: geodetic antennas
 };
 
 struct GnssConfig {
@@ -51,6 +53,7 @@ struct GnssConfig {
   double ionosphere_model_error = 0.5;     // share of the Klobuchar delay taken as its 1 sigma
   double troposphere_model_error_m = 0.1;  // 1 sigma at zenith
   CatalogOptions catalog;
+  CycleSlipConfig cycle_slips;
 };
 
 // The defaults of the design: GPS L1+L2 (L5 where L2 is missing), Galileo E1+E5a, BeiDou B1I+B3I,

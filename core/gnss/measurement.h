@@ -8,6 +8,7 @@
 #include "core/capacity.h"
 #include "core/gnss/satellite_state.h"
 #include "core/gnss/signal.h"
+#include "core/gnss/slip_cause.h"
 
 namespace leonav {
 
@@ -51,15 +52,23 @@ struct SatelliteInView {
   double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
   double azimuth = 0.0;          // rad
   double troposphere_m = 0.0;    // slant delay applied
+  double wet_mapping = 0.0;      // of a wet delay at zenith beyond it
+  double path_m = 0.0;           // what else lengthens the path of all signals: gravity, tides
+  double wind_up_cycles = 0.0;   // of the carrier
   double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
   double cn0_dbhz = 0.0;         // strongest signal
+  std::uint32_t arc = 0;         // of its carrier; 0: none used
+  bool arc_started = false;      // here
+  SlipCauses arc_causes;         // why the one before it ended; none at a satellite's first
   Reason reason = Reason::kUsed;
 };
 
 // One scalar range (m) or range rate (m/s), corrected so that the model is
 //   code:    |p_sat - p_antenna| + clock offset of the time base
+//   carrier: the same + its arc's ambiguity
 //   doppler: range_rate(...) of core/gnss/range_model.h + clock drift of the time base
-// (satellite clock, group delay, troposphere, ionosphere are already out).
+// (satellite clock, group delay, troposphere, ionosphere are already out; of a wet delay w beyond
+// the modelled one, code and carrier hold wet_mapping w).
 struct Measurement {
   std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
   Observable observable = Observable::kCode;
@@ -67,6 +76,10 @@ struct Measurement {
   SignalCode second_code;  // set for an ionosphere-free combination
   double value = 0.0;
   double sigma = 0.0;
+  // Carrier only.
+  std::uint32_t arc = 0;       // identity of the uninterrupted arc; 0: none
+  double wander = 0.0;         // m/sqrt(s): how the arc's constant is not one
+  double disturbance_m = 0.0;  // 1 sigma of a step in it since the last epoch (another orbit)
   Reason reason = Reason::kUsed;
 };
 

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <span>
 
+#include "core/gnss/band_differences.h"
+#include "core/gnss/candidate.h"
+#include "core/gnss/carrier_correction.h"
 #include "core/gnss/code_correction.h"
+#include "core/gnss/path_correction.h"
 #include "core/gnss/signal_selection.h"
 #include "core/gnss/transmission.h"
 
@@ -12,16 +16,6 @@ namespace leonav {
 namespace {
 
 constexpr double kMaxRangeRate = 2.0e4;  // m/s: LEO against a fast vehicle, plus receiver drift
-
-// What is kept beside a SatelliteInView until its measurements are formed.
-struct Candidate {
-  std::size_t satellite_index = 0;
-  std::span<const SignalObservation> observations;
-  SelectedSignals signals;
-  const Ephemeris* broadcast = nullptr;
-};
-static_assert(kMaxSatellites >= kMaxObservations, "every satellite of a raw epoch has a place");
-using Candidates = boost::container::static_vector<Candidate, kMaxSatellites>;
 
 Reason reason_of(LookupStatus status) {
   switch (status) {
@@ -106,20 +100,21 @@ void apply_caps(const GnssConfig& config, MeasurementEpoch* epoch) {
   }
 }
 
-std::size_t most_measurements(const GnssConfig& config, const Candidate& candidate) {
+std::size_t most_measurements(const GnssConfig& config, const Candidate& candidate, bool carriers) {
   const bool one_code = config.code_combination == CodeCombination::kIonosphereFree;
-  return (one_code ? 1 : candidate.signals.bands.size()) + 1;  // and a Doppler
+  return (one_code ? 1 : candidate.signals.bands.size()) +
+         (carriers ? 2 : 1);  // and a carrier, a Doppler
 }
 
 // Where the measurements would not all fit, the lowest satellites make room.
-void apply_capacity(const GnssConfig& config, const Candidates& candidates,
+void apply_capacity(const GnssConfig& config, const Candidates& candidates, bool carriers,
                     MeasurementEpoch* epoch) {
   boost::container::static_vector<const Candidate*, kMaxSatellites> used;
   std::size_t needed = 0;
   for (const Candidate& candidate : candidates) {
     if (epoch->satellites[candidate.satellite_index].reason != Reason::kUsed) continue;
     used.push_back(&candidate);
-    needed += most_measurements(config, candidate);
+    needed += most_measurements(config, candidate, carriers);
   }
   if (needed <= epoch->measurements.capacity()) return;
   std::sort(used.begin(), used.end(), [&](const Candidate* a, const Candidate* b) {
@@ -127,7 +122,7 @@ void apply_capacity(const GnssConfig& config, const Candidates& candidates,
   });
   for (; needed > epoch->measurements.capacity(); used.pop_back()) {
     epoch->satellites[used.back()->satellite_index].reason = Reason::kCapacity;
-    needed -= most_measurements(config, *used.back());
+    needed -= most_measurements(config, *used.back(), carriers);
   }
 }
 
@@ -182,61 +177,45 @@ void append_doppler(const DelayContext& context, const Candidate& candidate,
   append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
 }
 
-double single_band_value(const DelayContext& context, const Candidate& candidate,
-                         const SignalObservation& signal, SatelliteInView view, double* sigma) {
-  const Measurement code =
-      code_measurement(context, signal, nullptr, candidate.broadcast, 1, &view);
-  *sigma = code.sigma;
-  return code.value;
-}
-
-const SignalObservation* signal_on(const Candidate& candidate, char band) {
-  for (const SignalObservation* signal : candidate.signals.bands) {
-    if (signal->code.band == band) return signal;
+// The carrier of one band: of the signal whose code is used, or of another on the band that has
+// one.
+const SignalObservation* with_carrier(const Candidate& candidate, const SignalObservation* signal) {
+  if (signal == nullptr || std::isfinite(signal->carrier_cycles)) return signal;
+  for (const SignalObservation& other : candidate.observations) {
+    if (other.code.band == signal->code.band && std::isfinite(other.carrier_cycles)) return &other;
   }
   return nullptr;
 }
 
-// The best of the bands that the satellites in use have; bands of a candidate stand best first.
-char reference_band(const GnssConfig& config, System system, const Candidates& candidates,
-                    const MeasurementEpoch& epoch, char present) {
-  const SignalPreference& preference = config.systems[index_of(system)].signals;
-  char best = present;
-  for (const Candidate& candidate : candidates) {
-    const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
-    if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
-    const char band = candidate.signals.bands.front()->code.band;
-    if (best == 0 || band_comes_first(system, preference, band, best)) best = band;
-  }
-  return best;
+// A satellite with a pair of codes offers a pair of carriers or none: one alone would be another
+// ambiguity.
+bool offer_carrier(const Candidate& candidate, double elevation, CarrierFollower* carriers) {
+  const SignalObservation* first = with_carrier(candidate, candidate.signals.first);
+  const SignalObservation* second = with_carrier(candidate, candidate.signals.second);
+  if (first == nullptr || (candidate.signals.second != nullptr && second == nullptr)) return false;
+  carriers->offer(*first, second, elevation);
+  return true;
 }
 
-// `context` without biases: differences are of what the receiver measured.
-void estimate_biases(const DelayContext& context, const Candidates& candidates,
-                     const MeasurementEpoch& epoch, BandBiases* biases) {
-  biases->open(context.time);
-  for (const System system : kSystems) {
-    const char reference =
-        reference_band(*context.config, system, candidates, epoch, biases->reference(system));
-    if (reference == 0) continue;
-    biases->set_reference(system, reference);
-    for (char band = '1'; band <= '9'; ++band) {
-      BandDifferences differences;
-      for (const Candidate& candidate : candidates) {
-        const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
-        if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
-        const SignalObservation* first = signal_on(candidate, reference);
-        const SignalObservation* other = signal_on(candidate, band);
-        if (band == reference || first == nullptr || other == nullptr) continue;
-        double sigma_first = 0.0, sigma_other = 0.0;
-        const double value = single_band_value(context, candidate, *other, view, &sigma_other) -
-                             single_band_value(context, candidate, *first, view, &sigma_first);
-        if (!std::isfinite(value)) continue;
-        differences.values_m.push_back(value);
-        differences.sigma_m = std::hypot(sigma_first, sigma_other);
-      }
-      biases->update(system, band, differences);
-    }
+void append_carriers(const DelayContext& context, const Candidates& candidates,
+                     CarrierFollower* carriers, MeasurementEpoch* epoch) {
+  boost::container::static_vector<const Candidate*, kMaxSatellites> offered;
+  carriers->begin(context.time);
+  for (const Candidate& candidate : candidates) {
+    SatelliteInView& view = epoch->satellites[candidate.satellite_index];
+    if (view.reason != Reason::kUsed) continue;
+    view.wind_up_cycles = wind_up_cycles(context, view, carriers->last_wind_up(view.satellite));
+    carriers->set_wind_up(view.satellite, view.wind_up_cycles);
+    if (offer_carrier(candidate, view.elevation, carriers)) offered.push_back(&candidate);
+  }
+  const ArcEpoch& arcs = carriers->follow();
+  for (std::size_t i = 0; i < offered.size(); ++i) {
+    const SatelliteInView& view = epoch->satellites[offered[i]->satellite_index];
+    const SelectedSignals& signals = offered[i]->signals;
+    const CarrierStatus& status = arcs.satellites[i];
+    Measurement carrier =
+        carrier_measurement(context, *signals.first, signals.second, status, view);
+    append(*offered[i], carrier, epoch);
   }
 }
 
@@ -259,18 +238,15 @@ bool is_listed(const MeasurementEpoch& epoch, SatelliteId id) {
 
 void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const GnssConfig& config,
                 const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
-                BandBiases* biases) {
+                const PreprocessAids& aids) {
   epoch->time = raw.time;
   epoch->approximate_p_e = approximate_p_e;
   epoch->satellites.clear();
   epoch->measurements.clear();
 
-  DelayContext context;
-  context.config = &config;
-  context.klobuchar = &catalog.klobuchar();
-  context.time = raw.time;
-  context.has_position = !approximate_p_e.isZero();
-  if (context.has_position) context.antenna = to_geodetic(approximate_p_e);
+  DelayContext context = delay_context(config, catalog.klobuchar(), raw.time, approximate_p_e);
+  context.antennas = aids.antennas;
+  if (aids.C_er != nullptr) context.C_er = *aids.C_er;
 
   Candidates candidates;
   std::size_t end = 0;
@@ -286,9 +262,9 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     epoch->satellites.push_back(view);
   }
   if (context.has_position) apply_caps(config, epoch);
-  apply_capacity(config, candidates, epoch);
+  apply_capacity(config, candidates, aids.carriers != nullptr, epoch);
   BandBiases of_this_epoch;
-  if (biases == nullptr) biases = &of_this_epoch;
+  BandBiases* biases = aids.biases != nullptr ? aids.biases : &of_this_epoch;
   estimate_biases(context, candidates, *epoch, biases);
   context.biases = biases;
   for (const Candidate& candidate : candidates) {
@@ -296,6 +272,8 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     append_code(context, candidate, epoch);
     append_doppler(context, candidate, epoch);
   }
+  if (aids.carriers != nullptr && context.has_position)
+    append_carriers(context, candidates, aids.carriers, epoch);
 }
 
 }  // namespace leonav

@@ -6,12 +6,16 @@
 namespace leonav {
 
 double elevation_factor(double elevation) {
-  if (elevation >= kFullWeightElevation) return 1.0;
+  return elevation >= kFullWeightElevation ? 1.0 : 0.5 * sine_factor(elevation);
+}
+
+double sine_factor(double elevation) {
   constexpr double kSinOneDegree = 0.01745240643728351;
-  return 0.5 / std::max(std::sin(elevation), kSinOneDegree);
+  return 1.0 / std::max(std::sin(elevation), kSinOneDegree);
 }
 
 double noise_factor(const GnssConfig& config, double elevation, double cn0_dbhz) {
+  if (config.weight_model == WeightModel::kSine) return sine_factor(elevation);
   const double by_elevation = elevation_factor(elevation);
   if (config.weight_model != WeightModel::kCn0 || !std::isfinite(cn0_dbhz)) return by_elevation;
   return std::max(by_elevation, std::pow(10.0, (config.cn0_reference_dbhz - cn0_dbhz) / 20.0));

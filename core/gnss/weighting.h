@@ -11,6 +11,10 @@ inline constexpr double kFullWeightElevation = 0.5235987755982988;  // rad (30 d
 // continuous at 30 degrees; bounded at the value for 1 degree.
 double elevation_factor(double elevation);
 
+// 1 / sin E up to the zenith: how codes and carriers of a geodetic antenna scatter (measured on the
+// station recording, docs/models.md); bounded likewise.
+double sine_factor(double elevation);
+
 // Factor on sigma0 for one signal. kCn0: the larger of the elevation's factor and
 // 10^((reference - C/N0) / 20); a signal without C/N0 (NaN) gets the elevation's factor.
 // `elevation` unknown (no position yet): pass pi/2.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <limits>
 
 #include "core/gnss/dop.h"
@@ -35,6 +36,9 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
     satellite.cn0_dbhz = in_view.cn0_dbhz;
     satellite.ephemeris_age_s = in_view.ephemeris_age_s;
     satellite.source = in_view.source;
+    satellite.arc = in_view.arc;
+    satellite.arc_started = in_view.arc_started;
+    satellite.arc_causes = in_view.arc_causes;
     const AidingReport* first = nullptr;
     bool used = false;
     for (const AidingReport& aiding : report->aiding) {
@@ -78,6 +82,7 @@ void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* re
   report->pdop = report->hdop = report->vdop = nan;
   report->clock_m.fill(nan);
   report->clock_drift_m_s.fill(nan);
+  report->wet_delay_m = report->wet_delay_sigma_m = nan;
   report->nis = 0.0;
   report->nis_degrees = 0;
   report->satellites.clear();
@@ -92,6 +97,7 @@ void report_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,
     AidingReport aiding = start_aiding(epoch, epoch.measurements[i]);
     aiding.innovation = innovation.innovation;
     aiding.innovation_variance = innovation.innovation_variance;
+    aiding.residual = innovation.residual;
     aiding.test_ratio = innovation.test_ratio;
     aiding.weight_factor = innovation.weight_factor;
     aiding.reason = innovation.reason;
@@ -124,6 +130,11 @@ void report_state(const Ekf& ekf, EpochReport* report) {
     const auto i = static_cast<Eigen::Index>(base);
     if (ekf.clocks_known().offset[base]) report->clock_m[base] = ekf.clocks().offset_m(i);
     if (ekf.clocks_known().drift[base]) report->clock_drift_m_s[base] = ekf.clocks().drift_m_s(i);
+  }
+  const double wet_variance = ekf.covariance()(ekf_index::kWetDelay, ekf_index::kWetDelay);
+  if (wet_variance > 0.0) {
+    report->wet_delay_m = ekf.wet_delay_m();
+    report->wet_delay_sigma_m = std::sqrt(wet_variance);
   }
 }
 

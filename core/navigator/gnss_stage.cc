@@ -16,31 +16,14 @@ namespace {
 
 constexpr int kMinSatellites = 4;
 constexpr double kMaxPdop = 15.0;
+constexpr double kVagueSigma_m = 20.0;  // a prediction that corrects delays to a centimetre
 constexpr double kMaxResidualRms_m = 60.0;
-constexpr int kMinToJudge = 4;             // codes or Dopplers
-constexpr int kMinResetRedundancy = 2;     // of a point solution that overthrows a running filter
-constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
-constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
-constexpr double kMinResetHeadingSigma = 0.1;  // rad
 
 // A start has nothing to compare its measurements with but each other: it always excludes faults,
 // also where the filter is told to trust everything.
 RobustConfig robust_start(RobustConfig config) {
   config.enabled = true;
   return config;
-}
-
-// NaN where the covariance is no number.
-double norm_of_sigmas(const Eigen::Matrix3d& covariance) {
-  const double trace = covariance.trace();
-  return trace < 0.0 ? 0.0 : std::sqrt(trace);
-}
-
-// Satellites beyond what a position and one clock per time base need.
-int redundancy(const PointSolution& point) {
-  int bases = 0;
-  for (const double clock_m : point.clock_m) bases += std::isfinite(clock_m) ? 1 : 0;
-  return point.satellites - 3 - bases;
 }
 
 }  // namespace
@@ -53,6 +36,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       events_(Stage::kGnss, sink),
       inertial_(config.motion == MotionModel::kInertial),
       catalog_(config.gnss.catalog),
+      carriers_(config.gnss.cycle_slips),
       ekf_(config.ekf, config.imu, config.vehicle.lever_arm_b),
       alignment_(config.alignment),
       measurements_(std::make_unique<MeasurementEpoch>()),
@@ -101,21 +85,6 @@ void GnssStage::process_epoch(const EpochWork& work) {
   publish(work);
 }
 
-// A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
-void GnssStage::drop_broken_filter(GpsTime time) {
-  if (ekf_.initialized() && !ekf_.is_finite()) drop_filter(time);
-}
-
-void GnssStage::drop_filter(GpsTime time) {
-  ekf_ = Ekf(config_.ekf, config_.imu, config_.vehicle.lever_arm_b);
-  alignment_.reset();
-  gnss_used_ = false;
-  suspect_epochs_ = 0;
-  last_reset_time_ = time;
-  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
-               time);
-}
-
 void GnssStage::use_measurements(const EpochWork& work) {
   if (!ekf_.initialized()) {
     start_filter(work);
@@ -154,99 +123,61 @@ bool GnssStage::start_filter(const EpochWork& work) {
   return solved;
 }
 
-bool GnssStage::prediction_is_useless() const {
-  const Eigen::Matrix3d covariance =
-      ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
-  return !ekf_.state().p_e.allFinite() || !(norm_of_sigmas(covariance) < kUselessSigma_m);
+PreprocessAids GnssStage::aids() {
+  PreprocessAids aids;
+  aids.biases = &band_biases_;
+  aids.antennas = &antennas_;
+  if (config_.ekf.use_carrier) aids.carriers = &carriers_;
+  if (ekf_.has_attitude()) {
+    C_er_ = ekf_.state().q_eb.toRotationMatrix();
+    aids.C_er = &C_er_;
+  }
+  return aids;
+}
+
+// What is known of how far the antenna has moved since the last epoch. The velocity's covariance
+// grows over the interval, so its value at the end bounds the change's.
+RangeChangePrior GnssStage::change_prior(bool predicted) const {
+  RangeChangePrior prior;
+  prior.position_covariance = last_position_covariance_;
+  if (!predicted || !carriers_.last_time().is_set()) return prior;
+  const double dt = seconds_between(ekf_.state().time, carriers_.last_time());
+  prior.change_is_free = false;
+  prior.change_covariance =
+      dt * dt * ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  return prior;
+}
+
+// Where the measurements are corrected and linearized: as predicted, or where the prediction is too
+// vague for centimetres, as the codes alone tell.
+Eigen::Vector3d GnssStage::approximate_position(const EpochWork& work) {
+  const Eigen::Vector3d predicted_p_e = ekf_.antenna_position_e();
+  if (!config_.ekf.use_carrier || position_sigma() < kVagueSigma_m) return predicted_p_e;
+  std::swap(measurements_, check_measurements_);
+  PointSolution point;
+  const bool solved = solve(work, predicted_p_e, &point);
+  std::swap(measurements_, check_measurements_);
+  return solved ? point.p_e : predicted_p_e;
 }
 
 void GnssStage::update_filter(const EpochWork& work) {
-  preprocess(work.raw, catalog_, config_.gnss, ekf_.antenna_position_e(), measurements_.get(),
-             &band_biases_);
+  const Eigen::Vector3d approximate_p_e = approximate_position(work);
+  preprocess(work.raw, catalog_, config_.gnss, approximate_p_e, measurements_.get(), aids());
   measurements_->index = work.index;
+  if (config_.ekf.use_carrier) {
+    const bool predicted = approximate_p_e == ekf_.antenna_position_e();
+    carriers_.check_range_changes(approximate_p_e, change_prior(predicted), measurements_.get());
+  }
   const EkfUpdateResult result = ekf_.update(*measurements_);
+  if (config_.ekf.use_carrier) {
+    carriers_.remember(*measurements_, ekf_.antenna_position_e());
+    last_position_covariance_ =
+        ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
+  }
   gnss_used_ = result.used > 0;
   report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
   watch_consistency(work, result);
   judge_prediction(work, result);
-}
-
-// A filter that is less right than it says, for long, is somebody's business even where no
-// measurement stands out.
-void GnssStage::watch_consistency(const EpochWork& work, const EkfUpdateResult& result) {
-  const std::array<double, 2> ratios = {result.code_ratio, result.doppler_ratio};
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    if (consistency_[i].add(ratios[i]))
-      events_.emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), consistency_[i].mean(),
-                   work.time);
-  }
-}
-
-// Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
-// solution is asked before it is believed, and must have been checked itself: where it agrees with
-// the filter, the measurements are to blame.
-void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& result) {
-  const auto most = [&](int rejected, int offered) {
-    return offered >= kMinToJudge && rejected >= config_.ekf.reset_ratio * offered;
-  };
-  const bool code = most(result.code_rejected, result.code_offered);
-  const bool doppler = most(result.doppler_rejected, result.doppler_offered);
-  const bool suspect = code || doppler;
-  suspect_epochs_ = suspect ? suspect_epochs_ + 1 : 0;
-  if (suspect_epochs_ < config_.ekf.reset_epochs) return;
-  std::swap(measurements_, check_measurements_);
-  PointSolution point;
-  if (solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy &&
-      contradicts(point, doppler)) {
-    restart_from(point, work, ResetCause::kPrediction);
-  }
-  std::swap(measurements_, check_measurements_);
-}
-
-// Whether the filter is elsewhere than a point solution; with `motion` also whether it moves, or
-// its oscillator runs, otherwise.
-bool GnssStage::contradicts(const PointSolution& point, bool motion) const {
-  const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
-  if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) return true;
-  if (!motion || !point.has_velocity) return false;
-  const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
-  if ((point.v_e - ekf_.antenna_velocity_e()).norm() > limit_m_s) return true;
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    if (!ekf_.clocks_known().drift[base] || !std::isfinite(point.clock_drift_m_s[base])) continue;
-    const double drift_m_s = ekf_.clocks().drift_m_s(static_cast<Eigen::Index>(base));
-    if (std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s) return true;
-  }
-  return false;
-}
-
-// The attitude survives, less sure of its heading, unless it has just been given that chance; what
-// has been learned of the IMU's errors survives with it.
-void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause) {
-  const double moved_m = (point.p_e - ekf_.antenna_position_e()).norm();
-  const bool relapse =
-      last_reset_time_.is_set() && seconds_between(work.time, last_reset_time_) < kRelapse_s;
-  const bool keep_attitude =
-      ekf_.has_attitude() && !relapse && ekf_.state().q_eb.coeffs().allFinite();
-  const Eigen::Quaterniond q_eb = ekf_.state().q_eb;
-  const ImuErrors errors = ekf_.state().errors;
-  const ImuErrorCovariance error_covariance =
-      ekf_.covariance().block<12, 12>(ekf_index::kGyroBias, ekf_index::kGyroBias);
-  EpochReport* report = report_.get();
-  report_state(ekf_, report);
-  Eigen::Vector3d sigma_rpy = report->solution.sigma_rpy;
-  sigma_rpy.head<2>() = sigma_rpy.head<2>().cwiseMax(config_.alignment.levelling_sigma);
-  sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
-
-  ekf_.initialize(work.time, point);
-  if (keep_attitude) {
-    ekf_.set_attitude(q_eb, sigma_rpy, errors, error_covariance);
-  } else {
-    alignment_.reset();
-  }
-  gnss_used_ = true;
-  suspect_epochs_ = 0;
-  last_reset_time_ = work.time;
-  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
 }
 
 // A given heading that has been used is good again only while nothing has moved since.
@@ -280,7 +211,8 @@ void GnssStage::align(const EpochWork& work) {
 
 void GnssStage::process_command(const Command& command) {
   if (command.kind == CommandKind::kSetHeading) return set_heading(command.value, command.sigma);
-  ekf_ = Ekf(config_.ekf, config_.imu, config_.vehicle.lever_arm_b);
+  ekf_.reset();
+  carriers_.reset();
   alignment_.reset();
   suspect_epochs_ = 0;
   last_gnss_time_ = last_reset_time_ = GpsTime();

@@ -8,6 +8,8 @@
 #include "core/ekf/ekf.h"
 #include "core/gnss/antenna_catalog.h"
 #include "core/gnss/band_bias.h"
+#include "core/gnss/carrier_follower.h"
+#include "core/gnss/preprocess.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
@@ -43,6 +45,10 @@ class GnssStage {
   void update_filter(const EpochWork& work);
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
   bool prediction_is_useless() const;
+  double position_sigma() const;
+  Eigen::Vector3d approximate_position(const EpochWork& work);
+  PreprocessAids aids();
+  RangeChangePrior change_prior(bool predicted) const;
   void drop_broken_filter(GpsTime time);
   void drop_filter(GpsTime time);
   void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
@@ -66,6 +72,9 @@ class GnssStage {
   SatelliteCatalog catalog_;
   AntennaCatalog antennas_;
   BandBiases band_biases_;
+  CarrierFollower carriers_;
+  Eigen::Matrix3d C_er_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d last_position_covariance_ = Eigen::Matrix3d::Zero();  // after the last update
   Ekf ekf_;
   Alignment alignment_;
   GivenHeading given_heading_;

@@ -48,6 +48,7 @@ struct AidingReport {
   double observation = 0.0;  // m or m/s
   double innovation = 0.0;
   double innovation_variance = 0.0;
+  double residual = 0.0;       // what the update left of the innovation
   double test_ratio = 0.0;     // |innovation| / sigma of innovation
   double weight_factor = 1.0;  // IGG-III
   Reason reason = Reason::kUsed;
@@ -60,6 +61,9 @@ struct SatelliteReport {
   double cn0_dbhz = 0.0;
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;
+  std::uint32_t arc = 0;     // identity of its uninterrupted carrier; 0: not used
+  bool arc_started = false;  // here
+  SlipCauses arc_causes;     // why the arc before it ended; none at a satellite's first
 };
 
 // One GNSS epoch as the estimator left it. `solution` is its estimate at the epoch itself.
@@ -73,6 +77,7 @@ struct EpochReport {
   double pdop = 0.0, hdop = 0.0, vdop = 0.0;
   std::array<double, kMaxTimeBases> clock_m{};  // NaN where not estimated
   std::array<double, kMaxTimeBases> clock_drift_m_s{};
+  double wet_delay_m = 0.0, wet_delay_sigma_m = 0.0;  // at zenith, beyond the model's; NaN: none
   double nis = 0.0;  // normalized innovation squared over all used measurements
   int nis_degrees = 0;
   boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;

@@ -39,6 +39,11 @@ Eigen::Vector3d sigma_of_euler(const Eigen::Matrix3d& attitude_covariance_n, dou
   return sqrt_of_diagonal(covariance).cwiseMin(limit);
 }
 
+double norm_of_sigmas(const Eigen::Matrix3d& covariance) {
+  const double trace = covariance.trace();
+  return trace < 0.0 ? 0.0 : std::sqrt(trace);
+}
+
 bool is_finite(const Solution& solution) {
   const ImuErrors& errors = solution.errors;
   const Eigen::Vector4d scalars(solution.latitude, solution.longitude, solution.height,

@@ -16,6 +16,9 @@ using PvaCovariance = Eigen::Matrix<double, 9, 9>;
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution);
 
+// Root of the sum of the variances; NaN where the covariance is no number.
+double norm_of_sigmas(const Eigen::Matrix3d& covariance);
+
 // Every number of it: what is not goes to nobody.
 bool is_finite(const Solution& solution);
 

@@ -60,16 +60,24 @@ void read_alignment(ConfigReader& group, AlignmentConfig* config) {
 }
 
 void read_ekf(ConfigReader& group, NavigatorConfig* config) {
-  group.choice<MotionModel>(
-      "motion",
-      {{"inertial", MotionModel::kInertial}, {"constant_velocity", MotionModel::kConstantVelocity}},
-      &config->motion);
+  group.choice<MotionModel>("motion",
+                            {{"inertial", MotionModel::kInertial},
+                             {"constant_velocity", MotionModel::kConstantVelocity},
+                             {"static", MotionModel::kStatic}},
+                            &config->motion);
   EkfConfig& ekf = config->ekf;
   constexpr Bounds kNoise = {0.0, 1e4};
   group.number("acceleration_noise_horizontal_m_s2_per_sqrt_hz", {1e-6, 1e3},
                &ekf.acceleration_noise_horizontal);
   group.number("acceleration_noise_vertical_m_s2_per_sqrt_hz", {1e-6, 1e3},
                &ekf.acceleration_noise_vertical);
+  ekf.static_point = config->motion == MotionModel::kStatic;
+  ekf.vertical_arm = config->motion != MotionModel::kInertial;
+  group.boolean("carrier", &ekf.use_carrier);
+  group.number("carrier_clock_noise_m_per_sqrt_s", {0.0, 1e6}, &ekf.carrier_clock_noise);
+  group.number("max_arc_gap_s", {0.1, 600.0}, &ekf.max_arc_gap_s);
+  group.number("wet_delay_sigma_m", {0.0, 1.0}, &ekf.wet_delay_sigma_m);
+  group.number("wet_delay_noise_m_per_sqrt_h", {0.0, 1.0}, &ekf.wet_delay_noise, 1.0 / kRootHour);
   group.number("clock_offset_noise_m_per_sqrt_s", kNoise, &ekf.clock.offset_noise);
   group.number("clock_drift_noise_m_s_per_sqrt_s", kNoise, &ekf.clock.drift_noise);
   group.number("inter_system_noise_m_per_sqrt_s", kNoise, &ekf.clock.inter_system_noise);

@@ -83,7 +83,9 @@ void read_gnss(ConfigReader& group, GnssConfig* config) {
                                  {"single_frequency", CodeCombination::kSingleFrequency}},
                                 &config->code_combination);
   group.choice<WeightModel>("weight_model",
-                            {{"elevation", WeightModel::kElevation}, {"cn0", WeightModel::kCn0}},
+                            {{"elevation", WeightModel::kElevation},
+                             {"cn0", WeightModel::kCn0},
+                             {"sine", WeightModel::kSine}},
                             &config->weight_model);
   group.number("cn0_reference_dbhz", {10.0, 70.0}, &config->cn0_reference_dbhz);
   group.number("ionosphere_model_error", {0.0, 10.0}, &config->ionosphere_model_error);

@@ -85,6 +85,9 @@ void fill(const SatelliteReport& from, satellite_report_t* to) {
   to->cn0_dbhz = static_cast<float>(from.cn0_dbhz);
   to->ephemeris_age_s = static_cast<float>(from.ephemeris_age_s);
   to->orbit_source = static_cast<std::int8_t>(from.source);
+  to->arc = static_cast<std::int32_t>(from.arc);
+  to->arc_started = from.arc_started ? 1 : 0;
+  to->arc_causes = static_cast<std::int16_t>(from.arc_causes.bits());
 }
 
 void fill(const AidingReport& from, aiding_t* to) {
@@ -100,6 +103,7 @@ void fill(const AidingReport& from, aiding_t* to) {
   to->test_ratio = static_cast<float>(from.test_ratio);
   to->weight_factor = static_cast<float>(from.weight_factor);
   to->reason = static_cast<std::int8_t>(from.reason);
+  to->residual = from.residual;
 }
 
 }  // namespace
@@ -257,6 +261,8 @@ ByteSpan Encoder::encode(const EpochReport& from) {
   to.vdop = from.vdop;
   std::copy(from.clock_m.begin(), from.clock_m.end(), to.clock_m);
   std::copy(from.clock_drift_m_s.begin(), from.clock_drift_m_s.end(), to.clock_drift_m_s);
+  to.wet_delay_m = from.wet_delay_m;
+  to.wet_delay_sigma_m = from.wet_delay_sigma_m;
   to.nis = from.nis;
   to.nis_degrees = from.nis_degrees;
   to.satellites.resize(from.satellites.size());

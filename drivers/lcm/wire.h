@@ -11,7 +11,7 @@ namespace leonav::wire {
 inline constexpr std::int32_t kSchema = 1;
 
 // No message that follows lcmtypes/ is longer: the largest is epoch_t at full capacity (31.4 KiB).
-inline constexpr std::size_t kMaxMessageBytes = 32 * 1024;
+inline constexpr std::size_t kMaxMessageBytes = 40 * 1024;
 
 // Times beyond week 10000 (year 2171) are nonsense and would near the end of the 64-bit range.
 inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;

@@ -29,9 +29,11 @@ struct Comparison {
 };
 
 struct Differences {
-  std::vector<double> models_m;            // per satellite, clock of the system taken out
-  std::vector<double> same_troposphere_m;  // with RTKLIB's troposphere put into ours
-  std::vector<double> positions_m;         // leonav - RTKLIB where both use the same satellites
+  std::vector<double> models_m;  // per satellite, clock of the system taken out
+  // With RTKLIB's troposphere put into ours, and gravity's delay and the tide, which its point
+  // solution leaves out, out of ours.
+  std::vector<double> same_troposphere_m;
+  std::vector<double> positions_m;  // leonav - RTKLIB where both use the same satellites
   std::vector<Eigen::Vector3d> leonav_ned, rtklib_ned;  // errors against the truth
   std::size_t epochs = 0;
 };
@@ -110,7 +112,8 @@ void compare_models(const RawEpoch& raw, const SatelliteCatalog& catalog, const 
     const double difference = ours - theirs->residual_m;
     models[view.satellite.system].push_back(difference);
     same_troposphere[view.satellite.system].push_back(
-        difference + view.troposphere_m - rtklib_troposphere_m(antenna, view.elevation));
+        difference + view.path_m + view.troposphere_m -
+        rtklib_troposphere_m(antenna, view.elevation));
   }
   subtract_median(&models, &out->models_m);
   subtract_median(&same_troposphere, &out->same_troposphere_m);

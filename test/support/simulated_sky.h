@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/earth/sun_moon.h"
+#include "core/earth/tides.h"
 #include "core/gnss/ionosphere.h"
 #include "core/gnss/look_angles.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/gnss/satellite_state.h"
+#include "core/gnss/shapiro.h"
 #include "core/gnss/troposphere.h"
 
 namespace leonav::test {
@@ -83,7 +86,8 @@ struct SimulatedReceiver {
   double clock_drift = 0.0;                            // s/s
   std::vector<double> system_offset_m = {0, 0, 0, 0};  // per System
   bool atmosphere = true;
-  double elevation_mask = 0.0873;  // rad; satellites below are not observed
+  Eigen::Vector3d tide_e = Eigen::Vector3d::Zero();  // of the ground; simulate_epoch() sets it
+  double elevation_mask = 0.0873;                    // rad; satellites below are not observed
   std::vector<std::pair<SignalCode, double>> signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}};
 };
 
@@ -94,7 +98,7 @@ inline Eigen::Vector3d inertial(const Eigen::Vector3d& p_e, double seconds) {
 // Pseudorange at true time kSkyEpoch + t of a signal on `frequency` Hz.
 inline double simulated_pseudorange(const SimulatedSky& sky, const SimulatedReceiver& receiver,
                                     const Ephemeris& ephemeris, double t, double frequency) {
-  const Eigen::Vector3d p_a = receiver.p_e + receiver.v_e * t;
+  const Eigen::Vector3d p_a = receiver.p_e + receiver.v_e * t + receiver.tide_e;
   SatelliteState state;
   double flight = 0.07;
   for (int i = 0; i < 8; ++i) {
@@ -108,7 +112,8 @@ inline double simulated_pseudorange(const SimulatedSky& sky, const SimulatedRece
   const Eigen::Vector3d p_s_now = inertial(state.p_e, -flight);
   double range = flight * kSpeedOfLight +
                  kSpeedOfLight * (receiver.clock_s + receiver.clock_drift * t - state.clock_s) +
-                 receiver.system_offset_m[index_of(ephemeris.satellite.system)];
+                 receiver.system_offset_m[index_of(ephemeris.satellite.system)] +
+                 shapiro_delay_m(p_s_now, p_a);
   if (receiver.atmosphere) {
     const LookAngles angles = look_angles(p_s_now, p_a);
     const GpsTime now = kSkyEpoch.plus_seconds(t);
@@ -126,8 +131,11 @@ inline double simulated_elevation(const SimulatedReceiver& receiver, const Ephem
 
 // The raw epoch at true time kSkyEpoch + t, free of noise; `noise(observation)` may add some.
 inline RawEpoch simulate_epoch(
-    const SimulatedSky& sky, const SimulatedReceiver& receiver, double t,
+    const SimulatedSky& sky, const SimulatedReceiver& on_crust, double t,
     const std::function<void(SignalObservation*)>& noise = [](SignalObservation*) {}) {
+  const GpsTime now = kSkyEpoch.plus_seconds(t);
+  SimulatedReceiver receiver = on_crust;
+  receiver.tide_e = solid_earth_tide(receiver.p_e + receiver.v_e * t, now, sun_moon_positions(now));
   RawEpoch raw;
   raw.time = kSkyEpoch.plus_seconds(t + receiver.clock_s + receiver.clock_drift * t);
   for (const Ephemeris& e : sky.ephemerides) {

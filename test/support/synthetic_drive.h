@@ -17,6 +17,7 @@
 #include "core/earth/rotation.h"
 #include "core/ins/imu.h"
 #include "core/ins/nav_state.h"
+#include "support/simulated_carrier.h"
 #include "support/simulated_sky.h"
 
 namespace leonav::test {
@@ -35,6 +36,8 @@ struct SyntheticDriveOptions {
   bool galileo = true, leo = false;
   // White noise, 1 sigma; zero: none.
   double code_sigma_m = 0.0, doppler_sigma_m_s = 0.0;
+  double carrier_sigma_m = -1.0;      // negative: no carriers
+  double slip_probability = 0.0;      // per satellite and epoch
   double angle_random_walk = 0.0;     // rad/sqrt(s)
   double velocity_random_walk = 0.0;  // m/s/sqrt(s)
   Eigen::Vector3d gyro_bias_b = Eigen::Vector3d::Zero(), accel_bias_b = Eigen::Vector3d::Zero();
@@ -177,6 +180,7 @@ inline std::vector<RawEpoch> synthetic_epochs(const SyntheticDriveOptions& optio
     o->doppler_hz += options.doppler_sigma_m_s * normal(generator) /
                      wavelength_m(o->satellite.system, o->code.band);
   };
+  SimulatedCarriers carriers(options.carrier_sigma_m, options.slip_probability, options.seed + 2);
   std::vector<RawEpoch> epochs;
   for (int k = 0;; ++k) {
     const double t = options.first_epoch_s + k * options.epoch_interval_s;
@@ -187,7 +191,11 @@ inline std::vector<RawEpoch> synthetic_epochs(const SyntheticDriveOptions& optio
     receiver.clock_s = options.clock_s;
     receiver.clock_drift = options.clock_drift;
     receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}, {{'5', 'Q'}, 44.0}};
-    epochs.push_back(simulate_epoch(sky, receiver, t, noise));
+    RawEpoch raw = simulate_epoch(sky, receiver, t);
+    if (options.carrier_sigma_m >= 0.0)
+      carriers.fill(sky, receiver, t, path.state(t).q_eb.toRotationMatrix(), &raw);
+    for (SignalObservation& observation : raw.observations) noise(&observation);
+    epochs.push_back(raw);
   }
 }
 

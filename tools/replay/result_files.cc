@@ -13,13 +13,13 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::string_view kEpochsHeader =
     "gps_week,gps_tow_s,epoch,empty,source,satellites,pdop,hdop,vdop,clock_gps_m,clock_galileo_m,"
     "clock_beidou_m,clock_leo_m,drift_gps_m_s,drift_galileo_m_s,drift_beidou_m_s,drift_leo_m_s,nis,"
-    "nis_degrees";
+    "nis_degrees,wet_delay_m,std_wet_delay_m";
 constexpr std::string_view kSatellitesHeader =
     "gps_week,gps_tow_s,satellite,reason,used,elevation_deg,azimuth_deg,cn0_dbhz,ephemeris_age_s,"
-    "orbit";
+    "orbit,arc,arc_started,arc_causes";
 constexpr std::string_view kMeasurementsHeader =
     "gps_week,gps_tow_s,satellite,observable,signals,observation,innovation,innovation_sigma,"
-    "test_ratio,weight_factor,reason";
+    "test_ratio,weight_factor,reason,residual,elevation_deg";
 
 std::string_view name_of(OrbitSource source) {
   switch (source) {
@@ -43,6 +43,23 @@ std::string_view name_of(Observable observable) {
       return "doppler";
   }
   return "";
+}
+
+// "geometry_free|doppler"; empty: none.
+std::string to_string(SlipCauses causes) {
+  std::string names;
+  for (const SlipCause cause : kSlipCauses) {
+    if (!causes.has(cause)) continue;
+    if (!names.empty()) names += '|';
+    names += to_string(cause);
+  }
+  return names;
+}
+
+double elevation_of(const EpochReport& report, SatelliteId satellite) {
+  for (const SatelliteReport& candidate : report.satellites)
+    if (candidate.satellite == satellite) return candidate.elevation;
+  return 0.0;
 }
 
 bool is_used(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
@@ -81,7 +98,11 @@ void ResultFiles::add(const EpochReport& report) {
       .number(report.vdop, 2);
   for (const double clock : report.clock_m) epochs_.number(clock, 3);
   for (const double drift : report.clock_drift_m_s) epochs_.number(drift, 4);
-  epochs_.number(report.nis, 3).number(report.nis_degrees, 0).end_row();
+  epochs_.number(report.nis, 3)
+      .number(report.nis_degrees, 0)
+      .number(report.wet_delay_m, 4)
+      .number(report.wet_delay_sigma_m, 4)
+      .end_row();
   write_satellites(report);
   write_measurements(report);
 }
@@ -97,6 +118,9 @@ void ResultFiles::write_satellites(const EpochReport& report) {
         .number(satellite.cn0_dbhz, 1)
         .number(satellite.ephemeris_age_s, 1)
         .text(name_of(satellite.source))
+        .number(satellite.arc, 0)
+        .number(satellite.arc_started ? 1.0 : 0.0, 0)
+        .text(to_string(satellite.arc_causes))
         .end_row();
   }
 }
@@ -115,6 +139,8 @@ void ResultFiles::write_measurements(const EpochReport& report) {
         .number(aiding.test_ratio, 3)
         .number(aiding.weight_factor, 4)
         .text(to_string(aiding.reason))
+        .number(aiding.residual, 4)
+        .number(elevation_of(report, aiding.satellite) * kDegrees, 2)
         .end_row();
   }
 }

@@ -25,6 +25,10 @@ void RunStatistics::add(const EpochReport& report) {
   used_sum_ += report.satellites_used;
   for (const SatelliteReport& satellite : report.satellites) {
     ++satellites_by_reason_[std::string(to_string(satellite.reason))];
+    if (!satellite.arc_started) continue;
+    ++carrier_arcs_;
+    for (const SlipCause cause : kSlipCauses)
+      if (satellite.arc_causes.has(cause)) ++arc_ends_[std::string(to_string(cause))];
   }
   for (const AidingReport& aiding : report.aiding) {
     ++measurements_by_reason_[std::string(to_string(aiding.reason))];
@@ -52,6 +56,8 @@ void RunStatistics::print(std::ostream& out) const {
   out << "largest jump m: " << largest_jump_m_ << "\n";
   print_map(out, "satellites", satellites_by_reason_);
   print_map(out, "measurements", measurements_by_reason_);
+  out << "carrier arcs: " << carrier_arcs_ << "\n";
+  print_map(out, "carrier arcs ended by", arc_ends_);
   print_map(out, "events", events_);
 }
 

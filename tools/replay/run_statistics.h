@@ -28,12 +28,12 @@ class RunStatistics {
 
  private:
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
-                commits_ = 0, misses_ = 0;
+                commits_ = 0, misses_ = 0, carrier_arcs_ = 0;
   double used_sum_ = 0.0;
   double largest_jump_m_ = 0.0;
   // Ordered maps: they are printed in order.
   std::map<std::string, std::uint64_t> solutions_by_source_, events_, satellites_by_reason_,
-      measurements_by_reason_;
+      arc_ends_, measurements_by_reason_;
 };
 
 }  // namespace leonav

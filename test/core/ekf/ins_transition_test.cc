@@ -156,7 +156,7 @@ TEST_CASE("accumulated sub-blocks move the covariance as sample by sample does")
   const NavState start = start_state();
   const auto samples = lively_samples(200);
   const ImuErrorModel model = synthetic::mems();
-  EkfCovariance initial = EkfCovariance::Zero();
+  EkfCovariance initial = EkfCovariance::Zero(kSize, kSize);
   initial.diagonal().segment<3>(kPosition).setConstant(4.0);
   initial.diagonal().segment<3>(kVelocity).setConstant(0.01);
   initial.diagonal().segment<3>(kAttitude).setConstant(1e-4);
@@ -196,7 +196,7 @@ TEST_CASE("process noise alone is positive semidefinite and adds up over sub-blo
   const auto samples = lively_samples(200);
   const ImuErrorModel model = synthetic::mems();
   const auto propagate = [&](std::size_t per_block) {
-    EkfCovariance P = EkfCovariance::Zero();
+    EkfCovariance P = EkfCovariance::Zero(kSize, kSize);
     Mechanization mechanization;
     mechanization.reset(start);
     InsTransition transition;

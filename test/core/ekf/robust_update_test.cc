@@ -49,7 +49,7 @@ FilterMeasurements around(int count, synthetic::Generator* noise) {
 }
 
 EkfCovariance position_and_clock(double sigma) {
-  EkfCovariance P = EkfCovariance::Zero();
+  EkfCovariance P = EkfCovariance::Zero(kSize, kSize);
   P.diagonal().segment<3>(kPosition).setConstant(sigma * sigma);
   P(kClock, kClock) = sigma * sigma;
   return P;
@@ -65,7 +65,7 @@ TEST_CASE("ten epochs of a linear problem equal batch least squares") {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) root(i, j) = noise.normal();
   const Eigen::Matrix4d prior = root * root.transpose() + Eigen::Matrix4d::Identity();
-  EkfCovariance P = EkfCovariance::Zero();
+  EkfCovariance P = EkfCovariance::Zero(kSize, kSize);
   P.block<3, 3>(0, 0) = prior.block<3, 3>(0, 0);
   P.block<3, 1>(0, kClock) = prior.block<3, 1>(0, 3);
   P.block<1, 3>(kClock, 0) = prior.block<1, 3>(3, 0);
@@ -88,7 +88,7 @@ TEST_CASE("ten epochs of a linear problem equal batch least squares") {
       A.row(r) << u.transpose() / sigma, 1.0 / sigma;
       b(r) = value / sigma;
     }
-    x += robust_update(off(), &measurements, &P).correction;
+    x += RobustUpdate{}(off(), &measurements, &P).correction;
   }
   const Eigen::Vector4d batch = A.householderQr().solve(b);
   const Eigen::Matrix4d covariance = (A.transpose() * A).inverse();
@@ -105,27 +105,34 @@ TEST_CASE("ten epochs of a linear problem equal batch least squares") {
 
 TEST_CASE("the update equals Joseph's form and the textbook innovation statistic") {
   synthetic::Generator noise(6);
-  Eigen::MatrixXd root(kSize, kSize);
-  for (int i = 0; i < kSize; ++i)
-    for (int j = 0; j < kSize; ++j) root(i, j) = noise.normal();
+  constexpr int kStates = kSize + 5;  // with five ambiguities
+  Eigen::MatrixXd root(kStates, kStates);
+  for (int i = 0; i < kStates; ++i)
+    for (int j = 0; j < kStates; ++j) root(i, j) = noise.normal();
   const EkfCovariance prior = root * root.transpose();
   FilterMeasurements measurements;
-  Eigen::MatrixXd H(12, kSize);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(12, kStates);
   Eigen::VectorXd y(12);
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(12, 12);
   for (int i = 0; i < 12; ++i) {
     EkfVector row;
     for (int j = 0; j < kSize; ++j) row(j) = noise.normal();
     measurements.push_back(scalar(3.0 * noise.normal(), 0.7, row));
-    H.row(i) = row;
+    H.row(i).head(kSize) = row;
+    if (i % 2 == 1) {
+      measurements.back().ambiguity = kSize + i / 2 % 5;
+      H(i, measurements.back().ambiguity) = 1.0;
+    }
+    CHECK(predicted_variance(measurements.back(), prior) ==
+          Approx(H.row(i) * prior * H.row(i).transpose()));
     y(i) = measurements.back().innovation;
     R(i, i) = 0.49;
   }
   EkfCovariance P = prior;
-  const RobustUpdateResult result = robust_update(off(), &measurements, &P);
+  const RobustUpdateResult result = RobustUpdate{}(off(), &measurements, &P);
   const Eigen::MatrixXd S = H * prior * H.transpose() + R;
   const Eigen::MatrixXd K = prior * H.transpose() * S.inverse();
-  const Eigen::MatrixXd IKH = Eigen::MatrixXd::Identity(kSize, kSize) - K * H;
+  const Eigen::MatrixXd IKH = Eigen::MatrixXd::Identity(kStates, kStates) - K * H;
   const Eigen::MatrixXd joseph = IKH * prior * IKH.transpose() + K * R * K.transpose();
   CHECK((P - joseph).norm() / joseph.norm() < 1e-9);
   CHECK((result.correction - K * y).norm() / (K * y).norm() < 1e-9);
@@ -139,7 +146,7 @@ TEST_CASE("an outlier behind a poor prior is found by the other measurements") {
   FilterMeasurements measurements = around(9, &noise);
   measurements[4].innovation += 60.0;
   EkfCovariance P = position_and_clock(100.0);
-  const RobustUpdateResult robust = robust_update(RobustConfig{}, &measurements, &P);
+  const RobustUpdateResult robust = RobustUpdate{}(RobustConfig{}, &measurements, &P);
   CHECK(measurements[4].factor == 0.0);
   int kept = 0;
   for (const FilterMeasurement& measurement : measurements) kept += measurement.factor > 0.5;
@@ -149,7 +156,7 @@ TEST_CASE("an outlier behind a poor prior is found by the other measurements") {
   FilterMeasurements plain = around(9, &noise);
   plain[4].innovation += 60.0;
   EkfCovariance P_plain = position_and_clock(100.0);
-  CHECK(robust_update(off(), &plain, &P_plain).correction.head<3>().norm() > 10.0);
+  CHECK(RobustUpdate{}(off(), &plain, &P_plain).correction.head<3>().norm() > 10.0);
 }
 
 TEST_CASE("three outliers among twelve are found") {
@@ -159,7 +166,7 @@ TEST_CASE("three outliers among twelve are found") {
   EkfCovariance P = position_and_clock(20.0);
   RobustConfig config;
   config.max_iterations = 10;
-  const RobustUpdateResult result = robust_update(config, &measurements, &P);
+  const RobustUpdateResult result = RobustUpdate{}(config, &measurements, &P);
   for (const std::size_t i : {1U, 5U, 8U}) CHECK(measurements[i].factor == 0.0);
   CHECK(result.correction.head<3>().norm() < 3.0);
 }
@@ -172,7 +179,7 @@ TEST_CASE("clean measurements keep nearly all their weight") {
   for (int run = 0; run < kRuns; ++run) {
     FilterMeasurements measurements = around(10, &noise);
     EkfCovariance P = position_and_clock(0.5);
-    robust_update(RobustConfig{}, &measurements, &P);
+    RobustUpdate{}(RobustConfig{}, &measurements, &P);
     for (const FilterMeasurement& measurement : measurements) {
       sum += measurement.factor;
       rejected += measurement.factor == 0.0;
@@ -187,12 +194,12 @@ TEST_CASE("states without variance take no correction, and nothing measured chan
   FilterMeasurements measurements = around(6, &noise);
   for (FilterMeasurement& measurement : measurements) measurement.row.setOnes();
   EkfCovariance P = position_and_clock(10.0);
-  const RobustUpdateResult result = robust_update(RobustConfig{}, &measurements, &P);
+  const RobustUpdateResult result = RobustUpdate{}(RobustConfig{}, &measurements, &P);
   CHECK(result.correction.segment(kVelocity, kClock - kVelocity).norm() == 0.0);
   CHECK(result.correction.tail<7>().norm() == 0.0);
   FilterMeasurements none;
   const EkfCovariance before = P;
-  CHECK(robust_update(RobustConfig{}, &none, &P).correction.norm() == 0.0);
+  CHECK(RobustUpdate{}(RobustConfig{}, &none, &P).correction.norm() == 0.0);
   CHECK((P - before).norm() == 0.0);
 }
 

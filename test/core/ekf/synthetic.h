@@ -94,7 +94,6 @@ inline MeasurementEpoch measure(GpsTime time, const std::vector<SatelliteInView>
                                 Generator* noise) {
   MeasurementEpoch epoch;
   epoch.time = time;
-  epoch.approximate_p_e = truth.p_antenna_e;
   for (const SatelliteInView& view : sky) {
     const auto index = static_cast<std::uint16_t>(epoch.satellites.size());
     const auto base = static_cast<Eigen::Index>(index_of(view.satellite.system));

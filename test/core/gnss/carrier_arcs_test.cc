@@ -161,6 +161,23 @@ TEST_CASE("A short gap ends no arc, for LEO only a shorter one", "[carrier_arcs]
   CHECK(leo.started() == 8);
 }
 
+TEST_CASE("One frequency alone survives no epoch without its satellite", "[carrier_arcs]") {
+  const Receiver receiver;
+  for (const bool pairs : {true, false}) {
+    Run run = settled_run(receiver, pairs);
+    RawEpoch without = receiver.at(20);
+    without.observations.erase(without.observations.begin(), without.observations.begin() + 2);
+    run.feed(without, pairs);
+    CHECK(run.started() == 0);
+    run.feed(receiver.at(21), pairs);
+    CHECK(run.started() == (pairs ? 0 : 1));
+    CHECK((run.epoch.satellites[0].causes == SlipCauses(SlipCause::kGap)) == !pairs);
+    // An epoch that all have missed is none: the geometry sees across it.
+    run.feed(receiver.at(23), pairs);
+    CHECK(run.started() == 0);
+  }
+}
+
 TEST_CASE("A clock that jumps by milliseconds ends no arc, whatever the receiver's custom",
           "[carrier_arcs][clock_jump]") {
   for (const int milliseconds : {1, -1, 3}) {

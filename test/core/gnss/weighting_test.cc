@@ -19,6 +19,15 @@ TEST_CASE("elevation law: sigma0 above 30 degrees, sigma0 / (2 sin E) below") {
   CHECK(elevation_factor(-0.5) == elevation_factor(0.0));
 }
 
+TEST_CASE("sine law: sigma0 / sin E up to the zenith") {
+  GnssConfig config;
+  config.weight_model = WeightModel::kSine;
+  CHECK(noise_factor(config, 90.0 * kDegree, 20.0) == Approx(1.0));
+  CHECK(noise_factor(config, 30.0 * kDegree, 20.0) == Approx(2.0));
+  CHECK(noise_factor(config, 10.0 * kDegree, 20.0) == Approx(1.0 / 0.17364817766693));
+  CHECK(noise_factor(config, -0.5, 20.0) == noise_factor(config, 1.0 * kDegree, 20.0));
+}
+
 TEST_CASE("C/N0 law: 20 dB less is ten times the sigma, never below the elevation's") {
   GnssConfig config;
   config.weight_model = WeightModel::kCn0;

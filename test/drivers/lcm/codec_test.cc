@@ -11,6 +11,7 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
+#include "drivers/lcm/wire.h"
 #include "support/catch.h"
 
 namespace {
@@ -100,7 +101,7 @@ TEST_CASE("wrong values are named") {
   Bytes bytes = copy(encoder.encode(imu_sample(), 1));
   bytes[27] = 9;
   CHECK(decoder.decode(bytes, &out).fault == InputFault::kUnknownSchema);
-  CHECK(decoder.decode(Bytes(40'000, 0), &out).fault == InputFault::kTooMany);
+  CHECK(decoder.decode(Bytes(wire::kMaxMessageBytes + 1, 0), &out).fault == InputFault::kTooMany);
   Ephemeris ephemeris;  // all zero: not an orbit
   ephemeris.satellite = {System::kGps, 3};
   ephemeris.toe = ephemeris.toc = imu_sample().time;

@@ -1,0 +1,134 @@
+// From an epoch's measurements to the innovations of Ekf, and the carrier arcs' coming and going.
+#include <algorithm>
+#include <cmath>
+
+#include "core/ekf/ambiguities.h"
+#include "core/ekf/ekf.h"
+#include "core/ekf/measurement_model.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Vector3d;
+
+// A new ambiguity starts where its first carrier fits the prediction, so wide that this one use of
+// the prediction does not count.
+constexpr double kStartAmbiguitySigma = 100.0;  // m
+constexpr double kStartShare = 10.0;            // and of the prediction's sigma
+// An arc thrown out in so many epochs in a row has slipped, whatever its checks said.
+constexpr int kMaxRejectedEpochs = 2;
+
+double square(double x) { return x * x; }
+
+// Variance of white noise that averages like an error of this correlation time.
+double correlation_inflation(double correlation_time_s, double dt) {
+  if (correlation_time_s <= 0.0 || dt <= 0.0) return 1.0;
+  const double r = std::exp(-dt / correlation_time_s);
+  return (1.0 + r) / (1.0 - r);
+}
+
+}  // namespace
+
+// An arc has ended where its satellite has another one now, or has not been seen for long.
+void Ekf::drop_ended_arcs(const MeasurementEpoch& epoch) {
+  for (int i = static_cast<int>(ambiguities_.size()) - 1; i >= 0; --i) {
+    const Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(i)];
+    bool ended = ambiguity.rejected >= kMaxRejectedEpochs ||
+                 seconds_between(epoch.time, ambiguity.last_used) > config_.max_arc_gap_s;
+    for (const Measurement& measurement : epoch.measurements) {
+      if (measurement.observable != Observable::kCarrier || measurement.arc == ambiguity.arc)
+        continue;
+      const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+      ended = ended || satellite.satellite == ambiguity.satellite;
+    }
+    if (ended) remove_ambiguity(i, &ambiguities_, &covariance_);
+  }
+}
+
+// State index of the arc's ambiguity, started if need be; kNoAmbiguity: no place for another.
+int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
+                      const FilterMeasurement& entry, GpsTime time) {
+  int place = find_ambiguity(ambiguities_, carrier.arc);
+  if (place != kNoAmbiguity) return kSize + place;
+  if (ambiguities_.size() == ambiguities_.capacity()) return kNoAmbiguity;
+  Ambiguity ambiguity;
+  ambiguity.arc = carrier.arc;
+  ambiguity.satellite = satellite;
+  ambiguity.value_m = entry.innovation;
+  ambiguity.wander = carrier.wander;
+  ambiguity.last_used = time;
+  const double predicted = std::sqrt(std::max(predicted_variance(entry, covariance_), 0.0));
+  add_ambiguity(ambiguity, kStartAmbiguitySigma + kStartShare * predicted, &ambiguities_,
+                &covariance_);
+  return kSize + static_cast<int>(ambiguities_.size()) - 1;
+}
+
+void Ekf::gather(const MeasurementEpoch& epoch) {
+  AntennaMotion motion = antenna();
+  // A prediction hundreds of metres off is too far for a straight line to reach centimetres.
+  Vector3d off_e = Vector3d::Zero();
+  if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - motion.p_e;
+  motion.p_e += off_e;
+  const double dt = seconds_between(epoch.time, last_update_);
+  const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
+  const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
+  measurements_.clear();
+  arcs_without_place_ = 0;
+  for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
+    const Measurement& measurement = epoch.measurements[i];
+    const bool carrier = measurement.observable == Observable::kCarrier;
+    if (measurement.reason != Reason::kUsed ||
+        measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
+        !std::isfinite(measurement.value))
+      continue;
+    const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+    if (carrier && (!config_.use_carrier || measurement.arc == 0 ||
+                    !known_.offset[index_of(satellite.satellite.system)]))
+      continue;
+    const MeasurementPrediction prediction = predict_measurement(
+        measurement, satellite, motion, clocks_, wet_delay_m_, carrier_clock_m_);
+    FilterMeasurement entry;
+    entry.index = i;
+    entry.observable = measurement.observable;
+    entry.innovation =
+        measurement.value - prediction.value + prediction.row.segment<3>(kPosition).dot(off_e);
+    entry.variance = square(measurement.sigma);
+    entry.gain_variance = entry.variance;
+    entry.row = prediction.row;
+    if (measurement.observable == Observable::kCode) entry.gain_variance *= code_inflation;
+    if (measurement.observable == Observable::kDoppler) entry.gain_variance *= doppler_inflation;
+    if (carrier) {
+      entry.ambiguity = ambiguity_of(measurement, satellite.satellite, entry, epoch.time);
+      if (entry.ambiguity < 0) {
+        ++arcs_without_place_;
+        continue;
+      }
+      const auto place = static_cast<std::size_t>(entry.ambiguity - kSize);
+      entry.innovation -= ambiguities_[place].value_m;
+    }
+    measurements_.push_back(entry);
+  }
+}
+
+// An arc whose constant may have stepped since the last epoch is less certain for it.
+void Ekf::disturb_ambiguities(const MeasurementEpoch& epoch) {
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCarrier || !(measurement.disturbance_m > 0.0))
+      continue;
+    const int place = find_ambiguity(ambiguities_, measurement.arc);
+    if (place == kNoAmbiguity) continue;
+    covariance_(kSize + place, kSize + place) += square(measurement.disturbance_m);
+  }
+}
+
+// What the update made of a carrier decides whether its arc goes on.
+void Ekf::close_carrier(const FilterMeasurement& measurement, GpsTime time,
+                        EkfUpdateResult* result) {
+  Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(measurement.ambiguity - kSize)];
+  ambiguity.last_used = time;
+  ambiguity.rejected = measurement.factor > 0.0 ? 0 : ambiguity.rejected + 1;
+  if (ambiguity.rejected >= kMaxRejectedEpochs) ++result->arcs_restarted;
+}
+
+}  // namespace leonav

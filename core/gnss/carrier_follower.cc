@@ -1,0 +1,156 @@
+#include "core/gnss/carrier_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/gnss/range_model.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kForget_s = 600.0;  // a satellite out of sight for longer begins anew
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+CarrierFollower::CarrierFollower(const CycleSlipConfig& config) : config_(config), arcs_(config) {}
+
+void CarrierFollower::begin(GpsTime time) {
+  time_ = time;
+  inputs_.clear();
+}
+
+void CarrierFollower::offer(const SignalObservation& first, const SignalObservation* second,
+                            double elevation) {
+  if (inputs_.size() < inputs_.capacity()) inputs_.push_back({&first, second, elevation});
+}
+
+const ArcEpoch& CarrierFollower::follow() {
+  arcs_.process(time_, {inputs_.data(), inputs_.size()}, &arc_epoch_);
+  return arc_epoch_;
+}
+
+CarrierFollower::Memory* CarrierFollower::memory_of(SatelliteId satellite) {
+  const auto place = std::find_if(memory_.begin(), memory_.end(),
+                                  [&](const Memory& m) { return m.satellite == satellite; });
+  return place == memory_.end() ? nullptr : &*place;
+}
+
+const CarrierFollower::Memory* CarrierFollower::memory_of(SatelliteId satellite) const {
+  return const_cast<CarrierFollower*>(this)->memory_of(satellite);
+}
+
+double CarrierFollower::last_wind_up(SatelliteId satellite) const {
+  const Memory* memory = memory_of(satellite);
+  return memory == nullptr ? 0.0 : memory->wind_up_cycles;
+}
+
+void CarrierFollower::set_wind_up(SatelliteId satellite, double cycles) {
+  Memory* memory = memory_of(satellite);
+  if (memory == nullptr) {
+    if (memory_.size() == memory_.capacity()) return;
+    memory_.push_back({});
+    memory = &memory_.back();
+    memory->satellite = satellite;
+  }
+  memory->wind_up_cycles = cycles;
+  memory->seen = time_;
+}
+
+RangeChangeRow CarrierFollower::row_of(const SatelliteInView& satellite, const Measurement& carrier,
+                                       const Memory& before,
+                                       const Eigen::Vector3d& predicted_p_e) const {
+  const RangePrediction range = predict_range(satellite, predicted_p_e);
+  const double dt = seconds_between(time_, last_time_);
+  RangeChangeRow row;
+  row.direction = range.d_range_d_p.transpose();
+  row.direction_change = row.direction - before.direction;
+  row.residual_m = carrier.value - range.range_m - before.residual_m;
+  row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 + square(carrier.wander) * dt);
+  row.time_base = static_cast<int>(index_of(satellite.satellite.system));
+  return row;
+}
+
+void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
+                                          const RangeChangePrior& prior, MeasurementEpoch* epoch) {
+  boost::container::static_vector<RangeChangeRow, kMaxSatellites> rows;
+  boost::container::static_vector<Measurement*, kMaxSatellites> carriers;
+  // Statuses stand in the order of the offers, and so do the carriers, but some may be missing.
+  std::size_t status = 0;
+  boost::container::static_vector<std::size_t, kMaxSatellites> row_status;
+  for (Measurement& carrier : epoch->measurements) {
+    if (carrier.observable != Observable::kCarrier) continue;
+    const SatelliteInView& satellite = epoch->satellites[carrier.satellite_index];
+    while (status < inputs_.size() && inputs_[status].first->satellite != satellite.satellite)
+      ++status;
+    if (status >= inputs_.size()) break;
+    carriers.push_back(&carrier);
+    row_status.push_back(status);
+  }
+  boost::container::static_vector<RangeRowResult, kMaxSatellites> verdicts(inputs_.size());
+  if (last_time_.is_set() && config_.use_range_change) {
+    boost::container::static_vector<std::size_t, kMaxSatellites> of_row;
+    for (std::size_t i = 0; i < carriers.size(); ++i) {
+      const SatelliteInView& satellite = epoch->satellites[carriers[i]->satellite_index];
+      const Memory* before = memory_of(satellite.satellite);
+      if (before == nullptr || before->time != last_time_ || before->arc != carriers[i]->arc ||
+          before->issue != satellite.orbit_issue || carriers[i]->arc == 0)
+        continue;
+      rows.push_back(row_of(satellite, *carriers[i], *before, predicted_p_e));
+      of_row.push_back(row_status[i]);
+    }
+    const RangeChangeResult result = range_change({rows.data(), rows.size()}, prior, config_);
+    for (std::size_t i = 0; i < of_row.size(); ++i) verdicts[of_row[i]] = result.rows[i];
+  }
+  arcs_.settle({verdicts.data(), verdicts.size()}, &arc_epoch_);
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    SatelliteInView& satellite = epoch->satellites[carriers[i]->satellite_index];
+    const CarrierStatus& now = arc_epoch_.satellites[row_status[i]];
+    carriers[i]->arc = satellite.arc = now.arc;
+    satellite.arc_started = now.started;
+    satellite.arc_causes = now.causes;
+    const Memory* before = memory_of(satellite.satellite);
+    if (before != nullptr && before->arc == carriers[i]->arc &&
+        before->issue != satellite.orbit_issue)
+      carriers[i]->disturbance_m = std::sqrt(2.0) * satellite.orbit_sigma_m;
+  }
+}
+
+void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e) {
+  for (const Measurement& carrier : epoch.measurements) {
+    if (carrier.observable != Observable::kCarrier) continue;
+    const SatelliteInView& satellite = epoch.satellites[carrier.satellite_index];
+    Memory* memory = memory_of(satellite.satellite);
+    if (memory == nullptr) continue;  // the table was full
+    const RangePrediction range = predict_range(satellite, antenna_p_e);
+    memory->time = epoch.time;
+    memory->arc = carrier.arc;
+    memory->residual_m = carrier.value - range.range_m;
+    memory->direction = range.d_range_d_p.transpose();
+    memory->variance_m2 = square(carrier.sigma);
+    memory->issue = satellite.orbit_issue;
+  }
+  last_time_ = epoch.time;
+  memory_.erase(std::remove_if(memory_.begin(), memory_.end(),
+                               [&](const Memory& m) {
+                                 return seconds_between(epoch.time, m.seen) > kForget_s;
+                               }),
+                memory_.end());
+}
+
+void CarrierFollower::reset() {
+  arcs_.reset();
+  memory_.clear();
+  last_time_ = GpsTime();
+}
+
+const CarrierStatus* CarrierFollower::status_of(SatelliteId satellite) const {
+  for (std::size_t i = 0; i < inputs_.size() && i < arc_epoch_.satellites.size(); ++i)
+    if (inputs_[i].first != nullptr && inputs_[i].first->satellite == satellite)
+      return &arc_epoch_.satellites[i];
+  return nullptr;
+}
+
+}  // namespace leonav

@@ -1,0 +1,69 @@
+// What the carriers need from one epoch to the next: their arcs, their wind-up, and what they
+// measured before.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+
+#include "core/gnss/carrier_arcs.h"
+#include "core/gnss/measurement.h"
+
+namespace leonav {
+
+// In this order, once per epoch:
+//   begin, offer (each satellite), follow, wind_up (each satellite), append to the epoch;
+//   check_range_changes with the predicted motion; remember with the position that came out.
+class CarrierFollower {
+ public:
+  explicit CarrierFollower(const CycleSlipConfig& config);
+
+  void begin(GpsTime time);
+  void offer(const SignalObservation& first, const SignalObservation* second, double elevation);
+  // Statuses in the order of the offers; stays until the next epoch.
+  const ArcEpoch& follow();
+
+  // The satellite's wind-up at the last epoch, cycles; 0 for a new one.
+  double last_wind_up(SatelliteId satellite) const;
+  void set_wind_up(SatelliteId satellite, double cycles);
+
+  // Tests the carriers of `epoch` (appended in the order of the offers; those left out there have
+  // no measurement) against each other and the predicted motion, and gives each its arc.
+  // `predicted_p_e`: the antenna as predicted. Also says which carriers are disturbed by another
+  // orbit.
+  void check_range_changes(const Eigen::Vector3d& predicted_p_e, const RangeChangePrior& prior,
+                           MeasurementEpoch* epoch);
+  // `antenna_p_e`: as estimated with this epoch.
+  void remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e);
+  void reset();
+
+  GpsTime last_time() const { return last_time_; }
+  const ArcEpoch& arcs() const { return arc_epoch_; }
+  // Of the satellite in this epoch, or nullptr.
+  const CarrierStatus* status_of(SatelliteId satellite) const;
+
+ private:
+  struct Memory {
+    SatelliteId satellite;
+    GpsTime seen;
+    GpsTime time;  // of the last carrier remembered
+    std::uint32_t arc = 0;
+    double residual_m = 0.0;  // measured minus geometric range
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    double variance_m2 = 0.0;
+    std::uint32_t issue = 0;
+    double wind_up_cycles = 0.0;
+  };
+  Memory* memory_of(SatelliteId satellite);
+  const Memory* memory_of(SatelliteId satellite) const;
+  RangeChangeRow row_of(const SatelliteInView& satellite, const Measurement& carrier,
+                        const Memory& before, const Eigen::Vector3d& predicted_p_e) const;
+
+  CycleSlipConfig config_;
+  CarrierArcs arcs_;
+  ArcEpoch arc_epoch_;
+  boost::container::static_vector<CarrierInput, kMaxSatellites> inputs_;
+  boost::container::static_vector<Memory, kMaxSatellites> memory_;
+  GpsTime time_, last_time_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,139 @@
+// When the filter of GnssStage is dropped, doubted or started over.
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+#include "core/gnss/point_solution.h"
+#include "core/navigator/epoch_report.h"
+#include "core/navigator/gnss_stage.h"
+#include "core/navigator/solution.h"
+
+namespace leonav {
+namespace {
+
+constexpr int kMinToJudge = 4;             // codes or Dopplers
+constexpr int kMinResetRedundancy = 2;     // of a point solution that overthrows a running filter
+constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
+constexpr double kLostSigma_m = 1e5;       // likewise, with carrier arcs
+constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
+constexpr double kMinResetHeadingSigma = 0.1;  // rad
+
+// Satellites beyond what a position and one clock per time base need.
+int redundancy(const PointSolution& point) {
+  int bases = 0;
+  for (const double clock_m : point.clock_m) bases += std::isfinite(clock_m) ? 1 : 0;
+  return point.satellites - 3 - bases;
+}
+
+}  // namespace
+
+// A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
+void GnssStage::drop_broken_filter(GpsTime time) {
+  if (ekf_.initialized() && !ekf_.is_finite()) drop_filter(time);
+}
+
+void GnssStage::drop_filter(GpsTime time) {
+  ekf_.reset();
+  alignment_.reset();
+  gnss_used_ = false;
+  suspect_epochs_ = 0;
+  last_reset_time_ = time;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
+               time);
+}
+
+bool GnssStage::prediction_is_useless() const {
+  // Carrier arcs under way are worth more than any position of codes.
+  const bool arcs = config_.ekf.use_carrier && last_gnss_time_.is_set() &&
+                    seconds_between(last_epoch_time_, last_gnss_time_) <= config_.ekf.max_arc_gap_s;
+  const double limit_m = arcs ? kLostSigma_m : kUselessSigma_m;
+  return !ekf_.state().p_e.allFinite() || !(position_sigma() < limit_m);
+}
+
+double GnssStage::position_sigma() const {
+  return norm_of_sigmas(ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition));
+}
+
+// A filter that is less right than it says, for long, is somebody's business even where no
+// measurement stands out.
+void GnssStage::watch_consistency(const EpochWork& work, const EkfUpdateResult& result) {
+  const std::array<double, 2> ratios = {result.code_ratio, result.doppler_ratio};
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    if (consistency_[i].add(ratios[i]))
+      events_.emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), consistency_[i].mean(),
+                   work.time);
+  }
+}
+
+// Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
+// solution is asked before it is believed, and must have been checked itself: where it agrees with
+// the filter, the measurements are to blame.
+void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& result) {
+  const auto most = [&](int rejected, int offered) {
+    return offered >= kMinToJudge && rejected >= config_.ekf.reset_ratio * offered;
+  };
+  const auto most_of = [&](Observable observable) {
+    const auto kind = static_cast<std::size_t>(observable);
+    return most(result.rejected[kind], result.offered[kind]);
+  };
+  const bool code = most_of(Observable::kCode);
+  const bool doppler = most_of(Observable::kDoppler);
+  const bool suspect = code || doppler;
+  suspect_epochs_ = suspect ? suspect_epochs_ + 1 : 0;
+  if (suspect_epochs_ < config_.ekf.reset_epochs) return;
+  std::swap(measurements_, check_measurements_);
+  PointSolution point;
+  if (solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy &&
+      contradicts(point, doppler)) {
+    restart_from(point, work, ResetCause::kPrediction);
+  }
+  std::swap(measurements_, check_measurements_);
+}
+
+// Whether the filter is elsewhere than a point solution; with `motion` also whether it moves, or
+// its oscillator runs, otherwise.
+bool GnssStage::contradicts(const PointSolution& point, bool motion) const {
+  const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
+  if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) return true;
+  if (!motion || !point.has_velocity) return false;
+  const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
+  if ((point.v_e - ekf_.antenna_velocity_e()).norm() > limit_m_s) return true;
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    if (!ekf_.clocks_known().drift[base] || !std::isfinite(point.clock_drift_m_s[base])) continue;
+    const double drift_m_s = ekf_.clocks().drift_m_s(static_cast<Eigen::Index>(base));
+    if (std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s) return true;
+  }
+  return false;
+}
+
+// The attitude survives, less sure of its heading, unless it has just been given that chance; what
+// has been learned of the IMU's errors survives with it.
+void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause) {
+  const double moved_m = (point.p_e - ekf_.antenna_position_e()).norm();
+  const bool relapse =
+      last_reset_time_.is_set() && seconds_between(work.time, last_reset_time_) < kRelapse_s;
+  const bool keep_attitude =
+      ekf_.has_attitude() && !relapse && ekf_.state().q_eb.coeffs().allFinite();
+  const Eigen::Quaterniond q_eb = ekf_.state().q_eb;
+  const ImuErrors errors = ekf_.state().errors;
+  const ImuErrorCovariance error_covariance =
+      ekf_.covariance().block<12, 12>(ekf_index::kGyroBias, ekf_index::kGyroBias);
+  EpochReport* report = report_.get();
+  report_state(ekf_, report);
+  Eigen::Vector3d sigma_rpy = report->solution.sigma_rpy;
+  sigma_rpy.head<2>() = sigma_rpy.head<2>().cwiseMax(config_.alignment.levelling_sigma);
+  sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
+
+  ekf_.initialize(work.time, point);
+  if (keep_attitude) {
+    ekf_.set_attitude(q_eb, sigma_rpy, errors, error_covariance);
+  } else {
+    alignment_.reset();
+  }
+  gnss_used_ = true;
+  suspect_epochs_ = 0;
+  last_reset_time_ = work.time;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
+}
+
+}  // namespace leonav

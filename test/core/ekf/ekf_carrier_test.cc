@@ -1,0 +1,277 @@
+// Carrier phase in the filter: ambiguities against a batch solution, and their coming and going.
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <vector>
+
+#include "core/ekf/ambiguities.h"
+#include "core/ekf/ekf.h"
+#include "support/catch.h"
+#include "synthetic.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Vector3d;
+using synthetic::Generator;
+
+constexpr double kCode = 0.3, kCarrier = 0.003;  // m
+constexpr double kStep_s = 30.0;
+
+// The eight satellites, moving across the sky.
+std::vector<SatelliteInView> sky_at(double t) {
+  constexpr std::array<double, 8> kAzimuth = {0.1, 1.3, 2.4, 3.6, 5.0, 0.8, 2.9, 4.4};
+  constexpr std::array<double, 8> kElevation = {0.4, 1.2, 0.5, 0.9, 0.35, 0.7, 0.6, 1.0};
+  std::vector<SatelliteInView> sky;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double turn = (i % 2 == 0 ? 1.0 : -1.0) * 1.2e-4 * t;
+    sky.push_back(synthetic::satellite_at(i < 5 ? System::kGps : System::kGalileo,
+                                          static_cast<std::uint16_t>(i + 1), kAzimuth[i] + turn,
+                                          kElevation[i] + 0.5 * turn));
+  }
+  return sky;
+}
+
+double ambiguity_of(std::size_t satellite) { return 3.7 * static_cast<double>(satellite) - 11.0; }
+
+class Receiver {
+ public:
+  explicit Receiver(std::uint64_t seed) : noise_(seed) {
+    truth_.p_antenna_e = synthetic::start_position();
+    truth_.v_antenna_e = Vector3d::Zero();
+    truth_.clocks.offset_m.setConstant(1000.0);
+    truth_.clocks.drift_m_s.setZero();
+  }
+
+  // Codes and carriers; arcs are numbered from `first_arc` on.
+  MeasurementEpoch measure(double t, std::uint32_t first_arc = 1) {
+    MeasurementEpoch epoch;
+    epoch.time = synthetic::kStart.plus_seconds(t);
+    for (const SatelliteInView& view : sky_at(t)) {
+      const std::size_t i = epoch.satellites.size();
+      const auto base = static_cast<Eigen::Index>(index_of(view.satellite.system));
+      epoch.satellites.push_back(view);
+      Measurement code;
+      code.satellite_index = static_cast<std::uint16_t>(i);
+      code.sigma = kCode;
+      const double range =
+          predict_range(view, truth_.p_antenna_e).range_m + truth_.clocks.offset_m(base);
+      code.value = range + kCode * noise_.normal();
+      epoch.measurements.push_back(code);
+      Measurement carrier = code;
+      carrier.observable = Observable::kCarrier;
+      carrier.sigma = kCarrier;
+      carrier.arc = first_arc + static_cast<std::uint32_t>(i);
+      carrier.value = range + ambiguity_of(i) + kCarrier * noise_.normal();
+      epoch.measurements.push_back(carrier);
+    }
+    return epoch;
+  }
+
+  PointSolution point() { return synthetic::point_near(truth_, 3.0, 0.2, &noise_); }
+  synthetic::Truth& truth() { return truth_; }
+
+ private:
+  Generator noise_;
+  synthetic::Truth truth_;
+};
+
+EkfConfig static_config() {
+  EkfConfig config;
+  config.static_point = true;
+  config.use_carrier = true;
+  config.robust.enabled = false;
+  // As good as independent from epoch to epoch.
+  config.clock.offset_noise = 30.0;
+  config.clock.inter_system_noise = 30.0;
+  return config;
+}
+
+Ekf static_filter(Receiver* receiver, const EkfConfig& config = static_config()) {
+  Ekf filter(config, ImuErrorModel(), Vector3d::Zero());
+  filter.initialize(synthetic::kStart, receiver->point());
+  return filter;
+}
+
+EkfUpdateResult step(Ekf* filter, const MeasurementEpoch& epoch) {
+  filter->predict({}, epoch.time);
+  return filter->update(epoch);
+}
+
+}  // namespace
+
+TEST_CASE("a static filter with ambiguities is the batch least squares of all epochs") {
+  Receiver receiver(1);
+  const PointSolution start = receiver.point();
+  Ekf filter(static_config(), ImuErrorModel(), Vector3d::Zero());
+  filter.initialize(synthetic::kStart, start);
+  constexpr int kEpochs = 40, kUnknowns = 3 + 8 + 2 * kEpochs;
+  const Vector3d p0 = receiver.truth().p_antenna_e;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns);
+  normal.topLeftCorner<3, 3>() = start.covariance_p_e.inverse();
+  right.head<3>() = start.covariance_p_e.inverse() * (start.p_e - p0);
+  for (int k = 0; k < kEpochs; ++k) {
+    const MeasurementEpoch epoch = receiver.measure(kStep_s * (k + 1));
+    step(&filter, epoch);
+    for (const Measurement& measurement : epoch.measurements) {
+      const SatelliteInView& view = epoch.satellites[measurement.satellite_index];
+      const RangePrediction range = predict_range(view, p0);
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(kUnknowns);
+      row.head<3>() = range.d_range_d_p.transpose();
+      if (measurement.observable == Observable::kCarrier)
+        row(3 + measurement.satellite_index) = 1.0;
+      row(11 + 2 * k + static_cast<int>(index_of(view.satellite.system))) = 1.0;
+      const double weight = 1.0 / (measurement.sigma * measurement.sigma);
+      normal += weight * row * row.transpose();
+      right += weight * row * (measurement.value - range.range_m);
+    }
+  }
+  const Eigen::MatrixXd covariance = normal.inverse();
+  const Eigen::VectorXd solution = covariance * right;
+  const Vector3d difference = filter.state().p_e - (p0 + solution.head<3>());
+  CHECK(difference.norm() < 2e-4);
+  for (int i = 0; i < 3; ++i)
+    CHECK(std::sqrt(filter.covariance()(i, i)) ==
+          Approx(std::sqrt(covariance(i, i))).epsilon(2e-3));
+  REQUIRE(filter.ambiguities().size() == 8);
+  for (int i = 0; i < 8; ++i) {
+    CHECK(filter.ambiguities()[static_cast<std::size_t>(i)].value_m ==
+          Approx(solution(3 + i)).margin(2e-3));
+    CHECK(std::sqrt(filter.covariance()(kSize + i, kSize + i)) ==
+          Approx(std::sqrt(covariance(3 + i, 3 + i))).epsilon(2e-3));
+  }
+  CHECK((filter.state().p_e - p0).norm() < 0.05);
+}
+
+TEST_CASE("an arc that ends takes its ambiguity along; one unseen for long goes, a gap does not") {
+  Receiver receiver(2);
+  EkfConfig config = static_config();
+  Ekf filter = static_filter(&receiver, config);
+  for (int k = 1; k <= 3; ++k) step(&filter, receiver.measure(kStep_s * k));
+  REQUIRE(filter.ambiguities().size() == 8);
+  MeasurementEpoch epoch = receiver.measure(120.0);
+  for (Measurement& m : epoch.measurements)
+    if (m.arc == 3) m.arc = 30;
+  step(&filter, epoch);
+  CHECK(filter.ambiguities().size() == 8);
+  CHECK(find_ambiguity(filter.ambiguities(), 3) == kNoAmbiguity);
+  const int place = find_ambiguity(filter.ambiguities(), 30);
+  REQUIRE(place != kNoAmbiguity);
+  // The others stand as they were, and in their places.
+  CHECK(find_ambiguity(filter.ambiguities(), 4) == 2);
+  CHECK(filter.covariance().rows() == kSize + 8);
+  // One satellite without carrier for 90 s, then for 150 s.
+  const auto without_first = [&](double t) {
+    MeasurementEpoch e = receiver.measure(t);
+    for (Measurement& m : e.measurements) {
+      if (m.arc == 3) m.arc = 30;
+      if (m.arc == 1) m.reason = Reason::kLowCn0;
+    }
+    return e;
+  };
+  for (double t = 150.0; t <= 210.0; t += 30.0) step(&filter, without_first(t));
+  CHECK(find_ambiguity(filter.ambiguities(), 1) != kNoAmbiguity);
+  for (double t = 240.0; t <= 300.0; t += 30.0) step(&filter, without_first(t));
+  CHECK(find_ambiguity(filter.ambiguities(), 1) == kNoAmbiguity);
+  CHECK(filter.covariance().rows() == kSize + 7);
+}
+
+TEST_CASE("an arc that its checks took for whole is thrown out and begins anew") {
+  Receiver receiver(3);
+  EkfConfig config = static_config();
+  config.robust.enabled = true;
+  Ekf filter = static_filter(&receiver, config);
+  for (int k = 1; k <= 10; ++k) step(&filter, receiver.measure(kStep_s * k));
+  int restarted = 0, used_again = 0;
+  for (int k = 11; k <= 14; ++k) {
+    MeasurementEpoch epoch = receiver.measure(kStep_s * k);
+    for (Measurement& m : epoch.measurements)
+      if (m.arc == 5) m.value += 2.4;
+    const EkfUpdateResult result = step(&filter, epoch);
+    restarted += result.arcs_restarted;
+    for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
+      if (epoch.measurements[i].arc != 5) continue;
+      if (k <= 12) CHECK(result.innovations[i].reason == Reason::kOutlier);
+      if (k >= 13) used_again += result.innovations[i].weight_factor > 0.0 ? 1 : 0;
+    }
+    CHECK((filter.state().p_e - receiver.truth().p_antenna_e).norm() < 0.2);
+  }
+  CHECK(restarted == 1);
+  CHECK(used_again == 2);
+}
+
+TEST_CASE("a clock that steps by a millisecond in the codes alone costs no arc and no centimetre") {
+  Receiver receiver(4);
+  EkfConfig config = static_config();
+  config.robust.enabled = true;
+  config.clock = ClockModel();
+  Ekf filter = static_filter(&receiver, config);
+  for (int k = 1; k <= 30; ++k) step(&filter, receiver.measure(kStep_s * k));
+  const Vector3d before = filter.state().p_e;
+  const double sigma_before = std::sqrt(filter.covariance().topLeftCorner<3, 3>().trace());
+  MeasurementEpoch epoch = receiver.measure(kStep_s * 31);
+  for (Measurement& m : epoch.measurements)
+    if (m.observable == Observable::kCode) m.value += 299'792.458;
+  const EkfUpdateResult result = step(&filter, epoch);
+  CHECK(result.clock_jump_m == Approx(299'792.458).margin(30.0));
+  CHECK(result.arcs_restarted == 0);
+  CHECK(filter.ambiguities().size() == 8);
+  CHECK((filter.state().p_e - before).norm() < 0.01);
+  CHECK(std::sqrt(filter.covariance().topLeftCorner<3, 3>().trace()) < 1.01 * sigma_before);
+  CHECK(filter.ambiguities()[0].value_m == Approx(ambiguity_of(0) - 299'792.458).margin(0.3));
+}
+
+TEST_CASE("more arcs than there are places: the first keep theirs, the others are counted") {
+  Receiver receiver(5);
+  Ekf filter = static_filter(&receiver);
+  MeasurementEpoch epoch = receiver.measure(30.0);
+  const auto satellites = epoch.satellites;
+  const auto measurements = epoch.measurements;
+  for (std::uint16_t copy = 1; copy < 10; ++copy) {
+    for (SatelliteInView view : satellites) {
+      view.satellite.number = static_cast<std::uint16_t>(view.satellite.number + 10 * copy);
+      epoch.satellites.push_back(view);
+    }
+    for (Measurement m : measurements) {
+      m.satellite_index = static_cast<std::uint16_t>(m.satellite_index + 8 * copy);
+      if (m.observable == Observable::kCarrier) m.arc += 100u * copy;
+      epoch.measurements.push_back(m);
+    }
+  }
+  const EkfUpdateResult result = step(&filter, epoch);
+  CHECK(filter.ambiguities().size() == kMaxArcs);
+  CHECK(result.arcs_without_place == 80 - static_cast<int>(kMaxArcs));
+  CHECK(find_ambiguity(filter.ambiguities(), 8) != kNoAmbiguity);
+}
+
+TEST_CASE("a prediction kilometres off is linearized where the codes say") {
+  EkfConfig config = static_config();
+  config.static_point = false;
+  config.acceleration_noise_horizontal = config.acceleration_noise_vertical = 30.0;
+  for (const bool told : {true, false}) {
+    Receiver mover(7);
+    Ekf filter = static_filter(&mover, config);
+    double t = 0.0;
+    for (int k = 1; k <= 60; ++k) {
+      MeasurementEpoch epoch = mover.measure(t += kStep_s);
+      epoch.approximate_p_e = mover.truth().p_antenna_e + Vector3d(1.0, -2.0, 1.0);
+      step(&filter, epoch);
+    }
+    const double before = (filter.state().p_e - mover.truth().p_antenna_e).norm();
+    // Up and away: ranges turn most for the height.
+    mover.truth().p_antenna_e *= 1.0 + 8000.0 / mover.truth().p_antenna_e.norm();
+    MeasurementEpoch epoch = mover.measure(t += kStep_s);
+    if (told) epoch.approximate_p_e = mover.truth().p_antenna_e + Vector3d(1.0, -2.0, 1.0);
+    step(&filter, epoch);
+    const double after = (filter.state().p_e - mover.truth().p_antenna_e).norm();
+    CAPTURE(told, before, after);
+    if (told) {
+      CHECK(after < before + 0.03);
+    } else {
+      CHECK(after > before + 0.3);
+    }
+  }
+}
+
+}  // namespace leonav
