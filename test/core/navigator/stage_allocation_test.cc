@@ -10,14 +10,18 @@ namespace leonav::test {
 namespace {
 
 struct CountingSink : OutputSink {
-  std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0;
+  std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
+              carriers = 0;
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
     ++epochs;
     if (report.satellites.size() >= 40) ++full_epochs;
     for (const SatelliteReport& s : report.satellites) {
       if (s.source == OrbitSource::kPrecise && s.reason == Reason::kUsed) ++precise;
+      if (s.arc_started) ++arcs;
     }
+    for (const AidingReport& a : report.aiding)
+      carriers += a.observable == Observable::kCarrier && a.reason == Reason::kUsed ? 1 : 0;
   }
   void on_event(const Event& event) override {
     if (event.kind == EventKind::kFilterReset) ++resets;
@@ -33,6 +37,8 @@ NavigatorConfig full_config(MotionModel motion) {
   config.gnss = default_gnss_config();
   for (SystemConfig& system : config.gnss.systems) system.enabled = true;
   config.vehicle.lever_arm_b = SyntheticDriveOptions().lever_arm_b;
+  config.ekf.use_carrier = true;
+  config.ekf.wet_delay_sigma_m = 0.1;
   config.ekf.prediction_suspect_ratio = 1e9;  // or the filter would not need to be restarted
   return config;
 }
@@ -51,9 +57,13 @@ std::vector<PreciseState> precise_states(const SimulatedSky& sky) {
   return states;
 }
 
-TEST_CASE("forty satellites and more, precise orbits, outages, resets: no allocation") {
+TEST_CASE(
+    "forty satellites and more, carriers that slip, precise orbits, outages, resets: no "
+    "allocation") {
   SyntheticDriveOptions options;
   options.duration_s = 100.0;
+  options.carrier_sigma_m = 0.002;
+  options.slip_probability = 0.01;
   SimulatedSky sky;
   sky.add(gps_walker());
   sky.add(galileo_walker());
@@ -109,6 +119,8 @@ TEST_CASE("forty satellites and more, precise orbits, outages, resets: no alloca
     CHECK(sink.precise > 100);
     CHECK(sink.resets >= 2);
     CHECK(sink.solutions > 80);
+    CHECK(sink.carriers > 1000);
+    CHECK(sink.arcs > 60);
   }
 }
 
