@@ -24,8 +24,10 @@ using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 // carrier for the arithmetic.
 constexpr double kFree_m = 1.0e4;
 // With half of the rows wrong and four unknowns one subset in sixteen is clean: all of 200 miss
-// with a probability of 2e-6.
-constexpr int kSubsets = 200;
+// with a probability of 2e-6. Fewer do where fewer rows are wrong, but so many that other
+// explanations are met too.
+constexpr std::size_t kSubsets = 200, kFewestSubsets = 48;
+constexpr double kAllMiss = 2e-6;
 constexpr int kRefits = 4;
 constexpr double kWidening = 1.25;  // of the sigmas, by step
 // Sets of slips whose costs differ by less than this (chi square, 1 degree of freedom, 3 sigma)
@@ -55,8 +57,13 @@ struct Candidate {
   double cost = 0.0;
 };
 
-using Starts = std::array<Set, kSubsets>;
-using Candidates = std::array<Candidate, kSubsets>;
+using Starts = boost::container::static_vector<Set, kSubsets>;
+using Candidates = boost::container::static_vector<Candidate, kSubsets>;
+struct Visit {
+  Set kept;
+  std::size_t start = 0;  // whose way came through it
+};
+using Visits = boost::container::static_vector<Visit, kSubsets * kRefits>;
 
 Eigen::Matrix3d square_root(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
@@ -96,8 +103,9 @@ class Check {
   Set nearest_half(const Vector& state) const;
   Set agreeing(const Set& kept) const;
   Set all() const;
-  void draw(Starts* starts) const;
-  const Candidate& converge_all(const Starts& starts, Candidates* candidates) const;
+  bool enough(std::size_t drawn, const Set& best) const;
+  Candidate converge(Set kept, const Candidates& before, Visits* visits) const;
+  void draw(Starts* starts, Candidates* candidates) const;
   double scatter(const Set& kept) const;
   void search();
   void judge(RangeChangeResult* result);
@@ -224,63 +232,68 @@ Set Check::agreeing(const Set& kept) const {
   return next;
 }
 
-// The half of the rows nearest to a fit through few, for many drawn few.
-void Check::draw(Starts* starts) const {
-  RandomSubset subsets;
-  for (Set& start : *starts) {
-    Set subset;
-    subsets.choose(rows_.size(), subset_, &subset);
-    start = nearest_half(fit(subset, 1.0, false).state);
+// Alternates between fitting the rows kept and keeping the rows that agree with the fit. Most
+// starts soon meet the way of one `before`, and end where that ended.
+Candidate Check::converge(Set kept, const Candidates& before, Visits* visits) const {
+  const std::size_t start = before.size();
+  for (int refit = 0; refit < kRefits; ++refit) {
+    const auto visit = std::find_if(visits->begin(), visits->end(),
+                                    [&](const Visit& v) { return v.kept == kept; });
+    if (visit != visits->end()) {
+      if (visit->start != start) return before[visit->start];
+      break;
+    }
+    visits->push_back({kept, start});
+    kept = agreeing(kept);
   }
+  return {kept, cost(kept, fit(kept, scale_, false), scale_)};
 }
 
-// Alternates from each start between fitting the rows kept and keeping the rows that agree with the
-// fit. Most starts soon meet the way of an earlier one, and end where that ended.
-const Candidate& Check::converge_all(const Starts& starts, Candidates* candidates) const {
-  struct Visit {
-    Set kept;
-    std::size_t start = 0;
-  };
-  boost::container::static_vector<Visit, kSubsets * kRefits> visits;
-  const Candidate* best = &candidates->front();
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    Candidate& candidate = (*candidates)[i];
-    Set kept = starts[i];
-    bool met = false;
-    for (int refit = 0; refit < kRefits && !met; ++refit) {
-      const auto visit = std::find_if(visits.begin(), visits.end(),
-                                      [&](const Visit& v) { return v.kept == kept; });
-      met = visit != visits.end();
-      if (met && visit->start != i) candidate = (*candidates)[visit->start];
-      if (met && visit->start == i)
-        candidate = {kept, cost(kept, fit(kept, scale_, false), scale_)};
-      if (met) break;
-      visits.push_back({kept, i});
-      kept = agreeing(kept);
-    }
-    if (!met) candidate = {kept, cost(kept, fit(kept, scale_, false), scale_)};
-    if (candidate.cost < best->cost) best = &candidate;
+// Whether so many subsets make sure of a clean one, if `best` are the clean rows.
+bool Check::enough(std::size_t drawn, const Set& best) const {
+  if (drawn < kFewestSubsets) return false;
+  const double share = static_cast<double>(best.count()) / static_cast<double>(rows_.size());
+  const double clean = std::pow(share, static_cast<double>(subset_));
+  return std::pow(1.0 - clean, static_cast<double>(drawn)) < kAllMiss;
+}
+
+const Candidate& best_of(const Candidates& candidates) {
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+}
+
+// Starts: the half of the rows nearest to a fit through few, for many drawn few.
+void Check::draw(Starts* starts, Candidates* candidates) const {
+  RandomSubset subsets;
+  Visits visits;
+  while (starts->size() < kSubsets) {
+    Set subset;
+    subsets.choose(rows_.size(), subset_, &subset);
+    starts->push_back(nearest_half(fit(subset, 1.0, false).state));
+    candidates->push_back(converge(starts->back(), *candidates, &visits));
+    if (enough(starts->size(), best_of(*candidates).kept)) return;
   }
-  return *best;
 }
 
 // Fills kept_, doubtful_, scale_ and decided_. The sigmas are widened only where the rows that
 // agree best scatter by more than they say: a median over all rows would be that of slips as well.
 void Check::search() {
   Starts starts;
-  draw(&starts);
   Candidates candidates;
-  const Candidate* best = &converge_all(starts, &candidates);
-  while (scale_ < config_.max_scale && scatter(best->kept) > kWidening * scale_) {
+  draw(&starts, &candidates);
+  while (scale_ < config_.max_scale && scatter(best_of(candidates).kept) > kWidening * scale_) {
     scale_ = std::min(kWidening * scale_, config_.max_scale);
-    best = &converge_all(starts, &candidates);
+    Visits visits;
+    candidates.clear();
+    for (const Set& start : starts) candidates.push_back(converge(start, candidates, &visits));
   }
-  kept_ = best->kept;
+  const Candidate& best = best_of(candidates);
+  kept_ = best.kept;
   const double allowance = static_cast<double>(kept_.count()) - parameters(kept_);
   const double slipped = static_cast<double>((all() & ~kept_).count());
   decided_ = allowance > 0.75 && allowance > slipped - 0.25;
   for (const Candidate& candidate : candidates) {
-    if (candidate.cost < best->cost + kDecisive) doubtful_ |= candidate.kept ^ kept_;
+    if (candidate.cost < best.cost + kDecisive) doubtful_ |= candidate.kept ^ kept_;
   }
 }
 
