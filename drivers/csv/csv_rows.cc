@@ -47,7 +47,10 @@ int CsvRows::column(std::string_view name) const {
 }
 
 bool CsvRows::next() {
-  if (!counted_) ++report_.rows;
+  if (!counted_) {
+    ++report_.rows;
+    used_lines_.push_back(reader_.line_number());
+  }
   counted_ = true;
   std::string_view line;
   do {
@@ -103,10 +106,28 @@ void CsvRows::skip() {
   if (counted_) return;
   counted_ = true;
   ++report_.skipped;
-  if (report_.problems.size() < CsvReport::kMaxProblems) {
-    report_.problems.push_back(reader_.path() + ":" + std::to_string(reader_.line_number()) + ": " +
-                               (why_bad_.empty() ? "not used" : why_bad_));
+  add_problem(reader_.line_number(), why_bad_.empty() ? "not used" : why_bad_);
+}
+
+void CsvRows::add_problem(long line, const std::string& what) {
+  const auto place = std::upper_bound(problem_lines_.begin(), problem_lines_.end(), line);
+  report_.problems.insert(report_.problems.begin() + (place - problem_lines_.begin()),
+                          reader_.path() + ":" + std::to_string(line) + ": " + what);
+  problem_lines_.insert(place, line);
+  if (problem_lines_.size() <= CsvReport::kMaxProblems) return;
+  problem_lines_.pop_back();
+  report_.problems.pop_back();
+}
+
+std::vector<bool> CsvRows::rows_in_order(std::span<const GpsTime> stamps) {
+  std::vector<bool> in_order = stamps_in_order(stamps);
+  for (std::size_t i = 0; i < in_order.size(); ++i) {
+    if (in_order[i]) continue;
+    add_problem(used_lines_[i], "time does not fit the rows around it");
+    ++report_.skipped;
+    --report_.rows;
   }
+  return in_order;
 }
 
 CsvReport CsvRows::finish() {

@@ -1,12 +1,14 @@
 // Rows of a comma-separated file with a header line: fields by column name, bad rows counted.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/time/gps_time.h"
 #include "drivers/text/line_reader.h"
+#include "drivers/text/stamp_order.h"
 
 namespace leonav {
 
@@ -14,7 +16,7 @@ namespace leonav {
 struct CsvReport {
   long rows = 0;                      // used
   long skipped = 0;                   // not used
-  std::vector<std::string> problems;  // "FILE:LINE: what", the first kMaxProblems of them
+  std::vector<std::string> problems;  // "FILE:LINE: what", the first kMaxProblems lines
   static constexpr std::size_t kMaxProblems = 10;
 };
 
@@ -44,10 +46,19 @@ class CsvRows {
   // Counts the current row as not used, for the reason mark_bad() or a bad field gave.
   void skip();
 
+  // After the last row: of the rows used, takes out those whose stamp contradicts the stamps around
+  // it, and counts them as not used. `rows` holds one element per row that was used.
+  template <typename Row, typename TimeOf>
+  void drop_disordered(std::vector<Row>* rows, TimeOf time_of);
+
   // Throws FileError if no row was used. To be called at the end.
   CsvReport finish();
 
  private:
+  void add_problem(long line, const std::string& what);
+  // Of the rows used, by their stamps; the others are counted.
+  std::vector<bool> rows_in_order(std::span<const GpsTime> stamps);
+
   LineReader reader_;
   std::vector<std::string> names_;
   std::string line_;
@@ -55,6 +66,20 @@ class CsvRows {
   std::string why_bad_;
   bool counted_ = true;  // the current row is in the report
   CsvReport report_;
+  std::vector<long> problem_lines_, used_lines_;
 };
+
+template <typename Row, typename TimeOf>
+void CsvRows::drop_disordered(std::vector<Row>* rows, TimeOf time_of) {
+  std::vector<GpsTime> stamps;
+  stamps.reserve(rows->size());
+  for (const Row& row : *rows) stamps.push_back(time_of(row));
+  const std::vector<bool> in_order = rows_in_order(stamps);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < in_order.size(); ++i) {
+    if (in_order[i]) (*rows)[kept++] = (*rows)[i];
+  }
+  rows->erase(rows->begin() + static_cast<std::ptrdiff_t>(kept), rows->end());
+}
 
 }  // namespace leonav

@@ -58,9 +58,6 @@ ImuCsv read_imu_csv(const std::string& path) {
       values[i] = rows.number(column).value_or(0.0);
       if (rows.blank(column)) rows.mark_bad("a value is missing");
     }
-    if (!rows.bad() && !imu.samples.empty() && sample.time <= imu.samples.back().time) {
-      rows.mark_bad("time does not advance");
-    }
     if (rows.bad()) {
       rows.skip();
       continue;
@@ -69,6 +66,7 @@ ImuCsv read_imu_csv(const std::string& path) {
     sample.delta_velocity_b = values.tail<3>();
     imu.samples.push_back(sample);
   }
+  rows.drop_disordered(&imu.samples, [](const ImuSample& sample) { return sample.time; });
   imu.report = rows.finish();
   if (imu.samples.size() < 2) {
     throw FileError(path, 0, "has one usable row; at least two are needed to know the interval");

@@ -22,8 +22,9 @@ struct ImuCsv {
 };
 
 // Each row is the mean over (previous stamp, stamp]; the first row, and one after a gap, covers the
-// median interval. Rows that do not parse or do not advance in time are skipped and reported.
-// Throws FileError if the header is another one or fewer than two rows are usable.
+// median interval. Rows that do not parse, or whose time does not fit those around them, are
+// skipped and reported. Throws FileError if the header is another one or fewer than two rows are
+// usable.
 ImuCsv read_imu_csv(const std::string& path);
 inline constexpr double kGapIntervals = 5.0;
 

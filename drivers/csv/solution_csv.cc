@@ -87,15 +87,13 @@ SolutionCsv read_solution_csv(const std::string& path) {
     row.satellites = parse_int(rows.text(satellites));
     if (!row.satellites && !rows.blank(satellites)) rows.mark_bad("satellites is no whole number");
     row.pdop = rows.number(pdop);
-    if (!rows.bad() && !solution.rows.empty() && row.pva.time <= solution.rows.back().pva.time) {
-      rows.mark_bad("time does not advance");
-    }
     if (rows.bad()) {
       rows.skip();
     } else {
       solution.rows.push_back(row);
     }
   }
+  rows.drop_disordered(&solution.rows, [](const SolutionRow& row) { return row.pva.time; });
   solution.report = rows.finish();
   return solution;
 }

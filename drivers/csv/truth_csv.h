@@ -31,8 +31,8 @@ struct TruthCsv {
 };
 
 // Columns are found by name; only time and position must be there. Rows that do not parse, are out
-// of range or do not advance in time are skipped and reported. Throws FileError if the header lacks
-// a column or no row is usable.
+// of range or whose time does not fit those around them are skipped and reported. Throws FileError
+// if the header lacks a column or no row is usable.
 TruthCsv read_truth_csv(const std::string& path);
 
 // Digits: 1e-10 deg (0.01 mm), 1e-4 m, 1e-6 m/s, 1e-8 deg of attitude: enough to start an inertial

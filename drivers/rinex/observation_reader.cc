@@ -46,7 +46,7 @@ struct ObservationReader::State {
   LineReader lines;
   ObservationHeaderParser parser;
   ReadCounts counts;
-  GpsTime last_time;
+  long epoch_line_number = 0;
   SatelliteRecord record;  // kept for its memory
   // A loss of lock reported while the carrier was not measured holds until it is.
   std::set<Signal> interrupted;
@@ -238,10 +238,6 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
 // Whether the epoch can be handed on.
 bool ObservationReader::State::accept(const EpochLine& line, long line_number, RawEpoch* epoch) {
   epoch->time = to_gps_time(line.time, parser.header().time_system);
-  if (last_time.is_set() && epoch->time <= last_time) {
-    counts.skip("epoch that is not later than the one before", line_number);
-    return false;
-  }
   if (epoch->observations.empty()) {
     counts.skip("epoch without a measurement of a used system", line_number);
     return false;
@@ -250,7 +246,7 @@ bool ObservationReader::State::accept(const EpochLine& line, long line_number, R
             [](const SignalObservation& a, const SignalObservation& b) {
               return Signal(a.satellite, a.code) < Signal(b.satellite, b.code);
             });
-  last_time = epoch->time;
+  epoch_line_number = line_number;
   ++counts.used;
   return true;
 }
@@ -292,6 +288,7 @@ bool ObservationReader::next(RawEpoch* epoch) {
 }
 
 const ObservationHeader& ObservationReader::header() const { return state_->parser.header(); }
+long ObservationReader::line_number() const { return state_->epoch_line_number; }
 const ReadCounts& ObservationReader::counts() const { return state_->counts; }
 
 }  // namespace leonav

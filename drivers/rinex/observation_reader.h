@@ -21,9 +21,10 @@ class ObservationReader {
   ObservationReader(ObservationReader&&) noexcept;
   ObservationReader& operator=(ObservationReader&&) noexcept;
 
-  // Next epoch with at least one observation; false at the end of the file. Epochs come in
-  // increasing time.
+  // Next epoch with at least one observation; false at the end of the file. Epochs come as they
+  // stand in the file: their order in time is for the caller to judge, who knows the files around.
   bool next(RawEpoch* epoch);
+  long line_number() const;  // of the line that begins the epoch handed on last
 
   const ObservationHeader& header() const;
   const ReadCounts& counts() const;

@@ -8,6 +8,7 @@
 
 #include "core/time/calendar.h"
 #include "drivers/text/parse.h"
+#include "drivers/text/stamp_order.h"
 
 namespace leonav {
 namespace {
@@ -48,6 +49,11 @@ bool parse_row(const std::string& line, bool ecef, PosRow* row) {
   return true;
 }
 
+void skip(long line, PosFile* file) {
+  const bool first = file->skipped++ == 0;
+  if (first || line < file->first_skipped_line) file->first_skipped_line = line;
+}
+
 }  // namespace
 
 bool looks_like_pos(const std::string& path) {
@@ -62,18 +68,30 @@ PosFile read_pos(const std::string& path) {
   PosFile out;
   std::string line;
   bool ecef = false;
-  while (std::getline(file, line)) {
+  std::vector<PosRow> rows;
+  std::vector<long> numbers;
+  std::vector<GpsTime> stamps;
+  for (long number = 1; std::getline(file, line); ++number) {
     if (line.rfind('%', 0) == 0) {
       if (line.find("x-ecef") != std::string::npos) ecef = true;
       continue;
     }
+    if (trim(line).empty()) continue;
     PosRow row;
-    const bool usable =
-        parse_row(line, ecef, &row) && (out.rows.empty() || row.time > out.rows.back().time);
-    if (usable) {
-      out.rows.push_back(row);
+    if (!parse_row(line, ecef, &row)) {
+      skip(number, &out);
+      continue;
+    }
+    rows.push_back(row);
+    numbers.push_back(number);
+    stamps.push_back(row.time);
+  }
+  const std::vector<bool> in_order = stamps_in_order(stamps);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (in_order[i]) {
+      out.rows.push_back(rows[i]);
     } else {
-      ++out.skipped;
+      skip(numbers[i], &out);
     }
   }
   if (out.rows.empty()) throw FileError(path, 0, "no solution in the file");

@@ -20,7 +20,8 @@ struct PosRow {
 
 struct PosFile {
   std::vector<PosRow> rows;
-  long skipped = 0;  // lines that are no solution
+  long skipped = 0;  // lines that are no solution, or whose time does not fit those around them
+  long first_skipped_line = 0;
 };
 
 // True if the file begins like one of RTKLIB's.

@@ -15,6 +15,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/parse.h"
+#include "drivers/text/stamp_order.h"
 #include "tools/dataset/antenna_source.h"
 #include "tools/dataset/log_output.h"
 #include "tools/dataset/observation_source.h"
@@ -192,27 +193,37 @@ void Import::load_clocks(GpsTime start) {
 }
 
 void Import::load_imu() {
+  std::vector<ImuSample> all;
+  std::vector<GpsTime> stamps;
   for (const std::string& path : dataset_.imu) {
     ImuCsv csv = read_imu_csv(path);
-    long outside = 0, late = 0;
+    long outside = 0;
     for (const ImuSample& sample : csv.samples) {
       if (is_before(sample.time) || is_after(sample.time)) {
         ++outside;
-      } else if (!imu_.empty() && sample.time <= imu_.back().time) {
-        ++late;
       } else {
-        imu_.push_back(sample);
+        all.push_back(sample);
+        stamps.push_back(sample.time);
       }
     }
     const bool located = !csv.report.problems.empty();
     report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);
     report_.skip(path, "IMU sample outside the time asked for", outside);
-    report_.skip(path, "IMU sample that is not later than the one before", late);
+    report_.warn_if_most_lost(path, "rows", csv.report.skipped,
+                              csv.report.skipped + csv.report.rows);
     if (csv.gaps > 0) {
       report_.warnings.push_back(path + " has " + std::to_string(csv.gaps) +
                                  " gaps: the solution is interrupted or worse after them");
     }
   }
+  // Each file is in order by itself; a wrong stamp at the end of one must not cost the next.
+  const std::vector<bool> in_order = stamps_in_order(stamps);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (in_order[i]) imu_.push_back(all[i]);
+  }
+  const auto late = static_cast<long>(all.size() - imu_.size());
+  report_.skip(dataset_.path, "IMU sample whose time does not fit the files around it", late);
+  report_.warn_if_most_lost(dataset_.path, "IMU samples", late, static_cast<long>(all.size()));
 }
 
 void Import::schedule(GpsTime start) {

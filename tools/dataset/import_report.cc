@@ -22,6 +22,14 @@ void ImportReport::skip(std::string_view where, std::string_view reason, long co
   if (count > 0) skipped.push_back({std::string(where), std::string(reason), count});
 }
 
+void ImportReport::warn_if_most_lost(const std::string& path, const std::string& what, long lost,
+                                     long all) {
+  if (2 * lost <= all) return;
+  warnings.push_back(path + ": MORE THAN HALF of the " + what + " were left out, " +
+                     std::to_string(lost) + " of " + std::to_string(all) +
+                     ": what is left is not the recording; see the reasons above");
+}
+
 std::string to_string(const ImportReport& report) {
   std::ostringstream out;
   out << report.epochs << " GNSS epochs";

@@ -27,6 +27,8 @@ struct ImportReport {
   std::vector<std::string> warnings;  // what the recording lacks, and what will be worse for it
 
   void skip(std::string_view where, std::string_view reason, long count);
+  // A stream of which more than half is not used is no longer the recording it seems to be.
+  void warn_if_most_lost(const std::string& path, const std::string& what, long lost, long all);
 };
 
 // As text of several lines.

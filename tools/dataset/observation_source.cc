@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
+#include <cmath>
+#include <deque>
+#include <set>
 #include <utility>
 
 #include "drivers/rinex/observation_reader.h"
 #include "drivers/text/parse.h"
+#include "drivers/text/stamp_order.h"
 #include "drivers/ubx/ubx_file_reader.h"
 
 namespace leonav {
@@ -18,6 +21,8 @@ class ObservationFile {
   virtual ~ObservationFile() = default;
   virtual bool next(ObservationItem* item) = 0;
   virtual std::string antenna() const { return {}; }
+  virtual long line_number() const { return 0; }  // of the epoch read last; 0: not a text
+  virtual long lost_epochs() const = 0;           // that could not be read
   virtual void report(const std::string& path, ImportReport* report) const = 0;
 };
 
@@ -31,6 +36,11 @@ class RinexFile final : public ObservationFile {
   }
 
   std::string antenna() const override { return reader_.header().antenna; }
+  long line_number() const override { return reader_.line_number(); }
+  long lost_epochs() const override {
+    return reader_.counts().count_of("epoch line that is not readable") +
+           reader_.counts().count_of("epoch without a measurement of a used system");
+  }
 
   void report(const std::string& path, ImportReport* report) const override {
     for (const ReadCounts::Skip& skip : reader_.counts().skipped) {
@@ -47,6 +57,10 @@ class UbxFile final : public ObservationFile {
   explicit UbxFile(const std::string& path) : reader_(path) {}
 
   bool next(ObservationItem* item) override { return reader_.next(item); }
+  long lost_epochs() const override {
+    const RxmRawxCounters rawx = reader_.counters().rawx;
+    return static_cast<long>(rawx.bad_length + rawx.bad_version + rawx.bad_time);
+  }
 
   void report(const std::string& path, ImportReport* report) const override {
     const UbxCounters counters = reader_.counters();
@@ -96,44 +110,110 @@ bool has_ubx_name(const std::string& path) {
 }  // namespace
 
 struct ObservationSource::State {
+  using Signal = std::pair<SatelliteId, SignalCode>;
+  struct File {
+    std::string path;
+    long epochs = 0, lost = 0;  // read; not readable
+    long disordered = 0, first_disordered_line = 0;
+  };
+  struct Waiting {
+    ObservationItem item;
+    std::size_t file = 0;
+    long line = 0;
+  };
+
   std::vector<std::string> paths;
   ImportReport* report = nullptr;
-  std::size_t opened = 0;  // paths[opened - 1] is open or was
+  std::vector<File> files;  // opened; the last one may be open still
   std::unique_ptr<ObservationFile> file;
-  long epochs_of_file = 0, late_of_file = 0;
-  GpsTime last_time;
+  std::deque<Waiting> waiting;
+  StampWindow window;  // of the epochs in `waiting`
+  // Losses of lock told by an epoch that was left out.
+  std::set<Signal> interrupted;
   std::string antenna;
 
-  const std::string& path() const { return paths[opened - 1]; }
-
-  void open_next() {
-    const std::string& path = paths[opened++];
-    epochs_of_file = late_of_file = 0;
-    if (has_ubx_name(path)) {
-      file = std::make_unique<UbxFile>(path);
-    } else {
-      file = std::make_unique<RinexFile>(path);
-    }
-    if (antenna.empty()) antenna = file->antenna();
-  }
-
-  void close() {
-    if (!file) return;
-    file->report(path(), report);
-    report->skip(path(), "epoch that is not later than the one before", late_of_file);
-    file.reset();
-  }
-
-  void refuse_empty() const {
-    if (epochs_of_file > 0) return;
-    std::string why = "holds no usable epoch";
-    for (const ImportReport::Skip& skip : report->skipped) {
-      if (skip.where.rfind(path(), 0) != 0) continue;
-      why += "; " + std::to_string(skip.count) + " x " + skip.reason;
-    }
-    throw FileError(path(), 0, why);
-  }
+  bool read_ahead();
+  bool take_epoch(Waiting* front);
+  void close();
+  void report_order();
+  void refuse_empty(const File& empty) const;
 };
+
+// One item more; false at the end of the last file.
+bool ObservationSource::State::read_ahead() {
+  Waiting next;
+  while (true) {
+    if (!file) {
+      if (files.size() == paths.size()) return false;
+      const std::string& path = paths[files.size()];
+      if (has_ubx_name(path)) {
+        file = std::make_unique<UbxFile>(path);
+      } else {
+        file = std::make_unique<RinexFile>(path);
+      }
+      files.push_back({path});
+      if (antenna.empty()) antenna = file->antenna();
+    }
+    if (file->next(&next.item)) break;
+    close();
+    if (files.back().epochs == 0) refuse_empty(files.back());
+  }
+  next.file = files.size() - 1;
+  next.line = file->line_number();
+  if (const RawEpoch* epoch = std::get_if<RawEpoch>(&next.item)) {
+    ++files.back().epochs;
+    window.push(epoch->time);
+  }
+  waiting.push_back(std::move(next));
+  return true;
+}
+
+// Whether the epoch in front is in order. One that is not passes on what it told of lost locks.
+bool ObservationSource::State::take_epoch(Waiting* front) {
+  RawEpoch& epoch = std::get<RawEpoch>(front->item);
+  if (window.take()) {
+    for (SignalObservation& o : epoch.observations) {
+      if (interrupted.empty()) break;
+      if (std::isfinite(o.carrier_cycles) && interrupted.erase({o.satellite, o.code}) > 0) {
+        o.loss_of_lock = true;
+      }
+    }
+    return true;
+  }
+  for (const SignalObservation& o : epoch.observations) {
+    if (o.loss_of_lock) interrupted.emplace(o.satellite, o.code);
+  }
+  File& of = files[front->file];
+  if (of.disordered++ == 0) of.first_disordered_line = front->line;
+  return false;
+}
+
+void ObservationSource::State::close() {
+  if (!file) return;
+  files.back().lost = file->lost_epochs();
+  file->report(files.back().path, report);
+  file.reset();
+}
+
+void ObservationSource::State::report_order() {
+  for (const File& of : files) {
+    const bool has_line = of.first_disordered_line > 0;
+    report->skip(has_line ? of.path + ":" + std::to_string(of.first_disordered_line) : of.path,
+                 "epoch whose time does not fit those around it", of.disordered);
+    report->warn_if_most_lost(of.path, "epochs", of.disordered + of.lost, of.epochs + of.lost);
+  }
+  files.clear();
+  paths.clear();
+}
+
+void ObservationSource::State::refuse_empty(const File& empty) const {
+  std::string why = "holds no usable epoch";
+  for (const ImportReport::Skip& skip : report->skipped) {
+    if (skip.where.rfind(empty.path, 0) != 0) continue;
+    why += "; " + std::to_string(skip.count) + " x " + skip.reason;
+  }
+  throw FileError(empty.path, 0, why);
+}
 
 ObservationSource::ObservationSource(std::vector<std::string> paths, ImportReport* report)
     : state_(std::make_unique<State>()) {
@@ -143,29 +223,28 @@ ObservationSource::ObservationSource(std::vector<std::string> paths, ImportRepor
 ObservationSource::~ObservationSource() = default;
 
 bool ObservationSource::next(ObservationItem* item) {
+  State& s = *state_;
   while (true) {
-    if (!state_->file) {
-      if (state_->opened == state_->paths.size()) return false;
-      state_->open_next();
+    while (!s.window.is_full() && s.read_ahead()) {
     }
-    if (!state_->file->next(item)) {
-      state_->close();
-      state_->refuse_empty();
-      continue;
+    if (s.waiting.empty()) {
+      s.report_order();
+      return false;
     }
-    const RawEpoch* epoch = std::get_if<RawEpoch>(item);
-    if (epoch == nullptr) return true;
-    ++state_->epochs_of_file;
-    if (epoch->time > state_->last_time) {
-      state_->last_time = epoch->time;
-      return true;
-    }
-    ++state_->late_of_file;
+    State::Waiting& front = s.waiting.front();
+    const bool is_kept = !std::holds_alternative<RawEpoch>(front.item) || s.take_epoch(&front);
+    if (is_kept) *item = std::move(front.item);
+    s.waiting.pop_front();
+    if (is_kept) return true;
   }
 }
 
 const std::string& ObservationSource::antenna() const { return state_->antenna; }
 
-void ObservationSource::finish() { state_->close(); }
+void ObservationSource::finish() {
+  state_->close();
+  state_->report_order();
+  state_->waiting.clear();
+}
 
 }  // namespace leonav

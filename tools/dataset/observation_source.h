@@ -13,8 +13,9 @@ namespace leonav {
 
 using ObservationItem = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
 
-// Reads RINEX and .ubx files one after the other. Epochs come in strictly increasing time: one that
-// does not is counted and left out. UBX files give the navigation data they hold too, in place.
+// Reads RINEX and .ubx files one after the other. Epochs come in strictly increasing time: one
+// whose time contradicts those around it, of its file or the next, is counted and left out, and its
+// losses of lock are passed on. UBX files give the navigation data they hold too, in place.
 class ObservationSource {
  public:
   // `report` gets what the files leave out, file by file, and must outlive this.
@@ -24,9 +25,9 @@ class ObservationSource {
   // False at the end of the last file. Throws FileError for a file that cannot be read or has no
   // usable epoch.
   bool next(ObservationItem* item);
-  // The antenna that the header of the first file opened names; empty: none, or not opened yet.
+  // The antenna that the header of the first file names that names one; empty: none, or not opened.
   const std::string& antenna() const;
-  // Reports on the file that is open; for when no more is read from it.
+  // Reports on what was read so far; for when no more is read.
   void finish();
 
  private:

@@ -67,7 +67,45 @@ TEST_CASE("imu.csv: a bad row costs itself and is named", "[csv]") {
   CHECK(imu.report.skipped == 8);
   REQUIRE(imu.report.problems.size() == 8);
   CHECK(imu.report.problems[0] == path + ":3: gyro_x_rad_s: 'nan' is not a finite number");
-  CHECK_THAT(imu.report.problems[3], Contains(":7: time does not advance"));
+  CHECK_THAT(imu.report.problems[3], Contains(":7: time does not fit the rows around it"));
+}
+
+TEST_CASE("a row with a wrong time costs itself, wherever it stands", "[csv]") {
+  const auto imu_row = [](double tow) {
+    return "\n2400," + std::to_string(tow) + ",0.1,0,0,0,0,-9.8";
+  };
+  const auto position_row = [](double tow) {
+    return "\n2400," + std::to_string(tow) + ",45,9,100";
+  };
+  const std::string positions = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
+  constexpr int kRows = 1000;
+  for (const int wrong : {0, 1, 400, kRows - 2}) {
+    for (const double by : {100.0, 0.5, -5.0, 3600.0}) {
+      if (wrong == 0 && by < 0.0) continue;  // before the others: in order
+      CAPTURE(wrong, by);
+      std::string imu_text = kImuHeader, text = positions;
+      for (int i = 0; i < kRows; ++i) {
+        const double tow = 1000.0 + 0.01 * i + (i == wrong ? by : 0.0);
+        imu_text += imu_row(tow);
+        text += position_row(tow);
+      }
+      const bool last_two = wrong == kRows - 2 && by == 0.5;  // which of the two, nobody can tell
+      const std::string line = ":" + std::to_string(wrong + 2 + (last_two ? 1 : 0)) + ": time does";
+      const ImuCsv imu = read_imu_csv(write("leap", imu_text));
+      CHECK(imu.samples.size() == kRows - 1);
+      REQUIRE(imu.report.problems.size() == 1);
+      CHECK_THAT(imu.report.problems[0], Contains(line));
+      CHECK(imu.report.rows == kRows - 1);
+      CHECK(imu.report.skipped == 1);
+      const TruthCsv truth = read_truth_csv(write("leap", text));
+      CHECK(truth.points.size() == kRows - 1);
+      REQUIRE(truth.report.problems.size() == 1);
+      CHECK_THAT(truth.report.problems[0], Contains(line));
+      const SolutionCsv solution = read_solution_csv(write("leap", text));
+      CHECK(solution.rows.size() == kRows - 1);
+      CHECK(solution.report.skipped == 1);
+    }
+  }
 }
 
 TEST_CASE("imu.csv: nothing usable is an error that says what was expected", "[csv]") {

@@ -1,5 +1,6 @@
 #include "tools/dataset/import.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "core/gnss/satellite_catalog.h"
+#include "drivers/csv/imu_csv.h"
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
@@ -186,6 +188,66 @@ TEST_CASE("a span of time, and a truncated file", "[import]") {
   CHECK(import_text(yaml, options).epochs == 1);
   options.from = options.to = all.first.plus_seconds(100.0);
   CHECK_THROWS_WITH(import_text(yaml, options), Catch::Contains("nothing to write"));
+}
+
+TEST_CASE("an epoch with a wrong time costs itself, also before the next file", "[import]") {
+  const auto epochs_from = [](int first, int count, int wrong) {
+    std::string text = kObservations;
+    for (int i = first; i < first + count; ++i) {
+      char line[80];  // an hour ahead where it is wrong, and a loss of lock told there
+      std::snprintf(line, sizeof line, "> 2024 05 06 %02d %02d %2d.0000000  0  1\n",
+                    i == wrong ? 8 : 7, i / 60, i % 60);
+      text += line + std::string("G01  20000000.000  ") + (i == wrong ? " 100000000.0001" : "") +
+              (i == wrong ? "" : " 100000000.000") + "\n";
+    }
+    return text;
+  };
+  const std::string two_types = "G    2 C1C L1C";
+  for (const int wrong : {0, 1, 60, 98, 99, 100, 198}) {
+    CAPTURE(wrong);
+    const TemporaryFile yaml("set.yaml", "observations: [a.obs, b.obs]\n");
+    std::string a = epochs_from(0, 100, wrong), b = epochs_from(100, 100, wrong);
+    for (std::string* text : {&a, &b}) text->replace(text->find("G    1 C1C    "), 14, two_types);
+    std::ofstream(yaml.beside("a.obs")) << a;
+    std::ofstream(yaml.beside("b.obs")) << b;
+    const ImportReport report = import_text(yaml);
+    CHECK(report.epochs == 199);
+    REQUIRE(report.skipped.size() == 1);
+    CHECK(report.skipped[0].count == 1);
+    const std::string line = std::to_string(4 + 2 * (wrong % 100));
+    CHECK(report.skipped[0].where == yaml.beside(wrong < 100 ? "a.obs:" : "b.obs:") + line);
+    CHECK_THAT(report.skipped[0].reason, Catch::Contains("time does not fit"));
+    CHECK(report.warnings.size() == 3);
+    CHECK(seconds_between(report.last, report.first) == Approx(wrong == 0 ? 198.0 : 199.0));
+
+    EventLogReader reader(yaml.beside("out.lcmlog"));
+    LogEvent event;
+    Decoder decoder;
+    RawEpoch epoch;
+    std::vector<int> interrupted;  // epochs in the log
+    for (int i = 0; reader.next(&event); ++i) {
+      REQUIRE(decoder.decode(ByteSpan(event.data), &epoch).fault == InputFault::kNone);
+      REQUIRE(epoch.observations.size() == 1);
+      if (epoch.observations[0].loss_of_lock) interrupted.push_back(i);
+    }
+    CHECK(interrupted == std::vector<int>{wrong});
+  }
+}
+
+TEST_CASE("what costs most of a stream is a warning that nobody overlooks", "[import]") {
+  const TemporaryFile yaml("set.yaml", "observations: a.obs\nimu: imu.csv\n");
+  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs << kEpochs << kEpochs << kEpochs;
+  std::ofstream imu(yaml.beside("imu.csv"));
+  imu << kImuCsvHeader << "\n2313,112028.0,0,0,0,0,0,-9.8\n2313,112028.1,0,0,0,0,0,-9.8\n";
+  for (int i = 0; i < 3; ++i) imu << "2313,112028." << i << ",nan,0,0,0,0,-9.8\n";
+  imu.close();
+  const ImportReport report = import_text(yaml);
+  CHECK(report.epochs == 3);
+  CHECK(report.imu_samples == 2);
+  CHECK_THAT(to_string(report), Catch::Contains("a.obs: MORE THAN HALF of the epochs were left") &&
+                                    Catch::Contains("9 of 12") &&
+                                    Catch::Contains("imu.csv: MORE THAN HALF of the rows") &&
+                                    Catch::Contains("3 of 5"));
 }
 
 TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
