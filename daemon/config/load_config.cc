@@ -147,7 +147,13 @@ DaemonConfig load_config_text(const std::string& text, const std::string& name,
                               const std::vector<std::string>& overrides,
                               std::vector<std::string>* absent) {
   try {
-    YAML::Node root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw ConfigError(
+          name + ":" + std::to_string(documents[1].Mark().line + 1) +
+          ": a second document begins here ('---'), which would not be read; keep one");
+    }
+    YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
     if (root.IsNull()) throw ConfigError(name + ": is empty; config/ has examples");
     if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
     for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);

@@ -51,6 +51,8 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
   CHECK(error_of("vehicle:\n  lever_arm_b_m: [1, 2]\n").find("[x, y, z]") != std::string::npos);
   CHECK(error_of("lcm:\n  url: \"tcpq://host\"\n").find("car.yaml:2: lcm.url") == 0);
   CHECK(error_of("gnss:\n  gps: [\n").find("car.yaml:") == 0);
+  CHECK(error_of("gnss:\n  elevation_mask_deg: 9\n---\nlcm:\n  prefix: A_\n")
+            .find("car.yaml:4: a second document begins here") == 0);
   CHECK(error_of("").find("empty") != std::string::npos);
   CHECK_THROWS_AS(load_config("absent.yaml"), ConfigError);
   CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);

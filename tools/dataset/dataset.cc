@@ -101,13 +101,27 @@ class DatasetParser {
 
 }  // namespace
 
+std::vector<std::string> Dataset::files() const {
+  std::vector<std::string> all = {path};
+  for (const auto* paths :
+       {&observations, &navigation, &orbits, &clocks, &antenna_models, &imu, &truth}) {
+    all.insert(all.end(), paths->begin(), paths->end());
+  }
+  return all;
+}
+
 Dataset load_dataset(const std::string& path) {
   // Says what is wrong with the path, and refuses what is no text, before YAML sees it.
   LineReader lines(path);
   std::string text;
   for (std::string_view line; lines.next(line);) text.append(line).push_back('\n');
   try {
-    return DatasetParser(path).parse(YAML::Load(text));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw FileError(path, line_of(documents[1].Mark()),
+                      "a second document begins here ('---'), which would not be read; keep one");
+    }
+    return DatasetParser(path).parse(documents.empty() ? YAML::Node() : documents[0]);
   } catch (const YAML::Exception& error) {
     throw FileError(path, line_of(error.mark), "is not readable as YAML: " + error.msg);
   }

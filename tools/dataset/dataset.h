@@ -17,11 +17,13 @@ struct Dataset {
   std::string receiver_antenna;    // type and radome; empty: as the observations' header has it
   std::vector<std::string> imu;    // imu.csv
   std::vector<std::string> truth;  // truth.csv
+
+  std::vector<std::string> files() const;  // all of them, this one included
 };
 
 // Each key holds a path or a list of paths; "" and [] mean that there is none. Throws FileError
-// with file and line for unreadable YAML, an unknown key (naming the nearest known one) and a key
-// given twice.
+// with file and line for unreadable YAML, a second document in it, an unknown key (naming the
+// nearest known one) and a key given twice.
 Dataset load_dataset(const std::string& path);
 
 }  // namespace leonav

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -35,6 +36,7 @@ class Import {
         observations_(dataset.observations, &report_) {}
 
   ImportReport run(const std::string& output) {
+    check_output(output, dataset_.files());
     warn_of_missing();
     load_navigation();
     load_orbits();
@@ -127,6 +129,11 @@ void Import::warn_of_missing() {
     warn(
         "no imu: no attitude, no solution between the epochs and through outages (configure the "
         "constant-velocity motion model)");
+  }
+  for (const std::string& path : dataset_.truth) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) continue;
+    warn("truth " + path + " is not there: nothing to judge the results by");
   }
   if (!dataset_.clocks.empty() && dataset_.orbits.empty()) {
     warn("clocks without orbits are of no use: broadcast orbits go with broadcast clocks");

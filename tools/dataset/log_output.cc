@@ -5,9 +5,31 @@
 #include <system_error>
 
 namespace leonav {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kPartSuffix = ".part";
+
+}  // namespace
+
+void check_output(const std::string& path, const std::vector<std::string>& inputs) {
+  for (const std::string& name : {path, path + kPartSuffix}) {
+    std::error_code error;
+    const fs::file_status status = fs::status(name, error);
+    if (!fs::exists(status)) continue;
+    if (!fs::is_regular_file(status)) {
+      throw EventLogError(name + ": is there and no regular file; name another file to write to");
+    }
+    for (const std::string& input : inputs) {
+      std::error_code absent;
+      if (!fs::equivalent(name, input, absent)) continue;
+      throw EventLogError(name + ": is an input (" + input + "); name another file to write to");
+    }
+  }
+}
 
 LogOutput::LogOutput(const std::string& path, ImportReport* report)
-    : path_(path), part_path_(path + ".part"), report_(report), writer_(part_path_) {
+    : path_(path), part_path_(path + kPartSuffix), report_(report), writer_(part_path_) {
   for (std::size_t i = 0; i < kChannelCount; ++i) {
     names_[i] = channel_name(static_cast<Channel>(i));
   }
@@ -16,8 +38,12 @@ LogOutput::LogOutput(const std::string& path, ImportReport* report)
 LogOutput::~LogOutput() {
   if (!writer_) return;
   writer_.reset();
+  remove_part();
+}
+
+void LogOutput::remove_part() {
   std::error_code ignored;
-  std::filesystem::remove(part_path_, ignored);
+  fs::remove(part_path_, ignored);
 }
 
 void LogOutput::put(GpsTime arrival, Channel channel, ByteSpan bytes) {
@@ -75,8 +101,10 @@ void LogOutput::commit() {
   if (!writer_->flush(true)) throw EventLogError(writer_->error());
   writer_.reset();
   std::error_code error;
-  std::filesystem::rename(part_path_, path_, error);
-  if (error) throw EventLogError(path_ + ": cannot be given its name: " + error.message());
+  fs::rename(part_path_, path_, error);
+  if (!error) return;
+  remove_part();
+  throw EventLogError(path_ + ": cannot be given its name: " + error.message());
 }
 
 }  // namespace leonav

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/encode.h"
@@ -12,6 +13,10 @@
 #include "tools/dataset/import_report.h"
 
 namespace leonav {
+
+// Throws EventLogError if `path`, or the file it is written to first, is no regular file (to be put
+// in the place of a device or a folder would destroy it) or is one of `inputs`.
+void check_output(const std::string& path, const std::vector<std::string>& inputs);
 
 // Counts what it writes in `report`. Each write throws EventLogError when the disk does not take
 // it.
@@ -28,13 +33,15 @@ class LogOutput {
   void write(GpsTime arrival, std::span<const PreciseState> states);
   void write(GpsTime arrival, const AntennaPattern& pattern);
 
-  // The file is complete: gives it its name.
+  // The file is complete: gives it its name. Where that fails nothing is left behind.
   void commit();
 
  private:
   void put(GpsTime arrival, Channel channel, ByteSpan bytes);
   std::uint64_t next_sequence(Channel channel) { return ++sequences_[index_of(channel)]; }
   void extend_span(GpsTime time);
+
+  void remove_part();
 
   std::string path_, part_path_;
   ImportReport* report_;

@@ -1,5 +1,7 @@
 #include "tools/dataset/import.h"
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +17,7 @@
 #include "support/catch.h"
 #include "support/shared_data.h"
 #include "support/temporary_file.h"
+#include "tools/dataset/log_output.h"
 #include "tools/dataset/product_schedule.h"
 
 using namespace leonav;
@@ -272,12 +275,72 @@ TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
   CHECK_THAT(message("- a\n- b\n", good), Contains("set.yaml:1"));
   CHECK_THAT(message("imu: {a: b}\n", good), Contains("set.yaml:1"));
   CHECK_THAT(message("name: s\nname: t\n", good), Contains("set.yaml:2") && Contains("twice"));
+  CHECK_THAT(message("name: s\n---\nobservations: a.obs\n", good),
+             Contains("set.yaml:3") && Contains("second document"));
   CHECK_THAT(message("observations: b.obs\n", good), Contains("b.obs"));
   CHECK_THAT(message("observations: a.obs\n", kObservations), Contains("no usable epoch"));
   CHECK_THAT(message("observations: [a.obs, a.obs]\nnavigation: a.obs\n", good),
              Contains("a.obs:1") && Contains("not a navigation file"));
   CHECK_THAT(message("observations: a.obs\norbits: a.obs\n", good), Contains("a.obs"));
   CHECK_THAT(message("name: nothing\n", good), Contains("nothing to write"));
+}
+
+TEST_CASE("an import writes over no input and nothing but a regular file", "[import]") {
+  const TemporaryFile yaml("set.yaml", "observations: [a.obs, b.obs.part]\ntruth: truth.csv\n");
+  const auto text_of = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  for (const char* name : {"a.obs", "b.obs.part"}) {
+    std::ofstream(yaml.beside(name)) << kObservations << kEpochs;
+  }
+  std::ofstream(yaml.beside("truth.csv")) << "the truth\n";
+  const Dataset dataset = load_dataset(yaml.path());
+  const auto write_to = [&](const std::string& name) {
+    import_dataset(dataset, {}, yaml.beside(name), nullptr);
+  };
+  using Catch::Contains;
+  CHECK_THROWS_WITH(write_to("a.obs"), Contains("is an input"));
+  CHECK_THROWS_WITH(write_to("b.obs"), Contains("b.obs.part: is an input"));
+  CHECK_THROWS_WITH(write_to("truth.csv"), Contains("is an input"));
+  CHECK_THROWS_WITH(write_to("set.yaml"), Contains("is an input"));
+  std::filesystem::create_hard_link(yaml.beside("a.obs"), yaml.beside("link"));
+  CHECK_THROWS_WITH(write_to("link"), Contains("is an input"));
+  CHECK(text_of(yaml.beside("a.obs")) == kObservations + kEpochs);
+  CHECK(text_of(yaml.beside("truth.csv")) == "the truth\n");
+
+  const std::string pipe = yaml.beside("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(write_to("pipe"), Contains("no regular file"));
+  CHECK(std::filesystem::is_fifo(pipe));
+  std::filesystem::create_directory(yaml.beside("folder"));
+  CHECK_THROWS_WITH(write_to("folder"), Contains("no regular file"));
+  for (const char* name : {"pipe.part", "folder.part", "a.obs.part"}) {
+    CHECK_FALSE(std::filesystem::exists(yaml.beside(name)));
+  }
+  write_to("run.lcmlog");
+  write_to("run.lcmlog");  // a log of ours may be written again
+  CHECK(std::filesystem::exists(yaml.beside("run.lcmlog")));
+}
+
+TEST_CASE("a log that cannot be given its name leaves nothing behind", "[import]") {
+  const TemporaryFile place("unused", "");
+  const std::string path = place.beside("run.lcmlog");
+  ImportReport report;
+  LogOutput log(path, &report);
+  std::filesystem::create_directories(path + "/full");
+  CHECK_THROWS_WITH(log.commit(), Catch::Contains("cannot be given its name"));
+  CHECK_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST_CASE("a truth that is not there is a warning", "[import]") {
+  const TemporaryFile marked("set.yaml", "---\nobservations: a.obs\n");
+  CHECK(load_dataset(marked.path()).observations.size() == 1);
+  const TemporaryFile yaml("set.yaml", "observations: a.obs\ntruth: truth.csv\n");
+  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs;
+  CHECK_THAT(to_string(import_text(yaml)), Catch::Contains("truth.csv is not there"));
+  std::ofstream(yaml.beside("truth.csv")) << "the truth\n";
+  CHECK_THAT(to_string(import_text(yaml)), !Catch::Contains("truth.csv"));
 }
 
 TEST_CASE("ephemerides arrive when they were sent", "[import]") {
