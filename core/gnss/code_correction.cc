@@ -116,6 +116,15 @@ double frequency_of(const SignalObservation& signal) {
   return frequency_hz(signal.satellite.system, signal.code.band);
 }
 
+// Away from where the ground would be without tides, loading and polar motion.
+Eigen::Vector3d ground_displacement(const GnssConfig& config, const Eigen::Vector3d& p_e,
+                                    GpsTime time, const SunMoon& bodies) {
+  Eigen::Vector3d d_e = solid_earth_tide(p_e, time, bodies);
+  if (config.ocean_loading) d_e += ocean_loading_displacement(p_e, time, *config.ocean_loading);
+  if (config.polar_motion) d_e += pole_tide(p_e, time, *config.polar_motion);
+  return d_e;
+}
+
 }  // namespace
 
 DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobuchar, GpsTime time,
@@ -130,7 +139,7 @@ DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobu
   context.C_er = rotation_ecef_to_ned(context.antenna).transpose();
   const SunMoon bodies = sun_moon_positions(time);
   context.p_sun_e = bodies.sun_e;
-  context.tide_e = solid_earth_tide(p_a_e, time, bodies);
+  context.tide_e = ground_displacement(config, p_a_e, time, bodies);
   return context;
 }
 

@@ -23,7 +23,8 @@ struct DelayContext {
   Eigen::Matrix3d C_er =
       Eigen::Matrix3d::Identity();  // receiver antenna's axes, forward-right-down
   Eigen::Vector3d p_sun_e = Eigen::Vector3d::Zero();
-  Eigen::Vector3d tide_e = Eigen::Vector3d::Zero();  // of the ground under the antenna, m
+  Eigen::Vector3d tide_e =
+      Eigen::Vector3d::Zero();  // of the ground under the antenna, all tides, m
 };
 
 // At `p_a_e`, or zero if unknown; the antenna's axes north, east, down.

@@ -2,7 +2,9 @@
 #pragma once
 #include <array>
 #include <boost/container/static_vector.hpp>
+#include <optional>
 
+#include "core/earth/tides.h"
 #include "core/gnss/cycle_slip_config.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/gnss/signal.h"
@@ -52,6 +54,9 @@ struct GnssConfig {
   double cn0_reference_dbhz = 45.0;        // C/N0 at which the sigmas hold (kCn0)
   double ionosphere_model_error = 0.5;     // share of the Klobuchar delay taken as its 1 sigma
   double troposphere_model_error_m = 0.1;  // 1 sigma at zenith
+  // How the ground moves besides the solid Earth tide; not known: not applied.
+  std::optional<OceanLoading> ocean_loading;  // of where the receiver is
+  std::optional<PolarMotion> polar_motion;
   CatalogOptions catalog;
   CycleSlipConfig cycle_slips;
 };

@@ -9,6 +9,8 @@ void read_vehicle(ConfigReader& group, VehicleConfig* config);
 void read_imu(ConfigReader& group, ImuErrorModel* config);
 void read_alignment(ConfigReader& group, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);
+// The keys of gnss that tell how the ground moves. Reads the file of ocean loading.
+void read_ground(ConfigReader& group, GnssConfig* config);
 void read_ekf(ConfigReader& group, NavigatorConfig* config);
 void read_robust(ConfigReader& group, RobustConfig* config);
 // Deadlines and rates belong to the navigator, priorities and processors to the threads.

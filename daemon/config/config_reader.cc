@@ -101,6 +101,17 @@ void ConfigReader::vector(const char* key, Bounds bounds, Eigen::Vector3d* value
   }
 }
 
+void ConfigReader::numbers(const char* key, Bounds bounds, std::vector<double>* values) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) {
+    source_->absent.push_back(path_of(key));
+    return;
+  }
+  if (!node.IsSequence()) fail_at(node, key, "expected a list of numbers, as in [1, 2]");
+  values->clear();
+  for (const YAML::Node& element : node) values->push_back(parse_number(key, element, bounds));
+}
+
 void ConfigReader::integer(const char* key, int min, int max, int* value) {
   double number_value = *value;
   number(key, {static_cast<double>(min), static_cast<double>(max)}, &number_value);

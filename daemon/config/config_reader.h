@@ -24,6 +24,8 @@ struct Bounds {
 struct ConfigSource {
   std::string name;                 // for errors
   std::vector<std::string> absent;  // known keys that were left at their defaults
+  // Overrides that say in full what was read from files: with them the configuration reads none.
+  std::vector<std::string> resolved;
 };
 
 class ConfigReader {
@@ -35,6 +37,8 @@ class ConfigReader {
   void number(const char* key, Bounds bounds, double* value, double unit = 1.0);
   void number(const char* key, Bounds bounds, std::optional<double>* value, double unit = 1.0);
   void vector(const char* key, Bounds bounds, Eigen::Vector3d* value, double unit = 1.0);
+  // A list of numbers, of any length; left alone if the key is absent.
+  void numbers(const char* key, Bounds bounds, std::vector<double>* values);
   void integer(const char* key, int min, int max, int* value);
   void boolean(const char* key, bool* value);
   void text(const char* key, std::string* value);
@@ -51,6 +55,11 @@ class ConfigReader {
   }
   // Which of `names` the key's value is; throws, listing them, if it is none.
   std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names);
+
+  // `key` stands for what a file said: `value` is its value in YAML.
+  void resolve(const char* key, const std::string& value) {
+    source_->resolved.push_back(path_of(key) + "=" + value);
+  }
 
   // Throws ConfigError for `key`, at its line.
   [[noreturn]] void fail(const char* key, const std::string& message) const;

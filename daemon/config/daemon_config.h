@@ -31,9 +31,11 @@ struct ThreadsConfig {
 
 // Where the configuration came from, for the journal.
 struct ConfigText {
-  std::string name;                    // the file
-  std::string text;                    // its content; empty: not from a file
-  std::vector<std::string> overrides;  // group.key=value
+  std::string name;  // the file
+  std::string text;  // its content; empty: not from a file
+  // group.key=value, of the command line and then of what the files said that the text names: text
+  // and overrides give the same configuration where those files are not, or have changed.
+  std::vector<std::string> overrides;
 };
 
 struct DaemonConfig {

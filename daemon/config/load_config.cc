@@ -157,10 +157,12 @@ DaemonConfig load_config_text(const std::string& text, const std::string& name,
     if (root.IsNull()) throw ConfigError(name + ": is empty; config/ has examples");
     if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
     for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);
-    ConfigSource source{name, {}};
+    ConfigSource source{name, {}, {}};
     ConfigReader reader(&source, root, "");
     DaemonConfig config = read_root(reader);
     config.source = {name, text, overrides};
+    auto& recorded = config.source.overrides;
+    recorded.insert(recorded.end(), source.resolved.begin(), source.resolved.end());
     if (absent != nullptr) *absent = source.absent;
     return config;
   } catch (const YAML::Exception& error) {

@@ -18,7 +18,8 @@ class ConfigError : public std::runtime_error {
 // Keys that are absent keep their defaults; a key that is unknown, repeated, of the wrong type or
 // out of range throws ConfigError. Each override is "group.key=value", value in YAML, applied to
 // the tree before anything is judged, so that it is judged like the file. `absent` (if given)
-// receives every known key that the file left at its default.
+// receives every known key that the file left at its default. Files that the configuration names
+// are read here and once; `source.overrides` of the result holds what they said.
 DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {},
                          std::vector<std::string>* absent = nullptr);
 
