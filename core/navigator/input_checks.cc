@@ -37,6 +37,22 @@ InputFault check(const PreciseState& state) {
   return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 
+InputFault check(const SignalObservation& observation) {
+  // Generous: a receiver's clock may be off by a second, a carrier count may have any start, and a
+  // low orbit's Doppler in the Ku band is 0.3 MHz. NaN is "not measured" and passes.
+  constexpr double kMaxCode = 1e9, kMaxCarrier = 1e11, kMaxDoppler = 1e6, kMaxCn0 = 100.0;
+  for (const double value :
+       {observation.pseudorange_m, observation.carrier_cycles, observation.doppler_hz,
+        observation.cn0_dbhz, observation.lock_time_s}) {
+    if (std::isinf(value)) return InputFault::kNotFinite;
+  }
+  const bool absurd = std::abs(observation.pseudorange_m) >= kMaxCode ||
+                      std::abs(observation.carrier_cycles) >= kMaxCarrier ||
+                      std::abs(observation.doppler_hz) >= kMaxDoppler ||
+                      observation.cn0_dbhz < 0.0 || observation.cn0_dbhz > kMaxCn0;
+  return absurd ? InputFault::kNotSane : InputFault::kNone;
+}
+
 InputFault check(const KlobucharModel& model) {
   const auto finite = [](double x) { return std::isfinite(x); };
   const bool ok = std::all_of(model.alpha.begin(), model.alpha.end(), finite) &&
@@ -69,7 +85,8 @@ std::size_t copy_sane(const RawEpoch& from, RawEpoch* to) {
   to->time = from.time;
   to->observations.clear();
   for (const SignalObservation& observation : from.observations) {
-    if (is_valid(observation.satellite) && observation.code.is_set()) {
+    if (is_valid(observation.satellite) && observation.code.is_set() &&
+        check(observation) == InputFault::kNone) {
       to->observations.push_back(observation);
     }
   }

@@ -15,12 +15,16 @@ struct ImuLimits {
 };
 InputFault check(const ImuSample& sample, const ImuLimits& limits);
 InputFault check(const PreciseState& state);
+// Of what was measured: kNotFinite for infinity, kNotSane for what no signal from a satellite gives
+// (code 1e9 m, carrier 1e11 cycles, Doppler 1e6 Hz, C/N0 outside 0 to 100 dB-Hz).
+InputFault check(const SignalObservation& observation);
 InputFault check(const KlobucharModel& model);
 InputFault check(const AntennaPattern& pattern);
 InputFault check(const Command& command);
 
-// Copies `from`, without the observations no receiver can have made (invalid satellite, same
-// satellite and signal again), sorted as RawEpoch promises. Returns how many were left out.
+// Copies `from`, without the observations no receiver can have made (invalid satellite,
+// values that check() refuses, same satellite and signal again), sorted as RawEpoch promises.
+// Returns how many were left out.
 std::size_t copy_sane(const RawEpoch& from, RawEpoch* to);
 
 }  // namespace leonav

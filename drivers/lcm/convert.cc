@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/navigator/input_checks.h"
+
 namespace leonav::wire {
 namespace {
 
@@ -40,21 +42,17 @@ InputFault convert(const gnss_observation_t& from, SignalObservation* to) {
   if (from.attribute < 'A' || from.attribute > 'Z') return InputFault::kOutOfRange;
   constexpr int kKnownFlags = kFlagLossOfLock | kFlagHalfCycle;
   if ((from.flags & ~kKnownFlags) != 0) return InputFault::kOutOfRange;
-  // NaN is "not measured"; infinity is nothing.
-  for (const double value : {from.pseudorange_m, from.carrier_cycles, from.doppler_hz,
-                             double{from.cn0_dbhz}, double{from.lock_time_s}}) {
-    if (std::isinf(value)) return InputFault::kNotFinite;
-  }
   to->satellite = *satellite;
   to->code = {static_cast<char>(from.band), static_cast<char>(from.attribute)};
   to->pseudorange_m = from.pseudorange_m;
-  to->carrier_cycles = from.carrier_cycles;
+  // Zero is how receivers say that they count no cycles; RINEX too knows it as "not measured".
+  to->carrier_cycles = from.carrier_cycles == 0.0 ? kNotMeasured : from.carrier_cycles;
   to->doppler_hz = from.doppler_hz;
   to->cn0_dbhz = from.cn0_dbhz;
   to->lock_time_s = from.lock_time_s;
   to->loss_of_lock = (from.flags & kFlagLossOfLock) != 0;
   to->half_cycle_ambiguous = (from.flags & kFlagHalfCycle) != 0;
-  return InputFault::kNone;
+  return check(*to);
 }
 
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to) {

@@ -19,10 +19,8 @@ inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
 // Encoded layout (LCM: fingerprint, then the members in order, big endian, unpadded). The counts
 // stand before the arrays so that they can be judged before the generated decoder, which resizes
 // its vectors by whatever the wire says, sees them.
-inline constexpr std::size_t kFingerprintBytes = 8;
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
-inline constexpr std::size_t kSecondCountOffset = 32;
 inline constexpr std::size_t kEventStageOffset = 28;
 
 inline constexpr std::uint8_t kFlagLossOfLock = 1;

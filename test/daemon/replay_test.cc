@@ -1,4 +1,5 @@
 // leonav-replay does not pass for a success where the log gives no answer.
+#include <filesystem>
 #include <string>
 
 #include "drive_inputs.h"
@@ -67,6 +68,27 @@ TEST_CASE("a log without GNSS epochs, or without ephemerides, fails") {
     CHECK(no_ephemerides.run.exit_code == 1);
     CHECK(has(no_ephemerides.run.err, "no position was found"));
   }
+}
+
+TEST_CASE("the summary of a log that is cut short says so, and that it is no journal") {
+  if (!test::have_programs("leonav-replay")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string log = folder.beside("log");
+  write_log_without(Channel::kCommand, log);
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) - 5);
+  const std::string arguments = "--config " LEONAV_SOURCE_DIR "/config/drive_ins.yaml --out '" +
+                                folder.beside("out") + "' '" + log + "'";
+  const auto run = test::run_program("leonav-replay", arguments);
+  CHECK(run.exit_code == 0);
+  CHECK(has(run.err, "its last message is cut short"));
+  CHECK(has(test::text_of(folder.beside("out/summary.txt")), "its last message is cut short"));
+
+  const auto verify = test::run_program("leonav-replay", "--verify " + arguments);
+  CHECK(verify.exit_code == 1);
+  CHECK(has(verify.err, "the log is no journal of leonavd"));
+  const std::string summary = test::text_of(folder.beside("out/summary.txt"));
+  CHECK(has(summary, "failure: nothing to verify: the log is no journal"));
+  CHECK_FALSE(has(summary, "the journal was cut"));
 }
 
 TEST_CASE("leonav-replay --help tells its exit codes") {

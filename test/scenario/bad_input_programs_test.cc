@@ -64,6 +64,37 @@ TEST_CASE("an unknown key is refused with file, line and the nearest known key")
   check_refused("leonav-import", dataset.path() + " -o " + out, "'observations'");
 }
 
+TEST_CASE("an evaluation says which rows it could not use") {
+  if (!have_programs("leonav-eval")) return;
+  const std::string header = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n";
+  std::string truth_text = header, text = header, pos = "% RTKLIB\n";
+  for (int i = 0; i < 40; ++i) {
+    const std::string tow = std::to_string(1000 + i);
+    truth_text += "2300," + tow + (i == 7 ? ",x,9,100\n" : ",45,9,100\n");
+    text += "2300," + tow + (i % 2 == 1 ? ",,9,100\n" : ",45,9,100\n");
+    pos += "2300 " + tow + (i == 3 ? " damaged\n" : " 45.0 9.0 100.0 5 8 1 1 1\n");
+  }
+  const TemporaryFile truth("truth.csv", truth_text), solution("half.csv", text),
+      rtklib("run.pos", pos);
+  const ProgramRun run = run_program(
+      "leonav-eval", "--truth " + truth.path() + " half=" + solution.path() + " " + rtklib.path());
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.out, Contains("1 of 40 rows were skipped, the first: ") &&
+                          Contains("truth.csv:9: latitude_deg: 'x'"));
+  CHECK_THAT(run.out, Contains("20 of 40 rows were skipped") && Contains("half.csv:3: position"));
+  CHECK_THAT(run.out, Contains("run.pos:5: "));
+}
+
+TEST_CASE("a bench that navigated nothing is no success") {
+  if (!have_programs("leonav-bench")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("log");
+  write_log(log);
+  check_refused("leonav-bench", "--config " LEONAV_SOURCE_DIR "/config/station.yaml " + log,
+                "nothing was navigated");
+}
+
 TEST_CASE("a log with no input that could be used does not replay as a success") {
   if (!have_programs("leonav-replay")) return;
   const TemporaryFile place("empty.lcmlog", "");

@@ -88,7 +88,7 @@ int body(int argc, char** argv) {
   const Recording recording = load(arguments.positional()[0], config.lcm.prefix);
 
   std::vector<double> imu_us, epoch_ms, speeds;
-  std::uint64_t epochs = 0, satellites = 0;
+  std::uint64_t epochs = 0, satellites = 0, solutions = 0;
   for (int i = 0; i < repeats; ++i) {
     leonav::TimedStages stages(config.navigator);
     stages.imu_sample_us.reserve(recording.messages.size());
@@ -102,8 +102,14 @@ int body(int argc, char** argv) {
     epoch_ms.insert(epoch_ms.end(), stages.gnss_epoch_ms.begin(), stages.gnss_epoch_ms.end());
     epochs = stages.sink().epochs;
     satellites = stages.sink().satellites;
+    solutions = stages.sink().solutions;
   }
   if (epochs == 0) throw std::runtime_error("the log gave no GNSS epoch");
+  if (solutions == 0 || satellites == 0) {
+    throw std::runtime_error("nothing was navigated: " + std::to_string(epochs) + " epochs, " +
+                             std::to_string(satellites) + " satellites used, " +
+                             std::to_string(solutions) + " solutions; leonav-replay tells why");
+  }
   std::printf("%zu inputs over %.1f s, %d runs, %.1f satellites used per epoch\n",
               recording.messages.size(), recording.span_s, repeats,
               static_cast<double>(satellites) / static_cast<double>(epochs));

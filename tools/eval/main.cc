@@ -83,18 +83,26 @@ int body(int argc, char** argv) {
   if (arguments.has("--from")) options.from = parse_time("--from", arguments.get("--from"));
   if (arguments.has("--to")) options.to = parse_time("--to", arguments.get("--to"));
 
-  const leonav::Track truth = leonav::load_truth(arguments.required("--truth"));
+  leonav::SkippedRows skipped;
+  const leonav::Track truth = leonav::load_truth(arguments.required("--truth"), &skipped);
+  std::cout << leonav::to_string(skipped);
   std::vector<leonav::Evaluation> evaluations;
   for (const std::string& word : arguments.positional()) {
     const std::size_t equals = word.find('=');
     const std::string path = equals == std::string::npos ? word : word.substr(equals + 1);
     const std::string label = equals == std::string::npos ? word : word.substr(0, equals);
-    evaluations.push_back(leonav::evaluate(label, leonav::load_solution(path), truth, options,
-                                           arguments.number("--convergence-bound")));
+    leonav::SkippedRows of_solution;
+    const leonav::Track solution = leonav::load_solution(path, &of_solution);
+    evaluations.push_back(
+        leonav::evaluate(label, solution, truth, options, arguments.number("--convergence-bound")));
+    evaluations.back().skipped = of_solution;
   }
   std::cout << leonav::to_table(evaluations);
   if (arguments.has("--imu")) {
     const leonav::ImuCsv imu = leonav::read_imu_csv(arguments.get("--imu"));
+    const auto& problems = imu.report.problems;
+    std::cout << leonav::to_string(leonav::SkippedRows{imu.report.skipped, imu.report.rows,
+                                                       problems.empty() ? "" : problems.front()});
     std::cout << leonav::to_table(leonav::judge_gyro_heading(imu.samples, truth, options));
   }
   if (arguments.has("--json")) {

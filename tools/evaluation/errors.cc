@@ -110,11 +110,20 @@ Comparison compare(const Track& solution, const Track& truth, const ErrorOptions
     return static_cast<std::size_t>(seconds_between(end, begin) / comparison.interval_s + 0.01) + 1;
   };
   comparison.expected_in_truth = epochs_in(from, to);
-  comparison.expected_epochs =
-      epochs_in(std::max(from, solution.front().time), std::min(to, solution.back().time));
+  // Stamps of one epoch may differ by a millisecond: what lies less than half an interval outside
+  // the truth answers its first or last epoch, though there is nothing to compare it with.
+  const double half_s = 0.5 * std::min(comparison.interval_s, median_interval(truth));
+  GpsTime first = from, last = to;  // of what is judged; never within the truth's span
+  const auto is_judged = [&](GpsTime time) {
+    if ((options.from && time < *options.from) || (options.to && time > *options.to)) return false;
+    return time >= from ? time <= to || seconds_between(time, to) < half_s
+                        : seconds_between(from, time) < half_s;
+  };
   for (const TrackPoint& point : solution) {
-    if (point.time < from || point.time > to) continue;
+    if (!is_judged(point.time)) continue;
     ++comparison.solution_epochs;
+    first = std::min(first, point.time);
+    last = std::max(last, point.time);
     const auto reference = truth_at(truth, point.time, options.max_truth_gap_s);
     if (!reference) {
       ++comparison.without_truth;
@@ -124,6 +133,8 @@ Comparison compare(const Track& solution, const Track& truth, const ErrorOptions
     ErrorSample& sample = comparison.errors.back();
     sample.steady_course = sample.yaw_from_course && course_is_steady(truth, point.time, options);
   }
+  comparison.expected_epochs =
+      epochs_in(std::max(first, solution.front().time), std::min(last, solution.back().time));
   if (options.remove_offset && !comparison.errors.empty()) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const ErrorSample& sample : comparison.errors) sum += sample.neu;

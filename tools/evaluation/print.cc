@@ -64,6 +64,10 @@ std::string to_table(const std::vector<Evaluation>& evaluations) {
                   c.expected_in_truth == 0 ? 0.0
                                            : 100.0 * static_cast<double>(c.solution_epochs) /
                                                  static_cast<double>(c.expected_in_truth));
+    if (e.skipped.skipped > 0) {
+      out += "  " + to_string(e.skipped) +
+             "  the availability counts only the rows that could be read\n";
+    }
     out +=
         format("  %-21s%9s%9s%9s%9s%9s%9s\n", "", "rmse", "mean", "50 %", "95 %", "99 %", "worst");
     for (const auto& [name, d] : rows_of(e)) {
@@ -122,6 +126,7 @@ std::string to_json(const std::vector<Evaluation>& evaluations) {
         format(" {\"label\": %s, \"epochs\": %zu, \"answered\": %zu, \"expected\": %zu,",
                json_string(e.label).c_str(), c.errors.size(), c.solution_epochs, c.expected_epochs);
     out += format(" \"expected_in_truth\": %zu,", c.expected_in_truth);
+    out += format(" \"skipped_rows\": %ld,", e.skipped.skipped);
     out += format(" \"availability\": %.6f, \"interval_s\": %.4f,\n", e.availability, c.interval_s);
     out += format("  \"convergence_bound_m\": %.3f, \"convergence_s\": ", e.convergence_bound_m);
     out += e.convergence_s ? format("%.3f", *e.convergence_s) : "null";

@@ -20,6 +20,7 @@ double percentile(std::vector<double> values, double share);
 
 struct Evaluation {
   std::string label;
+  SkippedRows skipped;  // of the solution's file
   Comparison comparison;
   Distribution north, east, up, horizontal, three_d;  // m
   std::optional<Distribution> speed;                  // m/s, 3D

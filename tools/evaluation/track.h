@@ -21,11 +21,21 @@ struct TrackPoint {
 
 using Track = std::vector<TrackPoint>;  // times strictly increasing
 
+// What of a file is not in the track. It may have been every other epoch: then the interval of
+// those left, and the availability that follows from it, tell nothing.
+struct SkippedRows {
+  long skipped = 0, rows = 0;  // rows: those used
+  std::string first_problem;   // FILE:LINE: what
+};
+
 // truth.csv. Throws FileError.
-Track load_truth(const std::string& path);
+Track load_truth(const std::string& path, SkippedRows* skipped = nullptr);
 
 // solution.csv, or RTKLIB's .pos (latitude, longitude, height or x, y, z), told apart by content.
 // Throws FileError, also where no row is usable.
-Track load_solution(const std::string& path);
+Track load_solution(const std::string& path, SkippedRows* skipped = nullptr);
+
+// A line for people; empty: nothing was skipped.
+std::string to_string(const SkippedRows& skipped);
 
 }  // namespace leonav

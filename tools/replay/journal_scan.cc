@@ -12,6 +12,12 @@ std::uint64_t JournalScan::inputs() const {
   return sum;
 }
 
+bool JournalScan::is_journal() const {
+  return messages[index_of(Channel::kConfig)] + messages[index_of(Channel::kDecision)] +
+             messages[index_of(Channel::kEnd)] >
+         0;
+}
+
 std::string JournalScan::describe() const {
   std::string text = "inputs:";
   for (const Channel channel : kInputChannels) {

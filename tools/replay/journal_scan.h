@@ -20,7 +20,8 @@ struct JournalScan {
 
   std::uint64_t inputs() const;
   std::string describe() const;  // "IMU 100, GNSS_EPOCH 3, ..."
-  bool is_journal() const { return messages[index_of(Channel::kDecision)] > 0; }
+  // Of leonavd: it writes its configuration first, a decision per epoch, and its end.
+  bool is_journal() const;
 };
 
 // Throws EventLogError for a file that is absent or damaged.

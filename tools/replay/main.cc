@@ -14,6 +14,8 @@ namespace {
 
 using namespace leonav;
 
+constexpr const char* kCutShort = ": its last message is cut short; replaying what is whole\n";
+
 Arguments declare() {
   Arguments arguments(
       "leonav-replay", "[--config FILE] --out DIR [options] run.lcmlog",
@@ -77,6 +79,9 @@ std::string no_answer(const ReplayRun& run, const JournalScan& scan, bool inerti
 std::string verdict(const ReplayRun& run, const JournalScan& scan, bool inertial,
                     const std::string& other_run, std::ostream& out) {
   if (const Verifier* verifier = run.verifier()) {
+    if (!scan.is_journal()) {
+      return "nothing to verify: the log is no journal of leonavd (it holds no DECISION)";
+    }
     out << "verified " << verifier->compared() << " outputs, " << verifier->differences()
         << " differences\n";
     if (!scan.stopped_cleanly) {
@@ -108,8 +113,7 @@ int replay(int argc, char** argv) {
   const JournalScan scan = scan_journal(options.log, config.lcm.prefix);
   require_inputs(scan, options.log, config.lcm.prefix);
   if (scan.truncated) {
-    std::cerr << "leonav-replay: " << options.log << ": its last message is cut short; "
-              << "replaying what is whole\n";
+    std::cerr << "leonav-replay: " << options.log << kCutShort;
   }
   std::filesystem::create_directories(options.out_folder);
   ReplayRun run(config, options, scan);
@@ -118,6 +122,7 @@ int replay(int argc, char** argv) {
   std::ostringstream summary;
   summary << "configuration: " << origin << "\n";
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
+  if (scan.truncated) summary << "warning: " << options.log << kCutShort;
   run.print_summary(summary);
   for (const std::string& warning : run.warnings()) {
     summary << "warning: " << warning << "\n";

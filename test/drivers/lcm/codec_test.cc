@@ -89,6 +89,36 @@ TEST_CASE("single bad observations are left out, copies and disorder dealt with"
   CHECK(decoded.observations[1].code == SignalCode{'2', 'W'});
 }
 
+TEST_CASE("observations no signal can give are left out and counted; no carrier is none") {
+  Encoder encoder;
+  Decoder decoder;
+  const auto bit = 1U << static_cast<unsigned>(InputFault::kNotSane);
+  const auto decode_with = [&](double SignalObservation::*member, double value, bool is_good) {
+    CAPTURE(value);
+    RawEpoch epoch = raw_epoch(3), decoded;
+    epoch.observations[2].*member = value;
+    const DecodeResult result = decoder.decode(encoder.encode(epoch, 1), &decoded);
+    CHECK(result.fault == InputFault::kNone);
+    CHECK(result.element_faults == (is_good ? 0U : bit));
+    CHECK(decoded.observations.size() == (is_good ? 6U : 5U));
+    return decoded;
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    decode_with(&SignalObservation::pseudorange_m, sign * 1.1e9, false);
+    decode_with(&SignalObservation::pseudorange_m, sign * 0.9e9, true);
+    decode_with(&SignalObservation::carrier_cycles, sign * 1.1e11, false);
+    decode_with(&SignalObservation::carrier_cycles, sign * 1e300, false);
+    decode_with(&SignalObservation::carrier_cycles, sign * 0.9e11, true);
+    decode_with(&SignalObservation::doppler_hz, sign * 1.1e6, false);
+    decode_with(&SignalObservation::doppler_hz, sign * 3e5, true);
+  }
+  decode_with(&SignalObservation::cn0_dbhz, -1.0, false);
+  decode_with(&SignalObservation::cn0_dbhz, 101.0, false);
+  decode_with(&SignalObservation::cn0_dbhz, 60.0, true);
+  const RawEpoch none = decode_with(&SignalObservation::carrier_cycles, 0.0, true);
+  CHECK(std::isnan(none.observations[2].carrier_cycles));
+}
+
 TEST_CASE("wrong values are named") {
   Encoder encoder;
   Decoder decoder;

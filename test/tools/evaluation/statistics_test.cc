@@ -60,6 +60,28 @@ TEST_CASE("the truth is not interpolated over a hole, and what is missing lowers
   CHECK(e.availability == Approx(20.0 / 21.0));
 }
 
+TEST_CASE("stamps a millisecond off the truth's ends answer all the same") {
+  const Track truth = straight(101, 0.25, {1, 0, 0}, Eigen::Vector3d::Zero());
+  for (const double shift_s : {-0.001, 0.001, -0.12, 0.12}) {
+    CAPTURE(shift_s);
+    Track solution = truth;
+    for (TrackPoint& p : solution) p.time = p.time.plus_seconds(shift_s);
+    Evaluation e = evaluate("x", solution, truth, {}, 3.0);
+    CHECK(e.comparison.solution_epochs == 101);
+    CHECK(e.comparison.expected_in_truth == 101);
+    CHECK(e.comparison.expected_epochs == 101);
+    CHECK(e.comparison.errors.size() == 100);
+    CHECK(e.availability == 1.0);
+    solution.erase(solution.begin() + 50);
+    e = evaluate("x", solution, truth, {}, 3.0);
+    CHECK(e.availability == Approx(100.0 / 101.0));
+    ErrorOptions options;  // a span the user asks for is exact
+    options.from = truth[10].time;
+    options.to = truth[20].time;
+    CHECK(evaluate("x", solution, truth, options, 3.0).comparison.solution_epochs == 10);
+  }
+}
+
 TEST_CASE("percentiles are of absolute values and count the sample that reaches the share") {
   std::vector<double> values;
   for (int i = 1; i <= 100; ++i) values.push_back(i % 2 == 0 ? i : -i);
