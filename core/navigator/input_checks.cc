@@ -85,8 +85,7 @@ std::size_t copy_sane(const RawEpoch& from, RawEpoch* to) {
   to->time = from.time;
   to->observations.clear();
   for (const SignalObservation& observation : from.observations) {
-    if (is_valid(observation.satellite) && observation.code.is_set() &&
-        check(observation) == InputFault::kNone) {
+    if (is_valid(observation.satellite) && observation.code.is_set()) {
       to->observations.push_back(observation);
     }
   }
