@@ -23,8 +23,7 @@ InputFault check(const AntennaPattern& pattern);
 InputFault check(const Command& command);
 
 // Copies `from`, without the observations no receiver can have made (invalid satellite, same
-// satellite and signal again), sorted as RawEpoch promises.
-// Returns how many were left out.
+// satellite and signal again), sorted as RawEpoch promises. Returns how many were left out.
 std::size_t copy_sane(const RawEpoch& from, RawEpoch* to);
 
 }  // namespace leonav
