@@ -132,15 +132,6 @@ bool AntennaCatalog::add(const AntennaPattern& pattern) {
   return added;
 }
 
-bool AntennaCatalog::has_receiver() const { return !storage_->receiver.empty(); }
-
-bool AntennaCatalog::has_satellite(SatelliteId satellite, GpsTime time) const {
-  if (!is_valid(satellite)) return false;
-  const SatelliteBands& bands = storage_->satellites[place_of(satellite)];
-  return std::any_of(bands.begin(), bands.end(),
-                     [&](const SatelliteBand& entry) { return entry.holds_at(time); });
-}
-
 AntennaRange AntennaCatalog::satellite_range(SatelliteId satellite, char band, GpsTime time,
                                              const Eigen::Vector3d& p_sat_e,
                                              const Eigen::Matrix3d& C_es,

@@ -38,9 +38,6 @@ class AntennaCatalog {
   // the one that arrived first. There is one receiver antenna; its validity is not looked at.
   bool add(const AntennaPattern& pattern);
 
-  bool has_receiver() const;
-  bool has_satellite(SatelliteId satellite, GpsTime time) const;
-
   // As satellite_antenna_range_m and receiver_antenna_range_m, with the pattern for the band (and
   // the time). `system` and `band` of the signal.
   AntennaRange satellite_range(SatelliteId satellite, char band, GpsTime time,
