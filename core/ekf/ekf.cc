@@ -94,6 +94,7 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
     known_.drift[base] = true;
   }
   last_update_ = time;
+  contradicted_ = false;
   has_attitude_ = false;
   initialized_ = true;
 }
@@ -294,7 +295,10 @@ bool Ekf::is_finite() const {
          state_.errors.gyro_bias_b.allFinite() && state_.errors.accel_bias_b.allFinite() &&
          state_.errors.gyro_scale.allFinite() && state_.errors.accel_scale.allFinite() &&
          clocks_.offset_m.allFinite() && clocks_.drift_m_s.allFinite() &&
-         std::isfinite(wet_delay_m_) && covariance_.allFinite();
+         std::isfinite(wet_delay_m_) && std::isfinite(carrier_clock_m_) &&
+         covariance_.allFinite() &&
+         std::all_of(ambiguities_.begin(), ambiguities_.end(),
+                     [](const Ambiguity& a) { return std::isfinite(a.value_m); });
 }
 
 }  // namespace leonav

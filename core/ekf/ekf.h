@@ -116,6 +116,8 @@ class Ekf {
   void take_up_clock_jump(EkfUpdateResult* result);
   bool start_clocks(const MeasurementEpoch& epoch);
   void check_prediction(EkfUpdateResult* result);
+  void leave_out_ranges();
+  int forget_ambiguities();  // how many
   void apply(const EkfCorrection& correction);
 
   EkfConfig config_;
@@ -134,9 +136,15 @@ class Ekf {
   // Of the last sample, errors not removed: for the lever arm.
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
   GpsTime last_update_;
-  FilterMeasurements measurements_;  // of the epoch at hand
+  struct Skipped {
+    std::size_t index = 0;  // into MeasurementEpoch::measurements
+    Reason reason = Reason::kNotSolved;
+  };
+  FilterMeasurements measurements_;                                     // of the epoch at hand
+  boost::container::static_vector<Skipped, kMaxMeasurements> skipped_;  // of those offered
   RobustUpdate robust_update_;
   int arcs_without_place_ = 0;  // in the epoch at hand
+  bool contradicted_ = false;   // the last epoch's ranges, by a prediction that they agree against
   bool initialized_ = false;
   bool has_attitude_ = false;
 };

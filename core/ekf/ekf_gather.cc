@@ -74,18 +74,23 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
   const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
   const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
   measurements_.clear();
+  skipped_.clear();
   arcs_without_place_ = 0;
   for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
     const Measurement& measurement = epoch.measurements[i];
     const bool carrier = measurement.observable == Observable::kCarrier;
-    if (measurement.reason != Reason::kUsed ||
-        measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
-        !std::isfinite(measurement.value))
+    if (measurement.reason != Reason::kUsed) continue;
+    if (measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
+        !std::isfinite(measurement.value)) {
+      skipped_.push_back({i, Reason::kImplausible});
       continue;
+    }
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
     if (carrier && (!config_.use_carrier || measurement.arc == 0 ||
-                    !known_.offset[index_of(satellite.satellite.system)]))
+                    !known_.offset[index_of(satellite.satellite.system)])) {
+      skipped_.push_back({i, Reason::kNotSolved});
       continue;
+    }
     const MeasurementPrediction prediction = predict_measurement(
         measurement, satellite, motion, clocks_, wet_delay_m_, carrier_clock_m_);
     FilterMeasurement entry;
@@ -102,9 +107,11 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
       entry.ambiguity = ambiguity_of(measurement, satellite.satellite, entry, epoch.time);
       if (entry.ambiguity < 0) {
         ++arcs_without_place_;
+        skipped_.push_back({i, Reason::kCapacity});
         continue;
       }
       const auto place = static_cast<std::size_t>(entry.ambiguity - kSize);
+      ambiguities_[place].wander = measurement.wander;  // its orbit may be another by now
       entry.innovation -= ambiguities_[place].value_m;
     }
     measurements_.push_back(entry);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/ekf/clock_model.h"
 #include "core/ekf/ekf.h"
@@ -129,15 +130,41 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
   result->doppler_ratio = consistency_ratio(measurements_, Observable::kDoppler, covariance_);
   // A wider prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
+  const bool contradicted_before = std::exchange(contradicted_, false);
+  // Carriers first: where they agree on a move, the codes then agree with it too.
   for (const Observable observable :
-       {Observable::kDoppler, Observable::kCode, Observable::kCarrier}) {
-    const double factor =
-        prediction_inflation(config_.robust, measurements_, observable, covariance_,
-                             config_.prediction_suspect_ratio, &robust_update_);
-    if (factor <= 1.0) continue;
-    inflate(observable, factor, &covariance_);
+       {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
+    const double variance = missing_variance(config_.robust, measurements_, observable, covariance_,
+                                             config_.prediction_suspect_ratio, &robust_update_);
+    if (variance <= 0.0) continue;
     result->prediction_suspect = true;
+    if (observable != Observable::kDoppler) {
+      contradicted_ = true;
+      // It may be the epoch that is wrong, its time stamp for one. The next one tells.
+      if (!contradicted_before) return leave_out_ranges();
+    }
+    widen(observable, variance, &covariance_);
+    // Codes that agree on another position than the carriers stand for: the ambiguities were found
+    // at a wrong one.
+    if (observable == Observable::kCode) result->arcs_restarted += forget_ambiguities();
   }
+}
+
+void Ekf::leave_out_ranges() {
+  const auto is_range = [](const FilterMeasurement& m) {
+    return m.observable != Observable::kDoppler;
+  };
+  for (const FilterMeasurement& m : measurements_)
+    if (is_range(m)) skipped_.push_back({m.index, Reason::kOutlier});
+  measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), is_range),
+                      measurements_.end());
+}
+
+int Ekf::forget_ambiguities() {
+  const auto count = static_cast<int>(ambiguities_.size());
+  ambiguities_.clear();
+  covariance_.conservativeResize(kSize, kSize);
+  return count;
 }
 
 EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
@@ -152,6 +179,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   if (start_clocks(epoch)) gather(epoch);
   result.arcs_without_place = arcs_without_place_;
   check_prediction(&result);
+  if (result.arcs_restarted > 0) gather(epoch);  // they begin anew
+  for (const Skipped& skipped : skipped_) result.innovations[skipped.index].reason = skipped.reason;
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];
     report.innovation = measurement.innovation;
@@ -160,6 +189,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     report.test_ratio = std::abs(report.innovation) / std::sqrt(report.innovation_variance);
   }
 
+  set_prior_ratios(covariance_, &measurements_);
   const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
   apply(update.correction);
   result.nis = update.nis;

@@ -14,21 +14,28 @@ namespace leonav {
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 
-// Median of |innovation| over its predicted sigma, divided by what it is for normal errors. NaN:
-// fewer than four of `observable`.
+// Median of |innovation| over its predicted sigma, divided by what it is for normal errors, after
+// the median of each time base has been taken out, with its clock's part of the prediction: clocks
+// that stray by tens of metres would hide a position that does. NaN: fewer than four of
+// `observable`.
 double consistency_ratio(const FilterMeasurements& measurements, Observable observable,
                          const EkfCovariance& covariance);
 
-// Factor >= 1 on the predicted variance of the innovations of `observable` with which their median
-// square would be as expected; 1 while the median standardized innovation is below `suspect`, and 1
-// where the measurements do not agree with each other either once the prior is that wide: then most
-// of them are bad, and following them would carry the filter away.
-double prediction_inflation(const RobustConfig& robust, const FilterMeasurements& measurements,
-                            Observable observable, const EkfCovariance& covariance, double suspect,
-                            RobustUpdate* robust_update);
+// Sets prior_ratio of all codes and carriers, where there are four of a kind: a clock whose
+// prediction is worth nothing would let all of them pass, whatever they contradict.
+void set_prior_ratios(const EkfCovariance& covariance, FilterMeasurements* measurements);
 
-// P <- D P D with sqrt(factor) on the states an observable sees first (code, carrier: position,
-// clock offsets; Doppler: velocity, attitude, clock drifts): stays positive semidefinite.
-void inflate(Observable observable, double factor, EkfCovariance* covariance);
+// Variance by which the predicted position (of Dopplers: velocity), along each axis, is wrong
+// beyond its covariance; 0 while the median standardized innovation is below `suspect`, and 0 where
+// the measurements do not agree with each other either once the prior is that wide: then most of
+// them are bad, and following them would carry the filter away.
+double missing_variance(const RobustConfig& robust, const FilterMeasurements& measurements,
+                        Observable observable, const EkfCovariance& covariance, double suspect,
+                        RobustUpdate* robust_update);
+
+// Adds `variance` to the states an observable sees first (code, carrier: position, clock offsets;
+// Doppler: velocity, clock drifts). Added, not scaled: correlations with ambiguities that are
+// nearly perfect would turn a wider prior into a better one.
+void widen(Observable observable, double variance, EkfCovariance* covariance);
 
 }  // namespace leonav

@@ -167,6 +167,8 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
     for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
       const bool first = pass == 0;  // nothing used yet: innovations
       problem.standardize(*measurements, &ratios);
+      for (std::size_t i = 0; first && i < ratios.size(); ++i)
+        ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
       const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits,
                                      measurements, &result);
       if (first) {

@@ -18,6 +18,9 @@ struct FilterMeasurement {
   double variance = 0.0;       // of the measurement alone: what it is tested against
   double gain_variance = 0.0;  // likewise, with its correlation in time: what it weighs
   EkfVector row = EkfVector::Zero();
+  // |innovation| over its sigma with the clocks taken out (prediction_check.h), tested beside the
+  // plain one before anything is used.
+  double prior_ratio = 0.0;
   int ambiguity = -1;   // state of its ambiguity, whose coefficient is one; -1: none
   double factor = 1.0;  // out: IGG-III
 };

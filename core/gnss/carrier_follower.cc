@@ -114,7 +114,7 @@ void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
     const Memory* before = memory_of(satellite.satellite);
     if (before != nullptr && before->arc == carriers[i]->arc &&
         before->issue != satellite.orbit_issue)
-      carriers[i]->disturbance_m = std::sqrt(2.0) * satellite.orbit_sigma_m;
+      carriers[i]->disturbance_m = std::hypot(before->orbit_sigma_m, satellite.orbit_sigma_m);
   }
 }
 
@@ -131,6 +131,7 @@ void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vecto
     memory->direction = range.d_range_d_p.transpose();
     memory->variance_m2 = square(carrier.sigma);
     memory->issue = satellite.orbit_issue;
+    memory->orbit_sigma_m = satellite.orbit_sigma_m;
   }
   last_time_ = epoch.time;
   memory_.erase(std::remove_if(memory_.begin(), memory_.end(),

@@ -34,6 +34,8 @@ class CarrierFollower {
                            MeasurementEpoch* epoch);
   // `antenna_p_e`: as estimated with this epoch.
   void remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e);
+  // What the position was is not known any more: the next epoch's range changes are not tested.
+  void forget_position() { last_time_ = GpsTime(); }
   void reset();
 
   GpsTime last_time() const { return last_time_; }
@@ -51,6 +53,7 @@ class CarrierFollower {
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double variance_m2 = 0.0;
     std::uint32_t issue = 0;
+    double orbit_sigma_m = 0.0;
     double wind_up_cycles = 0.0;
   };
   Memory* memory_of(SatelliteId satellite);

@@ -193,9 +193,13 @@ void CarrierTrack::settle_half_cycle(const CycleSlipConfig& config, const PairTe
 }
 
 void CarrierTrack::start(const CycleSlipConfig& config, const CarrierSample& sample, bool keep) {
-  begin(config, sample, keep && known_, known_ ? seconds_between(sample.time, last_.time) : 0.0);
+  CarrierSample unrepaired(sample);
+  for (CarrierSide& side : unrepaired.side) side.repair_m = 0.0;
+  begin(config, unrepaired, keep && known_,
+        known_ ? seconds_between(sample.time, last_.time) : 0.0);
 }
 
+// Repairs stay: what this epoch's carrier was given out with is a constant to the new arc.
 void CarrierTrack::restart(const CycleSlipConfig& config) {
   geometry_free_ = geometry_free_before_;
   wide_lane_ = wide_lane_before_;
@@ -208,7 +212,6 @@ void CarrierTrack::begin(const CycleSlipConfig& config, const CarrierSample& sam
   wide_lane_before_ = wide_lane_;
   last_interval_s_ = interval_s;
   last_ = sample;
-  for (CarrierSide& side : last_.side) side.repair_m = 0.0;
   known_ = true;
   if (sample.sides == 1) return;
   geometry_free_.start(geometry_free(last_), interval_s, geometry_free_noise(config, system, last_),

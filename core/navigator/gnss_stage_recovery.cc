@@ -34,6 +34,7 @@ void GnssStage::drop_broken_filter(GpsTime time) {
 
 void GnssStage::drop_filter(GpsTime time) {
   ekf_.reset();
+  carriers_.forget_position();
   alignment_.reset();
   gnss_used_ = false;
   suspect_epochs_ = 0;
@@ -125,6 +126,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
 
   ekf_.initialize(work.time, point);
+  carriers_.forget_position();
   if (keep_attitude) {
     ekf_.set_attitude(q_eb, sigma_rpy, errors, error_covariance);
   } else {

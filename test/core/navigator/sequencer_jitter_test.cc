@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <random>
 
@@ -35,8 +36,7 @@ struct JitterRun {
     }
   }
   // Stamped when the host reads them.
-  template <typename ReadTime>
-  explicit JitterRun(ReadTime read_time_ns) {
+  explicit JitterRun(const std::function<std::int64_t(std::int64_t)>& read_time_ns) {
     for (int i = 1; i <= kSamples; ++i) send(i, read_time_ns(i * kInterval) - i * kInterval);
   }
 
