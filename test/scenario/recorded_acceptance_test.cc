@@ -1,0 +1,121 @@
+// What leonav answers on the recorded data, from the files to the error table: the bounds that its
+// users are promised. Each configuration as shipped.
+#include <cstdlib>
+#include <string>
+
+#include "support/catch.h"
+#include "support/program_run.h"
+#include "support/shared_data.h"
+
+namespace leonav::test {
+namespace {
+
+struct Errors {
+  double answered = 0.0, rmse = 0.0, p95 = 0.0;  // horizontal, m
+};
+
+// The number after `key` in `object` of a JSON text of leonav-eval.
+double number_after(const std::string& json, const std::string& object, const std::string& key) {
+  std::size_t at = object.empty() ? 0 : json.find("\"" + object + "\"");
+  REQUIRE(at != std::string::npos);
+  at = json.find("\"" + key + "\":", at);
+  REQUIRE(at != std::string::npos);
+  return std::strtod(json.c_str() + at + key.size() + 3, nullptr);
+}
+
+std::string imported(const TemporaryFile& place, const std::string& set) {
+  const std::string log = place.beside(set + ".lcmlog");
+  const ProgramRun run =
+      run_program("leonav-import", shared_data(set + "/dataset.yaml") + " -o " + log);
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  return log;
+}
+
+Errors errors_of(const TemporaryFile& place, const std::string& log, const std::string& options,
+                 const std::string& judge) {
+  const std::string out = place.beside("result"), json = place.beside("errors.json");
+  const ProgramRun replay = run_program("leonav-replay", options + " --out " + out + " " + log);
+  CAPTURE(replay.err);
+  REQUIRE(replay.exit_code == 0);
+  const ProgramRun eval =
+      run_program("leonav-eval", judge + " --json " + json + " " + out + "/solution.csv");
+  CAPTURE(eval.err);
+  REQUIRE(eval.exit_code == 0);
+  const std::string text = text_of(json);
+  return {number_after(text, "", "answered"), number_after(text, "horizontal_m", "rmse"),
+          number_after(text, "horizontal_m", "p95")};
+}
+
+std::string config(const std::string& name) {
+  return "--config " LEONAV_SOURCE_DIR "/config/" + name + ".yaml";
+}
+
+bool programs() { return have_programs("leonav-import", "leonav-replay", "leonav-eval"); }
+
+}  // namespace
+
+TEST_CASE("the recorded walk: three decimetres against its track") {
+  if (!programs() || !have_shared_data("walk/dataset.yaml")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "walk");
+  const std::string judge = "--remove-offset --truth " + shared_data("walk/truth.csv");
+  const Errors with = errors_of(place, log, config("walk"), judge);
+  const Errors without = errors_of(place, log, config("walk") + " --set ekf.carrier=false", judge);
+  std::printf("walk: horizontal RMSE %.3f m, without carriers %.3f m\n", with.rmse, without.rmse);
+  CHECK(with.answered >= 535);
+  CHECK(with.rmse < 0.3);
+  CHECK(without.rmse < 1.0);
+}
+
+TEST_CASE("the recorded drive: every epoch answered, and what each part of the filter adds") {
+  if (!programs() || !have_shared_data("drive/dataset.yaml")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "drive");
+  const std::string judge = "--truth " + shared_data("drive/truth.csv");
+  const Errors shipped = errors_of(place, log, config("drive"), judge);
+  const Errors codes = errors_of(place, log, config("drive") + " --set ekf.carrier=false", judge);
+  const Errors trusting =
+      errors_of(place, log, config("drive") + " --set robust.enabled=false", judge);
+  std::printf(
+      "drive: horizontal RMSE %.3f m, 95 %% %.3f m; without carriers %.3f m; not robust %.3f m\n",
+      shipped.rmse, shipped.p95, codes.rmse, trusting.rmse);
+  for (const Errors& errors : {shipped, codes, trusting}) CHECK(errors.answered == 1985);
+  CHECK(shipped.rmse < 6.0);
+  CHECK(shipped.p95 < 12.0);
+  CHECK(shipped.rmse <= codes.rmse);
+  CHECK(shipped.rmse < trusting.rmse);
+}
+
+TEST_CASE("the recorded station: centimetres, its position free at every epoch") {
+  if (!programs() || !have_shared_data("station/dataset.yaml")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "station");
+  const TemporaryFile truth("truth.csv",
+                            "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n"
+                            "2111,345600,55.4935676124,8.4568295850,59.4606\n"
+                            "2111,432000,55.4935676124,8.4568295850,59.4606\n");
+  const std::string free =
+      " --set ekf.motion=constant_velocity"
+      " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
+      " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
+  const std::string out = place.beside("result"), json = place.beside("errors.json");
+  const ProgramRun replay =
+      run_program("leonav-replay", config("station") + free + " --out " + out + " " + log);
+  REQUIRE(replay.exit_code == 0);
+  const std::string judge = "--truth " + truth.path() +
+                            " --max-truth-gap 1e9 --convergence-bound 0.1 --json " + json + " " +
+                            out + "/solution.csv";
+  REQUIRE(run_program("leonav-eval", judge).exit_code == 0);
+  const double settled_s = number_after(text_of(json), "", "settled_s");
+  REQUIRE(run_program("leonav-eval", "--from 2111:349200 " + judge).exit_code == 0);
+  const double rmse = number_after(text_of(json), "3d_m", "rmse");
+  std::printf(
+      "station, kinematic: below 0.1 m for good after %.0f s, 3D RMSE from minute 60 %.3f m\n",
+      settled_s, rmse);
+  CHECK(settled_s > 0.0);
+  CHECK(settled_s <= 1200.0);
+  CHECK(rmse <= 0.045);
+}
+
+}  // namespace leonav::test
