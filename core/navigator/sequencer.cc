@@ -48,11 +48,33 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
 }
 
-void Sequencer::on_imu(const ImuSample& received) {
+void Sequencer::on_imu(const ImuSample& sample) {
   const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxImuIntervalNs};
-  InputFault fault = check(received, limits);
+  const InputFault fault = check(sample, limits);
+  if (fault != InputFault::kNone) return reject(fault);
+  if (const auto leapt = std::exchange(leapt_imu_, std::nullopt)) {
+    if (sample.time > leapt->time)
+      accept_imu(*leapt);
+    else
+      reject(InputFault::kTooFarAhead);
+  }
+  if (leaps(sample))
+    leapt_imu_ = sample;
+  else
+    accept_imu(sample);
+}
+
+// A hole in the stream, or one wild stamp: the next sample tells.
+bool Sequencer::leaps(const ImuSample& sample) const {
+  const GpsTime last_stamp = imu_stamps_.last_stamp();
+  if (!last_stamp.is_set()) return false;
+  const std::int64_t ahead_ns = nanoseconds_between(sample.time, last_stamp);
+  return ahead_ns > kImuLeapNs && ahead_ns <= kMaxAheadNs;
+}
+
+void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
-  if (fault == InputFault::kNone) fault = place_imu(&sample);
+  const InputFault fault = place_imu(&sample);
   if (fault != InputFault::kNone) return reject(fault);
 
   ++counters_.imu;
@@ -98,6 +120,7 @@ void Sequencer::change_time_base(double jump_s) {
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_time_ = GpsTime();
   imu_stamps_.clear();
+  leapt_imu_.reset();
   last_epoch_time_ = last_raw_epoch_time_ = GpsTime();
   last_epoch_is_empty_ = true;
   pending_count_ = 0;

@@ -4,6 +4,7 @@
 #include <boost/circular_buffer.hpp>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/navigator/event_source.h"
 #include "core/navigator/imu_stamps.h"
@@ -45,7 +46,8 @@ enum class SequencerCapacity : std::uint8_t {
 //   merely out of order takes its place among those waiting;
 // - IMU samples must be finite, in range and increasing (kTimeBackwards). Their stamps may jitter:
 //   ImuStamps lays them end to end; increments stay, intervals change. A gap is reported and left
-//   as a hole;
+//   as a hole; where it is longer than kImuLeapNs its first sample is held until the next one,
+//   which tells by being later or earlier than it whether it is a gap or one wild stamp;
 // - an IMU stamp more than kMaxAheadS beyond everything seen (kTooFarAhead), or behind, is rejected
 //   until a run of consistent ones shows that time itself has changed: then everything restarts in
 //   the new time. The same holds for epochs while the IMU keeps time, except that "too far" is
@@ -63,6 +65,7 @@ class Sequencer {
   static constexpr std::int64_t kMaxGnssLatencyNs = 2'000'000'000;
   static constexpr double kMaxEpochStepS = 3600.0;  // between epochs of a run in a new time
   static constexpr std::int64_t kMaxImuStepNs = 1'000'000'000;  // likewise, IMU
+  static constexpr std::int64_t kImuLeapNs = 200'000'000;       // twice the longest IMU interval
   static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxImuIntervalNs = 100'000'000;
@@ -93,6 +96,8 @@ class Sequencer {
   GpsTime imu_time() const { return imu_time_; }  // end of the last accepted sample; may be unset
 
  private:
+  bool leaps(const ImuSample& sample) const;
+  void accept_imu(const ImuSample& received);
   InputFault place_imu(ImuSample* sample);
   void change_time_base(double jump_s);
   void push_command(const Command& command);
@@ -136,6 +141,7 @@ class Sequencer {
   std::size_t pending_count_ = 0;
   std::unique_ptr<RawEpoch> held_;  // see above; meaningful while is_held_
   bool is_held_ = false;
+  std::optional<ImuSample> leapt_imu_;      // likewise a sample
   boost::circular_buffer<ImuSample> tail_;  // IMU since the last issued epoch
   std::unique_ptr<GnssWork> work_;          // too large for a thread's stack
 };

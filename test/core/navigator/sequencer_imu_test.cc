@@ -65,6 +65,22 @@ TEST_CASE("stamps rounded to milliseconds leave no holes; increments stay") {
   CHECK(passed == sum);
 }
 
+TEST_CASE("one wild stamp ahead costs its sample and nothing else") {
+  for (const std::int64_t ahead_ms : {300, 500, 3000, 9000}) {
+    CAPTURE(ahead_ms);
+    SequencerRig rig;
+    rig.imu(0, 1000);
+    rig.sequencer.on_imu(sample_until(at_ms(1005 + ahead_ms)));
+    rig.imu(1005, 2100);
+    CHECK(rig.rejected(InputFault::kTooFarAhead) == 1);
+    CHECK(rig.rejected(InputFault::kTimeBackwards) == 0);
+    CHECK(rig.sequencer.counters().imu == 200 + 219);
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(2000)));
+    CHECK(rig.sequencer.counters().late_epochs == 0);
+    CHECK(rig.sequencer.counters().empty_epochs <= 1);
+  }
+}
+
 TEST_CASE("a hole of three seconds is reported, left as a hole, and bridged by one epoch") {
   SequencerRig rig;
   rig.imu(0, 1100);
