@@ -34,6 +34,8 @@ inline SyntheticDriveOptions noisy_drive(double duration_s) {
   options.duration_s = duration_s;
   options.code_sigma_m = 0.5;
   options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.003;
+  options.slip_probability = 0.002;
   return options;
 }
 
@@ -43,6 +45,8 @@ inline DaemonConfig drive_config() {
   config.navigator.gnss = default_gnss_config();
   config.navigator.vehicle.lever_arm_b = SyntheticDriveOptions().lever_arm_b;
   config.navigator.imu = {1e-4, 1e-3, {1e-3, 1000.0}, {1e-2, 1000.0}, {1e-3, 1e4}, {1e-3, 1e4}};
+  config.navigator.ekf.use_carrier = true;
+  config.navigator.ekf.wet_delay_sigma_m = 0.1;
   config.threads.lock_memory = false;
   return config;
 }
