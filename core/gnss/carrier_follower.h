@@ -10,7 +10,7 @@
 
 namespace leonav {
 
-// In this order, once per epoch:
+// In this order, once per epoch; the observations offered must live until the end of it:
 //   begin, offer (each satellite), follow, wind_up (each satellite), append to the epoch;
 //   check_range_changes with the predicted motion; remember with the position that came out.
 class CarrierFollower {

@@ -58,7 +58,8 @@ std::map<std::uint32_t, Differences> run(Scene* scene, const GnssConfig& config,
     aids.biases = &biases;
     aids.carriers = &follower;
     aids.C_er = &C_er;
-    preprocess(scene->at(t), scene->sky.catalog, config, scene->receiver.p_e, epoch.get(), aids);
+    const RawEpoch raw = scene->at(t);  // the follower looks at it until the ranges are checked
+    preprocess(raw, scene->sky.catalog, config, scene->receiver.p_e, epoch.get(), aids);
     RangeChangePrior stands;
     stands.change_is_free = false;
     follower.check_range_changes(scene->receiver.p_e, stands, epoch.get());
