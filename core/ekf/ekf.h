@@ -37,7 +37,10 @@ struct EkfUpdateResult {
   // Rejected: without weight, or, where weights are switched off, as far out as if they were not.
   std::array<int, kObservables> offered{};  // per Observable
   std::array<int, kObservables> rejected{};
-  int arcs_restarted = 0;  // rejected too often in a row: their ambiguities begin anew
+  // Carriers rejected too often in a row: the arc has slipped, whatever its checks said. Its
+  // ambiguity goes with the next epoch.
+  boost::container::static_vector<SatelliteId, kMaxArcs> slipped;
+  bool ambiguities_forgotten = false;  // all began anew: they had been found at a wrong position
   int arcs_without_place = 0;
   double nis = 0.0;  // of the used ones
   // Median of |innovation| over its sigma, all codes or Dopplers offered, over what it is for
@@ -45,8 +48,8 @@ struct EkfUpdateResult {
   // taken out. NaN: fewer than four.
   double code_ratio = std::numeric_limits<double>::quiet_NaN();
   double doppler_ratio = std::numeric_limits<double>::quiet_NaN();
-  // The measurements agreed with each other but not with the prediction: its covariance was widened
-  // before the update instead of rejecting them.
+  // The measurements agreed with each other but not with the prediction. Ranges: left out, and at
+  // the second such epoch in a row, like Dopplers at once, believed: the covariance was widened.
   bool prediction_suspect = false;
   double clock_jump_m =
       0.0;  // common shift of all code innovations taken up by the clocks; 0: none
@@ -117,7 +120,7 @@ class Ekf {
   bool start_clocks(const MeasurementEpoch& epoch);
   void check_prediction(EkfUpdateResult* result);
   void leave_out_ranges();
-  int forget_ambiguities();  // how many
+  void forget_ambiguities();
   void apply(const EkfCorrection& correction);
 
   EkfConfig config_;

@@ -135,7 +135,7 @@ void Ekf::close_carrier(const FilterMeasurement& measurement, GpsTime time,
   Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(measurement.ambiguity - kSize)];
   ambiguity.last_used = time;
   ambiguity.rejected = measurement.factor > 0.0 ? 0 : ambiguity.rejected + 1;
-  if (ambiguity.rejected >= kMaxRejectedEpochs) ++result->arcs_restarted;
+  if (ambiguity.rejected >= kMaxRejectedEpochs) result->slipped.push_back(ambiguity.satellite);
 }
 
 }  // namespace leonav

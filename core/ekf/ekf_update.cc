@@ -146,7 +146,10 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
     widen(observable, variance, &covariance_);
     // Codes that agree on another position than the carriers stand for: the ambiguities were found
     // at a wrong one.
-    if (observable == Observable::kCode) result->arcs_restarted += forget_ambiguities();
+    if (observable == Observable::kCode && !ambiguities_.empty()) {
+      forget_ambiguities();
+      result->ambiguities_forgotten = true;
+    }
   }
 }
 
@@ -160,11 +163,9 @@ void Ekf::leave_out_ranges() {
                       measurements_.end());
 }
 
-int Ekf::forget_ambiguities() {
-  const auto count = static_cast<int>(ambiguities_.size());
+void Ekf::forget_ambiguities() {
   ambiguities_.clear();
   covariance_.conservativeResize(kSize, kSize);
-  return count;
 }
 
 EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
@@ -179,7 +180,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   if (start_clocks(epoch)) gather(epoch);
   result.arcs_without_place = arcs_without_place_;
   check_prediction(&result);
-  if (result.arcs_restarted > 0) gather(epoch);  // they begin anew
+  if (result.ambiguities_forgotten) gather(epoch);
   for (const Skipped& skipped : skipped_) result.innovations[skipped.index].reason = skipped.reason;
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];

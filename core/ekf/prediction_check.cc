@@ -204,11 +204,12 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
 
 void widen(Observable observable, double variance, EkfCovariance* covariance) {
   const bool rates = observable == Observable::kDoppler;
-  covariance->diagonal().segment<3>(rates ? kVelocity : kPosition).array() += variance;
-  for (int base = 0; base < static_cast<int>(kMaxTimeBases); ++base) {
-    double& clock = covariance->diagonal()((rates ? kClockDrift : kClock) + base);
-    if (clock > 0.0) clock += variance;  // zero: not observed yet
-  }
+  const auto add = [&](int first, int count) {
+    for (double& state : covariance->diagonal().segment(first, count))
+      if (state > 0.0) state += variance;
+  };
+  add(rates ? kVelocity : kPosition, 3);
+  add(rates ? kClockDrift : kClock, static_cast<int>(kMaxTimeBases));
 }
 
 }  // namespace leonav

@@ -34,7 +34,8 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
                         RobustUpdate* robust_update);
 
 // Adds `variance` to the states an observable sees first (code, carrier: position, clock offsets;
-// Doppler: velocity, clock drifts). Added, not scaled: correlations with ambiguities that are
+// Doppler: velocity, clock drifts) and that are states at all: a fixed point has no velocity, a
+// time base none has seen no clock. Added, not scaled: correlations with ambiguities that are
 // nearly perfect would turn a wider prior into a better one.
 void widen(Observable observable, double variance, EkfCovariance* covariance);
 

@@ -147,11 +147,15 @@ void CarrierFollower::reset() {
   last_time_ = GpsTime();
 }
 
-const CarrierStatus* CarrierFollower::status_of(SatelliteId satellite) const {
-  for (std::size_t i = 0; i < inputs_.size() && i < arc_epoch_.satellites.size(); ++i)
-    if (inputs_[i].first != nullptr && inputs_[i].first->satellite == satellite)
-      return &arc_epoch_.satellites[i];
-  return nullptr;
+void CarrierFollower::end_arc(SatelliteId satellite, MeasurementEpoch* epoch) {
+  const CarrierStatus now = arcs_.end_arc(satellite, SlipCause::kFilter);
+  if (now.arc == 0) return;
+  for (SatelliteInView& seen : epoch->satellites) {
+    if (seen.satellite != satellite) continue;
+    seen.arc = now.arc;
+    seen.arc_started = now.started;
+    seen.arc_causes = now.causes;
+  }
 }
 
 }  // namespace leonav

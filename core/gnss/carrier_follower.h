@@ -34,14 +34,14 @@ class CarrierFollower {
                            MeasurementEpoch* epoch);
   // `antenna_p_e`: as estimated with this epoch.
   void remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e);
+  // The estimator has found that the arc of one of the epoch's satellites slipped: another begins
+  // here. After remember(): the next epoch must not be compared with the old arc.
+  void end_arc(SatelliteId satellite, MeasurementEpoch* epoch);
   // What the position was is not known any more: the next epoch's range changes are not tested.
   void forget_position() { last_time_ = GpsTime(); }
   void reset();
 
   GpsTime last_time() const { return last_time_; }
-  const ArcEpoch& arcs() const { return arc_epoch_; }
-  // Of the satellite in this epoch, or nullptr.
-  const CarrierStatus* status_of(SatelliteId satellite) const;
 
  private:
   struct Memory {

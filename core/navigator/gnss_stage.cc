@@ -171,6 +171,8 @@ void GnssStage::update_filter(const EpochWork& work) {
   const EkfUpdateResult result = ekf_.update(*measurements_);
   if (config_.ekf.use_carrier) {
     carriers_.remember(*measurements_, ekf_.antenna_position_e());
+    for (const SatelliteId satellite : result.slipped)
+      carriers_.end_arc(satellite, measurements_.get());
     last_position_covariance_ =
         ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
   }
