@@ -1,59 +1,11 @@
 // What leonav answers on the recorded data, from the files to the error table: the bounds that its
 // users are promised. Each configuration as shipped.
-#include <cstdlib>
+#include <cstdio>
 #include <string>
 
-#include "support/catch.h"
-#include "support/program_run.h"
-#include "support/shared_data.h"
+#include "scenario/recorded_runs.h"
 
 namespace leonav::test {
-namespace {
-
-struct Errors {
-  double answered = 0.0, rmse = 0.0, p95 = 0.0;  // horizontal, m
-};
-
-// The number after `key` in `object` of a JSON text of leonav-eval.
-double number_after(const std::string& json, const std::string& object, const std::string& key) {
-  std::size_t at = object.empty() ? 0 : json.find("\"" + object + "\"");
-  REQUIRE(at != std::string::npos);
-  at = json.find("\"" + key + "\":", at);
-  REQUIRE(at != std::string::npos);
-  return std::strtod(json.c_str() + at + key.size() + 3, nullptr);
-}
-
-std::string imported(const TemporaryFile& place, const std::string& set) {
-  const std::string log = place.beside(set + ".lcmlog");
-  const ProgramRun run =
-      run_program("leonav-import", shared_data(set + "/dataset.yaml") + " -o " + log);
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
-  return log;
-}
-
-Errors errors_of(const TemporaryFile& place, const std::string& log, const std::string& options,
-                 const std::string& judge) {
-  const std::string out = place.beside("result"), json = place.beside("errors.json");
-  const ProgramRun replay = run_program("leonav-replay", options + " --out " + out + " " + log);
-  CAPTURE(replay.err);
-  REQUIRE(replay.exit_code == 0);
-  const ProgramRun eval =
-      run_program("leonav-eval", judge + " --json " + json + " " + out + "/solution.csv");
-  CAPTURE(eval.err);
-  REQUIRE(eval.exit_code == 0);
-  const std::string text = text_of(json);
-  return {number_after(text, "", "answered"), number_after(text, "horizontal_m", "rmse"),
-          number_after(text, "horizontal_m", "p95")};
-}
-
-std::string config(const std::string& name) {
-  return "--config " LEONAV_SOURCE_DIR "/config/" + name + ".yaml";
-}
-
-bool programs() { return have_programs("leonav-import", "leonav-replay", "leonav-eval"); }
-
-}  // namespace
 
 TEST_CASE("the recorded walk: three decimetres against its track") {
   if (!programs() || !have_shared_data("walk/dataset.yaml")) return;
