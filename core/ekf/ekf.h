@@ -110,6 +110,7 @@ class Ekf {
   void predict_hole(GpsTime time, const ImuSample& next);
   void coast(GpsTime time);
   void drop_ended_arcs(const MeasurementEpoch& epoch);
+  void make_room(const MeasurementEpoch& epoch);
   void gather(const MeasurementEpoch& epoch);
   int ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                    const FilterMeasurement& entry, GpsTime time);
@@ -118,7 +119,8 @@ class Ekf {
   void shift_ambiguities(double shift_m);
   void take_up_clock_jump(EkfUpdateResult* result);
   bool start_clocks(const MeasurementEpoch& epoch);
-  void check_prediction(EkfUpdateResult* result);
+  void check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* result);
+  void close(const RobustUpdateResult& update, GpsTime time, EkfUpdateResult* result);
   void leave_out_ranges();
   void forget_ambiguities();
   void apply(const EkfCorrection& correction);

@@ -46,6 +46,30 @@ void Ekf::drop_ended_arcs(const MeasurementEpoch& epoch) {
   }
 }
 
+// New arcs take the places of those unseen at this epoch, longest unseen first.
+void Ekf::make_room(const MeasurementEpoch& epoch) {
+  boost::container::static_vector<std::uint32_t, kMaxMeasurements> seen;
+  std::size_t fresh = 0;
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCarrier || measurement.reason != Reason::kUsed)
+      continue;
+    seen.push_back(measurement.arc);
+    fresh += find_ambiguity(ambiguities_, measurement.arc) == kNoAmbiguity ? 1 : 0;
+  }
+  while (ambiguities_.size() + fresh > ambiguities_.capacity()) {
+    int longest = kNoAmbiguity;
+    for (int i = 0; i < static_cast<int>(ambiguities_.size()); ++i) {
+      const Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(i)];
+      if (std::find(seen.begin(), seen.end(), ambiguity.arc) != seen.end()) continue;
+      if (longest == kNoAmbiguity ||
+          ambiguity.last_used < ambiguities_[static_cast<std::size_t>(longest)].last_used)
+        longest = i;
+    }
+    if (longest == kNoAmbiguity) return;
+    remove_ambiguity(longest, &ambiguities_, &covariance_);
+  }
+}
+
 // State index of the arc's ambiguity, started if need be; kNoAmbiguity: no place for another.
 int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                       const FilterMeasurement& entry, GpsTime time) {

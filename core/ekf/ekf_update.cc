@@ -59,6 +59,19 @@ void shift_innovations(Observable observable, double shift, FilterMeasurements* 
     if (measurement.observable == observable) measurement.innovation -= shift;
 }
 
+std::array<ClockFreeTable, kObservables> clock_free_tables(const FilterMeasurements& measurements,
+                                                           const EkfCovariance& covariance) {
+  std::array<ClockFreeTable, kObservables> tables;
+  for (std::size_t kind = 0; kind < kObservables; ++kind)
+    tables[kind] = clock_free(measurements, static_cast<Observable>(kind), covariance);
+  return tables;
+}
+
+const ClockFreeTable& of(const std::array<ClockFreeTable, kObservables>& tables,
+                         Observable observable) {
+  return tables[static_cast<std::size_t>(observable)];
+}
+
 }  // namespace
 
 // Starts the clocks of bases that appear for the first time; true if any: the innovations change.
@@ -124,18 +137,20 @@ void Ekf::take_up_clock_jump(EkfUpdateResult* result) {
   result->clock_jump_m = jump;
 }
 
-void Ekf::check_prediction(EkfUpdateResult* result) {
+void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* result) {
   take_up_clock_jump(result);
-  result->code_ratio = consistency_ratio(measurements_, Observable::kCode, covariance_);
-  result->doppler_ratio = consistency_ratio(measurements_, Observable::kDoppler, covariance_);
+  std::array<ClockFreeTable, kObservables> tables = clock_free_tables(measurements_, covariance_);
+  result->code_ratio = consistency_ratio(of(tables, Observable::kCode));
+  result->doppler_ratio = consistency_ratio(of(tables, Observable::kDoppler));
   // A wider prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
   const bool contradicted_before = std::exchange(contradicted_, false);
   // Carriers first: where they agree on a move, the codes then agree with it too.
   for (const Observable observable :
        {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
-    const double variance = missing_variance(config_.robust, measurements_, observable, covariance_,
-                                             config_.prediction_suspect_ratio, &robust_update_);
+    const double variance =
+        missing_variance(config_.robust, measurements_, observable, of(tables, observable),
+                         covariance_, config_.prediction_suspect_ratio, &robust_update_);
     if (variance <= 0.0) continue;
     result->prediction_suspect = true;
     if (observable != Observable::kDoppler) {
@@ -149,8 +164,12 @@ void Ekf::check_prediction(EkfUpdateResult* result) {
     if (observable == Observable::kCode && !ambiguities_.empty()) {
       forget_ambiguities();
       result->ambiguities_forgotten = true;
+      gather(epoch);
     }
+    tables = clock_free_tables(measurements_, covariance_);
   }
+  for (const Observable observable : {Observable::kCode, Observable::kCarrier})
+    set_prior_ratios(of(tables, observable), &measurements_);
 }
 
 void Ekf::leave_out_ranges() {
@@ -168,6 +187,30 @@ void Ekf::forget_ambiguities() {
   covariance_.conservativeResize(kSize, kSize);
 }
 
+// What the update made of each measurement.
+void Ekf::close(const RobustUpdateResult& update, GpsTime time, EkfUpdateResult* result) {
+  result->nis = update.nis;
+  for (const FilterMeasurement& measurement : measurements_) {
+    InnovationReport& report = result->innovations[measurement.index];
+    report.weight_factor = measurement.factor;
+    report.residual = measurement.innovation -
+                      measurement.row.dot(update.correction.head<kSize>()) -
+                      (measurement.ambiguity >= 0 ? update.correction(measurement.ambiguity) : 0.0);
+    if (measurement.factor <= 0.0)
+      report.reason = Reason::kOutlier;
+    else if (measurement.factor < 1.0)
+      report.reason = Reason::kDownweighted;
+    if (measurement.factor > 0.0) ++result->used;
+    // Without weights nothing is thrown out, but what would be still tells a lost filter.
+    const bool rejected = measurement.factor <= 0.0 ||
+                          (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
+    if (measurement.ambiguity >= 0) close_carrier(measurement, time, result);
+    const auto kind = static_cast<std::size_t>(measurement.observable);
+    ++result->offered[kind];
+    if (rejected) ++result->rejected[kind];
+  }
+}
+
 EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   EkfUpdateResult result;
   for (const Measurement& measurement : epoch.measurements)
@@ -175,12 +218,12 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   if (!initialized_) return result;
 
   drop_ended_arcs(epoch);
+  make_room(epoch);
   disturb_ambiguities(epoch);
   gather(epoch);
   if (start_clocks(epoch)) gather(epoch);
   result.arcs_without_place = arcs_without_place_;
-  check_prediction(&result);
-  if (result.ambiguities_forgotten) gather(epoch);
+  check_prediction(epoch, &result);
   for (const Skipped& skipped : skipped_) result.innovations[skipped.index].reason = skipped.reason;
   for (const FilterMeasurement& measurement : measurements_) {
     InnovationReport& report = result.innovations[measurement.index];
@@ -190,29 +233,9 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     report.test_ratio = std::abs(report.innovation) / std::sqrt(report.innovation_variance);
   }
 
-  set_prior_ratios(covariance_, &measurements_);
   const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
   apply(update.correction);
-  result.nis = update.nis;
-  for (const FilterMeasurement& measurement : measurements_) {
-    InnovationReport& report = result.innovations[measurement.index];
-    report.weight_factor = measurement.factor;
-    report.residual = measurement.innovation -
-                      measurement.row.dot(update.correction.head<kSize>()) -
-                      (measurement.ambiguity >= 0 ? update.correction(measurement.ambiguity) : 0.0);
-    if (measurement.factor <= 0.0)
-      report.reason = Reason::kOutlier;
-    else if (measurement.factor < 1.0)
-      report.reason = Reason::kDownweighted;
-    if (measurement.factor > 0.0) ++result.used;
-    // Without weights nothing is thrown out, but what would be still tells a lost filter.
-    const bool rejected = measurement.factor <= 0.0 ||
-                          (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
-    if (measurement.ambiguity >= 0) close_carrier(measurement, epoch.time, &result);
-    const auto kind = static_cast<std::size_t>(measurement.observable);
-    ++result.offered[kind];
-    if (rejected) ++result.rejected[kind];
-  }
+  close(update, epoch.time, &result);
   if (!measurements_.empty()) last_update_ = epoch.time;
   return result;
 }

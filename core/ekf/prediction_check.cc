@@ -13,13 +13,12 @@ namespace {
 using namespace ekf_index;
 using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
-constexpr double kMedianSquare = 0.4549;   // median of a chi-square with one degree of freedom
-constexpr double kUnknownAmbiguity = 1e4;  // m^2
-constexpr double kAgreeScale = 1.5;    // residuals of measurements that agree, over their sigmas
-constexpr double kMaxMissing = 1e12;   // m^2 or (m/s)^2, per epoch
-constexpr int kMinRedundancy = 2;      // beyond position and clocks: enough to check them
-constexpr std::size_t kManyCount = 7;  // or so many, whatever their clocks
-constexpr std::size_t kMinCount = 4;   // fewer do not outvote a prediction ...
+constexpr double kMedianSquare = 0.4549;  // median of a chi-square with one degree of freedom
+constexpr double kAgreeScale = 1.5;       // residuals of measurements that agree, over their sigmas
+constexpr double kMaxMissing = 1e12;      // m^2 or (m/s)^2, per epoch
+constexpr int kMinRedundancy = 2;         // beyond position and clocks: enough to check them
+constexpr std::size_t kManyCount = 7;     // or so many, whatever their clocks
+constexpr std::size_t kMinCount = 4;      // fewer do not outvote a prediction ...
 constexpr double kMillisecondStep =
     29'979.0;                          // ... unless off by more than a tenth of a millisecond
 constexpr double kShiftRatio = 5.0;    // shift over predicted sigma
@@ -48,82 +47,6 @@ double largest_probable(std::size_t count) {
   return static_cast<double>(count) * std::pow(1.0 - share + 3.09 * std::sqrt(share), 3);
 }
 
-// H_a P H_b^T of two measurements.
-double predicted_covariance(const FilterMeasurement& a, const FilterMeasurement& b,
-                            const EkfCovariance& P) {
-  double covariance = a.row.dot(P.topLeftCorner<kSize, kSize>() * b.row);
-  if (a.ambiguity >= 0) covariance += P.col(a.ambiguity).head<kSize>().dot(b.row);
-  if (b.ambiguity >= 0) covariance += P.col(b.ambiguity).head<kSize>().dot(a.row);
-  if (a.ambiguity >= 0 && b.ambiguity >= 0) covariance += P(a.ambiguity, b.ambiguity);
-  return covariance;
-}
-
-// Innovations with what all have in common taken out: a clock that nobody can predict would hide
-// what the prediction of the position is off. `variance`: of what is left.
-struct ClockFree {
-  std::size_t index = 0;  // into the measurements
-  double innovation = 0.0, variance = 0.0, measured_variance = 0.0;
-};
-using ClockFreeTable = boost::container::static_vector<ClockFree, kMaxMeasurements>;
-
-// Less the median, and its row less the mean row.
-void take_out_median(const FilterMeasurements& measurements, const EkfCovariance& covariance,
-                     ClockFreeTable* table) {
-  SmallTable innovations;
-  EkfVector shared = EkfVector::Zero();
-  for (const ClockFree& entry : *table) {
-    innovations.push_back(entry.innovation);
-    shared += measurements[entry.index].row / static_cast<double>(table->size());
-  }
-  const double middle = median(innovations);
-  for (ClockFree& entry : *table) {
-    FilterMeasurement relative = measurements[entry.index];
-    relative.row.segment<8>(kClock) -= shared.segment<8>(kClock);
-    entry.innovation -= middle;
-    entry.variance =
-        entry.measured_variance + std::max(predicted_variance(relative, covariance), 0.0);
-  }
-}
-
-// Less the one in the middle: their ambiguities too have much in common.
-void take_out_middle_one(const FilterMeasurements& measurements, const EkfCovariance& covariance,
-                         ClockFreeTable* table) {
-  ClockFreeTable sorted = *table;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(
-      sorted.begin(), middle, sorted.end(), [](const ClockFree& a, const ClockFree& b) {
-        return a.innovation != b.innovation ? a.innovation < b.innovation : a.index < b.index;
-      });
-  const FilterMeasurement& reference = measurements[middle->index];
-  const double of_reference = predicted_covariance(reference, reference, covariance);
-  for (ClockFree& entry : *table) {
-    const FilterMeasurement& m = measurements[entry.index];
-    entry.innovation -= reference.innovation;
-    entry.variance = m.variance + reference.variance +
-                     std::max(predicted_covariance(m, m, covariance) + of_reference -
-                                  2.0 * predicted_covariance(m, reference, covariance),
-                              0.0);
-  }
-}
-
-// Carriers whose ambiguity is as good as unknown are left out: they agree with everything.
-ClockFreeTable clock_free(const FilterMeasurements& measurements, Observable observable,
-                          const EkfCovariance& covariance) {
-  ClockFreeTable table;
-  for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const FilterMeasurement& m = measurements[i];
-    if (m.observable != observable) continue;
-    if (m.ambiguity >= 0 && covariance(m.ambiguity, m.ambiguity) >= kUnknownAmbiguity) continue;
-    table.push_back({i, m.innovation, 0.0, m.variance});
-  }
-  if (table.empty()) return table;
-  if (observable == Observable::kCarrier)
-    take_out_middle_one(measurements, covariance, &table);
-  else
-    take_out_median(measurements, covariance, &table);
-  return table;
-}
-
 }  // namespace
 
 double common_shift(const FilterMeasurements& measurements, Observable observable,
@@ -147,30 +70,26 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   return 0.0;
 }
 
-double consistency_ratio(const FilterMeasurements& measurements, Observable observable,
-                         const EkfCovariance& covariance) {
+double consistency_ratio(const ClockFreeTable& table) {
+  if (table.size() < kMinCount) return std::numeric_limits<double>::quiet_NaN();
   SmallTable ratios;
-  for (const ClockFree& entry : clock_free(measurements, observable, covariance))
+  for (const ClockFree& entry : table)
     ratios.push_back(std::abs(entry.innovation) / std::sqrt(entry.variance));
-  if (ratios.size() < kMinCount) return std::numeric_limits<double>::quiet_NaN();
   return median(ratios) / std::sqrt(kMedianSquare);
 }
 
-void set_prior_ratios(const EkfCovariance& covariance, FilterMeasurements* measurements) {
-  for (const Observable observable : {Observable::kCode, Observable::kCarrier}) {
-    const ClockFreeTable table = clock_free(*measurements, observable, covariance);
-    if (table.size() < kMinCount) continue;
-    for (const ClockFree& entry : table)
-      (*measurements)[entry.index].prior_ratio =
-          std::abs(entry.innovation) / std::sqrt(entry.variance);
-  }
+void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements) {
+  if (table.size() < kMinCount) return;
+  for (const ClockFree& entry : table)
+    (*measurements)[entry.index].prior_ratio =
+        std::abs(entry.innovation) / std::sqrt(entry.variance);
 }
 
 double missing_variance(const RobustConfig& robust, const FilterMeasurements& measurements,
-                        Observable observable, const EkfCovariance& covariance, double suspect,
+                        Observable observable, const ClockFreeTable& table,
+                        const EkfCovariance& covariance, double suspect,
                         RobustUpdate* robust_update) {
-  const double ratio = consistency_ratio(measurements, observable, covariance);
-  if (!(ratio * std::sqrt(kMedianSquare) >= suspect)) return 0.0;
+  if (!(consistency_ratio(table) * std::sqrt(kMedianSquare) >= suspect)) return 0.0;
   FilterMeasurements offered;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
@@ -180,7 +99,7 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
   const bool many = offered.size() >= kManyCount;
   if (!many && redundancy(offered) < kMinRedundancy) return 0.0;
   SmallTable missing;
-  for (const ClockFree& entry : clock_free(measurements, observable, covariance))
+  for (const ClockFree& entry : table)
     missing.push_back(std::pow(entry.innovation, 2) / kMedianSquare - entry.measured_variance);
   // Twice: along a line of sight, and less what the satellites share, only part of it is seen.
   const double variance = std::clamp(2.0 * median(missing), 0.0, kMaxMissing);

@@ -3,6 +3,7 @@
 // be the worst answer.
 #pragma once
 
+#include "core/ekf/clock_free.h"
 #include "core/ekf/ekf_state.h"
 #include "core/ekf/robust_update.h"
 
@@ -14,23 +15,21 @@ namespace leonav {
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 
-// Median of |innovation| over its predicted sigma, divided by what it is for normal errors, after
-// the median of each time base has been taken out, with its clock's part of the prediction: clocks
-// that stray by tens of metres would hide a position that does. NaN: fewer than four of
-// `observable`.
-double consistency_ratio(const FilterMeasurements& measurements, Observable observable,
-                         const EkfCovariance& covariance);
+// Median of |innovation| over its sigma, divided by what it is for normal errors. NaN: fewer than
+// four.
+double consistency_ratio(const ClockFreeTable& table);
 
-// Sets prior_ratio of all codes and carriers, where there are four of a kind: a clock whose
-// prediction is worth nothing would let all of them pass, whatever they contradict.
-void set_prior_ratios(const EkfCovariance& covariance, FilterMeasurements* measurements);
+// Sets prior_ratio of the table's measurements, where there are four: a clock whose prediction is
+// worth nothing would let all of them pass, whatever they contradict.
+void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements);
 
 // Variance by which the predicted position (of Dopplers: velocity), along each axis, is wrong
 // beyond its covariance; 0 while the median standardized innovation is below `suspect`, and 0 where
 // the measurements do not agree with each other either once the prior is that wide: then most of
-// them are bad, and following them would carry the filter away.
+// them are bad, and following them would carry the filter away. `table`: of `observable`.
 double missing_variance(const RobustConfig& robust, const FilterMeasurements& measurements,
-                        Observable observable, const EkfCovariance& covariance, double suspect,
+                        Observable observable, const ClockFreeTable& table,
+                        const EkfCovariance& covariance, double suspect,
                         RobustUpdate* robust_update);
 
 // Adds `variance` to the states an observable sees first (code, carrier: position, clock offsets;

@@ -9,14 +9,22 @@
 namespace leonav {
 namespace {
 
-// Broadcast orbits and clocks err by a metre that turns over in hours.
-constexpr double kBroadcastWander = 0.002;  // m/sqrt(s)
+// Broadcast orbits and clocks err by a metre that turns over in hours, precise ones by two or three
+// centimetres that turn over in a quarter of a revolution: hours again, or minutes for LEO.
+constexpr double kBroadcastWander = 0.002;    // m/sqrt(s)
+constexpr double kPreciseWander = 0.0001;     // m/sqrt(s)
+constexpr double kPreciseWanderLeo = 0.0005;  // m/sqrt(s)
 // What the ionosphere model leaves of a GNSS satellite's slant delay moves by a millimetre per
 // second, up or down for minutes; past a LEO satellite the whole delay changes within minutes.
 constexpr double kIonosphereWander = 0.01;     // m/sqrt(s)
 constexpr double kIonosphereWanderLeo = 0.05;  // m/sqrt(s)
 
 double square(double x) { return x * x; }
+
+double orbit_wander(const SatelliteInView& satellite) {
+  if (satellite.source == OrbitSource::kBroadcast) return kBroadcastWander;
+  return satellite.satellite.system == System::kLeo ? kPreciseWanderLeo : kPreciseWander;
+}
 
 }  // namespace
 
@@ -34,7 +42,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   carrier.arc = status.arc;
   double range = status.first_m - satellite.wind_up_cycles * kSpeedOfLight / f1;
   double noise = noise1;
-  double wander = satellite.source == OrbitSource::kBroadcast ? square(kBroadcastWander) : 0.0;
+  double wander = square(orbit_wander(satellite));
   if (second != nullptr) {
     const double f2 = frequency_hz(system, second->code.band);
     const IonosphereFree pair = ionosphere_free(f1, f2);

@@ -18,13 +18,27 @@ double square(double x) { return x * x; }
 CarrierFollower::CarrierFollower(const CycleSlipConfig& config) : config_(config), arcs_(config) {}
 
 void CarrierFollower::begin(GpsTime time) {
+  interval_s_ = time_.is_set() ? seconds_between(time, time_) : 0.0;
   time_ = time;
   inputs_.clear();
 }
 
-void CarrierFollower::offer(const SignalObservation& first, const SignalObservation* second,
-                            double elevation) {
-  if (inputs_.size() < inputs_.capacity()) inputs_.push_back({&first, second, elevation});
+const CarrierPairCodes* CarrierFollower::followed_pair(SatelliteId satellite) const {
+  const Memory* memory = memory_of(satellite);
+  if (memory == nullptr || !memory->offered.is_set()) return nullptr;
+  const double limit_s = satellite.system == System::kLeo
+                             ? std::max(config_.max_gap_leo_s, 1.5 * interval_s_)
+                             : std::max(config_.max_gap_s, config_.max_gap_intervals * interval_s_);
+  return seconds_between(time_, memory->offered) <= limit_s ? &memory->pair : nullptr;
+}
+
+void CarrierFollower::offer(const CarrierChoice& choice, double elevation) {
+  if (inputs_.size() == inputs_.capacity()) return;
+  inputs_.push_back({choice.first, choice.second, elevation});
+  Memory* memory = memory_of(choice.first->satellite);
+  if (memory == nullptr) return;
+  memory->offered = choice.second == nullptr ? GpsTime() : time_;
+  if (choice.second != nullptr) memory->pair = {choice.first->code, choice.second->code};
 }
 
 const ArcEpoch& CarrierFollower::follow() {

@@ -6,19 +6,23 @@
 #include <cstdint>
 
 #include "core/gnss/carrier_arcs.h"
+#include "core/gnss/carrier_signals.h"
 #include "core/gnss/measurement.h"
 
 namespace leonav {
 
 // In this order, once per epoch; the observations offered must live until the end of it:
-//   begin, offer (each satellite), follow, wind_up (each satellite), append to the epoch;
+//   begin, wind_up and offer (each satellite), follow, append to the epoch;
 //   check_range_changes with the predicted motion; remember with the position that came out.
 class CarrierFollower {
  public:
   explicit CarrierFollower(const CycleSlipConfig& config);
 
   void begin(GpsTime time);
-  void offer(const SignalObservation& first, const SignalObservation* second, double elevation);
+  // The pair of signals that the satellite's arc is made of, nullptr if there is none or it has
+  // been missing for too long to go on.
+  const CarrierPairCodes* followed_pair(SatelliteId satellite) const;
+  void offer(const CarrierChoice& choice, double elevation);
   // Statuses in the order of the offers; stays until the next epoch.
   const ArcEpoch& follow();
 
@@ -55,6 +59,8 @@ class CarrierFollower {
     std::uint32_t issue = 0;
     double orbit_sigma_m = 0.0;
     double wind_up_cycles = 0.0;
+    GpsTime offered;  // when `pair` was last measured
+    CarrierPairCodes pair;
   };
   Memory* memory_of(SatelliteId satellite);
   const Memory* memory_of(SatelliteId satellite) const;
@@ -67,6 +73,7 @@ class CarrierFollower {
   boost::container::static_vector<CarrierInput, kMaxSatellites> inputs_;
   boost::container::static_vector<Memory, kMaxSatellites> memory_;
   GpsTime time_, last_time_;
+  double interval_s_ = 0.0;  // to the epoch before
 };
 
 }  // namespace leonav

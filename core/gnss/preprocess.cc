@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/gnss/band_differences.h"
 #include "core/gnss/candidate.h"
 #include "core/gnss/carrier_correction.h"
+#include "core/gnss/carrier_signals.h"
 #include "core/gnss/code_correction.h"
 #include "core/gnss/path_correction.h"
 #include "core/gnss/signal_selection.h"
@@ -177,45 +179,30 @@ void append_doppler(const DelayContext& context, const Candidate& candidate,
   append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
 }
 
-// The carrier of one band: of the signal whose code is used, or of another on the band that has
-// one.
-const SignalObservation* with_carrier(const Candidate& candidate, const SignalObservation* signal) {
-  if (signal == nullptr || std::isfinite(signal->carrier_cycles)) return signal;
-  for (const SignalObservation& other : candidate.observations) {
-    if (other.code.band == signal->code.band && std::isfinite(other.carrier_cycles)) return &other;
-  }
-  return nullptr;
-}
-
-// A satellite with a pair of codes offers a pair of carriers or none: one alone would be another
-// ambiguity.
-bool offer_carrier(const Candidate& candidate, double elevation, CarrierFollower* carriers) {
-  const SignalObservation* first = with_carrier(candidate, candidate.signals.first);
-  const SignalObservation* second = with_carrier(candidate, candidate.signals.second);
-  if (first == nullptr || (candidate.signals.second != nullptr && second == nullptr)) return false;
-  carriers->offer(*first, second, elevation);
-  return true;
-}
-
 void append_carriers(const DelayContext& context, const Candidates& candidates,
                      CarrierFollower* carriers, MeasurementEpoch* epoch) {
-  boost::container::static_vector<const Candidate*, kMaxSatellites> offered;
+  boost::container::static_vector<std::pair<const Candidate*, CarrierChoice>, kMaxSatellites>
+      offered;
   carriers->begin(context.time);
   for (const Candidate& candidate : candidates) {
     SatelliteInView& view = epoch->satellites[candidate.satellite_index];
     if (view.reason != Reason::kUsed) continue;
     view.wind_up_cycles = wind_up_cycles(context, view, carriers->last_wind_up(view.satellite));
     carriers->set_wind_up(view.satellite, view.wind_up_cycles);
-    if (offer_carrier(candidate, view.elevation, carriers)) offered.push_back(&candidate);
+    const CarrierChoice choice =
+        choose_carriers(candidate.observations, candidate.signals, context.config->cn0_mask_dbhz,
+                        carriers->followed_pair(view.satellite));
+    if (choice.first == nullptr) continue;
+    carriers->offer(choice, view.elevation);
+    offered.push_back({&candidate, choice});
   }
   const ArcEpoch& arcs = carriers->follow();
   for (std::size_t i = 0; i < offered.size(); ++i) {
-    const SatelliteInView& view = epoch->satellites[offered[i]->satellite_index];
-    const SelectedSignals& signals = offered[i]->signals;
-    const CarrierStatus& status = arcs.satellites[i];
-    Measurement carrier =
-        carrier_measurement(context, *signals.first, signals.second, status, view);
-    append(*offered[i], carrier, epoch);
+    const auto& [candidate, choice] = offered[i];
+    const SatelliteInView& view = epoch->satellites[candidate->satellite_index];
+    append(*candidate,
+           carrier_measurement(context, *choice.first, choice.second, arcs.satellites[i], view),
+           epoch);
   }
 }
 

@@ -136,7 +136,8 @@ PreprocessAids GnssStage::aids() {
 }
 
 // What is known of how far the antenna has moved since the last epoch. The velocity's covariance
-// grows over the interval, so its value at the end bounds the change's.
+// grows over the interval, so its value at the end bounds the change's; the antenna swings about
+// the IMU as exactly as the gyros' bias is known.
 RangeChangePrior GnssStage::change_prior(bool predicted) const {
   RangeChangePrior prior;
   prior.position_covariance = last_position_covariance_;
@@ -145,6 +146,12 @@ RangeChangePrior GnssStage::change_prior(bool predicted) const {
   prior.change_is_free = false;
   prior.change_covariance =
       dt * dt * ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  if (ekf_.has_attitude()) {
+    const double rate_variance =
+        ekf_.covariance().diagonal().segment<3>(ekf_index::kGyroBias).sum() / 3.0;
+    prior.change_covariance.diagonal().array() +=
+        dt * dt * config_.vehicle.lever_arm_b.squaredNorm() * rate_variance;
+  }
   return prior;
 }
 

@@ -267,6 +267,37 @@ TEST_CASE("more arcs than there are places: the first keep theirs, the others ar
   CHECK(find_ambiguity(filter.ambiguities(), 8) != kNoAmbiguity);
 }
 
+TEST_CASE("new arcs take the places of those out of sight, longest unseen first") {
+  Receiver receiver(6);
+  Ekf filter = static_filter(&receiver);
+  MeasurementEpoch epoch = receiver.measure(30.0);
+  const auto satellites = epoch.satellites;
+  const auto measurements = epoch.measurements;
+  step(&filter, epoch);
+  // 60 arcs of other satellites, which leave four of the eight places behind them.
+  epoch = MeasurementEpoch();
+  epoch.time = synthetic::kStart.plus_seconds(60.0);
+  for (std::uint16_t copy = 1; epoch.satellites.size() < 60; ++copy) {
+    for (std::size_t i = 0; i < 8 && epoch.satellites.size() < 60; ++i) {
+      const auto index = static_cast<std::uint16_t>(epoch.satellites.size());
+      SatelliteInView view = satellites[i];
+      view.satellite.number = static_cast<std::uint16_t>(view.satellite.number + 10 * copy);
+      epoch.satellites.push_back(view);
+      for (Measurement m : measurements) {
+        if (m.satellite_index != i) continue;
+        m.satellite_index = index;
+        if (m.observable == Observable::kCarrier) m.arc += 100u * copy;
+        epoch.measurements.push_back(m);
+      }
+    }
+  }
+  const EkfUpdateResult result = step(&filter, epoch);
+  CHECK(result.arcs_without_place == 0);
+  CHECK(filter.ambiguities().size() == kMaxArcs);
+  for (std::uint32_t arc = 1; arc <= 8; ++arc)
+    CHECK((find_ambiguity(filter.ambiguities(), arc) != kNoAmbiguity) == (arc > 4));
+}
+
 TEST_CASE("a prediction kilometres off is linearized where the codes say") {
   EkfConfig config = static_config();
   config.static_point = false;

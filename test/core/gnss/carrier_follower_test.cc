@@ -27,7 +27,7 @@ void follow(CarrierFollower* follower, double t, std::vector<SignalObservation>*
     signals->push_back(o);
   }
   follower->begin(epoch->time);
-  for (const SignalObservation& signal : *signals) follower->offer(signal, nullptr, 0.8);
+  for (const SignalObservation& signal : *signals) follower->offer({&signal, nullptr}, 0.8);
   for (const CarrierStatus& status : follower->follow().satellites) {
     SatelliteInView view;
     view.satellite = (*signals)[epoch->satellites.size()].satellite;

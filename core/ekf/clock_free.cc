@@ -1,0 +1,83 @@
+#include "core/ekf/clock_free.h"
+
+#include <algorithm>
+
+#include "core/ekf/median.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+
+constexpr double kUnknownAmbiguity = 1e4;  // m^2
+
+// H_a P H_b^T of two measurements.
+double predicted_covariance(const FilterMeasurement& a, const FilterMeasurement& b,
+                            const EkfCovariance& P) {
+  double covariance = a.row.dot(P.topLeftCorner<kSize, kSize>() * b.row);
+  if (a.ambiguity >= 0) covariance += P.col(a.ambiguity).head<kSize>().dot(b.row);
+  if (b.ambiguity >= 0) covariance += P.col(b.ambiguity).head<kSize>().dot(a.row);
+  if (a.ambiguity >= 0 && b.ambiguity >= 0) covariance += P(a.ambiguity, b.ambiguity);
+  return covariance;
+}
+
+// Less the median, and its row less the mean row.
+void take_out_median(const FilterMeasurements& measurements, const EkfCovariance& covariance,
+                     ClockFreeTable* table) {
+  boost::container::static_vector<double, kMaxMeasurements> innovations;
+  EkfVector shared = EkfVector::Zero();
+  for (const ClockFree& entry : *table) {
+    innovations.push_back(entry.innovation);
+    shared += measurements[entry.index].row / static_cast<double>(table->size());
+  }
+  const double middle = median(innovations);
+  for (ClockFree& entry : *table) {
+    FilterMeasurement relative = measurements[entry.index];
+    relative.row.segment<8>(kClock) -= shared.segment<8>(kClock);
+    entry.innovation -= middle;
+    entry.variance =
+        entry.measured_variance + std::max(predicted_variance(relative, covariance), 0.0);
+  }
+}
+
+// Less the one in the middle: their ambiguities too have much in common.
+void take_out_middle_one(const FilterMeasurements& measurements, const EkfCovariance& covariance,
+                         ClockFreeTable* table) {
+  ClockFreeTable sorted = *table;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(
+      sorted.begin(), middle, sorted.end(), [](const ClockFree& a, const ClockFree& b) {
+        return a.innovation != b.innovation ? a.innovation < b.innovation : a.index < b.index;
+      });
+  const FilterMeasurement& reference = measurements[middle->index];
+  const double of_reference = predicted_covariance(reference, reference, covariance);
+  for (ClockFree& entry : *table) {
+    const FilterMeasurement& m = measurements[entry.index];
+    entry.innovation -= reference.innovation;
+    entry.variance = m.variance + reference.variance +
+                     std::max(predicted_covariance(m, m, covariance) + of_reference -
+                                  2.0 * predicted_covariance(m, reference, covariance),
+                              0.0);
+  }
+}
+
+}  // namespace
+
+ClockFreeTable clock_free(const FilterMeasurements& measurements, Observable observable,
+                          const EkfCovariance& covariance) {
+  ClockFreeTable table;
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const FilterMeasurement& m = measurements[i];
+    if (m.observable != observable) continue;
+    if (m.ambiguity >= 0 && covariance(m.ambiguity, m.ambiguity) >= kUnknownAmbiguity) continue;
+    table.push_back({i, m.innovation, 0.0, m.variance});
+  }
+  if (table.empty()) return table;
+  if (observable == Observable::kCarrier)
+    take_out_middle_one(measurements, covariance, &table);
+  else
+    take_out_median(measurements, covariance, &table);
+  return table;
+}
+
+}  // namespace leonav

@@ -1,0 +1,25 @@
+// Innovations without what all of a kind have in common: a clock that nobody can predict would hide
+// what the prediction of the position is off.
+#pragma once
+#include <boost/container/static_vector.hpp>
+#include <cstddef>
+
+#include "core/ekf/ekf_state.h"
+#include "core/ekf/robust_update.h"
+
+namespace leonav {
+
+struct ClockFree {
+  std::size_t index = 0;  // into the measurements
+  double innovation = 0.0;
+  double variance = 0.0;           // of what is left: measured and predicted
+  double measured_variance = 0.0;  // the measurement's own
+};
+using ClockFreeTable = boost::container::static_vector<ClockFree, kMaxMeasurements>;
+
+// Those of one observable. Carriers whose ambiguity is as good as unknown are left out: they agree
+// with everything.
+ClockFreeTable clock_free(const FilterMeasurements& measurements, Observable observable,
+                          const EkfCovariance& covariance);
+
+}  // namespace leonav
