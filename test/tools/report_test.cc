@@ -57,6 +57,16 @@ TEST_CASE("report draws track, errors, distribution and satellites") {
   }
 }
 
+TEST_CASE("report says which package is missing") {
+  const Folder folder;
+  folder.file("numpy.py", "raise ImportError('No module named numpy')\n");
+  std::string messages;
+  ::setenv("PYTHONPATH", folder.path.c_str(), 1);
+  CHECK(folder.report("run.csv", &messages) == 1);
+  ::unsetenv("PYTHONPATH");
+  CHECK(messages.find("leonav-report: No module named numpy; install python3-numpy") == 0);
+}
+
 TEST_CASE("report names the file and line it cannot read, and fails") {
   const Folder folder;
   std::string messages;
