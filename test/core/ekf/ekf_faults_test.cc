@@ -17,7 +17,7 @@ constexpr double kMillisecond = 299'792.458;
 
 class Walk {
  public:
-  explicit Walk(std::uint64_t seed, const EkfConfig& config = {})
+  explicit Walk(std::uint64_t seed, const EkfConfig& config = EkfConfig())
       : noise_(seed), config_(config), filter_(config, ImuErrorModel{}, Vector3d::Zero()) {
     truth_.p_antenna_e = synthetic::start_position();
     truth_.v_antenna_e = synthetic::C_en_at(truth_.p_antenna_e) * Vector3d{5.0, -3.0, 0.0};

@@ -15,7 +15,7 @@ struct InertialRig {
   TimedMailbox<EkfUpdate> mailbox;
   InertialNavigator navigator;
 
-  explicit InertialRig(double duration_s = 30.0, const NavigatorConfig& c = {})
+  explicit InertialRig(double duration_s = 30.0, const NavigatorConfig& c = NavigatorConfig())
       : config(c), drive(make_drive(duration_s)), navigator(c, &mailbox, &sink) {}
 
   static SyntheticDrive make_drive(double duration_s) {

@@ -37,7 +37,8 @@ struct SequencerRig {
   NavigatorConfig config;
   RecordingStages stages;
   Sequencer sequencer;
-  explicit SequencerRig(const NavigatorConfig& c = {}) : config(c), sequencer(c, &stages) {}
+  SequencerRig() : SequencerRig(NavigatorConfig()) {}
+  explicit SequencerRig(const NavigatorConfig& c) : config(c), sequencer(c, &stages) {}
   // IMU at 200 Hz over (from, to] milliseconds.
   void imu(std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t ms = from_ms + 5; ms <= to_ms; ms += 5) {
