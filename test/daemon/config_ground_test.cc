@@ -6,6 +6,7 @@
 #include <numbers>
 #include <thread>
 
+#include "config_error.h"
 #include "daemon/config/load_config.h"
 #include "daemon/engine.h"
 #include "drive_inputs.h"
@@ -17,6 +18,7 @@
 namespace {
 
 using namespace leonav;
+using leonav::test::error_of;
 
 const std::string kBlq =
     "  BRUX 13101M010\n"
@@ -31,15 +33,6 @@ const std::string kBlq =
 std::string with_file(const std::string& path, const std::string& station) {
   return "gnss:\n  ocean_loading_file: \"" + path + "\"\n  ocean_loading_station: " + station +
          "\n";
-}
-
-std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    load_config_text(text, "car.yaml", overrides);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "(no error)";
 }
 
 GnssConfig gnss_of(const std::string& text, const std::vector<std::string>& overrides = {}) {

@@ -1,6 +1,7 @@
 // Every way to get the configuration wrong names its place and the remedy.
 #include <filesystem>
 
+#include "config_error.h"
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
 
@@ -10,15 +11,7 @@ using leonav::ConfigError;
 using leonav::load_config;
 using leonav::load_config_text;
 using leonav::text_override;
-
-std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    load_config_text(text, "car.yaml", overrides);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "(no error)";
-}
+using leonav::test::error_of;
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/ekf/ekf.h"
+#include "nees.h"
 #include "support/catch.h"
-#include "synthetic.h"
 
 namespace leonav {
 namespace {
@@ -13,11 +13,8 @@ using namespace ekf_index;
 using Eigen::Vector3d;
 using synthetic::Generator;
 
-constexpr int kRuns = 100;
-
-double squared(const Eigen::VectorXd& error, const Eigen::MatrixXd& P) {
-  return error.dot(P.ldlt().solve(error));
-}
+using synthetic::kRuns;
+using synthetic::nees;
 
 // Adds the carriers, and a wet delay to both.
 void add_carriers(const Eigen::VectorXd& ambiguities_m, double wet_m, double sigma, int epoch_index,
@@ -55,8 +52,6 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
   config.wet_delay_sigma_m = kWet;
   config.wet_delay_noise = 1e-4;
   const Eigen::Matrix3d C_en = synthetic::C_en_at(synthetic::start_position());
-  const Vector3d noise_n(config.acceleration_noise_horizontal, config.acceleration_noise_horizontal,
-                         config.acceleration_noise_vertical);
   double position = 0.0, wet = 0.0, ambiguity = 0.0, within = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     Generator noise(static_cast<std::uint64_t>(run) + 1000);
@@ -70,13 +65,7 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
     Ekf filter(config, ImuErrorModel(), Vector3d::Zero());
     filter.initialize(synthetic::kStart, synthetic::point_near(truth, 3.0, 0.2, &noise));
     for (int k = 1; k <= kEpochs; ++k) {
-      if (moving) {
-        // White acceleration over a second: velocity and position together.
-        const Vector3d a = noise.normal3().cwiseProduct(noise_n),
-                       b = noise.normal3().cwiseProduct(noise_n);
-        truth.p_antenna_e += truth.v_antenna_e + C_en * (0.5 * a + b / std::sqrt(12.0));
-        truth.v_antenna_e += C_en * a;
-      }
+      if (moving) synthetic::move_a_second(config, C_en, &truth, &noise);
       synthetic::advance_clocks(config.clock, 1.0, &truth.clocks, &noise);
       wet_m += config.wet_delay_noise * noise.normal();
       // The satellites rise and set by half a degree a minute.
@@ -105,16 +94,16 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
         within += std::abs(error_n(i)) <= 3.0 * std::sqrt(P_n(i, i)) ? 1.0 : 0.0;
     }
     const auto& P = filter.covariance();
-    position += squared(truth.p_antenna_e - filter.state().p_e, P.topLeftCorner<3, 3>());
-    wet += squared(Eigen::VectorXd::Constant(1, wet_m - filter.wet_delay_m()),
-                   P.block<1, 1>(kWetDelay, kWetDelay));
+    position += nees(truth.p_antenna_e - filter.state().p_e, P.topLeftCorner<3, 3>());
+    wet += nees(Eigen::VectorXd::Constant(1, wet_m - filter.wet_delay_m()),
+                P.block<1, 1>(kWetDelay, kWetDelay));
     Eigen::VectorXd error(8);
     for (int i = 0; i < 8; ++i) {
       const Ambiguity& estimate = filter.ambiguities()[static_cast<std::size_t>(i)];
       error(i) = ambiguities_m(estimate.satellite.number - 1) + 10.0 * (estimate.arc / 100u) -
                  estimate.value_m;
     }
-    ambiguity += squared(error, P.block<8, 8>(kSize, kSize));
+    ambiguity += nees(error, P.block<8, 8>(kSize, kSize));
   }
   const double share = within / (3.0 * kRuns * kEpochs);
   WARN((moving ? "driving" : "standing")
@@ -122,8 +111,8 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
        << " of 1, ambiguities " << ambiguity / kRuns << " of 8; within 3 sigma " << 100.0 * share
        << " %");
   // 95 % bands of the mean of kRuns chi-square variables (Wilson-Hilferty).
-  CHECK(position / kRuns > 2.54);
-  CHECK(position / kRuns < 3.50);
+  CHECK(position / kRuns > synthetic::kLeastNees3);
+  CHECK(position / kRuns < synthetic::kMostNees3);
   CHECK(wet / kRuns > 0.74);
   CHECK(wet / kRuns < 1.30);
   CHECK(ambiguity / kRuns > 7.24);

@@ -6,8 +6,8 @@
 
 #include "core/ekf/ekf.h"
 #include "core/ekf/measurement_model.h"
+#include "nees.h"
 #include "support/catch.h"
-#include "synthetic.h"
 
 namespace leonav {
 namespace {
@@ -16,11 +16,11 @@ using namespace ekf_index;
 using Eigen::Vector3d;
 using synthetic::Generator;
 
-constexpr int kRuns = 100;
+using synthetic::kLeastNees3;
+using synthetic::kRuns;
 
 double nees(const Vector3d& error, const EkfCovariance& P, int index) {
-  const Eigen::Matrix3d block = P.block<3, 3>(index, index);
-  return error.dot(block.ldlt().solve(error));
+  return synthetic::nees(error, P.block<3, 3>(index, index));
 }
 
 // What IGG-III costs where nothing is wrong. With normal errors x of sigma 1 and factors w(x), an
@@ -41,14 +41,13 @@ double robust_loss(const RobustConfig& robust) {
   return square / (slope * slope) * claimed;
 }
 
-// 95 % band of the mean of kRuns chi-square variables with 3 degrees: 300 degrees over 100,
-// quantiles 253.9 and 349.9 (Wilson-Hilferty); its upper end raised by what weights cost.
+// The upper end of the band raised by what weights cost.
 void check_band(const char* what, double sum, const RobustConfig& robust) {
   const double mean = sum / kRuns;
-  const double upper = 3.50 * (robust.enabled ? robust_loss(robust) : 1.0);
+  const double upper = synthetic::kMostNees3 * (robust.enabled ? robust_loss(robust) : 1.0);
   WARN(what << (robust.enabled ? ", weighted" : "") << ": mean NEES " << mean
-            << " (3 degrees, 95 % band 2.54 to " << upper << ")");
-  CHECK(mean > 2.54);
+            << " (3 degrees, 95 % band " << kLeastNees3 << " to " << upper << ")");
+  CHECK(mean > kLeastNees3);
   CHECK(mean < upper);
 }
 
@@ -74,16 +73,7 @@ TEST_CASE("constant-velocity filter: errors are as large as its covariance says"
     filter.initialize(time, synthetic::point_near(truth, 4.0, 0.3, &noise));
     for (int k = 0; k < 60; ++k) {
       constexpr double kDt = 1.0;
-      // White acceleration integrated over the step: velocity and position parts.
-      const Vector3d density{config.acceleration_noise_horizontal,
-                             config.acceleration_noise_horizontal,
-                             config.acceleration_noise_vertical};
-      const Vector3d a = noise.normal3();
-      const Vector3d b = noise.normal3();
-      const Vector3d shift =
-          std::sqrt(kDt * kDt * kDt / 3.0) * density.cwiseProduct(std::sqrt(0.75) * a + 0.5 * b);
-      truth.p_antenna_e += kDt * truth.v_antenna_e + C_en * shift;
-      truth.v_antenna_e += std::sqrt(kDt) * (C_en * density.cwiseProduct(a));
+      synthetic::move_a_second(config, C_en, &truth, &noise);
       synthetic::advance_clocks(config.clock, kDt, &truth.clocks, &noise);
       time = time.plus_seconds(kDt);
       filter.predict({}, time);

@@ -4,10 +4,10 @@
 #include <memory>
 #include <numbers>
 
+#include "carrier_scene.h"
 #include "core/earth/tides.h"
 #include "core/gnss/preprocess.h"
 #include "support/catch.h"
-#include "support/simulated_carrier.h"
 
 using namespace leonav;
 using namespace leonav::test;
@@ -24,20 +24,9 @@ OceanLoading coast() {
   return loading;
 }
 
-struct Scene {
-  SimulatedSky sky;
-  SimulatedReceiver receiver;
-  SimulatedCarriers carriers{0.0, 0.0, 1};
-
-  Scene() {
-    sky.add(gps_walker());
-    sky.add(galileo_walker());
-    receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}, {{'5', 'Q'}, 44.0}};
-  }
+struct Scene : CarrierScene {
   std::unique_ptr<MeasurementEpoch> preprocessed(const GnssConfig& config, double t) {
-    RawEpoch raw = simulate_epoch(sky, receiver, t);
-    const Eigen::Matrix3d C_er = rotation_ecef_to_ned(to_geodetic(receiver.p_e)).transpose();
-    carriers.fill(sky, receiver, t, C_er, &raw);
+    const RawEpoch raw = at(t, C_en());
     CarrierFollower follower(config.cycle_slips);
     PreprocessAids aids;
     aids.carriers = &follower;

@@ -4,10 +4,10 @@
 #include <map>
 #include <memory>
 
+#include "carrier_scene.h"
 #include "core/gnss/carrier_follower.h"
 #include "core/gnss/preprocess.h"
 #include "support/catch.h"
-#include "support/simulated_carrier.h"
 
 using namespace leonav;
 using namespace leonav::test;
@@ -16,28 +16,16 @@ namespace {
 
 constexpr double kStep_s = 30.0;
 
-// An antenna that turns about the vertical, its codes and carriers free of noise.
-struct Scene {
-  SimulatedSky sky;
-  SimulatedReceiver receiver;
-  SimulatedCarriers carriers{0.0, 0.0, 1};
-
+// An antenna that turns about the vertical.
+struct Scene : CarrierScene {
   Scene() {
-    sky.add(gps_walker());
-    sky.add(galileo_walker());
     receiver.clock_s = 3e-4;
     receiver.clock_drift = 1e-8;
-    receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}, {{'5', 'Q'}, 44.0}};
   }
   Eigen::Matrix3d C_er(double t) const {
-    const Eigen::Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(receiver.p_e)).transpose();
-    return C_en * Eigen::AngleAxisd(0.01 * t, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return C_en() * Eigen::AngleAxisd(0.01 * t, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   }
-  RawEpoch at(double t) {
-    RawEpoch raw = simulate_epoch(sky, receiver, t);
-    carriers.fill(sky, receiver, t, C_er(t), &raw);
-    return raw;
-  }
+  RawEpoch at(double t) { return CarrierScene::at(t, C_er(t)); }
 };
 
 struct Differences {

@@ -3,10 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/navigator/pipeline.h"
-#include "recording_sink.h"
+#include "stage_drive.h"
 #include "support/catch.h"
-#include "support/navigator_config.h"
 
 namespace leonav::test {
 namespace {
@@ -21,11 +19,7 @@ struct Errors {
 void add_errors(const SyntheticDrive& drive, const NavigatorConfig& config, Errors* errors) {
   RecordingSink sink;
   Pipeline pipeline(config, &sink);
-  Sequencer& sequencer = pipeline.sequencer();
-  feed(
-      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& raw) { sequencer.on_raw_epoch(raw); });
+  feed(drive, &pipeline);
   const bool inertial = config.motion == MotionModel::kInertial;
   for (const EpochReport& report : sink.epochs) {
     const Solution& s = report.solution;

@@ -7,6 +7,12 @@
 namespace leonav::test {
 namespace {
 
+double heading_at(const SyntheticDrive& drive, double t) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
+  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
+      .yaw;
+}
+
 TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
   const SyntheticDrive drive = drive_of(90.0);
   const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
@@ -14,24 +20,14 @@ TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading sp
     CAPTURE(heading_given);
     RecordingSink sink;
     Pipeline pipeline(config, &sink);
-    Sequencer& sequencer = pipeline.sequencer();
-    const SyntheticPath path(drive.options);
-    const auto on_epoch = [&](const RawEpoch& raw) {
+    feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
       const double t = seconds(raw.time);
-      if (std::abs(t - 50.0) < 0.5) {
-        sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
-        if (heading_given) {
-          const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
-          const Eigen::Matrix3d C_eb = path.state(t).q_eb.toRotationMatrix();
-          sequencer.on_command(
-              {CommandKind::kSetHeading, euler_from_rotation(C_ne * C_eb).yaw, 0.05});
-        }
+      if (std::abs(t - 50.0) >= 0.5) return;
+      sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+      if (heading_given) {
+        sequencer->on_command({CommandKind::kSetHeading, heading_at(drive, t), 0.05});
       }
-      sequencer.on_raw_epoch(raw);
-    };
-    feed(
-        drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-        [&](const ImuSample& s) { sequencer.on_imu(s); }, on_epoch);
+    });
     CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kCommand});
     CHECK(sink.count(EventKind::kAligned) == 2);
     CHECK(sink.epochs.size() == 89);
@@ -40,27 +36,16 @@ TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading sp
   }
 }
 
-double heading_at(const SyntheticDrive& drive, double t) {
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
-  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
-      .yaw;
-}
-
 // Restarts the filter at each of these times.
 RecordingSink run_with_restarts(const SyntheticDrive& drive, const NavigatorConfig& config,
                                 const std::vector<double>& restarts_s) {
   RecordingSink sink;
   Pipeline pipeline(config, &sink);
-  Sequencer& sequencer = pipeline.sequencer();
-  feed(
-      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& raw) {
-        for (const double t : restarts_s)
-          if (std::abs(seconds(raw.time) - t) < 0.5)
-            sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
-        sequencer.on_raw_epoch(raw);
-      });
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    for (const double t : restarts_s)
+      if (std::abs(seconds(raw.time) - t) < 0.5)
+        sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+  });
   return sink;
 }
 

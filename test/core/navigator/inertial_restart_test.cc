@@ -106,15 +106,10 @@ template <typename Do>
 RecordingSink drive_with(const SyntheticDrive& drive, Do at_40_s) {
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(drive.options), &sink);
-  Sequencer& sequencer = pipeline.sequencer();
   std::size_t seen = 0;
-  feed(
-      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& r) {
-        if (++seen == 40) at_40_s(sequencer);
-        sequencer.on_raw_epoch(r);
-      });
+  feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
+    if (++seen == 40) at_40_s(*sequencer);
+  });
   return sink;
 }
 

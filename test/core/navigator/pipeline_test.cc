@@ -5,24 +5,12 @@
 #include <cstring>
 #include <vector>
 
-#include "recording_sink.h"
+#include "stage_drive.h"
 #include "support/allocation_counter.h"
 #include "support/catch.h"
-#include "support/navigator_config.h"
-#include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
-
-void run(const SyntheticDrive& drive, double latency_s, Pipeline* pipeline) {
-  Sequencer& sequencer = pipeline->sequencer();
-  feed(
-      drive, latency_s, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& r) { sequencer.on_raw_epoch(r); });
-}
-
-double seconds(GpsTime time) { return seconds_between(time, kSkyEpoch); }
 
 // Worst errors of the solutions with attitude after `from_s`.
 struct Errors {
@@ -64,7 +52,7 @@ TEST_CASE("the whole pipeline finds the truth of a synthetic drive") {
   const SyntheticDrive drive = synthetic_drive(options);
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   // The epoch at 90 s arrives after the drive's end.
   CHECK(sink.epochs.size() == 89);
   CHECK(sink.decisions.size() == 89);
@@ -99,7 +87,7 @@ TEST_CASE("with noise the errors are what the sigmas say") {
   const SyntheticDrive drive = synthetic_drive(options);
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   const Errors worst = errors_after(sink, drive, 60.0);
   CHECK(worst.position < 4.0);
   CHECK(worst.velocity < 0.4);
@@ -124,10 +112,10 @@ TEST_CASE("a run replays bit for bit, recorded misses included") {
   for (RecordingSink* sink : {&first, &second}) {
     Pipeline pipeline(config, sink);
     for (const std::uint64_t epoch : {20, 21, 33}) pipeline.record_miss(epoch);
-    run(drive, 0.06, &pipeline);
+    feed(drive, &pipeline);
   }
   Pipeline pipeline(config, &undisturbed);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   REQUIRE(first.solutions.size() == second.solutions.size());
   bool same = true;
   for (std::size_t i = 0; i < first.solutions.size(); ++i) {
@@ -154,7 +142,7 @@ TEST_CASE("an outage of twenty seconds: empty epochs, ins, and back without a re
   });
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   CHECK(pipeline.sequencer().counters().empty_epochs >= 18);
   CHECK(sink.count(EventKind::kEmptyEpoch) == 16);  // then only every 256th: counters have the rest
   CHECK(sink.count(EventKind::kFilterReset) == 0);
@@ -176,7 +164,7 @@ TEST_CASE("before any ephemeris every epoch still reports its satellites and why
   drive.ephemerides.clear();
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   CHECK(sink.epochs.size() == 5);
   CHECK(sink.solutions.empty());
   for (const EpochReport& report : sink.epochs) {
@@ -195,7 +183,7 @@ TEST_CASE("without IMU the GNSS stage publishes one solution per epoch") {
   config.motion = MotionModel::kConstantVelocity;
   RecordingSink sink;
   Pipeline pipeline(config, &sink);
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   REQUIRE(sink.solutions.size() == drive.epochs.size());
   CHECK(sink.decisions.empty());
   const SyntheticPath path(drive.options);
@@ -214,17 +202,12 @@ TEST_CASE("a restart forgets, a heading from outside aligns at a standstill") {
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
   const double truth_yaw = std::atan2(100.0, 100.0);
-  Sequencer& sequencer = pipeline.sequencer();
   std::size_t seen = 0;
-  feed(
-      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& r) {
-        if (++seen == 10) sequencer.on_command({CommandKind::kSetHeading, truth_yaw, 0.02});
-        if (seen == 30) sequencer.on_command({CommandKind::kSetHeading, truth_yaw + 0.1, 0.02});
-        if (seen == 40) sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
-        sequencer.on_raw_epoch(r);
-      });
+  feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
+    if (++seen == 10) sequencer->on_command({CommandKind::kSetHeading, truth_yaw, 0.02});
+    if (seen == 30) sequencer->on_command({CommandKind::kSetHeading, truth_yaw + 0.1, 0.02});
+    if (seen == 40) sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+  });
   CHECK_FALSE(sink.epochs[8].solution.has_attitude);
   REQUIRE(sink.epochs[20].solution.has_attitude);
   CHECK(sink.epochs[20].solution.yaw == Approx(truth_yaw).margin(0.02));
@@ -252,7 +235,7 @@ TEST_CASE("once constructed, the stages allocate nothing") {
   CountingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
   start_counting_allocations();
-  run(drive, 0.06, &pipeline);
+  feed(drive, &pipeline);
   pipeline.sequencer().on_command({CommandKind::kSetHeading, 0.5, 0.1});
   pipeline.sequencer().on_command({CommandKind::kRestart, 0.0, 0.0});
   const std::size_t allocations = stop_counting_allocations();

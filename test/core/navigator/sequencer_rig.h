@@ -10,6 +10,7 @@ namespace leonav::test {
 inline const GpsTime kStart = GpsTime::from_week_and_tow(2200, 100'000.0);
 inline constexpr std::int64_t kMs = 1'000'000;
 
+inline GpsTime at_s(double s) { return kStart.plus_seconds(s); }
 inline GpsTime at_ms(std::int64_t ms) { return kStart.plus_nanoseconds(ms * kMs); }
 
 inline ImuSample sample_until(GpsTime time, std::int64_t interval_ns = 5 * kMs) {
@@ -47,6 +48,11 @@ struct SequencerRig {
   }
   std::uint64_t rejected(InputFault fault) const {
     return sequencer.counters().rejected[static_cast<std::size_t>(fault)];
+  }
+  std::uint64_t rejected() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : sequencer.counters().rejected) sum += count;
+    return sum;
   }
 };
 

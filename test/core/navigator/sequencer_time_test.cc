@@ -1,32 +1,18 @@
 // What the Sequencer takes for an outage, a stray stamp, a clock that was set.
 #include "core/navigator/sequencer.h"
 
-#include "recording_stages.h"
+#include "sequencer_rig.h"
 #include "support/catch.h"
 
 namespace leonav::test {
 namespace {
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 100'000.0);
-
-RawEpoch epoch_at(double seconds) {
-  RawEpoch raw;
-  raw.time = kStart.plus_seconds(seconds);
-  SignalObservation observation;
-  observation.satellite = {System::kGps, 5};
-  observation.code = {'1', 'C'};
-  observation.pseudorange_m = 2.2e7;
-  raw.observations.push_back(observation);
-  return raw;
-}
-
-struct Rig {
-  RecordingStages stages;
-  Sequencer sequencer;
-  explicit Rig(const NavigatorConfig& config) : sequencer(config, &stages) {}
+// A SequencerRig that counts time in seconds.
+struct Rig : SequencerRig {
+  using SequencerRig::SequencerRig;
 
   void epochs(double from_s, double step_s, int count) {
-    for (int k = 0; k < count; ++k) sequencer.on_raw_epoch(epoch_at(from_s + k * step_s));
+    for (int k = 0; k < count; ++k) sequencer.on_raw_epoch(epoch_at(at_s(from_s + k * step_s)));
   }
   // IMU at 200 Hz over (from, to].
   void imu(double from_s, double to_s) {
@@ -43,16 +29,8 @@ struct Rig {
   void drive(double from_s, double to_s, double stamp_error_s = 0.0) {
     for (double t = from_s; t < to_s; t += 1.0) {
       imu(t, t + 1.0);
-      sequencer.on_raw_epoch(epoch_at(t + 1.0 + stamp_error_s));
+      sequencer.on_raw_epoch(epoch_at(at_s(t + 1.0 + stamp_error_s)));
     }
-  }
-  std::uint64_t rejected(InputFault fault) const {
-    return sequencer.counters().rejected[static_cast<std::size_t>(fault)];
-  }
-  std::uint64_t rejected() const {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t count : sequencer.counters().rejected) sum += count;
-    return sum;
   }
   double last_s() const { return seconds_between(stages.blocks.back().time, kStart); }
 };
@@ -89,7 +67,7 @@ TEST_CASE("without an IMU an outage of any length costs no epoch and no restart"
   rig.epochs(0.0, 1.0, 10);
   for (const double outage_end_s : {30.0, 700.0, 9'000.0, 700'000.0}) {
     const std::size_t before = rig.stages.blocks.size();
-    rig.sequencer.on_raw_epoch(epoch_at(outage_end_s));
+    rig.sequencer.on_raw_epoch(epoch_at(at_s(outage_end_s)));
     CHECK(rig.stages.blocks.size() == before);  // the next one will tell
     rig.epochs(outage_end_s + 1.0, 1.0, 9);
     REQUIRE(rig.stages.blocks.size() == before + 10);
@@ -103,12 +81,12 @@ TEST_CASE("without an IMU an outage of any length costs no epoch and no restart"
 TEST_CASE("without an IMU a stray stamp costs the epoch that has it and no other") {
   Rig rig(gnss_only(1.0));
   rig.epochs(0.0, 1.0, 10);
-  rig.sequencer.on_raw_epoch(epoch_at(86'400.0));
-  rig.sequencer.on_raw_epoch(epoch_at(86'400.0));  // twice
+  rig.sequencer.on_raw_epoch(epoch_at(at_s(86'400.0)));
+  rig.sequencer.on_raw_epoch(epoch_at(at_s(86'400.0)));  // twice
   rig.epochs(10.0, 1.0, 10);
   CHECK(rig.rejected(InputFault::kTooFarAhead) == 1);
   CHECK(rig.rejected(InputFault::kDuplicate) == 1);
-  rig.sequencer.on_raw_epoch(epoch_at(-86'400.0));
+  rig.sequencer.on_raw_epoch(epoch_at(at_s(-86'400.0)));
   rig.epochs(20.0, 1.0, 10);
   CHECK(rig.rejected(InputFault::kTimeBackwards) == 1);
   CHECK(rig.stages.blocks.size() == 30);
@@ -183,7 +161,7 @@ TEST_CASE("an IMU that starts late takes over the time GNSS has kept") {
 TEST_CASE("epochs out of order take their place while the IMU has not passed them") {
   Rig rig{NavigatorConfig{}};
   rig.imu(0.0, 0.5);
-  for (const double t : {2.0, 1.0, 3.0, 2.0}) rig.sequencer.on_raw_epoch(epoch_at(t));
+  for (const double t : {2.0, 1.0, 3.0, 2.0}) rig.sequencer.on_raw_epoch(epoch_at(at_s(t)));
   CHECK(rig.rejected(InputFault::kDuplicate) == 1);
   rig.imu(0.5, 3.0);
   REQUIRE(rig.stages.blocks.size() == 3);

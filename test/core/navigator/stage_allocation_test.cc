@@ -1,10 +1,9 @@
 // No heap allocation with a full sky, precise orbits coming in and every kind of reset.
 #include <cmath>
 
-#include "core/navigator/pipeline.h"
+#include "stage_drive.h"
 #include "support/allocation_counter.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
@@ -86,31 +85,26 @@ TEST_CASE(
   for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
     CountingSink sink;
     Pipeline pipeline(full_config(motion), &sink);
-    Sequencer& sequencer = pipeline.sequencer();
     std::size_t next_state = 0, seen = 0;
     start_counting_allocations();
-    feed(
-        drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-        [&](const ImuSample& s) { sequencer.on_imu(s); },
-        [&](const RawEpoch& raw) {
-          PreciseStates message;
-          for (int i = 0; i < 40 && next_state < states.size(); ++i) {
-            message.push_back(states[next_state++]);
-          }
-          sequencer.on_precise_states(message);
-          AntennaPattern antenna;
-          antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
-          antenna.band = '1';
-          sequencer.on_antenna(antenna);
-          if (++seen == 75) sequencer.on_command({CommandKind::kRestart, 0.0, 0.0});
-          if (seen == 80) sequencer.on_command({CommandKind::kSetHeading, 0.5, 0.1});
-          sequencer.on_raw_epoch(raw);
-        });
+    feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
+      PreciseStates message;
+      for (int i = 0; i < 40 && next_state < states.size(); ++i) {
+        message.push_back(states[next_state++]);
+      }
+      sequencer->on_precise_states(message);
+      AntennaPattern antenna;
+      antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
+      antenna.band = '1';
+      sequencer->on_antenna(antenna);
+      if (++seen == 75) sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+      if (seen == 80) sequencer->on_command({CommandKind::kSetHeading, 0.5, 0.1});
+    });
     // Time itself leaps, in both streams.
     for (int i = 0; i < 40; ++i) {
       ImuSample sample = drive.imu[static_cast<std::size_t>(i)];
       sample.time = sample.time.plus_seconds(7200.0);
-      sequencer.on_imu(sample);
+      pipeline.sequencer().on_imu(sample);
     }
     const std::size_t allocations = stop_counting_allocations();
     CHECK(allocations == 0);

@@ -25,16 +25,32 @@ inline SyntheticDrive drive_of(double duration_s, double east_m = 0.0, bool imu 
 
 inline double seconds(GpsTime time) { return seconds_between(time, kSkyEpoch); }
 
+// The drive's messages into a pipeline, as a live system would receive them, with
+// before_epoch(raw, &sequencer) ahead of each epoch. Allocates nothing.
+template <typename BeforeEpoch>
+void feed(const SyntheticDrive& drive, Pipeline* pipeline, BeforeEpoch before_epoch) {
+  constexpr double kEpochLatency_s = 0.06;
+  Sequencer& sequencer = pipeline->sequencer();
+  feed(
+      drive, kEpochLatency_s, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+      [&](const ImuSample& s) { sequencer.on_imu(s); },
+      [&](const RawEpoch& raw) {
+        before_epoch(raw, &sequencer);
+        sequencer.on_raw_epoch(raw);
+      });
+}
+
+inline void feed(const SyntheticDrive& drive, Pipeline* pipeline) {
+  feed(drive, pipeline, [](const RawEpoch&, Sequencer*) {});
+}
+
 inline RecordingSink run(const SyntheticDrive& drive, const NavigatorConfig& config) {
   RecordingSink sink;
   Pipeline pipeline(config, &sink);
-  Sequencer& sequencer = pipeline.sequencer();
   if (config.motion == MotionModel::kInertial) {
-    feed(
-        drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-        [&](const ImuSample& s) { sequencer.on_imu(s); },
-        [&](const RawEpoch& r) { sequencer.on_raw_epoch(r); });
+    feed(drive, &pipeline);
   } else {
+    Sequencer& sequencer = pipeline.sequencer();
     for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
     for (const RawEpoch& r : drive.epochs) sequencer.on_raw_epoch(r);
   }
