@@ -44,3 +44,23 @@ TEST_CASE("wrong words name the nearest right one") {
   CHECK_THROWS_AS(a.number("--rate"), UsageError);
   CHECK_THROWS_AS(a.required("--out"), UsageError);
 }
+
+TEST_CASE("a time is a week and its seconds, or what is wrong with it is told") {
+  const auto time_of = [](const std::string& text) {
+    Arguments a("tool", "FILE", "Does a thing.");
+    a.option("--from", "WEEK:SECONDS", "since");
+    const std::string word = "--from=" + text;
+    const char* argv[] = {"tool", word.c_str()};
+    REQUIRE(a.parse(2, argv));
+    return a.time("--from");
+  };
+  CHECK(time_of("2111:345600.5") == GpsTime::from_week_and_tow(2111, 345600.5));
+  CHECK(time_of("2111:604800") == GpsTime::from_week_and_tow(2112, 0.0));
+  for (const char* wrong : {"2111", "2111:", ":5", "2111:604801", "2111:-1", "-1:5", "10000:5",
+                            "2111:nan", "2111:5x", "2111.5:5", ""}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_WITH(time_of(wrong), Catch::Contains("--from needs WEEK:SECONDS_OF_WEEK") &&
+                                          Catch::Contains("'" + std::string(wrong) + "'"));
+  }
+  CHECK_FALSE(sample().time("--rate").is_set());
+}

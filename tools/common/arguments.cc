@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "drivers/text/nearest_word.h"
+#include "drivers/text/parse.h"
 
 namespace leonav {
 
@@ -101,6 +102,20 @@ double Arguments::number(const std::string& name) const {
     throw UsageError(name + " needs a number, not '" + text + "'");
   }
   return value;
+}
+
+GpsTime Arguments::time(const std::string& name) const {
+  if (!has(name)) return {};
+  const std::string text = get(name);
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto week = parse_int(text.substr(0, colon));
+    const auto tow_s = parse_double(text.substr(colon + 1));
+    const bool in_range = week && *week >= 0 && *week < 10'000 && tow_s && *tow_s >= 0.0 &&
+                          *tow_s <= double{kSecondsPerWeek};
+    if (in_range) return GpsTime::from_week_and_tow(*week, *tow_s);
+  }
+  throw UsageError(name + " needs WEEK:SECONDS_OF_WEEK in GPS time, not '" + text + "'");
 }
 
 std::string Arguments::required(const std::string& name) const {

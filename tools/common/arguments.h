@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/time/gps_time.h"
+
 namespace leonav {
 
 // Wrong words on the command line; what() says which and what would be right.
@@ -32,7 +34,9 @@ class Arguments {
   bool has(const std::string& name) const;         // given on the command line
   std::string get(const std::string& name) const;  // last one given, or the default
   std::vector<std::string> all(const std::string& name) const;
-  double number(const std::string& name) const;         // throws UsageError if it is none
+  double number(const std::string& name) const;  // throws UsageError if it is none
+  // Of an option given as WEEK:SECONDS of GPS time; unset where it is not given. Throws UsageError.
+  GpsTime time(const std::string& name) const;
   std::string required(const std::string& name) const;  // throws UsageError if absent
   const std::vector<std::string>& positional() const { return positional_; }
   std::string help() const;

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "drivers/csv/imu_csv.h"
-#include "drivers/text/parse.h"
 #include "quality_mode.h"
 #include "tools/common/arguments.h"
 #include "tools/evaluation/gyro_heading.h"
@@ -16,17 +15,6 @@
 namespace {
 
 using leonav::Arguments;
-
-leonav::GpsTime parse_time(const std::string& name, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const auto week = leonav::parse_int(text.substr(0, colon));
-  const auto tow_s =
-      colon == std::string::npos ? std::nullopt : leonav::parse_double(text.substr(colon + 1));
-  if (!week || !tow_s || *week < 0 || *week > 10000 || *tow_s < 0.0 || *tow_s >= 604800.0) {
-    throw leonav::UsageError(name + " needs WEEK:TOW_SECONDS, not '" + text + "'");
-  }
-  return leonav::GpsTime::from_week_and_tow(*week, *tow_s);
-}
 
 int body(int argc, char** argv) {
   Arguments arguments(
@@ -80,8 +68,8 @@ int body(int argc, char** argv) {
   if (arguments.has("--max-course-rate")) {
     options.max_course_rate = arguments.number("--max-course-rate") * std::numbers::pi / 180.0;
   }
-  if (arguments.has("--from")) options.from = parse_time("--from", arguments.get("--from"));
-  if (arguments.has("--to")) options.to = parse_time("--to", arguments.get("--to"));
+  if (arguments.has("--from")) options.from = arguments.time("--from");
+  if (arguments.has("--to")) options.to = arguments.time("--to");
 
   leonav::SkippedRows skipped;
   const leonav::Track truth = leonav::load_truth(arguments.required("--truth"), &skipped);

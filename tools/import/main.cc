@@ -1,25 +1,10 @@
 // leonav-import: a recording in files -> an LCM event log.
 #include <iostream>
 
-#include "drivers/text/parse.h"
 #include "tools/common/arguments.h"
 #include "tools/dataset/import.h"
 
 namespace {
-
-leonav::GpsTime time_option(const leonav::Arguments& arguments, const std::string& name) {
-  if (!arguments.has(name)) return {};
-  const std::string text = arguments.get(name);
-  const std::size_t colon = text.find(':');
-  if (colon != std::string::npos) {
-    const auto week = leonav::parse_int(text.substr(0, colon));
-    const auto tow_s = leonav::parse_double(text.substr(colon + 1));
-    const bool in_range = week && *week >= 0 && *week < 10'000 && tow_s && *tow_s >= 0.0 &&
-                          *tow_s <= double{leonav::kSecondsPerWeek};
-    if (in_range) return leonav::GpsTime::from_week_and_tow(*week, *tow_s);
-  }
-  throw leonav::UsageError(name + " needs WEEK:SECONDS_OF_WEEK in GPS time, not '" + text + "'");
-}
 
 int body(int argc, char** argv) {
   leonav::Arguments arguments(
@@ -38,8 +23,8 @@ int body(int argc, char** argv) {
     throw leonav::UsageError("give one dataset.yaml (--help tells more)");
   }
   leonav::ImportOptions options;
-  options.from = time_option(arguments, "--from");
-  options.to = time_option(arguments, "--to");
+  options.from = arguments.time("--from");
+  options.to = arguments.time("--to");
   if (options.from.is_set() && options.to.is_set() && options.to < options.from) {
     throw leonav::UsageError("--to is before --from");
   }
