@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+
+#include "core/gnss/random_subset.h"
 
 namespace leonav {
 namespace {
@@ -21,21 +22,6 @@ constexpr std::size_t kMinRedundancy = 4;
 constexpr double kMinPivotRatio = 1.0e-7;  // a subset of weaker geometry tells nothing
 
 bool in_use(const FitRow& row) { return row.factor > 0.0 && !row.excluded && !row.alone; }
-
-// Steele and Vigna, Fast splittable pseudorandom number generators, 2014: integers only, so that
-// every machine draws the same subsets.
-class Draw {
- public:
-  std::size_t below(std::size_t limit) {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % limit);
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 struct Candidate {
   FitState change = FitState::Zero();
@@ -63,7 +49,7 @@ class Search {
   std::array<bool, kMaxSatellites> chosen_{};
   std::array<double, kMaxMeasurements> standardized_{};
   std::size_t unknowns_ = 3;
-  Draw draw_;
+  RandomDraw draw_;
 };
 
 Search::Search(const FitRows& rows) {

@@ -1,4 +1,4 @@
-// Random subsets that are the same on every machine.
+// Random numbers and subsets that are the same on every machine.
 #pragma once
 #include <bitset>
 #include <cstddef>
@@ -8,6 +8,20 @@ namespace leonav {
 
 // Steele and Vigna, Fast splittable pseudorandom number generators, 2014: integers only. The seed
 // is fixed.
+class RandomDraw {
+ public:
+  // Of [0, limit).
+  std::size_t below(std::size_t limit) {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<std::size_t>((z ^ (z >> 31)) % limit);
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
 class RandomSubset {
  public:
   // `count` of the places [0, size), each set of them equally likely; count <= size <= N.
@@ -16,20 +30,13 @@ class RandomSubset {
     chosen->reset();
     // Floyd's algorithm: ends after `count` draws.
     for (std::size_t last = size - count; last < size; ++last) {
-      const std::size_t place = below(last + 1);
+      const std::size_t place = draw_.below(last + 1);
       chosen->set(chosen->test(place) ? last : place);
     }
   }
 
  private:
-  std::size_t below(std::size_t limit) {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % limit);
-  }
-
-  std::uint64_t state_ = 1;
+  RandomDraw draw_;
 };
 
 }  // namespace leonav
