@@ -40,6 +40,7 @@ struct SlipScene {
   RangeChangePrior prior;
   bool use_range_change = true;
   bool second_signals = true;
+  bool end_undecided = false;           // arcs too that the range change leaves undecided
   double clock_walk_m = 0.0;            // satellite clocks, per sqrt(s)
   double carrier_sigma_m = 0.002;       // of one signal
   double ionosphere_rate_m_s = 0.0005;  // 1 sigma, of a single frequency's range change
@@ -179,6 +180,7 @@ class SlipRun {
     std::vector<RangeRowResult> verdicts(inputs.size());
     if (scene_.use_range_change) check_geometry(k, raw, inputs, predictions, epoch, &verdicts);
     arcs_.settle(verdicts, &epoch);
+    if (scene_.end_undecided) end_undecided(inputs, verdicts, &epoch);
     remember(k, inputs, predictions, epoch);
     for (std::size_t i = 0; i < inputs.size(); ++i) count(k, inputs[i], epoch.satellites[i]);
   }
@@ -274,6 +276,18 @@ class SlipRun {
     const RangeChangeResult result = range_change(rows, scene_.prior, config_);
     if (result.status == RangeChangeStatus::kUndecidable) ++counts_.undecidable;
     for (std::size_t i = 0; i < owners.size(); ++i) (*verdicts)[owners[i]] = result.rows[i];
+  }
+
+  void end_undecided(const std::vector<CarrierInput>& inputs,
+                     const std::vector<RangeRowResult>& verdicts, ArcEpoch* epoch) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      CarrierStatus& status = epoch->satellites[i];
+      if (verdicts[i].verdict != RangeVerdict::kUndecided || status.started) continue;
+      const CarrierStatus now = arcs_.end_arc(inputs[i].first->satellite, SlipCause::kRangeChange);
+      status.arc = now.arc;
+      status.started = now.started;
+      status.causes = now.causes;
+    }
   }
 
   void remember(std::size_t k, const std::vector<CarrierInput>& inputs,

@@ -1,0 +1,128 @@
+// What an inertial prediction of the position change adds to the slip detectors: where few
+// satellites are in view, many slip at once, and the slips are small.
+#include "support/catch.h"
+#include "support/slip_bursts.h"
+#include "support/slip_scene_1hz.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kPrediction_m = 0.01;  // 1 sigma of each axis over 1 s: a good IMU
+
+// As found; and where arcs that stay undecided are ended as well.
+struct Found {
+  test::SlipCounts plain, all_ended;
+};
+
+struct Case {
+  const char* name;
+  std::size_t (*slipping)(std::size_t count);
+  std::size_t satellites;  // 0: all
+  // Enough rows agree to tell which have slipped, given a prediction: up to half of the spare ones.
+  bool decidable;
+};
+constexpr auto kOne = [](std::size_t) { return std::size_t{1}; };
+constexpr auto kHalf = [](std::size_t count) { return (count - 1) / 2; };
+constexpr auto kAllButThree = [](std::size_t count) { return count - std::min(count, 3ul); };
+constexpr Case kCases[] = {
+    {"all in view, one slips", kOne, 0, true},
+    {"all in view, half of them slip", kHalf, 0, true},
+    {"all in view, all but three slip", kAllButThree, 0, false},
+    {"6 in view, one slips", kOne, 6, true},
+    {"6 in view, 2 slip", kHalf, 6, true},
+    {"6 in view, 3 slip", kAllButThree, 6, false},
+    {"5 in view, one slips", kOne, 5, true},
+    {"5 in view, 2 slip", kHalf, 5, true},
+    {"4 in view, one slips", kOne, 4, true},
+};
+
+struct Receiver {
+  const char* name;
+  bool pairs, other_detectors;
+};
+constexpr Receiver kReceivers[] = {
+    {"Single frequency", false, true},
+    {"Pairs", true, true},
+    {"Pairs, nothing but the range change", true, false},
+};
+
+Found find(const test::SlipScene& whole, const Receiver& receiver, const Case& c, bool one_cycle) {
+  test::SlipScene scene = whole;
+  scene.second_signals = receiver.pairs;
+  CycleSlipConfig config;
+  config.use_geometry_free = config.use_melbourne_wuebbena = config.use_doppler =
+      receiver.other_detectors;
+  if (c.satellites > 0) {
+    test::SlipRun all(scene, config);
+    all.run();
+    test::leave_satellites(c.satellites, all.going(), &scene.epochs);
+  }
+  test::SlipRun clean(scene, config);
+  clean.run();
+  test::SlipBursts bursts;
+  bursts.slipping = c.slipping;
+  bursts.one_cycle = one_cycle;
+  const auto slips = test::draw_bursts(clean.going(), bursts, 7);
+  Found found;
+  found.plain = test::SlipRun(scene, config).run(slips);
+  scene.end_undecided = true;
+  found.all_ended = test::SlipRun(scene, config).run(slips);
+  return found;
+}
+
+void print_heading(const Receiver& receiver, bool one_cycle) {
+  std::cout << '\n'
+            << receiver.name << (one_cycle ? ", slips of 1 cycle" : ", slips of 1 to 1000 cycles")
+            << "; at once %, false/1000; the same if undecided arcs end\n"
+            << std::left << std::setw(34) << "" << std::right << std::setw(6) << "slips"
+            << std::setw(36) << "predicted to 1 cm" << std::setw(36) << "no prediction" << '\n';
+}
+
+void print(const char* name, const Found& with, const Found& without) {
+  std::cout << std::left << std::setw(34) << name << std::right << std::setw(6)
+            << with.plain.injected;
+  for (const Found* found : {&with, &without}) {
+    for (const test::SlipCounts* c : {&found->plain, &found->all_ended}) {
+      std::cout << (c == &found->plain ? "  |" : "   ") << std::fixed << std::setprecision(2)
+                << std::setw(7) << 100.0 * c->detected() << std::setw(8)
+                << 1000.0 * c->false_rate();
+    }
+  }
+  std::cout << '\n' << std::defaultfloat;
+}
+
+}  // namespace
+
+TEST_CASE("What a prediction adds to the slip detectors", "[cycle_slip]") {
+  test::SlipScene1HzOptions options;
+  options.prediction_sigma_m = kPrediction_m;
+  test::SlipScene1Hz predicted(options);
+  options.prediction_sigma_m = -1.0;
+  test::SlipScene1Hz unpredicted(options);
+  for (const Receiver& receiver : kReceivers) {
+    for (const bool one_cycle : {true, false}) {
+      print_heading(receiver, one_cycle);
+      for (const Case& c : kCases) {
+        const Found with = find(predicted.scene(), receiver, c, one_cycle);
+        const Found without = find(unpredicted.scene(), receiver, c, one_cycle);
+        print(c.name, with, without);
+        CAPTURE(receiver.name, one_cycle, c.name);
+        CHECK(with.plain.injected >= 50);
+        // Not each slip found can be told from the rest where too many slip: then all must end.
+        CHECK(with.all_ended.detected() >= 0.995);
+        if (c.decidable || (receiver.pairs && receiver.other_detectors)) {
+          CHECK(with.plain.detected() >= 0.995);
+          CHECK(with.plain.false_rate() <= 0.001);
+          CHECK(with.all_ended.false_rate() <= 0.001);
+          CHECK(with.plain.detected() >= without.plain.detected());
+        }
+        // It is the prediction that finds them: five rows determine four unknowns and no more.
+        if (c.decidable && c.satellites > 0 && c.satellites <= 5 && one_cycle &&
+            !(receiver.pairs && receiver.other_detectors))
+          CHECK(without.plain.detected() < 0.1);
+      }
+    }
+  }
+}
+
+}  // namespace leonav
