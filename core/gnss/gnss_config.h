@@ -6,6 +6,7 @@
 
 #include "core/earth/tides.h"
 #include "core/gnss/cycle_slip_config.h"
+#include "core/gnss/satellite_attitude.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/gnss/signal.h"
 
@@ -54,6 +55,8 @@ struct GnssConfig {
   double cn0_reference_dbhz = 45.0;        // C/N0 at which the sigmas hold (kCn0)
   double ionosphere_model_error = 0.5;     // share of the Klobuchar delay taken as its 1 sigma
   double troposphere_model_error_m = 0.1;  // 1 sigma at zenith
+  // How LEO satellites stand, for antennas and wind-up; the others' laws are known.
+  AttitudeLaw leo_attitude = AttitudeLaw::kOrbitNormal;
   // How the ground moves besides the solid Earth tide; not known: not applied.
   std::optional<OceanLoading> ocean_loading;  // of where the receiver is
   std::optional<PolarMotion> polar_motion;

@@ -10,7 +10,7 @@ namespace {
 
 Eigen::Matrix3d axes_of(const DelayContext& context, const SatelliteInView& satellite) {
   return satellite_axes(satellite.p_e, satellite.v_e, context.p_sun_e,
-                        attitude_law(satellite.satellite));
+                        attitude_law(satellite.satellite, context.config->leo_attitude));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& y, const Eigen::Vector3d& z) {
 
 }  // namespace
 
-AttitudeLaw attitude_law(SatelliteId satellite) {
-  const bool orbit_normal = satellite.system == System::kLeo || is_beidou_geostationary(satellite);
-  return orbit_normal ? AttitudeLaw::kOrbitNormal : AttitudeLaw::kYawSteering;
+AttitudeLaw attitude_law(SatelliteId satellite, AttitudeLaw leo) {
+  if (satellite.system == System::kLeo) return leo;
+  return is_beidou_geostationary(satellite) ? AttitudeLaw::kOrbitNormal : AttitudeLaw::kYawSteering;
 }
 
 Eigen::Matrix3d satellite_axes(const Eigen::Vector3d& p_sat_e, const Eigen::Vector3d& v_sat_e,

@@ -17,9 +17,9 @@ enum class AttitudeLaw : std::uint8_t {
 };
 
 // GPS, Galileo, BeiDou: yaw steering, but for geostationary BeiDou satellites, which keep to the
-// orbit's normal; LEO: orbit normal. BeiDou-2 satellites that leave yaw steering when the Sun is
-// near their orbital plane are not told apart.
-AttitudeLaw attitude_law(SatelliteId satellite);
+// orbit's normal. LEO: `leo`, as builders of low satellites have no common law. BeiDou-2 satellites
+// that leave yaw steering when the Sun is near their orbital plane are not told apart.
+AttitudeLaw attitude_law(SatelliteId satellite, AttitudeLaw leo);
 
 // Columns: the body's X, Y, Z axes in ECEF (C_es). Positions m; `v_sat_e` m/s in ECEF. Where Sun,
 // satellite and Earth stand in line within 1e-6 rad, or the Sun's place is not finite, yaw steering

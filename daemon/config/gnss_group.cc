@@ -90,6 +90,10 @@ void read_gnss(ConfigReader& group, GnssConfig* config) {
   group.number("cn0_reference_dbhz", {10.0, 70.0}, &config->cn0_reference_dbhz);
   group.number("ionosphere_model_error", {0.0, 10.0}, &config->ionosphere_model_error);
   group.number("troposphere_model_error_m", {0.0, 10.0}, &config->troposphere_model_error_m);
+  group.choice<AttitudeLaw>(
+      "leo_attitude",
+      {{"orbit_normal", AttitudeLaw::kOrbitNormal}, {"yaw_steering", AttitudeLaw::kYawSteering}},
+      &config->leo_attitude);
   read_ground(group, config);
   group.group("ephemerides",
               [&](ConfigReader& catalog) { read_catalog(catalog, &config->catalog); });

@@ -51,6 +51,20 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
   CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);
 }
 
+TEST_CASE("how LEO satellites stand is read by name") {
+  const auto law = [](const std::string& name) {
+    return load_config_text("gnss:\n  leo_attitude: " + name + "\n", "x")
+        .navigator.gnss.leo_attitude;
+  };
+  CHECK(load_config_text("gnss: {}\n", "x").navigator.gnss.leo_attitude ==
+        leonav::AttitudeLaw::kOrbitNormal);
+  CHECK(law("orbit_normal") == leonav::AttitudeLaw::kOrbitNormal);
+  CHECK(law("yaw_steering") == leonav::AttitudeLaw::kYawSteering);
+  const std::string error = error_of("gnss:\n  leo_attitude: upright\n");
+  CHECK(error.find("car.yaml:2: gnss.leo_attitude: ") == 0);
+  CHECK(error.find("orbit_normal, yaw_steering") != std::string::npos);
+}
+
 TEST_CASE("overrides are judged like the file") {
   const std::string text = "gnss:\n  elevation_mask_deg: 10\n";
   const auto config = load_config_text(

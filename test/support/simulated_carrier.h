@@ -16,6 +16,8 @@ class SimulatedCarriers {
   SimulatedCarriers(double sigma_m, double slip_probability, std::uint64_t seed)
       : sigma_m_(sigma_m), slip_probability_(slip_probability), generator_(seed) {}
 
+  AttitudeLaw leo_attitude = AttitudeLaw::kOrbitNormal;
+
   // Fills the carriers of `raw`, whose codes must still be free of noise. `C_er`: axes of the
   // receiver's antenna, forward, right, down.
   void fill(const SimulatedSky& sky, const SimulatedReceiver& receiver, double t,
@@ -27,7 +29,9 @@ class SimulatedCarriers {
     for (SignalObservation& o : raw->observations) {
       Arc& arc = arcs_[{o.satellite, o.code.band}];
       if (!arc.known) arc = {true, std::round(1e6 * normal_(generator_)), 0.0};
-      const bool first = !(o.satellite == last);
+      // The band that is used by default.
+      const bool first =
+          o.satellite.system == System::kBeidou ? o.code.band == '2' : !(o.satellite == last);
       last = o.satellite;
       if (first && slip_probability_ > 0.0 && uniform_(generator_) < slip_probability_) {
         arc.cycles += std::round(1.0 + 100.0 * uniform_(generator_));
@@ -36,7 +40,7 @@ class SimulatedCarriers {
       const Ephemeris& e = ephemeris_of(sky, o.satellite);
       const SatelliteState state = broadcast_state(e, now.plus_seconds(-0.07));
       const Eigen::Matrix3d C_es =
-          satellite_axes(state.p_e, state.v_e, sun_e, attitude_law(o.satellite));
+          satellite_axes(state.p_e, state.v_e, sun_e, attitude_law(o.satellite, leo_attitude));
       arc.wind_up = phase_wind_up_cycles(state.p_e, C_es, p_a, C_er, arc.wind_up);
       const double frequency = frequency_hz(o.satellite.system, o.code.band);
       const double wavelength = kSpeedOfLight / frequency;

@@ -47,11 +47,13 @@ TEST_CASE("With the orbit's normal X flies ahead and Y points against the moment
 }
 
 TEST_CASE("Every satellite has its law", "[attitude]") {
-  CHECK(attitude_law({System::kGps, 5}) == AttitudeLaw::kYawSteering);
-  CHECK(attitude_law({System::kGalileo, 5}) == AttitudeLaw::kYawSteering);
-  CHECK(attitude_law({System::kBeidou, 6}) == AttitudeLaw::kYawSteering);
-  CHECK(attitude_law({System::kBeidou, 3}) == AttitudeLaw::kOrbitNormal);
-  CHECK(attitude_law({System::kLeo, 3}) == AttitudeLaw::kOrbitNormal);
+  for (const AttitudeLaw leo : {AttitudeLaw::kOrbitNormal, AttitudeLaw::kYawSteering}) {
+    CHECK(attitude_law({System::kGps, 5}, leo) == AttitudeLaw::kYawSteering);
+    CHECK(attitude_law({System::kGalileo, 5}, leo) == AttitudeLaw::kYawSteering);
+    CHECK(attitude_law({System::kBeidou, 6}, leo) == AttitudeLaw::kYawSteering);
+    CHECK(attitude_law({System::kBeidou, 3}, leo) == AttitudeLaw::kOrbitNormal);
+    CHECK(attitude_law({System::kLeo, 3}, leo) == leo);
+  }
 }
 
 TEST_CASE("The axes are a rotation whatever stands in line with what", "[attitude]") {
