@@ -52,7 +52,7 @@ struct EngineCounters {
   std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
   // Likewise by where the orbit comes from: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
-  Gauge orbit_fallbacks;
+  Gauge orbit_fallbacks, orbit_returns;
   Gauge worst_epoch_ns;
   // any stage
   Gauge resets;

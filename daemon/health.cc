@@ -72,6 +72,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("imu gaps", counters->imu_gaps.get(), message);
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
+  add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("filter resets", counters->resets.get(), message);
   add_count("commits", counters->commits.get(), message);
   add_count("published", counters->published.get(), message);

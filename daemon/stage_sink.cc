@@ -20,9 +20,9 @@ void StageSink::on_epoch(const EpochReport& report) {
   age.fill(-1);
   age_by_source.fill(-1);
   for (const SatelliteReport& satellite : report.satellites) {
-    if (orbit_watch_.falls_back(satellite.satellite, satellite.source)) {
-      counters_->orbit_fallbacks.add(1);
-    }
+    const OrbitChange change = orbit_watch_.look(satellite.satellite, satellite.source);
+    if (change == OrbitChange::kFallback) counters_->orbit_fallbacks.add(1);
+    if (change == OrbitChange::kReturn) counters_->orbit_returns.add(1);
     if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;
     const std::size_t system = index_of(satellite.satellite.system);
     ++used[system];

@@ -286,11 +286,15 @@ void GnssStage::publish(const EpochWork& work) {
 
 void GnssStage::watch_orbits() {
   for (const SatelliteReport& satellite : report_->satellites) {
-    if (!orbit_watch_.falls_back(satellite.satellite, satellite.source)) continue;
+    const OrbitChange change = orbit_watch_.look(satellite.satellite, satellite.source);
+    if (change == OrbitChange::kNone) continue;
+    const bool fallback = change == OrbitChange::kFallback;
+    std::uint64_t& count = fallback ? orbit_fallbacks_ : orbit_returns_;
     // Events are thinned, so that a product that comes and goes does not drown the others.
-    if (++orbit_fallbacks_ > 16 && orbit_fallbacks_ % 256 != 0) continue;
-    events_.emit(EventKind::kOrbitFallback, static_cast<std::uint8_t>(satellite.satellite.system),
-                 satellite.satellite.number, report_->time);
+    if (++count > 16 && count % 256 != 0) continue;
+    events_.emit(fallback ? EventKind::kOrbitFallback : EventKind::kOrbitReturn,
+                 static_cast<std::uint8_t>(satellite.satellite.system), satellite.satellite.number,
+                 report_->time);
   }
 }
 

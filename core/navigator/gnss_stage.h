@@ -84,7 +84,7 @@ class GnssStage {
   std::uint64_t next_report_ = 1, next_solution_ = 1;
   std::array<ConsistencyWatch, 2> consistency_;  // codes, Dopplers
   OrbitWatch orbit_watch_;
-  std::uint64_t orbit_fallbacks_ = 0;
+  std::uint64_t orbit_fallbacks_ = 0, orbit_returns_ = 0;
   int suspect_epochs_ = 0;
   bool gnss_used_ = false;  // in the epoch at hand
   GpsTime last_gnss_time_;  // of the last epoch that used any

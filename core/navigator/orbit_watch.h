@@ -1,22 +1,30 @@
-// Notices satellites that fall back from precise to broadcast elements.
+// Notices satellites whose orbit comes from another source than before.
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include "core/gnss/satellite_state.h"
 
 namespace leonav {
 
+enum class OrbitChange : std::uint8_t {
+  kNone = 0,
+  kFallback,  // from precise to broadcast
+  kReturn,    // from broadcast to precise, also for the first time
+};
+
 class OrbitWatch {
  public:
-  // Takes note of what serves `id` in this epoch. True if that is broadcast elements and was a
-  // precise state when the satellite was last seen: its range steps, by a metre or so. kNone (no
-  // state) is no news.
-  bool falls_back(SatelliteId id, OrbitSource source) {
-    if (!is_valid(id) || source == OrbitSource::kNone) return false;
+  // Takes note of what serves `id` in this epoch, and compares it with what did when the satellite
+  // was last seen: where the source changes the range steps, by a metre or so. kNone (no state) is
+  // no news.
+  OrbitChange look(SatelliteId id, OrbitSource source) {
+    if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
     OrbitSource& last = last_[index_of(id.system)][id.number];
-    const bool fell = last == OrbitSource::kPrecise && source == OrbitSource::kBroadcast;
+    const OrbitSource before = last;
     last = source;
-    return fell;
+    if (before == OrbitSource::kNone || before == source) return OrbitChange::kNone;
+    return source == OrbitSource::kBroadcast ? OrbitChange::kFallback : OrbitChange::kReturn;
   }
 
  private:

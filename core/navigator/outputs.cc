@@ -42,6 +42,8 @@ std::string_view to_string(EventKind kind) {
       return "improbable";
     case EventKind::kOrbitFallback:
       return "orbit_fallback";
+    case EventKind::kOrbitReturn:
+      return "orbit_return";
   }
   return "unknown";
 }

@@ -97,6 +97,7 @@ enum class EventKind : std::uint8_t {
   kCapacity = 8,        // a fixed table was full; code says which
   kImprobable = 9,      // code: 0 codes, 1 Dopplers; value: innovations over their sigmas
   kOrbitFallback = 10,  // precise state lost, broadcast serves; code: system, value: number
+  kOrbitReturn = 11,    // a precise state serves where broadcast did; likewise
 };
 std::string_view to_string(EventKind kind);
 

@@ -65,7 +65,19 @@ inline std::vector<Ephemeris> walker_ephemerides(const Walker& walker) {
 
 inline Walker gps_walker() { return {}; }
 inline Walker galileo_walker() { return {System::kGalileo, 3, 10, 29'600e3, 0.977, 0.0005}; }
+inline Walker beidou_walker() { return {System::kBeidou, 3, 13, 27'906e3, 0.96, 0.0005}; }
 inline Walker leo_walker() { return {System::kLeo, 13, 14, 7'478e3, 0.96, 0.001}; }
+
+// As a product tells it: the relativistic part of the orbit's eccentricity is left to the user.
+inline PreciseState product_node(const Ephemeris& ephemeris, GpsTime time) {
+  const SatelliteState state = broadcast_state(ephemeris, time);
+  PreciseState node;
+  node.satellite = ephemeris.satellite;
+  node.time = time;
+  node.p_e = state.p_e;
+  node.clock_s = state.clock_s + 2.0 * state.p_e.dot(state.v_e) / (kSpeedOfLight * kSpeedOfLight);
+  return node;
+}
 
 struct SimulatedSky {
   SatelliteCatalog catalog{CatalogOptions{}};

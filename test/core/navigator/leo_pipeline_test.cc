@@ -10,17 +10,6 @@
 namespace leonav::test {
 namespace {
 
-// As a product tells it: the relativistic part of the orbit's eccentricity is left to the user.
-PreciseState node_of(const Ephemeris& ephemeris, GpsTime time) {
-  const SatelliteState state = broadcast_state(ephemeris, time);
-  PreciseState node;
-  node.satellite = ephemeris.satellite;
-  node.time = time;
-  node.p_e = state.p_e;
-  node.clock_s = state.clock_s + 2.0 * state.p_e.dot(state.v_e) / (kSpeedOfLight * kSpeedOfLight);
-  return node;
-}
-
 bool is_leo(SatelliteId id) { return id.system == System::kLeo; }
 
 TEST_CASE("LEO satellites known by precise states alone take part in the whole pipeline") {
@@ -44,7 +33,7 @@ TEST_CASE("LEO satellites known by precise states alone take part in the whole p
     for (; next_node_s <= now_s + 180.0; next_node_s += 30.0) {
       PreciseStates nodes;
       for (const Ephemeris& e : leo) {
-        nodes.push_back(node_of(e, kSkyEpoch.plus_seconds(next_node_s)));
+        nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(next_node_s)));
       }
       sequencer.on_precise_states(nodes);
     }
