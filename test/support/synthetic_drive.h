@@ -33,7 +33,7 @@ struct SyntheticDriveOptions {
   Geodetic start = {0.69, 0.14, 300.0};
   Eigen::Vector3d lever_arm_b = {0.4, -0.2, -1.1};
   double clock_s = 2e-5, clock_drift = 5e-8;
-  bool galileo = true, leo = false;
+  bool galileo = true, beidou = false, leo = false;
   // White noise, 1 sigma; zero: none.
   double code_sigma_m = 0.0, doppler_sigma_m_s = 0.0;
   double carrier_sigma_m = -1.0;      // negative: no carriers
@@ -43,6 +43,13 @@ struct SyntheticDriveOptions {
   Eigen::Vector3d gyro_bias_b = Eigen::Vector3d::Zero(), accel_bias_b = Eigen::Vector3d::Zero();
   std::uint64_t seed = 1;
 };
+
+// GPS, Galileo and BeiDou at a place where 32 of their satellites are above 15 degrees.
+inline SyntheticDriveOptions full_sky(SyntheticDriveOptions options) {
+  options.galileo = options.beidou = true;
+  options.start = {-0.209, -1.257, 300.0};
+  return options;
+}
 
 class SyntheticPath {
  public:
@@ -191,6 +198,7 @@ inline std::vector<RawEpoch> synthetic_epochs(const SyntheticDriveOptions& optio
     receiver.clock_s = options.clock_s;
     receiver.clock_drift = options.clock_drift;
     receiver.signals = {{{'1', 'C'}, 45.0}, {{'2', 'W'}, 42.0}, {{'5', 'Q'}, 44.0}};
+    if (options.beidou) receiver.signals.push_back({{'6', 'I'}, 44.0});
     RawEpoch raw = simulate_epoch(sky, receiver, t);
     if (options.carrier_sigma_m >= 0.0)
       carriers.fill(sky, receiver, t, path.state(t).q_eb.toRotationMatrix(), &raw);
@@ -205,6 +213,7 @@ inline SyntheticDrive synthetic_drive(const SyntheticDriveOptions& options = {})
   SimulatedSky sky;
   sky.add(gps_walker());
   if (options.galileo) sky.add(galileo_walker());
+  if (options.beidou) sky.add(beidou_walker());
   if (options.leo) sky.add(leo_walker());
   drive.ephemerides = sky.ephemerides;
   drive.imu = synthetic_imu(options);

@@ -41,11 +41,16 @@ leonav::test::SyntheticDriveOptions noisy(double duration_s, double seed) {
 int body(int argc, char** argv) {
   leonav::Arguments arguments("leonav-synthetic-drive", "--out run.lcmlog --truth truth.csv",
                               "Writes a synthetic drive (figures of eight under GPS and Galileo, "
-                              "open sky) as an LCM log with its truth.");
+                              "open sky; --full-sky: three systems) as an LCM log with its "
+                              "truth.");
   arguments.option("--out", "FILE", "the log")
       .option("--truth", "FILE", "truth.csv, ten rows per second")
       .option("--duration", "S", "length, 60 to 3600", "300")
-      .option("--seed", "N", "of the noise", "1");
+      .option("--seed", "N", "of the noise", "1")
+      .flag("--full-sky", "with BeiDou, where 32 satellites are above 15 degrees")
+      .flag("--carriers", "carrier phases too, with a noise of 2 mm")
+      .option("--slips", "SHARE",
+              "share of a satellite's epochs at which its carriers slip, 0 to 1", "0");
   if (!arguments.parse(argc, argv)) return 0;
   const double duration_s = arguments.number("--duration");
   if (!(duration_s >= 60.0 && duration_s <= 3600.0)) {
@@ -54,7 +59,17 @@ int body(int argc, char** argv) {
   const double seed = arguments.number("--seed");
   if (!(seed >= 0.0 && seed < 1e15)) throw leonav::UsageError("--seed must be 0 to 1e15");
   const std::string out = arguments.required("--out"), truth_path = arguments.required("--truth");
-  const auto drive = leonav::test::synthetic_drive(noisy(duration_s, seed));
+  auto options = noisy(duration_s, seed);
+  if (arguments.has("--full-sky")) options = leonav::test::full_sky(options);
+  if (arguments.has("--carriers")) options.carrier_sigma_m = 0.002;
+  options.slip_probability = arguments.number("--slips");
+  if (!(options.slip_probability >= 0.0 && options.slip_probability <= 1.0)) {
+    throw leonav::UsageError("--slips must be 0 to 1");
+  }
+  if (options.slip_probability > 0.0 && !arguments.has("--carriers")) {
+    throw leonav::UsageError("--slips needs --carriers");
+  }
+  const auto drive = leonav::test::synthetic_drive(options);
 
   leonav::ImportReport report;
   leonav::LogOutput log(out, &report);

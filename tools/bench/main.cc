@@ -1,5 +1,6 @@
 // leonav-bench: how fast the navigator is on this machine, on a log of the user's choice.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -15,7 +16,7 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using leonav::Times;
 
 struct Message {
   leonav::Channel channel;
@@ -47,17 +48,28 @@ Recording load(const std::string& path, const std::string& prefix) {
   return recording;
 }
 
-void print_row(const char* name, const char* unit, std::vector<double> values) {
-  if (values.empty()) {
-    std::printf("%-22s none\n", name);
-    return;
+double at_share(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+// One row for the wall's clock and one for the processor's; returns what 99 % of the latter keep
+// to.
+double print_rows(const char* name, const char* unit, double per_second, const Times& times) {
+  double processor = 0.0;
+  for (const bool wall : {true, false}) {
+    std::vector<double> values = wall ? times.wall_s : times.processor_s;
+    if (values.empty()) {
+      std::printf("%-22s none\n", name);
+      return 0.0;
+    }
+    for (double& value : values) value *= per_second;
+    std::sort(values.begin(), values.end());
+    std::printf("%-22s %8zu  median %9.3f  99 %% %9.3f  99.9 %% %9.3f  worst %9.3f %s\n",
+                wall ? name : "  processor time", values.size(), at_share(values, 0.5),
+                at_share(values, 0.99), at_share(values, 0.999), values.back(), unit);
+    processor = at_share(values, 0.99);
   }
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  std::printf("%-22s %8zu  median %9.3f  99 %% %9.3f  99.9 %% %9.3f  worst %9.3f %s\n", name,
-              values.size(), at(0.5), at(0.99), at(0.999), values.back(), unit);
+  return processor;
 }
 
 double peak_memory_mb() {
@@ -70,6 +82,53 @@ double peak_memory_mb() {
   return 0.0;
 }
 
+// What all runs took, and what the last one used: all use the same.
+struct Bench {
+  Times imu_sample, gnss_epoch;
+  std::vector<double> speeds;
+  std::vector<double> satellites;  // of each epoch, sorted
+  std::uint64_t carriers = 0, slips = 0;
+};
+
+Bench run(const leonav::NavigatorConfig& config, const Recording& recording, int repeats) {
+  Bench bench;
+  for (int i = 0; i < repeats; ++i) {
+    leonav::TimedStages stages(config);
+    stages.imu_sample.reserve(recording.messages.size());
+    leonav::InputDispatch dispatch(stages.sequencer());
+    const auto start = std::chrono::steady_clock::now();
+    for (const Message& message : recording.messages)
+      dispatch.dispatch(message.channel, message.bytes);
+    const auto end = std::chrono::steady_clock::now();
+    bench.speeds.push_back(recording.span_s / std::chrono::duration<double>(end - start).count());
+    bench.imu_sample.append(stages.imu_sample);
+    bench.gnss_epoch.append(stages.gnss_epoch);
+    const leonav::CountingSink& sink = stages.sink();
+    bench.satellites.assign(sink.satellites.begin(), sink.satellites.end());
+    std::sort(bench.satellites.begin(), bench.satellites.end());
+    bench.carriers = sink.carriers;
+    bench.slips = sink.slips;
+    if (bench.satellites.empty()) throw std::runtime_error("the log gave no GNSS epoch");
+    if (sink.solutions == 0 || bench.satellites.back() == 0.0) {
+      throw std::runtime_error("nothing was navigated: " + std::to_string(sink.satellites.size()) +
+                               " epochs, " + std::to_string(sink.solutions) +
+                               " solutions, no satellite used; leonav-replay tells why");
+    }
+  }
+  std::sort(bench.speeds.begin(), bench.speeds.end());
+  return bench;
+}
+
+void require(const leonav::Arguments& arguments, const char* option, bool at_least, double value,
+             const char* what) {
+  if (!arguments.has(option)) return;
+  const double limit = arguments.number(option);
+  if (at_least ? value >= limit : value <= limit) return;
+  throw std::runtime_error(std::string(what) + ": " + std::to_string(value) + ", but " + option +
+                           " asks for at " + (at_least ? "least " : "most ") +
+                           arguments.get(option));
+}
+
 int body(int argc, char** argv) {
   leonav::Arguments arguments("leonav-bench", "--config vehicle.yaml [options] run.lcmlog",
                               "Feeds a log's inputs through the navigator in one thread and prints "
@@ -77,48 +136,41 @@ int body(int argc, char** argv) {
                               "milliseconds per GNSS epoch, replay speed and peak memory.");
   arguments.option("--config", "FILE", "the vehicle's configuration")
       .option("--set", "GROUP.KEY=VALUE", "override one key of it; may be repeated")
-      .option("--repeat", "N", "runs over the log; times of all runs are pooled", "3");
+      .option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
+      .option("--max-imu-us", "US",
+              "fail unless 99 % of the IMU samples take at most so much processor time")
+      .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
+      .option("--min-satellites", "N", "fail unless half of the epochs use so many");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) throw leonav::UsageError("give one log (--help)");
-  const int repeats = static_cast<int>(arguments.number("--repeat"));
-  if (repeats < 1) throw leonav::UsageError("--repeat must be at least 1");
-
+  const double repeats = arguments.number("--repeat");
+  if (!(repeats >= 1.0 && repeats <= 1000.0)) {
+    throw leonav::UsageError("--repeat must be 1 to 1000");
+  }
   const leonav::DaemonConfig config =
       leonav::load_config(arguments.required("--config"), arguments.all("--set"));
   const Recording recording = load(arguments.positional()[0], config.lcm.prefix);
+  const Bench bench = run(config.navigator, recording, static_cast<int>(repeats));
 
-  std::vector<double> imu_us, epoch_ms, speeds;
-  std::uint64_t epochs = 0, satellites = 0, solutions = 0;
-  for (int i = 0; i < repeats; ++i) {
-    leonav::TimedStages stages(config.navigator);
-    stages.imu_sample_us.reserve(recording.messages.size());
-    leonav::InputDispatch dispatch(stages.sequencer());
-    const Clock::time_point start = Clock::now();
-    for (const Message& message : recording.messages)
-      dispatch.dispatch(message.channel, message.bytes);
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-    speeds.push_back(recording.span_s / elapsed_s);
-    imu_us.insert(imu_us.end(), stages.imu_sample_us.begin(), stages.imu_sample_us.end());
-    epoch_ms.insert(epoch_ms.end(), stages.gnss_epoch_ms.begin(), stages.gnss_epoch_ms.end());
-    epochs = stages.sink().epochs;
-    satellites = stages.sink().satellites;
-    solutions = stages.sink().solutions;
-  }
-  if (epochs == 0) throw std::runtime_error("the log gave no GNSS epoch");
-  if (solutions == 0 || satellites == 0) {
-    throw std::runtime_error("nothing was navigated: " + std::to_string(epochs) + " epochs, " +
-                             std::to_string(satellites) + " satellites used, " +
-                             std::to_string(solutions) + " solutions; leonav-replay tells why");
-  }
-  std::printf("%zu inputs over %.1f s, %d runs, %.1f satellites used per epoch\n",
-              recording.messages.size(), recording.span_s, repeats,
-              static_cast<double>(satellites) / static_cast<double>(epochs));
-  print_row("IMU sample", "us", imu_us);
-  print_row("GNSS epoch", "ms", epoch_ms);
-  std::sort(speeds.begin(), speeds.end());
+  const double epochs = static_cast<double>(bench.satellites.size());
+  const double satellites = at_share(bench.satellites, 0.5);
+  std::printf("%zu inputs over %.1f s, %.0f runs\n", recording.messages.size(), recording.span_s,
+              repeats);
+  std::printf(
+      "%-22s %8.0f  satellites used: median %.0f, most %.0f; carriers used %.1f, arcs "
+      "ended %.2f per epoch\n",
+      "epochs of a run", epochs, satellites, bench.satellites.back(),
+      static_cast<double>(bench.carriers) / epochs, static_cast<double>(bench.slips) / epochs);
+  const double imu_us = print_rows("IMU sample", "us", 1e6, bench.imu_sample);
+  const double epoch_ms = print_rows("GNSS epoch", "ms", 1e3, bench.gnss_epoch);
   std::printf("%-22s %.0f times real time (median run, decoding included)\n", "replay",
-              speeds[speeds.size() / 2]);
+              bench.speeds[bench.speeds.size() / 2]);
   std::printf("%-22s %.1f MB, the log in memory included\n", "peak memory", peak_memory_mb());
+  require(arguments, "--min-satellites", true, satellites, "satellites used, median");
+  require(arguments, "--max-imu-us", false, imu_us,
+          "processor time of 99 % of the IMU samples, us");
+  require(arguments, "--max-epoch-ms", false, epoch_ms,
+          "processor time of 99 % of the GNSS epochs, ms");
   return 0;
 }
 

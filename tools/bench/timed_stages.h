@@ -1,25 +1,32 @@
 // The navigator's stages run in one thread with a stopwatch on each.
 #pragma once
-#include <chrono>
 #include <vector>
 
 #include "core/navigator/gnss_stage.h"
 #include "core/navigator/inertial_navigator.h"
 #include "core/navigator/sequencer.h"
+#include "stopwatch.h"
 
 namespace leonav {
 
-// Takes outputs and forgets them: the bench times the navigator, not the disk.
-class NullSink final : public OutputSink {
+// Takes outputs and keeps counts: the bench times the navigator, not the disk.
+class CountingSink final : public OutputSink {
  public:
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
-    ++epochs;
-    satellites += static_cast<std::uint64_t>(report.satellites_used);
+    satellites.push_back(report.satellites_used);
+    for (const SatelliteReport& satellite : report.satellites) {
+      if (satellite.arc_started && satellite.arc_causes.any()) ++slips;
+    }
+    for (const AidingReport& aiding : report.aiding) {
+      if (aiding.observable == Observable::kCarrier && aiding.reason == Reason::kUsed) ++carriers;
+    }
   }
   void on_event(const Event&) override {}
   void on_decision(const Decision&) override {}
-  std::uint64_t solutions = 0, epochs = 0, satellites = 0;
+
+  std::vector<int> satellites;  // used, of each epoch
+  std::uint64_t solutions = 0, carriers = 0, slips = 0;
 };
 
 class TimedStages final : private StageInputs {
@@ -30,31 +37,26 @@ class TimedStages final : private StageInputs {
         sequencer_(config, this) {}
 
   Sequencer* sequencer() { return &sequencer_; }
-  const NullSink& sink() const { return sink_; }
+  const CountingSink& sink() const { return sink_; }
 
-  std::vector<double>
-      imu_sample_us;  // one inertial tick, commits with their re-propagation included
-  std::vector<double> gnss_epoch_ms;  // preprocessing, prediction over the block, update, report
+  Times imu_sample;  // one inertial tick, commits with their re-propagation included
+  Times gnss_epoch;  // prediction over the block, preprocessing, slip checks, update, report
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static double since_us(Clock::time_point start) {
-    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-  }
   void open_epoch(std::uint64_t index) override { mailbox_.open(index); }
   void push_inertial(const InertialWork& work) override {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     inertial_.process(work);
-    if (std::holds_alternative<ImuSample>(work)) imu_sample_us.push_back(since_us(start));
+    if (std::holds_alternative<ImuSample>(work)) watch.stop(&imu_sample);
   }
   void push_gnss(const GnssWork& work) override {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     gnss_.process(work);
-    if (std::holds_alternative<EpochWork>(work)) gnss_epoch_ms.push_back(since_us(start) * 1e-3);
+    if (std::holds_alternative<EpochWork>(work)) watch.stop(&gnss_epoch);
   }
   void event(const Event&) override {}
 
-  NullSink sink_;
+  CountingSink sink_;
   TimedMailbox<EkfUpdate> mailbox_;
   InertialNavigator inertial_;
   GnssStage gnss_;

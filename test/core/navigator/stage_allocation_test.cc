@@ -1,4 +1,5 @@
 // No heap allocation with a full sky, precise orbits coming in and every kind of reset.
+#include <array>
 #include <cmath>
 
 #include "stage_drive.h"
@@ -10,7 +11,7 @@ namespace {
 
 struct CountingSink : OutputSink {
   std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
-              carriers = 0;
+              carriers = 0, epochs_of_30 = 0;
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
     ++epochs;
@@ -19,8 +20,17 @@ struct CountingSink : OutputSink {
       if (s.source == OrbitSource::kPrecise && s.reason == Reason::kUsed) ++precise;
       if (s.arc_started) ++arcs;
     }
-    for (const AidingReport& a : report.aiding)
-      carriers += a.observable == Observable::kCarrier && a.reason == Reason::kUsed ? 1 : 0;
+    std::size_t here = 0;
+    std::array<bool, kSystemCount> systems{};
+    for (const AidingReport& a : report.aiding) {
+      if (a.observable != Observable::kCarrier || a.reason != Reason::kUsed) continue;
+      ++here;
+      systems[index_of(a.satellite.system)] = true;
+    }
+    carriers += here;
+    const bool three = systems[index_of(System::kGps)] && systems[index_of(System::kGalileo)] &&
+                       systems[index_of(System::kBeidou)];
+    if (here >= 30 && three) ++epochs_of_30;
   }
   void on_event(const Event& event) override {
     if (event.kind == EventKind::kFilterReset) ++resets;
@@ -116,6 +126,29 @@ TEST_CASE(
     CHECK(sink.carriers > 1000);
     CHECK(sink.arcs > 60);
   }
+}
+
+// The sky that leonav-bench measures: tools/speed.
+TEST_CASE("thirty satellites of three systems on two frequencies, 200 Hz IMU: no allocation") {
+  SyntheticDriveOptions options = full_sky({});
+  options.duration_s = 60.0;
+  options.code_sigma_m = 0.5;
+  options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.002;
+  options.slip_probability = 0.02;
+  const SyntheticDrive drive = synthetic_drive(options);
+  CountingSink sink;
+  Pipeline pipeline(full_config(MotionModel::kInertial), &sink);
+  Sequencer& sequencer = pipeline.sequencer();
+  start_counting_allocations();
+  feed(
+      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
+      [&](const ImuSample& s) { sequencer.on_imu(s); },
+      [&](const RawEpoch& raw) { sequencer.on_raw_epoch(raw); });
+  CHECK(stop_counting_allocations() == 0);
+  CHECK(sink.epochs == 59);
+  CHECK(sink.epochs_of_30 >= 50);
+  CHECK(sink.arcs > 60);
 }
 
 }  // namespace
