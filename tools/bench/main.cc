@@ -147,6 +147,9 @@ int body(int argc, char** argv) {
   if (!(repeats >= 1.0 && repeats <= 1000.0)) {
     throw leonav::UsageError("--repeat must be 1 to 1000");
   }
+  for (const char* limit : {"--max-imu-us", "--max-epoch-ms", "--min-satellites"}) {
+    if (arguments.has(limit)) arguments.number(limit);  // refused before the long run, not after
+  }
   const leonav::DaemonConfig config =
       leonav::load_config(arguments.required("--config"), arguments.all("--set"));
   const Recording recording = load(arguments.positional()[0], config.lcm.prefix);
