@@ -139,12 +139,8 @@ TEST_CASE("thirty satellites of three systems on two frequencies, 200 Hz IMU: no
   const SyntheticDrive drive = synthetic_drive(options);
   CountingSink sink;
   Pipeline pipeline(full_config(MotionModel::kInertial), &sink);
-  Sequencer& sequencer = pipeline.sequencer();
   start_counting_allocations();
-  feed(
-      drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
-      [&](const ImuSample& s) { sequencer.on_imu(s); },
-      [&](const RawEpoch& raw) { sequencer.on_raw_epoch(raw); });
+  feed(drive, &pipeline);
   CHECK(stop_counting_allocations() == 0);
   CHECK(sink.epochs == 59);
   CHECK(sink.epochs_of_30 >= 50);
