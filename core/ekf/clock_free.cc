@@ -1,6 +1,7 @@
 #include "core/ekf/clock_free.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/ekf/median.h"
 
@@ -9,7 +10,8 @@ namespace {
 
 using namespace ekf_index;
 
-constexpr double kUnknownAmbiguity = 1e4;  // m^2
+// Fewer are mostly what their own median is: they tell nothing.
+constexpr std::size_t kMinOfBase = 4;
 
 // H_a P H_b^T of two measurements.
 double predicted_covariance(const FilterMeasurement& a, const FilterMeasurement& b,
@@ -61,22 +63,47 @@ void take_out_middle_one(const FilterMeasurements& measurements, const EkfCovari
   }
 }
 
+std::size_t base_of(const FilterMeasurement& measurement) {
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    const auto i = static_cast<Eigen::Index>(base);
+    if (measurement.row(kClock + i) != 0.0 || measurement.row(kClockDrift + i) != 0.0) return base;
+  }
+  return 0;
+}
+
+// The entries of bases that have few go to the one that has most.
+void join_small(std::array<ClockFreeTable, kMaxTimeBases>* of_base) {
+  const auto largest = std::max_element(
+      of_base->begin(), of_base->end(),
+      [](const ClockFreeTable& a, const ClockFreeTable& b) { return a.size() < b.size(); });
+  for (ClockFreeTable& entries : *of_base) {
+    if (&entries == &*largest || entries.size() >= kMinOfBase) continue;
+    largest->insert(largest->end(), entries.begin(), entries.end());
+    entries.clear();
+  }
+}
+
 }  // namespace
 
 ClockFreeTable clock_free(const FilterMeasurements& measurements, Observable observable,
                           const EkfCovariance& covariance) {
-  ClockFreeTable table;
+  std::array<ClockFreeTable, kMaxTimeBases> of_base;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const FilterMeasurement& m = measurements[i];
     if (m.observable != observable) continue;
     if (m.ambiguity >= 0 && covariance(m.ambiguity, m.ambiguity) >= kUnknownAmbiguity) continue;
-    table.push_back({i, m.innovation, 0.0, m.variance});
+    of_base[base_of(m)].push_back({i, m.innovation, 0.0, m.variance});
   }
-  if (table.empty()) return table;
-  if (observable == Observable::kCarrier)
-    take_out_middle_one(measurements, covariance, &table);
-  else
-    take_out_median(measurements, covariance, &table);
+  join_small(&of_base);
+  ClockFreeTable table;
+  for (ClockFreeTable& entries : of_base) {
+    if (entries.empty()) continue;
+    if (observable == Observable::kCarrier)
+      take_out_middle_one(measurements, covariance, &entries);
+    else
+      take_out_median(measurements, covariance, &entries);
+    table.insert(table.end(), entries.begin(), entries.end());
+  }
   return table;
 }
 

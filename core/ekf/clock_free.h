@@ -17,8 +17,13 @@ struct ClockFree {
 };
 using ClockFreeTable = boost::container::static_vector<ClockFree, kMaxMeasurements>;
 
-// Those of one observable. Carriers whose ambiguity is as good as unknown are left out: they agree
-// with everything.
+// An ambiguity of this variance or more, m^2, is as good as unknown: one that begins at this epoch.
+inline constexpr double kUnknownAmbiguity = 1e4;
+
+// Those of one observable. Each time base with four of them or more is free of its own clock: a
+// step of one is then no wrong position. What the others have goes with the largest base, or, where
+// no base has four, they all go together. Carriers whose ambiguity is as good as unknown are left
+// out: they agree with everything.
 ClockFreeTable clock_free(const FilterMeasurements& measurements, Observable observable,
                           const EkfCovariance& covariance);
 

@@ -95,6 +95,8 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   }
   last_update_ = time;
   contradicted_ = false;
+  base_apart_m_ = {};
+  locked_out_ = {};
   has_attitude_ = false;
   initialized_ = true;
 }

@@ -12,6 +12,7 @@
 #include "core/ekf/ins_transition.h"
 #include "core/ekf/measurement_model.h"
 #include "core/ekf/robust_update.h"
+#include "core/gnss/common_step.h"
 #include "core/gnss/measurement.h"
 #include "core/gnss/point_solution.h"
 #include "core/ins/bridge.h"
@@ -51,8 +52,10 @@ struct EkfUpdateResult {
   // The measurements agreed with each other but not with the prediction. Ranges: left out, and at
   // the second such epoch in a row, like Dopplers at once, believed: the covariance was widened.
   bool prediction_suspect = false;
-  double clock_jump_m =
-      0.0;  // common shift of all code innovations taken up by the clocks; 0: none
+  // Steps that the clocks' noise does not hold, taken up by the clocks; 0: none.
+  double clock_jump_m = 0.0;                        // of all codes
+  double code_step_m = 0.0;                         // that part of it which no carrier made
+  std::array<double, kMaxTimeBases> base_step_m{};  // of one time base beyond it
   boost::container::static_vector<InnovationReport, kMaxMeasurements> innovations;
 };
 
@@ -116,11 +119,18 @@ class Ekf {
                    const FilterMeasurement& entry, GpsTime time);
   void disturb_ambiguities(const MeasurementEpoch& epoch);
   void close_carrier(const FilterMeasurement& measurement, GpsTime time, EkfUpdateResult* result);
-  void shift_ambiguities(double shift_m);
-  void take_up_clock_jump(EkfUpdateResult* result);
-  bool start_clocks(const MeasurementEpoch& epoch);
+  double take_up_code_step(const MeasurementEpoch& epoch, int base, const CommonStep& step);
+  void take_up_clock_step(const MeasurementEpoch& epoch, int base, const CommonStep& step);
+  void take_up_clock_jump(const MeasurementEpoch& epoch, EkfUpdateResult* result);
+  void take_up_base_steps(const MeasurementEpoch& epoch, EkfUpdateResult* result);
+  void take_up_clock_steps(const MeasurementEpoch& epoch, EkfUpdateResult* result);
+  bool start_clocks(const MeasurementEpoch& epoch, EkfUpdateResult* result);
   void check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* result);
-  void close(const RobustUpdateResult& update, GpsTime time, EkfUpdateResult* result);
+  void close(const RobustUpdateResult& update, const MeasurementEpoch& epoch,
+             EkfUpdateResult* result);
+  void watch_bases(const std::array<int, kMaxTimeBases>& offered,
+                   const std::array<int, kMaxTimeBases>& accepted);
+  void forget_locked_out_bases();
   void leave_out_ranges();
   void forget_ambiguities();
   void apply(const EkfCorrection& correction);
@@ -149,7 +159,10 @@ class Ekf {
   boost::container::static_vector<Skipped, kMaxMeasurements> skipped_;  // of those offered
   RobustUpdate robust_update_;
   int arcs_without_place_ = 0;  // in the epoch at hand
-  bool contradicted_ = false;   // the last epoch's ranges, by a prediction that they agree against
+  // By which the last epoch's codes of a base were apart from the others'; 0: not.
+  std::array<double, kMaxTimeBases> base_apart_m_{};
+  std::array<int, kMaxTimeBases> locked_out_{};  // epochs in a row without a code accepted
+  bool contradicted_ = false;  // the last epoch's ranges, by a prediction that they agree against
   bool initialized_ = false;
   bool has_attitude_ = false;
 };

@@ -72,7 +72,10 @@ void GnssStage::process_epoch(const EpochWork& work) {
   }
   ekf_.predict({work.block.data(), work.block.size()}, work.time);
   drop_broken_filter(work.time);
-  if (!work.empty) use_measurements(work);
+  if (!work.empty) {
+    use_measurements(work);
+    watch_usable();
+  }
   drop_broken_filter(work.time);
   if (gnss_used_) {
     last_gnss_time_ = work.time;
@@ -186,6 +189,7 @@ void GnssStage::update_filter(const EpochWork& work) {
   gnss_used_ = result.used > 0;
   report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
   watch_consistency(work, result);
+  watch_clocks(result, work.time);
   judge_prediction(work, result);
 }
 

@@ -18,6 +18,7 @@
 #include "core/navigator/orbit_watch.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
+#include "core/navigator/usable_watch.h"
 
 namespace leonav {
 
@@ -52,6 +53,8 @@ class GnssStage {
   void drop_broken_filter(GpsTime time);
   void drop_filter(GpsTime time);
   void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
+  void watch_clocks(const EkfUpdateResult& result, GpsTime time);
+  void watch_usable();
   bool contradicts(const PointSolution& point, bool motion) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
@@ -84,6 +87,8 @@ class GnssStage {
   std::uint64_t next_report_ = 1, next_solution_ = 1;
   std::array<ConsistencyWatch, 2> consistency_;  // codes, Dopplers
   OrbitWatch orbit_watch_;
+  UsableWatch usable_watch_;
+  std::uint64_t clock_steps_ = 0;
   std::uint64_t orbit_fallbacks_ = 0, orbit_returns_ = 0;
   int suspect_epochs_ = 0;
   bool gnss_used_ = false;  // in the epoch at hand

@@ -66,6 +66,28 @@ void GnssStage::watch_consistency(const EpochWork& work, const EkfUpdateResult& 
   }
 }
 
+// Nothing is lost by a step that has been taken up; but whoever uses the receiver's time wants to
+// know, and so does whoever wonders why arcs ended.
+void GnssStage::watch_clocks(const EkfUpdateResult& result, GpsTime time) {
+  const auto tell = [&](std::size_t code, double step_m) {
+    if (step_m == 0.0) return;
+    // Thinned, like the orbits': some receivers' clocks step every second.
+    if (++clock_steps_ > 16 && clock_steps_ % 256 != 0) return;
+    events_.emit(EventKind::kClockStep, static_cast<std::uint8_t>(code), step_m, time);
+  };
+  tell(static_cast<std::size_t>(ClockStep::kReceiver), result.clock_jump_m - result.code_step_m);
+  tell(static_cast<std::size_t>(ClockStep::kCodes), result.code_step_m);
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base)
+    tell(static_cast<std::size_t>(ClockStep::kFirstSystem) + base, result.base_step_m[base]);
+}
+
+void GnssStage::watch_usable() {
+  const auto finding = usable_watch_.add({report_->satellites.data(), report_->satellites.size()});
+  if (finding)
+    events_.emit(EventKind::kNoneUsable, static_cast<std::uint8_t>(finding->reason),
+                 finding->satellites, last_epoch_time_);
+}
+
 // Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
 // solution is asked before it is believed, and must have been checked itself: where it agrees with
 // the filter, the measurements are to blame.

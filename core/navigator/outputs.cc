@@ -44,6 +44,10 @@ std::string_view to_string(EventKind kind) {
       return "orbit_fallback";
     case EventKind::kOrbitReturn:
       return "orbit_return";
+    case EventKind::kClockStep:
+      return "clock_step";
+    case EventKind::kNoneUsable:
+      return "none_usable";
   }
   return "unknown";
 }

@@ -98,8 +98,17 @@ enum class EventKind : std::uint8_t {
   kImprobable = 9,      // code: 0 codes, 1 Dopplers; value: innovations over their sigmas
   kOrbitFallback = 10,  // precise state lost, broadcast serves; code: system, value: number
   kOrbitReturn = 11,    // a precise state serves where broadcast did; likewise
+  kClockStep = 12,      // of a clock, beyond its noise; code: ClockStep, value: metres
+  kNoneUsable = 13,  // all satellites left out, epoch after epoch; code: Reason, value: satellites
 };
 std::string_view to_string(EventKind kind);
+
+// Codes of EventKind::kClockStep. On the wire: append only.
+enum class ClockStep : std::uint8_t {
+  kReceiver = 0,     // of all codes and carriers
+  kCodes = 1,        // of all codes against the carriers
+  kFirstSystem = 16  // and on, by System: of that system's codes against the others'
+};
 
 // Codes of EventKind::kFilterReset: of the Sequencer's (kTimeBase), the GNSS stage's (any), and the
 // inertial stage's (kNotFinite: it waits for the next anchor).

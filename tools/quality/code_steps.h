@@ -13,9 +13,9 @@ namespace leonav {
 
 class CodeSteps {
  public:
-  // Takes the steps so far, this epoch's included, out of its codes. A step: the median change of
-  // code minus carrier since the epoch before, if it is 8 to 1000 m, of five signals at least, and
-  // more than half of them are within 8 m of it.
+  // Takes the steps so far, this epoch's included, out of its codes. A step: what
+  // find_common_step(), as in the filter, finds in the signals' changes of code minus carrier since
+  // the epoch before, if it is less than 1000 m.
   void repair(RawEpoch* epoch);
   std::uint64_t count() const { return count_; }
 
