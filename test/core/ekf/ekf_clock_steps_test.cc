@@ -131,8 +131,9 @@ TEST_CASE(
         CHECK(outcome.forgotten == 0);
         CHECK(outcome.slipped == 0);
         CHECK(outcome.arcs == 8);
-        // By the clock of either: a vague prediction may take the 5 m without a step.
-        if (!vague) CHECK(std::abs(outcome.base_step_m) == Approx(std::abs(step_m)).margin(3.0));
+        // Below 15 sigma, or with a vague prediction, the update may have followed by itself.
+        if (!vague && std::abs(step_m) > 5.0)
+          CHECK(std::abs(outcome.base_step_m) == Approx(std::abs(step_m)).margin(3.0));
       }
     }
   }
