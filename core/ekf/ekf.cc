@@ -18,10 +18,9 @@ using namespace ekf_index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSubBlock = 0.0245;        // s; the covariance moves once per so much IMU data
-constexpr double kUnknownVelocity = 50.0;   // m/s, 1 sigma where the point solution has none
-constexpr double kUnknownDrift = 300.0;     // m/s, 1 sigma: an oscillator off by 1 ppm
-constexpr double kStandstillAverage = 1.0;  // s of gyro data behind a known gyro bias, at least
+constexpr double kSubBlock = 0.0245;       // s; the covariance moves once per so much IMU data
+constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
+constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
 
 double square(double x) { return x * x; }
 
@@ -102,14 +101,11 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
 }
 
 void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
-                       const Vector3d& gyro_bias_b, bool gyro_bias_known) {
+                       const Vector3d& gyro_bias_b, double gyro_bias_sigma) {
   ImuErrors errors;
-  if (gyro_bias_known) errors.gyro_bias_b = gyro_bias_b;
-  const double averaged = imu_.angle_random_walk / std::sqrt(kStandstillAverage);
-  const double gyro_bias =
-      gyro_bias_known ? std::min(imu_.gyro_bias.sigma, averaged) : imu_.gyro_bias.sigma;
+  errors.gyro_bias_b = gyro_bias_b;
   ImuErrorCovariance covariance = ImuErrorCovariance::Zero();
-  covariance.diagonal() << Vector3d::Constant(square(gyro_bias)),
+  covariance.diagonal() << Vector3d::Constant(square(gyro_bias_sigma)),
       Vector3d::Constant(square(imu_.accel_bias.sigma)),
       Vector3d::Constant(square(imu_.gyro_scale.sigma)),
       Vector3d::Constant(square(imu_.accel_scale.sigma));

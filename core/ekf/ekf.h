@@ -72,7 +72,7 @@ class Ekf {
   // Goes over to the inertial model: attitude and gyro bias given, covariance of position, velocity
   // and clocks kept; position moves from antenna to IMU centre by the lever arm.
   void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
-                    const Eigen::Vector3d& gyro_bias_b, bool gyro_bias_known);
+                    const Eigen::Vector3d& gyro_bias_b, double gyro_bias_sigma);
   // The same with all that is known of the IMU's errors, e.g. by a filter before a restart.
   void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
                     const ImuErrors& errors, const ImuErrorCovariance& covariance);

@@ -34,16 +34,12 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
 
 }  // namespace
 
-Alignment::Alignment(const AlignmentConfig& config) : config_(config) {}
+Alignment::Alignment(const AlignmentConfig& config, const ImuErrorModel& imu)
+    : config_(config), imu_(imu), unconfirmed_(imu), standing_(imu) {}
 
-void Alignment::reset() { *this = Alignment(config_); }
+void Alignment::reset() { *this = Alignment(config_, imu_); }
 
 bool Alignment::levelled() const { return levelled_for_s_ > 0.0; }
-
-Eigen::Vector3d Alignment::standing_rate() const {
-  if (standing_.seconds <= 0.0) return Eigen::Vector3d::Zero();
-  return standing_.angle / standing_.seconds;
-}
 
 void Alignment::add(const ImuSample& sample) {
   if (last_sample_.interval_ns > 0 && sample.start() > last_sample_.time) {
@@ -55,7 +51,7 @@ void Alignment::add(const ImuSample& sample) {
 }
 
 void Alignment::follow(const ImuSample& sample) {
-  const Eigen::Vector3d turn = sample.delta_theta_b - standing_rate() * sample.interval_s();
+  const Eigen::Vector3d turn = sample.delta_theta_b - standing_.rate_b() * sample.interval_s();
   q_lb_ = (q_lb_ * quaternion_from_rotation_vector(turn)).normalized();
   if (levelled()) {
     level_on(sample);
@@ -88,8 +84,7 @@ void Alignment::level_on(const ImuSample& sample) {
   const Eigen::Vector3d velocity_l = q_lb_ * sample.delta_velocity_b;
   // The standstill ends with the first push, not with the window that notices it.
   const bool pushed = std::hypot(velocity_l.x(), velocity_l.y()) > config_.static_accel_m_s2 * dt;
-  const double moving =
-      standing_.seconds > 0.0 ? kMovingKnownBiasTimeConstant_s : kMovingTimeConstant_s;
+  const double moving = standing_.known() ? kMovingKnownBiasTimeConstant_s : kMovingTimeConstant_s;
   const double time_constant = still_ && !pushed ? kStillTimeConstant_s : moving;
   const double gain = 1.0 / (kGravity * std::min(time_constant, levelled_for_s_));
   Eigen::Vector3d correction = -gain * velocity_l.cross(kDown);
@@ -109,21 +104,21 @@ void Alignment::watch_for_standstill(const ImuSample& sample) {
   const double variance = window_.force_squared / window_.seconds - force.squaredNorm();
   still_ = variance < config_.static_accel_m_s2 * config_.static_accel_m_s2 &&
            window_.angle.norm() < config_.static_gyro_rad_s * window_.seconds;
-  if (still_) {
-    if (unconfirmed_.seconds > kMaxUnconfirmed_s) unconfirmed_ = Sums();
-    unconfirmed_.seconds += window_.seconds;
-    unconfirmed_.angle += window_.angle;
+  const Eigen::Vector3d rate = window_.angle / window_.seconds;
+  if (still_ && standing_.is_plausible(rate, window_.seconds)) {
+    if (unconfirmed_.seconds() > kMaxUnconfirmed_s) unconfirmed_.clear();
+    unconfirmed_.add(rate, window_.seconds);
   }
   window_ = Sums();
 }
 
 void Alignment::confirm_standstill(double speed_3d, double sigma_v) {
-  if (may_stand(speed_3d, sigma_v, config_.min_course_speed_m_s)) {
-    standing_.seconds += unconfirmed_.seconds;
-    standing_.angle += unconfirmed_.angle;
+  const bool stood = unconfirmed_.seconds() > 0.0;
+  if (stood && may_stand(speed_3d, sigma_v, config_.min_course_speed_m_s)) {
+    standing_.add(unconfirmed_);
     standing_q_lb_ = q_lb_;
   }
-  unconfirmed_ = Sums();
+  unconfirmed_.clear();
 }
 
 void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw) {
@@ -167,13 +162,14 @@ std::optional<AlignedAttitude> Alignment::attitude(
   AlignedAttitude aligned;
   aligned.q_eb = (q_en * Eigen::Quaterniond(rotation_from_euler(angles))).normalized();
   aligned.sigma_rpy << config_.levelling_sigma, config_.levelling_sigma, heading_sigma;
-  if (standing_.seconds >= kStandstillWindow_s) {
+  aligned.gyro_bias_sigma = standing_.sigma();
+  if (standing_.known()) {
     // What stood still turned with the Earth: that is not the gyros' error.
     const Eigen::Quaterniond q_eb_standing =
         q_en * quaternion_from_rotation_vector(turn_l * kDown) * standing_q_lb_;
     const Eigen::Vector3d omega_ie_b =
         q_eb_standing.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-    aligned.gyro_bias_b = standing_rate() - omega_ie_b;
+    aligned.gyro_bias_b = standing_.rate_b() - omega_ie_b;
     aligned.gyro_bias_known = true;
   }
   return aligned;

@@ -7,7 +7,9 @@
 #include "core/ins/course_window.h"
 #include "core/ins/given_heading.h"
 #include "core/ins/imu.h"
+#include "core/ins/imu_error_model.h"
 #include "core/ins/nav_state.h"
+#include "core/ins/standing_rate.h"
 
 namespace leonav {
 
@@ -23,8 +25,8 @@ struct AlignmentConfig {
   std::optional<double> initial_heading;
   double initial_heading_sigma = 0.087;  // rad
   double levelling_sigma = 0.035;        // rad, roll and pitch after levelling
-  double static_gyro_rad_s = 0.05;  // mean rate below this while standing: also gives the gyro bias
-  double static_accel_m_s2 = 0.3;   // spread of the specific force below this while standing
+  double static_gyro_rad_s = 0.05;       // mean rate below this while standing
+  double static_accel_m_s2 = 0.3;        // spread of the specific force below this while standing
 };
 
 struct AlignedAttitude {
@@ -33,6 +35,7 @@ struct AlignedAttitude {
   Eigen::Vector3d gyro_bias_b =
       Eigen::Vector3d::Zero();  // rad/s, zero unless a standstill gave one
   bool gyro_bias_known = false;
+  double gyro_bias_sigma = 0.0;  // rad/s, per axis
 };
 
 // Follows the attitude with the heading unknown: the gyros turn it, the specific force levels it.
@@ -42,7 +45,7 @@ struct AlignedAttitude {
 // sideways cannot be told from one forward and aligns wrongly by the angle between.
 class Alignment {
  public:
-  explicit Alignment(const AlignmentConfig& config);
+  Alignment(const AlignmentConfig& config, const ImuErrorModel& imu);
   void reset();
   // Samples in order of time. A short hole between two is bridged (core/ins/bridge.h); what went on
   // in a longer one nobody knows: everything starts anew.
@@ -70,21 +73,21 @@ class Alignment {
   void level_at_first(const ImuSample& sample);
   void level_on(const ImuSample& sample);
   void watch_for_standstill(const ImuSample& sample);
-  Eigen::Vector3d standing_rate() const;
   void confirm_standstill(double speed_3d, double sigma_v);
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
 
   AlignmentConfig config_;
+  ImuErrorModel imu_;
   ImuSample last_sample_;  // as measured; interval 0: none yet
   // Body to local level, heading arbitrary.
   Eigen::Quaterniond q_lb_ = Eigen::Quaterniond::Identity();
   double levelled_for_s_ = 0.0;
   Eigen::Vector3d first_velocity_l_ = Eigen::Vector3d::Zero();  // before levelling: sum of C dv
   double first_s_ = 0.0;
-  Sums window_;         // the current second
-  bool still_ = false;  // the last whole window looked like a standstill
-  Sums unconfirmed_;    // still windows since the last velocity
-  Sums standing_;       // still windows that a velocity confirmed
+  Sums window_;               // the current second
+  bool still_ = false;        // the last whole window looked like a standstill
+  StandingRate unconfirmed_;  // still windows since the last velocity
+  StandingRate standing_;     // still windows that a velocity confirmed
   Eigen::Quaterniond standing_q_lb_ = Eigen::Quaterniond::Identity();  // the attitude then
   CourseWindow courses_{config_.course_window_s};
   struct Heading {

@@ -38,7 +38,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       catalog_(config.gnss.catalog),
       carriers_(config.gnss.cycle_slips),
       ekf_(config.ekf, config.imu, config.vehicle.lever_arm_b),
-      alignment_(config.alignment),
+      alignment_(config.alignment, config.imu),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()) {
@@ -217,7 +217,7 @@ void GnssStage::align(const EpochWork& work) {
   if (!aligned) return;
   given_heading_.use();
   ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
-                    aligned->gyro_bias_known);
+                    aligned->gyro_bias_sigma);
   events_.emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(),
                work.time);
 }

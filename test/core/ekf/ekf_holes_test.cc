@@ -58,7 +58,8 @@ Outcome tunnel(double loss, int burst, std::uint64_t seed) {
   follow(Vector3d::Zero());
   Ekf filter(config, model, lever_b);
   filter.initialize(state.time, synthetic::point_near(truth, 3.0, 0.2, &noise));
-  filter.set_attitude(state.q_eb, {0.005, 0.005, 0.02}, Vector3d::Zero(), false);
+  filter.set_attitude(state.q_eb, {0.005, 0.005, 0.02}, Vector3d::Zero(),
+                      synthetic::mems().gyro_bias.sigma);
   Mechanization mechanization;
   mechanization.reset(state);
   Outcome outcome;

@@ -138,7 +138,7 @@ TEST_CASE("inertial filter: errors are as large as its covariance says") {
     // Roll, pitch, yaw errors; the attitude is level and north, so axes of n and b agree.
     const Vector3d rotation = sigma_rpy.cwiseProduct(noise.normal3());
     filter.set_attitude(quaternion_from_rotation_vector(C_en * -rotation) * start.q_eb, sigma_rpy,
-                        Vector3d::Zero(), false);
+                        Vector3d::Zero(), synthetic::mems().gyro_bias.sigma);
     for (int epoch = 0; epoch < kEpochs; ++epoch) {
       std::vector<ImuSample> block;
       Vector3d rate_b = Vector3d::Zero();

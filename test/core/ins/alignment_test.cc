@@ -22,6 +22,13 @@ const Geodetic kWhere{40.0 * kDegree, -105.0 * kDegree, 1600.0};
 const Eigen::Matrix3d kC_en = rotation_ecef_to_ned(kWhere).transpose();
 const Eigen::Vector3d kPosition = to_ecef(kWhere);
 const Eigen::Vector3d kGyroBias(0.002, -0.003, 0.001);
+ImuErrorModel imu_model() {
+  ImuErrorModel imu;
+  imu.angle_random_walk = 1e-5;
+  imu.gyro_bias.sigma = 0.005;
+  return imu;
+}
+const ImuErrorModel kImu = imu_model();
 
 // A vehicle on a plane: stands, speeds up along its x axis, drives on. Roll and pitch stay (tilted
 // mounting), the body shakes while it moves.
@@ -119,13 +126,13 @@ double turn_by_levelling(double push, double sway, double t0) {
 
 TEST_CASE("Stand, then drive off: attitude and gyro bias in all four quadrants", "[ins]") {
   double worst_tilt = 0.0, worst_heading = 0.0, worst_bias = 0.0;
-  const double expected_heading = turn_by_levelling(0.5, 1.5, 10.0);
+  const double expected_heading = turn_by_levelling(0.5, 1.5, 20.0);
   for (const double yaw_deg : {0.0, 45.0, 135.0, 180.0, -135.0, -45.0, -90.0}) {
     for (const EulerAngles& mounting :
          {EulerAngles{0, 0, 0}, EulerAngles{0.25, -0.3, 0}, EulerAngles{-0.6, 0.4, 0}}) {
       Ride ride{{mounting.roll, mounting.pitch, yaw_deg * kDegree}};
-      Alignment alignment({});
-      run(&ride, &alignment, 10.0);
+      Alignment alignment({}, kImu);
+      run(&ride, &alignment, 20.0);
       CHECK(alignment.levelled());
       CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05));  // no course yet
       ride.acceleration = 0.5;
@@ -154,7 +161,7 @@ TEST_CASE("Started on the move, shaking: levelled, heading from the course", "[i
     Ride ride{{0.1, -0.2, yaw_deg * kDegree}};
     ride.speed = 3.0;
     ride.shake = 2.0;
-    Alignment alignment({});
+    Alignment alignment({}, kImu);
     run(&ride, &alignment, 30.0);
     const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
     REQUIRE(aligned);
@@ -171,7 +178,7 @@ TEST_CASE("Steady motion is no standstill", "[ins]") {
   Ride ride{{0.0, 0.0, 1.0}};
   ride.speed = 10.0;
   ride.yaw_rate = 0.02;
-  Alignment alignment({});
+  Alignment alignment({}, kImu);
   run(&ride, &alignment, 20.0);
   const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
   REQUIRE(aligned);
@@ -179,10 +186,33 @@ TEST_CASE("Steady motion is no standstill", "[ins]") {
   CHECK(aligned->gyro_bias_b.isZero());
 }
 
+TEST_CASE("Turned in place before it drives off: no bias is made of the turn", "[ins]") {
+  // Slower than what counts as standing, and seen by no antenna on the axis it turns about.
+  for (const double rate : {0.009, 0.035}) {  // rad/s: 0.5 and 2 deg/s
+    CAPTURE(rate);
+    Ride ride{{0.0, 0.0, 0.5}};
+    Alignment alignment({}, kImu);
+    run(&ride, &alignment, 20.0);
+    ride.yaw_rate = rate;
+    run(&ride, &alignment, 10.0);
+    ride.yaw_rate = 0.0;
+    ride.acceleration = 0.5;
+    run(&ride, &alignment, 6.0);
+    const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
+    REQUIRE(aligned);
+    REQUIRE(aligned->gyro_bias_known);
+    const Eigen::Vector3d error = aligned->gyro_bias_b - kGyroBias;
+    std::cout << "turned at " << rate << " rad/s: gyro bias off by " << error.norm()
+              << " rad/s, stated " << aligned->gyro_bias_sigma << "\n";
+    CHECK(error.norm() < 3.0 * aligned->gyro_bias_sigma);
+    CHECK(heading_error(*aligned, ride) < 3.0 * aligned->sigma_rpy.z());
+  }
+}
+
 TEST_CASE("A given heading needs no motion", "[ins]") {
   const GivenHeading::Heading given{-2.0, 0.05};
   Ride ride{{0.3, 0.1, -2.0}};
-  Alignment alignment({});
+  Alignment alignment({}, kImu);
   CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.05, given));  // not levelled
   run(&ride, &alignment, 3.0);
   const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05, given);
@@ -197,7 +227,7 @@ TEST_CASE("A given heading needs no motion", "[ins]") {
 TEST_CASE("No attitude from a slow or uncertain course, nor from a dead sensor", "[ins]") {
   Ride ride{{0.0, 0.0, 0.5}};
   ride.speed = 0.5;
-  Alignment alignment({});
+  Alignment alignment({}, kImu);
   run(&ride, &alignment, 5.0);
   CHECK_FALSE(alignment.attitude(kPosition, ride.v_e(), 0.01));
   ride.speed = 2.0;
@@ -206,7 +236,7 @@ TEST_CASE("No attitude from a slow or uncertain course, nor from a dead sensor",
   // The first of the four epochs that three seconds take, and the one its turn rate needs.
   CHECK(seconds_to_attitude(&ride, &alignment, 0.1, 10) == 4);
 
-  Alignment dead({});
+  Alignment dead({}, kImu);
   ImuSample zero;
   zero.interval_ns = 10'000'000;
   for (int i = 0; i < 1000; ++i) dead.add(zero);
@@ -250,7 +280,7 @@ TEST_CASE("Picked up, turned or swung: no false alignment; then walked: a true o
   double worst = 0.0;
   for (const HandMotion& motion : before) {
     Ride ride{{0.05, 0.1, 2.0}};
-    Alignment alignment({});
+    Alignment alignment({}, kImu);
     run(&ride, &alignment, 5.0);
     CHECK_FALSE(hand_alignment_error(motion, 8.0, &ride, &alignment));
     // Straight on, the course off the heading by 1 sigma: aligned after the three seconds it needs
@@ -265,7 +295,7 @@ TEST_CASE("Picked up, turned or swung: no false alignment; then walked: a true o
 
 TEST_CASE("Short or interrupted motion is no evidence", "[ins]") {
   Ride ride{{0.0, 0.0, 0.5}};
-  Alignment alignment({});
+  Alignment alignment({}, kImu);
   run(&ride, &alignment, 3.0);
   for (int push = 0; push < 5; ++push) {
     CHECK_FALSE(hand_alignment_error({0.0, 0.0, 1.0, 1.5}, 2.5, &ride, &alignment));
@@ -280,7 +310,7 @@ TEST_CASE("A hole in the samples costs no turn if short, and a new start if long
   for (const double hole_s : {0.1, 0.3, 20.0}) {
     CAPTURE(hole_s);
     Ride ride{{0.0, 0.0, 0.5}};
-    Alignment alignment({});
+    Alignment alignment({}, kImu);
     run(&ride, &alignment, 10.0);
     ride.speed = 5.0;
     REQUIRE(seconds_to_attitude(&ride, &alignment, 0.05, 10) == 4);

@@ -1,0 +1,70 @@
+#include "core/ins/standing_rate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kPlausible = 4.0;  // sigmas
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+StandingRate::StandingRate(const ImuErrorModel& imu)
+    : bias_variance_(square(imu.gyro_bias.sigma)), noise_density2_(square(imu.angle_random_walk)) {}
+
+bool StandingRate::is_plausible(const Eigen::Vector3d& rate_b, double seconds) const {
+  const double sigma = std::sqrt(bias_variance_ + noise_density2_ / seconds);
+  return rate_b.cwiseAbs().maxCoeff() < kPlausible * sigma + kEarthRotationRate;
+}
+
+void StandingRate::add(const Eigen::Vector3d& rate_b, double seconds) {
+  ++windows_;
+  seconds_ += seconds;
+  angle_b_ += rate_b * seconds;
+  rate_squared_ += rate_b.cwiseAbs2() * seconds;
+}
+
+void StandingRate::add(const StandingRate& other) {
+  windows_ += other.windows_;
+  seconds_ += other.seconds_;
+  angle_b_ += other.angle_b_;
+  rate_squared_ += other.rate_squared_;
+}
+
+void StandingRate::clear() {
+  windows_ = 0;
+  seconds_ = 0.0;
+  angle_b_.setZero();
+  rate_squared_.setZero();
+}
+
+// White noise averages; what the windows scatter beyond it (three standard deviations of the
+// scatter's own) lasts: a slow turn over some of them.
+double StandingRate::mean_variance() const {
+  const Eigen::Vector3d mean = angle_b_ / seconds_;
+  const double freedom = windows_ - 1.0;
+  const double scatter = (rate_squared_ / seconds_ - mean.cwiseAbs2()).mean() * windows_ / freedom;
+  const double noise = noise_density2_ * windows_ / seconds_;
+  const double expected = noise * (1.0 + 3.0 * std::sqrt(2.0 / (3.0 * freedom)));
+  return noise_density2_ / seconds_ + std::max(0.0, scatter - expected);
+}
+
+// Of the mean that is believed: the bias was zero within its sigma before.
+double StandingRate::share() const { return bias_variance_ / (bias_variance_ + mean_variance()); }
+
+Eigen::Vector3d StandingRate::rate_b() const {
+  if (!known() || !(bias_variance_ > 0.0)) return Eigen::Vector3d::Zero();
+  return share() * angle_b_ / seconds_;
+}
+
+double StandingRate::sigma() const {
+  if (!known() || !(bias_variance_ > 0.0)) return std::sqrt(bias_variance_);
+  return std::sqrt(share() * mean_variance());
+}
+
+}  // namespace leonav
