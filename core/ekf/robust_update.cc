@@ -18,6 +18,9 @@ constexpr double kFactorTolerance = 1e-3;  // weights that change less have conv
 constexpr double kNormalMedian = 0.6745;   // median of |x| for a standard normal x
 constexpr double kMaxPriorScale = 2.0;  // innovations may be this much larger than they should be
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+// Residuals that are this much larger, the worst of them left out, are of measurements that
+// contradict each other.
+constexpr double kMaxScale = 3.0;
 constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not tell their scale
 
 // Lower L with P = L L^T for a positive semidefinite P; a state without variance gets a zero
@@ -46,6 +49,20 @@ double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios
     if (measurements[i].observable == observable) of_kind.push_back(ratios[i]);
   if (of_kind.size() < kMinScaleCount) return 1.0;
   return std::max(1.0, median(of_kind) / kNormalMedian);
+}
+
+// Measurements that contradict each other get the variance that their residuals show. Carriers do
+// not: those have slipped. False if there are none.
+bool relax(const std::array<double, kObservables>& scale, FilterMeasurements* measurements) {
+  bool any = false;
+  for (FilterMeasurement& measurement : *measurements) {
+    const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];
+    if (measurement.observable == Observable::kCarrier || of_kind <= kMaxScale) continue;
+    measurement.variance *= of_kind * of_kind;
+    measurement.gain_variance *= of_kind * of_kind;
+    any = true;
+  }
+  return any;
 }
 
 // Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
@@ -150,6 +167,30 @@ RobustUpdate::~RobustUpdate() = default;
 RobustUpdate::RobustUpdate(RobustUpdate&&) noexcept = default;
 RobustUpdate& RobustUpdate::operator=(RobustUpdate&&) noexcept = default;
 
+// Iterates the weights; the workspace then holds the solution.
+void RobustUpdate::weigh(const RobustConfig& config, FilterMeasurements* measurements,
+                         RobustUpdateResult* result) {
+  Workspace& problem = *workspace_;
+  for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
+  problem.solve(*measurements);
+  SmallTable ratios;
+  SmallTable limits(measurements->size(), 1.0);
+  for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
+    const bool first = pass == 0;  // nothing used yet: innovations
+    problem.standardize(*measurements, &ratios);
+    for (std::size_t i = 0; first && i < ratios.size(); ++i)
+      ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
+    const double change =
+        reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits, measurements, result);
+    if (first) {
+      for (std::size_t i = 0; i < limits.size(); ++i)
+        limits[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
+    }
+    problem.solve(*measurements);
+    if (change < kFactorTolerance) break;
+  }
+}
+
 RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
                                             FilterMeasurements* measurements,
                                             EkfCovariance* covariance) {
@@ -160,23 +201,20 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
   Workspace& problem = *workspace_;
   problem.begin(*measurements, *covariance);
   if (config.enabled) {
-    for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
-    problem.solve(*measurements);
-    SmallTable ratios;
-    SmallTable limits(measurements->size(), 1.0);
-    for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
-      const bool first = pass == 0;  // nothing used yet: innovations
-      problem.standardize(*measurements, &ratios);
-      for (std::size_t i = 0; first && i < ratios.size(); ++i)
-        ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
-      const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits,
-                                     measurements, &result);
-      if (first) {
-        for (std::size_t i = 0; i < limits.size(); ++i)
-          limits[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
+    weigh(config, measurements, &result);
+    const auto scale = result.scale;
+    if (relax(scale, measurements)) {
+      weigh(config, measurements, &result);
+      for (FilterMeasurement& measurement : *measurements) {
+        const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];
+        if (measurement.observable != Observable::kCarrier && of_kind > kMaxScale) {
+          // What it weighs against what it was said to be worth.
+          measurement.factor /= of_kind * of_kind;
+          measurement.variance /= of_kind * of_kind;
+          measurement.gain_variance /= of_kind * of_kind;
+        }
       }
-      problem.solve(*measurements);
-      if (change < kFactorTolerance) break;
+      result.scale = scale;
     }
   } else {
     for (FilterMeasurement& measurement : *measurements) measurement.factor = 1.0;

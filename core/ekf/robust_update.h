@@ -54,7 +54,9 @@ class RobustUpdate {
   // it also sees outliers that hide behind a poor prior. What the innovation test excludes stays
   // out (whether the prior is to be believed is decided before, prediction_check.h). Where half of
   // the residuals of an observable are larger than they should be, all are scaled down first, so
-  // that the many are not thrown out for the few.
+  // that the many are not thrown out for the few; where they still are more than three times as
+  // large in the end, codes or Dopplers contradict each other, and their variances grow by as much
+  // before all are weighted anew: `factor` then holds what is left of each one's weight.
   //
   // The update is done in the square root of P (P = L L^T, P+ = L (I + L^T H^T R^-1 H L)^-1 L^T):
   // like Joseph's form symmetric and positive semidefinite whatever the rounding, and states with
@@ -65,6 +67,8 @@ class RobustUpdate {
 
  private:
   struct Workspace;
+  void weigh(const RobustConfig& config, FilterMeasurements* measurements,
+             RobustUpdateResult* result);
   std::unique_ptr<Workspace> workspace_;
 };
 

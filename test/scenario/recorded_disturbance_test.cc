@@ -167,7 +167,8 @@ TEST_CASE("the drive with one disturbance and an IMU: every epoch that is there 
   const std::string truth = place.beside("truth.csv");
   const std::string log = semi_real_log(place, truth);
   const Drive drive("semi-real INS", place, log, config("drive_ins"), "--truth " + truth);
-  // A creeping car that counted as standing would leave a gyro bias of 45 deg/h and 0.61 degrees.
+  // This car creeps before it starts: taken for standing it would leave a gyro bias of 45 deg/h and
+  // 0.61 degrees.
   const double yaw_deg = number_after(text_of(place.beside("errors.json")), "yaw_deg", "rmse");
   std::printf("semi-real INS, undisturbed: yaw RMSE %.3f degrees\n", yaw_deg);
   CHECK(yaw_deg < 0.125);

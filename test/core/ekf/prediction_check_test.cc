@@ -19,17 +19,14 @@ TEST_CASE("a point that is told not to move does not, whatever the Dopplers agre
   config.static_point = true;
   Ekf filter(config, ImuErrorModel(), Vector3d::Zero());
   filter.initialize(synthetic::kStart, synthetic::point_near(truth, 3.0, 0.1, &noise));
-  int rejected = 0;
   for (int k = 1; k <= 20; ++k) {
     truth.v_antenna_e = k > 10 ? Vector3d(8.0, -3.0, 5.0) : Vector3d::Zero().eval();
     const GpsTime time = synthetic::kStart.plus_seconds(k);
     filter.predict({}, time);
     const MeasurementEpoch epoch =
         synthetic::measure(time, synthetic::eight_satellites(), truth, 0.5, 0.05, &noise);
-    const EkfUpdateResult result = filter.update(epoch);
-    if (k > 10) rejected += result.rejected[static_cast<std::size_t>(Observable::kDoppler)];
+    filter.update(epoch);
   }
-  CHECK(rejected > 0);
   CHECK(filter.state().v_e == Vector3d::Zero());
   CHECK(filter.covariance().block<3, 3>(kVelocity, kVelocity).isZero(0.0));
   CHECK((filter.state().p_e - truth.p_antenna_e).norm() < 2.0);

@@ -171,6 +171,28 @@ TEST_CASE("three outliers among twelve are found") {
   CHECK(result.correction.head<3>().norm() < 3.0);
 }
 
+TEST_CASE("measurements that contradict each other weigh what their residuals show") {
+  synthetic::Generator noise(12);
+  FilterMeasurements measurements = around(12, &noise);
+  for (FilterMeasurement& measurement : measurements) measurement.innovation *= 60.0;
+  // Three good ones of another kind hold their own against them.
+  for (int axis = 0; axis < 3; ++axis) {
+    EkfVector row = EkfVector::Zero();
+    row(kPosition + axis) = 1.0;
+    measurements.push_back(scalar(0.03 * (axis - 1), 0.1, row));
+    measurements.back().observable = Observable::kCarrier;
+  }
+  EkfCovariance P = position_and_clock(100.0);
+  const RobustUpdateResult result = RobustUpdate{}(RobustConfig{}, &measurements, &P);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(measurements[i].factor < 0.01);
+  for (std::size_t i = 12; i < 15; ++i) CHECK(measurements[i].factor > 0.5);
+  CHECK(result.scale[0] > 20.0);
+  CHECK(result.correction.head<3>().norm() < 0.6);
+  // The clock has nothing but them: it is no better known than they are.
+  CHECK(std::abs(result.correction(kClock)) < 3.0 * std::sqrt(P(kClock, kClock)));
+  CHECK(std::sqrt(P(kClock, kClock)) > 5.0);
+}
+
 TEST_CASE("clean measurements keep nearly all their weight") {
   synthetic::Generator noise(9);
   double sum = 0.0;
