@@ -167,24 +167,24 @@ RobustUpdate::~RobustUpdate() = default;
 RobustUpdate::RobustUpdate(RobustUpdate&&) noexcept = default;
 RobustUpdate& RobustUpdate::operator=(RobustUpdate&&) noexcept = default;
 
-// Iterates the weights; the workspace then holds the solution.
-void RobustUpdate::weigh(const RobustConfig& config, FilterMeasurements* measurements,
-                         RobustUpdateResult* result) {
+// Iterates the weights; the workspace then holds the solution. `limits`: what the prior excludes,
+// 0; that of an earlier call stays out.
+void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
+                         FilterMeasurements* measurements, RobustUpdateResult* result) {
   Workspace& problem = *workspace_;
   for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
   problem.solve(*measurements);
   SmallTable ratios;
-  SmallTable limits(measurements->size(), 1.0);
   for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
     const bool first = pass == 0;  // nothing used yet: innovations
     problem.standardize(*measurements, &ratios);
     for (std::size_t i = 0; first && i < ratios.size(); ++i)
       ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
-    const double change =
-        reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, limits, measurements, result);
+    const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, *limits,
+                                   measurements, result);
     if (first) {
-      for (std::size_t i = 0; i < limits.size(); ++i)
-        limits[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
+      for (std::size_t i = 0; i < limits->size(); ++i)
+        (*limits)[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
     }
     problem.solve(*measurements);
     if (change < kFactorTolerance) break;
@@ -201,10 +201,11 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
   Workspace& problem = *workspace_;
   problem.begin(*measurements, *covariance);
   if (config.enabled) {
-    weigh(config, measurements, &result);
+    FactorLimits limits(measurements->size(), 1.0);
+    weigh(config, &limits, measurements, &result);
     const auto scale = result.scale;
     if (relax(scale, measurements)) {
-      weigh(config, measurements, &result);
+      weigh(config, &limits, measurements, &result);
       for (FilterMeasurement& measurement : *measurements) {
         const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];
         if (measurement.observable != Observable::kCarrier && of_kind > kMaxScale) {

@@ -67,7 +67,8 @@ class RobustUpdate {
 
  private:
   struct Workspace;
-  void weigh(const RobustConfig& config, FilterMeasurements* measurements,
+  using FactorLimits = boost::container::static_vector<double, kMaxMeasurements>;
+  void weigh(const RobustConfig& config, FactorLimits* limits, FilterMeasurements* measurements,
              RobustUpdateResult* result);
   std::unique_ptr<Workspace> workspace_;
 };

@@ -46,9 +46,11 @@ double strongest_cn0(std::span<const SignalObservation> observations) {
   return strongest;
 }
 
+// Exactly zero is what receivers write that have measured none.
 bool has_doppler(const SignalObservation& signal) {
   const double wavelength = wavelength_m(signal.satellite.system, signal.code.band);
-  return std::abs(signal.doppler_hz) * wavelength < kMaxRangeRate;  // NaN: not measured
+  return signal.doppler_hz != 0.0 &&
+         std::abs(signal.doppler_hz) * wavelength < kMaxRangeRate;  // NaN: not measured
 }
 
 // Selects signals and finds the satellite; the reason is left in `view`.

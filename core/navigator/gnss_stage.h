@@ -56,6 +56,8 @@ class GnssStage {
   void watch_clocks(const EkfUpdateResult& result, GpsTime time);
   void watch_usable();
   bool contradicts(const PointSolution& point, bool motion) const;
+  bool contradicts(const PointSolution& point, GpsTime time, bool motion) const;
+  bool has_moved_as(const PointSolution& point, GpsTime time) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
   void watch_motion(const EpochWork& work);
@@ -91,6 +93,8 @@ class GnssStage {
   std::uint64_t clock_steps_ = 0;
   std::uint64_t orbit_fallbacks_ = 0, orbit_returns_ = 0;
   int suspect_epochs_ = 0;
+  GpsTime suspect_since_;  // the first of them, if codes had a position for it
+  PointSolution suspect_point_;
   bool gnss_used_ = false;  // in the epoch at hand
   GpsTime last_gnss_time_;  // of the last epoch that used any
   GpsTime last_reset_time_;

@@ -103,30 +103,55 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
   const bool doppler = most_of(Observable::kDoppler);
   const bool suspect = code || doppler;
   suspect_epochs_ = suspect ? suspect_epochs_ + 1 : 0;
-  if (suspect_epochs_ < config_.ekf.reset_epochs) return;
+  if (suspect_epochs_ != 1 && suspect_epochs_ < config_.ekf.reset_epochs) return;
   std::swap(measurements_, check_measurements_);
   PointSolution point;
-  if (solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy &&
-      contradicts(point, doppler)) {
+  const bool checked =
+      solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy;
+  if (suspect_epochs_ == 1) {
+    suspect_since_ = checked ? work.time : GpsTime();
+    suspect_point_ = point;
+  }
+  if (checked && suspect_epochs_ >= config_.ekf.reset_epochs &&
+      contradicts(point, work.time, doppler)) {
     restart_from(point, work, ResetCause::kPrediction);
   }
   std::swap(measurements_, check_measurements_);
 }
 
+// Dopplers alone could all be wrong, of a receiver that has their sign or unit wrong for one:
+// position and clocks of the codes must have moved as they say, rather than as the filter does.
+bool GnssStage::has_moved_as(const PointSolution& point, GpsTime time) const {
+  if (!suspect_since_.is_set() || !(suspect_since_ < time)) return false;
+  const double dt = seconds_between(time, suspect_since_);
+  const Eigen::Vector3d moved_m_s = (point.p_e - suspect_point_.p_e) / dt;
+  double from_point = (moved_m_s - point.v_e).squaredNorm();
+  double from_filter = (moved_m_s - ekf_.antenna_velocity_e()).squaredNorm();
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    const double ran_m_s = (point.clock_m[base] - suspect_point_.clock_m[base]) / dt;
+    const double drift_m_s = ekf_.clocks().drift_m_s(static_cast<Eigen::Index>(base));
+    if (!ekf_.clocks_known().drift[base] || !std::isfinite(ran_m_s + point.clock_drift_m_s[base]))
+      continue;
+    from_point += std::pow(ran_m_s - point.clock_drift_m_s[base], 2);
+    from_filter += std::pow(ran_m_s - drift_m_s, 2);
+  }
+  return from_point < from_filter;
+}
+
 // Whether the filter is elsewhere than a point solution; with `motion` also whether it moves, or
 // its oscillator runs, otherwise.
-bool GnssStage::contradicts(const PointSolution& point, bool motion) const {
+bool GnssStage::contradicts(const PointSolution& point, GpsTime time, bool motion) const {
   const double distance_m = (point.p_e - ekf_.antenna_position_e()).norm();
   if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) return true;
   if (!motion || !point.has_velocity) return false;
   const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
-  if ((point.v_e - ekf_.antenna_velocity_e()).norm() > limit_m_s) return true;
+  bool otherwise = (point.v_e - ekf_.antenna_velocity_e()).norm() > limit_m_s;
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     if (!ekf_.clocks_known().drift[base] || !std::isfinite(point.clock_drift_m_s[base])) continue;
     const double drift_m_s = ekf_.clocks().drift_m_s(static_cast<Eigen::Index>(base));
-    if (std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s) return true;
+    otherwise = otherwise || std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s;
   }
-  return false;
+  return otherwise && has_moved_as(point, time);
 }
 
 // The attitude survives, less sure of its heading, unless it has just been given that chance; what

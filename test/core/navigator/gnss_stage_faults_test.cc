@@ -92,6 +92,20 @@ TEST_CASE("observations that are no numbers cost themselves; an epoch of nothing
   }
 }
 
+TEST_CASE("Dopplers that are all wrong do not overthrow what codes and motion agree on") {
+  for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
+    for (const double factor : {-1.0, 0.0, 0.5}) {  // another sign, none measured, another unit
+      CAPTURE(static_cast<int>(motion), factor);
+      SyntheticDrive drive = drive_of(60.0);
+      const NavigatorConfig config = drive_navigator_config(drive.options, motion);
+      damage(&drive, 30.0, 50.5, [&](SignalObservation* o) { o->doppler_hz *= factor; });
+      const RecordingSink sink = run(drive, config);
+      CHECK(resets(sink).empty());
+      CHECK(worst_error(sink, drive, 29.0, 60.0) < 10.0);
+    }
+  }
+}
+
 TEST_CASE("a start with a satellite off by 100 km excludes it, robust weighting or not") {
   for (const bool robust : {true, false}) {
     CAPTURE(robust);

@@ -46,6 +46,7 @@ NavigatorConfig full_config(MotionModel motion) {
   config.gnss = default_gnss_config();
   for (SystemConfig& system : config.gnss.systems) system.enabled = true;
   config.vehicle.lever_arm_b = SyntheticDriveOptions().lever_arm_b;
+  config.imu = drive_navigator_config(SyntheticDriveOptions()).imu;
   config.ekf.use_carrier = true;
   config.ekf.wet_delay_sigma_m = 0.1;
   config.ekf.prediction_suspect_ratio = 1e9;  // or the filter would not need to be restarted
