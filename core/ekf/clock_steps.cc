@@ -141,16 +141,16 @@ std::optional<CommonStep> fitted_base_step(const RobustConfig& robust,
   const auto variance_apart = [&](const EkfCovariance& P) {
     return P(clock, clock) + P(other, other) - 2.0 * P(clock, other);
   };
-  EkfCovariance free = covariance;
-  free.row(clock).setZero();
-  free.col(clock).setZero();
-  free(clock, clock) = kFreeClock_m2;
-  const RobustUpdateResult fit = (*robust_update)(robust, &codes, &free);
+  EkfCovariance vague = covariance;
+  vague.row(clock).setZero();
+  vague.col(clock).setZero();
+  vague(clock, clock) = kFreeClock_m2;
+  const RobustUpdateResult fit = (*robust_update)(robust, &codes, &vague);
   CommonStep step;
   step.value_m = fit.correction(clock) - fit.correction(other);
   // By how far the fit's residuals are larger than their sigmas, it is worse itself.
   const double scale = fit.scale[static_cast<std::size_t>(Observable::kCode)];
-  step.sigma_m = std::sqrt(variance_apart(covariance) + scale * scale * variance_apart(free));
+  step.sigma_m = std::sqrt(variance_apart(covariance) + scale * scale * variance_apart(vague));
   if (!(std::abs(step.value_m) > kStepSignificance * step.sigma_m)) return std::nullopt;
   return step;
 }

@@ -55,7 +55,6 @@ class GnssStage {
   void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
   void watch_clocks(const EkfUpdateResult& result, GpsTime time);
   void watch_usable();
-  bool contradicts(const PointSolution& point, bool motion) const;
   bool contradicts(const PointSolution& point, GpsTime time, bool motion) const;
   bool has_moved_as(const PointSolution& point, GpsTime time) const;
   bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
