@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/ekf/median.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {

@@ -6,6 +6,7 @@
 #include "core/ekf/clock_steps.h"
 #include "core/ekf/ekf.h"
 #include "core/ekf/prediction_check.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/ekf/median.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {

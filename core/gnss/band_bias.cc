@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
+
 namespace leonav {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr double kMaxSpan = 3600.0;       // s; after a longer gap the growth st
 constexpr double kStrangeMargin = 10.0;  // m
 constexpr int kStrangeEpochs = 5;
 constexpr double kMedianEfficiency = 1.5708;  // variance of a median against that of a mean
-
-double median_of(boost::container::static_vector<double, kMaxSatellites> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::size_t digit(char band) { return static_cast<std::size_t>(band - '0'); }
 bool is_digit(char band) { return band >= '0' && band <= '9'; }
@@ -61,22 +57,22 @@ bool BandBiases::is_usual_pair(System system, char first, char second) const {
 
 void BandBiases::update(System system, char band, const BandDifferences& differences) {
   if (differences.values_m.empty() || !is_digit(band)) return;
-  const double median = median_of(differences.values_m);
+  const double middle = median(differences.values_m);
   auto deviations = differences.values_m;
-  for (double& value : deviations) value = std::abs(value - median);
-  const double spread = std::max(1.4826 * median_of(deviations), differences.sigma_m);
+  for (double& value : deviations) value = std::abs(value - middle);
+  const double spread = std::max(1.4826 * median(deviations), differences.sigma_m);
   const double variance =
       kMedianEfficiency * spread * spread / static_cast<double>(differences.values_m.size());
 
   Bias& bias = systems_[index_of(system)].bands[digit(band)];
   if (bias.variance_m2 < 0.0) {
-    bias = {median, variance, 0};
+    bias = {middle, variance, 0};
     return;
   }
-  const double innovation = median - bias.value_m;
+  const double innovation = middle - bias.value_m;
   const double total = bias.variance_m2 + variance;
   if (std::abs(innovation) > 5.0 * std::sqrt(total) + kStrangeMargin) {
-    if (++bias.strange_epochs >= kStrangeEpochs) bias = {median, variance, 0};
+    if (++bias.strange_epochs >= kStrangeEpochs) bias = {middle, variance, 0};
     return;
   }
   const double gain = bias.variance_m2 / total;

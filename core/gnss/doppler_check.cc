@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <boost/container/static_vector.hpp>
+#include <cmath>
 
 #include "core/capacity.h"
 #include "core/gnss/weighting.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {
 
 using Values = boost::container::static_vector<double, kMaxSatellites>;
 constexpr std::size_t kMinForMedian = 4;
-
-double median(Values* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 double difference_m(const DopplerRow& row, std::size_t signal, double interval_s) {
   return row.carrier_change_m[signal] - row.mean_rate_m_s[signal] * interval_s;
@@ -32,9 +28,9 @@ void check_doppler(const CycleSlipConfig& config, double interval_s, std::span<D
   }
   double common = 0.0, scatter = 0.0;
   if (values.size() >= kMinForMedian) {
-    common = median(&values);
+    common = median(values);
     for (double& value : values) value = std::abs(value - common);
-    scatter = 1.4826 * median(&values);
+    scatter = 1.4826 * median(values);
   }
   // Mean of two Dopplers; the trapezoidal rule misses a jerk times T^3 / 12.
   const double noise = config.doppler_sigma_m_s * interval_s / std::sqrt(2.0);
