@@ -20,7 +20,8 @@ void StageSink::on_epoch(const EpochReport& report) {
   age.fill(-1);
   age_by_source.fill(-1);
   for (const SatelliteReport& satellite : report.satellites) {
-    const OrbitChange change = orbit_watch_.look(satellite.satellite, satellite.source);
+    const OrbitChange change =
+        orbit_watch_.look(satellite.satellite, satellite.source, satellite.clock_of_file);
     if (change == OrbitChange::kFallback) counters_->orbit_fallbacks.add(1);
     if (change == OrbitChange::kReturn) counters_->orbit_returns.add(1);
     if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/ekf/clock_free.h"
-#include "core/ekf/median.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/ekf/clock_model.h"
 #include "core/ekf/clock_steps.h"
 #include "core/ekf/ekf.h"
-#include "core/ekf/median.h"
+#include "core/median.h"
 #include "core/ekf/prediction_check.h"
 
 namespace leonav {

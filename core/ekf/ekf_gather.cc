@@ -142,8 +142,10 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
   }
 }
 
-// An arc whose constant may have stepped since the last epoch is less certain for it.
+// An arc whose constant, or a position whose meaning, may have stepped since the last epoch is less
+// certain for it.
 void Ekf::disturb_ambiguities(const MeasurementEpoch& epoch) {
+  covariance_.diagonal().segment<3>(kPosition).array() += square(epoch.position_disturbance_m);
   for (const Measurement& measurement : epoch.measurements) {
     if (measurement.observable != Observable::kCarrier || !(measurement.disturbance_m > 0.0))
       continue;

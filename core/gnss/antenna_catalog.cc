@@ -29,8 +29,27 @@ struct SatelliteBand {
   }
 };
 
+struct ReceiverBand {
+  AntennaPattern pattern;
+  std::uint64_t arrival = 0;
+};
+
 constexpr std::size_t kMaxEntries = kMaxSatelliteAntennaBands * kMaxAntennaIntervals;
 using SatelliteBands = boost::container::static_vector<SatelliteBand, kMaxEntries>;
+
+bool is_same(const SatelliteBand& a, const SatelliteBand& b) {
+  return a.band == b.band && a.valid_from == b.valid_from && a.valid_until == b.valid_until &&
+         a.offset_m == b.offset_m && a.first_angle == b.first_angle &&
+         a.angle_step == b.angle_step && a.angles == b.angles && a.values == b.values;
+}
+
+bool is_same(const AntennaPattern& a, const AntennaPattern& b) {
+  return a.satellite == b.satellite && a.band == b.band && a.offset_m == b.offset_m &&
+         a.variation.first_angle == b.variation.first_angle &&
+         a.variation.angle_step == b.variation.angle_step &&
+         a.variation.angles == b.variation.angles && a.variation.azimuths == b.variation.azimuths &&
+         a.variation.values == b.variation.values;
+}
 
 SatelliteBand compact(const AntennaPattern& pattern, std::uint64_t arrival) {
   SatelliteBand entry;
@@ -62,14 +81,6 @@ SatelliteBand* place_for(const AntennaPattern& pattern, SatelliteBands* bands) {
   return &bands->emplace_back();
 }
 
-std::size_t place_of(SatelliteId id) {
-  std::size_t place = static_cast<std::size_t>(id.number) - 1;
-  if (id.system != System::kGps) place += 63;
-  if (id.system == System::kBeidou || id.system == System::kLeo) place += 50;
-  if (id.system == System::kLeo) place += 63;
-  return place;
-}
-
 double distance_hz(System a, char band_a, System b, char band_b) {
   return std::abs(frequency_hz(a, band_a) - frequency_hz(b, band_b));
 }
@@ -78,25 +89,29 @@ double distance_hz(System a, char band_a, System b, char band_b) {
 
 struct AntennaCatalog::Storage {
   std::array<SatelliteBands, kMaxEphemerisSatellites> satellites;
-  boost::container::static_vector<AntennaPattern, kMaxReceiverAntennaBands> receiver;
+  boost::container::static_vector<ReceiverBand, kMaxReceiverAntennaBands> receiver;
   std::uint64_t arrivals = 0;
   Counters counters;
 
   bool add_satellite(const AntennaPattern& pattern) {
     SatelliteBand* place = place_for(pattern, &satellites[place_of(pattern.satellite)]);
     if (place == nullptr) return false;
-    *place = compact(pattern, ++arrivals);
+    const SatelliteBand entry = compact(pattern, arrivals + 1);
+    if (is_same(*place, entry)) return true;
+    *place = entry;
+    ++arrivals;
     return true;
   }
 
   bool add_receiver(const AntennaPattern& pattern) {
-    for (AntennaPattern& known : receiver) {
-      if (known.satellite != pattern.satellite || known.band != pattern.band) continue;
-      known = pattern;
+    for (ReceiverBand& known : receiver) {
+      if (known.pattern.satellite != pattern.satellite || known.pattern.band != pattern.band)
+        continue;
+      if (!is_same(known.pattern, pattern)) known = {pattern, ++arrivals};
       return true;
     }
     if (receiver.size() == receiver.capacity()) return false;
-    receiver.push_back(pattern);
+    receiver.push_back({pattern, ++arrivals});
     return true;
   }
 
@@ -140,25 +155,27 @@ AntennaRange AntennaCatalog::satellite_range(SatelliteId satellite, char band, G
   const SatelliteBand* entry = storage_->find(satellite, band, time);
   if (entry == nullptr) return {};
   return {satellite_antenna_range_m(entry->offset_m, entry->grid(), p_sat_e, C_es, p_a_e),
-          entry->band == band ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand};
+          entry->band == band ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand, entry->arrival};
 }
 
 AntennaRange AntennaCatalog::receiver_range(System system, char band,
                                             const Eigen::Vector3d& u_r) const {
   if (!(frequency_hz(system, band) > 0.0)) return {};
-  const AntennaPattern* best = nullptr;
+  const ReceiverBand* best = nullptr;
   double best_hz = kMaxNeighbour_hz;
-  for (const AntennaPattern& pattern : storage_->receiver) {
+  for (const ReceiverBand& entry : storage_->receiver) {
+    const AntennaPattern& pattern = entry.pattern;
     const double hz = distance_hz(system, band, pattern.satellite.system, pattern.band);
     const bool own = hz == best_hz && pattern.satellite.system == system;
     if (hz < best_hz || own || (best == nullptr && hz <= best_hz)) {
-      best = &pattern;
+      best = &entry;
       best_hz = hz;
     }
   }
   if (best == nullptr) return {};
-  return {receiver_antenna_range_m(best->offset_m, view(best->variation), u_r),
-          best_hz < 1.0 ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand};
+  const AntennaPattern& pattern = best->pattern;
+  return {receiver_antenna_range_m(pattern.offset_m, view(pattern.variation), u_r),
+          best_hz < 1.0 ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand, best->arrival};
 }
 
 const AntennaCatalog::Counters& AntennaCatalog::counters() const { return storage_->counters; }

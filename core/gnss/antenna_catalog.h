@@ -16,6 +16,7 @@ enum class AntennaStatus : std::uint8_t {
 struct AntennaRange {
   double range_m = 0.0;  // to ADD to the geometric range; zero with kNone
   AntennaStatus status = AntennaStatus::kNone;
+  std::uint64_t revision = 0;  // another one, another pattern; 0 with kNone
 };
 
 // Where a band is missing the nearest one in frequency of the same antenna serves, if it is at most
@@ -34,7 +35,8 @@ class AntennaCatalog {
 
   // False if the pattern is not sane, or a satellite's depends on azimuth or has more than
   // kMaxNadirValues values, or no band's place is left (nothing changes). A pattern replaces that
-  // of the same antenna, band and start of validity; when kMaxAntennaIntervals others are there,
+  // of the same antenna, band and start of validity (one and the same once more changes
+  // nothing, its revision neither); when kMaxAntennaIntervals others are there,
   // the one that arrived first. There is one receiver antenna; its validity is not looked at.
   bool add(const AntennaPattern& pattern);
 

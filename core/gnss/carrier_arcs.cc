@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
 
-std::size_t place_of(SatelliteId id) {
-  constexpr std::array<std::size_t, kSystemCount> kFirst = {0, 63, 113, 176};
-  return kFirst[index_of(id.system)] + id.number - 1u;
-}
-
 CarrierSide side_of(const SignalObservation& observation, double code_shift_m) {
   CarrierSide side;
   side.code = observation.code;
@@ -72,17 +67,19 @@ struct CarrierArcs::Storage {
     CarrierSample sample;
     bool late = false;       // no last sample near enough in time
     bool continued = false;  // last sample near enough in time, and of the same signals
+    bool doppler_tested = false;
     SlipFindings findings;
   };
 
   CarrierTrack* track_of(SatelliteId id) { return &tracks[place_of(id)]; }
-  double gap_limit_s(System system) const;
+  double gap_limit_s(System system, double usual_s) const;
   void collect(GpsTime now, GpsTime previous, std::span<const CarrierInput> inputs);
   ClockJump repair_clock(double interval_s);
   void check_dopplers(const ClockJump& jump, double interval_s);
   void begin(Current* current, SlipCauses causes, CarrierStatus* status);
   void fill(const Current& current, CarrierStatus* status) const;
   bool is_cleared(const Current& current) const;
+  bool is_tested(const Current& current, const RangeRowResult& result) const;
   bool refuted(const Current& current, double deviation_m) const;
   void first_look(const ClockJump& jump, Current* current, CarrierStatus* status);
 
@@ -97,9 +94,9 @@ struct CarrierArcs::Storage {
   bool settled = true;
 };
 
-double CarrierArcs::Storage::gap_limit_s(System system) const {
-  if (system == System::kLeo) return std::max(config.max_gap_leo_s, 1.5 * usual.seconds());
-  return std::max(config.max_gap_s, config.max_gap_intervals * usual.seconds());
+double CarrierArcs::Storage::gap_limit_s(System system, double usual_s) const {
+  if (system == System::kLeo) return std::max(config.max_gap_leo_s, 1.5 * usual_s);
+  return std::max(config.max_gap_s, config.max_gap_intervals * usual_s);
 }
 
 void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
@@ -125,7 +122,8 @@ void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
     sample.carrier_shift_m = shift_ms * kMillisecond_m;
     // Nothing but the pair's combination tells of a slip while a satellite was away.
     const bool blind = sample.sides == 1 && entry.track->last().time != previous;
-    entry.late = blind || !entry.track->is_continued_by(sample, gap_limit_s(entry.track->system));
+    entry.late = blind || !entry.track->is_continued_by(
+                              sample, gap_limit_s(entry.track->system, usual.seconds()));
     entry.continued = !entry.late && entry.track->is_same_pair(sample);
   }
 }
@@ -177,10 +175,12 @@ void CarrierArcs::Storage::check_dopplers(const ClockJump& jump, double interval
   check_doppler(config, true_interval_s(jump, interval_s), {rows.data(), rows.size()});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].loud) owners[i]->findings.soft |= SlipCause::kDoppler;
+    owners[i]->doppler_tested = std::isfinite(rows[i].mean_rate_m_s[0]);
   }
 }
 
 void CarrierArcs::Storage::fill(const Current& entry, CarrierStatus* status) const {
+  status->doppler_tested = entry.doppler_tested;
   status->arc = entry.track->arc;
   const CarrierSample& last = entry.track->last();
   for (int i = 0; i < last.sides; ++i) {
@@ -233,6 +233,14 @@ bool CarrierArcs::Storage::is_cleared(const Current& entry) const {
   return entry.sample.sides == 1 || entry.findings.geometry_free_m < config.geometry_free_clear_m;
 }
 
+// On one frequency only a range change that would have shown a cycle, or a Doppler, tells that
+// nothing slipped.
+bool CarrierArcs::Storage::is_tested(const Current& entry, const RangeRowResult& result) const {
+  if (entry.sample.sides == 2 || entry.doppler_tested) return true;
+  return result.verdict != RangeVerdict::kUndecided && result.sigma_m > 0.0 &&
+         config.range_change_limit * result.sigma_m <= entry.sample.side[0].wavelength_m;
+}
+
 CarrierArcs::CarrierArcs(const CycleSlipConfig& config)
     : storage_(std::make_unique<Storage>(config)) {}
 CarrierArcs::~CarrierArcs() = default;
@@ -280,6 +288,8 @@ void CarrierArcs::settle(std::span<const RangeRowResult> results, ArcEpoch* epoc
     if (result.verdict == RangeVerdict::kSlipped && !s.refuted(entry, result.deviation_m)) {
       causes |= SlipCause::kRangeChange;
     }
+    if (!causes.any() && i < results.size() && !s.is_tested(entry, result))
+      causes |= SlipCause::kUntested;
     if (!causes.any()) continue;
     entry.track->restart(s.config);
     s.begin(&entry, causes, status);
@@ -297,6 +307,13 @@ CarrierStatus CarrierArcs::end_arc(SatelliteId satellite, SlipCause cause) {
   entry.track->restart(s.config);
   s.begin(&entry, cause, &status);
   return status;
+}
+
+double CarrierArcs::gap_limit_s(System system, GpsTime time) const {
+  const Storage& s = *storage_;
+  // The first interval is the usual one until others are seen.
+  const bool first = s.usual.seconds() == 0.0 && s.time.is_set();
+  return s.gap_limit_s(system, first ? seconds_between(time, s.time) : s.usual.seconds());
 }
 
 void CarrierArcs::reset() {

@@ -39,6 +39,7 @@ struct CarrierStatus {
   // Carriers in metres, continuous over the arc: half cycles and clock jumps are repaired.
   double first_m = kNotMeasured;
   double second_m = kNotMeasured;
+  bool doppler_tested = false;  // its change was compared with a Doppler's
 };
 
 // Statuses stand in the order of the inputs.
@@ -61,12 +62,17 @@ class CarrierArcs {
   // `results` in the order of the inputs (kNotTested where there was no row), or empty: nothing was
   // tested. kSlipped ends the arc here (kRangeChange), unless the geometry-free combination of a
   // pair refutes a slip of that size: then it is the satellite's clock or orbit that moved.
-  // kConsistent clears an arc of suspicion; anything else lets the suspicion stand.
+  // kConsistent clears an arc of suspicion; anything else lets the suspicion stand, and ends an arc
+  // of one frequency where neither a Doppler nor the row could have shown a cycle (kUntested).
   void settle(std::span<const RangeRowResult> results, ArcEpoch* epoch);
 
   // Ends the arc of a satellite of the last epoch, for a reason of the caller's. Its new status;
   // arc 0 if the satellite had no carrier there.
   CarrierStatus end_arc(SatelliteId satellite, SlipCause cause);
+
+  // How long a satellite of `system` may have been away at `time`, no earlier than the last epoch,
+  // for its arc to go on.
+  double gap_limit_s(System system, GpsTime time) const;
 
   // Ends every arc without a successor (a restart); ids go on.
   void reset();

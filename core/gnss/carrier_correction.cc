@@ -11,13 +11,19 @@ namespace {
 
 // Broadcast orbits and clocks err by a metre that turns over in hours, precise ones by two or three
 // centimetres that turn over in a quarter of a revolution: hours again, or minutes for LEO.
-constexpr double kBroadcastWander = 0.002;    // m/sqrt(s)
+constexpr double kBroadcastWander = 0.005;    // m/sqrt(s)
 constexpr double kPreciseWander = 0.0001;     // m/sqrt(s)
 constexpr double kPreciseWanderLeo = 0.0005;  // m/sqrt(s)
 // What the ionosphere model leaves of a GNSS satellite's slant delay moves by a millimetre per
 // second, up or down for minutes; past a LEO satellite the whole delay changes within minutes.
 constexpr double kIonosphereWander = 0.01;     // m/sqrt(s)
 constexpr double kIonosphereWanderLeo = 0.05;  // m/sqrt(s)
+// A satellite's antenna 0.5 m beside and 1 to 2.7 m below its centre of mass, not corrected: from
+// the horizon to the zenith (14 degrees of nadir angle, three hours) that changes by some 0.1 m.
+constexpr double kAntennaWander = 0.001;  // m/sqrt(s)
+// A satellite's clock against its broadcast polynomial from epoch to epoch: white frequency noise
+// of 5e-12 at one second, as rubidium clocks of GPS and BeiDou have.
+constexpr double kClockWalk = 0.0015;  // m/sqrt(s)
 
 double square(double x) { return x * x; }
 
@@ -30,7 +36,8 @@ double orbit_wander(const SatelliteInView& satellite) {
 
 Measurement carrier_measurement(const DelayContext& context, const SignalObservation& first,
                                 const SignalObservation* second, const CarrierStatus& status,
-                                const SatelliteInView& satellite) {
+                                SatelliteInView* in_view) {
+  const SatelliteInView& satellite = *in_view;
   const System system = satellite.satellite.system;
   const double sigma0 = context.config->systems[index_of(system)].sigma.carrier_m;
   const double f1 = frequency_hz(system, first.code.band);
@@ -58,14 +65,41 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
     range += klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
     wander += square(system == System::kLeo ? kIonosphereWanderLeo : kIonosphereWander);
   }
-  carrier.value = range + satellite.clock_m - satellite.troposphere_m - satellite.path_m -
-                  antenna_range(context, satellite, carrier.code, carrier.second_code).range_m;
+  const AntennaCorrection antenna =
+      antenna_range(context, satellite, carrier.code, carrier.second_code);
+  in_view->antenna_m = antenna.range_m;
+  in_view->antenna_issue = antenna.issue;
+  if (!antenna.known && system != System::kLeo) wander += square(kAntennaWander);
+  carrier.value =
+      range + satellite.clock_m - satellite.troposphere_m - satellite.path_m - antenna.range_m;
   // Half a cycle may yet come or go: a quarter either way.
   const double half_cycle =
       status.half_cycle_unresolved ? 0.25 * kSpeedOfLight / f1 * noise / noise1 : 0.0;
   carrier.sigma = std::hypot(noise, satellite.orbit_sigma_change_m, half_cycle);
   carrier.wander = std::sqrt(wander);
   return carrier;
+}
+
+double orbit_step_m(const Ephemeris& from, const Ephemeris& to, GpsTime time,
+                    const Eigen::Vector3d& p_a_e) {
+  const SatelliteState before = broadcast_state(from, time);
+  const SatelliteState now = broadcast_state(to, time);
+  const Eigen::Vector3d line_of_sight = (now.p_e - p_a_e).normalized();
+  return kSpeedOfLight * (now.clock_s - before.clock_s) - line_of_sight.dot(now.p_e - before.p_e);
+}
+
+double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& satellite,
+                      const Measurement& carrier, double dt) {
+  const System system = satellite.satellite.system;
+  const bool leo = system == System::kLeo;
+  const bool broadcast = satellite.source == OrbitSource::kBroadcast;
+  const double clock = broadcast ? kClockWalk : orbit_wander(satellite);
+  if (carrier.second_code.band != 0) return clock * std::sqrt(dt);
+  const double rate = leo ? config.ionosphere_rate_leo_m_s : config.ionosphere_rate_m_s;
+  const double to_frequency =
+      square(frequency_hz(System::kGps, '1') / frequency_hz(system, carrier.code.band));
+  return std::hypot(clock * std::sqrt(dt),
+                    rate * to_frequency * elevation_factor(satellite.elevation) * dt);
 }
 
 }  // namespace leonav

@@ -1,9 +1,11 @@
 #include "core/gnss/carrier_follower.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/gnss/carrier_correction.h"
 #include "core/gnss/range_model.h"
 
 namespace leonav {
@@ -18,7 +20,6 @@ double square(double x) { return x * x; }
 CarrierFollower::CarrierFollower(const CycleSlipConfig& config) : config_(config), arcs_(config) {}
 
 void CarrierFollower::begin(GpsTime time) {
-  interval_s_ = time_.is_set() ? seconds_between(time, time_) : 0.0;
   time_ = time;
   inputs_.clear();
 }
@@ -26,9 +27,7 @@ void CarrierFollower::begin(GpsTime time) {
 const CarrierPairCodes* CarrierFollower::followed_pair(SatelliteId satellite) const {
   const Memory* memory = memory_of(satellite);
   if (memory == nullptr || !memory->offered.is_set()) return nullptr;
-  const double limit_s = satellite.system == System::kLeo
-                             ? std::max(config_.max_gap_leo_s, 1.5 * interval_s_)
-                             : std::max(config_.max_gap_s, config_.max_gap_intervals * interval_s_);
+  const double limit_s = arcs_.gap_limit_s(satellite.system, time_);
   return seconds_between(time_, memory->offered) <= limit_s ? &memory->pair : nullptr;
 }
 
@@ -56,6 +55,11 @@ const CarrierFollower::Memory* CarrierFollower::memory_of(SatelliteId satellite)
   return const_cast<CarrierFollower*>(this)->memory_of(satellite);
 }
 
+std::uint32_t CarrierFollower::last_issue(SatelliteId satellite) const {
+  const Memory* memory = memory_of(satellite);
+  return memory == nullptr ? 0 : memory->issue;
+}
+
 double CarrierFollower::last_wind_up(SatelliteId satellite) const {
   const Memory* memory = memory_of(satellite);
   return memory == nullptr ? 0.0 : memory->wind_up_cycles;
@@ -81,10 +85,23 @@ RangeChangeRow CarrierFollower::row_of(const SatelliteInView& satellite, const M
   RangeChangeRow row;
   row.direction = range.d_range_d_p.transpose();
   row.direction_change = row.direction - before.direction;
+  // Less what other elements and other antenna patterns are known to have added.
   row.residual_m = carrier.value - range.range_m - before.residual_m;
-  row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 + square(carrier.wander) * dt);
+  if (before.issue != satellite.orbit_issue) row.residual_m -= satellite.orbit_step_m;
+  row.residual_m += antenna_step_m(satellite, before);
+  row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 +
+                          square(change_sigma_m(config_, satellite, carrier, dt)));
   row.time_base = static_cast<int>(index_of(satellite.satellite.system));
   return row;
+}
+
+// Whether the carrier can be tested against what was remembered: one arc, since the last epoch, of
+// orbits whose difference is known.
+bool CarrierFollower::is_comparable(const SatelliteInView& satellite, const Measurement& carrier,
+                                    const Memory* before) const {
+  return before != nullptr && before->time == last_time_ && carrier.arc != 0 &&
+         before->arc == carrier.arc &&
+         (before->issue == satellite.orbit_issue || std::isfinite(satellite.orbit_step_m));
 }
 
 void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
@@ -109,9 +126,7 @@ void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
     for (std::size_t i = 0; i < carriers.size(); ++i) {
       const SatelliteInView& satellite = epoch->satellites[carriers[i]->satellite_index];
       const Memory* before = memory_of(satellite.satellite);
-      if (before == nullptr || before->time != last_time_ || before->arc != carriers[i]->arc ||
-          before->issue != satellite.orbit_issue || carriers[i]->arc == 0)
-        continue;
+      if (!is_comparable(satellite, *carriers[i], before)) continue;
       rows.push_back(row_of(satellite, *carriers[i], *before, predicted_p_e));
       of_row.push_back(row_status[i]);
     }
@@ -125,11 +140,49 @@ void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
     carriers[i]->arc = satellite.arc = now.arc;
     satellite.arc_started = now.started;
     satellite.arc_causes = now.causes;
-    const Memory* before = memory_of(satellite.satellite);
-    if (before != nullptr && before->arc == carriers[i]->arc &&
-        before->issue != satellite.orbit_issue)
-      carriers[i]->disturbance_m = std::hypot(before->orbit_sigma_m, satellite.orbit_sigma_m);
   }
+  disturb(epoch);
+}
+
+// What other antenna patterns add to the carrier's correction. Where the source of the orbit is
+// another, centre of mass and phase centre change places together with it: that is no step.
+double CarrierFollower::antenna_step_m(const SatelliteInView& satellite,
+                                       const Memory& before) const {
+  if (before.antenna_issue == satellite.antenna_issue || before.source != satellite.source)
+    return 0.0;
+  return satellite.antenna_m - before.antenna_m;
+}
+
+// Another orbit has another error. Other antenna patterns correct by something else, which the
+// arc's constant has taken up so far and, as far as no clock of a system could, the position.
+void CarrierFollower::disturb(MeasurementEpoch* epoch) const {
+  constexpr double kDilution = 2.0;  // of what is wrong with the satellites, in the position
+  std::array<double, kSystemCount> sum{}, squares{};
+  std::array<int, kSystemCount> count{};
+  for (Measurement& carrier : epoch->measurements) {
+    if (carrier.observable != Observable::kCarrier) continue;
+    const SatelliteInView& satellite = epoch->satellites[carrier.satellite_index];
+    const std::size_t system = index_of(satellite.satellite.system);
+    ++count[system];
+    const Memory* before = memory_of(satellite.satellite);
+    if (before == nullptr || before->arc != carrier.arc) continue;
+    const double step_m = antenna_step_m(satellite, *before);
+    sum[system] += step_m;
+    squares[system] += square(step_m);
+    const bool same_orbit = before->issue == satellite.orbit_issue;
+    const double orbit_m =
+        same_orbit ? 0.0 : std::hypot(before->orbit_sigma_m, satellite.orbit_sigma_m);
+    carrier.disturbance_m = std::hypot(orbit_m, step_m);
+  }
+  double about_mean = 0.0;
+  int carriers = 0;
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    if (count[i] == 0) continue;
+    about_mean += std::max(0.0, squares[i] - square(sum[i]) / count[i]);
+    carriers += count[i];
+  }
+  epoch->position_disturbance_m =
+      carriers == 0 ? 0.0 : kDilution * std::sqrt(about_mean / carriers);
 }
 
 void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e) {
@@ -146,6 +199,9 @@ void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vecto
     memory->variance_m2 = square(carrier.sigma);
     memory->issue = satellite.orbit_issue;
     memory->orbit_sigma_m = satellite.orbit_sigma_m;
+    memory->source = satellite.source;
+    memory->antenna_issue = satellite.antenna_issue;
+    memory->antenna_m = satellite.antenna_m;
   }
   last_time_ = epoch.time;
   memory_.erase(std::remove_if(memory_.begin(), memory_.end(),

@@ -26,6 +26,8 @@ class CarrierFollower {
   // Statuses in the order of the offers; stays until the next epoch.
   const ArcEpoch& follow();
 
+  // Of the orbit that the satellite's carrier was last remembered with; 0: none.
+  std::uint32_t last_issue(SatelliteId satellite) const;
   // The satellite's wind-up at the last epoch, cycles; 0 for a new one.
   double last_wind_up(SatelliteId satellite) const;
   void set_wind_up(SatelliteId satellite, double cycles);
@@ -33,7 +35,7 @@ class CarrierFollower {
   // Tests the carriers of `epoch` (appended in the order of the offers; those left out there have
   // no measurement) against each other and the predicted motion, and gives each its arc.
   // `predicted_p_e`: the antenna as predicted. Also says which carriers are disturbed by another
-  // orbit.
+  // orbit or antenna pattern, and by how much the position.
   void check_range_changes(const Eigen::Vector3d& predicted_p_e, const RangeChangePrior& prior,
                            MeasurementEpoch* epoch);
   // `antenna_p_e`: as estimated with this epoch.
@@ -58,6 +60,9 @@ class CarrierFollower {
     double variance_m2 = 0.0;
     std::uint32_t issue = 0;
     double orbit_sigma_m = 0.0;
+    OrbitSource source = OrbitSource::kNone;
+    std::uint32_t antenna_issue = 0;
+    double antenna_m = 0.0;
     double wind_up_cycles = 0.0;
     GpsTime offered;  // when `pair` was last measured
     CarrierPairCodes pair;
@@ -66,6 +71,10 @@ class CarrierFollower {
   const Memory* memory_of(SatelliteId satellite) const;
   RangeChangeRow row_of(const SatelliteInView& satellite, const Measurement& carrier,
                         const Memory& before, const Eigen::Vector3d& predicted_p_e) const;
+  bool is_comparable(const SatelliteInView& satellite, const Measurement& carrier,
+                     const Memory* before) const;
+  double antenna_step_m(const SatelliteInView& satellite, const Memory& before) const;
+  void disturb(MeasurementEpoch* epoch) const;
 
   CycleSlipConfig config_;
   CarrierArcs arcs_;
@@ -73,7 +82,6 @@ class CarrierFollower {
   boost::container::static_vector<CarrierInput, kMaxSatellites> inputs_;
   boost::container::static_vector<Memory, kMaxSatellites> memory_;
   GpsTime time_, last_time_;
-  double interval_s_ = 0.0;  // to the epoch before
 };
 
 }  // namespace leonav

@@ -47,19 +47,25 @@ struct SatelliteInView {
   double orbit_sigma_m = 0.0;
   double orbit_sigma_change_m = 0.0;  // as in SatelliteState
   std::uint32_t orbit_issue = 0;      // likewise
+  // What other elements since the last epoch added to `carrier minus range`: 0 if they are the
+  // same, NaN if the old ones are not there to compare.
+  double orbit_step_m = 0.0;
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;
-  double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
-  double azimuth = 0.0;          // rad
-  double troposphere_m = 0.0;    // slant delay applied
-  double wet_mapping = 0.0;      // of a wet delay at zenith beyond it
-  double path_m = 0.0;           // what else lengthens the path of all signals: gravity, tides
-  double wind_up_cycles = 0.0;   // of the carrier
-  double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
-  double cn0_dbhz = 0.0;         // strongest signal
-  std::uint32_t arc = 0;         // of its carrier; 0: none used
-  bool arc_started = false;      // here
-  SlipCauses arc_causes;         // why the one before it ended; none at a satellite's first
+  bool clock_of_file = false;       // as in SatelliteState
+  double elevation = 0.0;           // rad, at the approximate position; 0 if there is none
+  double azimuth = 0.0;             // rad
+  double troposphere_m = 0.0;       // slant delay applied
+  double wet_mapping = 0.0;         // of a wet delay at zenith beyond it
+  double path_m = 0.0;              // what else lengthens the path of all signals: gravity, tides
+  double wind_up_cycles = 0.0;      // of the carrier
+  double antenna_m = 0.0;           // carrier: what the antennas' patterns lengthen it by
+  std::uint32_t antenna_issue = 0;  // of these patterns: another one, another correction
+  double ionosphere_l1_m = 0.0;     // slant delay on L1 by the model; 0 for ionosphere-free use
+  double cn0_dbhz = 0.0;            // strongest signal
+  std::uint32_t arc = 0;            // of its carrier; 0: none used
+  bool arc_started = false;         // here
+  SlipCauses arc_causes;            // why the one before it ended; none at a satellite's first
   Reason reason = Reason::kUsed;
 };
 
@@ -88,6 +94,9 @@ struct MeasurementEpoch {
   GpsTime time;             // receiver's time tag
   Eigen::Vector3d approximate_p_e =
       Eigen::Vector3d::Zero();  // used for elevation and delays; zero: none
+  // 1 sigma, each axis, of a step in the position that the measurements tell since the last epoch
+  // (other antenna patterns).
+  double position_disturbance_m = 0.0;
   boost::container::static_vector<SatelliteInView, kMaxSatellites> satellites;
   boost::container::static_vector<Measurement, kMaxMeasurements> measurements;
 };

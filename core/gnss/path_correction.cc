@@ -13,6 +13,11 @@ Eigen::Matrix3d axes_of(const DelayContext& context, const SatelliteInView& sate
                         attitude_law(satellite.satellite, context.config->leo_attitude));
 }
 
+// One number for several patterns in their order (FNV-1a).
+std::uint32_t mixed(std::uint32_t issue, std::uint64_t revision) {
+  return (issue ^ static_cast<std::uint32_t>(revision)) * 16777619u;
+}
+
 }  // namespace
 
 double path_delay_m(const DelayContext& context, const Eigen::Vector3d& p_a_e,
@@ -41,11 +46,14 @@ AntennaCorrection antenna_range(const DelayContext& context, const SatelliteInVi
   const Eigen::Matrix3d C_es = axes_of(context, satellite);
   const Eigen::Vector3d u_r = context.C_er.transpose() * (satellite.p_e - p_a_e).normalized();
   const auto add = [&](char band, double gamma) {
-    correction.range_m += gamma * context.antennas->receiver_range(system, band, u_r).range_m;
+    const AntennaRange receiver = context.antennas->receiver_range(system, band, u_r);
+    correction.range_m += gamma * receiver.range_m;
+    correction.issue = mixed(correction.issue, receiver.revision);
     if (!precise) return;
     const AntennaRange range = context.antennas->satellite_range(
         satellite.satellite, band, context.time, satellite.p_e, C_es, p_a_e);
     correction.range_m += gamma * range.range_m;
+    correction.issue = mixed(correction.issue, range.revision);
     if (range.status == AntennaStatus::kNone) correction.known = false;
   };
   if (second.band == 0) {

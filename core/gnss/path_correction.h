@@ -1,6 +1,7 @@
 // What lengthens a signal's path besides the atmosphere: gravity, tides, the antennas.
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "core/gnss/code_correction.h"
 
@@ -21,6 +22,7 @@ double wind_up_cycles(const DelayContext& context, const SatelliteInView& satell
 struct AntennaCorrection {
   double range_m = 0.0;
   bool known = true;  // false: the satellite's antenna is not modelled, though its orbit needs it
+  std::uint32_t issue = 0;  // of the patterns in it: another one, other patterns
 };
 AntennaCorrection antenna_range(const DelayContext& context, const SatelliteInView& satellite,
                                 SignalCode first, SignalCode second);

@@ -181,8 +181,20 @@ void append_doppler(const DelayContext& context, const Candidate& candidate,
   append(candidate, doppler_measurement(context, *strongest, nullptr, view), epoch);
 }
 
-void append_carriers(const DelayContext& context, const Candidates& candidates,
-                     CarrierFollower* carriers, MeasurementEpoch* epoch) {
+// What a change of broadcast elements since the carrier was last seen did to it.
+double orbit_step(const DelayContext& context, const SatelliteCatalog& catalog,
+                  const Candidate& candidate, const SatelliteInView& view, std::uint32_t before) {
+  if (before == 0 || before == view.orbit_issue) return 0.0;
+  const Ephemeris* from = catalog.elements_of(view.satellite, before);
+  const Ephemeris* to = catalog.elements_of(view.satellite, view.orbit_issue);
+  if (from == nullptr || to == nullptr) return kNotMeasured;
+  const double flight_s = candidate.signals.first->pseudorange_m / kSpeedOfLight;
+  return orbit_step_m(*from, *to, context.time.plus_seconds(-flight_s), to_ecef(context.antenna));
+}
+
+void append_carriers(const DelayContext& context, const SatelliteCatalog& catalog,
+                     const Candidates& candidates, CarrierFollower* carriers,
+                     MeasurementEpoch* epoch) {
   boost::container::static_vector<std::pair<const Candidate*, CarrierChoice>, kMaxSatellites>
       offered;
   carriers->begin(context.time);
@@ -195,15 +207,17 @@ void append_carriers(const DelayContext& context, const Candidates& candidates,
         choose_carriers(candidate.observations, candidate.signals, context.config->cn0_mask_dbhz,
                         carriers->followed_pair(view.satellite));
     if (choice.first == nullptr) continue;
+    view.orbit_step_m =
+        orbit_step(context, catalog, candidate, view, carriers->last_issue(view.satellite));
     carriers->offer(choice, view.elevation);
     offered.push_back({&candidate, choice});
   }
   const ArcEpoch& arcs = carriers->follow();
   for (std::size_t i = 0; i < offered.size(); ++i) {
     const auto& [candidate, choice] = offered[i];
-    const SatelliteInView& view = epoch->satellites[candidate->satellite_index];
+    SatelliteInView& view = epoch->satellites[candidate->satellite_index];
     append(*candidate,
-           carrier_measurement(context, *choice.first, choice.second, arcs.satellites[i], view),
+           carrier_measurement(context, *choice.first, choice.second, arcs.satellites[i], &view),
            epoch);
   }
 }
@@ -232,6 +246,7 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
   epoch->approximate_p_e = approximate_p_e;
   epoch->satellites.clear();
   epoch->measurements.clear();
+  epoch->position_disturbance_m = 0.0;
 
   DelayContext context = delay_context(config, catalog.klobuchar(), raw.time, approximate_p_e);
   context.antennas = aids.antennas;
@@ -262,7 +277,7 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     append_doppler(context, candidate, epoch);
   }
   if (aids.carriers != nullptr && context.has_position)
-    append_carriers(context, candidates, aids.carriers, epoch);
+    append_carriers(context, catalog, candidates, aids.carriers, epoch);
 }
 
 }  // namespace leonav

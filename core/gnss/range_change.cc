@@ -34,6 +34,7 @@ void judge(const ChangeRows& rows, const ChangeFitter& fitter, const SlipSearch&
     RangeRowResult& row = result->rows[rows.rows[i].source];
     const ExternalDeviation seen = fitter.external(i, fit, found.kept.test(i));
     row.deviation_m = seen.value_m;
+    row.sigma_m = seen.sigma_m;
     if (!found.decided || found.doubtful.test(i)) {
       row.verdict = RangeVerdict::kUndecided;
       result->status = RangeChangeStatus::kUndecidable;

@@ -58,6 +58,7 @@ enum class RangeChangeStatus : std::uint8_t {
 struct RangeRowResult {
   RangeVerdict verdict = RangeVerdict::kNotTested;
   double deviation_m = 0.0;  // from what the other rows say: the slip's size, if it is one
+  double sigma_m = 0.0;      // of the deviation; 0: nothing checks the row
 };
 
 struct RangeChangeResult {

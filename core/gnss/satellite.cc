@@ -5,8 +5,6 @@ namespace {
 
 constexpr std::array<std::string_view, kSystemCount> kSystemNames = {"gps", "galileo", "beidou",
                                                                      "leo"};
-// Highest number of each system.
-constexpr std::array<std::uint16_t, kSystemCount> kHighestNumber = {63, 50, 63, 399};
 // LEO names count on through the letters: L01 is 1, M00 is 100.
 constexpr std::string_view kLeoLetters = "LMNO";
 

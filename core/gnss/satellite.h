@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/capacity.h"
+
 namespace leonav {
 
 // The values are on the wire: append only.
@@ -26,7 +28,18 @@ struct SatelliteId {
   friend constexpr auto operator<=>(const SatelliteId&, const SatelliteId&) = default;
 };
 
+// Highest number of each system.
+inline constexpr std::array<std::uint16_t, kSystemCount> kHighestNumber = {63, 50, 63, 399};
+
 bool is_valid(SatelliteId id);
+
+// Place of a valid satellite in a table with one for each that has a name; needs no search.
+constexpr std::size_t place_of(SatelliteId id) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < index_of(id.system); ++i) first += kHighestNumber[i];
+  return first + id.number - 1u;
+}
+static_assert(place_of({System::kLeo, kHighestNumber[3]}) + 1 == kMaxEphemerisSatellites);
 
 // RINEX name: letter and two digits. LEO: L01-L99 are 1-99, M00-M99 100-199, N00-N99 200-299,
 // O00-O99 300-399. A blank tens digit ("G 5") is read as zero. nullopt for any other text,

@@ -12,12 +12,6 @@
 namespace leonav {
 namespace {
 
-// First place of each system in the table; a place per possible satellite needs no search.
-constexpr std::array<std::size_t, kSystemCount> kFirstPlace = {0, 63, 113, 176};
-static_assert(kFirstPlace[3] + 399 == kMaxEphemerisSatellites);
-
-std::size_t place_of(SatelliteId id) { return kFirstPlace[index_of(id.system)] + id.number - 1; }
-
 struct StoredEphemeris {
   Ephemeris ephemeris;
   std::uint64_t arrival = 0;
@@ -133,6 +127,7 @@ bool find_precise(const Track& track, System system, GpsTime time, const Catalog
     return false;
   }
   state->issue = issue_of(fine ? IssueKind::kPreciseWithClocks : IssueKind::kPrecise);
+  state->clock_of_file = fine;
   return true;
 }
 
@@ -218,6 +213,13 @@ LookupStatus SatelliteCatalog::state_at(SatelliteId satellite, GpsTime time, Sat
 const Ephemeris* SatelliteCatalog::ephemeris_at(SatelliteId satellite, GpsTime time) const {
   if (!is_valid(satellite) || time.nanoseconds() <= 0) return nullptr;
   return best_ephemeris(storage_->tracks[place_of(satellite)], time, storage_->options);
+}
+
+const Ephemeris* SatelliteCatalog::elements_of(SatelliteId satellite, std::uint32_t issue) const {
+  if (!is_valid(satellite)) return nullptr;
+  for (const StoredEphemeris& stored : storage_->tracks[place_of(satellite)].ephemerides)
+    if (issue_of(stored.ephemeris) == issue) return &stored.ephemeris;
+  return nullptr;
 }
 
 }  // namespace leonav

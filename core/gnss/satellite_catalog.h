@@ -67,6 +67,9 @@ class SatelliteCatalog {
   // that a precise clock needs. Valid until the next add().
   const Ephemeris* ephemeris_at(SatelliteId satellite, GpsTime time) const;
 
+  // The broadcast elements that gave a SatelliteState of this `issue`, or nullptr. Likewise.
+  const Ephemeris* elements_of(SatelliteId satellite, std::uint32_t issue) const;
+
  private:
   struct Storage;
   std::unique_ptr<Storage> storage_;

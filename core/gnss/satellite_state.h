@@ -22,6 +22,7 @@ struct SatelliteState {
   double age_s = 0.0;           // |instant - reference time of the product|
   std::uint32_t issue = 0;      // another one, other elements: their error steps. 0: none
   OrbitSource source = OrbitSource::kNone;
+  bool clock_of_file = false;  // precise: from a clock file, finer than the clocks of the orbits
 };
 
 // Orbit and clock from broadcast elements at `time` (system time of transmission). Position as in

@@ -26,6 +26,8 @@ std::string_view to_string(SlipCause cause) {
       return "filter";
     case SlipCause::kClockJump:
       return "clock_jump";
+    case SlipCause::kUntested:
+      return "untested";
   }
   return "unknown";
 }

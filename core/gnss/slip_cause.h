@@ -19,12 +19,13 @@ enum class SlipCause : std::uint16_t {
   kRangeChange = 1 << 8,        // carrier change against the other satellites and the motion
   kFilter = 1 << 9,             // the estimator rejected the carrier
   kClockJump = 1 << 10,         // clock jump that cannot be repaired, all satellites at once
+  kUntested = 1 << 11,          // one frequency, and nothing could test it here
 };
-inline constexpr std::array<SlipCause, 11> kSlipCauses = {
+inline constexpr std::array<SlipCause, 12> kSlipCauses = {
     SlipCause::kGap,      SlipCause::kSignalChanged, SlipCause::kLossOfLock,
     SlipCause::kLockTime, SlipCause::kGeometryFree,  SlipCause::kMelbourneWuebbena,
     SlipCause::kDoppler,  SlipCause::kHalfCycle,     SlipCause::kRangeChange,
-    SlipCause::kFilter,   SlipCause::kClockJump,
+    SlipCause::kFilter,   SlipCause::kClockJump,     SlipCause::kUntested,
 };
 std::string_view to_string(SlipCause cause);  // "gap", "signal_changed", ...
 

@@ -54,6 +54,7 @@ LookupStatus satellite_at_transmission(const SatelliteCatalog& catalog, GpsTime 
   satellite->orbit_issue = state.issue;
   satellite->ephemeris_age_s = state.age_s;
   satellite->source = state.source;
+  satellite->clock_of_file = state.clock_of_file;
   *broadcast = ephemeris;
   return LookupStatus::kOk;
 }

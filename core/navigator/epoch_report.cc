@@ -36,6 +36,7 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
     satellite.cn0_dbhz = in_view.cn0_dbhz;
     satellite.ephemeris_age_s = in_view.ephemeris_age_s;
     satellite.source = in_view.source;
+    satellite.clock_of_file = in_view.clock_of_file;
     satellite.arc = in_view.arc;
     satellite.arc_started = in_view.arc_started;
     satellite.arc_causes = in_view.arc_causes;

@@ -26,6 +26,21 @@ RobustConfig robust_start(RobustConfig config) {
   return config;
 }
 
+EventKind event_of(OrbitChange change) {
+  switch (change) {
+    case OrbitChange::kNone:
+    case OrbitChange::kFallback:
+      break;
+    case OrbitChange::kReturn:
+      return EventKind::kOrbitReturn;
+    case OrbitChange::kClockFallback:
+      return EventKind::kClockFallback;
+    case OrbitChange::kClockReturn:
+      return EventKind::kClockReturn;
+  }
+  return EventKind::kOrbitFallback;
+}
+
 }  // namespace
 
 GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
@@ -290,15 +305,14 @@ void GnssStage::publish(const EpochWork& work) {
 
 void GnssStage::watch_orbits() {
   for (const SatelliteReport& satellite : report_->satellites) {
-    const OrbitChange change = orbit_watch_.look(satellite.satellite, satellite.source);
+    const OrbitChange change =
+        orbit_watch_.look(satellite.satellite, satellite.source, satellite.clock_of_file);
     if (change == OrbitChange::kNone) continue;
-    const bool fallback = change == OrbitChange::kFallback;
-    std::uint64_t& count = fallback ? orbit_fallbacks_ : orbit_returns_;
+    std::uint64_t& count = orbit_changes_[static_cast<std::size_t>(change)];
     // Events are thinned, so that a product that comes and goes does not drown the others.
     if (++count > 16 && count % 256 != 0) continue;
-    events_.emit(fallback ? EventKind::kOrbitFallback : EventKind::kOrbitReturn,
-                 static_cast<std::uint8_t>(satellite.satellite.system), satellite.satellite.number,
-                 report_->time);
+    events_.emit(event_of(change), static_cast<std::uint8_t>(satellite.satellite.system),
+                 satellite.satellite.number, report_->time);
   }
 }
 

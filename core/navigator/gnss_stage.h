@@ -90,7 +90,7 @@ class GnssStage {
   OrbitWatch orbit_watch_;
   UsableWatch usable_watch_;
   std::uint64_t clock_steps_ = 0;
-  std::uint64_t orbit_fallbacks_ = 0, orbit_returns_ = 0;
+  std::array<std::uint64_t, 5> orbit_changes_{};  // per OrbitChange
   int suspect_epochs_ = 0;
   GpsTime suspect_since_;  // the first of them, if codes had a position for it
   PointSolution suspect_point_;

@@ -1,4 +1,4 @@
-// Notices satellites whose orbit comes from another source than before.
+// Notices satellites whose orbit or clock comes from another source than before.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,27 +9,35 @@ namespace leonav {
 
 enum class OrbitChange : std::uint8_t {
   kNone = 0,
-  kFallback,  // from precise to broadcast
-  kReturn,    // from broadcast to precise, also for the first time
+  kFallback,       // from precise to broadcast
+  kReturn,         // from broadcast to precise, also for the first time
+  kClockFallback,  // precise: from the clocks of a clock file to those of the orbit file
+  kClockReturn,    // the way back, also for the first time
 };
 
 class OrbitWatch {
  public:
   // Takes note of what serves `id` in this epoch, and compares it with what did when the satellite
-  // was last seen: where the source changes the range steps, by a metre or so. kNone (no state) is
-  // no news.
-  OrbitChange look(SatelliteId id, OrbitSource source) {
+  // was last seen: where the source changes the range steps, by a metre or so; by centimetres to
+  // decimetres where only the clock does. kNone (no state) is no news.
+  OrbitChange look(SatelliteId id, OrbitSource source, bool clock_of_file) {
     if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
-    OrbitSource& last = last_[index_of(id.system)][id.number];
-    const OrbitSource before = last;
-    last = source;
-    if (before == OrbitSource::kNone || before == source) return OrbitChange::kNone;
-    return source == OrbitSource::kBroadcast ? OrbitChange::kFallback : OrbitChange::kReturn;
+    Last& last = last_[place_of(id)];
+    const Last before = last;
+    last = {source, clock_of_file};
+    if (before.source == OrbitSource::kNone) return OrbitChange::kNone;
+    if (before.source != source)
+      return source == OrbitSource::kBroadcast ? OrbitChange::kFallback : OrbitChange::kReturn;
+    if (before.clock_of_file == clock_of_file) return OrbitChange::kNone;
+    return clock_of_file ? OrbitChange::kClockReturn : OrbitChange::kClockFallback;
   }
 
  private:
-  static constexpr std::size_t kNumbers = 400;  // LEO has the highest, 399
-  std::array<std::array<OrbitSource, kNumbers>, kSystemCount> last_{};
+  struct Last {
+    OrbitSource source = OrbitSource::kNone;
+    bool clock_of_file = false;
+  };
+  std::array<Last, kMaxEphemerisSatellites> last_{};
 };
 
 }  // namespace leonav

@@ -48,6 +48,10 @@ std::string_view to_string(EventKind kind) {
       return "clock_step";
     case EventKind::kNoneUsable:
       return "none_usable";
+    case EventKind::kClockFallback:
+      return "clock_fallback";
+    case EventKind::kClockReturn:
+      return "clock_return";
   }
   return "unknown";
 }

@@ -61,9 +61,10 @@ struct SatelliteReport {
   double cn0_dbhz = 0.0;
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;
-  std::uint32_t arc = 0;     // identity of its uninterrupted carrier; 0: not used
-  bool arc_started = false;  // here
-  SlipCauses arc_causes;     // why the arc before it ended; none at a satellite's first
+  bool clock_of_file = false;  // precise: its clock is of a clock file
+  std::uint32_t arc = 0;       // identity of its uninterrupted carrier; 0: not used
+  bool arc_started = false;    // here
+  SlipCauses arc_causes;       // why the arc before it ended; none at a satellite's first
 };
 
 // One GNSS epoch as the estimator left it. `solution` is its estimate at the epoch itself.
@@ -100,6 +101,8 @@ enum class EventKind : std::uint8_t {
   kOrbitReturn = 11,    // a precise state serves where broadcast did; likewise
   kClockStep = 12,      // of a clock, beyond its noise; code: ClockStep, value: metres
   kNoneUsable = 13,  // all satellites left out, epoch after epoch; code: Reason, value: satellites
+  kClockFallback = 14,  // precise: no clock file's clock, the orbit's serves; code, value: as 10
+  kClockReturn = 15,    // a clock file's serves again, or for the first time; likewise
 };
 std::string_view to_string(EventKind kind);
 

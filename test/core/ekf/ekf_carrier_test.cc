@@ -92,6 +92,22 @@ TEST_CASE("an arc that ends takes its ambiguity along; one unseen for long goes,
   CHECK(filter.covariance().rows() == kSize + 7);
 }
 
+TEST_CASE("a step in what the measurements mean opens the position by as much") {
+  Receiver receiver(5);
+  Ekf filter = static_filter(&receiver);
+  for (int k = 1; k <= 20; ++k) step(&filter, receiver.measure(kStep_s * k));
+  const double before = filter.covariance()(kPosition, kPosition);
+  MeasurementEpoch other = receiver.measure(21 * kStep_s);
+  other.position_disturbance_m = 0.5;
+  for (Measurement& m : other.measurements)
+    if (m.observable == Observable::kCarrier) m.disturbance_m = 1.0;
+  step(&filter, other);
+  const double after = filter.covariance()(kPosition, kPosition);
+  CAPTURE(before, after);
+  CHECK(after > 1.5 * before);
+  CHECK(after < 0.25 + before);
+}
+
 TEST_CASE("an arc that its checks took for whole is thrown out and begins anew") {
   Receiver receiver(3);
   EkfConfig config = static_config();

@@ -144,4 +144,30 @@ TEST_CASE("The antenna catalogue refuses what it cannot hold and keeps the rest"
   CHECK(overhead(catalog, {System::kGalileo, 1}, '1', week(1999)).range_m == Approx(-0.001));
 }
 
+TEST_CASE("a pattern's revision changes with it, and not where the same one is sent again") {
+  AntennaCatalog catalog;
+  const SatelliteId g07{System::kGps, 7};
+  CHECK(overhead(catalog, g07, '1', week(2100)).revision == 0);
+  AntennaPattern pattern = satellite_pattern(g07, '1', {0, 0, 1000});
+  REQUIRE(catalog.add(pattern));
+  const std::uint64_t first = overhead(catalog, g07, '1', week(2100)).revision;
+  CHECK(first != 0);
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g07, '1', week(2100)).revision == first);
+  pattern.offset_m.z() = 1.1;
+  REQUIRE(catalog.add(pattern));
+  CHECK(overhead(catalog, g07, '1', week(2100)).revision != first);
+  CHECK(catalog.counters().added == 3);
+
+  const Eigen::Vector3d up(0, 0, -1);
+  AntennaPattern own = receiver_pattern(System::kGps, '1', {0, 0, 90}, {1, 2, 3});
+  REQUIRE(catalog.add(own));
+  const std::uint64_t mine = catalog.receiver_range(System::kGps, '1', up).revision;
+  REQUIRE(catalog.add(own));
+  CHECK(catalog.receiver_range(System::kGps, '1', up).revision == mine);
+  own.variation.values[1] = 0.0f;
+  REQUIRE(catalog.add(own));
+  CHECK(catalog.receiver_range(System::kGps, '1', up).revision != mine);
+}
+
 }  // namespace leonav

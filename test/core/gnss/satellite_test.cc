@@ -60,6 +60,13 @@ TEST_CASE("What came from the wire with an unknown system is not valid and still
   CHECK_FALSE(is_beidou_geostationary(id));
 }
 
+TEST_CASE("every satellite that has a name has a place of its own", "[satellite]") {
+  std::size_t next = 0;
+  for (const System system : kSystems)
+    for (std::uint16_t n = 1; is_valid({system, n}); ++n) CHECK(place_of({system, n}) == next++);
+  CHECK(next == kMaxEphemerisSatellites);
+}
+
 TEST_CASE("BeiDou's geostationary satellites", "[satellite]") {
   int count = 0;
   for (std::uint16_t n = 1; n <= 63; ++n) count += is_beidou_geostationary({System::kBeidou, n});
