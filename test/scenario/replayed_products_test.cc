@@ -1,0 +1,121 @@
+// The recorded station's log with its products late, ended or with holes: what the solution then
+// says of itself must stay true. The position is free at every epoch.
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/event_log.h"
+#include "scenario/recorded_runs.h"
+
+namespace leonav::test {
+namespace {
+
+// Whether an event goes into the changed log now; those held come at the end of the hold.
+enum class Fate { kPass, kDrop, kHold };
+using Judge = std::function<Fate(const LogEvent& event, int epochs)>;
+
+void rewrite(const std::string& from, const std::string& to, int hold_until, const Judge& judge) {
+  EventLogReader reader(from);
+  EventLogWriter writer(to);
+  std::vector<LogEvent> held;
+  LogEvent event;
+  int epochs = 0;
+  while (reader.next(&event)) {
+    if (event.channel == "LEONAV_GNSS_EPOCH" && ++epochs == hold_until) {
+      for (const LogEvent& late : held)
+        REQUIRE(writer.write(event.timestamp_us, late.channel, late.data));
+    }
+    const Fate fate = judge(event, epochs);
+    if (fate == Fate::kHold) held.push_back(event);
+    if (fate == Fate::kPass) REQUIRE(writer.write(event.timestamp_us, event.channel, event.data));
+  }
+  REQUIRE(writer.flush());
+}
+
+struct Outcome {
+  double within = 0.0;  // share within three stated sigma
+  double worst_late_m = 0.0;
+  std::string summary;
+};
+
+// `late`: from this time of week on the largest 3D error counts.
+Outcome outcome_of(const TemporaryFile& place, const std::string& log, double late_tow_s) {
+  const TemporaryFile truth("truth.csv",
+                            "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n"
+                            "2111,345600,55.4935676124,8.4568295850,59.4606\n"
+                            "2111,432000,55.4935676124,8.4568295850,59.4606\n");
+  const std::string free = config("station") +
+                           " --set ekf.motion=constant_velocity"
+                           " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
+                           " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
+  const std::string judge = "--max-truth-gap 1e9 --truth " + truth.path() + " --from 2111:";
+  Outcome outcome;
+  errors_of(place, log, free, judge + "351600");
+  outcome.summary = text_of(place.beside("result") + "/summary.txt");
+  outcome.within = number_after(text_of(place.beside("errors.json")), "", "within_three_sigma");
+  errors_of(place, log, free, judge + std::to_string(late_tow_s));
+  outcome.worst_late_m = number_after(text_of(place.beside("errors.json")), "3d_m", "worst");
+  return outcome;
+}
+
+bool is_clock_only(const LogEvent& event) {
+  static Decoder decoder;
+  const auto states = std::make_unique<PreciseStates>();
+  if (decoder.decode(event.data, states.get()).fault != InputFault::kNone) return false;
+  return !states->empty() && states->front().is_clock_only();
+}
+
+bool ready() { return programs() && have_shared_data("station/dataset.yaml"); }
+
+}  // namespace
+
+TEST_CASE("antenna patterns that come 2.5 h late do not leave the solution wrong and sure") {
+  if (!ready()) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "station"), late = place.beside("late.lcmlog");
+  rewrite(log, late, 300, [](const LogEvent& event, int) {
+    return event.channel == "LEONAV_ANTENNA" ? Fate::kHold : Fate::kPass;
+  });
+  const Outcome outcome = outcome_of(place, late, 358200.0);  // an hour after they came
+  std::printf("antennas late: %.2f %% within three sigma, 3D at most %.3f m an hour later\n",
+              100.0 * outcome.within, outcome.worst_late_m);
+  CHECK(outcome.within > 0.99);
+  CHECK(outcome.worst_late_m < 0.1);
+}
+
+TEST_CASE("precise products that end leave a solution that knows what broadcast orbits are worth") {
+  if (!ready()) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "station"), stopped = place.beside("stopped.lcmlog");
+  rewrite(log, stopped, 0, [](const LogEvent& event, int epochs) {
+    return event.channel == "LEONAV_ORBIT_CLOCK" && epochs >= 200 ? Fate::kDrop : Fate::kPass;
+  });
+  const Outcome outcome = outcome_of(place, stopped, 363600.0);
+  std::printf("products end: %.2f %% within three sigma, 3D at most %.3f m in the last hour\n",
+              100.0 * outcome.within, outcome.worst_late_m);
+  CHECK(outcome.within > 0.99);
+  CHECK(outcome.worst_late_m < 1.5);
+  CHECK(outcome.summary.find("arcs ended by filter") == std::string::npos);
+  CHECK(outcome.summary.find("orbit_fallback") != std::string::npos);
+}
+
+TEST_CASE("holes in the clock file are told") {
+  if (!ready()) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "station"), holes = place.beside("holes.lcmlog");
+  rewrite(log, holes, 0, [](const LogEvent& event, int epochs) {
+    const bool hole = epochs >= 200 && epochs / 20 % 2 != 0;
+    return hole && event.channel == "LEONAV_ORBIT_CLOCK" && is_clock_only(event) ? Fate::kDrop
+                                                                                 : Fate::kPass;
+  });
+  const Outcome outcome = outcome_of(place, holes, 363600.0);
+  CHECK(outcome.within > 0.99);
+  CHECK(outcome.worst_late_m < 0.3);
+  CHECK(outcome.summary.find("clock_fallback") != std::string::npos);
+  CHECK(outcome.summary.find("clock_return") != std::string::npos);
+}
+
+}  // namespace leonav::test
