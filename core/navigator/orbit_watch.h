@@ -22,7 +22,9 @@ class OrbitWatch {
   // decimetres where only the clock does. kNone (no state) is no news.
   OrbitChange look(SatelliteId id, OrbitSource source, bool clock_of_file) {
     if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
-    Last& last = last_[place_of(id)];
+    const std::size_t place = place_of(id);
+    if (place >= last_.size()) return OrbitChange::kNone;
+    Last& last = last_[place];
     const Last before = last;
     last = {source, clock_of_file};
     if (before.source == OrbitSource::kNone) return OrbitChange::kNone;
