@@ -10,8 +10,8 @@
 #include "core/ekf/clock_model.h"
 #include "core/ekf/clock_steps.h"
 #include "core/ekf/ekf.h"
-#include "core/median.h"
 #include "core/ekf/prediction_check.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {
