@@ -16,29 +16,6 @@ using synthetic::Generator;
 using synthetic::kRuns;
 using synthetic::nees;
 
-// Adds the carriers, and a wet delay to both.
-void add_carriers(const Eigen::VectorXd& ambiguities_m, double wet_m, double sigma, int epoch_index,
-                  Generator* noise, MeasurementEpoch* epoch) {
-  const auto codes = epoch->measurements;
-  for (SatelliteInView& view : epoch->satellites) view.wet_mapping = 1.0 / std::sin(view.elevation);
-  for (Measurement& m : epoch->measurements)
-    if (m.observable == Observable::kCode)
-      m.value += wet_m * epoch->satellites[m.satellite_index].wet_mapping;
-  for (const Measurement& code : codes) {
-    if (code.observable != Observable::kCode) continue;
-    Measurement carrier = code;
-    const SatelliteInView& view = epoch->satellites[code.satellite_index];
-    carrier.observable = Observable::kCarrier;
-    carrier.sigma = sigma;
-    // A slip that its checks have found: every satellite begins a new arc now and then.
-    carrier.arc = 1u + code.satellite_index +
-                  100u * static_cast<unsigned>((epoch_index + 7 * code.satellite_index) / 40);
-    carrier.value = ambiguities_m(code.satellite_index) + 10.0 * (carrier.arc / 100u) +
-                    wet_m * view.wet_mapping + sigma * noise->normal();
-    epoch->measurements.push_back(carrier);
-  }
-}
-
 }  // namespace
 
 TEST_CASE("with carriers, errors are as large as the covariance says, standing and driving") {
@@ -77,14 +54,7 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
       }
       const GpsTime time = synthetic::kStart.plus_seconds(k);
       MeasurementEpoch epoch = synthetic::measure(time, sky, truth, kCode, kDoppler, &noise);
-      add_carriers(ambiguities_m, wet_m, kCarrier, k, &noise, &epoch);
-      for (Measurement& m : epoch.measurements) {
-        if (m.observable != Observable::kCarrier) continue;
-        const SatelliteInView& view = epoch.satellites[m.satellite_index];
-        m.value +=
-            predict_range(view, truth.p_antenna_e).range_m +
-            truth.clocks.offset_m(static_cast<Eigen::Index>(index_of(view.satellite.system)));
-      }
+      synthetic::add_carriers(truth, ambiguities_m, wet_m, kCarrier, k, &noise, &epoch);
       filter.predict({}, time);
       filter.update(epoch);
       const Vector3d error_n = C_en.transpose() * (truth.p_antenna_e - filter.state().p_e);

@@ -90,8 +90,9 @@ TEST_CASE("constant-velocity filter: errors are as large as its covariance says"
   if (!config.robust.enabled) CHECK(std::abs(nis - degrees) < 3.0 * std::sqrt(2.0 * degrees));
 }
 
-TEST_CASE("inertial filter: errors are as large as its covariance says") {
+TEST_CASE("inertial filter: errors are as large as its covariance says, with carriers too") {
   EkfConfig config;
+  config.use_carrier = GENERATE(false, true);
   config.robust.enabled = GENERATE(false, true);  // as shipped: true
   const ImuErrorModel model = synthetic::mems();
   const Vector3d lever_b{0.5, 0.3, -1.2};
@@ -132,6 +133,7 @@ TEST_CASE("inertial filter: errors are as large as its covariance says") {
       truth.v_antenna_e = antenna.v_e;
     };
     antenna_of(start, Vector3d::Zero());
+    const Eigen::VectorXd ambiguities_m = Eigen::VectorXd::LinSpaced(8, -40.0, 60.0);
 
     Ekf filter(config, model, lever_b);
     filter.initialize(start.time, synthetic::point_near(truth, 3.0, 0.2, &noise));
@@ -152,7 +154,10 @@ TEST_CASE("inertial filter: errors are as large as its covariance says") {
       synthetic::advance_clocks(config.clock, kPerEpoch * kStep, &truth.clocks, &noise);
       antenna_of(true_state, rate_b);
       filter.predict(block, true_state.time);
-      filter.update(synthetic::measure(true_state.time, sky, truth, 3.0, 0.2, &noise));
+      MeasurementEpoch measured = synthetic::measure(true_state.time, sky, truth, 3.0, 0.2, &noise);
+      if (config.use_carrier)
+        synthetic::add_carriers(truth, ambiguities_m, 0.0, 0.005, epoch, &noise, &measured);
+      filter.update(measured);
     }
     const NavState& last = states.back();
     position += nees(last.p_e - filter.state().p_e, filter.covariance(), kPosition);
@@ -160,9 +165,12 @@ TEST_CASE("inertial filter: errors are as large as its covariance says") {
     attitude += nees(rotation_vector_from_quaternion(last.q_eb * filter.state().q_eb.conjugate()),
                      filter.covariance(), kAttitude);
   }
-  check_band("inertial, position", position, config.robust);
-  check_band("inertial, velocity", velocity, config.robust);
-  check_band("inertial, attitude", attitude, config.robust);
+  check_band(config.use_carrier ? "inertial with carriers, position" : "inertial, position",
+             position, config.robust);
+  check_band(config.use_carrier ? "inertial with carriers, velocity" : "inertial, velocity",
+             velocity, config.robust);
+  check_band(config.use_carrier ? "inertial with carriers, attitude" : "inertial, attitude",
+             attitude, config.robust);
 }
 
 }  // namespace leonav
