@@ -29,7 +29,8 @@ void add_signal(SignalCode code, std::vector<SignalCode>* signals) {
 bool is_slip(SlipCauses causes) {
   constexpr std::uint16_t kNone = static_cast<std::uint16_t>(SlipCause::kGap) |
                                   static_cast<std::uint16_t>(SlipCause::kSignalChanged) |
-                                  static_cast<std::uint16_t>(SlipCause::kClockJump);
+                                  static_cast<std::uint16_t>(SlipCause::kClockJump) |
+                                  static_cast<std::uint16_t>(SlipCause::kUntested);
   return (causes.bits() & ~kNone) != 0;
 }
 

@@ -24,7 +24,8 @@ struct ArcBreak {
 };
 
 // More than an interruption: the carrier was there before and after, and its count is not what it
-// was. Jumps of the receiver's clock are no satellite's slips.
+// was. Jumps of the receiver's clock are no satellite's slips, nor is an arc that nothing could
+// test.
 bool is_slip(SlipCauses causes);
 
 // The receiver says so itself, by its loss-of-lock flag or its lock time.

@@ -163,6 +163,11 @@ TEST_CASE("quality of a log of which everything is known") {
     std::map<SatelliteId, GpsTime> found;
     for (const ArcBreak& one : quality.breaks) {
       CAPTURE(to_string(one.satellite), one.causes.bits());
+      if (one.causes == SlipCauses(SlipCause::kUntested)) {  // low, and on one frequency
+        CHECK_FALSE(is_slip(one.causes));
+        CHECK(one.elevation < 0.2);
+        continue;
+      }
       CHECK(is_slip(one.causes));
       CHECK(log.slips.count(one.satellite) == 1);
       CHECK(found.count(one.satellite) == 0);
