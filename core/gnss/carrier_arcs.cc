@@ -80,7 +80,8 @@ struct CarrierArcs::Storage {
   void fill(const Current& current, CarrierStatus* status) const;
   bool is_cleared(const Current& current) const;
   bool is_tested(const Current& current, const RangeRowResult& result) const;
-  bool refuted(const Current& current, double deviation_m) const;
+  bool may_have_slipped(const Current& current, const RangeRowResult& result,
+                        const ClockJump& jump) const;
   void first_look(const ClockJump& jump, Current* current, CarrierStatus* status);
 
   CycleSlipConfig config;
@@ -220,11 +221,30 @@ void CarrierArcs::Storage::first_look(const ClockJump& jump, Current* entry,
   fill(*entry, status);
 }
 
-// Slips of whole or half cycles that leave the geometry-free combination alone within 1.5 cm move
-// the ionosphere-free one by 36 cm or more (2 and 1.5 cycles of GPS L1 and L2; other pairs: more).
-bool CarrierArcs::Storage::refuted(const Current& entry, double deviation_m) const {
-  return entry.findings.geometry_free_m < config.geometry_free_quiet_m &&
-         std::abs(deviation_m) < config.range_change_refuted_m;
+// As far as the geometry tells, and what refutes it.
+bool CarrierArcs::Storage::may_have_slipped(const Current& entry, const RangeRowResult& result,
+                                            const ClockJump& jump) const {
+  const double deviation_m = std::abs(result.deviation_m);
+  const CarrierSample& sample = entry.sample;
+  switch (result.verdict) {
+    case RangeVerdict::kNotTested:
+    case RangeVerdict::kConsistent:
+      break;
+    case RangeVerdict::kSlipped:
+      // Slips of whole or half cycles that leave the geometry-free combination alone within 1.5 cm
+      // move the ionosphere-free one by 36 cm or more (2 and 1.5 cycles of GPS L1 and L2; other
+      // pairs: more).
+      return !(entry.findings.geometry_free_m < config.geometry_free_quiet_m &&
+               deviation_m < config.range_change_refuted_m);
+    case RangeVerdict::kUndecided:
+      // Of a pair the other detectors tell. Where the clock or the tags have jumped, the carriers
+      // may be of another instant than the predicted ranges, and contradict them without a slip.
+      return sample.sides == 1 && !jump.any();
+    case RangeVerdict::kUnclear:
+      return sample.sides == 1 && deviation_m + config.range_change_clear * result.sigma_m >=
+                                      sample.side[0].wavelength_m;
+  }
+  return false;
 }
 
 // A pair of slips that leaves the ionosphere-free combination alone (60 and 77 cycles of GPS L1 and
@@ -285,9 +305,7 @@ void CarrierArcs::settle(std::span<const RangeRowResult> results, ArcEpoch* epoc
       continue;
     }
     SlipCauses causes = status->suspected;
-    if (result.verdict == RangeVerdict::kSlipped && !s.refuted(entry, result.deviation_m)) {
-      causes |= SlipCause::kRangeChange;
-    }
+    if (s.may_have_slipped(entry, result, epoch->clock_jump)) causes |= SlipCause::kRangeChange;
     if (!causes.any() && i < results.size() && !s.is_tested(entry, result))
       causes |= SlipCause::kUntested;
     if (!causes.any()) continue;

@@ -62,8 +62,11 @@ class CarrierArcs {
   // `results` in the order of the inputs (kNotTested where there was no row), or empty: nothing was
   // tested. kSlipped ends the arc here (kRangeChange), unless the geometry-free combination of a
   // pair refutes a slip of that size: then it is the satellite's clock or orbit that moved.
-  // kConsistent clears an arc of suspicion; anything else lets the suspicion stand, and ends an arc
-  // of one frequency where neither a Doppler nor the row could have shown a cycle (kUntested).
+  // kConsistent clears an arc of suspicion; anything else lets the suspicion stand. On one
+  // frequency nothing else tells of small slips, so there an arc ends too that may have slipped
+  // (kUndecided at an epoch without a clock jump, or kUnclear by what could be a cycle:
+  // kRangeChange), and one where neither a Doppler nor the row could have shown a cycle
+  // (kUntested).
   void settle(std::span<const RangeRowResult> results, ArcEpoch* epoch);
 
   // Ends the arc of a satellite of the last epoch, for a reason of the caller's. Its new status;

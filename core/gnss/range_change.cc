@@ -15,7 +15,7 @@ RangeVerdict verdict_on(const ExternalDeviation& seen, const CycleSlipConfig& co
   if (seen.standardized() > config.range_change_limit &&
       std::abs(seen.value_m) > config.range_change_min_m)
     return RangeVerdict::kSlipped;
-  if (seen.standardized() > config.range_change_clear) return RangeVerdict::kUndecided;
+  if (seen.standardized() > config.range_change_clear) return RangeVerdict::kUnclear;
   return config.range_change_limit * seen.sigma_m <= config.range_change_power_m
              ? RangeVerdict::kConsistent
              : RangeVerdict::kNotTested;

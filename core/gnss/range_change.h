@@ -38,13 +38,14 @@ struct RangeChangePrior {
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
 };
 
-// The values are on the wire: append only.
 enum class RangeVerdict : std::uint8_t {
-  kNotTested = 0,   // no row, or nothing checks it well: a row that determines an unknown alone,
-                    // or with a sigma too large to tell a cycle
-  kConsistent = 1,  // agrees with the others
-  kSlipped = 2,
-  kUndecided = 3,  // something slipped and it may be this one
+  kNotTested,   // no row, or nothing checks it well: a row that determines an unknown alone,
+                // or with a sigma too large to tell a cycle
+  kConsistent,  // agrees with the others
+  kSlipped,
+  kUndecided,  // something slipped and it may be this one: other slips would explain all as well
+  kUnclear,    // deviates by more than noise mostly does, and by less than a slip's limit; nothing
+               // says that anything slipped
 };
 
 enum class RangeChangeStatus : std::uint8_t {

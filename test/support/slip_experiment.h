@@ -10,27 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "core/earth/ellipsoid.h"
 #include "core/gnss/carrier_arcs.h"
 #include "core/gnss/gnss_config.h"
-#include "core/gnss/look_angles.h"
 #include "core/gnss/range_change.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/gnss/troposphere.h"
 #include "core/gnss/weighting.h"
+#include "support/slip_counts.h"
+#include "support/slip_prediction.h"
 
 namespace leonav::test {
 
 inline constexpr double kSlipMask = 0.2617993877991494;  // 15 degrees
-
-// Where a satellite is seen from, and what its carrier should read but for ambiguity, receiver
-// clock and ionosphere.
-struct Prediction {
-  double range_m = 0.0;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // d range / d antenna position
-  double elevation = 0.0;
-  GpsTime issue;  // of the broadcast elements; unset: precise
-};
 
 struct SlipScene {
   std::vector<RawEpoch> epochs;
@@ -40,96 +29,10 @@ struct SlipScene {
   RangeChangePrior prior;
   bool use_range_change = true;
   bool second_signals = true;
-  bool end_undecided = false;           // arcs too that the range change leaves undecided
   double clock_walk_m = 0.0;            // satellite clocks, per sqrt(s)
   double carrier_sigma_m = 0.002;       // of one signal
   double ionosphere_rate_m_s = 0.0005;  // 1 sigma, of a single frequency's range change
 };
-
-inline Prediction predicted_range(const SatelliteState& state, double flight_s,
-                                  const Eigen::Vector3d& p_e, GpsTime time) {
-  const double turn = kEarthRotationRate * flight_s;
-  Eigen::Vector3d p_s = state.p_e;
-  p_s.x() = std::cos(turn) * state.p_e.x() + std::sin(turn) * state.p_e.y();
-  p_s.y() = -std::sin(turn) * state.p_e.x() + std::cos(turn) * state.p_e.y();
-  Prediction prediction;
-  const Eigen::Vector3d line = p_s - p_e;
-  prediction.elevation = look_angles(p_s, p_e).elevation;
-  prediction.direction = -line.normalized();
-  prediction.range_m =
-      line.norm() - kSpeedOfLight * state.clock_s +
-      saastamoinen_slant_delay_m(to_geodetic(p_e), std::max(prediction.elevation, 0.05), time);
-  return prediction;
-}
-
-// From a catalog as of now and the tag and pseudorange, whose errors in the receiver's clock
-// cancel.
-inline std::optional<Prediction> predict_by_catalog(const SatelliteCatalog& catalog, SatelliteId id,
-                                                    GpsTime tag, double pseudorange_m,
-                                                    const Eigen::Vector3d& p_e) {
-  SatelliteState state;
-  const Ephemeris* ephemeris = nullptr;
-  if (!std::isfinite(pseudorange_m)) return std::nullopt;
-  double sent_s = -pseudorange_m / kSpeedOfLight;  // after the tag, by the satellite's clock
-  if (catalog.state_at(id, tag.plus_seconds(sent_s), &state) != LookupStatus::kOk) {
-    return std::nullopt;
-  }
-  sent_s -= state.clock_s;
-  const GpsTime sent = tag.plus_seconds(sent_s);
-  if (catalog.state_at(id, sent, &state, &ephemeris) != LookupStatus::kOk) return std::nullopt;
-  // What a time in whole nanoseconds leaves out.
-  state.p_e += state.v_e * (sent_s - seconds_between(sent, tag));
-  double flight_s = (state.p_e - p_e).norm() / kSpeedOfLight;
-  Prediction prediction = predicted_range(state, flight_s, p_e, tag);
-  if (ephemeris != nullptr) prediction.issue = ephemeris->toe;
-  return prediction;
-}
-
-struct Injection {
-  std::size_t epoch = 0;
-  SatelliteId satellite;
-  int first = 0, second = 0;  // cycles
-  bool flagged = false;
-};
-
-struct SlipCounts {
-  long satellite_epochs = 0;  // above the mask
-  long injected = 0, at_once = 0, late = 0, missed = 0;
-  long false_alarms = 0;
-  long arcs = 0, first_arcs = 0;
-  std::map<SlipCause, long> share;  // of those found at once; several may share one
-  std::map<SlipCause, long> false_share;
-  std::map<std::string, std::pair<long, long>> by_kind;  // found at once, injected
-  std::map<SlipCause, long> ends;                        // all arcs
-  long clock_jumps = 0;
-  std::vector<std::string> notes;
-  long undecidable = 0;
-
-  double detected() const { return static_cast<double>(at_once) / std::max(1L, injected); }
-  double pairs_detected() const {
-    long found = 0, all = 0;
-    for (const auto& [kind, n] : by_kind) {
-      if (kind.rfind("single", 0) == 0) continue;
-      found += n.first;
-      all += n.second;
-    }
-    return static_cast<double>(found) / static_cast<double>(std::max(1L, all));
-  }
-  double false_rate() const {
-    return static_cast<double>(false_alarms) / std::max(1L, satellite_epochs);
-  }
-};
-
-inline std::string kind_of(const Injection& slip, bool pair) {
-  if (!pair)
-    return std::abs(slip.first) == 1  ? "single frequency, 1 cycle"
-           : std::abs(slip.first) < 4 ? "single frequency, 2-3"
-                                      : "single frequency, 4+";
-  if (slip.second == 0) return "first only";
-  if (slip.first == 0) return "second only";
-  if (slip.first == slip.second) return std::abs(slip.first) == 1 ? "equal, 1 cycle" : "equal, 2+";
-  return "unequal";
-}
 
 class SlipRun {
  public:
@@ -137,7 +40,10 @@ class SlipRun {
       : scene_(scene), config_(config), arcs_(config) {}
 
   SlipCounts run(const std::vector<Injection>& injections = {}) {
-    for (const Injection& slip : injections) by_place_[{slip.epoch, slip.satellite}] = slip;
+    for (const Injection& slip : injections) {
+      by_place_[{slip.epoch, slip.satellite}] = slip;
+      slip_epochs_.insert(slip.epoch);
+    }
     counts_.injected = static_cast<long>(injections.size());
     for (std::size_t k = 0; k < scene_.epochs.size(); ++k) step(k);
     for (const auto& [place, slip] : open_) {
@@ -165,7 +71,8 @@ class SlipRun {
     double value_m = 0.0, range_m = 0.0;
     Eigen::Vector3d direction;
     std::uint32_t arc = 0;
-    GpsTime issue;  // another issue's range differs by metres
+    std::uint32_t issue = 0;
+    std::optional<Ephemeris> elements;
   };
 
   void step(std::size_t k) {
@@ -180,7 +87,6 @@ class SlipRun {
     std::vector<RangeRowResult> verdicts(inputs.size());
     if (scene_.use_range_change) check_geometry(k, raw, inputs, predictions, epoch, &verdicts);
     arcs_.settle(verdicts, &epoch);
-    if (scene_.end_undecided) end_undecided(inputs, verdicts, &epoch);
     remember(k, inputs, predictions, epoch);
     for (std::size_t i = 0; i < inputs.size(); ++i) count(k, inputs[i], epoch.satellites[i]);
   }
@@ -240,6 +146,35 @@ class SlipRun {
     return factors->gamma1 * status.first_m + factors->gamma2 * status.second_m;
   }
 
+  // What other elements add to the carrier against its range, as the program takes it out.
+  static double elements_step_m(const Before& before, const Prediction& now) {
+    if (before.issue == now.issue) return 0.0;
+    return orbit_step_m(*before.elements, *now.elements, now.sent, now.antenna_p_e);
+  }
+  static bool is_comparable(const Before& before, const Prediction& now) {
+    return before.issue == now.issue || (before.elements && now.elements);
+  }
+
+  double row_sigma_m(double elevation, bool pair, const IonosphereFree& factors,
+                     double interval_s) const {
+    const double weight = elevation_factor(elevation);
+    const double noise = std::sqrt(2.0) * scene_.carrier_sigma_m * weight *
+                         std::hypot(factors.gamma1, factors.gamma2);
+    const double ionosphere = pair ? 0.0 : scene_.ionosphere_rate_m_s * weight * interval_s;
+    return std::sqrt(noise * noise + ionosphere * ionosphere +
+                     scene_.clock_walk_m * scene_.clock_walk_m * interval_s);
+  }
+
+  // Whether a cycle of this one carrier is beyond the limit of a row that all others check.
+  bool shows_a_cycle(std::size_t k, const CarrierInput& input) const {
+    if (!scene_.use_range_change || k == 0) return false;
+    const double interval_s = seconds_between(scene_.epochs[k].time, scene_.epochs[k - 1].time);
+    const double sigma_m = row_sigma_m(input.elevation, false, {1.0, 0.0}, interval_s);
+    const SignalObservation& first = *input.first;
+    return config_.range_change_limit * sigma_m <=
+           wavelength_m(first.satellite.system, first.code.band);
+  }
+
   void check_geometry(std::size_t k, const RawEpoch& raw, const std::vector<CarrierInput>& inputs,
                       const std::vector<std::optional<Prediction>>& predictions,
                       const ArcEpoch& epoch, std::vector<RangeRowResult>* verdicts) {
@@ -252,23 +187,18 @@ class SlipRun {
       const auto before = before_.find(inputs[i].first->satellite);
       if (status.arc == 0 || status.started || !predictions[i] || before == before_.end() ||
           before->second.epoch + 1 != k || before->second.arc != status.arc ||
-          before->second.issue != predictions[i]->issue) {
+          !is_comparable(before->second, *predictions[i])) {
         continue;
       }
       const Prediction& now = *predictions[i];
       IonosphereFree factors;
       RangeChangeRow row;
       row.residual_m = combined(inputs[i], status, &factors) - before->second.value_m -
-                       (now.range_m - before->second.range_m);
+                       (now.range_m - before->second.range_m) -
+                       elements_step_m(before->second, now);
       row.direction = now.direction;
       row.direction_change = now.direction - before->second.direction;
-      const double weight = elevation_factor(now.elevation);
-      const double noise = std::sqrt(2.0) * scene_.carrier_sigma_m * weight *
-                           std::hypot(factors.gamma1, factors.gamma2);
-      const double ionosphere =
-          std::isfinite(status.second_m) ? 0.0 : scene_.ionosphere_rate_m_s * weight * interval_s;
-      row.sigma_m = std::sqrt(noise * noise + ionosphere * ionosphere +
-                              scene_.clock_walk_m * scene_.clock_walk_m * interval_s);
+      row.sigma_m = row_sigma_m(now.elevation, std::isfinite(status.second_m), factors, interval_s);
       row.time_base = static_cast<int>(index_of(inputs[i].first->satellite.system));
       rows.push_back(row);
       owners.push_back(i);
@@ -276,18 +206,6 @@ class SlipRun {
     const RangeChangeResult result = range_change(rows, scene_.prior, config_);
     if (result.status == RangeChangeStatus::kUndecidable) ++counts_.undecidable;
     for (std::size_t i = 0; i < owners.size(); ++i) (*verdicts)[owners[i]] = result.rows[i];
-  }
-
-  void end_undecided(const std::vector<CarrierInput>& inputs,
-                     const std::vector<RangeRowResult>& verdicts, ArcEpoch* epoch) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      CarrierStatus& status = epoch->satellites[i];
-      if (verdicts[i].verdict != RangeVerdict::kUndecided || status.started) continue;
-      const CarrierStatus now = arcs_.end_arc(inputs[i].first->satellite, SlipCause::kRangeChange);
-      status.arc = now.arc;
-      status.started = now.started;
-      status.causes = now.causes;
-    }
   }
 
   void remember(std::size_t k, const std::vector<CarrierInput>& inputs,
@@ -300,7 +218,8 @@ class SlipRun {
                                              predictions[i]->range_m,
                                              predictions[i]->direction,
                                              epoch.satellites[i].arc,
-                                             predictions[i]->issue};
+                                             predictions[i]->issue,
+                                             predictions[i]->elements};
     }
   }
 
@@ -335,10 +254,7 @@ class SlipRun {
     const auto open = open_.find(id);
     const bool by_receiver =
         status.causes.has(SlipCause::kGap) || status.causes.has(SlipCause::kSignalChanged) ||
-        status.causes.has(SlipCause::kLossOfLock) || status.causes.has(SlipCause::kLockTime) ||
-        // The rows here end where the elements change; the replay program's do not
-        // (replayed_slips_test, where such an end counts as false).
-        status.causes == SlipCauses(SlipCause::kUntested);
+        status.causes.has(SlipCause::kLossOfLock) || status.causes.has(SlipCause::kLockTime);
     if (open != open_.end()) {
       const bool in_time = k <= open->second.epoch + kLate;
       if (status.started && in_time) ++counts_.late;
@@ -353,7 +269,12 @@ class SlipRun {
     }
     if (!status.started || by_receiver || !status.causes.any()) return;
     if (input.elevation < kSlipMask) return;
+    if (status.causes == SlipCauses(SlipCause::kUntested) && !shows_a_cycle(k, input)) {
+      ++counts_.too_weak;
+      return;
+    }
     ++counts_.false_alarms;
+    counts_.false_at_slips += static_cast<long>(slip_epochs_.count(k));
     std::string what = "false " + to_string(id) + " epoch " + std::to_string(k) + " elevation " +
                        std::to_string(static_cast<int>(input.elevation * 57.3)) + ":";
     for (const SlipCause cause : kSlipCauses) {
@@ -368,6 +289,7 @@ class SlipRun {
   CarrierArcs arcs_;
   SlipCounts counts_;
   std::map<std::pair<std::size_t, SatelliteId>, Injection> by_place_;
+  std::set<std::size_t> slip_epochs_;
   std::set<std::pair<std::size_t, SatelliteId>> touched_;
   std::map<SatelliteId, std::array<double, 2>> offsets_;
   std::map<SatelliteId, Before> before_;

@@ -68,7 +68,8 @@ inline SlipCounts run_with_slips(const SlipScene& scene, const CycleSlipConfig& 
 inline void print_heading() {
   std::cout << std::left << std::setw(46) << "" << std::right << std::setw(9) << "slips"
             << std::setw(10) << "at once" << std::setw(7) << "late" << std::setw(8) << "missed"
-            << std::setw(10) << "sat-ep." << std::setw(13) << "false/1000" << '\n';
+            << std::setw(10) << "sat-ep." << std::setw(13) << "false/1000" << std::setw(15)
+            << "too weak/1000" << '\n';
 }
 
 inline void print_counts(const std::string& name, const SlipCounts& c) {
@@ -76,7 +77,7 @@ inline void print_counts(const std::string& name, const SlipCounts& c) {
             << std::setw(8) << std::fixed << std::setprecision(2) << 100.0 * c.detected() << " %"
             << std::setw(7) << c.late << std::setw(8) << c.injected - c.at_once - c.late
             << std::setw(10) << c.satellite_epochs << std::setw(13) << std::setprecision(3)
-            << 1000.0 * c.false_rate() << '\n'
+            << 1000.0 * c.false_rate() << std::setw(15) << 1000.0 * c.too_weak_rate() << '\n'
             << std::defaultfloat;
 }
 
@@ -96,6 +97,10 @@ inline void print_shares(const SlipCounts& c) {
       std::cout << ' ' << to_string(cause) << ' ' << std::fixed << std::setprecision(1)
                 << 100.0 * static_cast<double>(n) / std::max(1L, c.at_once) << " %";
     }
+  }
+  if (c.false_alarms > 0) std::cout << "; false:";
+  for (const auto& [cause, n] : c.false_share) {
+    if (n > 0) std::cout << ' ' << to_string(cause) << ' ' << n;
   }
   std::cout << "\n    of kind:";
   for (const auto& [kind, n] : c.by_kind) {

@@ -304,6 +304,34 @@ TEST_CASE("A code gone astray is no slip, and a range change refutes what the co
   CHECK(run.epoch.satellites[5].causes == SlipCauses(SlipCause::kRangeChange));
 }
 
+TEST_CASE("Where the geometry cannot tell, an arc of one frequency ends, that of a pair goes on",
+          "[carrier_arcs]") {
+  for (const bool pairs : {false, true}) {
+    Run run = settled_run(Receiver{}, pairs);
+    const RawEpoch raw = Receiver{}.at(20);  // with Dopplers, which see nothing below half a metre
+    run.arcs.process(raw.time, inputs_of(raw, pairs), &run.epoch);
+    std::vector<RangeRowResult> results(8, {RangeVerdict::kConsistent, 0.0, 0.01});
+    results[0] = {RangeVerdict::kUndecided, 0.0, 0.01};   // other slips would explain all as well
+    results[1] = {RangeVerdict::kUnclear, 0.08, 0.02};    // a cycle is 5.5 sigma further
+    results[2] = {RangeVerdict::kUnclear, -0.14, 0.035};  // and here 1.4 sigma
+    run.arcs.settle(results, &run.epoch);
+    CHECK(run.started() == (pairs ? 0 : 2));
+    for (const std::size_t i : {0, 2}) {
+      CHECK(run.epoch.satellites[i].causes ==
+            (pairs ? SlipCauses() : SlipCauses(SlipCause::kRangeChange)));
+    }
+    // Ranges predicted for a clock that has jumped contradict the carriers, and nothing slipped.
+    Receiver jumped;
+    jumped.code_jump_m = kMillisecond_m;
+    const RawEpoch after = jumped.at(21);
+    run.arcs.process(after.time, inputs_of(after, pairs), &run.epoch);
+    REQUIRE(run.epoch.clock_jump.code_ms == 1);
+    run.arcs.settle(std::vector<RangeRowResult>(8, {RangeVerdict::kUndecided, 0.0, 0.01}),
+                    &run.epoch);
+    CHECK(run.started() == 0);
+  }
+}
+
 TEST_CASE("Hostile input breaks nothing and allocates nothing", "[carrier_arcs]") {
   Run run = settled_run(Receiver{});
   RawEpoch raw = Receiver{}.at(20);
