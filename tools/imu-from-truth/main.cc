@@ -7,10 +7,10 @@
 
 #include "drivers/csv/imu_csv.h"
 #include "drivers/csv/truth_csv.h"
-#include "ideal_imu.h"
-#include "sensor_errors.h"
-#include "smooth_track.h"
 #include "tools/common/arguments.h"
+#include "tools/motion/ideal_imu.h"
+#include "tools/motion/sensor_errors.h"
+#include "tools/motion/smooth_track.h"
 
 namespace {
 
@@ -95,20 +95,21 @@ int body(int argc, char** argv) {
 
   const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / rate));
   std::vector<leonav::ImuSample> samples;
-  leonav::GpsTime time = track.start();
+  const leonav::SplineMotion& motion = track.motion();
+  leonav::GpsTime time = motion.start();
   while (time.plus_nanoseconds(interval_ns) <= truth.points.back().time) {
-    const leonav::ImuSample ideal = leonav::ideal_sample(track, time, interval_ns);
+    const leonav::ImuSample ideal = leonav::ideal_sample(motion, time, interval_ns);
     samples.push_back(arguments.has("--ideal") ? ideal : errors.disturb(ideal));
     time = samples.back().time;
   }
   leonav::write_imu_csv(imu_path, samples);
-  std::cout << imu_path << ": " << samples.size() << " samples over " << track.duration_s()
+  std::cout << imu_path << ": " << samples.size() << " samples over " << motion.duration_s()
             << " s; smoothed track within " << track.rms_deviation_m() << " m rms, "
             << track.max_deviation_m() << " m at most, of the truth\n";
 
   if (arguments.has("--truth-out")) {
     std::vector<leonav::TruthPoint> points;
-    for (const leonav::TruthPoint& p : truth.points) points.push_back(track.point(p.time));
+    for (const leonav::TruthPoint& p : truth.points) points.push_back(motion.point(p.time));
     leonav::write_truth_csv(arguments.get("--truth-out"), points);
     std::cout << arguments.get("--truth-out") << ": " << points.size() << " points\n";
   }

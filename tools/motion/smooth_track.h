@@ -1,12 +1,9 @@
 // A motion without breaks in acceleration or rate, laid through recorded positions.
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <array>
 #include <vector>
 
 #include "drivers/csv/truth_csv.h"
-#include "smoothing_spline.h"
+#include "tools/motion/spline_motion.h"
 
 namespace leonav {
 
@@ -19,23 +16,13 @@ struct SmoothTrackOptions {
   double max_gap_s = 2.0;             // a wider hole in the truth is an error
 };
 
-struct TrackInstant {
-  Eigen::Vector3d p_e, v_e, a_e;  // a_e: second derivative in the rotating frame
-};
-
 class SmoothTrack {
  public:
   // Throws std::runtime_error if the points are too few or have a hole.
   SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrackOptions& options);
 
-  GpsTime start() const { return start_; }
-  double duration_s() const { return times_.back(); }
-  // `t` in seconds from start(), within the duration.
-  TrackInstant at(double t) const;
-  // Body to ECEF: heading along the course where it moves, pitch along the slope, no roll.
-  Eigen::Quaterniond attitude(double t) const;
-  Eigen::Vector3d omega_ib_b(double t) const;  // the body's rate against i, rad/s
-  TruthPoint point(GpsTime time) const;        // everything, as truth.csv has it
+  // Heading along the course where it moves, pitch along the slope, no roll.
+  const SplineMotion& motion() const { return motion_; }
 
   double rms_deviation_m() const { return rms_deviation_m_; }
   double max_deviation_m() const { return max_deviation_m_; }
@@ -45,11 +32,9 @@ class SmoothTrack {
   void fit_attitude(double interval_s);
 
   SmoothTrackOptions options_;
-  GpsTime start_;
-  Eigen::Vector3d origin_e_ = Eigen::Vector3d::Zero();
-  std::vector<double> times_;                // of the truth, s from start
-  std::array<SmoothingSpline, 3> position_;  // e, from origin_e_
-  SmoothingSpline yaw_, pitch_;              // rad, yaw unwrapped
+  std::vector<double> times_;  // of the truth, s from start
+  MotionSplines splines_;
+  SplineMotion motion_;
   double rms_deviation_m_ = 0.0, max_deviation_m_ = 0.0;
 };
 

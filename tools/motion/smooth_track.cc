@@ -1,9 +1,10 @@
-#include "smooth_track.h"
+#include "tools/motion/smooth_track.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/earth/rotation.h"
 
@@ -37,6 +38,16 @@ std::vector<double> held_heading(const std::vector<double>& times, std::vector<d
   return course;
 }
 
+Eigen::Vector3d position_at(const MotionSplines& splines, double t) {
+  const auto& p = splines.position;
+  return {p[0].evaluate(t).value, p[1].evaluate(t).value, p[2].evaluate(t).value};
+}
+
+Eigen::Vector3d velocity_at(const MotionSplines& splines, double t) {
+  const auto& p = splines.position;
+  return {p[0].evaluate(t).first, p[1].evaluate(t).first, p[2].evaluate(t).first};
+}
+
 }  // namespace
 
 SmoothTrack::SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrackOptions& options)
@@ -46,10 +57,10 @@ SmoothTrack::SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrac
     throw std::runtime_error("the truth has " + std::to_string(points.size()) +
                              " usable points; at least 20 are needed");
   }
-  start_ = points.front().time;
+  splines_.start = points.front().time;
   std::vector<double> intervals;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    times_.push_back(seconds_between(points[i].time, start_));
+    times_.push_back(seconds_between(points[i].time, splines_.start));
     if (i == 0) continue;
     intervals.push_back(times_[i] - times_[i - 1]);
     if (intervals.back() > options_.max_gap_s) {
@@ -60,23 +71,25 @@ SmoothTrack::SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrac
   }
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
+  splines_.duration_s = times_.back();
   fit_position(points, *middle);
   fit_attitude(*middle);
+  motion_ = SplineMotion(std::move(splines_));
 }
 
 void SmoothTrack::fit_position(const std::vector<TruthPoint>& points, double interval_s) {
-  origin_e_ = to_ecef(points.front().position);
+  splines_.origin_e = to_ecef(points.front().position);
   std::vector<Eigen::Vector3d> given;
-  for (const TruthPoint& p : points) given.emplace_back(to_ecef(p.position) - origin_e_);
+  for (const TruthPoint& p : points) given.emplace_back(to_ecef(p.position) - splines_.origin_e);
   const double lambda = SmoothingSpline::lambda_for_cutoff(options_.position_cutoff_hz, interval_s);
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Eigen::Vector3d& p : given) values.push_back(p[axis]);
-    position_[static_cast<std::size_t>(axis)] = SmoothingSpline(times_, values, lambda);
+    splines_.position[static_cast<std::size_t>(axis)] = SmoothingSpline(times_, values, lambda);
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < given.size(); ++i) {
-    const double deviation = (at(times_[i]).p_e - origin_e_ - given[i]).norm();
+    const double deviation = (position_at(splines_, times_[i]) - given[i]).norm();
     sum += deviation * deviation;
     max_deviation_m_ = std::max(max_deviation_m_, deviation);
   }
@@ -87,8 +100,8 @@ void SmoothTrack::fit_attitude(double interval_s) {
   std::vector<double> course, slope;
   std::vector<bool> moving;
   for (const double t : times_) {
-    const TrackInstant now = at(t);
-    const Eigen::Vector3d v_n = rotation_ecef_to_ned(to_geodetic(now.p_e)) * now.v_e;
+    const Eigen::Vector3d p_e = splines_.origin_e + position_at(splines_, t);
+    const Eigen::Vector3d v_n = rotation_ecef_to_ned(to_geodetic(p_e)) * velocity_at(splines_, t);
     const double speed = std::hypot(v_n.x(), v_n.y());
     moving.push_back(speed > options_.min_course_speed_m_s);
     course.push_back(std::atan2(v_n.y(), v_n.x()));
@@ -97,55 +110,11 @@ void SmoothTrack::fit_attitude(double interval_s) {
   }
   const double lambda = SmoothingSpline::lambda_for_cutoff(options_.attitude_cutoff_hz, interval_s);
   const double rate = options_.max_turn_rate_rad_s;
-  yaw_ = SmoothingSpline(times_, held_heading(times_, course, moving, rate), lambda);
-  pitch_ = SmoothingSpline(times_, held_heading(times_, slope, moving, rate), lambda);
-}
-
-TrackInstant SmoothTrack::at(double t) const {
-  TrackInstant now;
-  for (int axis = 0; axis < 3; ++axis) {
-    const SmoothingSpline& spline = position_[static_cast<std::size_t>(axis)];
-    now.p_e[axis] = origin_e_[axis] + spline.value(t);
-    now.v_e[axis] = spline.first_derivative(t);
-    now.a_e[axis] = spline.second_derivative(t);
-  }
-  return now;
-}
-
-Eigen::Quaterniond SmoothTrack::attitude(double t) const {
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(at(t).p_e));
-  const Eigen::Matrix3d C_nb = rotation_from_euler({0.0, pitch_.value(t), yaw_.value(t)});
-  return Eigen::Quaterniond(Eigen::Matrix3d(C_ne.transpose() * C_nb)).normalized();
-}
-
-// Earth rate, the local frame's turning with the ellipsoid's curvature (Groves 2013, eq. 5.44), and
-// the rates of yaw and pitch about their axes; roll is zero.
-Eigen::Vector3d SmoothTrack::omega_ib_b(double t) const {
-  const TrackInstant now = at(t);
-  const Geodetic where = to_geodetic(now.p_e);
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(where);
-  const Eigen::Vector3d v_n = C_ne * now.v_e;
-  const double east_turn = v_n.y() / (prime_vertical_radius(where.latitude) + where.height);
-  const double north_turn = v_n.x() / (meridian_radius(where.latitude) + where.height);
-  const Eigen::Vector3d omega_en_n(east_turn, -north_turn, -east_turn * std::tan(where.latitude));
-  const Eigen::Vector3d omega_in_n = kEarthRotationRate * C_ne.col(2) + omega_en_n;
-  const double pitch = pitch_.value(t), yaw_rate = yaw_.first_derivative(t);
-  const Eigen::Vector3d omega_nb_b(-yaw_rate * std::sin(pitch), pitch_.first_derivative(t),
-                                   yaw_rate * std::cos(pitch));
-  return rotation_from_euler({0.0, pitch, yaw_.value(t)}).transpose() * omega_in_n + omega_nb_b;
-}
-
-TruthPoint SmoothTrack::point(GpsTime time) const {
-  const double t = seconds_between(time, start_);
-  const TrackInstant now = at(t);
-  TruthPoint point;
-  point.time = time;
-  point.position = to_geodetic(now.p_e);
-  point.v_n = rotation_ecef_to_ned(point.position) * now.v_e;
-  point.roll = 0.0;
-  point.pitch = pitch_.value(t);
-  point.yaw = wrap_to_pi(yaw_.value(t));
-  return point;
+  splines_.attitude[0] = SmoothingSpline(times_, std::vector<double>(times_.size(), 0.0), 0.0);
+  splines_.attitude[1] =
+      SmoothingSpline(times_, held_heading(times_, slope, moving, rate), lambda);
+  splines_.attitude[2] =
+      SmoothingSpline(times_, held_heading(times_, course, moving, rate), lambda);
 }
 
 }  // namespace leonav

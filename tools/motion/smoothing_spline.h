@@ -12,9 +12,10 @@ class SmoothingSpline {
   // At least three samples, times strictly increasing. lambda 0 interpolates.
   SmoothingSpline(std::vector<double> times, const std::vector<double>& values, double lambda);
 
-  double value(double t) const;
-  double first_derivative(double t) const;
-  double second_derivative(double t) const;
+  struct Value {
+    double value, first, second;  // and its derivatives
+  };
+  Value evaluate(double t) const;
 
   // The lambda that halves a sine of `frequency_hz` sampled every `interval_s`; slower ones pass,
   // faster ones fall with the fourth power.

@@ -1,4 +1,4 @@
-#include "sensor_errors.h"
+#include "tools/motion/sensor_errors.h"
 
 #include <cmath>
 #include <numbers>

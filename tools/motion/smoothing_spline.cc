@@ -1,4 +1,4 @@
-#include "smoothing_spline.h"
+#include "tools/motion/smoothing_spline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,24 +84,17 @@ SmoothingSpline::Place SmoothingSpline::locate(double t) const {
   return {left, times_[left + 1] - times_[left], t - times_[left], times_[left + 1] - t};
 }
 
-double SmoothingSpline::value(double t) const {
+SmoothingSpline::Value SmoothingSpline::evaluate(double t) const {
   const Place p = locate(t);
-  const double chord = (p.u * values_[p.left + 1] + p.w * values_[p.left]) / p.h;
-  return chord -
-         p.u * p.w / 6.0 *
-             ((1.0 + p.u / p.h) * second_[p.left + 1] + (1.0 + p.w / p.h) * second_[p.left]);
-}
-
-double SmoothingSpline::first_derivative(double t) const {
-  const Place p = locate(t);
-  const double chord = (values_[p.left + 1] - values_[p.left]) / p.h;
-  return chord + second_[p.left + 1] * (3.0 * p.u * p.u - p.h * p.h) / (6.0 * p.h) -
-         second_[p.left] * (3.0 * p.w * p.w - p.h * p.h) / (6.0 * p.h);
-}
-
-double SmoothingSpline::second_derivative(double t) const {
-  const Place p = locate(t);
-  return (p.u * second_[p.left + 1] + p.w * second_[p.left]) / p.h;
+  const double left = values_[p.left], right = values_[p.left + 1];
+  const double bend_left = second_[p.left], bend_right = second_[p.left + 1];
+  Value now;
+  now.value = (p.u * right + p.w * left) / p.h -
+              p.u * p.w / 6.0 * ((1.0 + p.u / p.h) * bend_right + (1.0 + p.w / p.h) * bend_left);
+  now.first = (right - left) / p.h + bend_right * (3.0 * p.u * p.u - p.h * p.h) / (6.0 * p.h) -
+              bend_left * (3.0 * p.w * p.w - p.h * p.h) / (6.0 * p.h);
+  now.second = (p.u * bend_right + p.w * bend_left) / p.h;
+  return now;
 }
 
 }  // namespace leonav
