@@ -111,8 +111,7 @@ void SmoothTrack::fit_attitude(double interval_s) {
   const double lambda = SmoothingSpline::lambda_for_cutoff(options_.attitude_cutoff_hz, interval_s);
   const double rate = options_.max_turn_rate_rad_s;
   splines_.attitude[0] = SmoothingSpline(times_, std::vector<double>(times_.size(), 0.0), 0.0);
-  splines_.attitude[1] =
-      SmoothingSpline(times_, held_heading(times_, slope, moving, rate), lambda);
+  splines_.attitude[1] = SmoothingSpline(times_, held_heading(times_, slope, moving, rate), lambda);
   splines_.attitude[2] =
       SmoothingSpline(times_, held_heading(times_, course, moving, rate), lambda);
 }

@@ -1,0 +1,27 @@
+// Satellite orbits under the Earth's gravity with its first zonal harmonics.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace leonav::sim {
+
+// In the inertial frame whose axes are those of ECEF at the start; m, m/s.
+struct OrbitState {
+  Eigen::Vector3d p_i, v_i;
+};
+
+// Acceleration by the Earth's mass, J2, J3 and J4 (EGM2008), m/s^2. Vallado, Fundamentals of
+// Astrodynamics, 4th ed., 8.6.1; here by the gradient of each zonal term in Cartesian form.
+Eigen::Vector3d gravitation_i(const Eigen::Vector3d& p_i);
+
+// States at t = 0, step, 2 step, ..., `count` of them from `first` on; `step_s` may be negative.
+// Runge-Kutta-Fehlberg of order 7 (8) at fixed steps of at most 30 s: below a millimetre in a day.
+std::vector<OrbitState> integrate_orbit(const OrbitState& first, double step_s, std::size_t count);
+
+// Osculating Kepler elements; angles in rad. `node`: right ascension in the inertial frame.
+struct KeplerElements {
+  double semi_major_axis_m, eccentricity, inclination, node, perigee, mean_anomaly;
+};
+OrbitState kepler_state(const KeplerElements& elements);
+
+}  // namespace leonav::sim
