@@ -152,6 +152,21 @@ void ConfigReader::group(const char* key, const std::function<void(ConfigReader&
   reader.finish();
 }
 
+bool ConfigReader::groups(const char* key, const std::function<void(ConfigReader&)>& read) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) {
+    source_->absent.push_back(path_of(key));
+    return false;
+  }
+  if (!node.IsSequence()) fail_at(node, key, "expected a list of groups (\"- key: value\" lines)");
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    ConfigReader reader(source_, node[i], path_of(key) + "[" + std::to_string(i) + "]");
+    read(reader);
+    reader.finish();
+  }
+  return true;
+}
+
 std::optional<std::size_t> ConfigReader::choice_index(const char* key,
                                                       const std::vector<std::string>& names) {
   const YAML::Node node = find(key);

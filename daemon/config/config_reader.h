@@ -45,6 +45,8 @@ class ConfigReader {
   // A list of scalars; false if absent.
   bool list(const char* key, std::vector<std::string>* values);
   void group(const char* key, const std::function<void(ConfigReader&)>& read);
+  // A list of groups; false if absent.
+  bool groups(const char* key, const std::function<void(ConfigReader&)>& read);
 
   template <typename Enum>
   void choice(const char* key, const std::vector<std::pair<std::string, Enum>>& choices,

@@ -1,80 +1,11 @@
 #include "daemon/config/load_config.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
+#include "daemon/config/config_file.h"
 #include "daemon/config/config_groups.h"
 #include "daemon/config/config_reader.h"
 
 namespace leonav {
 namespace {
-
-std::string read_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw ConfigError(path + ": is a directory, not a configuration file");
-  }
-  std::ifstream file(path);
-  if (!file) {
-    throw ConfigError(path + ": cannot be opened: " + std::strerror(errno) +
-                      "; config/ has an example for each kind of vehicle");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::vector<std::string> split_path(const std::string& path) {
-  std::vector<std::string> parts;
-  std::istringstream stream(path);
-  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  return parts;
-}
-
-void apply_override(const std::string& text, YAML::Node root) {
-  const auto equals = text.find('=');
-  const std::string path = text.substr(0, equals);
-  const std::vector<std::string> keys = split_path(path);
-  bool good = equals != std::string::npos && !keys.empty();
-  for (const std::string& key : keys) good = good && !key.empty();
-  if (!good) throw ConfigError("--set " + text + ": expected group.key=value");
-  // A journal holds one override in a line.
-  if (text.find('\n') != std::string::npos)
-    throw ConfigError("--set " + path + ": more than a line");
-  YAML::Node value;
-  try {
-    value = YAML::Load(text.substr(equals + 1));
-  } catch (const YAML::Exception& error) {
-    throw ConfigError("--set " + path + ": " + error.msg);
-  }
-  YAML::Node node = root;
-  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-    YAML::Node child = node[keys[i]];
-    if (child.IsDefined() && !child.IsNull() && !child.IsMap()) {
-      throw ConfigError("--set " + path + ": '" + keys[i] + "' is not a group");
-    }
-    node.reset(child);
-  }
-  // Built anew, so that errors name --set and not the line of the text given with it.
-  if (value.IsSequence()) {
-    YAML::Node copy(YAML::NodeType::Sequence);
-    for (const YAML::Node& element : value) {
-      copy.push_back(element.IsScalar() ? YAML::Node(element.Scalar()) : element);
-    }
-    node[keys.back()] = copy;
-  } else if (value.IsScalar()) {
-    node[keys.back()] = YAML::Node(value.Scalar());
-  } else if (value.IsNull()) {
-    node[keys.back()] = YAML::Node(YAML::NodeType::Null);
-  } else {
-    throw ConfigError("--set " + path + ": set one key at a time");
-  }
-}
 
 // A consumer MEMS sensor: to take too poor an IMU is slow, to take too good a one is wrong.
 ImuErrorModel default_imu() {
@@ -117,7 +48,6 @@ DaemonConfig read_root(ConfigReader& root) {
     check_prefix(r, config.lcm.prefix);
   });
   root.group("journal", [&](ConfigReader& r) { read_journal(r, &config.journal); });
-  root.finish();
   return config;
 }
 
@@ -125,7 +55,7 @@ DaemonConfig read_root(ConfigReader& root) {
 
 DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides,
                          std::vector<std::string>* absent) {
-  return load_config_text(read_file(path), path, overrides, absent);
+  return load_config_text(read_config_file(path), path, overrides, absent);
 }
 
 std::string text_override(const std::string& key, const std::string& value) {
@@ -146,28 +76,14 @@ std::string text_override(const std::string& key, const std::string& value) {
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
                               const std::vector<std::string>& overrides,
                               std::vector<std::string>* absent) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw ConfigError(
-          name + ":" + std::to_string(documents[1].Mark().line + 1) +
-          ": a second document begins here ('---'), which would not be read; keep one");
-    }
-    YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
-    if (root.IsNull()) throw ConfigError(name + ": is empty; config/ has examples");
-    if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
-    for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);
-    ConfigSource source{name, {}, {}};
-    ConfigReader reader(&source, root, "");
-    DaemonConfig config = read_root(reader);
-    config.source = {name, text, overrides};
-    auto& recorded = config.source.overrides;
-    recorded.insert(recorded.end(), source.resolved.begin(), source.resolved.end());
-    if (absent != nullptr) *absent = source.absent;
-    return config;
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
-  }
+  ConfigSource source{name, {}, {}};
+  DaemonConfig config;
+  read_yaml(text, overrides, &source, [&](ConfigReader& root) { config = read_root(root); });
+  config.source = {name, text, overrides};
+  auto& recorded = config.source.overrides;
+  recorded.insert(recorded.end(), source.resolved.begin(), source.resolved.end());
+  if (absent != nullptr) *absent = source.absent;
+  return config;
 }
 
 }  // namespace leonav

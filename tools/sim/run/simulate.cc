@@ -69,7 +69,8 @@ ImportReport simulate(const Scenario& scenario, const std::string& log_path,
       next_tag += scenario.receiver.interval_s;
     }
     if (scenario.imu.enabled) {
-      log.write(next_imu, errors.disturb(ideal_sample(motion, imu_time, interval_ns)));
+      const ImuSample ideal = ideal_sample(motion, imu_time, interval_ns);
+      log.write(next_imu, scenario.imu.ideal ? ideal : errors.disturb(ideal));
     }
     imu_time = next_imu;
     if (progress != nullptr && imu_time.nanoseconds() % (60 * kNanosecondsPerSecond) == 0)

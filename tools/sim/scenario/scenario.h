@@ -1,6 +1,7 @@
 // Everything that a scenario file says.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,9 +32,10 @@ struct RouteConfig {
 };
 
 struct ImuConfig {
+  bool enabled = true;
+  bool ideal = false;  // without any error
   double rate_hz = 200.0;
   ImuErrorModel errors;
-  bool enabled = true;
 };
 
 // Planes of satellites on circular-like orbits, evenly spread.
@@ -50,6 +52,7 @@ struct OrbitShell {
 
 struct ConstellationConfig {
   System system = System::kGps;
+  bool enabled = true;
   std::vector<OrbitShell> shells;  // satellites are numbered through, from first_number on
   int first_number = 1;
   // Errors of what the receiver is told, 1 sigma.
@@ -87,7 +90,7 @@ struct Scenario {
   double duration_s = 600.0;
   RouteConfig route;
   ImuConfig imu;
-  std::vector<ConstellationConfig> constellations;
+  std::array<ConstellationConfig, kSystemCount> constellations;  // by System
   ReceiverConfig receiver;
   AtmosphereConfig atmosphere;
 };

@@ -64,6 +64,7 @@ void add_shell(const Scenario& scenario, std::size_t constellation, const OrbitS
 TrueSky build_sky(const Scenario& scenario) {
   TrueSky sky;
   for (std::size_t c = 0; c < scenario.constellations.size(); ++c) {
+    if (!scenario.constellations[c].enabled) continue;
     int number = scenario.constellations[c].first_number;
     for (const OrbitShell& shell : scenario.constellations[c].shells) {
       add_shell(scenario, c, shell, &number, &sky);

@@ -32,8 +32,4 @@ double clock_s(const TrueSatellite& satellite, double t);
 Eigen::Vector3d to_earth(const Eigen::Vector3d& p_i, double t);
 Eigen::Vector3d to_inertial(const Eigen::Vector3d& p_e, double t);
 
-// The constellations that need no file: GPS 31, Galileo 24, BeiDou 5 geostationary, 7 inclined and
-// 24 medium ones; LEO: the papers' 160 at 970 km.
-ConstellationConfig nominal_constellation(System system);
-
 }  // namespace leonav::sim

@@ -1,8 +1,8 @@
-#include <cmath>
+#include "tools/sim/scenario/nominal_constellations.h"
+
 #include <numbers>
 
 #include "core/earth/ellipsoid.h"
-#include "tools/sim/sky/true_sky.h"
 
 namespace leonav::sim {
 namespace {

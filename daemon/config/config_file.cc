@@ -1,0 +1,100 @@
+#include "daemon/config/config_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "daemon/config/load_config.h"
+
+namespace leonav {
+namespace {
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> parts;
+  std::istringstream stream(path);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+void apply_override(const std::string& text, YAML::Node root) {
+  const auto equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  const std::vector<std::string> keys = split_path(path);
+  bool good = equals != std::string::npos && !keys.empty();
+  for (const std::string& key : keys) good = good && !key.empty();
+  if (!good) throw ConfigError("--set " + text + ": expected group.key=value");
+  // A journal holds one override in a line.
+  if (text.find('\n') != std::string::npos)
+    throw ConfigError("--set " + path + ": more than a line");
+  YAML::Node value;
+  try {
+    value = YAML::Load(text.substr(equals + 1));
+  } catch (const YAML::Exception& error) {
+    throw ConfigError("--set " + path + ": " + error.msg);
+  }
+  YAML::Node node = root;
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    YAML::Node child = node[keys[i]];
+    if (child.IsDefined() && !child.IsNull() && !child.IsMap()) {
+      throw ConfigError("--set " + path + ": '" + keys[i] + "' is not a group");
+    }
+    node.reset(child);
+  }
+  // Built anew, so that errors name --set and not the line of the text given with it.
+  if (value.IsSequence()) {
+    YAML::Node copy(YAML::NodeType::Sequence);
+    for (const YAML::Node& element : value) {
+      copy.push_back(element.IsScalar() ? YAML::Node(element.Scalar()) : element);
+    }
+    node[keys.back()] = copy;
+  } else if (value.IsScalar()) {
+    node[keys.back()] = YAML::Node(value.Scalar());
+  } else if (value.IsNull()) {
+    node[keys.back()] = YAML::Node(YAML::NodeType::Null);
+  } else {
+    throw ConfigError("--set " + path + ": set one key at a time");
+  }
+}
+
+}  // namespace
+
+std::string read_config_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw ConfigError(path + ": is a directory, not a configuration file");
+  }
+  std::ifstream file(path);
+  if (!file) {
+    throw ConfigError(path + ": cannot be opened: " + std::strerror(errno) +
+                      "; config/ has an example for each kind of vehicle");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void read_yaml(const std::string& text, const std::vector<std::string>& overrides,
+               ConfigSource* source, const std::function<void(ConfigReader&)>& read) {
+  const std::string& name = source->name;
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw ConfigError(
+          name + ":" + std::to_string(documents[1].Mark().line + 1) +
+          ": a second document begins here ('---'), which would not be read; keep one");
+    }
+    YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
+    if (root.IsNull()) throw ConfigError(name + ": is empty; config/ has examples");
+    if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
+    for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);
+    ConfigReader reader(source, root, "");
+    read(reader);
+    reader.finish();
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+}
+
+}  // namespace leonav
