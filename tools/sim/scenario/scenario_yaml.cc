@@ -3,95 +3,12 @@
 #include <numbers>
 
 #include "daemon/config/config_file.h"
-#include "daemon/config/config_groups.h"
 #include "tools/sim/scenario/nominal_constellations.h"
 
 namespace leonav::sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Bounds kMetres = {0.0, 1e6}, kAngle = {-360.0, 360.0}, kSigma = {0.0, 1e3};
-
-void read_waypoint(ConfigReader& group, RouteConfig* route) {
-  Waypoint w;
-  constexpr Bounds kPlace = {-1e5, 1e5};
-  double up_m = 0.0;
-  group.number("north_m", kPlace, &w.p_n.x());
-  group.number("east_m", kPlace, &w.p_n.y());
-  group.number("up_m", {-1e3, 1e4}, &up_m);
-  w.p_n.z() = -up_m;
-  group.number("speed_m_s", {0.5, 300.0}, &w.speed_m_s);
-  group.number("stop_s", {0.0, 1e5}, &w.stop_s);
-  route->waypoints.push_back(w);
-}
-
-void read_route(ConfigReader& group, RouteConfig* route) {
-  group.choice<VehicleKind>("vehicle", {{"car", VehicleKind::kCar}, {"uav", VehicleKind::kUav}},
-                            &route->vehicle);
-  group.number("origin_latitude_deg", {-90.0, 90.0}, &route->origin.latitude, kDegree);
-  group.number("origin_longitude_deg", {-180.0, 180.0}, &route->origin.longitude, kDegree);
-  group.number("origin_height_m", {-1e3, 1e4}, &route->origin.height);
-  group.number("standing_s", {0.0, 1e5}, &route->standing_s);
-  group.number("block_m", {50.0, 5000.0}, &route->block_m);
-  group.number("hill_m", {0.0, 500.0}, &route->hill_m);
-  group.number("max_acceleration_m_s2", {0.1, 50.0}, &route->max_acceleration_m_s2);
-  group.number("max_braking_m_s2", {0.1, 50.0}, &route->max_braking_m_s2);
-  group.number("max_lateral_m_s2", {0.1, 50.0}, &route->max_lateral_m_s2);
-  group.groups("waypoints", [&](ConfigReader& r) { read_waypoint(r, route); });
-}
-
-void read_sensor(ConfigReader& group, ImuConfig* imu) {
-  group.boolean("enabled", &imu->enabled);
-  group.boolean("ideal", &imu->ideal);
-  group.number("rate_hz", {10.0, 1000.0}, &imu->rate_hz);
-  read_imu(group, &imu->errors);
-}
-
-void read_shell(ConfigReader& group, ConstellationConfig* c) {
-  OrbitShell shell;
-  group.integer("planes", 1, 100, &shell.planes);
-  group.integer("per_plane", 1, 100, &shell.per_plane);
-  group.number("semi_major_axis_km", {6500.0, 1e5}, &shell.semi_major_axis_m, 1e3);
-  group.number("eccentricity", {0.0, 0.5}, &shell.eccentricity);
-  group.number("inclination_deg", {0.0, 180.0}, &shell.inclination, kDegree);
-  group.number("node_span_deg", {0.0, 360.0}, &shell.node_span, kDegree);
-  group.number("first_node_deg", kAngle, &shell.first_node, kDegree);
-  group.number("phase_per_plane_deg", kAngle, &shell.phase_per_plane, kDegree);
-  group.number("first_anomaly_deg", kAngle, &shell.first_anomaly, kDegree);
-  if (shell.semi_major_axis_m == 0.0) group.fail("semi_major_axis_km", "must be given");
-  c->shells.push_back(shell);
-}
-
-void read_constellation(ConfigReader& group, ConstellationConfig* c, NoiseConfig* noise) {
-  group.boolean("enabled", &c->enabled);
-  group.integer("first_number", 1, 399, &c->first_number);
-  group.number("orbit_error_m", kSigma, &c->orbit_error_m);
-  group.number("clock_error_m", kSigma, &c->clock_error_m);
-  group.number("node_interval_s", {1.0, 900.0}, &c->node_interval_s);
-  group.number("clock_interval_s", {1.0, 900.0}, &c->clock_interval_s);
-  group.number("code_noise_m", kSigma, &noise->code_m);
-  group.number("carrier_noise_m", kSigma, &noise->carrier_m);
-  group.number("doppler_noise_m_s", kSigma, &noise->doppler_m_s);
-  ConstellationConfig own;
-  if (group.groups("shells", [&](ConfigReader& r) { read_shell(r, &own); })) c->shells = own.shells;
-}
-
-void read_receiver(ConfigReader& group, ReceiverConfig* receiver) {
-  group.number("interval_s", {0.05, 900.0}, &receiver->interval_s);
-  group.vector("lever_arm_b_m", {-100.0, 100.0}, &receiver->lever_arm_b);
-  group.number("elevation_mask_deg", {0.0, 90.0}, &receiver->elevation_mask, kDegree);
-  group.number("clock_offset_us", {-1e3, 1e3}, &receiver->clock_offset_s, 1e-6);
-  group.number("clock_drift_ppb", {-1e4, 1e4}, &receiver->clock_drift, 1e-9);
-  group.number("clock_drift_walk_ppb_per_sqrt_s", {0.0, 1e3}, &receiver->clock_drift_walk, 1e-9);
-  group.number("latency_s", {0.0, 10.0}, &receiver->gnss_latency_s);
-}
-
-void read_atmosphere(ConfigReader& group, AtmosphereConfig* atmosphere) {
-  group.number("wet_offset_m", {-0.5, 0.5}, &atmosphere->wet_offset_m);
-  group.number("wet_walk_m_per_sqrt_h", {0.0, 1.0}, &atmosphere->wet_walk_m_per_sqrt_s, 1.0 / 60.0);
-  group.number("tecu", {0.0, 500.0}, &atmosphere->tecu);
-  group.number("tec_gradient_per_km", {-0.1, 0.1}, &atmosphere->tec_gradient_per_km);
-}
 
 void read_root(ConfigReader& root, Scenario* scenario) {
   double seed = 1.0, week = 2136.0, tow_s = 345'600.0;
@@ -108,7 +25,7 @@ void read_root(ConfigReader& root, Scenario* scenario) {
     for (const System system : kSystems) {
       const std::size_t i = index_of(system);
       satellites.group(std::string(to_string(system)).c_str(), [&](ConfigReader& r) {
-        read_constellation(r, &scenario->constellations[i], &scenario->receiver.noise[i]);
+        read_constellation(r, &scenario->constellations[i]);
       });
     }
   });

@@ -1,0 +1,40 @@
+#include "tools/sim/scenario/route_config.h"
+
+#include <numbers>
+
+namespace leonav::sim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+void read_waypoint(ConfigReader& group, RouteConfig* route) {
+  Waypoint w;
+  constexpr Bounds kPlace = {-1e5, 1e5};
+  double up_m = 0.0;
+  group.number("north_m", kPlace, &w.p_n.x());
+  group.number("east_m", kPlace, &w.p_n.y());
+  group.number("up_m", {-1e3, 1e4}, &up_m);
+  w.p_n.z() = -up_m;
+  group.number("speed_m_s", {0.5, 300.0}, &w.speed_m_s);
+  group.number("stop_s", {0.0, 1e5}, &w.stop_s);
+  route->waypoints.push_back(w);
+}
+
+}  // namespace
+
+void read_route(ConfigReader& group, RouteConfig* route) {
+  group.choice<VehicleKind>("vehicle", {{"car", VehicleKind::kCar}, {"uav", VehicleKind::kUav}},
+                            &route->vehicle);
+  group.number("origin_latitude_deg", {-90.0, 90.0}, &route->origin.latitude, kDegree);
+  group.number("origin_longitude_deg", {-180.0, 180.0}, &route->origin.longitude, kDegree);
+  group.number("origin_height_m", {-1e3, 1e4}, &route->origin.height);
+  group.number("standing_s", {0.0, 1e5}, &route->standing_s);
+  group.number("block_m", {50.0, 5000.0}, &route->block_m);
+  group.number("hill_m", {0.0, 500.0}, &route->hill_m);
+  group.number("max_acceleration_m_s2", {0.1, 50.0}, &route->max_acceleration_m_s2);
+  group.number("max_braking_m_s2", {0.1, 50.0}, &route->max_braking_m_s2);
+  group.number("max_lateral_m_s2", {0.1, 50.0}, &route->max_lateral_m_s2);
+  group.groups("waypoints", [&](ConfigReader& r) { read_waypoint(r, route); });
+}
+
+}  // namespace leonav::sim

@@ -1,0 +1,31 @@
+// Where and how the vehicle goes.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/earth/ellipsoid.h"
+#include "daemon/config/config_reader.h"
+
+namespace leonav::sim {
+
+struct Waypoint {
+  Eigen::Vector3d p_n = Eigen::Vector3d::Zero();  // from the origin, tangent plane, m
+  double speed_m_s = 13.9;                        // limit from here on
+  double stop_s = 0.0;                            // stands here for so long
+};
+
+enum class VehicleKind { kCar, kUav };
+
+struct RouteConfig {
+  VehicleKind vehicle = VehicleKind::kCar;
+  Geodetic origin = {0.6965, 2.0322, 50.0};
+  double standing_s = 60.0;         // before it sets off
+  std::vector<Waypoint> waypoints;  // empty: a random drive through a city's grid of streets
+  double block_m = 250.0;           // of that grid
+  double hill_m = 10.0;             // its rise and fall
+  double max_acceleration_m_s2 = 1.5, max_braking_m_s2 = 2.0, max_lateral_m_s2 = 2.5;
+};
+
+void read_route(ConfigReader& group, RouteConfig* route);
+
+}  // namespace leonav::sim
