@@ -112,6 +112,7 @@ TEST_CASE("data-sheet units become SI") {
 TEST_CASE("the shipped configurations are complete") {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(LEONAV_SOURCE_DIR "/config")) {
+    if (entry.is_directory()) continue;  // of the simulator's scenarios
     INFO(entry.path().string());
     std::vector<std::string> absent;
     load_config(entry.path().string(), {}, &absent);
