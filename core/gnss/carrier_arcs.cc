@@ -8,54 +8,13 @@
 
 #include "core/gnss/carrier_track.h"
 #include "core/gnss/doppler_check.h"
+#include "core/gnss/slip_judgement.h"
+#include "core/gnss/usual_interval.h"
 
 namespace leonav {
 namespace {
 
 constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
-
-CarrierSide side_of(const SignalObservation& observation, double code_shift_m) {
-  CarrierSide side;
-  side.code = observation.code;
-  side.frequency_hz = frequency_hz(observation.satellite.system, observation.code.band);
-  side.wavelength_m = wavelength_m(observation.satellite.system, observation.code.band);
-  side.carrier_m = observation.carrier_cycles * side.wavelength_m;
-  side.code_m = observation.pseudorange_m - code_shift_m;
-  side.doppler_m_s = -observation.doppler_hz * side.wavelength_m;
-  side.lock_time_s = observation.lock_time_s;
-  side.loss_of_lock = observation.loss_of_lock;
-  side.half_cycle_ambiguous = observation.half_cycle_ambiguous;
-  return side;
-}
-
-bool has_carrier(const SignalObservation* observation) {
-  return observation != nullptr && std::isfinite(observation->carrier_cycles) &&
-         index_of(observation->satellite.system) < kSystemCount &&
-         frequency_hz(observation->satellite.system, observation->code.band) > 0.0;
-}
-
-bool is_pair(const CarrierInput& input) {
-  return has_carrier(input.second) && input.second->satellite == input.first->satellite &&
-         frequency_hz(input.first->satellite.system, input.first->code.band) !=
-             frequency_hz(input.first->satellite.system, input.second->code.band);
-}
-
-// The epochs' usual interval: the shortest of late, so that a missing epoch does not count.
-class UsualInterval {
- public:
-  void add(double interval_s) {
-    constexpr int kMissing = 5;  // so many longer intervals in a row are the usual one
-    const bool longer = usual_s_ > 0.0 && interval_s > 1.1 * usual_s_;
-    longer_ = longer ? longer_ + 1 : 0;
-    if (longer && longer_ < kMissing) return;
-    usual_s_ = interval_s;
-  }
-  double seconds() const { return usual_s_; }
-
- private:
-  double usual_s_ = 0.0;
-  int longer_ = 0;
-};
 
 }  // namespace
 
@@ -78,10 +37,6 @@ struct CarrierArcs::Storage {
   void check_dopplers(const ClockJump& jump, double interval_s);
   void begin(Current* current, SlipCauses causes, CarrierStatus* status);
   void fill(const Current& current, CarrierStatus* status) const;
-  bool is_cleared(const Current& current) const;
-  bool is_tested(const Current& current, const RangeRowResult& result) const;
-  bool may_have_slipped(const Current& current, const RangeRowResult& result,
-                        const ClockJump& jump) const;
   void first_look(const ClockJump& jump, Current* current, CarrierStatus* status);
 
   CycleSlipConfig config;
@@ -107,20 +62,15 @@ void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
   const std::size_t count = std::min(inputs.size(), current.capacity());
   for (const CarrierInput& input : inputs.first(count)) {
     current.emplace_back();
-    if (!has_carrier(input.first) || !is_valid(input.first->satellite)) continue;
+    if (!has_carrier(input)) continue;
     const std::size_t place = place_of(input.first->satellite);
     if (place >= tracks.size() || seen.test(place)) continue;
     seen.set(place);
     Current& entry = current.back();
     entry.track = &tracks[place];
     entry.track->system = input.first->satellite.system;
-    CarrierSample& sample = entry.sample;
-    sample.time = now;
-    sample.elevation = std::isfinite(input.elevation) ? input.elevation : 0.0;
-    sample.sides = is_pair(input) ? 2 : 1;
-    sample.side[0] = side_of(*input.first, shift_ms * kMillisecond_m);
-    if (sample.sides == 2) sample.side[1] = side_of(*input.second, shift_ms * kMillisecond_m);
-    sample.carrier_shift_m = shift_ms * kMillisecond_m;
+    entry.sample = carrier_sample(input, now, shift_ms * kMillisecond_m);
+    const CarrierSample& sample = entry.sample;
     // Nothing but the pair's combination tells of a slip while a satellite was away.
     const bool blind = sample.sides == 1 && entry.track->last().time != previous;
     entry.late = blind || !entry.track->is_continued_by(
@@ -221,46 +171,6 @@ void CarrierArcs::Storage::first_look(const ClockJump& jump, Current* entry,
   fill(*entry, status);
 }
 
-// As far as the geometry tells, and what refutes it.
-bool CarrierArcs::Storage::may_have_slipped(const Current& entry, const RangeRowResult& result,
-                                            const ClockJump& jump) const {
-  const double deviation_m = std::abs(result.deviation_m);
-  const CarrierSample& sample = entry.sample;
-  switch (result.verdict) {
-    case RangeVerdict::kNotTested:
-    case RangeVerdict::kConsistent:
-      break;
-    case RangeVerdict::kSlipped:
-      // Slips of whole or half cycles that leave the geometry-free combination alone within 1.5 cm
-      // move the ionosphere-free one by 36 cm or more (2 and 1.5 cycles of GPS L1 and L2; other
-      // pairs: more).
-      return !(entry.findings.geometry_free_m < config.geometry_free_quiet_m &&
-               deviation_m < config.range_change_refuted_m);
-    case RangeVerdict::kUndecided:
-      // Of a pair the other detectors tell. Where the clock or the tags have jumped, the carriers
-      // may be of another instant than the predicted ranges, and contradict them without a slip.
-      return sample.sides == 1 && !jump.any();
-    case RangeVerdict::kUnclear:
-      return sample.sides == 1 && deviation_m + config.range_change_clear * result.sigma_m >=
-                                      sample.side[0].wavelength_m;
-  }
-  return false;
-}
-
-// A pair of slips that leaves the ionosphere-free combination alone (60 and 77 cycles of GPS L1 and
-// L2) moves the geometry-free one by metres: a range change clears a pair only together with it.
-bool CarrierArcs::Storage::is_cleared(const Current& entry) const {
-  return entry.sample.sides == 1 || entry.findings.geometry_free_m < config.geometry_free_clear_m;
-}
-
-// On one frequency only a range change that would have shown a cycle, or a Doppler, tells that
-// nothing slipped.
-bool CarrierArcs::Storage::is_tested(const Current& entry, const RangeRowResult& result) const {
-  if (entry.sample.sides == 2 || entry.doppler_tested) return true;
-  return result.verdict != RangeVerdict::kUndecided && result.sigma_m > 0.0 &&
-         config.range_change_limit * result.sigma_m <= entry.sample.side[0].wavelength_m;
-}
-
 CarrierArcs::CarrierArcs(const CycleSlipConfig& config)
     : storage_(std::make_unique<Storage>(config)) {}
 CarrierArcs::~CarrierArcs() = default;
@@ -298,19 +208,18 @@ void CarrierArcs::settle(std::span<const RangeRowResult> results, ArcEpoch* epoc
     Storage::Current& entry = s.current[i];
     CarrierStatus* status = i < epoch->satellites.size() ? &epoch->satellites[i] : nullptr;
     if (entry.track == nullptr || status == nullptr || status->started) continue;
-    const RangeRowResult result = i < results.size() ? results[i] : RangeRowResult();
-    if (result.verdict == RangeVerdict::kConsistent && s.is_cleared(entry)) {
+    const ArcEvidence evidence{entry.sample, entry.findings, status->suspected,
+                               entry.doppler_tested, epoch->clock_jump.any()};
+    const ArcJudgement judgement =
+        judge_arc(s.config, evidence, i < results.size() ? &results[i] : nullptr);
+    if (judgement.cleared) {
       if (status->suspected.any()) entry.track->learn_codes(s.config);
       status->suspected = {};
       continue;
     }
-    SlipCauses causes = status->suspected;
-    if (s.may_have_slipped(entry, result, epoch->clock_jump)) causes |= SlipCause::kRangeChange;
-    if (!causes.any() && i < results.size() && !s.is_tested(entry, result))
-      causes |= SlipCause::kUntested;
-    if (!causes.any()) continue;
+    if (!judgement.causes.any()) continue;
     entry.track->restart(s.config);
-    s.begin(&entry, causes, status);
+    s.begin(&entry, judgement.causes, status);
   }
 }
 

@@ -13,22 +13,13 @@
 #include <span>
 
 #include "core/capacity.h"
+#include "core/gnss/carrier_sample.h"
 #include "core/gnss/clock_jump.h"
 #include "core/gnss/cycle_slip_config.h"
-#include "core/gnss/observation.h"
 #include "core/gnss/range_change.h"
 #include "core/gnss/slip_cause.h"
 
 namespace leonav {
-
-// One satellite's carrier, or pair of carriers if it is to be used as a pair. A satellite whose
-// pair is incomplete at one epoch is better left out of that epoch: its arc survives a short gap,
-// while a pair that turns into a single carrier is another ambiguity.
-struct CarrierInput {
-  const SignalObservation* first = nullptr;   // must have a carrier; otherwise the input is ignored
-  const SignalObservation* second = nullptr;  // nullptr or without carrier: single frequency
-  double elevation = 0.0;                     // rad; 0 or NaN if not known: lowest weight
-};
 
 struct CarrierStatus {
   std::uint32_t arc = 0;               // unique in the run, from 1; 0: no carrier here

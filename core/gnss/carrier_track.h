@@ -1,43 +1,15 @@
 // What is remembered of one satellite's carriers, and the tests that need no other satellite.
 #pragma once
-#include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "core/gnss/carrier_sample.h"
 #include "core/gnss/cycle_slip_config.h"
 #include "core/gnss/geometry_free.h"
 #include "core/gnss/melbourne_wuebbena.h"
-#include "core/gnss/observation.h"
 #include "core/gnss/slip_cause.h"
 
 namespace leonav {
-
-// One signal at the epoch under way, in metres.
-struct CarrierSide {
-  SignalCode code;
-  double frequency_hz = 0.0;
-  double wavelength_m = 0.0;
-  double carrier_m = kNotMeasured;    // as measured
-  double code_m = kNotMeasured;       // without what the receiver's clock has jumped
-  double doppler_m_s = kNotMeasured;  // as range rate: positive when the range grows
-  double lock_time_s = kNotMeasured;
-  bool loss_of_lock = false;
-  bool half_cycle_ambiguous = false;
-  double repair_m = 0.0;  // half cycles repaired since the arc began
-};
-
-struct CarrierSample {
-  GpsTime time;
-  double elevation = 0.0;        // rad
-  double carrier_shift_m = 0.0;  // what makes carriers continuous over the clock's jumps
-  int sides = 0;                 // 1 or 2
-  std::array<CarrierSide, 2> side;
-
-  double carrier(int i) const {
-    const CarrierSide& s = side[static_cast<std::size_t>(i)];
-    return s.carrier_m + s.repair_m + carrier_shift_m;
-  }
-};
 
 // Tests that were loud. `hard`: the arc is over. `soft`: other errors look alike (of a code, of a
 // Doppler), and a range change within centimetres refutes them.

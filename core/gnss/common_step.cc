@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/capacity.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {
@@ -12,13 +13,6 @@ namespace {
 using Values = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kMadToSigma = 1.4826;
-
-double median_of(Values values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 }  // namespace
 
@@ -32,15 +26,15 @@ std::optional<CommonStep> find_common_step(std::span<const StepSample> samples,
     sigmas.push_back(sample.sigma_m);
   }
   CommonStep step;
-  step.value_m = median_of(values);
+  step.value_m = median(values);
   std::size_t sharing = 0;
   Values deviations;
   for (const double value : values) {
     deviations.push_back(std::abs(value - step.value_m));
     if (deviations.back() < std::abs(value)) ++sharing;
   }
-  const double scatter_m = kMadToSigma * median_of(deviations);
-  const double noise_m = std::max(median_of(sigmas), scatter_m);
+  const double scatter_m = kMadToSigma * median(deviations);
+  const double noise_m = std::max(median(sigmas), scatter_m);
   const double share = kMedianVariance / static_cast<double>(values.size());
   step.sigma_m = std::sqrt(common_sigma_m * common_sigma_m + share * noise_m * noise_m);
   const bool shared = 3 * sharing >= 2 * values.size();

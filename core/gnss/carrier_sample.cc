@@ -1,0 +1,51 @@
+#include "core/gnss/carrier_sample.h"
+
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+CarrierSide side_of(const SignalObservation& observation, double code_shift_m) {
+  CarrierSide side;
+  side.code = observation.code;
+  side.frequency_hz = frequency_hz(observation.satellite.system, observation.code.band);
+  side.wavelength_m = wavelength_m(observation.satellite.system, observation.code.band);
+  side.carrier_m = observation.carrier_cycles * side.wavelength_m;
+  side.code_m = observation.pseudorange_m - code_shift_m;
+  side.doppler_m_s = -observation.doppler_hz * side.wavelength_m;
+  side.lock_time_s = observation.lock_time_s;
+  side.loss_of_lock = observation.loss_of_lock;
+  side.half_cycle_ambiguous = observation.half_cycle_ambiguous;
+  return side;
+}
+
+bool is_usable(const SignalObservation* observation) {
+  return observation != nullptr && std::isfinite(observation->carrier_cycles) &&
+         index_of(observation->satellite.system) < kSystemCount &&
+         frequency_hz(observation->satellite.system, observation->code.band) > 0.0;
+}
+
+bool is_pair(const CarrierInput& input) {
+  return is_usable(input.second) && input.second->satellite == input.first->satellite &&
+         frequency_hz(input.first->satellite.system, input.first->code.band) !=
+             frequency_hz(input.first->satellite.system, input.second->code.band);
+}
+
+}  // namespace
+
+bool has_carrier(const CarrierInput& input) {
+  return is_usable(input.first) && is_valid(input.first->satellite);
+}
+
+CarrierSample carrier_sample(const CarrierInput& input, GpsTime time, double shift_m) {
+  CarrierSample sample;
+  sample.time = time;
+  sample.elevation = std::isfinite(input.elevation) ? input.elevation : 0.0;
+  sample.sides = is_pair(input) ? 2 : 1;
+  sample.side[0] = side_of(*input.first, shift_m);
+  if (sample.sides == 2) sample.side[1] = side_of(*input.second, shift_m);
+  sample.carrier_shift_m = shift_m;
+  return sample;
+}
+
+}  // namespace leonav
