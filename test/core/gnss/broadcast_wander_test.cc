@@ -79,6 +79,8 @@ std::vector<Sky> straying(const Products& products) {
                    });
   CatalogOptions options;
   options.use_precise = false;
+  options.galileo_prefers_fnav =
+      true;  // whose clocks are of the bands that the precise ones are of
   SatelliteCatalog catalog(options);
   std::vector<Sky> skies;
   auto next = ephemerides.begin();
