@@ -64,9 +64,10 @@ SmoothTrack::SmoothTrack(const std::vector<TruthPoint>& points, const SmoothTrac
     if (i == 0) continue;
     intervals.push_back(times_[i] - times_[i - 1]);
     if (intervals.back() > options_.max_gap_s) {
-      throw std::runtime_error("the truth has a hole of " + std::to_string(intervals.back()) +
-                               " s before time of week " + std::to_string(points[i].time.tow_s()) +
-                               "; cut the file there or raise --max-gap");
+      throw std::runtime_error(
+          "the truth has a hole of " + std::to_string(intervals.back()) +
+          " s before time of week " + std::to_string(points[i].time.tow_s()) +
+          "; cut the file there or allow wider holes (--max-gap, route.max_gap_s)");
     }
   }
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);

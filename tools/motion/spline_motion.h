@@ -32,6 +32,7 @@ class SplineMotion {
 
   GpsTime start() const { return splines_.start; }
   double duration_s() const { return splines_.duration_s; }
+  const MotionSplines& splines() const { return splines_; }
   // `t` in seconds from start(), within the duration.
   MotionInstant at(double t) const;
   TruthPoint point(GpsTime time) const;  // everything, as truth.csv has it

@@ -1,9 +1,22 @@
 #include "tools/sim/route/city_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace leonav::sim {
+namespace {
+
+double course_of(int heading) { return 0.5 * std::numbers::pi * heading; }
+
+bool leads_out(const Eigen::Vector3d& p, int heading) {
+  constexpr double kFar = 4000.0;  // m
+  const double north = p.x() * std::cos(course_of(heading));
+  const double east = p.y() * std::sin(course_of(heading));
+  return std::max(north, east) > kFar;
+}
+
+}  // namespace
 
 std::vector<Waypoint> city_drive(const RouteConfig& route, double duration_s,
                                  GaussianGenerator random) {
@@ -23,18 +36,20 @@ std::vector<Waypoint> city_drive(const RouteConfig& route, double duration_s,
     const double stop = random.uniform(), turn = random.uniform(), side = random.uniform();
     const double length = route.block_m * (0.6 + 0.8 * random.uniform());
     if (stop < kStopShare) next.stop_s = 5.0 + 35.0 * stop / kStopShare;
-    const double course = 0.5 * std::numbers::pi * heading;
+    const double course = course_of(heading);
     p += length * Eigen::Vector3d(std::cos(course), std::sin(course), 0.0);
     next.p_n = p;
     next.p_n.z() = -height(p);
     waypoints.push_back(next);
     travelled_m += length;
-    if (turn < kTurnShare) heading += side < 0.5 ? 1 : -1;
-    // Home again: without this a drive of hours leaves the tangent plane.
-    if (std::abs(p.x()) > 4000.0 && p.x() * std::cos(0.5 * std::numbers::pi * heading) > 0.0)
-      ++heading;
-    if (std::abs(p.y()) > 4000.0 && p.y() * std::sin(0.5 * std::numbers::pi * heading) > 0.0)
-      ++heading;
+    const int wanted = turn >= kTurnShare ? 0 : side < 0.5 ? 1 : -1;
+    // Not farther out than this: without it a drive of hours leaves the tangent plane. One of the
+    // three ways never leads out, and none of them back.
+    for (const int quarter : {wanted, 0, 1, -1}) {
+      if (leads_out(p, heading + quarter)) continue;
+      heading += quarter;
+      break;
+    }
   }
   return waypoints;
 }

@@ -1,47 +1,43 @@
 #include "tools/sim/route/drive.h"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "core/earth/rotation.h"
 #include "tools/sim/route/city_grid.h"
+#include "tools/sim/route/lean.h"
+#include "tools/sim/route/recorded_track.h"
 #include "tools/sim/route/road.h"
 #include "tools/sim/route/speed_profile.h"
+#include "tools/sim/route/uav_flight.h"
 #include "tools/sim/scenario/random_streams.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kGravity = 9.81;
-// A passenger car's springs: some 5 degrees of roll and 2.5 of pitch at 1 g.
-constexpr double kRollPerAcceleration = 0.009, kPitchPerAcceleration = 0.0045;  // rad/(m/s^2)
-constexpr double kRounding = 18.0;                                              // m
+constexpr double kRounding = 18.0;  // m
+constexpr double kTail = 2.0;       // s: where a natural spline ends its acceleration is made up
 
-EulerAngles attitude(VehicleKind kind, const RoadPlace& place, double speed, double acceleration) {
-  const double lateral = speed * speed * place.curvature;  // to the right
-  EulerAngles angles;
-  angles.yaw = place.course;
-  if (kind == VehicleKind::kCar) {
-    angles.roll = -kRollPerAcceleration * lateral;
-    angles.pitch = place.slope + kPitchPerAcceleration * acceleration;
-  } else {
-    angles.roll = std::atan2(lateral, kGravity);
-    angles.pitch = -std::atan2(acceleration, kGravity);
-  }
-  return angles;
+std::vector<Waypoint> waypoints_of(const Scenario& scenario) {
+  const RouteConfig& route = scenario.route;
+  if (!route.waypoints.empty()) return route.waypoints;
+  const GaussianGenerator random = random_stream(scenario.seed, "route");
+  return route.vehicle == VehicleKind::kUav ? uav_flight(route, scenario.duration_s, random)
+                                            : city_drive(route, scenario.duration_s, random);
 }
 
-}  // namespace
+EulerAngles attitude(VehicleKind kind, const RoadPlace& place, double speed, double acceleration) {
+  const Lean lean =
+      lean_of(kind, {speed, speed * speed * place.curvature, acceleration, place.slope});
+  return {lean.roll, lean.pitch, place.course};
+}
 
-SplineMotion drive(const Scenario& scenario) {
+SplineMotion along_road(const Scenario& scenario) {
   const RouteConfig& route = scenario.route;
-  const std::vector<Waypoint> waypoints =
-      route.waypoints.empty()
-          ? city_drive(route, scenario.duration_s, random_stream(scenario.seed, "route"))
-          : route.waypoints;
+  const std::vector<Waypoint> waypoints = waypoints_of(scenario);
   const Road road(waypoints, kRounding);
-  const std::vector<double> s = drive_along(road, route, waypoints, scenario.duration_s);
+  const std::vector<double> s = drive_along(road, route, waypoints, scenario.duration_s + kTail);
 
   std::vector<double> times;
   for (std::size_t i = 0; i < s.size(); ++i) times.push_back(kDriveStep * static_cast<double>(i));
@@ -62,11 +58,21 @@ SplineMotion drive(const Scenario& scenario) {
     }
   }
   splines.start = scenario.start;
-  splines.duration_s = times.back();
+  splines.duration_s = scenario.duration_s;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     splines.position[axis] = SmoothingSpline(times, position[axis], 0.0);
     splines.attitude[axis] = SmoothingSpline(times, angles[axis], 0.0);
   }
+  return SplineMotion(std::move(splines));
+}
+
+}  // namespace
+
+SplineMotion drive(const Scenario& scenario) {
+  if (scenario.route.track.empty()) return along_road(scenario);
+  MotionSplines splines = recorded_track(scenario.route).splines();
+  splines.start = scenario.start;
+  splines.duration_s = std::min(splines.duration_s, scenario.duration_s);
   return SplineMotion(std::move(splines));
 }
 

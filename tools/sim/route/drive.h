@@ -5,9 +5,9 @@
 
 namespace leonav::sim {
 
-// Along the route's waypoints, or a random drive of the scenario's seed. The body points along the
-// road, leans with the accelerations (a car outwards and back on its springs, a UAV into the turn)
-// and follows the slope. Throws std::runtime_error for waypoints that make no road.
+// Along the route's file or its waypoints, or a random drive or flight of the scenario's seed. A
+// file's motion begins at the scenario's start. Throws std::runtime_error for waypoints or a file
+// that make no route.
 SplineMotion drive(const Scenario& scenario);
 
 }  // namespace leonav::sim

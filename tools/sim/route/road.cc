@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/earth/rotation.h"
@@ -9,7 +10,8 @@
 namespace leonav::sim {
 namespace {
 
-constexpr double kStep = 0.5;  // m between the samples of the curve
+constexpr double kStep = 0.5;                         // m between the samples of the curve
+const double kSharpest = -0.5 * std::numbers::sqrt3;  // cosine of the sharpest turn
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -17,7 +19,7 @@ using Points = std::vector<Eigen::Vector3d>;
 Points sampled(const std::vector<Waypoint>& waypoints, const std::vector<double>& places,
                double margin_m) {
   Points points;
-  const double end = places.back() + margin_m;
+  const double end = places.back() + margin_m + kStep;
   std::size_t leg = 0;
   for (double s = -margin_m; s <= end; s += kStep) {
     while (leg + 2 < places.size() && s > places[leg + 1]) ++leg;
@@ -41,43 +43,64 @@ Points averaged(const Points& points, std::size_t half) {
   return result;
 }
 
+// Along the rounded curve, for a place along the polyline that it was sampled at every kStep of.
+double length_at(const std::vector<double>& s, double along_polyline) {
+  const auto i = std::min(static_cast<std::size_t>(along_polyline / kStep), s.size() - 2);
+  const double share = along_polyline / kStep - static_cast<double>(i);
+  return s[i] + share * (s[i + 1] - s[i]);
+}
+
 }  // namespace
 
 Road::Road(const std::vector<Waypoint>& waypoints, double rounding_m) {
   if (waypoints.size() < 2) throw std::runtime_error("a route needs two waypoints or more");
   places_.push_back(0.0);
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const double leg = (waypoints[i].p_n - waypoints[i - 1].p_n).norm();
-    if (!(leg > 1.0)) {
-      throw std::runtime_error("waypoints " + std::to_string(i) + " and " + std::to_string(i + 1) +
-                               " are less than a metre apart");
+    const Eigen::Vector3d way = waypoints[i].p_n - waypoints[i - 1].p_n;
+    const double leg = way.norm();
+    const auto refuse = [i](const char* why) {
+      throw std::runtime_error("route.waypoints " + std::to_string(i) + " and " +
+                               std::to_string(i + 1) + " " + why);
+    };
+    if (!(leg > 1.0)) refuse("are less than a metre apart; leave one out");
+    if (!(std::abs(way.z()) <= way.head<2>().norm())) {
+      refuse("are steeper than 45 degrees: no course; put them farther apart");
+    }
+    if (i > 1) {
+      const Eigen::Vector3d before = waypoints[i - 1].p_n - waypoints[i - 2].p_n;
+      const double cosine = before.head<2>().normalized().dot(way.head<2>().normalized());
+      if (cosine < kSharpest) {
+        throw std::runtime_error("route.waypoints " + std::to_string(i) +
+                                 ": the road turns back on itself here by more than 150 degrees; "
+                                 "go round with one waypoint more");
+      }
     }
     places_.push_back(places_.back() + leg);
   }
   const auto half = static_cast<std::size_t>(std::ceil(0.5 * rounding_m / kStep));
   const double margin_m = 2.0 * static_cast<double>(half) * kStep;
   const Points curve = averaged(averaged(sampled(waypoints, places_, margin_m), half), half);
+  std::vector<double> s{0.0}, course;
+  for (std::size_t i = 1; i < curve.size(); ++i)
+    s.push_back(s.back() + (curve[i] - curve[i - 1]).norm());
+  for (double& place : places_) place = length_at(s, place);
   length_m_ = places_.back();
-  std::vector<double> s, course;
-  for (std::size_t i = 0; i < curve.size(); ++i) s.push_back(kStep * static_cast<double>(i));
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Eigen::Vector3d& p : curve) values.push_back(p[axis]);
     position_[static_cast<std::size_t>(axis)] = SmoothingSpline(s, values, 0.0);
   }
-  length_m_ = std::min(length_m_, s.back());
   for (const double at : s) {
     const double now = std::atan2(position_[1].evaluate(at).first, position_[0].evaluate(at).first);
     course.push_back(course.empty() ? now : course.back() + wrap_to_pi(now - course.back()));
   }
   course_ = SmoothingSpline(s, course, 0.0);
-  for (double& place : places_) place = std::min(place, length_m_);
 }
 
 RoadPlace Road::at(double s) const {
   const auto n = position_[0].evaluate(s), e = position_[1].evaluate(s),
              d = position_[2].evaluate(s);
-  const double speed = std::hypot(n.first, e.first);  // per metre of polyline
+  const double speed = std::hypot(n.first, e.first);  // per metre of road
   RoadPlace place;
   place.p_n = {n.value, e.value, d.value};
   place.course = course_.evaluate(s).value;

@@ -20,7 +20,8 @@ struct RoadPlace {
 // continuously differentiable, within a few metres of the corners.
 class Road {
  public:
-  // Throws std::runtime_error where two waypoints in a row coincide or are fewer than two.
+  // Throws std::runtime_error, naming them, for waypoints that are fewer than two, coincide, climb
+  // above 45 degrees or turn back sharply.
   Road(const std::vector<Waypoint>& waypoints, double rounding_m);
 
   double length_m() const { return length_m_; }
@@ -29,7 +30,7 @@ class Road {
   const std::vector<double>& waypoint_places() const { return places_; }
 
  private:
-  std::array<SmoothingSpline, 3> position_;  // of the length along the polyline
+  std::array<SmoothingSpline, 3> position_;  // of the length along the curve
   SmoothingSpline course_;
   double length_m_ = 0.0;
   std::vector<double> places_;

@@ -6,36 +6,69 @@
 namespace leonav::sim {
 namespace {
 
-constexpr double kGrid = 0.5;       // m
+constexpr double kGrid = 0.5;       // m, at most
 constexpr double kSmoothing = 1.0;  // s, of each of two moving averages
+constexpr double kReach = 1.0;      // s before and after that both averages together see
 constexpr double kCrawl = 0.05;     // m/s
 
-// Limits at the grid's points: waypoints, bends, then what can be reached from and braked to.
-std::vector<double> limits(const Road& road, const RouteConfig& route,
-                           const std::vector<Waypoint>& waypoints) {
-  const auto count = static_cast<std::size_t>(road.length_m() / kGrid) + 1;
-  std::vector<double> v(count);
-  std::size_t leg = 0;
+// Points along the road: every waypoint is one, so that stops are where they are said to be.
+struct Grid {
+  std::vector<double> place;          // m along the road
+  std::vector<std::size_t> waypoint;  // of each waypoint
+};
+
+Grid make_grid(const Road& road) {
+  Grid grid;
   const std::vector<double>& places = road.waypoint_places();
+  for (std::size_t w = 0; w + 1 < places.size(); ++w) {
+    grid.waypoint.push_back(grid.place.size());
+    const double leg = places[w + 1] - places[w];
+    const auto parts = static_cast<std::size_t>(std::ceil(leg / kGrid));
+    for (std::size_t i = 0; i < parts; ++i)
+      grid.place.push_back(places[w] + leg * static_cast<double>(i) / static_cast<double>(parts));
+  }
+  grid.waypoint.push_back(grid.place.size());
+  grid.place.push_back(places.back());
+  return grid;
+}
+
+// The averages see the motion before and behind: a limit holds that much longer, so that the
+// averaged speed keeps it too.
+std::vector<double> held_longer(const Grid& grid, const std::vector<double>& limit) {
+  std::vector<double> held = limit;
+  for (std::size_t i = 0; i < limit.size(); ++i) {
+    const double reach_m = limit[i] * kReach;
+    for (std::size_t j = i; j-- > 0 && grid.place[i] - grid.place[j] < reach_m;)
+      held[j] = std::min(held[j], limit[i]);
+    for (std::size_t j = i + 1; j < limit.size() && grid.place[j] - grid.place[i] < reach_m; ++j)
+      held[j] = std::min(held[j], limit[i]);
+  }
+  return held;
+}
+
+// Limits at the grid's points: waypoints, bends, then what can be reached from and braked to.
+std::vector<double> limits(const Grid& grid, const Road& road, const RouteConfig& route,
+                           const std::vector<Waypoint>& waypoints) {
+  const std::size_t count = grid.place.size();
+  std::vector<double> v(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double s = kGrid * static_cast<double>(i);
-    while (leg + 1 < places.size() && places[leg + 1] <= s) ++leg;
-    const double bend = std::abs(road.at(s).curvature);
-    v[i] = std::min(waypoints[leg].speed_m_s,
-                    std::sqrt(route.max_lateral_m_s2 / std::max(bend, 1e-6)));
+    const double bend = std::abs(road.at(grid.place[i]).curvature);
+    v[i] = std::sqrt(route.max_lateral_m_s2 / std::max(bend, 1e-6));
   }
-  for (std::size_t w = 0; w < places.size(); ++w) {
-    const auto i = static_cast<std::size_t>(std::lround(places[w] / kGrid));
-    if (waypoints[w].stop_s > 0.0) v[std::min(i, count - 1)] = 0.0;
+  for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
+    for (std::size_t i = grid.waypoint[w]; i <= grid.waypoint[w + 1]; ++i)
+      v[i] = std::min(v[i], waypoints[w].speed_m_s);
   }
+  v = held_longer(grid, v);
+  for (std::size_t w = 0; w < waypoints.size(); ++w)
+    if (waypoints[w].stop_s > 0.0) v[grid.waypoint[w]] = 0.0;
   v.front() = v.back() = 0.0;
-  for (std::size_t i = 1; i < count; ++i) {
-    v[i] =
-        std::min(v[i], std::sqrt(v[i - 1] * v[i - 1] + 2.0 * route.max_acceleration_m_s2 * kGrid));
-  }
-  for (std::size_t i = count - 1; i-- > 0;) {
-    v[i] = std::min(v[i], std::sqrt(v[i + 1] * v[i + 1] + 2.0 * route.max_braking_m_s2 * kGrid));
-  }
+  const auto reachable = [&](std::size_t from, std::size_t to, double acceleration) {
+    const double way = std::abs(grid.place[to] - grid.place[from]);
+    v[to] = std::min(v[to], std::sqrt(v[from] * v[from] + 2.0 * acceleration * way));
+  };
+  for (std::size_t i = 1; i < count; ++i) reachable(i - 1, i, route.max_acceleration_m_s2);
+  for (std::size_t i = count - 1; i-- > 0;) reachable(i + 1, i, route.max_braking_m_s2);
   return v;
 }
 
@@ -58,17 +91,19 @@ struct Passage {
   double arrival, departure;
 };
 
-std::vector<Passage> passages(const std::vector<double>& v, const Road& road,
+// The averages eat kReach of a stop at either end.
+std::vector<Passage> passages(const Grid& grid, const std::vector<double>& v,
                               const RouteConfig& route, const std::vector<Waypoint>& waypoints) {
   std::vector<Passage> passage(v.size());
-  passage[0] = {0.0, route.standing_s};
+  passage[0] = {0.0, std::max(route.standing_s, waypoints[0].stop_s) + kReach};
+  std::size_t w = 1;
   for (std::size_t i = 1; i < v.size(); ++i) {
-    const double t = passage[i - 1].departure + 2.0 * kGrid / std::max(v[i - 1] + v[i], kCrawl);
+    const double way = grid.place[i] - grid.place[i - 1];
+    const double t = passage[i - 1].departure + 2.0 * way / std::max(v[i - 1] + v[i], kCrawl);
     passage[i] = {t, t};
-    for (std::size_t w = 1; v[i] == 0.0 && w < waypoints.size(); ++w) {
-      const auto place = static_cast<std::size_t>(std::lround(road.waypoint_places()[w] / kGrid));
-      if (place == i) passage[i].departure = t + waypoints[w].stop_s;
-    }
+    if (i != grid.waypoint[w]) continue;
+    if (waypoints[w].stop_s > 0.0) passage[i].departure += waypoints[w].stop_s + 2.0 * kReach;
+    ++w;
   }
   return passage;
 }
@@ -77,21 +112,22 @@ std::vector<Passage> passages(const std::vector<double>& v, const Road& road,
 
 std::vector<double> drive_along(const Road& road, const RouteConfig& route,
                                 const std::vector<Waypoint>& waypoints, double duration_s) {
-  const std::vector<double> v = limits(road, route, waypoints);
-  const std::vector<Passage> passage = passages(v, road, route, waypoints);
+  const Grid grid = make_grid(road);
+  const std::vector<double> v = limits(grid, road, route, waypoints);
+  const std::vector<Passage> passage = passages(grid, v, route, waypoints);
   std::vector<double> s;
   std::size_t i = 0;
   // Beyond the end too, so that the averages are of a motion.
   for (double t = 0.0; t <= duration_s + 4.0 * kSmoothing;
        t = kDriveStep * static_cast<double>(s.size())) {
     while (i + 1 < passage.size() && passage[i + 1].arrival <= t) ++i;
-    double place = kGrid * static_cast<double>(i);
+    double place = grid.place[i];
     if (i + 1 < passage.size() && t > passage[i].departure) {
       // Uniformly accelerated between two points of the grid.
       const double dt = t - passage[i].departure;
       const double whole = passage[i + 1].arrival - passage[i].departure;
       const double a = (v[i + 1] - v[i]) / whole;
-      place += std::min(kGrid, v[i] * dt + 0.5 * a * dt * dt);
+      place = std::min(grid.place[i + 1], place + v[i] * dt + 0.5 * a * dt * dt);
     }
     s.push_back(place);
   }

@@ -8,7 +8,7 @@
 #include "tools/dataset/log_output.h"
 #include "tools/dataset/product_schedule.h"
 #include "tools/motion/ideal_imu.h"
-#include "tools/motion/sensor_errors.h"
+#include "tools/motion/inertial_sensor.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/signals/receiver.h"
@@ -46,7 +46,8 @@ ImportReport simulate(const Scenario& scenario, const std::string& log_path,
                    [](const auto& a, const auto& b) { return a.arrival < b.arrival; });
 
   Receiver receiver(scenario, motion, sky);
-  SensorErrors errors(scenario.imu.errors, scenario.seed);
+  InertialSensor sensor(scenario.imu.errors, scenario.imu.imperfections, scenario.imu.rate_hz,
+                        scenario.seed, random_stream(scenario.seed, "sensor"));
   const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / scenario.imu.rate_hz));
   const double end_s = motion.duration_s() - 1.0;
   const GpsTime end = scenario.start.plus_seconds(end_s);
@@ -70,7 +71,10 @@ ImportReport simulate(const Scenario& scenario, const std::string& log_path,
     }
     if (scenario.imu.enabled) {
       const ImuSample ideal = ideal_sample(motion, imu_time, interval_ns);
-      log.write(next_imu, scenario.imu.ideal ? ideal : errors.disturb(ideal));
+      const double speed = sensor.needs_speed()
+                               ? motion.at(seconds_between(imu_time, scenario.start)).v_e.norm()
+                               : 0.0;
+      log.write(next_imu, scenario.imu.ideal ? ideal : sensor.measure(ideal, speed));
     }
     imu_time = next_imu;
     if (progress != nullptr && imu_time.nanoseconds() % (60 * kNanosecondsPerSecond) == 0)

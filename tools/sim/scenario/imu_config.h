@@ -3,15 +3,24 @@
 
 #include "core/ins/imu_error_model.h"
 #include "daemon/config/config_reader.h"
+#include "tools/motion/inertial_sensor.h"
 
 namespace leonav::sim {
+
+enum class ImuGrade { kTactical, kMems, kIdeal };
 
 struct ImuConfig {
   bool enabled = true;
   bool ideal = false;  // without any error
   double rate_hz = 200.0;
   ImuErrorModel errors;
+  ImuImperfections imperfections;
 };
+
+// tactical: the papers' unit (POS320, Remote Sensing 2024, 16, 1782, table 1), and no more than
+// that table says; mems: a consumer's sensor, as the daemon's defaults describe it; ideal: no
+// errors.
+ImuErrorModel errors_of(ImuGrade grade);
 
 void read_sensor(ConfigReader& group, ImuConfig* imu);
 

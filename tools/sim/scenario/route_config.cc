@@ -20,6 +20,19 @@ void read_waypoint(ConfigReader& group, RouteConfig* route) {
   route->waypoints.push_back(w);
 }
 
+void read_track(ConfigReader& group, RouteConfig* route) {
+  std::string file;
+  group.text("file", &file);
+  if (file.empty()) return;
+  if (!route->waypoints.empty()) group.fail("file", "and waypoints exclude each other");
+  try {
+    route->track = read_truth_csv(file).points;
+  } catch (const FileError& error) {
+    group.fail("file", error.what());
+  }
+  route->origin = route->track.front().position;
+}
+
 }  // namespace
 
 void read_route(ConfigReader& group, RouteConfig* route) {
@@ -35,6 +48,9 @@ void read_route(ConfigReader& group, RouteConfig* route) {
   group.number("max_braking_m_s2", {0.1, 50.0}, &route->max_braking_m_s2);
   group.number("max_lateral_m_s2", {0.1, 50.0}, &route->max_lateral_m_s2);
   group.groups("waypoints", [&](ConfigReader& r) { read_waypoint(r, route); });
+  if (route->waypoints.size() == 1) group.fail("waypoints", "one alone makes no road; give two");
+  group.number("max_gap_s", {0.01, 60.0}, &route->max_gap_s);
+  read_track(group, route);
 }
 
 }  // namespace leonav::sim

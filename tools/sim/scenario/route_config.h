@@ -5,6 +5,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "daemon/config/config_reader.h"
+#include "drivers/csv/truth_csv.h"
 
 namespace leonav::sim {
 
@@ -20,12 +21,15 @@ struct RouteConfig {
   VehicleKind vehicle = VehicleKind::kCar;
   Geodetic origin = {0.6965, 2.0322, 50.0};
   double standing_s = 60.0;         // before it sets off
+  std::vector<TruthPoint> track;    // of a recorded drive; empty: none
+  double max_gap_s = 2.0;           // a wider hole in it is an error
   std::vector<Waypoint> waypoints;  // empty: a random drive through a city's grid of streets
   double block_m = 250.0;           // of that grid
   double hill_m = 10.0;             // its rise and fall
   double max_acceleration_m_s2 = 1.5, max_braking_m_s2 = 2.0, max_lateral_m_s2 = 2.5;
 };
 
+// Reads route.file too; the origin is then its first point.
 void read_route(ConfigReader& group, RouteConfig* route);
 
 }  // namespace leonav::sim

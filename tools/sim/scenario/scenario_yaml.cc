@@ -1,6 +1,6 @@
 #include "tools/sim/scenario/scenario_yaml.h"
 
-#include <numbers>
+#include <optional>
 
 #include "daemon/config/config_file.h"
 #include "tools/sim/scenario/nominal_constellations.h"
@@ -8,18 +8,20 @@
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 void read_root(ConfigReader& root, Scenario* scenario) {
-  double seed = 1.0, week = 2136.0, tow_s = 345'600.0;
+  double seed = 1.0;
+  std::optional<double> week, tow_s;
   root.text("name", &scenario->name);
   root.number("seed", {0.0, 9e15}, &seed);
   root.number("start_gps_week", {1.0, 9999.0}, &week);
   root.number("start_gps_tow_s", {0.0, 604'799.0}, &tow_s);
   scenario->seed = static_cast<std::uint64_t>(seed);
-  scenario->start = GpsTime::from_week_and_tow(static_cast<int>(week), tow_s);
   root.number("duration_s", {10.0, 86'400.0}, &scenario->duration_s);
   root.group("route", [&](ConfigReader& r) { read_route(r, &scenario->route); });
+  scenario->start = GpsTime::from_week_and_tow(static_cast<int>(week.value_or(2136.0)),
+                                               tow_s.value_or(345'600.0));
+  const auto& track = scenario->route.track;
+  if (!track.empty() && !week && !tow_s) scenario->start = track.front().time;
   root.group("imu", [&](ConfigReader& r) { read_sensor(r, &scenario->imu); });
   root.group("satellites", [&](ConfigReader& satellites) {
     for (const System system : kSystems) {
@@ -33,19 +35,9 @@ void read_root(ConfigReader& root, Scenario* scenario) {
   root.group("atmosphere", [&](ConfigReader& r) { read_atmosphere(r, &scenario->atmosphere); });
 }
 
-// The papers' tactical unit (POS320, Remote Sensing 2024, 16, 1782, table 1).
-ImuErrorModel tactical_imu() {
-  ImuErrorModel imu;
-  imu.angle_random_walk = 0.05 * kDegree / 60.0;
-  imu.velocity_random_walk = 0.1 / 60.0;
-  imu.gyro_bias = {0.5 * kDegree / 3600.0, 3600.0};
-  imu.accel_bias = {25e-5, 3600.0};
-  return imu;
-}
-
 Scenario default_scenario() {
   Scenario scenario;
-  scenario.imu.errors = tactical_imu();
+  scenario.imu.errors = errors_of(ImuGrade::kTactical);
   for (const System system : kSystems) {
     scenario.constellations[index_of(system)] = nominal_constellation(system);
   }
