@@ -35,7 +35,8 @@ struct ObservableSigma {
 
 struct SystemConfig {
   bool enabled = false;
-  int max_satellites = 0;  // cap, highest elevations first; 0: no cap
+  // Cap, highest elevations first, of a filter under way; 0: none.
+  int max_satellites = 0;
   SignalPreference signals;
   ObservableSigma sigma;
 };

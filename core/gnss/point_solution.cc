@@ -55,7 +55,7 @@ struct Problem {
 // A first position without any assumption; no mask, no atmosphere.
 bool solve_from_nothing(const Problem& problem, MeasurementEpoch* epoch, PositionFit* position) {
   preprocess(problem.raw, problem.catalog, problem.config, Eigen::Vector3d::Zero(), epoch,
-             {.biases = problem.biases});
+             {.biases = problem.biases, .caps = false});
   fit_position(*epoch, problem.robust, surface_below(*epoch), position);
   if (gives_position(*position)) return true;
   if (position->fit.status == FitStatus::kTooFewRows) return false;
@@ -68,7 +68,7 @@ bool solve_from(const Problem& problem, Eigen::Vector3d p_e, MeasurementEpoch* e
                 PositionFit* position) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     preprocess(problem.raw, problem.catalog, problem.config, p_e, epoch,
-               {.biases = problem.biases});
+               {.biases = problem.biases, .caps = false});
     fit_position(*epoch, problem.robust, p_e, position);
     if (!gives_position(*position)) return false;
     const double moved = (position->state.head<3>() - p_e).norm();

@@ -36,6 +36,7 @@ struct PointSolution {
 
 // Solves `raw` from scratch (an approximate position of zero is fine) and leaves in `epoch` the
 // preprocessed measurements at the solution with a reason for each. `biases` as for preprocess().
+// Caps on satellites do not hold: who experiments with few wants to start all the same.
 PointSolution solve_point(const RawEpoch& raw, const SatelliteCatalog& catalog,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,

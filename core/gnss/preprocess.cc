@@ -265,7 +265,7 @@ void preprocess(const RawEpoch& raw, const SatelliteCatalog& catalog, const Gnss
     candidates.back().satellite_index = epoch->satellites.size();
     epoch->satellites.push_back(view);
   }
-  if (context.has_position) apply_caps(config, epoch);
+  if (aids.caps && context.has_position) apply_caps(config, epoch);
   apply_capacity(config, candidates, aids.carriers != nullptr, epoch);
   BandBiases of_this_epoch;
   BandBiases* biases = aids.biases != nullptr ? aids.biases : &of_this_epoch;

@@ -19,6 +19,8 @@ struct PreprocessAids {
   const AntennaCatalog* antennas = nullptr;
   // The receiver antenna's axes forward, right, down in ECEF; nullptr: north, east, down.
   const Eigen::Matrix3d* C_er = nullptr;
+  // Whether SystemConfig::max_satellites holds: not where a position is sought from nothing.
+  bool caps = true;
 };
 
 // Fills `epoch` from `raw`. `approximate_p_e` within a kilometre or so of the antenna, or zero if

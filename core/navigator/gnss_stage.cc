@@ -143,6 +143,8 @@ PreprocessAids GnssStage::aids() {
   aids.biases = &band_biases_;
   aids.antennas = &antennas_;
   if (config_.ekf.use_carrier) aids.carriers = &carriers_;
+  // One to three satellites carry neither a start nor an alignment.
+  aids.caps = !inertial_ || ekf_.has_attitude();
   if (ekf_.has_attitude()) {
     C_er_ = ekf_.state().q_eb.toRotationMatrix();
     aids.C_er = &C_er_;

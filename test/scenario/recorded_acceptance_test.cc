@@ -43,17 +43,10 @@ TEST_CASE("the recorded station: centimetres, its position free at every epoch")
   if (!programs() || !have_shared_data("station/dataset.yaml")) return;
   const TemporaryFile place("unused", "");
   const std::string log = imported(place, "station");
-  const TemporaryFile truth("truth.csv",
-                            "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n"
-                            "2111,345600,55.4935676124,8.4568295850,59.4606\n"
-                            "2111,432000,55.4935676124,8.4568295850,59.4606\n");
-  const std::string free =
-      " --set ekf.motion=constant_velocity"
-      " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
-      " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
+  const TemporaryFile truth("truth.csv", station_truth());
   const std::string out = place.beside("result"), json = place.beside("errors.json");
-  const ProgramRun replay =
-      run_program("leonav-replay", config("station") + free + " --out " + out + " " + log);
+  const ProgramRun replay = run_program(
+      "leonav-replay", config("station") + free_to_move() + " --out " + out + " " + log);
   REQUIRE(replay.exit_code == 0);
   const std::string judge = "--truth " + truth.path() +
                             " --max-truth-gap 1e9 --convergence-bound 0.1 --json " + json + " " +

@@ -106,21 +106,6 @@ struct Drive {
   Errors undisturbed;
 };
 
-// The drive with an IMU synthesised from its truth, as tools/compare-with-rtklib makes it.
-std::string semi_real_log(const TemporaryFile& place, const std::string& truth) {
-  const std::string imu = place.beside("imu.csv"), dataset = place.beside("dataset.yaml");
-  const ProgramRun run =
-      run_program("leonav-imu-from-truth", "--truth " + shared_data("drive/truth.csv") + " --out " +
-                                               imu + " --truth-out " + truth);
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
-  std::ofstream(dataset) << "observations: " << shared_data("drive/gnss.obs")
-                         << "\nnavigation: " << shared_data("drive/gps.nav")
-                         << "\norbits: " << shared_data("drive/COD0MGXFIN_20211180000_05M_ORB.SP3")
-                         << "\nimu: " << imu << "\ntruth: " << truth << "\n";
-  return imported_from(place, dataset);
-}
-
 }  // namespace
 
 TEST_CASE("the drive with one disturbance, GNSS only: every epoch that is there is answered") {

@@ -2,6 +2,7 @@
 // leonav-eval.
 #pragma once
 #include <cstdlib>
+#include <fstream>
 #include <string>
 
 #include "support/catch.h"
@@ -12,6 +13,7 @@ namespace leonav::test {
 
 struct Errors {
   double answered = 0.0, rmse = 0.0, p95 = 0.0;  // horizontal, m
+  double within = 0.0;                           // share within three stated sigma
 };
 
 // The number after `key` in `object` of a JSON text of leonav-eval.
@@ -37,6 +39,21 @@ inline std::string imported(const TemporaryFile& place, const std::string& set) 
   return imported_from(place, shared_data(set + "/dataset.yaml"));
 }
 
+// The drive with an IMU synthesised from its truth, as tools/compare-with-rtklib makes it.
+inline std::string semi_real_log(const TemporaryFile& place, const std::string& truth) {
+  const std::string imu = place.beside("imu.csv"), dataset = place.beside("dataset.yaml");
+  const ProgramRun run =
+      run_program("leonav-imu-from-truth", "--truth " + shared_data("drive/truth.csv") + " --out " +
+                                               imu + " --truth-out " + truth);
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  std::ofstream(dataset) << "observations: " << shared_data("drive/gnss.obs")
+                         << "\nnavigation: " << shared_data("drive/gps.nav")
+                         << "\norbits: " << shared_data("drive/COD0MGXFIN_20211180000_05M_ORB.SP3")
+                         << "\nimu: " << imu << "\ntruth: " << truth << "\n";
+  return imported_from(place, dataset);
+}
+
 // Replays `log` with `options` and judges the solution with leonav-eval's options `judge`.
 inline Errors errors_of(const TemporaryFile& place, const std::string& log,
                         const std::string& options, const std::string& judge) {
@@ -50,11 +67,25 @@ inline Errors errors_of(const TemporaryFile& place, const std::string& log,
   REQUIRE(eval.exit_code == 0);
   const std::string text = text_of(json);
   return {number_after(text, "", "answered"), number_after(text, "horizontal_m", "rmse"),
-          number_after(text, "horizontal_m", "p95")};
+          number_after(text, "horizontal_m", "p95"), number_after(text, "", "within_three_sigma")};
 }
 
 inline std::string config(const std::string& name) {
   return "--config " LEONAV_SOURCE_DIR "/config/" + name + ".yaml";
+}
+
+// The station does not move.
+inline std::string station_truth() {
+  return "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n"
+         "2111,345600,55.4935676124,8.4568295850,59.4606\n"
+         "2111,432000,55.4935676124,8.4568295850,59.4606\n";
+}
+
+// Its position may be another at every epoch.
+inline std::string free_to_move() {
+  return " --set ekf.motion=constant_velocity"
+         " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
+         " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
 }
 
 inline bool programs() { return have_programs("leonav-import", "leonav-replay", "leonav-eval"); }

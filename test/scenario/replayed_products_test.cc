@@ -43,14 +43,8 @@ struct Outcome {
 
 // `late`: from this time of week on the largest 3D error counts.
 Outcome outcome_of(const TemporaryFile& place, const std::string& log, double late_tow_s) {
-  const TemporaryFile truth("truth.csv",
-                            "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n"
-                            "2111,345600,55.4935676124,8.4568295850,59.4606\n"
-                            "2111,432000,55.4935676124,8.4568295850,59.4606\n");
-  const std::string free = config("station") +
-                           " --set ekf.motion=constant_velocity"
-                           " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
-                           " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
+  const TemporaryFile truth("truth.csv", station_truth());
+  const std::string free = config("station") + free_to_move();
   const std::string judge = "--max-truth-gap 1e9 --truth " + truth.path() + " --from 2111:";
   Outcome outcome;
   errors_of(place, log, free, judge + "351600");

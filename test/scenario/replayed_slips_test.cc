@@ -164,11 +164,7 @@ TEST_CASE("slips in the recorded station's log are found by the program as a who
   const std::string log = imported(place, "station"), slipped_log = place.beside("slipped.lcmlog");
   const Epochs epochs = epochs_of(log);
   const std::string systems = " --set gnss.systems=[gps,galileo,beidou]";
-  const std::string free =
-      " --set ekf.motion=constant_velocity"
-      " --set ekf.acceleration_noise_horizontal_m_s2_per_sqrt_hz=100"
-      " --set ekf.acceleration_noise_vertical_m_s2_per_sqrt_hz=100";
-  for (const std::string& motion : {std::string(), free}) {
+  for (const std::string& motion : {std::string(), free_to_move()}) {
     const std::string options = config("station") + systems + motion;
     const Run clean = replay(place, log, options, epochs);
     std::vector<SlipRun::Going> going;

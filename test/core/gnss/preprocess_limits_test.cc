@@ -72,6 +72,20 @@ TEST_CASE("a cap keeps the highest satellites of its system and touches no other
   }
 }
 
+TEST_CASE(
+    "a point solution takes no notice of caps: with fewer than four there would be no start") {
+  const SimulatedReceiver receiver;
+  const SimulatedSky sky = sky_of({gps_walker()});
+  const RawEpoch raw = simulate_epoch(sky, receiver, 0.0);
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  GnssConfig config = default_gnss_config();
+  config.systems[index_of(System::kGps)].max_satellites = 1;
+  const PointSolution point =
+      solve_point(raw, sky.catalog, config, RobustConfig{}, Eigen::Vector3d::Zero(), epoch.get());
+  CHECK(point.status == PointStatus::kOk);
+  CHECK((point.p_e - receiver.p_e).norm() < 10.0);
+}
+
 TEST_CASE("more than a hundred satellites in one epoch are solved") {
   SimulatedReceiver receiver;
   receiver.elevation_mask = 0.02;
