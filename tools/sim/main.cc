@@ -1,6 +1,7 @@
 // leonav-sim: a scenario -> measurements as a vehicle would have recorded them.
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "tools/common/arguments.h"
 #include "tools/sim/run/simulate.h"
@@ -15,6 +16,8 @@ int body(int argc, char** argv) {
       "have recorded them. The same scenario and seed give the same files.");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--truth", "FILE", "truth.csv to write; default: beside the log")
+      .option("--export", "DIR", "the run as RINEX, SP3, clock, ANTEX and CSV files too")
+      .flag("--leo-as-gps", "with --export: low satellites alone, as G01 to G32")
       .option("--seed", "N", "instead of the scenario's")
       .option("--set", "KEY=VALUE", "a key of the scenario, may be repeated");
   if (!arguments.parse(argc, argv)) return 0;
@@ -27,7 +30,11 @@ int body(int argc, char** argv) {
   const std::filesystem::path out = arguments.required("--out");
   const std::string truth = arguments.has("--truth") ? arguments.get("--truth")
                                                      : (out.parent_path() / "truth.csv").string();
-  const auto report = leonav::sim::simulate(scenario, out, truth, &std::cerr);
+  std::optional<leonav::sim::ExportOptions> files;
+  if (arguments.has("--export")) {
+    files = {arguments.get("--export"), arguments.has("--leo-as-gps")};
+  }
+  const auto report = leonav::sim::simulate(scenario, out, truth, &std::cerr, files);
   std::cout << leonav::to_string(report);
   return 0;
 }

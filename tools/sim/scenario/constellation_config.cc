@@ -19,21 +19,77 @@ void read_shell(ConfigReader& group, ConstellationConfig* c) {
   group.number("first_node_deg", kAngle, &shell.first_node, kDegree);
   group.number("phase_per_plane_deg", kAngle, &shell.phase_per_plane, kDegree);
   group.number("first_anomaly_deg", kAngle, &shell.first_anomaly, kDegree);
+  group.integer("first_number", 1, kHighestNumber[index_of(c->system)], &shell.first_number);
   if (shell.semi_major_axis_m == 0.0) group.fail("semi_major_axis_km", "must be given");
   c->shells.push_back(shell);
+}
+
+// The numbers that build_sky() will give must be ones that leonav knows, each once.
+void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
+  const int highest = kHighestNumber[index_of(c.system)];
+  std::vector<bool> taken(static_cast<std::size_t>(highest) + 1);
+  int next = c.first_number;
+  for (const OrbitShell& shell : c.shells) {
+    if (shell.first_number != 0) next = shell.first_number;
+    for (int i = 0; i < shell.planes * shell.per_plane; ++i, ++next) {
+      if (next > highest) {
+        group.fail("shells", "have satellites beyond number " + std::to_string(highest) +
+                                 ", the highest of the system; take away satellites");
+      }
+      if (taken[static_cast<std::size_t>(next)]) {
+        group.fail("shells",
+                   "have number " + std::to_string(next) + " twice; mend first_number of a shell");
+      }
+      taken[static_cast<std::size_t>(next)] = true;
+    }
+  }
+}
+
+void read_errors(ConfigReader& group, ToldErrors* errors) {
+  double all = -1.0;
+  group.number("orbit_error_m", kSigma, &all);
+  if (all >= 0.0) errors->orbit_m.setConstant(all);
+  group.number("along_error_m", kSigma, &errors->orbit_m[0]);
+  group.number("cross_error_m", kSigma, &errors->orbit_m[1]);
+  group.number("radial_error_m", kSigma, &errors->orbit_m[2]);
+  group.number("clock_error_m", kSigma, &errors->clock_m);
 }
 
 }  // namespace
 
 void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   group.boolean("enabled", &c->enabled);
-  group.integer("first_number", 1, 399, &c->first_number);
-  group.number("orbit_error_m", kSigma, &c->orbit_error_m);
-  group.number("clock_error_m", kSigma, &c->clock_error_m);
+  group.integer("first_number", 1, kHighestNumber[index_of(c->system)], &c->first_number);
+  group.text("file", &c->file);
+  if (!c->file.empty() && c->system == System::kLeo) {
+    group.fail("file", "is for GPS, Galileo and BeiDou; give shells for low satellites");
+  }
+  group.choice<Told>(
+      "told", {{"precise", Told::kPrecise}, {"broadcast", Told::kBroadcast}, {"both", Told::kBoth}},
+      &c->told);
+  if (c->told != Told::kPrecise && c->system == System::kLeo) {
+    group.fail("told", "must be precise: low satellites have no broadcast message");
+  }
+  read_errors(group, &c->precise);
+  group.number("clock_error_varying_m", kSigma, &c->precise.clock_varying_m);
+  group.number("product_update_s", {0.0, 86'400.0}, &c->precise.update_s);
   group.number("node_interval_s", {1.0, 900.0}, &c->node_interval_s);
   group.number("clock_interval_s", {1.0, 900.0}, &c->clock_interval_s);
+  group.number("group_delay_m", {0.0, 30.0}, &c->group_delay_m);
+  group.group("broadcast", [c](ConfigReader& r) {
+    r.number("issue_interval_s", {600.0, 7200.0}, &c->broadcast.issue_interval_s);
+    read_errors(r, &c->broadcast.errors);
+  });
+  group.group("clock", [c](ConfigReader& r) {
+    r.number("offset_s", {0.0, 1e-3}, &c->clock.offset_s);
+    r.number("drift", {0.0, 1e-8}, &c->clock.drift);
+    r.number("noise_s_per_sqrt_s", {0.0, 1e-9}, &c->clock.noise_s_per_sqrt_s);
+    r.number("drift_walk_per_sqrt_s", {0.0, 1e-10}, &c->clock.drift_walk_per_sqrt_s);
+  });
   ConstellationConfig own;
+  own.system = c->system;
   if (group.groups("shells", [&](ConfigReader& r) { read_shell(r, &own); })) c->shells = own.shells;
+  check_numbers(group, *c);
 }
 
 }  // namespace leonav::sim

@@ -1,5 +1,7 @@
-// Satellites of one system: orbits, and how well the receiver is told of them.
+// Satellites of one system: orbits, clocks, and how well the receiver is told of them.
 #pragma once
+#include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "core/gnss/satellite.h"
@@ -17,6 +19,31 @@ struct OrbitShell {
   double first_node = 0.0;       // rad, longitude of the first plane's ascending node at the start
   double phase_per_plane = 0.0;  // rad of anomaly from one plane to the next
   double first_anomaly = 0.0;    // rad, argument of latitude of the first satellite
+  int first_number = 0;          // of its satellites; 0: on from the shell before
+};
+
+// Errors of a product, 1 sigma, m.
+struct ToldErrors {
+  Eigen::Vector3d orbit_m = Eigen::Vector3d::Constant(0.02);  // along, cross, radial
+  double clock_m = 0.02;                                      // constant
+  double clock_varying_m = 0.0;  // turns over with the revolution, as the orbit's do
+  double update_s = 0.0;         // all are drawn anew so often; 0: never
+};
+
+// True clocks, 1 sigma over the satellites.
+struct SatelliteClockConfig {
+  double offset_s = 1e-4, drift = 1e-11;
+  // White frequency noise of rubidium clocks and hydrogen masers; low satellites steer oven
+  // crystals by GNSS.
+  double noise_s_per_sqrt_s = 1.5e-12;
+  double drift_walk_per_sqrt_s = 0.0;
+};
+
+enum class Told { kPrecise, kBroadcast, kBoth };
+
+struct BroadcastConfig {
+  double issue_interval_s = 7200.0;
+  ToldErrors errors{{1.0, 0.5, 0.2}, 0.4, 0.0, 0.0};  // drawn anew for every issue
 };
 
 struct ConstellationConfig {
@@ -24,11 +51,14 @@ struct ConstellationConfig {
   bool enabled = true;
   std::vector<OrbitShell> shells;  // satellites are numbered through, from first_number on
   int first_number = 1;
-  // Errors of what the receiver is told, 1 sigma.
-  double orbit_error_m = 0.02;  // each of along, cross, radial
-  double clock_error_m = 0.02;
+  std::string file;  // RINEX navigation or SP3: real orbits in the place of the shells
+  Told told = Told::kBoth;
+  ToldErrors precise;
   double node_interval_s = 900.0;  // of the orbit product
   double clock_interval_s = 30.0;
+  BroadcastConfig broadcast;
+  SatelliteClockConfig clock;
+  double group_delay_m = 2.0;  // 1 sigma of TGD, BGD
 };
 
 void read_constellation(ConfigReader& group, ConstellationConfig* constellation);

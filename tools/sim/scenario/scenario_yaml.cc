@@ -1,5 +1,6 @@
 #include "tools/sim/scenario/scenario_yaml.h"
 
+#include <filesystem>
 #include <optional>
 
 #include "daemon/config/config_file.h"
@@ -57,6 +58,9 @@ Scenario load_scenario_text(const std::string& text, const std::string& name,
   Scenario scenario = default_scenario();
   ConfigSource source{name, {}, {}};
   read_yaml(text, overrides, &source, [&](ConfigReader& root) { read_root(root, &scenario); });
+  for (ConstellationConfig& c : scenario.constellations) {
+    if (!c.file.empty()) c.file = (std::filesystem::path(name).parent_path() / c.file).string();
+  }
   return scenario;
 }
 

@@ -1,6 +1,7 @@
 // A satellite's true orbit as dense nodes.
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "tools/sim/sky/orbit_integrator.h"
@@ -14,13 +15,15 @@ class OrbitTable {
  public:
   // Nodes every `step_s` from `first_s` on (seconds from the scenario's start).
   OrbitTable(double first_s, double step_s, const std::vector<OrbitState>& states);
+  struct Node {
+    Eigen::Vector3d p, v, a;
+  };
+  OrbitTable(double first_s, double step_s, std::vector<Node> nodes)
+      : first_s_(first_s), step_s_(step_s), nodes_(std::move(nodes)) {}
 
   OrbitState at(double t) const;  // beyond the nodes: the last interval's polynomial
 
  private:
-  struct Node {
-    Eigen::Vector3d p, v, a;
-  };
   double first_s_, step_s_;
   std::vector<Node> nodes_;
 };

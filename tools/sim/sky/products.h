@@ -1,4 +1,5 @@
-// What the receiver is told of orbits and clocks: the truth with errors, as a product's nodes.
+// What the receiver is told of orbits and clocks by a precise product: the truth with errors, as
+// nodes.
 #pragma once
 #include <vector>
 
@@ -12,6 +13,7 @@ struct Products {
   std::vector<OrbitEpoch> clocks;  // clocks alone
 };
 
+// Of the constellations that are told of by precise products.
 Products make_products(const Scenario& scenario, const TrueSky& sky);
 
 }  // namespace leonav::sim

@@ -7,26 +7,40 @@
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/signal.h"
 #include "tools/sim/scenario/random_streams.h"
+#include "tools/sim/sky/broadcast.h"
+#include "tools/sim/sky/products.h"
+#include "tools/sim/sky/real_orbits.h"
 
 namespace leonav::sim {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kClockStep = 30.0;  // s
 
-// White frequency noise of rubidium clocks and hydrogen masers, and of the oven crystals that low
-// satellites steer by GNSS.
-ClockErrors clock_errors(System system, GaussianGenerator* random) {
+ClockTable clock_of(const Scenario& scenario, const ConstellationConfig& c, SatelliteId id) {
+  GaussianGenerator random = random_stream(scenario.seed, "satellite clock", place_of(id));
   ClockErrors errors;
-  errors.offset_s = 1e-4 * random->draw();
-  errors.drift = 1e-11 * random->draw();
-  errors.phase_walk_s = system == System::kLeo ? 3e-12 : 1.5e-12;
-  return errors;
+  errors.offset_s = c.clock.offset_s * random.draw();
+  errors.drift = c.clock.drift * random.draw();
+  errors.phase_walk_s = c.clock.noise_s_per_sqrt_s;
+  errors.drift_walk = c.clock.drift_walk_per_sqrt_s;
+  const double margin = kClockStep * std::ceil(sky_margin_s(c) / kClockStep);
+  return ClockTable(-margin, scenario.duration_s + margin, kClockStep, errors, random);
 }
 
-OrbitTable orbit_of(const KeplerElements& elements, System system, double duration_s) {
+BroadcastDelays delays_of(const Scenario& scenario, const ConstellationConfig& c, SatelliteId id) {
+  GaussianGenerator random = random_stream(scenario.seed, "group delay", place_of(id));
+  BroadcastDelays delays;
+  for (double& delay : delays) delay = c.group_delay_m * random.draw();
+  if (c.system == System::kGps) delays[1] = 0.0;  // LNAV has one
+  return delays;
+}
+
+OrbitTable orbit_of(const KeplerElements& elements, System system, double margin_s,
+                    double duration_s) {
   const double step = system == System::kLeo ? 30.0 : 120.0;
-  const auto before = static_cast<std::size_t>(std::ceil(kSkyMargin_s / step));
-  const auto after = static_cast<std::size_t>(std::ceil((duration_s + kSkyMargin_s) / step));
+  const auto before = static_cast<std::size_t>(std::ceil(margin_s / step));
+  const auto after = static_cast<std::size_t>(std::ceil((duration_s + margin_s) / step));
   const OrbitState start = kepler_state(elements);
   std::vector<OrbitState> states = integrate_orbit(start, -step, before + 1);
   std::reverse(states.begin(), states.end());
@@ -37,10 +51,11 @@ OrbitTable orbit_of(const KeplerElements& elements, System system, double durati
 
 void add_shell(const Scenario& scenario, std::size_t constellation, const OrbitShell& shell,
                int* number, TrueSky* sky) {
-  const System system = scenario.constellations[constellation].system;
+  const ConstellationConfig& c = scenario.constellations[constellation];
+  if (shell.first_number != 0) *number = shell.first_number;
   for (int plane = 0; plane < shell.planes; ++plane) {
     for (int slot = 0; slot < shell.per_plane; ++slot, ++*number) {
-      const SatelliteId id{system, static_cast<std::uint16_t>(*number)};
+      const SatelliteId id{c.system, static_cast<std::uint16_t>(*number)};
       KeplerElements k{};
       k.semi_major_axis_m = shell.semi_major_axis_m;
       k.eccentricity = shell.eccentricity;
@@ -50,21 +65,41 @@ void add_shell(const Scenario& scenario, std::size_t constellation, const OrbitS
       k.mean_anomaly = std::remainder(shell.first_anomaly + kTwoPi * slot / shell.per_plane +
                                           shell.phase_per_plane * plane - k.perigee,
                                       kTwoPi);
-      GaussianGenerator random = random_stream(scenario.seed, "satellite clock", place_of(id));
-      const ClockErrors errors = clock_errors(system, &random);
-      sky->satellites.push_back(
-          {id, constellation, orbit_of(k, system, scenario.duration_s),
-           ClockTable(-kSkyMargin_s, scenario.duration_s + kSkyMargin_s, 30.0, errors, random)});
+      sky->satellites.push_back({id, constellation,
+                                 orbit_of(k, c.system, sky_margin_s(c), scenario.duration_s),
+                                 clock_of(scenario, c, id), delays_of(scenario, c, id), 0});
     }
+  }
+}
+
+void add_real(const Scenario& scenario, std::size_t constellation, TrueSky* sky) {
+  const ConstellationConfig& c = scenario.constellations[constellation];
+  const OrbitSpan span{scenario.start, -sky_margin_s(c), scenario.duration_s + sky_margin_s(c)};
+  for (RealOrbit& real : load_real_orbits(c.file, c.system, span)) {
+    const BroadcastDelays delays =
+        real.group_delay_m ? *real.group_delay_m : delays_of(scenario, c, real.satellite);
+    sky->satellites.push_back({real.satellite, constellation, std::move(real.orbit),
+                               clock_of(scenario, c, real.satellite), delays, real.health});
   }
 }
 
 }  // namespace
 
+double sky_margin_s(const ConstellationConfig& c) {
+  // At least what a low satellite under a name of GPS needs (export.h).
+  const double products =
+      std::max(1900.0, (kOrbitNodesAhead + 2) * c.node_interval_s + 12.0 * c.clock_interval_s);
+  return c.told == Told::kPrecise ? products : std::max(products, kBroadcastMargin_s);
+}
+
 TrueSky build_sky(const Scenario& scenario) {
   TrueSky sky;
   for (std::size_t c = 0; c < scenario.constellations.size(); ++c) {
     if (!scenario.constellations[c].enabled) continue;
+    if (!scenario.constellations[c].file.empty()) {
+      add_real(scenario, c, &sky);
+      continue;
+    }
     int number = scenario.constellations[c].first_number;
     for (const OrbitShell& shell : scenario.constellations[c].shells) {
       add_shell(scenario, c, shell, &number, &sky);

@@ -1,0 +1,33 @@
+// Real satellites from RINEX navigation and SP3 files.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gnss/satellite.h"
+#include "tools/sim/sky/group_delays.h"
+#include "tools/sim/sky/orbit_table.h"
+
+namespace leonav::sim {
+
+struct RealOrbit {
+  SatelliteId satellite;
+  OrbitTable orbit;
+  std::uint16_t health = 0;
+  std::optional<BroadcastDelays> group_delay_m;  // where the file tells
+};
+
+struct OrbitSpan {
+  GpsTime start;           // of the scenario
+  double first_s, last_s;  // from there
+};
+
+// Every satellite of the system that the file has an orbit for at `span.start`. SP3: the polynomial
+// through its nodes. RINEX: the elements of two neighbouring reference times blend into each other
+// between them (smooth to the acceleration), of two hours beyond the first and last. Where the file
+// ends, a satellite goes on under the Earth's gravity alone. Throws FileError for a file that
+// cannot be read or has no satellite of the system at the start.
+std::vector<RealOrbit> load_real_orbits(const std::string& path, System system,
+                                        const OrbitSpan& span);
+
+}  // namespace leonav::sim
