@@ -17,7 +17,7 @@ int body(int argc, char** argv) {
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--truth", "FILE", "truth.csv to write; default: beside the log")
       .option("--export", "DIR", "the run as RINEX, SP3, clock, ANTEX and CSV files too")
-      .flag("--leo-as-gps", "with --export: low satellites alone, as G01 to G32")
+      .flag("--leo-as-gps", "with --export: low satellites in the files, under names of GPS")
       .option("--seed", "N", "instead of the scenario's")
       .option("--set", "KEY=VALUE", "a key of the scenario, may be repeated");
   if (!arguments.parse(argc, argv)) return 0;

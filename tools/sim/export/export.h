@@ -1,6 +1,5 @@
 // A simulated run as the files that a recording would come in.
 #pragma once
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include "core/gnss/antenna_model.h"
 #include "core/ins/imu.h"
 #include "drivers/csv/truth_csv.h"
+#include "tools/sim/export/leo_as_gps.h"
 #include "tools/sim/export/rinex_observation_writer.h"
 #include "tools/sim/sky/broadcast.h"
 #include "tools/sim/sky/products.h"
@@ -18,9 +18,7 @@ namespace leonav::sim {
 
 struct ExportOptions {
   std::string folder;  // made if it is not there
-  // Low satellites alone, as G01 to G32 in order of their numbers (the first 32 that rise above the
-  // mask): for programs that know no low satellites. Their elements, which such programs want too,
-  // are fitted to arcs of 20 minutes.
+  // Low satellites under GPS names in the place of all others: leo_as_gps.h.
   bool leo_as_gps = false;
 };
 
@@ -41,16 +39,11 @@ class Export {
 
  private:
   std::string path(const std::string& name) const;
-  std::optional<SatelliteId> renamed(SatelliteId satellite) const;
-  std::vector<OrbitEpoch> renamed(std::span<const OrbitEpoch> epochs, System system) const;
-  std::vector<Ephemeris> elements_of_renamed() const;
-  void choose_names();
+  void write_products(const Products& products);
   void write_dataset() const;
 
-  const Scenario& scenario_;
-  const TrueSky& sky_;
   ExportOptions options_;
-  std::map<SatelliteId, SatelliteId> names_;  // low satellites' GPS names
+  std::optional<LeoAsGps> renamed_;
   std::unique_ptr<RinexObservationWriter> observations_;
   GpsTime last_epoch_;
   std::vector<ImuSample> imu_;

@@ -85,7 +85,8 @@ bool RinexObservationWriter::lost_lock(const SignalObservation& o, GpsTime time)
   if (!std::isfinite(o.carrier_cycles)) return o.loss_of_lock;
   const auto [place, first] = last_carrier_.try_emplace({o.satellite, o.code}, time);
   const double since_s = seconds_between(time, std::exchange(place->second, time));
-  return o.loss_of_lock || (!first && o.lock_time_s < since_s);
+  // The receiver's lock time is by its own clock.
+  return o.loss_of_lock || (!first && o.lock_time_s < 0.99 * since_s);
 }
 
 std::string RinexObservationWriter::fields(const SignalObservation& o, GpsTime time) {
