@@ -86,7 +86,8 @@ void add_beidou(ConstellationConfig* c) {
 }
 
 // Remote Sensing 2024, 16, 1782, section 3.1: 70 in six polar planes (so not evenly: 12, 12, 12,
-// 12, 11, 11), 90 in ten planes of 60 degrees. How the planes are phased is not told there.
+// 12, 11, 11), 90 in ten planes of 60 degrees. How the planes are
+// phased is not told there: here so that satellites keep farthest apart.
 void add_leo(ConstellationConfig* c) {
   for (int plane = 0; plane < 6; ++plane) {
     OrbitShell shell = walker(1, plane < 4 ? 12 : 11, kEarthSemiMajorAxis + 970e3, 90.0, 0);
@@ -94,7 +95,8 @@ void add_leo(ConstellationConfig* c) {
     shell.first_anomaly = plane * 13.0 * kDegree;
     c->shells.push_back(shell);
   }
-  c->shells.push_back(walker(10, 9, kEarthSemiMajorAxis + 970e3, 60.0, 5));
+  c->shells.push_back(walker(10, 9, kEarthSemiMajorAxis + 970e3, 60.0, 2));
+  c->shells.back().first_node = 5.0 * kDegree;  // apart from the polar planes'
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+#include "tools/sim/scenario/nominal_constellations.h"
+
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+#include "support/catch.h"
+#include "tools/sim/scenario/scenario_yaml.h"
+#include "tools/sim/sky/true_sky.h"
+
+using namespace leonav;
+using namespace leonav::sim;
+
+namespace {
+
+constexpr double kDegree = 3.14159265358979 / 180.0;
+
+TrueSky nominal_sky() {
+  return build_sky(load_scenario_text("duration_s: 7200\n", "scenario.yaml"));
+}
+
+}  // namespace
+
+TEST_CASE("Nominal constellations have their satellites, each with a number of its own") {
+  std::array<int, kSystemCount> count{};
+  SatelliteId last{};
+  for (const TrueSatellite& s : nominal_sky().satellites) {
+    CHECK(is_valid(s.id));
+    CHECK(last < s.id);
+    last = s.id;
+    ++count[index_of(s.id.system)];
+  }
+  CHECK(count == std::array<int, kSystemCount>{31, 24, 45, 160});
+}
+
+TEST_CASE("BeiDou satellites with geostationary numbers stand still, and no others do") {
+  for (const TrueSatellite& s : nominal_sky().satellites) {
+    if (s.id.system != System::kBeidou) continue;
+    const Geodetic before = to_geodetic(to_earth(s.orbit.at(0.0).p_i, 0.0));
+    const Geodetic after = to_geodetic(to_earth(s.orbit.at(7200.0).p_i, 7200.0));
+    const double moved = std::hypot(after.latitude - before.latitude,
+                                    std::remainder(after.longitude - before.longitude, 6.28318));
+    INFO(to_string(s.id));
+    CHECK((moved < 0.1 * kDegree) == is_beidou_geostationary(s.id));
+  }
+}
+
+TEST_CASE("No two satellites of a system come near each other") {
+  const TrueSky sky = nominal_sky();
+  for (double t = 0.0; t <= 7200.0; t += 600.0) {
+    for (std::size_t i = 0; i < sky.satellites.size(); ++i) {
+      for (std::size_t j = i + 1; j < sky.satellites.size(); ++j) {
+        const TrueSatellite &a = sky.satellites[i], &b = sky.satellites[j];
+        if (a.id.system != b.id.system) continue;
+        INFO(to_string(a.id) << " " << to_string(b.id) << " at " << t);
+        // Low satellites of two shells cross each other's way at one height.
+        const double apart = a.id.system == System::kLeo ? 1e3 : 20e3;
+        REQUIRE((a.orbit.at(t).p_i - b.orbit.at(t).p_i).norm() > apart);
+      }
+    }
+  }
+}
+
+TEST_CASE("Numbers that are taken or too high are errors") {
+  const auto load = [](const std::string& keys) {
+    load_scenario_text("satellites: {galileo: {" + keys + "}}\n", "scenario.yaml");
+  };
+  CHECK_THROWS_WITH(load("first_number: 40"), Catch::Contains("number 50"));
+  CHECK_THROWS_WITH(load("shells: [{semi_major_axis_km: 29600, planes: 2, per_plane: 4}, "
+                         "{semi_major_axis_km: 29600, first_number: 3}]"),
+                    Catch::Contains("number 3") && Catch::Contains("twice"));
+  CHECK_THROWS_WITH(load_scenario_text("satellites: {leo: {told: both}}\n", "scenario.yaml"),
+                    Catch::Contains("precise"));
+}
