@@ -1,5 +1,6 @@
 #include "tools/sim/scenario/scenario_yaml.h"
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -8,6 +9,15 @@
 
 namespace leonav::sim {
 namespace {
+
+// The sky as it is so much later: satellites go on, and the Earth turns below their planes.
+void advance(double seconds, ConstellationConfig* constellation) {
+  for (OrbitShell& shell : constellation->shells) {
+    const double a = shell.semi_major_axis_m;
+    shell.first_anomaly += seconds * std::sqrt(kEarthGravitationalConstant / (a * a * a));
+    shell.first_node -= seconds * kEarthRotationRate;
+  }
+}
 
 void read_root(ConfigReader& root, Scenario* scenario) {
   double seed = 1.0;
@@ -24,7 +34,9 @@ void read_root(ConfigReader& root, Scenario* scenario) {
   const auto& track = scenario->route.track;
   if (!track.empty() && !week && !tow_s) scenario->start = track.front().time;
   root.group("imu", [&](ConfigReader& r) { read_sensor(r, &scenario->imu); });
+  double advance_s = 0.0;
   root.group("satellites", [&](ConfigReader& satellites) {
+    satellites.number("advance_s", {0.0, 1e6}, &advance_s);
     for (const System system : kSystems) {
       const std::size_t i = index_of(system);
       satellites.group(std::string(to_string(system)).c_str(), [&](ConfigReader& r) {
@@ -32,6 +44,7 @@ void read_root(ConfigReader& root, Scenario* scenario) {
       });
     }
   });
+  for (ConstellationConfig& c : scenario->constellations) advance(advance_s, &c);
   root.group("receiver", [&](ConfigReader& r) { read_receiver(r, &scenario->receiver); });
   root.group("atmosphere", [&](ConfigReader& r) { read_atmosphere(r, &scenario->atmosphere); });
 }

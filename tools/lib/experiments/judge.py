@@ -1,0 +1,94 @@
+"""What one run came to: leonav-eval's numbers, and the epochs' errors, satellites and PDOP for the plots."""
+import csv
+import json
+import math
+import os
+import shutil
+
+import numpy as np
+
+WEEK_S = 604800.0
+MAX_PDOP = 20.0  # beyond it the mean would be of a few epochs alone
+
+
+class JudgeError(Exception):
+    pass
+
+
+def columns(path, names):
+    """Columns of a CSV file as arrays; empty is NaN."""
+    try:
+        with open(path, newline="") as file:
+            rows = csv.reader(file)
+            header = next(rows)
+            places = [header.index(name) for name in names]
+            data = [[float(row[p]) if row[p] else math.nan for p in places] for row in rows if len(row) == len(header)]
+    except (OSError, ValueError, StopIteration) as error:
+        raise JudgeError(f"{path}: {error}")
+    return np.array(data).reshape(-1, len(names)).T
+
+
+def errors_of(solution_path, truth_path):
+    """Seconds since the truth's first epoch; north, east, up errors in m (solution minus truth)."""
+    names = ("gps_week", "gps_tow_s", "latitude_deg", "longitude_deg", "height_m")
+    solution, truth = columns(solution_path, names), columns(truth_path, names)
+    t_truth = truth[0] * WEEK_S + truth[1]
+    t = solution[0] * WEEK_S + solution[1]
+    place = np.searchsorted(t_truth, t - 1e-4)
+    known = place < len(t_truth)
+    known[known] &= np.abs(t_truth[place[known]] - t[known]) < 1e-3
+    t, solution, truth = t[known], solution[:, known], truth[:, place[known]]
+    latitude = np.radians(truth[2])
+    w = 1.0 - 6.69437999014e-3 * np.sin(latitude) ** 2
+    meridian = 6378137.0 * (1.0 - 6.69437999014e-3) / w ** 1.5 + truth[4]
+    normal = 6378137.0 / np.sqrt(w) + truth[4]
+    north = np.radians(solution[2] - truth[2]) * meridian
+    east = np.radians(solution[3] - truth[3]) * normal * np.cos(latitude)
+    return t - t_truth[0], np.array([north, east, solution[4] - truth[4]])
+
+
+def judge(row, folder, out):
+    with open(os.path.join(out, "errors.json")) as file:
+        numbers = json.load(file)[0]
+    t, error = errors_of(os.path.join(out, "solution.csv"), os.path.join(folder, "truth.csv"))
+    week, tow, satellites, pdop = columns(os.path.join(out, "epochs.csv"), ("gps_week", "gps_tow_s", "satellites", "pdop"))
+    t_epoch = (week - week[0]) * WEEK_S + tow - tow[0]
+    settled = t >= row.settle_epochs
+    judged = t_epoch >= row.settle_epochs
+    good = judged & (pdop > 0.0) & (pdop < MAX_PDOP)
+    np.savez_compressed(os.path.join(out, "series.npz"), t=t.astype(np.float32), error=error.astype(np.float32),
+                        t_epoch=t_epoch.astype(np.float32), satellites=satellites.astype(np.float32),
+                        pdop=pdop.astype(np.float32))
+    result = {
+        "rmse": [numbers[k]["rmse"] for k in ("north_m", "east_m", "up_m", "3d_m")],
+        "p50_3d": numbers["3d_m"]["p50"], "p95_3d": numbers["3d_m"]["p95"], "worst_3d": numbers["3d_m"]["worst"],
+        "epochs": numbers["epochs"],
+        "availability": float(np.count_nonzero(settled)) / max(1, int(np.count_nonzero(judged))),
+        "convergence_s": numbers["convergence_s"], "settled_s": numbers["settled_s"],
+        "within_three_sigma": numbers["within_three_sigma"],
+        "within_5m": [100.0 * float(np.mean(np.abs(e[settled]) < 5.0)) for e in error] if settled.any() else None,
+        "satellites": float(np.mean(satellites[judged])) if judged.any() else None,
+        "below_four": float(np.mean(satellites[judged] < 4)) if judged.any() else None,
+        "pdop": float(np.mean(pdop[good])) if good.any() else None,
+    }
+    if row.group == "sets":
+        result["after_convergence"] = after_convergence(t, error, numbers["convergence_s"])
+    return result
+
+
+def after_convergence(t, error, convergence_s):
+    if convergence_s is None or not len(t):
+        return None
+    later = t >= t[0] + convergence_s
+    return float(np.sqrt(np.mean(np.sum(error[:, later] ** 2, axis=0))))
+
+
+def save_series(source, target):
+    shutil.copyfile(source, target)
+
+
+def one_line(result):
+    n, e, u, _ = result["rmse"]
+    time = result["convergence_s"]
+    return (f"RMSE N {n:.3f} E {e:.3f} U {u:.3f} m, {result['satellites'] or 0.0:.1f} satellites, converged "
+            + ("never" if time is None else f"after {time:.0f} s"))

@@ -1,0 +1,128 @@
+"""Every row of the papers' matrix, and of the convergence study: what is simulated and how it is estimated."""
+import constellation
+import published
+
+SYSTEMS = {"gps": "gps", "bds": "beidou", "gal": "galileo", "leo": "leo"}
+START_WEEK, START_TOW = 2136, 345600.0
+ADVANCE_S = 7001.0  # per seed: another sky for every seed, the same for all rows
+
+
+class Scene:
+    """What is simulated; one log for each seed, shared by the rows that name it."""
+
+    def __init__(self, name, duration_s, overrides=(), leo_factor=None, file="config/scenario/urban.yaml"):
+        self.name, self.duration_s, self.leo_factor, self.file = name, duration_s, leo_factor, file
+        self.overrides = [f"duration_s={duration_s:g}"] + list(overrides)
+
+    def settings(self, seed):
+        return [f"seed={seed}", f"satellites.advance_s={ADVANCE_S * seed:g}"] + self.overrides
+
+    def leo_shells(self, seed):
+        """None: the simulator's own constellation."""
+        if self.leo_factor in (None, 0, 1):
+            return None
+        return constellation.shells(self.leo_factor, ADVANCE_S * seed, self.duration_s)
+
+
+class Row:
+    def __init__(self, name, group, title, scene, settings, settle_epochs=1000, bound_m=3.0, published_=None):
+        self.name, self.group, self.title, self.scene = name, group, title, scene
+        self.settings, self.settle_epochs, self.bound_m = list(settings), settle_epochs, bound_m
+        self.published = published_
+
+
+def mode(systems, ins, carrier, robust=True):
+    names = ", ".join(SYSTEMS[s] for s in systems)
+    settings = [f"gnss.systems=[{names}]"]
+    if not ins:
+        settings.append("ekf.motion=constant_velocity")
+    if not carrier:
+        settings += ["ekf.carrier=false", "ekf.wet_delay_sigma_m=0"]
+    if not robust:
+        settings.append("robust.enabled=false")
+    return settings
+
+
+def title_of(systems, ins):
+    return "/".join([{"gps": "GPS", "bds": "BDS", "gal": "GAL", "leo": "LEO"}[s] for s in systems] + (["INS"] if ins else []))
+
+
+def name_of(systems, ins):
+    return "-".join(list(systems) + (["ins"] if ins else []))
+
+
+CODE_MODES = [(["gps"], False), (["leo"], False), (["gps", "leo"], False), (["gps"], True), (["leo"], True),
+              (["gps", "leo"], True)]
+INS_MODES = [(["gps"], True), (["gps", "leo"], True), (["bds"], True), (["bds", "leo"], True)]
+CARRIER_MODES = CODE_MODES + INS_MODES[2:]
+
+
+def code_rows(scene):
+    rows = []
+    for robust in (True, False):
+        for systems, ins in CODE_MODES:
+            key = name_of(systems, ins) + ("" if robust else "-plain")
+            rows.append(Row(f"code-{key}", "code" if robust else "code-plain", title_of(systems, ins), scene,
+                            mode(systems, ins, False, robust), published_=published.CODE.get(key)))
+    for limited in ("gps", "leo"):
+        for ins in (False, True):
+            for count in (1, 2, 3, 4):
+                key = f"{name_of(['gps', 'leo'], ins)}-{limited}{count}"
+                rows.append(Row(f"code-{key}", f"few-{limited}",
+                                f"{title_of(['gps', 'leo'], ins)}, {count} {limited.upper()}", scene,
+                                mode(["gps", "leo"], ins, False) + [f"gnss.{limited}.max_satellites={count}"],
+                                published_=published.CODE.get(key)))
+    return rows
+
+
+def carrier_rows(scene):
+    rows = []
+    for robust in (True, False):
+        for systems, ins in CARRIER_MODES if robust else INS_MODES:
+            key = name_of(systems, ins)
+            rows.append(Row(f"carrier-{key}" + ("" if robust else "-plain"), "carrier" if robust else "carrier-plain",
+                            title_of(systems, ins), scene, mode(systems, ins, True, robust),
+                            published_=published.CARRIER.get(key) if robust else None))
+    return rows
+
+
+def low_rows(scene):
+    return [Row(f"low-{name_of(s, ins)}", "low", title_of(s, ins), scene, mode(s, ins, True),
+                published_=published.LOW[name_of(s, ins)]) for s, ins in INS_MODES]
+
+
+def set_rows(scene):
+    """Four data sets of 2,000 epochs from a cold start: seeds 1 to 4."""
+    return [Row(f"sets-{name_of(s, ins)}", "sets", title_of(s, ins), scene, mode(s, ins, True), settle_epochs=0)
+            for s, ins in INS_MODES]
+
+
+# An antenna of its own point: convergence is the carriers', not the lever arm's.
+OPEN = ["receiver.lever_arm_b_m=[0, 0, 0]", "imu.enabled=false"]
+
+
+def convergence_rows(duration_s):
+    rows = []
+    for moving in (False, True):
+        kind = "drive" if moving else "static"
+        standing = ["route.standing_s=10"] if moving else [f"route.standing_s={duration_s + 100:g}"]
+        for systems in (["gps"], ["gps", "gal", "bds"]):
+            for leo in (0, 1, 2, 4):
+                chosen = systems + (["leo"] if leo else [])
+                settings = mode(chosen, False, True) + ["vehicle.lever_arm_b_m=[0, 0, 0]", "ekf.code_correlation_time_s=0"]
+                if not moving:
+                    settings.append("ekf.motion=static")
+                scene = Scene(f"open-{kind}-{160 * leo if leo > 1 else 160}", duration_s, OPEN + standing, leo,
+                              "config/scenario/open_sky.yaml")
+                rows.append(Row(f"convergence-{kind}-{'-'.join(systems)}-leo{160 * leo}", f"convergence-{kind}",
+                                f"{title_of(systems, False)}" + (f" + LEO {160 * leo}" if leo else ""), scene,
+                                settings, settle_epochs=0, bound_m=0.1))
+    return rows
+
+
+def all_rows(epochs, sets_epochs, convergence_epochs):
+    city = Scene("city", epochs + 2.0, [])
+    dense = Scene("dense", epochs + 2.0, [])
+    sets = Scene("sets", sets_epochs + 2.0, [])
+    return (code_rows(city) + carrier_rows(city) + low_rows(dense) + set_rows(sets) +
+            convergence_rows(convergence_epochs + 2.0))

@@ -1,0 +1,173 @@
+"""report.md: our numbers, the published ones beside them, and how to run each row alone."""
+import os
+
+import matrix
+import plots
+import published
+import spread
+
+TITLES = {
+    "code": "Code and Doppler, robust (Electronics 2024)",
+    "code-plain": "Code and Doppler, not robust",
+    "few-gps": "One to four GPS satellites, with LEO (code and Doppler, robust)",
+    "few-leo": "One to four LEO satellites, with GPS (code and Doppler, robust)",
+    "carrier": "Carriers too, robust (Remote Sensing 2024)",
+    "carrier-plain": "Carriers too, not robust",
+    "low": "Low observability: a dense city (carriers, robust)",
+    "sets": "Convergence of four data sets of 2,000 epochs",
+    "convergence-static": "Convergence to 10 cm, open sky, static",
+    "convergence-drive": "Convergence to 10 cm, open sky, driving, without IMU",
+}
+TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
+
+
+def published_text(p):
+    if p is None or all(v is None for v in p.rmse):
+        return "-"
+    return " / ".join("-" if v is None else f"{v:g}" for v in p.rmse)
+
+
+def rmse_table(rows, results, lines, notes):
+    lines += ["| | N, m | E, m | U, m | 3D, m | 3D 95 %, m | available | satellites | PDOP | published N / E / U / 3D, m |",
+              "|---|---|---|---|---|---|---|---|---|---|"]
+    for row in rows:
+        r = results[row.name]
+        cells = [spread.text(spread.of(r, "rmse", i)) for i in range(4)]
+        available = spread.of(r, "availability")
+        cells += [spread.text(spread.of(r, "p95_3d")), "-" if available is None else f"{100.0 * available[0]:.1f} %",
+                  spread.text(spread.of(r, "satellites"), 1), spread.text(spread.of(r, "pdop"), 1),
+                  published_text(row.published)]
+        lines.append(f"| {row.title} | " + " | ".join(cells) + " |")
+        if row.published is not None and row.published.note:
+            notes.append(f"{row.title}: published {row.published.where}; {row.published.note}.")
+
+
+def gain_lines(rows, results):
+    """What LEO brings, row against row."""
+    by_title = {row.title: row for row in rows}
+    lines = []
+    for row in rows:
+        partner = by_title.get(row.title.replace("/LEO", "", 1))
+        if partner is None or partner is row:
+            continue
+        ours = []
+        for i in range(4):
+            a, b = spread.of(results[partner.name], "rmse", i), spread.of(results[row.name], "rmse", i)
+            ours.append("-" if a is None or b is None or a[0] == 0.0 else f"{100.0 * (1.0 - b[0] / a[0]):.0f} %")
+        theirs = "-"
+        if row.published and partner.published:
+            theirs = " / ".join("-" if a is None or b is None else f"{100.0 * (1.0 - b / a):.0f} %"
+                                for a, b in zip(partner.published.rmse, row.published.rmse))
+        seeds = spread.good(results[partner.name]).keys() & spread.good(results[row.name]).keys()
+        better = sum(results[row.name][s]["rmse"][3] < results[partner.name][s]["rmse"][3] for s in seeds)
+        lines.append(f"| {partner.title} → {row.title} | {' / '.join(ours)} | {better} of {len(seeds)} | {theirs} |")
+    if lines:
+        lines = ["", "LEO improves N / E / U / 3D by:", "", "| | ours | seeds with a smaller 3D error | published |",
+                 "|---|---|---|---|"] + lines
+    return lines
+
+
+def within_lines(rows, results):
+    lines = []
+    for row in rows:
+        if row.published is None or row.published.within_5m is None:
+            continue
+        ours = [spread.of(results[row.name], "within_5m", i) for i in range(3)]
+        lines.append(f"| {row.title} | " + " / ".join("-" if o is None else f"{o[0]:.1f}" for o in ours) +
+                     " | " + " / ".join(f"{v:g}" for v in row.published.within_5m) + " |")
+    if lines:
+        lines = ["", "Share of epochs within 5 m, N / E / U, %:", "", "| | ours | published (Electronics, figure 10) |",
+                 "|---|---|---|"] + lines
+    return lines
+
+
+def sky_lines(rows, results):
+    lines = []
+    for row in rows:
+        key = row.name.removeprefix("code-").removeprefix("carrier-").removesuffix("-ins")
+        for where, satellites, pdop in published.SKY.get(key, []):
+            wanted = where == published.A and row.group == "code" and "INS" not in row.title
+            wanted |= where == published.B and row.group == "carrier" and "INS" in row.title
+            if wanted:
+                r = results[row.name]
+                below = spread.of(r, "below_four")
+                lines.append(f"| {row.title} | {spread.text(spread.of(r, 'satellites'), 1)} | "
+                             f"{spread.text(spread.of(r, 'pdop'), 1)} | {'-' if below is None else f'{100 * below[0]:.1f} %'} | "
+                             f"{satellites} | {pdop} | {where} |")
+    if lines:
+        lines = ["", "## Satellites and PDOP", "",
+                 "Used satellites of each epoch (mean), PDOP of the epochs below 20 (mean).", "",
+                 "| | satellites | PDOP | epochs below four | published satellites | published PDOP | |",
+                 "|---|---|---|---|---|---|---|"] + lines
+    return lines
+
+
+def sets_table(rows, results, lines):
+    lines += ["To 3 m (3D, ten epochs in a row), s; and the 3D RMSE from there on, m. The published 3D errors are those of "
+              "the factor graph (table 4): no EKF is printed.", "",
+              "| | set | to 3 m, s | 3D after, m | published 3D, m |", "|---|---|---|---|---|"]
+    for row in rows:
+        key = row.name.removeprefix("sets-")
+        for seed, result in results[row.name].items():
+            if not result or "failure" in result:
+                lines.append(f"| {row.title} | {seed} | failed | - | {published.SETS[key][seed - 1]} |")
+                continue
+            t, after = result["convergence_s"], result["after_convergence"]
+            lines.append(f"| {row.title} | {seed} | {'never' if t is None else f'{t:.0f}'} | "
+                         f"{'-' if after is None else f'{after:.2f}'} | {published.SETS[key][seed - 1]} |")
+
+
+def convergence_table(rows, results, lines):
+    lines += ["| | median, s | fastest to slowest, s | seeds that converge | below 10 cm for good, median s | target, s |",
+              "|---|---|---|---|---|---|"]
+    for row in rows:
+        r = results[row.name]
+        median, reached, count = spread.median_time(r)
+        settled, _, _ = spread.median_time(r, "settled_s")
+        times = [x["convergence_s"] for x in spread.good(r).values() if x["convergence_s"] is not None]
+        key = row.name.split("-", 2)[2].rsplit("-leo", 1)[0].removesuffix("-leo")
+        target = TARGET_S.get(key) if not row.name.endswith("leo0") else None
+        verdict = "-" if target is None else f"{target:.0f}: " + ("met" if median is not None and median < target else "MISSED")
+        lines.append(f"| {row.title} | {'-' if median is None else f'{median:.0f}'} | "
+                     f"{f'{min(times):.0f} to {max(times):.0f}' if times else '-'} | {reached} of {count} | "
+                     f"{'-' if settled is None else f'{settled:.0f}'} | {verdict} |")
+
+
+def write(out, rows, results, runner, seeds_of):
+    lines = ["# The papers' experiments", "",
+             f"{published.A} (code and Doppler) and {published.B} (carriers too), repeated on leonav's EKF with simulated "
+             "drives. Mean ± standard deviation over the seeds; each seed is another drive, another sky and other noise. RMSE "
+             "over all epochs after the first 1,000. The papers drove a real car through Beijing: their errors hold what their "
+             "receiver and their streets did, ours what the simulator knows of it; compare the improvements before the metres.",
+             ""]
+    for group, title in TITLES.items():
+        chosen = [row for row in rows if row.group == group]
+        if not chosen:
+            continue
+        lines += [f"## {title}", ""]
+        notes = []
+        if group == "sets":
+            sets_table(chosen, results, lines)
+        elif group.startswith("convergence"):
+            convergence_table(chosen, results, lines)
+        else:
+            rmse_table(chosen, results, lines, notes)
+            lines += gain_lines(chosen, results) + within_lines(chosen, results)
+        if notes:
+            lines += [""] + [f"- {note}" for note in notes]
+        for picture in plots.draw(group, chosen, results, runner):
+            lines += ["", f"![{title}]({picture})"]
+        lines.append("")
+    lines += sky_lines(rows, results)
+    failed = sorted({f"{row.name}, seed {s}: {r['failure']}" for row in rows for s, r in results[row.name].items()
+                     if r and "failure" in r} | set(runner.failures))
+    if failed:
+        lines += ["", "## Runs that failed", ""] + [f"- {text}" for text in failed]
+    lines += ["", "## One row alone", "", "From the project's folder; seed " +
+              "1 as an example, the others differ in `seed` and `satellites.advance_s`.", ""]
+    for row in rows:
+        lines += [f"`{row.name}`", "", "```sh", *runner.alone(row, seeds_of(row)[0]), "```", ""]
+    path = os.path.join(out, "report.md")
+    with open(path, "w") as file:
+        file.write("\n".join(lines) + "\n")
+    return path
