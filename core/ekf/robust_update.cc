@@ -15,6 +15,7 @@ using ekf_index::kSize;
 using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kFactorTolerance = 1e-3;  // weights that change less have converged
+constexpr double kUnsettled = 0.5;         // ... and more than this have not
 constexpr double kNormalMedian = 0.6745;   // median of |x| for a standard normal x
 constexpr double kMaxPriorScale = 2.0;  // innovations may be this much larger than they should be
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -63,6 +64,19 @@ bool relax(const std::array<double, kObservables>& scale, FilterMeasurements* me
     any = true;
   }
   return any;
+}
+
+// Where ranges contradict each other a few carriers that happen to agree, as four always do about
+// one position, must not decide by their millimetres: without most of them on their side none
+// counts.
+bool most_carriers_agree(const FilterMeasurements& measurements) {
+  std::size_t offered = 0, kept = 0;
+  for (const FilterMeasurement& measurement : measurements) {
+    if (measurement.observable != Observable::kCarrier) continue;
+    ++offered;
+    kept += measurement.factor > 0.0 ? 1 : 0;
+  }
+  return 4 * kept >= 3 * offered;
 }
 
 // Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
@@ -174,21 +188,30 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
   Workspace& problem = *workspace_;
   for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
   problem.solve(*measurements);
-  SmallTable ratios;
+  SmallTable ratios, before;
+  double change = 1.0;
   for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
     const bool first = pass == 0;  // nothing used yet: innovations
     problem.standardize(*measurements, &ratios);
     for (std::size_t i = 0; first && i < ratios.size(); ++i)
       ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
-    const double change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, *limits,
-                                   measurements, result);
+    before.clear();
+    for (const FilterMeasurement& measurement : *measurements) before.push_back(measurement.factor);
+    change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, *limits, measurements,
+                      result);
     if (first) {
       for (std::size_t i = 0; i < limits->size(); ++i)
         (*limits)[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
     }
     problem.solve(*measurements);
-    if (change < kFactorTolerance) break;
+    if (change < kFactorTolerance) return;
   }
+  if (change < kUnsettled || config.max_iterations < 3) return;
+  // Carriers that contradict each other go out together, fit the codes, come in together, and so
+  // on: what does not settle gets the lesser of its weights.
+  for (std::size_t i = 0; i < before.size(); ++i)
+    (*measurements)[i].factor = std::min((*measurements)[i].factor, before[i]);
+  problem.solve(*measurements);
 }
 
 RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
@@ -204,7 +227,10 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
     FactorLimits limits(measurements->size(), 1.0);
     weigh(config, &limits, measurements, &result);
     const auto scale = result.scale;
+    const bool carriers_agree = most_carriers_agree(*measurements);
     if (relax(scale, measurements)) {
+      for (std::size_t i = 0; !carriers_agree && i < limits.size(); ++i)
+        if ((*measurements)[i].observable == Observable::kCarrier) limits[i] = 0.0;
       weigh(config, &limits, measurements, &result);
       for (FilterMeasurement& measurement : *measurements) {
         const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];

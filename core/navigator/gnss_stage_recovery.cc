@@ -25,6 +25,18 @@ int redundancy(const PointSolution& point) {
   return point.satellites - 3 - bases;
 }
 
+// Any few codes agree with some position: most must, for it to be more than chance.
+bool most_codes_agree(const MeasurementEpoch& epoch) {
+  int offered = 0, used = 0;
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCode) continue;
+    ++offered;
+    const Reason reason = measurement.reason;
+    used += reason == Reason::kUsed || reason == Reason::kDownweighted ? 1 : 0;
+  }
+  return 3 * used >= 2 * offered;
+}
+
 }  // namespace
 
 // A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
@@ -106,8 +118,8 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
   if (suspect_epochs_ != 1 && suspect_epochs_ < config_.ekf.reset_epochs) return;
   std::swap(measurements_, check_measurements_);
   PointSolution point;
-  const bool checked =
-      solve(work, ekf_.antenna_position_e(), &point) && redundancy(point) >= kMinResetRedundancy;
+  const bool checked = solve(work, ekf_.antenna_position_e(), &point) &&
+                       redundancy(point) >= kMinResetRedundancy && most_codes_agree(*measurements_);
   if (suspect_epochs_ == 1) {
     suspect_since_ = checked ? work.time : GpsTime();
     suspect_point_ = point;

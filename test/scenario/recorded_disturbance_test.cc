@@ -6,43 +6,13 @@
 #include <fstream>
 #include <string>
 
-#include "drivers/lcm/channels.h"
-#include "drivers/lcm/decode.h"
-#include "drivers/lcm/encode.h"
-#include "drivers/lcm/event_log.h"
+#include "scenario/edited_log.h"
 #include "scenario/recorded_runs.h"
 
 namespace leonav::test {
 namespace {
 
 constexpr double kEpochs = 1985.0;  // in the recording
-
-// Writes `log` anew. edit(n, &epoch) changes the n-th epoch, from 1, and tells whether it stays.
-template <typename Edit>
-std::string edited(const TemporaryFile& place, const std::string& log, Edit edit) {
-  const std::string path = place.beside("edited.lcmlog");
-  EventLogReader reader(log);
-  EventLogWriter writer(path);
-  Decoder decoder;
-  Encoder encoder;
-  RawEpoch epoch;
-  const std::string channel = channel_name(Channel::kGnssEpoch);
-  LogEvent event;
-  bool good = true;
-  for (int n = 0; reader.next(&event);) {
-    ByteSpan bytes(event.data);
-    if (event.channel == channel) {
-      const DecodeResult result = decoder.decode(bytes, &epoch);
-      good = good && result.fault == InputFault::kNone && result.element_faults == 0;
-      if (!edit(++n, &epoch)) continue;
-      bytes = encoder.encode(epoch, result.sequence);
-    }
-    good = writer.write(event.timestamp_us, event.channel, bytes) && good;
-  }
-  REQUIRE(writer.flush());
-  REQUIRE(good);
-  return path;
-}
 
 // Adds `offset_m` to the codes of epochs `first` to `last` of the satellites that `is_hit` names.
 template <typename IsHit>

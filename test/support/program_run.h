@@ -34,12 +34,19 @@ bool have_programs(const Names&... names) {
   return true;
 }
 
+// Sanitized programs take several times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr const char* kProgramTimeout = "timeout 600 '";
+#else
+inline constexpr const char* kProgramTimeout = "timeout 60 '";
+#endif
+
 // `arguments` as in a shell. A program that does not end within a minute is ended: exit code 124.
 inline ProgramRun run_program(const std::string& name, const std::string& arguments) {
   const TemporaryFile place("unused", "");
   const std::string out = place.beside("out"), err = place.beside("err");
-  const std::string command = "timeout 60 '" LEONAV_BIN_DIR "/" + name + "' " + arguments + " >'" +
-                              out + "' 2>'" + err + "' </dev/null";
+  const std::string command = std::string(kProgramTimeout) + LEONAV_BIN_DIR "/" + name + "' " +
+                              arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
   const int status = std::system(command.c_str());
   ProgramRun run;
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

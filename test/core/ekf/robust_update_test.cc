@@ -225,4 +225,28 @@ TEST_CASE("states without variance take no correction, and nothing measured chan
   CHECK((P - before).norm() == 0.0);
 }
 
+TEST_CASE("carriers that contradict each other do not decide beside codes") {
+  // Ten codes of 1 m that agree, ten carriers of 3 mm that are metres off, each by something else:
+  // all carriers or none is what the weights would go back and forth between.
+  synthetic::Generator noise(3);
+  const FilterMeasurements codes = around(10, &noise);
+  EkfCovariance P = position_and_clock(1e4);
+  FilterMeasurements measurements = codes;
+  for (const FilterMeasurement& code : codes) {
+    FilterMeasurement carrier = code;
+    carrier.observable = Observable::kCarrier;
+    carrier.innovation = 4.0 * noise.normal();
+    carrier.variance = carrier.gain_variance = 9e-6;
+    measurements.push_back(carrier);
+  }
+  RobustUpdate update;
+  const auto result = update(RobustConfig(), &measurements, &P);
+  double kept = 0.0;
+  for (std::size_t i = codes.size(); i < measurements.size(); ++i) kept += measurements[i].factor;
+  CHECK(kept == 0.0);
+  CHECK(result.correction.segment<3>(kPosition).norm() < 3.0);
+  // As uncertain as the codes alone leave it.
+  CHECK(std::sqrt(P(kPosition, kPosition)) > 0.3);
+}
+
 }  // namespace leonav
