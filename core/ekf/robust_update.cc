@@ -16,6 +16,8 @@ using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 
 constexpr double kFactorTolerance = 1e-3;  // weights that change less have converged
 constexpr double kUnsettled = 0.5;         // ... and more than this have not
+constexpr int kMaxRounds = 20;             // of throwing out the worst
+constexpr double kNearWorst = 0.7;         // of the worst: go with it
 constexpr double kNormalMedian = 0.6745;   // median of |x| for a standard normal x
 constexpr double kMaxPriorScale = 2.0;  // innovations may be this much larger than they should be
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -69,14 +71,23 @@ bool relax(const std::array<double, kObservables>& scale, FilterMeasurements* me
 // Where ranges contradict each other a few carriers that happen to agree, as four always do about
 // one position, must not decide by their millimetres: without most of them on their side none
 // counts.
-bool most_carriers_agree(const FilterMeasurements& measurements) {
+template <typename Limits>
+void leave_out_few_carriers(const FilterMeasurements& measurements, Limits* limits) {
   std::size_t offered = 0, kept = 0;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != Observable::kCarrier) continue;
     ++offered;
     kept += measurement.factor > 0.0 ? 1 : 0;
   }
-  return 4 * kept >= 3 * offered;
+  for (std::size_t i = 0; 4 * kept < 3 * offered && i < limits->size(); ++i)
+    if (measurements[i].observable == Observable::kCarrier) (*limits)[i] = 0.0;
+}
+
+// By how much an observable's residuals may be larger than they should be. Carriers that fit no
+// better than this have slipped, however many they are.
+double scale_limit(const FilterMeasurement& measurement, const RobustUpdateResult& weighed) {
+  const double scale = weighed.scale[static_cast<std::size_t>(measurement.observable)];
+  return measurement.observable == Observable::kCarrier ? std::min(scale, kMaxPriorScale) : scale;
 }
 
 // Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
@@ -188,15 +199,13 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
   Workspace& problem = *workspace_;
   for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
   problem.solve(*measurements);
-  SmallTable ratios, before;
+  SmallTable ratios;
   double change = 1.0;
   for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
     const bool first = pass == 0;  // nothing used yet: innovations
     problem.standardize(*measurements, &ratios);
     for (std::size_t i = 0; first && i < ratios.size(); ++i)
       ratios[i] = std::max(ratios[i], (*measurements)[i].prior_ratio);
-    before.clear();
-    for (const FilterMeasurement& measurement : *measurements) before.push_back(measurement.factor);
     change = reweight(config, ratios, first ? kMaxPriorScale : kUnlimited, *limits, measurements,
                       result);
     if (first) {
@@ -206,12 +215,35 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
     problem.solve(*measurements);
     if (change < kFactorTolerance) return;
   }
-  if (change < kUnsettled || config.max_iterations < 3) return;
-  // Carriers that contradict each other go out together, fit the codes, come in together, and so
-  // on: what does not settle gets the lesser of its weights.
-  for (std::size_t i = 0; i < before.size(); ++i)
-    (*measurements)[i].factor = std::min((*measurements)[i].factor, before[i]);
-  problem.solve(*measurements);
+  if (change < kUnsettled || config.max_iterations < 3 || settled_) return;
+  throw_out_worst_first(config, *result, limits, measurements);
+  weigh(config, limits, measurements, result);
+}
+
+// Where many contradict each other they go out together, fit what is left, come in together, and so
+// on. Then the worst go one after the other, from the weights that the prior allows, until the rest
+// agree; and carriers that only a few are left of prove nothing.
+void RobustUpdate::throw_out_worst_first(const RobustConfig& config,
+                                         const RobustUpdateResult& weighed, FactorLimits* limits,
+                                         FilterMeasurements* measurements) {
+  Workspace& problem = *workspace_;
+  SmallTable ratios;
+  for (std::size_t i = 0; i < limits->size(); ++i) (*measurements)[i].factor = (*limits)[i];
+  for (int round = 0; round < kMaxRounds; ++round) {
+    problem.solve(*measurements);
+    problem.standardize(*measurements, &ratios);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      const FilterMeasurement& measurement = (*measurements)[i];
+      ratios[i] /= scale_limit(measurement, weighed);
+      if (measurement.factor > 0.0) worst = std::max(worst, ratios[i]);
+    }
+    if (worst < config.k1) break;
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+      if (ratios[i] >= kNearWorst * worst) (*limits)[i] = (*measurements)[i].factor = 0.0;
+  }
+  leave_out_few_carriers(*measurements, limits);
+  settled_ = true;
 }
 
 RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
@@ -225,12 +257,13 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
   problem.begin(*measurements, *covariance);
   if (config.enabled) {
     FactorLimits limits(measurements->size(), 1.0);
+    settled_ = false;
     weigh(config, &limits, measurements, &result);
     const auto scale = result.scale;
-    const bool carriers_agree = most_carriers_agree(*measurements);
+    FactorLimits relaxed = limits;
+    leave_out_few_carriers(*measurements, &relaxed);
     if (relax(scale, measurements)) {
-      for (std::size_t i = 0; !carriers_agree && i < limits.size(); ++i)
-        if ((*measurements)[i].observable == Observable::kCarrier) limits[i] = 0.0;
+      limits = relaxed;
       weigh(config, &limits, measurements, &result);
       for (FilterMeasurement& measurement : *measurements) {
         const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];

@@ -70,7 +70,10 @@ class RobustUpdate {
   using FactorLimits = boost::container::static_vector<double, kMaxMeasurements>;
   void weigh(const RobustConfig& config, FactorLimits* limits, FilterMeasurements* measurements,
              RobustUpdateResult* result);
+  void throw_out_worst_first(const RobustConfig& config, const RobustUpdateResult& weighed,
+                             FactorLimits* limits, FilterMeasurements* measurements);
   std::unique_ptr<Workspace> workspace_;
+  bool settled_ = false;  // the worst of this epoch have been thrown out
 };
 
 }  // namespace leonav

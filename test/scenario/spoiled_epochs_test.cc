@@ -36,15 +36,14 @@ const Spoiled kSpoiled[] = {
     {"GPS, 100 m", 1, gps, 100.0, 0.0, 0.1, 0.1},
     {"half, 9 km", 1, even, 9000.0, 0.0, 0.1, 0.1},
     {"all, 10 m", 1, any, 10.0, 0.0, 0.1, 0.1},
-    {"all, 70 m", 3, any, 70.0, 0.0, 0.25, 0.1},
-    {"Galileo, 5 m", 2, galileo, 5.0, 0.0, 0.2, 0.1},
+    {"all, 70 m", 3, any, 70.0, 0.0, 0.15, 0.1},
+    {"Galileo, 5 m", 2, galileo, 5.0, 0.0, 0.15, 0.1},
     {"stamp 50 ms late", 1, any, 0.0, 0.05, 0.1, 0.1},
     {"stamp 100 ms late", 1, any, 0.0, 0.1, 0.1, 0.1},
-    {"stamps 100 ms late", 3, any, 0.0, 0.1, 0.1, 0.1},
-    {"stamps 20 ms late", 3, any, 0.0, 0.02, 0.1, 0.1},
-    // Metres that fit each other for a minute and a half: free to move, the filter starts anew.
-    {"stamps 10 ms late", 3, any, 0.0, 0.01, 0.4, 0.1},
-    {"stamps 5 ms late", 3, any, 0.0, 0.005, 0.4, 0.1},
+    {"stamps 100 ms late", 3, any, 0.0, 0.1, 0.15, 0.1},
+    {"stamps 20 ms late", 3, any, 0.0, 0.02, 0.15, 0.1},
+    {"stamps 10 ms late", 3, any, 0.0, 0.01, 0.15, 0.1},
+    {"stamps 5 ms late", 3, any, 0.0, 0.005, 0.15, 0.1},
     {"stamps 1 ms late", 3, any, 0.0, 0.001, 0.1, 0.1},
 };
 
