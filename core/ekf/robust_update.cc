@@ -71,16 +71,19 @@ bool relax(const std::array<double, kObservables>& scale, FilterMeasurements* me
 // Where ranges contradict each other a few carriers that happen to agree, as four always do about
 // one position, must not decide by their millimetres: without most of them on their side none
 // counts.
+// False: most are.
 template <typename Limits>
-void leave_out_few_carriers(const FilterMeasurements& measurements, Limits* limits) {
+bool leave_out_few_carriers(const FilterMeasurements& measurements, Limits* limits) {
   std::size_t offered = 0, kept = 0;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != Observable::kCarrier) continue;
     ++offered;
     kept += measurement.factor > 0.0 ? 1 : 0;
   }
-  for (std::size_t i = 0; 4 * kept < 3 * offered && i < limits->size(); ++i)
+  if (4 * kept >= 3 * offered) return false;
+  for (std::size_t i = 0; i < limits->size(); ++i)
     if (measurements[i].observable == Observable::kCarrier) (*limits)[i] = 0.0;
+  return true;
 }
 
 // By how much an observable's residuals may be larger than they should be. Carriers that fit no
@@ -260,11 +263,11 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
     settled_ = false;
     weigh(config, &limits, measurements, &result);
     const auto scale = result.scale;
-    FactorLimits relaxed = limits;
-    leave_out_few_carriers(*measurements, &relaxed);
     if (relax(scale, measurements)) {
-      limits = relaxed;
+      settled_ = false;
       weigh(config, &limits, measurements, &result);
+      if (leave_out_few_carriers(*measurements, &limits))
+        weigh(config, &limits, measurements, &result);
       for (FilterMeasurement& measurement : *measurements) {
         const double of_kind = scale[static_cast<std::size_t>(measurement.observable)];
         if (measurement.observable != Observable::kCarrier && of_kind > kMaxScale) {
