@@ -1,17 +1,20 @@
 // leonav-sim: a scenario -> measurements as a vehicle would have recorded them.
 #include <filesystem>
 #include <iostream>
+#include <numbers>
 #include <optional>
 
 #include "tools/common/arguments.h"
 #include "tools/sim/run/simulate.h"
+#include "tools/sim/run/sky_statistics.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 
 namespace {
 
 int body(int argc, char** argv) {
   leonav::Arguments arguments(
-      "leonav-sim", "scenario.yaml -o run.lcmlog [options]",
+      "leonav-sim",
+      "scenario.yaml -o run.lcmlog [options]\n       leonav-sim --sky-statistics scenario.yaml",
       "Simulates a drive: IMU, GNSS and LEO satellites, products and truth, as a vehicle would\n"
       "have recorded them. The same scenario and seed give the same files.");
   arguments.option("--out", "FILE", "the log to write; -o for short")
@@ -19,6 +22,9 @@ int body(int argc, char** argv) {
       .option("--export", "DIR", "the run as RINEX, SP3, clock, ANTEX and CSV files too")
       .flag("--leo-as-gps", "with --export: low satellites in the files, under names of GPS")
       .option("--seed", "N", "instead of the scenario's")
+      .flag("--sky-statistics", "only print how many satellites are seen, and their PDOP")
+      .option("--mask", "DEG", "with --sky-statistics: the elevation they count from", "15")
+      .option("--step", "S", "with --sky-statistics: the interval of its epochs", "10")
       .option("--set", "KEY=VALUE", "a key of the scenario, may be repeated");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) {
@@ -27,6 +33,14 @@ int body(int argc, char** argv) {
   std::vector<std::string> overrides = arguments.all("--set");
   if (arguments.has("--seed")) overrides.push_back("seed=" + arguments.get("--seed"));
   const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
+  if (arguments.has("--sky-statistics")) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const double step_s = arguments.number("--step");
+    if (!(step_s > 0.0)) throw leonav::UsageError("--step must be above zero");
+    const double mask = arguments.number("--mask") * kDegree;
+    leonav::sim::print(leonav::sim::sky_statistics(scenario, mask, step_s), std::cout);
+    return 0;
+  }
   const std::filesystem::path out = arguments.required("--out");
   const std::string truth = arguments.has("--truth") ? arguments.get("--truth")
                                                      : (out.parent_path() / "truth.csv").string();

@@ -7,7 +7,7 @@
 namespace leonav::sim {
 namespace {
 
-constexpr const char* kLeoLetters = "LMNOPQT";
+constexpr const char* kLeoLetters = "LMNO";
 
 std::string letters_of(System system) {
   switch (system) {

@@ -26,6 +26,7 @@ void read_shell(ConfigReader& group, ConstellationConfig* c) {
 
 // The numbers that build_sky() will give must be ones that leonav knows, each once.
 void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
+  if (c.only_risen) return;  // build_sky() counts
   const int highest = kHighestNumber[index_of(c.system)];
   std::vector<bool> taken(static_cast<std::size_t>(highest) + 1);
   int next = c.first_number;
@@ -33,8 +34,9 @@ void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
     if (shell.first_number != 0) next = shell.first_number;
     for (int i = 0; i < shell.planes * shell.per_plane; ++i, ++next) {
       if (next > highest) {
-        group.fail("shells", "have satellites beyond number " + std::to_string(highest) +
-                                 ", the highest of the system; take away satellites");
+        group.fail("shells",
+                   "have satellites beyond number " + std::to_string(highest) +
+                       ", the highest of the system; take away satellites, or set only_risen");
       }
       if (taken[static_cast<std::size_t>(next)]) {
         group.fail("shells",
@@ -60,6 +62,7 @@ void read_errors(ConfigReader& group, ToldErrors* errors) {
 void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   group.boolean("enabled", &c->enabled);
   group.integer("first_number", 1, kHighestNumber[index_of(c->system)], &c->first_number);
+  group.boolean("only_risen", &c->only_risen);
   group.text("file", &c->file);
   if (!c->file.empty() && c->system == System::kLeo) {
     group.fail("file", "is for GPS, Galileo and BeiDou; give shells for low satellites");

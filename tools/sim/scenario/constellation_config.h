@@ -51,6 +51,9 @@ struct ConstellationConfig {
   bool enabled = true;
   std::vector<OrbitShell> shells;  // satellites are numbered through, from first_number on
   int first_number = 1;
+  // Satellites that stay below the route's horizon for the whole run are left out and take no
+  // number: constellations may have more satellites than there are numbers.
+  bool only_risen = false;
   std::string file;  // RINEX navigation or SP3: real orbits in the place of the shells
   Told told = Told::kBoth;
   ToldErrors precise;

@@ -1,6 +1,8 @@
 #include "tools/sim/scenario/nominal_constellations.h"
 
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/earth/ellipsoid.h"
 
@@ -35,13 +37,28 @@ OrbitShell geosynchronous(int number, double longitude_deg, double inclination_d
   return shell;
 }
 
-// Six planes of five, and a sixth satellite in the last one.
+// The 24 slots of the GPS SPS Performance Standard (5th edition, 2020, table 3.2-1), of which B1,
+// D2 and F2 are expanded to two each (table 3.2-2), and four more where three planes' gaps are
+// widest: 31 as flown. Walker's patterns of 30 stand worse over the mid-latitudes than GPS does.
 void add_gps(ConstellationConfig* c) {
-  c->shells = {walker(6, 5, 26'559'700.0, 55.0, 2)};
-  c->shells.push_back(walker(1, 1, 26'559'700.0, 55.0, 0));
-  c->shells[1].first_node = 300.0 * kDegree;
-  c->shells[1].first_anomaly = (5.0 * 24.0 + 36.0) * kDegree;  // halfway between two of that plane
-  for (OrbitShell& shell : c->shells) shell.eccentricity = 0.005;
+  static const std::vector<std::vector<double>> arguments_of_latitude_deg = {
+      {268.126, 161.786, 11.676, 41.806, 101.8, 215.0},
+      {94.916, 66.356, 173.336, 309.976, 204.376},
+      {111.876, 11.796, 339.666, 241.556, 176.7},
+      {135.226, 282.676, 257.976, 35.156, 167.356},
+      {197.046, 302.596, 66.066, 333.686, 131.6},
+      {238.886, 0.456, 334.016, 105.206, 135.346}};
+  double node_deg = 272.847;
+  for (const std::vector<double>& plane : arguments_of_latitude_deg) {
+    for (const double latitude_deg : plane) {
+      OrbitShell shell = walker(1, 1, 26'559'700.0, 55.0, 0);
+      shell.eccentricity = 0.005;
+      shell.first_node = std::remainder(node_deg, 360.0) * kDegree;
+      shell.first_anomaly = latitude_deg * kDegree;
+      c->shells.push_back(shell);
+    }
+    node_deg += 60.0;
+  }
 }
 
 // As at the end of 2020, with the numbers that the real ones have: geostationary BDS-2 C01-C05 and

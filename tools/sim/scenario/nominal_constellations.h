@@ -4,9 +4,9 @@
 
 namespace leonav::sim {
 
-// GPS 31 satellites, Galileo 24 (Walker 24/3/1), BeiDou 8 geostationary, 10 inclined geosynchronous
-// and 27 medium ones with their real numbers; LEO: the papers' 160 at 970 km (Remote Sensing 2024,
-// 16, 1782, section 3.1).
+// GPS 31 satellites in the standard's slots, Galileo 24 (Walker 24/3/1), BeiDou 8 geostationary, 10
+// inclined geosynchronous and 27 medium ones with their real numbers; LEO: the papers' 160 at 970
+// km (Remote Sensing 2024, 16, 1782, section 3.1).
 ConstellationConfig nominal_constellation(System system);
 
 }  // namespace leonav::sim

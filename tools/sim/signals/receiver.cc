@@ -109,7 +109,9 @@ void Receiver::observe(std::size_t index, double t, const Eigen::Vector3d& tide_
     SignalObservation o;
     o.satellite = satellite.id;
     o.code = signals[s];
-    o.pseudorange_m = common + delay * path.tecu + noise.code_m * factor * track.random.draw();
+    const double late_m = signal_delay_m(system, satellite.group_delay_m, signals[s].band);
+    o.pseudorange_m =
+        common + late_m + delay * path.tecu + noise.code_m * factor * track.random.draw();
     o.carrier_cycles =
         (common - delay * path.tecu + noise.carrier_m * factor * track.random.draw()) / wavelength +
         track.wind_up + track.cycles[s];

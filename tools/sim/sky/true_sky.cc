@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "core/earth/ellipsoid.h"
+#include "core/gnss/look_angles.h"
 #include "core/gnss/signal.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/sky/broadcast.h"
@@ -49,13 +53,30 @@ OrbitTable orbit_of(const KeplerElements& elements, System system, double margin
   return OrbitTable(-step * static_cast<double>(before), step, states);
 }
 
+// From the route's origin, with a margin for where the route leads: 100 km are 0.9 degrees.
+bool rises(const Scenario& scenario, const OrbitTable& orbit) {
+  constexpr double kMargin = 2.0 * std::numbers::pi / 180.0, kStep = 20.0;
+  const Eigen::Vector3d p_e = to_ecef(scenario.route.origin);
+  for (double t = 0.0; t < scenario.duration_s + kStep; t += kStep) {
+    if (look_angles(to_earth(orbit.at(t).p_i, t), p_e).elevation > -kMargin) return true;
+  }
+  return false;
+}
+
+void check_number(const SatelliteId& id) {
+  if (is_valid(id)) return;
+  throw std::runtime_error("more satellites of " + std::string(to_string(id.system)) +
+                           " than there are numbers (" +
+                           std::to_string(kHighestNumber[index_of(id.system)]) +
+                           ") rise during the run; make it shorter");
+}
+
 void add_shell(const Scenario& scenario, std::size_t constellation, const OrbitShell& shell,
                int* number, TrueSky* sky) {
   const ConstellationConfig& c = scenario.constellations[constellation];
   if (shell.first_number != 0) *number = shell.first_number;
   for (int plane = 0; plane < shell.planes; ++plane) {
-    for (int slot = 0; slot < shell.per_plane; ++slot, ++*number) {
-      const SatelliteId id{c.system, static_cast<std::uint16_t>(*number)};
+    for (int slot = 0; slot < shell.per_plane; ++slot) {
       KeplerElements k{};
       k.semi_major_axis_m = shell.semi_major_axis_m;
       k.eccentricity = shell.eccentricity;
@@ -65,9 +86,12 @@ void add_shell(const Scenario& scenario, std::size_t constellation, const OrbitS
       k.mean_anomaly = std::remainder(shell.first_anomaly + kTwoPi * slot / shell.per_plane +
                                           shell.phase_per_plane * plane - k.perigee,
                                       kTwoPi);
-      sky->satellites.push_back({id, constellation,
-                                 orbit_of(k, c.system, sky_margin_s(c), scenario.duration_s),
-                                 clock_of(scenario, c, id), delays_of(scenario, c, id), 0});
+      OrbitTable orbit = orbit_of(k, c.system, sky_margin_s(c), scenario.duration_s);
+      if (c.only_risen && !rises(scenario, orbit)) continue;
+      const SatelliteId id{c.system, static_cast<std::uint16_t>((*number)++)};
+      check_number(id);
+      sky->satellites.push_back({id, constellation, std::move(orbit), clock_of(scenario, c, id),
+                                 delays_of(scenario, c, id), 0});
     }
   }
 }

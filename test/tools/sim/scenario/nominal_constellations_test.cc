@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
+#include "core/gnss/look_angles.h"
 #include "support/catch.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 #include "tools/sim/sky/true_sky.h"
@@ -58,6 +59,29 @@ TEST_CASE("No two satellites of a system come near each other") {
       }
     }
   }
+}
+
+TEST_CASE("Of more satellites than there are numbers those that rise have one") {
+  const std::string shells =
+      "shells: [{semi_major_axis_km: 7348, planes: 20, per_plane: 32, inclination_deg: 60, "
+      "node_span_deg: 360}]";
+  CHECK_THROWS_WITH(load_scenario_text("satellites: {leo: {" + shells + "}}\n", "scenario.yaml"),
+                    Catch::Contains("number 399") && Catch::Contains("only_risen"));
+  // Who is up at the middle.
+  const auto up = [](const std::string& keys) {
+    const Scenario scenario = load_scenario_text("duration_s: 600\n" + keys, "scenario.yaml");
+    const Eigen::Vector3d p_e = to_ecef(scenario.route.origin);
+    std::vector<Eigen::Vector3d> places;
+    for (const TrueSatellite& s : build_sky(scenario).satellites) {
+      const Eigen::Vector3d p_s_e = to_earth(s.orbit.at(300.0).p_i, 300.0);
+      if (s.id.system == System::kLeo && look_angles(p_s_e, p_e).elevation > 0.0)
+        places.push_back(p_s_e);
+    }
+    return places;
+  };
+  CHECK(up("satellites: {leo: {only_risen: true, " + shells + "}}\n").size() > 30);
+  // Of the nominal ones nobody who is up is missing.
+  CHECK(up("") == up("satellites: {leo: {only_risen: true}}\n"));
 }
 
 TEST_CASE("Numbers that are taken or too high are errors") {
