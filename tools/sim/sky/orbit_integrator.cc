@@ -15,11 +15,6 @@ constexpr double kJ2 = 1.08262617e-3, kJ3 = -2.53241e-6, kJ4 = -1.61990e-6;
 
 using Vector6 = std::array<double, 6>;
 
-void motion(const Vector6& x, Vector6& dx, double /*t*/) {
-  const Eigen::Vector3d a = gravitation_i({x[0], x[1], x[2]});
-  dx = {x[3], x[4], x[5], a.x(), a.y(), a.z()};
-}
-
 }  // namespace
 
 // Potential of degree n: -(GM/r) Jn (R/r)^n Pn(s), s = z/r; its gradient along p and along z.
@@ -38,15 +33,23 @@ Eigen::Vector3d gravitation_i(const Eigen::Vector3d& p_i) {
   return g * (radial * p_i / r + axial * Eigen::Vector3d::UnitZ());
 }
 
-std::vector<OrbitState> integrate_orbit(const OrbitState& first, double step_s, std::size_t count) {
+std::vector<OrbitState> integrate_orbit(const OrbitState& first, double step_s, std::size_t count,
+                                        const Perturbation& more) {
+  const auto motion = [&more](const Vector6& x, Vector6& dx, double t) {
+    const Eigen::Vector3d p_i(x[0], x[1], x[2]);
+    Eigen::Vector3d a = gravitation_i(p_i);
+    if (more) a += more(p_i, t);
+    dx = {x[3], x[4], x[5], a.x(), a.y(), a.z()};
+  };
   boost::numeric::odeint::runge_kutta_fehlberg78<Vector6> stepper;
   const int parts = static_cast<int>(std::ceil(std::abs(step_s) / 30.0));
   const double h = step_s / parts;
   Vector6 x{first.p_i.x(), first.p_i.y(), first.p_i.z(),
             first.v_i.x(), first.v_i.y(), first.v_i.z()};
   std::vector<OrbitState> states{first};
+  double t = 0.0;
   while (states.size() < count) {
-    for (int i = 0; i < parts; ++i) stepper.do_step(motion, x, 0.0, h);
+    for (int i = 0; i < parts; ++i, t += h) stepper.do_step(motion, x, t, h);
     states.push_back({{x[0], x[1], x[2]}, {x[3], x[4], x[5]}});
   }
   return states;

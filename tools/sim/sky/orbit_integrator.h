@@ -1,6 +1,7 @@
 // Satellite orbits under the Earth's gravity with its first zonal harmonics.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace leonav::sim {
@@ -16,7 +17,10 @@ Eigen::Vector3d gravitation_i(const Eigen::Vector3d& p_i);
 
 // States at t = 0, step, 2 step, ..., `count` of them from `first` on; `step_s` may be negative.
 // Runge-Kutta-Fehlberg of order 7 (8) at fixed steps of at most 30 s: below a millimetre in a day.
-std::vector<OrbitState> integrate_orbit(const OrbitState& first, double step_s, std::size_t count);
+// `more`: what else accelerates at a place, t seconds after the first state.
+using Perturbation = std::function<Eigen::Vector3d(const Eigen::Vector3d& p_i, double t)>;
+std::vector<OrbitState> integrate_orbit(const OrbitState& first, double step_s, std::size_t count,
+                                        const Perturbation& more = nullptr);
 
 // Osculating Kepler elements; angles in rad. `node`: right ascension in the inertial frame.
 struct KeplerElements {

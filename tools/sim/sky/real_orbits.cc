@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
+#include "core/earth/ellipsoid.h"
+#include "core/earth/sun_moon.h"
 #include "core/gnss/precise_orbit.h"
 #include "core/gnss/signal.h"
 #include "drivers/rinex/navigation_reader.h"
@@ -15,9 +18,10 @@
 namespace leonav::sim {
 namespace {
 
-constexpr double kStep = 120.0;          // s between the table's nodes
-constexpr double kMaxOrbitGap = 1000.0;  // s between the file's
-constexpr double kMaxAge = 7200.0;       // s from toe, before the first and after the last one
+constexpr double kStep = 120.0;           // s between the table's nodes
+constexpr double kMaxOrbitGap = 1000.0;   // s between the file's
+constexpr double kMaxTruncation = 0.005;  // m, of a polynomial through nodes
+constexpr double kMaxAge = 7200.0;        // s from toe, before the first and after the last one
 constexpr double kMaxToeGap = 4.5 * 3600.0;
 
 // ECEF position `t` s from the start, where the file has one.
@@ -65,11 +69,59 @@ OrbitTable::Node node_at(const std::vector<Eigen::Vector3d>& p, std::size_t i) {
   return node;
 }
 
-// On under the Earth's gravity, `count` more nodes.
-std::vector<OrbitTable::Node> beyond(const OrbitTable::Node& last, double step, std::size_t count) {
+// The ellipticity of the Earth's equator (EGM2008's C22 and S22, not normalized), in ECEF.
+Eigen::Vector3d equator_e(const Eigen::Vector3d& p) {
+  constexpr double kC22 = 1.57461533e-6, kS22 = -9.03872789e-7, kRadius = 6'378'136.3;
+  const double r = p.norm(), scale = 3.0 * kEarthGravitationalConstant * kRadius * kRadius;
+  const double form = kC22 * (p.x() * p.x() - p.y() * p.y()) + 2.0 * kS22 * p.x() * p.y();
+  const Eigen::Vector3d slope(2.0 * (kC22 * p.x() + kS22 * p.y()),
+                              2.0 * (kS22 * p.x() - kC22 * p.y()), 0.0);
+  return scale * (slope / std::pow(r, 5) - 5.0 * form / std::pow(r, 7) * p);
+}
+
+// What the zonal harmonics leave out above 1e-7 m/s^2: that, and the attraction of Sun and Moon
+// less that of the Earth's centre. Their places are kept for ten minutes, in which the Moon moves
+// by 0.1 degrees.
+class MoreGravity {
+ public:
+  explicit MoreGravity(GpsTime start) : start_(start) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p_i, double t) {
+    constexpr double kSun = 1.32712440018e20, kMoon = 4.902800e12;  // m^3/s^2
+    const double slot = std::floor(t / 600.0);
+    if (!(slot == slot_)) {
+      slot_ = slot;
+      const SunMoon bodies = sun_moon_positions(start_.plus_seconds(600.0 * slot));
+      sun_i_ = to_inertial(bodies.sun_e, 600.0 * slot);
+      moon_i_ = to_inertial(bodies.moon_e, 600.0 * slot);
+    }
+    return kSun * pull(sun_i_, p_i) + kMoon * pull(moon_i_, p_i) +
+           to_inertial(equator_e(to_earth(p_i, t)), t);
+  }
+
+ private:
+  static Eigen::Vector3d pull(const Eigen::Vector3d& body, const Eigen::Vector3d& p) {
+    return (body - p) / std::pow((body - p).norm(), 3) - body / std::pow(body.norm(), 3);
+  }
+  GpsTime start_;
+  double slot_ = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector3d sun_i_, moon_i_;
+};
+
+// On from the node at `t` under the gravity of Earth, Sun and Moon, `count` more nodes.
+std::vector<OrbitTable::Node> beyond(const OrbitTable::Node& last, double t, double step,
+                                     std::size_t count, GpsTime start) {
+  MoreGravity bodies(start);
+  // What is still left at the node (the Sun's light, the elements' own smoothness) goes on.
+  const Eigen::Vector3d rest = last.a - gravitation_i(last.p) - bodies(last.p, t);
+  const Perturbation more = [&](const Eigen::Vector3d& p_i, double since) -> Eigen::Vector3d {
+    return rest + bodies(p_i, t + since);
+  };
   std::vector<OrbitTable::Node> nodes;
-  for (const OrbitState& s : integrate_orbit({last.p, last.v}, step, count + 1)) {
-    nodes.push_back({s.p_i, s.v_i, gravitation_i(s.p_i)});
+  double since = 0.0;
+  for (const OrbitState& s : integrate_orbit({last.p, last.v}, step, count + 1, more)) {
+    nodes.push_back({s.p_i, s.v_i, gravitation_i(s.p_i) + more(s.p_i, since)});
+    since += step;
   }
   nodes.erase(nodes.begin());
   return nodes;
@@ -86,9 +138,9 @@ std::optional<OrbitTable> table_of(const PositionAt& position, const OrbitSpan& 
     return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds / kStep)));
   };
   std::vector<OrbitTable::Node> earlier =
-      beyond(nodes.front(), -kStep, missing(first - span.first_s));
+      beyond(nodes.front(), first, -kStep, missing(first - span.first_s), span.start);
   const std::vector<OrbitTable::Node> later =
-      beyond(nodes.back(), kStep, missing(span.last_s - last));
+      beyond(nodes.back(), last, kStep, missing(span.last_s - last), span.start);
   const double begin = first - kStep * static_cast<double>(earlier.size());
   std::reverse(earlier.begin(), earlier.end());
   earlier.insert(earlier.end(), nodes.begin(), nodes.end());
@@ -169,7 +221,9 @@ std::vector<RealOrbit> from_sp3(const std::string& path, System system, const Or
       const PreciseClock any_clock;
       const bool there = precise_state(list.data(), list.size(), span.start.plus_seconds(t),
                                        kMaxOrbitGap, system, &any_clock, &state);
-      return there ? std::optional(state.p_e) : std::nullopt;
+      // Towards the file's ends polynomials lose centimetres, which derivatives would magnify.
+      const bool good = there && state.sigma_change_m < kMaxTruncation;
+      return good ? std::optional(state.p_e) : std::nullopt;
     };
     if (auto table = table_of(position, span)) {
       orbits.push_back({satellite, std::move(*table), 0, std::nullopt});

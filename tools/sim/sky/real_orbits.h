@@ -25,8 +25,8 @@ struct OrbitSpan {
 // Every satellite of the system that the file has an orbit for at `span.start`. SP3: the polynomial
 // through its nodes. RINEX: the elements of two neighbouring reference times blend into each other
 // between them (smooth to the acceleration), of two hours beyond the first and last. Where the file
-// ends, a satellite goes on under the Earth's gravity alone. Throws FileError for a file that
-// cannot be read or has no satellite of the system at the start.
+// ends, a satellite goes on under the gravity of Earth, Sun and Moon. Throws FileError for a file
+// that cannot be read or has no satellite of the system at the start.
 std::vector<RealOrbit> load_real_orbits(const std::string& path, System system,
                                         const OrbitSpan& span);
 

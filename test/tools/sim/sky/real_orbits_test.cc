@@ -1,7 +1,9 @@
 // Real satellites from files, judged by the readers and models that the daemon uses.
 #include "tools/sim/sky/real_orbits.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "core/gnss/precise_orbit.h"
 #include "core/gnss/satellite_state.h"
@@ -62,6 +64,32 @@ TEST_CASE("Where a file ends satellites go on without a break") {
       REQUIRE(step.norm() < 1e-4);
     }
   }
+}
+
+TEST_CASE("Satellites that go on beyond a file stay near their orbits") {
+  if (!test::have_shared_data(kSp3)) return;
+  const std::string path = test::shared_data(kSp3);
+  // The same with and without the file's last two and a half hours.
+  std::ifstream whole(path);
+  std::string text, line;
+  while (std::getline(whole, line) && !line.starts_with("*  2020  6 25 21 15")) text += line + "\n";
+  const test::TemporaryFile cut("cut.sp3", text + "EOF\n");
+  const GpsTime evening = GpsTime::from_week_and_tow(2111, 345'600.0 + 19.0 * 3600.0);
+  const OrbitSpan span{evening, -7200.0, 14'700.0};
+  const auto truth = load_real_orbits(path, System::kGps, span);
+  const auto gone_on = load_real_orbits(cut.path(), System::kGps, span);
+  REQUIRE(truth.size() == gone_on.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    // The last node left is of 21:00, two hours before: what the model leaves
+    // are what is left.
+    const double miss = (p_e(truth[i], 14'400.0) - p_e(gone_on[i], 14'400.0)).norm();
+    UNSCOPED_INFO(to_string(truth[i].satellite) << ": " << miss << " m");
+    worst = std::max(worst, miss);
+  }
+  INFO(worst << " m after two hours");
+  CHECK(worst < 25.0);
+  CHECK(worst > 0.01);
 }
 
 TEST_CASE("Satellites of a navigation file are where their elements say, without steps") {
