@@ -27,7 +27,10 @@ NavigationMessage message_of(SatelliteId satellite) {
 
 // Half the arc that an issue is fitted to: what its user interface gives as validity, or a bit
 // more.
-double half_span_s(System system) { return system == System::kGps ? 7200.0 : 5400.0; }
+double half_span_s(System system) {
+  if (system == System::kGps) return 7200.0;
+  return system == System::kGalileo ? 3600.0 : 5400.0;  // eccentric Galileos want short arcs
+}
 double lead_s(System system) { return system == System::kGps ? 7200.0 : 0.0; }
 
 // URA, SISA: the smallest that the messages are seen with.
