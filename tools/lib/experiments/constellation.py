@@ -9,6 +9,7 @@ import math
 MU, OMEGA, RADIUS = 3.986004418e14, 7.292115e-5, 6378137.0
 HEIGHT_M = 970e3
 J2 = 1.08263e-3
+LATITUDE_DEG, LONGITUDE_DEG = 39.9065, 116.4365  # where the scenarios drive
 
 
 def orbits(factor):
@@ -28,31 +29,39 @@ def orbits(factor):
     return result
 
 
-def rises(orbit, latitude, longitude, begin_s, duration_s, elevation_deg=2.0):
-    """Circular orbit with J2's drifts: good to a fraction of a degree within an hour or two."""
+def elevation(orbit, latitude, longitude, begin_s, t):
+    """rad. Circular orbit with J2's drifts: good to a fraction of a degree within an hour or two."""
     inclination, node, argument = (math.radians(x) for x in orbit)
     a = RADIUS + HEIGHT_M
     n = math.sqrt(MU / a ** 3)
     drift = 1.5 * J2 * (RADIUS / a) ** 2 * n
     node_rate = -drift * math.cos(inclination) - OMEGA
     rate = n + drift * (4.0 - 5.0 * math.sin(inclination) ** 2)
+    # What advances the sky knows no J2 (leonav-sim, satellites.advance_s).
+    u = argument + n * begin_s + rate * t
+    w = node - OMEGA * begin_s + node_rate * t
     site = [math.cos(latitude) * math.cos(longitude), math.cos(latitude) * math.sin(longitude), math.sin(latitude)]
-    t = -30.0
-    while t <= duration_s + 30.0:
-        # What advances the sky knows no J2 (leonav-sim, satellites.advance_s).
-        u = argument + n * begin_s + rate * t
-        w = node - OMEGA * begin_s + node_rate * t
-        s = [math.cos(w) * math.cos(u) - math.sin(w) * math.sin(u) * math.cos(inclination),
-             math.sin(w) * math.cos(u) + math.cos(w) * math.sin(u) * math.cos(inclination),
-             math.sin(u) * math.sin(inclination)]
-        cosine = sum(x * y for x, y in zip(s, site))
-        if math.atan2(cosine - RADIUS / a, math.sqrt(max(0.0, 1.0 - cosine ** 2))) > math.radians(elevation_deg):
-            return True
-        t += 15.0
-    return False
+    s = [math.cos(w) * math.cos(u) - math.sin(w) * math.sin(u) * math.cos(inclination),
+         math.sin(w) * math.cos(u) + math.cos(w) * math.sin(u) * math.cos(inclination),
+         math.sin(u) * math.sin(inclination)]
+    cosine = sum(x * y for x, y in zip(s, site))
+    return math.atan2(cosine - RADIUS / a, math.sqrt(max(0.0, 1.0 - cosine ** 2)))
 
 
-def shells(factor, begin_s, duration_s, latitude_deg=39.9065, longitude_deg=116.4365):
+def rises(orbit, latitude, longitude, begin_s, duration_s, least=math.radians(2.0)):
+    steps = range(-30, int(duration_s) + 45, 15)
+    return any(elevation(orbit, latitude, longitude, begin_s, t) > least for t in steps)
+
+
+def mean_in_view(factor, masks_deg, latitude_deg=LATITUDE_DEG, longitude_deg=LONGITUDE_DEG):
+    """Satellites above each mask on the mean of a day, nothing in the way."""
+    site = math.radians(latitude_deg), math.radians(longitude_deg)
+    times = range(0, 86400, 600)
+    seen = [math.degrees(elevation(o, *site, 0.0, t)) for o in orbits(factor) for t in times]
+    return [sum(e > mask for e in seen) / len(times) for mask in masks_deg]
+
+
+def shells(factor, begin_s, duration_s, latitude_deg=LATITUDE_DEG, longitude_deg=LONGITUDE_DEG):
     """The value of satellites.leo.shells; begin_s is the scenario's satellites.advance_s."""
     site = math.radians(latitude_deg), math.radians(longitude_deg)
     chosen = [o for o in orbits(factor) if rises(o, *site, begin_s, duration_s)]
