@@ -132,6 +132,14 @@ void ConfigReader::text(const char* key, std::string* value) {
   }
 }
 
+bool ConfigReader::is_scalar(const char* key) const {
+  if (!node_.IsDefined() || !node_.IsMap()) return false;
+  for (const auto& entry : node_) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second.IsScalar();
+  }
+  return false;
+}
+
 bool ConfigReader::list(const char* key, std::vector<std::string>* values) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) {

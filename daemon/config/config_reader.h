@@ -42,6 +42,8 @@ class ConfigReader {
   void integer(const char* key, int min, int max, int* value);
   void boolean(const char* key, bool* value);
   void text(const char* key, std::string* value);
+  // Whether the key is there with a single value; it is not counted as asked for.
+  bool is_scalar(const char* key) const;
   // A list of scalars; false if absent.
   bool list(const char* key, std::vector<std::string>* values);
   void group(const char* key, const std::function<void(ConfigReader&)>& read);

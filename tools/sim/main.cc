@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <iostream>
 #include <numbers>
-#include <optional>
 
 #include "tools/common/arguments.h"
+#include "tools/dataset/log_output.h"
 #include "tools/sim/run/simulate.h"
 #include "tools/sim/run/sky_statistics.h"
 #include "tools/sim/scenario/scenario_yaml.h"
@@ -42,13 +42,20 @@ int body(int argc, char** argv) {
     return 0;
   }
   const std::filesystem::path out = arguments.required("--out");
-  const std::string truth = arguments.has("--truth") ? arguments.get("--truth")
-                                                     : (out.parent_path() / "truth.csv").string();
-  std::optional<leonav::sim::ExportOptions> files;
-  if (arguments.has("--export")) {
-    files = {arguments.get("--export"), arguments.has("--leo-as-gps")};
+  leonav::sim::RunOutputs outputs;
+  outputs.log = out.string();
+  outputs.truth = arguments.has("--truth") ? arguments.get("--truth")
+                                           : (out.parent_path() / "truth.csv").string();
+  if (outputs.truth == outputs.log) {
+    throw leonav::UsageError("--out and --truth name the same file");
   }
-  const auto report = leonav::sim::simulate(scenario, out, truth, &std::cerr, files);
+  leonav::check_output(outputs.log, arguments.positional());
+  leonav::check_output(outputs.truth, arguments.positional());
+  if (arguments.has("--export")) {
+    outputs.files = {arguments.get("--export"), arguments.has("--leo-as-gps")};
+  }
+  leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
+  const auto report = leonav::sim::simulate(scenario, outputs, &progress);
   std::cout << leonav::to_string(report);
   return 0;
 }

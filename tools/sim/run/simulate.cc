@@ -1,107 +1,180 @@
 #include "tools/sim/run/simulate.h"
 
-#include <algorithm>
 #include <cmath>
-#include <ostream>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
 
 #include "drivers/csv/truth_csv.h"
+#include "tools/common/format.h"
 #include "tools/dataset/log_output.h"
-#include "tools/dataset/product_schedule.h"
 #include "tools/motion/ideal_imu.h"
 #include "tools/motion/inertial_sensor.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/run/antennas.h"
+#include "tools/sim/run/outbox.h"
+#include "tools/sim/run/told_products.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/signals/receiver.h"
-#include "tools/sim/sky/broadcast.h"
-#include "tools/sim/sky/products.h"
 
 namespace leonav::sim {
 namespace {
 
-void tell_fits(const BroadcastMessages& messages, std::ostream* progress) {
-  for (const System system : kSystems) {
-    const FitStatistics& fits = messages.residuals[index_of(system)];
-    if (progress == nullptr || fits.count == 0) continue;
-    *progress << "leonav-sim: " << to_string(system) << ": " << fits.count
-              << " broadcast issues, fitted to their orbits within " << fits.rms_m()
-              << " m rms, worst " << fits.worst_m << " m\n";
+// The motion's last second is there for rates and latencies.
+constexpr double kEndMargin_s = 1.0;
+
+// Written beside its place until the whole run is good.
+class TruthOutput {
+ public:
+  explicit TruthOutput(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
+    write({});
   }
-}
+  ~TruthOutput() {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+  }
+  void write(std::span<const TruthPoint> points) { write_truth_csv(part_, points); }
+  void commit() { std::filesystem::rename(part_, path_); }
+
+ private:
+  std::string path_, part_;
+};
+
+class Run {
+ public:
+  Run(const Scenario& scenario, const std::optional<ExportOptions>& files, LogOutput* log)
+      : scenario_(scenario),
+        motion_(drive(scenario)),
+        sky_(build_sky(scenario)),
+        faults_(scenario.faults),
+        receiver_(scenario, motion_, sky_, faults_),
+        sensor_(scenario.imu.errors, scenario.imu.imperfections, scenario.imu.rate_hz,
+                scenario.seed, random_stream(scenario.seed, "sensor")),
+        outbox_(&faults_, scenario.start, log),
+        end_s_(motion_.duration_s() - kEndMargin_s),
+        next_tag_s_(scenario.receiver.interval_s) {
+    if (next_tag_s_ >= end_s_) {
+      throw std::runtime_error("duration_s is too short: the drive ends before the first epoch, " +
+                               std::to_string(next_tag_s_) + " s after its start");
+    }
+    const std::vector<AntennaPattern> antennas = ideal_antennas(sky_);
+    for (const AntennaPattern& pattern : antennas) log->write(scenario.start, pattern);
+    BroadcastMessages messages = make_broadcast(scenario, sky_);
+    Products products = told_products(scenario, sky_, faults_);
+    if (files) {
+      export_.emplace(scenario, sky_, *files);
+      export_->write(products, messages, antennas);
+    }
+    fits_ = messages.residuals;
+    ephemerides_ = schedule_ephemerides(std::move(messages.ephemerides), scenario.start).items;
+    products_ = in_order_of_arrival(std::move(products), scenario.start);
+  }
+
+  const std::array<FitStatistics, kSystemCount>& fits() const { return fits_; }
+
+  std::vector<TruthPoint> go(ProgressBar* progress) {
+    const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / scenario_.imu.rate_hz));
+    const GpsTime end = scenario_.start.plus_seconds(end_s_);
+    for (GpsTime now = scenario_.start; now < end; now = now.plus_nanoseconds(interval_ns)) {
+      const GpsTime next = now.plus_nanoseconds(interval_ns);
+      post_products(next);
+      post_epochs(next);
+      if (scenario_.imu.enabled) post_imu(now, interval_ns);
+      outbox_.deliver(next);
+      progress->show(seconds_between(next, scenario_.start) / end_s_);
+    }
+    outbox_.deliver_all();
+    if (export_) export_->finish(truth_);
+    return std::move(truth_);
+  }
+
+ private:
+  void post_products(GpsTime until) {
+    while (next_ephemeris_ < ephemerides_.size() &&
+           ephemerides_[next_ephemeris_].arrival <= until) {
+      const ScheduledEphemeris& next = ephemerides_[next_ephemeris_++];
+      outbox_.post(next.arrival, next.ephemeris);
+    }
+    while (next_product_ < products_.size() && products_[next_product_].arrival <= until) {
+      ScheduledOrbitEpoch& product = products_[next_product_++];
+      outbox_.post(product.arrival, std::move(product.epoch.states));
+    }
+  }
+
+  void post_epochs(GpsTime until) {
+    const double latency_s = scenario_.receiver.gnss_latency_s;
+    while (next_tag_s_ < end_s_ && scenario_.start.plus_seconds(next_tag_s_ + latency_s) <= until) {
+      const bool is_off = faults_.is_receiver_off(next_tag_s_);
+      if (was_off_ && !is_off) receiver_.reset();
+      was_off_ = is_off;
+      if (!is_off) {
+        const RawEpoch epoch = receiver_.epoch(next_tag_s_);
+        if (export_) export_->write(epoch);
+        outbox_.post(scenario_.start.plus_seconds(next_tag_s_ + latency_s), epoch);
+      }
+      truth_.push_back(motion_.point(scenario_.start.plus_seconds(next_tag_s_)));
+      ++epochs_;
+      next_tag_s_ = scenario_.receiver.interval_s * static_cast<double>(epochs_ + 1);
+    }
+  }
+
+  void post_imu(GpsTime start, std::int64_t interval_ns) {
+    const ImuSample ideal = ideal_sample(motion_, start, interval_ns);
+    // Drawn also in gaps, so that the noise after them stays the same.
+    const double speed = sensor_.needs_speed()
+                             ? motion_.at(seconds_between(start, scenario_.start)).v_e.norm()
+                             : 0.0;
+    const ImuSample sample = scenario_.imu.ideal ? ideal : sensor_.measure(ideal, speed);
+    const double t = seconds_between(sample.time, scenario_.start);
+    if (faults_.is_imu_missing(t)) return;
+    const ImuSample measured = faults_.saturated(sample, t);
+    if (export_) export_->write(measured);
+    outbox_.post(measured.time, measured);
+  }
+
+  const Scenario& scenario_;
+  SplineMotion motion_;
+  TrueSky sky_;
+  FaultScript faults_;
+  std::vector<ScheduledEphemeris> ephemerides_;
+  std::vector<ScheduledOrbitEpoch> products_;
+  std::array<FitStatistics, kSystemCount> fits_;
+  std::optional<Export> export_;
+  Receiver receiver_;
+  InertialSensor sensor_;
+  Outbox outbox_;
+  double end_s_, next_tag_s_;
+  std::size_t next_product_ = 0, next_ephemeris_ = 0, epochs_ = 0;
+  bool was_off_ = false;
+  std::vector<TruthPoint> truth_;
+};
 
 }  // namespace
 
-ImportReport simulate(const Scenario& scenario, const std::string& log_path,
-                      const std::string& truth_path, std::ostream* progress,
-                      const std::optional<ExportOptions>& export_options) {
-  ImportReport report;
-  LogOutput log(log_path, &report);
-  const SplineMotion motion = drive(scenario);
-  const TrueSky sky = build_sky(scenario);
-  const std::vector<AntennaPattern> antennas = ideal_antennas(sky);
-  for (const AntennaPattern& pattern : antennas) log.write(scenario.start, pattern);
-  const BroadcastMessages messages = make_broadcast(scenario, sky);
-  tell_fits(messages, progress);
-  const auto ephemerides = schedule_ephemerides(messages.ephemerides, scenario.start).items;
-  Products products = make_products(scenario, sky);
-  std::optional<Export> exported;
-  if (export_options) {
-    exported.emplace(scenario, sky, *export_options);
-    exported->write(products, messages, antennas);
+std::string to_string(const RunReport& report) {
+  std::string text = to_string(report.written);
+  for (const System system : kSystems) {
+    const FitStatistics& fits = report.fits[index_of(system)];
+    if (fits.count == 0) continue;
+    text +=
+        format("%s: %ld broadcast issues, fitted to their orbits within %.3f m rms, worst %.3f m\n",
+               std::string(to_string(system)).c_str(), static_cast<long>(fits.count), fits.rms_m(),
+               fits.worst_m);
   }
-  auto orbits = schedule_orbits(std::move(products.orbits), scenario.start, kOrbitNodesAhead);
-  auto clocks = schedule_orbits(std::move(products.clocks), scenario.start, kClockNodesAhead);
-  orbits.insert(orbits.end(), clocks.begin(), clocks.end());
-  std::stable_sort(orbits.begin(), orbits.end(),
-                   [](const auto& a, const auto& b) { return a.arrival < b.arrival; });
+  return text;
+}
 
-  Receiver receiver(scenario, motion, sky);
-  InertialSensor sensor(scenario.imu.errors, scenario.imu.imperfections, scenario.imu.rate_hz,
-                        scenario.seed, random_stream(scenario.seed, "sensor"));
-  const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / scenario.imu.rate_hz));
-  const double end_s = motion.duration_s() - 1.0;
-  const GpsTime end = scenario.start.plus_seconds(end_s);
-  GpsTime imu_time = scenario.start;
-  std::size_t next_orbit = 0, next_ephemeris = 0;
-  double next_tag = scenario.receiver.interval_s;
-  std::vector<TruthPoint> truth;
-  while (imu_time < end) {
-    const GpsTime next_imu = imu_time.plus_nanoseconds(interval_ns);
-    while (next_ephemeris < ephemerides.size() && ephemerides[next_ephemeris].arrival <= next_imu) {
-      log.write(ephemerides[next_ephemeris].arrival, ephemerides[next_ephemeris].ephemeris);
-      ++next_ephemeris;
-    }
-    while (next_orbit < orbits.size() && orbits[next_orbit].arrival <= next_imu) {
-      log.write(orbits[next_orbit].arrival,
-                std::span<const PreciseState>(orbits[next_orbit].epoch.states));
-      ++next_orbit;
-    }
-    const GpsTime arrival =
-        scenario.start.plus_seconds(next_tag + scenario.receiver.gnss_latency_s);
-    if (arrival <= next_imu && next_tag < end_s) {
-      const RawEpoch epoch = receiver.epoch(next_tag);
-      log.write(arrival, epoch);
-      if (exported) exported->write(epoch);
-      truth.push_back(motion.point(scenario.start.plus_seconds(next_tag)));
-      next_tag += scenario.receiver.interval_s;
-    }
-    if (scenario.imu.enabled) {
-      const ImuSample ideal = ideal_sample(motion, imu_time, interval_ns);
-      const double speed = sensor.needs_speed()
-                               ? motion.at(seconds_between(imu_time, scenario.start)).v_e.norm()
-                               : 0.0;
-      const ImuSample sample = scenario.imu.ideal ? ideal : sensor.measure(ideal, speed);
-      log.write(next_imu, sample);
-      if (exported) exported->write(sample);
-    }
-    imu_time = next_imu;
-    if (progress != nullptr && imu_time.nanoseconds() % (60 * kNanosecondsPerSecond) == 0)
-      *progress << "\rleonav-sim: " << seconds_between(imu_time, scenario.start) << " s"
-                << std::flush;
-  }
+RunReport simulate(const Scenario& scenario, const RunOutputs& outputs, ProgressBar* progress) {
+  RunReport report;
+  // First of all, so that a name that cannot be written to costs no work.
+  TruthOutput truth(outputs.truth);
+  LogOutput log(outputs.log, &report.written);
+  Run run(scenario, outputs.files, &log);
+  const std::vector<TruthPoint> points = run.go(progress);
+  truth.write(points);
   log.commit();
-  write_truth_csv(truth_path, truth);
-  if (exported) exported->finish(truth);
+  truth.commit();
+  report.fits = run.fits();
   return report;
 }
 

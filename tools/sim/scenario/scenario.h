@@ -3,11 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/time/gps_time.h"
 #include "tools/sim/scenario/atmosphere_config.h"
 #include "tools/sim/scenario/constellation_config.h"
+#include "tools/sim/scenario/faults_config.h"
 #include "tools/sim/scenario/imu_config.h"
+#include "tools/sim/scenario/places_config.h"
 #include "tools/sim/scenario/receiver_config.h"
 #include "tools/sim/scenario/route_config.h"
 
@@ -23,6 +26,9 @@ struct Scenario {
   std::array<ConstellationConfig, kSystemCount> constellations;  // by System
   ReceiverConfig receiver;
   AtmosphereConfig atmosphere;
+  PlacesConfig places;
+  std::vector<Fault> faults;
+  bool ideal = false;  // nothing that a navigator could not model is left
 };
 
 }  // namespace leonav::sim

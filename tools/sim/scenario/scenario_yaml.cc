@@ -19,6 +19,20 @@ void advance(double seconds, ConstellationConfig* constellation) {
   }
 }
 
+// `ideal`: of the whole scenario, of the receiver.
+void remove_what_is_off(Scenario* scenario) {
+  if (scenario->ideal) {
+    scenario->imu.ideal = scenario->receiver.ideal = true;
+    remove_unmodelled(&scenario->atmosphere);
+    for (ConstellationConfig& c : scenario->constellations) {
+      c.precise = c.broadcast.errors = {Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0};
+      // Which no product could tell from node to node.
+      c.clock.noise_s_per_sqrt_s = c.clock.drift_walk_per_sqrt_s = 0.0;
+    }
+  }
+  if (scenario->receiver.ideal) remove_errors(&scenario->receiver);
+}
+
 void read_root(ConfigReader& root, Scenario* scenario) {
   double seed = 1.0;
   std::optional<double> week, tow_s;
@@ -47,6 +61,10 @@ void read_root(ConfigReader& root, Scenario* scenario) {
   for (ConstellationConfig& c : scenario->constellations) advance(advance_s, &c);
   root.group("receiver", [&](ConfigReader& r) { read_receiver(r, &scenario->receiver); });
   root.group("atmosphere", [&](ConfigReader& r) { read_atmosphere(r, &scenario->atmosphere); });
+  read_places(root, &scenario->places);
+  root.groups("faults", [&](ConfigReader& r) { read_fault(r, &scenario->faults); });
+  root.boolean("ideal", &scenario->ideal);
+  remove_what_is_off(scenario);
 }
 
 Scenario default_scenario() {

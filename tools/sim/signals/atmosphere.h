@@ -3,6 +3,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/look_angles.h"
 #include "tools/sim/scenario/scenario.h"
+#include "tools/sim/signals/ionosphere.h"
 #include "tools/sim/sky/clock_table.h"
 
 namespace leonav::sim {
@@ -11,20 +12,18 @@ class Atmosphere {
  public:
   explicit Atmosphere(const Scenario& scenario);
 
-  // Slant delay, m: standard hydrostatic part, wet part that walks, both mapped by Niell.
-  double troposphere_m(double t, const Geodetic& antenna, double elevation) const;
+  // Slant delay, m: standard hydrostatic part, wet part that walks, both mapped by Niell; a
+  // horizontal gradient mapped as Chen and Herring (1997), J. Geophys. Res. 102, 20489.
+  double troposphere_m(double t, const Geodetic& antenna, const LookAngles& direction) const;
   double zenith_wet_m(double t, const Geodetic& antenna) const;
-  // Slant electron content in 1e16 / m^2: thin shell at 450 km, linear horizontal gradient.
-  double tecu(const Geodetic& antenna, const LookAngles& direction) const;
+
+  const Ionosphere& ionosphere() const { return ionosphere_; }
 
  private:
   AtmosphereConfig config_;
   GpsTime start_;
-  Geodetic origin_;
   ClockTable wet_;  // a random walk like any other; its "seconds" are metres
+  Ionosphere ionosphere_;
 };
-
-// Group delay in m of one unit on `frequency_hz`; the carrier is advanced by as much.
-double delay_per_tecu_m(double frequency_hz);
 
 }  // namespace leonav::sim

@@ -1,41 +1,38 @@
-// A receiver's epochs: every satellite above the mask with code, carrier, Doppler and C/N0.
+// A receiver's epochs: every satellite it tracks, with code, carrier, Doppler and C/N0.
 #pragma once
-#include <map>
+#include <vector>
 
 #include "core/gnss/observation.h"
-#include "tools/sim/signals/signal_path.h"
+#include "tools/sim/signals/satellite_observer.h"
 
 namespace leonav::sim {
 
 class Receiver {
  public:
-  // All referred to must outlive it.
-  Receiver(const Scenario& scenario, const SplineMotion& motion, const TrueSky& sky);
+  // All referred to must outlive it. Throws as Surroundings does.
+  Receiver(const Scenario& scenario, const SplineMotion& motion, const TrueSky& sky,
+           const FaultScript& faults);
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
 
   // The epoch that the receiver's clock stamps `t_tag` seconds from the start. In order of time.
   RawEpoch epoch(double t_tag);
-  double wind_up_resets() const { return 0.0; }
+  // The same at a reading of some other clock.
+  RawEpoch epoch(double t_tag, const ClockReading& clock);
+  // It starts anew: all tracks are lost.
+  void reset();
 
  private:
-  struct Tracking;  // of one satellite
-  void observe(std::size_t index, double t, const Eigen::Vector3d& tide_e, RawEpoch* raw);
-  double common_range_m(const TrueSatellite& satellite, double t, const Eigen::Vector3d& tide_e,
-                        double* tecu) const;
-
-  struct Track {
-    bool tracked = false;
-    double wind_up = 0.0, locked_since = 0.0;
-    double cycles[2] = {0.0, 0.0};
-    GaussianGenerator random{0};
-  };
+  AntennaInstant antenna(double t, const Eigen::Vector3d& tide_e) const;
 
   const Scenario& scenario_;
   const SplineMotion& motion_;
-  const TrueSky& sky_;
   Atmosphere atmosphere_;
-  ClockTable clock_;
-  std::array<double, kSystemCount> system_offset_m_;
-  std::vector<Track> tracks_;  // by satellite of the sky
+  ReceiverClock clock_;
+  Surroundings surroundings_;
+  Multipath multipath_;
+  ObserverWorld world_;
+  std::vector<SatelliteObserver> observers_;  // by satellite of the sky
 };
 
 }  // namespace leonav::sim

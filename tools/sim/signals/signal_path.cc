@@ -31,8 +31,9 @@ SignalPath signal_path(const TrueSatellite& satellite, const AntennaInstant& ant
   path.direction = look_angles(p_s_e, antenna.p_e);
   const double clock = clock_s(satellite, antenna.t - path.flight_s);
   path.range_m = kSpeedOfLight * (path.flight_s - clock) + shapiro_delay_m(p_s_e, antenna.p_e) +
-                 atmosphere.troposphere_m(antenna.t, antenna.position, path.direction.elevation);
-  path.tecu = atmosphere.tecu(antenna.position, path.direction);
+                 atmosphere.troposphere_m(antenna.t, antenna.position, path.direction);
+  path.tecu =
+      atmosphere.ionosphere().tecu(antenna.t, satellite.id, antenna.position, path.direction);
   return path;
 }
 

@@ -1,0 +1,38 @@
+// The scripted faults, asked what they do at an instant. Nothing else changes by them: every random
+// number of a run belongs to its satellite and instant (random_streams.h).
+#pragma once
+#include <vector>
+
+#include "core/gnss/satellite.h"
+#include "core/ins/imu.h"
+#include "tools/sim/scenario/faults_config.h"
+
+namespace leonav::sim {
+
+// What a fault adds to all measurements of one satellite.
+struct Pull {
+  double range_m = 0.0, rate_m_s = 0.0;
+  unsigned breaks = 0;  // so far, of its carriers, by spoofing that ended
+};
+
+class FaultScript {
+ public:
+  explicit FaultScript(std::vector<Fault> faults) : faults_(std::move(faults)) {}
+
+  // `t` in s from the start: the epoch's stamp, the IMU sample's end, the product's time.
+  bool is_out(SatelliteId satellite, double t) const;
+  Pull pull(SatelliteId satellite, double t) const;
+  bool is_receiver_off(double t) const;
+  bool is_imu_missing(double t) const;
+  ImuSample saturated(const ImuSample& sample, double t) const;
+  double delay_s(Stream stream, double t) const;
+  bool is_duplicate(Stream stream, double t) const;
+  // What the told orbit is off by: along, cross, radial, m.
+  Eigen::Vector3d orbit_error_m(SatelliteId satellite, double t) const;
+  bool has(FaultKind kind) const;
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+}  // namespace leonav::sim

@@ -1,0 +1,42 @@
+// Messages on their way to the log: in order of arrival, some late, some twice.
+#pragma once
+#include <map>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "tools/dataset/log_output.h"
+#include "tools/sim/faults/fault_script.h"
+
+namespace leonav::sim {
+
+class Outbox {
+ public:
+  // Both must outlive it.
+  Outbox(const FaultScript* faults, GpsTime start, LogOutput* log)
+      : faults_(*faults), start_(start), log_(*log) {}
+
+  // The script of faults knows samples and epochs by their own time, products by their arrival.
+  void post(GpsTime arrival, const ImuSample& sample);
+  void post(GpsTime arrival, RawEpoch epoch);
+  void post(GpsTime arrival, std::vector<PreciseState> states);
+  void post(GpsTime arrival, const Ephemeris& ephemeris);  // a product too
+
+  // Writes what has arrived by then, in order; of one instant in the order of posting. Throws as
+  // LogOutput does.
+  void deliver(GpsTime until);
+  void deliver_all();
+
+ private:
+  using Message = std::variant<ImuSample, std::shared_ptr<const RawEpoch>,
+                               std::vector<PreciseState>, Ephemeris>;
+  void put(Stream stream, GpsTime of, GpsTime arrival, Message message);
+  void write(GpsTime arrival, const Message& message);
+
+  const FaultScript& faults_;
+  GpsTime start_;
+  LogOutput& log_;
+  std::multimap<GpsTime, Message> waiting_;
+};
+
+}  // namespace leonav::sim

@@ -1,0 +1,42 @@
+// What goes wrong, and when.
+#pragma once
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/gnss/satellite.h"
+#include "daemon/config/config_reader.h"
+
+namespace leonav::sim {
+
+enum class FaultKind {
+  kOutage,          // satellites are not received
+  kSatelliteClock,  // their clocks leave what is told: jump_m, then drift_m_s
+  kBadOrbit,        // their told orbits are off by along_m, cross_m, radial_m
+  kSpoofing,        // their signals are pulled off at up to pull_m_s
+  kImuGap,          // no IMU samples
+  kImuSaturation,   // IMU samples stop at gyro_limit, accel_limit
+  kLate,            // messages of `stream` arrive delay_s later
+  kDuplicate,       // messages of `stream` arrive twice
+  kReceiverReset,   // the receiver is off, then starts anew
+};
+enum class Stream { kImu, kGnss, kProducts };
+
+struct Fault {
+  FaultKind kind = FaultKind::kOutage;
+  double from_s = 0.0, to_s = std::numeric_limits<double>::infinity();  // [from, to)
+  // Whom it meets: none named means all.
+  std::vector<System> systems;
+  std::vector<SatelliteId> satellites;
+  double jump_m = 0.0, drift_m_s = 0.0;
+  double along_m = 0.0, cross_m = 0.0, radial_m = 0.0;
+  double pull_m_s = 1.0, pull_time_s = 20.0;   // rate, and how long it takes to get there
+  double gyro_limit = 1e9, accel_limit = 1e9;  // rad/s, m/s^2
+  Stream stream = Stream::kGnss;
+  double delay_s = 1.0;
+};
+
+// One element of the list "faults".
+void read_fault(ConfigReader& group, std::vector<Fault>* faults);
+
+}  // namespace leonav::sim

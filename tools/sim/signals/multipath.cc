@@ -1,0 +1,35 @@
+#include "tools/sim/signals/multipath.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/sim/scenario/random_streams.h"
+
+namespace leonav::sim {
+
+MultipathError Multipath::error(SatelliteId satellite, std::size_t signal, double elevation,
+                                double t, double travelled_m, double speed_m_s,
+                                double strength) const {
+  const double height = strength * std::exp(-std::max(0.0, elevation) / config_.elevation);
+  // One argument for both: the reflectors' geometry changes by time or by way.
+  const double argument = t / config_.time_s + travelled_m / config_.length_m;
+  const double argument_rate = 1.0 / config_.time_s + speed_m_s / config_.length_m;
+  const std::uint64_t number = signal_number(place_of(satellite), signal);
+  MultipathError error;
+  if (config_.code_m > 0.0) {
+    const LatticeNoise code(stream_key(seed_, "multipath of code", number));
+    error.code_m = height * config_.code_m * code.at(argument).value;
+  }
+  if (config_.carrier_m > 0.0) {
+    const LatticeNoise carrier(stream_key(seed_, "multipath of carrier", number));
+    const LatticeNoise::Value now = carrier.at(argument);
+    // A quarter of the shortest wavelength is the most that reflections weaker than the signal do;
+    // the strength of a place is one of codes and counts here by its root.
+    const double sigma = config_.carrier_m * height / std::sqrt(std::max(strength, 1.0));
+    error.carrier_m = sigma * now.value;
+    error.doppler_m_s = sigma * now.slope * argument_rate;
+  }
+  return error;
+}
+
+}  // namespace leonav::sim

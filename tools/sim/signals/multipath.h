@@ -1,0 +1,30 @@
+// Errors by reflections that arrive together with a signal.
+#pragma once
+#include "core/gnss/satellite.h"
+#include "tools/sim/scenario/lattice_noise.h"
+#include "tools/sim/scenario/scenario.h"
+
+namespace leonav::sim {
+
+struct MultipathError {
+  double code_m = 0.0, carrier_m = 0.0, doppler_m_s = 0.0;
+};
+
+// Each signal of each satellite has its own course of errors, correlated in time while the vehicle
+// stands and along the way while it goes. That on the Doppler is the rate of the carrier's.
+class Multipath {
+ public:
+  explicit Multipath(const Scenario& scenario)
+      : seed_(scenario.seed), config_(scenario.receiver.multipath) {}
+
+  // `travelled_m` and `speed_m_s` of the vehicle at `t`; `strength`: of the place, against an open
+  // one.
+  MultipathError error(SatelliteId satellite, std::size_t signal, double elevation, double t,
+                       double travelled_m, double speed_m_s, double strength) const;
+
+ private:
+  std::uint64_t seed_;
+  MultipathConfig config_;
+};
+
+}  // namespace leonav::sim

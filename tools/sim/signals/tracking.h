@@ -1,0 +1,61 @@
+// How a receiver holds the signals of one satellite: acquisition, loss, cycles, slips.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/gnss/satellite.h"
+#include "tools/sim/scenario/scenario.h"
+
+namespace leonav::sim {
+
+inline constexpr std::size_t kTrackedSignals = 2;
+
+// What arrives of a satellite at one epoch.
+struct Arrival {
+  bool present = false;
+  std::array<double, kTrackedSignals> cn0_dbhz{};
+  double loss_db = 0.0;      // of the first signal, against the zenith
+  double slip_factor = 1.0;  // of the place
+  unsigned route = 0;        // which way the signal takes; another one breaks the carrier
+};
+
+struct SignalTrack {
+  bool code = false, carrier = false;  // measured
+  double cycles = 0.0;                 // to be added to the carrier: whole ones and halves
+  double locked_since = 0.0;           // as the receiver tells
+  bool loss_of_lock = false, half_cycle_ambiguous = false;
+};
+
+class Tracking {
+ public:
+  Tracking(const Scenario& scenario, SatelliteId satellite);
+
+  // Epochs in order of time. At the first one the receiver has been running for a while.
+  void step(double t, const Arrival& arrival);
+  const SignalTrack& signal(std::size_t i) const { return signals_[i].now; }
+  void reset();  // everything is lost, as by a restart
+
+ private:
+  struct Signal {
+    SignalTrack now;
+    bool acquiring = false;
+    double acquired_at = 0.0;  // there is code from here on,
+    double carrier_at = 0.0;   // and carrier from here on
+    double resolved_at = 0.0;  // of half cycles
+    double half = 0.0;         // that is off until then
+  };
+  void follow(std::size_t i, double t, const Arrival& arrival);
+  void start_carrier(std::size_t i, double t);
+  void slip(double t, const Arrival& arrival, double interval_s);
+
+  TrackingConfig config_;
+  std::uint64_t seed_;
+  std::size_t place_;
+  std::array<Signal, kTrackedSignals> signals_;
+  bool running_ = false;
+  double last_t_ = 0.0;
+  unsigned route_ = 0;
+};
+
+}  // namespace leonav::sim
