@@ -13,7 +13,7 @@ struct AtmosphereConfig {
 
   double tecu = 20.0;         // vertical, over the origin at 14 h local solar time
   double night_share = 0.25;  // what is left of it at 2 h
-  double gradient_north_tecu_per_km = -0.01, gradient_east_tecu_per_km = 0.0;
+  double gradient_north_tecu_per_km = -0.005, gradient_east_tecu_per_km = 0.0;
   // A travelling disturbance: a plane wave over the shell.
   double wave_tecu = 0.0, wave_length_m = 200e3, wave_period_s = 1200.0;
   double wave_azimuth = 3.141592653589793;  // rad, where it goes

@@ -14,6 +14,7 @@ constexpr double kShellHeight = 450e3;  // m
 constexpr double kMeanRadius = 6371e3;
 constexpr double kPi = std::numbers::pi;
 constexpr double kDay_s = 86'400.0;
+constexpr double kGradientReach_km = 500.0;
 
 }  // namespace
 
@@ -37,10 +38,13 @@ double Ionosphere::vertical_tecu(double t, double north_km, double east_km,
       1e3 * (north_km * std::cos(config_.wave_azimuth) + east_km * std::sin(config_.wave_azimuth));
   const double wave =
       std::sin(2.0 * kPi * (along_m / config_.wave_length_m - t / config_.wave_period_s));
-  const double vertical = config_.tecu * curve + config_.gradient_north_tecu_per_km * north_km +
-                          config_.gradient_east_tecu_per_km * east_km + config_.wave_tecu * wave;
-  // Gradients are of the region, not of the globe.
-  return std::max(0.05 * config_.tecu, vertical);
+  // Gradients are of the region, not of the globe; and no content is below nothing. Both bends are
+  // smooth, as a Doppler would show a kink.
+  const auto near = [](double km) { return kGradientReach_km * std::tanh(km / kGradientReach_km); };
+  const double sum = config_.tecu * curve + config_.gradient_north_tecu_per_km * near(north_km) +
+                     config_.gradient_east_tecu_per_km * near(east_km) + config_.wave_tecu * wave;
+  const double least = 0.1 * config_.tecu;
+  return 0.5 * (sum + std::hypot(sum, least));
 }
 
 double Ionosphere::tecu(double t, SatelliteId satellite, const Geodetic& antenna,

@@ -68,7 +68,13 @@ void SatelliteObserver::turn(const EpochInstant& now, const SignalPath& path) {
                                 Eigen::Vector3d(0.0, 0.0, kEarthRotationRate).cross(p_s_e);
   const Eigen::Matrix3d C_es = satellite_axes(
       p_s_e, v_s_e, now.bodies.sun_e, attitude_law(satellite_.id, AttitudeLaw::kOrbitNormal));
-  wind_up_ = phase_wind_up_cycles(p_s_e, C_es, now.antenna.p_e, now.antenna.C_eb, wind_up_);
+  const auto cycles = [&](const AntennaInstant& antenna) {
+    return phase_wind_up_cycles(p_s_e, C_es, antenna.p_e, antenna.C_eb, wind_up_);
+  };
+  wind_up_ = cycles(now.antenna);
+  // The satellite's own turn is 1e-4 cycles a second and less.
+  wind_up_rate_ = rate_of(
+      {cycles(now.around[0]), cycles(now.around[1]), cycles(now.around[2]), cycles(now.around[3])});
 }
 
 void SatelliteObserver::observe(const EpochInstant& now, RawEpoch* raw) {
@@ -116,7 +122,8 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
   o.pseudorange_m = common + late_m + kSpeedOfLight * now.clock.code_s + delay * g.path.tecu +
                     reflected.code_m + code_noise_m;
   o.doppler_hz =
-      -(rate - delay * g.tecu_rate + reflected.doppler_m_s + doppler_noise_m_s) / wavelength;
+      -(rate - delay * g.tecu_rate + reflected.doppler_m_s + doppler_noise_m_s) / wavelength -
+      wind_up_rate_;
   o.cn0_dbhz = std::clamp(arrival.cn0_dbhz[s] + scatter_db, 0.0, 99.0);
   if (track.carrier) {
     o.carrier_cycles = (common + kSpeedOfLight * now.clock.carrier_s - delay * g.path.tecu +

@@ -43,7 +43,7 @@ class SatelliteObserver {
   const ObserverWorld& world_;
   const TrueSatellite& satellite_;
   Tracking tracking_;
-  double wind_up_ = 0.0;
+  double wind_up_ = 0.0, wind_up_rate_ = 0.0;  // cycles, and a second
 };
 
 }  // namespace leonav::sim
