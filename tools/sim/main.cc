@@ -2,23 +2,33 @@
 #include <filesystem>
 #include <iostream>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/common/arguments.h"
 #include "tools/dataset/log_output.h"
+#include "tools/sim/overlay/overlay.h"
 #include "tools/sim/run/simulate.h"
 #include "tools/sim/run/sky_statistics.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 
 namespace {
 
-int body(int argc, char** argv) {
-  leonav::Arguments arguments(
+using leonav::Arguments;
+using leonav::UsageError;
+
+Arguments declare() {
+  Arguments arguments(
       "leonav-sim",
       "scenario.yaml -o run.lcmlog [options]\n       leonav-sim --sky-statistics scenario.yaml",
       "Simulates a drive: IMU, GNSS and LEO satellites, products and truth, as a vehicle would\n"
-      "have recorded them. The same scenario and seed give the same files.");
+      "have recorded them. The same scenario and seed give the same files. With --overlay the\n"
+      "drive is a recorded one, of which the scenario's LEO satellites are received too and the\n"
+      "satellites of its outages are not.");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--truth", "FILE", "truth.csv to write; default: beside the log")
+      .option("--overlay", "LOG", "the recorded log; --truth is then its truth, to be read")
       .option("--export", "DIR", "the run as RINEX, SP3, clock, ANTEX and CSV files too")
       .flag("--leo-as-gps", "with --export: low satellites in the files, under names of GPS")
       .option("--seed", "N", "instead of the scenario's")
@@ -26,37 +36,54 @@ int body(int argc, char** argv) {
       .option("--mask", "DEG", "with --sky-statistics: the elevation they count from", "15")
       .option("--step", "S", "with --sky-statistics: the interval of its epochs", "10")
       .option("--set", "KEY=VALUE", "a key of the scenario, may be repeated");
+  return arguments;
+}
+
+int overlay(const Arguments& arguments, std::vector<std::string> overrides) {
+  if (arguments.has("--export")) throw UsageError("--export is for whole simulations");
+  const std::string out = arguments.required("--out"), truth = arguments.required("--truth");
+  const std::string recorded = arguments.get("--overlay");
+  leonav::check_output(out, {arguments.positional()[0], truth, recorded});
+  overrides.push_back("route.file=" + truth);
+  const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
+  leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
+  std::cout << to_string(leonav::sim::overlay(scenario, recorded, out, &progress));
+  return 0;
+}
+
+int sky_statistics(const Arguments& arguments, const leonav::sim::Scenario& scenario) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const double step_s = arguments.number("--step");
+  if (!(step_s > 0.0)) throw UsageError("--step must be above zero");
+  const double mask = arguments.number("--mask") * kDegree;
+  leonav::sim::print(leonav::sim::sky_statistics(scenario, mask, step_s), std::cout);
+  return 0;
+}
+
+int body(int argc, char** argv) {
+  Arguments arguments = declare();
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) {
-    throw leonav::UsageError("give one scenario.yaml (--help tells more)");
+    throw UsageError("give one scenario.yaml (--help tells more)");
   }
   std::vector<std::string> overrides = arguments.all("--set");
   if (arguments.has("--seed")) overrides.push_back("seed=" + arguments.get("--seed"));
+  if (arguments.has("--overlay")) return overlay(arguments, std::move(overrides));
   const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
-  if (arguments.has("--sky-statistics")) {
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    const double step_s = arguments.number("--step");
-    if (!(step_s > 0.0)) throw leonav::UsageError("--step must be above zero");
-    const double mask = arguments.number("--mask") * kDegree;
-    leonav::sim::print(leonav::sim::sky_statistics(scenario, mask, step_s), std::cout);
-    return 0;
-  }
+  if (arguments.has("--sky-statistics")) return sky_statistics(arguments, scenario);
   const std::filesystem::path out = arguments.required("--out");
   leonav::sim::RunOutputs outputs;
   outputs.log = out.string();
   outputs.truth = arguments.has("--truth") ? arguments.get("--truth")
                                            : (out.parent_path() / "truth.csv").string();
-  if (outputs.truth == outputs.log) {
-    throw leonav::UsageError("--out and --truth name the same file");
-  }
+  if (outputs.truth == outputs.log) throw UsageError("--out and --truth name the same file");
   leonav::check_output(outputs.log, arguments.positional());
   leonav::check_output(outputs.truth, arguments.positional());
   if (arguments.has("--export")) {
     outputs.files = {arguments.get("--export"), arguments.has("--leo-as-gps")};
   }
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
-  const auto report = leonav::sim::simulate(scenario, outputs, &progress);
-  std::cout << leonav::to_string(report);
+  std::cout << to_string(leonav::sim::simulate(scenario, outputs, &progress));
   return 0;
 }
 

@@ -33,8 +33,10 @@ const std::string kShort = "duration_s: 30\nroute: {standing_s: 5}\nimu: {rate_h
 Content run(const std::string& yaml) {
   const TemporaryFile place("unused", "");
   ProgressBar quiet(nullptr, "", false);
-  sim::simulate(sim::load_scenario_text(yaml, "test.yaml"),
-                {place.beside("run.lcmlog"), place.beside("truth.csv")}, &quiet);
+  sim::RunOutputs outputs;
+  outputs.log = place.beside("run.lcmlog");
+  outputs.truth = place.beside("truth.csv");
+  sim::simulate(sim::load_scenario_text(yaml, "test.yaml"), outputs, &quiet);
   Content content;
   EventLogReader log(place.beside("run.lcmlog"));
   LogEvent event;

@@ -1,0 +1,167 @@
+// Low satellites over a log: against the run that had them from the start.
+#include "tools/sim/overlay/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/gnss/signal.h"
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/decode.h"
+#include "drivers/lcm/event_log.h"
+#include "support/catch.h"
+#include "support/simulated_receiver.h"
+#include "support/temporary_file.h"
+#include "tools/sim/run/simulate.h"
+
+using namespace leonav;
+using namespace leonav::test;
+
+namespace {
+
+// The truth has ten points a second; the clock strays.
+const std::string kYaml =
+    "duration_s: 60\nideal: true\nroute: {standing_s: 10}\nimu: {rate_hz: 50}\n"
+    "receiver: {interval_s: 0.5, lever_arm_b_m: [0, 0, 0], clock: {offset_us: 700, drift_ppb: "
+    "2000}}\n"
+    "atmosphere: {tecu: 0, gradient_north_tecu_per_100km: 0, wet_offset_m: 0, "
+    "wet_walk_m_per_sqrt_h: 0}\n";
+
+std::vector<LogEvent> events(const std::string& path) {
+  std::vector<LogEvent> all;
+  EventLogReader log(path);
+  LogEvent event;
+  while (log.next(&event)) all.push_back(event);
+  return all;
+}
+
+bool is_epoch(const LogEvent& event) {
+  return channel_from_name(event.channel) == Channel::kGnssEpoch;
+}
+
+RawEpoch decoded(const LogEvent& event) {
+  Decoder decoder;
+  auto epoch = std::make_unique<RawEpoch>();
+  REQUIRE(decoder.decode(event.data, epoch.get()).fault == InputFault::kNone);
+  return *epoch;
+}
+
+std::vector<RawEpoch> epochs(const std::string& path) {
+  std::vector<RawEpoch> all;
+  for (const LogEvent& event : events(path)) {
+    if (is_epoch(event)) all.push_back(decoded(event));
+  }
+  return all;
+}
+
+struct Runs {
+  Runs() : place("unused", "") {
+    write(kYaml, "whole");
+    write(kYaml + "satellites: {leo: {enabled: false}}\n", "recorded");
+  }
+  void write(const std::string& yaml, const std::string& name) const {
+    ProgressBar quiet(nullptr, "", false);
+    sim::RunOutputs outputs;
+    outputs.log = path(name);
+    outputs.truth = path(name + ".csv");
+    sim::simulate(sim::load_scenario_text(yaml, "test.yaml"), outputs, &quiet);
+  }
+  sim::OverlayReport lay(const std::string& faults, const std::string& name,
+                         const Keys& keys = {}) const {
+    ProgressBar quiet(nullptr, "", false);
+    Keys all = keys;
+    all.push_back("route.file=" + path("whole.csv"));
+    const auto scenario = sim::load_scenario_text(kYaml + "faults: " + faults, "test.yaml", all);
+    return sim::overlay(scenario, path("recorded"), path(name), &quiet);
+  }
+  std::string path(const std::string& name) const { return place.beside(name); }
+  TemporaryFile place;
+};
+
+}  // namespace
+
+TEST_CASE("Added low satellites are as the same receiver would have had them", "[sim][overlay]") {
+  const Runs runs;
+  const sim::OverlayReport report = runs.lay("[]", "laid");
+  REQUIRE(report.without_clock == 0);
+  const auto whole = epochs(runs.path("whole")), laid = epochs(runs.path("laid"));
+  REQUIRE(whole.size() == laid.size());
+  int compared = 0;
+  double constant = NAN;
+  for (std::size_t k = 4; k + 4 < whole.size(); ++k) {
+    const BySignal reference = by_signal(whole[k]);
+    for (const SignalObservation& o : laid[k].observations) {
+      if (o.satellite.system != System::kLeo) continue;
+      const auto found = reference.find({o.satellite, o.code});
+      if (found == reference.end()) continue;  // rises or sets
+      ++compared;
+      const double wavelength = wavelength_m(o.satellite.system, o.code.band);
+      const double code = o.pseudorange_m - found->second.pseudorange_m;
+      // What the reference group's time base is off by stays, at most.
+      if (std::isnan(constant)) constant = code;
+      REQUIRE(std::abs(constant) < 20.0);
+      REQUIRE(std::abs(code - constant) < 0.1);
+      REQUIRE(std::abs(wavelength * (o.doppler_hz - found->second.doppler_hz)) < 0.02);
+    }
+  }
+  REQUIRE(compared > 300);
+}
+
+TEST_CASE("All else of the recording is there, byte by byte", "[sim][overlay]") {
+  const Runs runs;
+  runs.lay("[]", "laid");
+  std::vector<LogEvent> laid = events(runs.path("laid"));
+  std::size_t next = 0;
+  Decoder decoder;
+  for (const LogEvent& event : events(runs.path("recorded"))) {
+    // What was added stands in between.
+    while (next < laid.size() &&
+           !(laid[next].channel == event.channel && laid[next].timestamp_us == event.timestamp_us &&
+             (is_epoch(event) || laid[next].data == event.data))) {
+      const auto channel = channel_from_name(laid[next].channel);
+      REQUIRE((channel == Channel::kAntenna || channel == Channel::kOrbitClock));
+      ++next;
+    }
+    REQUIRE(next < laid.size());
+    if (is_epoch(event)) {
+      RawEpoch with = decoded(laid[next]);
+      const RawEpoch before = decoded(event);
+      with.observations.erase(
+          std::remove_if(with.observations.begin(), with.observations.end(),
+                         [](const auto& o) { return o.satellite.system == System::kLeo; }),
+          with.observations.end());
+      REQUIRE(same(with, before));
+    }
+    ++next;
+  }
+  REQUIRE(next == laid.size());
+}
+
+TEST_CASE("Outages take recorded satellites away, in their time", "[sim][overlay]") {
+  const Runs runs;
+  const sim::OverlayReport report =
+      runs.lay("[{kind: outage, from_s: 20, to_s: 30, systems: [galileo, leo]}]", "laid");
+  REQUIRE(report.removed > 100);
+  const auto recorded = epochs(runs.path("recorded")), laid = epochs(runs.path("laid"));
+  const GpsTime start = recorded.front().time;  // the truth's first point too
+  for (std::size_t k = 0; k < recorded.size(); ++k) {
+    const double t = seconds_between(recorded[k].time, start);
+    const bool is_out = t >= 20.0 && t < 30.0;
+    const BySignal there = by_signal(laid[k]);
+    for (const SignalObservation& o : recorded[k].observations) {
+      const bool gone = is_out && o.satellite.system == System::kGalileo;
+      REQUIRE(there.contains({o.satellite, o.code}) != gone);
+    }
+    for (const SignalObservation& o : laid[k].observations) {
+      if (o.satellite.system == System::kLeo) REQUIRE_FALSE(is_out);
+    }
+  }
+}
+
+TEST_CASE("An overlay that changes nothing is an error, and leaves no file", "[sim][overlay]") {
+  const Runs runs;
+  REQUIRE_THROWS_WITH(runs.lay("[]", "laid", {"satellites.leo.enabled=false"}),
+                      Catch::Contains("nothing to add"));
+  REQUIRE_FALSE(std::filesystem::exists(runs.path("laid")));
+  REQUIRE_FALSE(std::filesystem::exists(runs.path("laid.part")));
+}
