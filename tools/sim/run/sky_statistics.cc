@@ -119,7 +119,8 @@ SkyStatistics sky_statistics(const Scenario& scenario, double mask, double step_
   statistics.tracked.resize(statistics.combinations.size());
   const SplineMotion motion = drive(scenario);
   const TrueSky sky = build_sky(scenario);
-  Receiver receiver(scenario, motion, sky);
+  const FaultScript faults(scenario.faults);
+  Receiver receiver(scenario, motion, sky, faults);
   const auto scratch = std::make_unique<MeasurementEpoch>();
   for (double t = step_s; t < motion.duration_s() - 1.0; t += step_s) {
     const Eigen::Vector3d p_a_e =

@@ -71,6 +71,7 @@ struct Runs {
     ProgressBar quiet(nullptr, "", false);
     Keys all = keys;
     all.push_back("route.file=" + path("whole.csv"));
+    all.emplace_back("satellites.advance_s=0.5");  // the truth's first point
     const auto scenario = sim::load_scenario_text(kYaml + "faults: " + faults, "test.yaml", all);
     return sim::overlay(scenario, path("recorded"), path(name), &quiet);
   }
@@ -87,21 +88,24 @@ TEST_CASE("Added low satellites are as the same receiver would have had them", "
   const auto whole = epochs(runs.path("whole")), laid = epochs(runs.path("laid"));
   REQUIRE(whole.size() == laid.size());
   int compared = 0;
-  double constant = NAN;
+  std::map<std::pair<SatelliteId, SignalCode>, double> before;
   for (std::size_t k = 4; k + 4 < whole.size(); ++k) {
     const BySignal reference = by_signal(whole[k]);
     for (const SignalObservation& o : laid[k].observations) {
       if (o.satellite.system != System::kLeo) continue;
       const auto found = reference.find({o.satellite, o.code});
       if (found == reference.end()) continue;  // rises or sets
-      ++compared;
       const double wavelength = wavelength_m(o.satellite.system, o.code.band);
       const double code = o.pseudorange_m - found->second.pseudorange_m;
-      // What the reference group's time base is off by stays, at most.
-      if (std::isnan(constant)) constant = code;
-      REQUIRE(std::abs(constant) < 20.0);
-      REQUIRE(std::abs(code - constant) < 0.1);
-      REQUIRE(std::abs(wavelength * (o.doppler_hz - found->second.doppler_hz)) < 0.02);
+      // The time base that the clock was read by is off by 5 m, 1 sigma, and half a second of an
+      // orbit around a point instead of the Earth is 4 m; of these little changes from epoch to
+      // epoch. A clock that was wrong by 1 us would be 300 m, and 7 mm of the satellite's way.
+      REQUIRE(std::abs(code) < 30.0);
+      REQUIRE(std::abs(wavelength * (o.doppler_hz - found->second.doppler_hz)) < 0.05);
+      const auto [last, is_first] = before.try_emplace({o.satellite, o.code}, code);
+      if (!is_first) REQUIRE(std::abs(code - last->second) < 0.05);
+      last->second = code;
+      ++compared;
     }
   }
   REQUIRE(compared > 300);
