@@ -99,7 +99,7 @@ def set_rows(scene):
 
 # An antenna of its own point: convergence is the carriers', not the lever arm's. A standing antenna's multipath is
 # alike for a minute (receiver.multipath.time_s): taken for white, more satellites made it slower, not faster.
-OPEN = ["receiver.lever_arm_b_m=[0, 0, 0]", "imu.enabled=false"]
+OPEN = ["places=none", "receiver.lever_arm_b_m=[0, 0, 0]", "imu.enabled=false"]
 
 
 def convergence_rows(duration_s):
@@ -122,8 +122,8 @@ def convergence_rows(duration_s):
 
 
 def all_rows(epochs, sets_epochs, convergence_epochs):
-    city = Scene("city", epochs + 2.0, [])
-    dense = Scene("dense", epochs + 2.0, [])
-    sets = Scene("sets", sets_epochs + 2.0, [])
+    city = Scene("city", epochs + 2.0, ["places=city"])
+    dense = Scene("dense", epochs + 2.0, ["places=dense_city"])
+    sets = Scene("sets", sets_epochs + 2.0, ["places=city"])
     return (code_rows(city) + carrier_rows(city) + low_rows(dense) + set_rows(sets) +
             convergence_rows(convergence_epochs + 2.0))
