@@ -223,27 +223,33 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
   weigh(config, limits, measurements, result);
 }
 
-// Where many contradict each other they go out together, fit what is left, come in together, and so
-// on. Then the worst go one after the other, from the weights that the prior allows, until the rest
+// Where many carriers contradict each other they go out together, fit the codes, come in together,
+// and so on. Then the worst go one after the other, from all that the prior allows, until the rest
 // agree; and carriers that only a few are left of prove nothing.
 void RobustUpdate::throw_out_worst_first(const RobustConfig& config,
                                          const RobustUpdateResult& weighed, FactorLimits* limits,
                                          FilterMeasurements* measurements) {
   Workspace& problem = *workspace_;
   SmallTable ratios;
-  for (std::size_t i = 0; i < limits->size(); ++i) (*measurements)[i].factor = (*limits)[i];
+  for (std::size_t i = 0; i < limits->size(); ++i)
+    if ((*measurements)[i].observable == Observable::kCarrier)
+      (*measurements)[i].factor = (*limits)[i];
   for (int round = 0; round < kMaxRounds; ++round) {
     problem.solve(*measurements);
     problem.standardize(*measurements, &ratios);
     double worst = 0.0;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-      const FilterMeasurement& measurement = (*measurements)[i];
+      FilterMeasurement& measurement = (*measurements)[i];
       ratios[i] /= scale_limit(measurement, weighed);
-      if (measurement.factor > 0.0) worst = std::max(worst, ratios[i]);
+      if (measurement.observable != Observable::kCarrier)
+        measurement.factor = std::min((*limits)[i], igg3_factor(ratios[i], config.k0, config.k1));
+      else if (measurement.factor > 0.0)
+        worst = std::max(worst, ratios[i]);
     }
     if (worst < config.k1) break;
     for (std::size_t i = 0; i < ratios.size(); ++i)
-      if (ratios[i] >= kNearWorst * worst) (*limits)[i] = (*measurements)[i].factor = 0.0;
+      if ((*measurements)[i].observable == Observable::kCarrier && ratios[i] >= kNearWorst * worst)
+        (*limits)[i] = (*measurements)[i].factor = 0.0;
   }
   leave_out_few_carriers(*measurements, limits);
   settled_ = true;
