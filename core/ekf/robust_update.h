@@ -57,6 +57,9 @@ class RobustUpdate {
   // that the many are not thrown out for the few; where they still are more than three times as
   // large in the end, codes or Dopplers contradict each other, and their variances grow by as much
   // before all are weighted anew: `factor` then holds what is left of each one's weight.
+  // Carriers that contradict so much that the weights go to and fro are thrown out worst first;
+  // where fewer than three quarters of them are left by that, or beside codes that contradict each
+  // other, none is used: any four agree about some position.
   //
   // The update is done in the square root of P (P = L L^T, P+ = L (I + L^T H^T R^-1 H L)^-1 L^T):
   // like Joseph's form symmetric and positive semidefinite whatever the rounding, and states with
