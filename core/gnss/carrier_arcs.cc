@@ -181,13 +181,22 @@ void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, Ar
   Storage& s = *storage_;
   if (!s.settled) settle({}, epoch);
   *epoch = {};
+  // An epoch without any carrier is none for the arcs.
+  if (std::none_of(inputs.begin(), inputs.end(), has_carrier)) {
+    s.current.clear();
+    s.seen.reset();
+    epoch->satellites.resize(std::min(inputs.size(), epoch->satellites.capacity()));
+    return;
+  }
   const double interval_s = s.time.is_set() ? seconds_between(time, s.time) : 0.0;
   const GpsTime previous = std::exchange(s.time, time);
   // The first interval is the usual one until others are seen.
-  if (interval_s > 0.0 && s.usual.seconds() == 0.0) s.usual.add(interval_s);
+  const bool first_interval = interval_s > 0.0 && s.usual.seconds() == 0.0;
+  if (first_interval) s.usual.add(interval_s);
   s.collect(time, previous, inputs);
   epoch->clock_jump = s.repair_clock(interval_s);
-  if (interval_s > 0.0) s.usual.add(true_interval_s(epoch->clock_jump, interval_s));
+  if (interval_s > 0.0 && !first_interval)
+    s.usual.add(true_interval_s(epoch->clock_jump, interval_s));
   for (Storage::Current& entry : s.current) {
     if (!entry.continued) continue;
     entry.findings = entry.track->examine(s.config, &entry.sample);

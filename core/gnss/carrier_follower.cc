@@ -186,6 +186,10 @@ void CarrierFollower::disturb(MeasurementEpoch* epoch) const {
 }
 
 void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e) {
+  // What was remembered is still the last that carriers told.
+  if (std::none_of(epoch.measurements.begin(), epoch.measurements.end(),
+                   [](const Measurement& m) { return m.observable == Observable::kCarrier; }))
+    return;
   for (const Measurement& carrier : epoch.measurements) {
     if (carrier.observable != Observable::kCarrier) continue;
     const SatelliteInView& satellite = epoch.satellites[carrier.satellite_index];

@@ -1,23 +1,33 @@
 // How far apart a stream's epochs usually are.
 #pragma once
+#include <algorithm>
+#include <boost/container/static_vector.hpp>
+#include <cstddef>
+
+#include "core/median.h"
 
 namespace leonav {
 
-// The epochs' usual interval: the shortest of late, so that a missing epoch does not count.
+// The median of the last few intervals: neither a missing epoch nor a stray one counts.
 class UsualInterval {
  public:
   void add(double interval_s) {
-    constexpr int kMissing = 5;  // so many longer intervals in a row are the usual one
-    const bool longer = usual_s_ > 0.0 && interval_s > 1.1 * usual_s_;
-    longer_ = longer ? longer_ + 1 : 0;
-    if (longer && longer_ < kMissing) return;
-    usual_s_ = interval_s;
+    if (intervals_s_.size() < intervals_s_.capacity()) {
+      intervals_s_.push_back(interval_s);
+    } else {
+      intervals_s_[next_] = interval_s;
+    }
+    next_ = (next_ + 1) % intervals_s_.capacity();
+    // Of two, the shorter: the other may have a missing epoch.
+    usual_s_ = intervals_s_.size() == 2 ? std::min(intervals_s_[0], intervals_s_[1])
+                                        : median(intervals_s_);
   }
-  double seconds() const { return usual_s_; }
+  double seconds() const { return usual_s_; }  // 0: none seen
 
  private:
+  boost::container::static_vector<double, 5> intervals_s_;
+  std::size_t next_ = 0;
   double usual_s_ = 0.0;
-  int longer_ = 0;
 };
 
 }  // namespace leonav

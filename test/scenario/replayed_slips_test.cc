@@ -48,7 +48,7 @@ using Place = std::pair<std::size_t, SatelliteId>;  // epoch, satellite
 
 struct Arc {
   bool started = false;
-  bool told = false;  // by the receiver, or by its absence
+  bool told = false;  // by the receiver, or by its absence at the epoch before
   bool had_one = false;
 };
 
@@ -77,9 +77,12 @@ Run replay(const TemporaryFile& place, const std::string& log, const std::string
       return;
     const std::string causes = row["arc_causes"];
     Arc arc{row["arc_started"] == "1", false, !causes.empty()};
-    for (const char* cause : {"gap", "signal_changed", "loss_of_lock", "lock_time"})
+    for (const char* cause : {"signal_changed", "loss_of_lock", "lock_time"})
       arc.told = arc.told || causes.find(cause) != std::string::npos;
-    result.arcs[place_of_row(row)] = arc;
+    const Place at = place_of_row(row);
+    arc.told = arc.told || (causes.find("gap") != std::string::npos && at.first > 0 &&
+                            result.arcs.count({at.first - 1, at.second}) == 0);
+    result.arcs[at] = arc;
   });
   for_each_row(out + "/measurements.csv", [&](std::map<std::string, std::string> row) {
     if (row["observable"] == "carrier") result.signals[place_of_row(row)] = row["signals"];

@@ -161,6 +161,32 @@ TEST_CASE("A short gap ends no arc, for LEO only a shorter one", "[carrier_arcs]
   CHECK(leo.started() == 8);
 }
 
+// A receiver's epoch out of turn says nothing of how far apart the others are.
+TEST_CASE("A stray epoch a second after the last ends no arc", "[carrier_arcs]") {
+  const Receiver receiver;
+  for (const std::size_t satellites : {0, 2, 8}) {
+    Run run;
+    for (int k = 0; k < 6; ++k) run.feed(receiver.at(30.0 * k));
+    RawEpoch stray = receiver.at(151.0);
+    stray.observations.resize(2 * satellites);
+    run.feed(stray);
+    CAPTURE(satellites);
+    CHECK(run.started() == 0);
+    for (const double t : {180.0, 210.0, 240.0}) {
+      run.feed(receiver.at(t));
+      CHECK(run.started() == 0);
+    }
+  }
+  // Nor does one without carriers come between two of one frequency.
+  Run run;
+  for (int k = 0; k < 6; ++k) run.feed(receiver.at(30.0 * k), false);
+  RawEpoch empty = receiver.at(151.0);
+  empty.observations.clear();
+  run.feed(empty, false);
+  run.feed(receiver.at(180.0), false);
+  CHECK(run.started() == 0);
+}
+
 TEST_CASE("One frequency alone survives no epoch without its satellite", "[carrier_arcs]") {
   const Receiver receiver;
   for (const bool pairs : {true, false}) {
