@@ -93,6 +93,9 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
     known_.drift[base] = true;
   }
   last_update_ = time;
+  code_schedule_.clear();
+  restless_until_ = GpsTime();
+  measurements_.clear();
   contradicted_ = false;
   base_apart_m_ = {};
   locked_out_ = {};

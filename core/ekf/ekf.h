@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/ekf/code_schedule.h"
 #include "core/ekf/ekf_config.h"
 #include "core/ekf/ekf_state.h"
 #include "core/ekf/ins_transition.h"
@@ -115,6 +116,9 @@ class Ekf {
   void drop_ended_arcs(const MeasurementEpoch& epoch);
   void make_room(const MeasurementEpoch& epoch);
   void gather(const MeasurementEpoch& epoch);
+  bool is_held(const MeasurementEpoch& epoch);
+  void weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
+                  FilterMeasurement* entry);
   int ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                    const FilterMeasurement& entry, GpsTime time);
   void disturb_ambiguities(const MeasurementEpoch& epoch);
@@ -157,6 +161,10 @@ class Ekf {
   };
   FilterMeasurements measurements_;                                     // of the epoch at hand
   boost::container::static_vector<Skipped, kMaxMeasurements> skipped_;  // of those offered
+  GpsTime gathered_;                                                    // the epoch they are of
+  bool held_ = false;                                                   // is_held()
+  GpsTime restless_until_;  // too many arcs have ended of late
+  CodeSchedule code_schedule_;
   RobustUpdate robust_update_;
   int arcs_without_place_ = 0;  // in the epoch at hand
   // By which the last epoch's codes of a base were apart from the others'; 0: not.

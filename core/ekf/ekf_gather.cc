@@ -18,6 +18,10 @@ constexpr double kStartAmbiguitySigma = 100.0;  // m
 constexpr double kStartShare = 10.0;            // and of the prediction's sigma
 // An arc thrown out in so many epochs in a row has slipped, whatever its checks said.
 constexpr int kMaxRejectedEpochs = 2;
+constexpr int kMinHolding = 5;  // arcs that go on: a position's change and a clock's, and one more
+constexpr int kHeldPerBroken = 10;
+constexpr double kRestless_s = 600.0;  // so long such a receiver is expected to go on
+constexpr double kNew_s = 20.0;        // whether arcs last is not known of new ones
 
 double square(double x) { return x * x; }
 
@@ -88,7 +92,65 @@ int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
   return kSize + static_cast<int>(ambiguities_.size()) - 1;
 }
 
+// Whether the position is known against that of the last epoch as well as carriers tell, so that
+// codes of both are of one place. Where arcs end by the handful (a phone, a receiver among trees)
+// it creeps, and what holds it are the codes, whose errors it then follows.
+bool Ekf::is_held(const MeasurementEpoch& epoch) {
+  if (config_.static_point) return true;
+  int held = 0, broken = 0;
+  for (const Measurement& carrier : epoch.measurements) {
+    if (carrier.observable != Observable::kCarrier || carrier.reason != Reason::kUsed ||
+        carrier.satellite_index >= epoch.satellites.size())
+      continue;
+    const SatelliteInView& satellite = epoch.satellites[carrier.satellite_index];
+    const int place = find_ambiguity(ambiguities_, carrier.arc);
+    if (place != kNoAmbiguity) {
+      held += ambiguities_[static_cast<std::size_t>(place)].last_used == last_update_ ? 1 : 0;
+    } else {
+      broken += satellite.arc_causes.any() ? 1 : 0;
+    }
+  }
+  GpsTime until = restless_until_;
+  if (held == 0) {
+    until = epoch.time.plus_seconds(kNew_s);
+  } else if (held < kMinHolding || broken > std::max(1, held / kHeldPerBroken)) {
+    until = epoch.time.plus_seconds(kRestless_s);
+  }
+  if (!restless_until_.is_set() || restless_until_ < until) restless_until_ = until;
+  return !restless_until_.is_set() || restless_until_ < epoch.time;
+}
+
+// What a code weighs: less than its variance says, as far as it errs like the one before it.
+void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
+                     FilterMeasurement* entry) {
+  const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
+  const double correlated = square(code.correlated_sigma);
+  if (!held_ || !(correlated > 0.0) || !(code.correlation_time_s > 0.0)) {
+    entry->gain_variance = inflation * entry->variance;
+    return;
+  }
+  CodeSchedule::Course course;
+  course.orbit_issue = satellite.orbit_issue;
+  for (const Measurement& carrier : epoch.measurements) {
+    if (carrier.observable != Observable::kCarrier ||
+        carrier.satellite_index != code.satellite_index)
+      continue;
+    course.wander = carrier.wander;
+    course.disturbance_m = carrier.disturbance_m;
+  }
+  const double noise = inflation * std::max(entry->variance - correlated, 0.0);
+  entry->gain_variance =
+      code_schedule_.weigh(code, satellite.satellite, course, noise, epoch.time, &entry->schedule);
+}
+
 void Ekf::gather(const MeasurementEpoch& epoch) {
+  if (gathered_ != epoch.time) {
+    for (const FilterMeasurement& before : measurements_)
+      if (before.factor > 0.0) code_schedule_.accept(before.schedule);
+  }
+  gathered_ = epoch.time;
+  held_ = is_held(epoch);
+  if (!held_) code_schedule_.clear();
   AntennaMotion motion = antenna();
   // A prediction hundreds of metres off is too far for a straight line to reach centimetres.
   Vector3d off_e = Vector3d::Zero();
@@ -125,7 +187,8 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
     entry.variance = square(measurement.sigma);
     entry.gain_variance = entry.variance;
     entry.row = prediction.row;
-    if (measurement.observable == Observable::kCode) entry.gain_variance *= code_inflation;
+    if (measurement.observable == Observable::kCode)
+      weigh_code(epoch, measurement, code_inflation, &entry);
     if (measurement.observable == Observable::kDoppler) entry.gain_variance *= doppler_inflation;
     if (carrier) {
       entry.ambiguity = ambiguity_of(measurement, satellite.satellite, entry, epoch.time);

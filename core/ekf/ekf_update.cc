@@ -75,6 +75,7 @@ void Ekf::leave_out_ranges() {
 
 void Ekf::forget_ambiguities() {
   ambiguities_.clear();
+  code_schedule_.clear();
   covariance_.conservativeResize(kSize, kSize);
 }
 

@@ -21,6 +21,7 @@ struct FilterMeasurement {
   // |innovation| over its sigma with the clocks taken out (prediction_check.h), tested beside the
   // plain one before anything is used.
   double prior_ratio = 0.0;
+  int schedule = -1;    // a code's place in CodeSchedule; -1: none
   int ambiguity = -1;   // state of its ambiguity, whose coefficient is one; -1: none
   double factor = 1.0;  // out: IGG-III
 };

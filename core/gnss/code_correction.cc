@@ -22,6 +22,11 @@ constexpr double kIonosphereFloor = 0.5;  // m
 // Without broadcast coefficients the error may reach the delay itself.
 constexpr double kUnknownModelShare = 1.0;
 
+// How long the errors of orbit and clock and of the ionosphere's model stay
+// alike, s.
+constexpr double kOrbitCorrelation = 3600.0;
+constexpr double kIonosphereCorrelation = 900.0;
+
 double square(double x) { return x * x; }
 
 // 1 / sin E, bounded at the value for 5 degrees: how errors of the atmosphere grow downwards.
@@ -112,6 +117,16 @@ double bias_variance(const DelayContext& context, const SignalObservation& signa
   return context.biases->variance_m2(signal.satellite.system, signal.code.band);
 }
 
+// Two Gauss-Markov errors as one that a long mean takes down as slowly: the spectral densities at
+// zero, sigma^2 T, add.
+void set_correlation(double orbit_variance, double ionosphere_variance, Measurement* code) {
+  const double sum = orbit_variance + ionosphere_variance;
+  if (!(sum > 0.0)) return;
+  code->correlated_sigma = std::sqrt(sum);
+  code->correlation_time_s =
+      (orbit_variance * kOrbitCorrelation + ionosphere_variance * kIonosphereCorrelation) / sum;
+}
+
 double frequency_of(const SignalObservation& signal) {
   return frequency_hz(signal.satellite.system, signal.code.band);
 }
@@ -173,6 +188,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
   code.code = first.code;
   double range = unbiased_range(context, first);
   double variance = square(noise1);
+  double ionosphere = 0.0;  // variance of what a model leaves of it
   if (second != nullptr) {
     const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
     code.second_code = second->code;
@@ -186,15 +202,17 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
         klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
-    variance += bias_variance(context, first) +
-                shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
+    variance += bias_variance(context, first);
+    ionosphere = shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
   const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);
   code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m -
                satellite->path_m - antenna.range_m;
-  code.sigma = std::sqrt(variance + square(group.sigma_m) + square(satellite->orbit_sigma_m) +
-                         antenna_variance(*satellite, antenna.known) +
+  const double orbit =
+      square(satellite->orbit_sigma_m) + antenna_variance(*satellite, antenna.known);
+  set_correlation(orbit, ionosphere, &code);
+  code.sigma = std::sqrt(variance + square(group.sigma_m) + orbit + ionosphere +
                          atmosphere_variance(context, *satellite));
   return code;
 }

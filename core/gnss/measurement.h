@@ -82,6 +82,10 @@ struct Measurement {
   SignalCode second_code;  // set for an ionosphere-free combination
   double value = 0.0;
   double sigma = 0.0;
+  // Code only: the part of sigma that stays alike from epoch to epoch, and for how long: orbit,
+  // clock, group delay, ionosphere by a model.
+  double correlated_sigma = 0.0;
+  double correlation_time_s = 0.0;
   // Carrier only.
   std::uint32_t arc = 0;       // identity of the uninterrupted arc; 0: none
   double wander = 0.0;         // m/sqrt(s): how the arc's constant is not one

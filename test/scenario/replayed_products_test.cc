@@ -42,9 +42,10 @@ struct Outcome {
 };
 
 // `late`: from this time of week on the largest 3D error counts.
-Outcome outcome_of(const TemporaryFile& place, const std::string& log, double late_tow_s) {
+Outcome outcome_of(const TemporaryFile& place, const std::string& log, double late_tow_s,
+                   const std::string& options = "") {
   const TemporaryFile truth("truth.csv", station_truth());
-  const std::string free = config("station") + free_to_move();
+  const std::string free = config("station") + free_to_move() + options;
   const std::string judge = "--max-truth-gap 1e9 --truth " + truth.path() + " --from 2111:";
   Outcome outcome;
   errors_of(place, log, free, judge + "351600");
@@ -84,16 +85,47 @@ TEST_CASE("precise products that end leave a solution that knows what broadcast 
   if (!ready()) return;
   const TemporaryFile place("unused", "");
   const std::string log = imported(place, "station"), stopped = place.beside("stopped.lcmlog");
-  rewrite(log, stopped, 0, [](const LogEvent& event, int epochs) {
-    return event.channel == "LEONAV_ORBIT_CLOCK" && epochs >= 200 ? Fate::kDrop : Fate::kPass;
-  });
-  const Outcome outcome = outcome_of(place, stopped, 363600.0);
-  std::printf("products end: %.2f %% within three sigma, 3D at most %.3f m in the last hour\n",
-              100.0 * outcome.within, outcome.worst_late_m);
-  CHECK(outcome.within > 0.99);
-  CHECK(outcome.worst_late_m < 1.5);
-  CHECK(outcome.summary.find("arcs ended by filter") == std::string::npos);
-  CHECK(outcome.summary.find("orbit_fallback") != std::string::npos);
+  for (const int last : {100, 200, 280, 400}) {
+    rewrite(log, stopped, 0, [last](const LogEvent& event, int epochs) {
+      return event.channel == "LEONAV_ORBIT_CLOCK" && epochs >= last ? Fate::kDrop : Fate::kPass;
+    });
+    for (const std::string systems : {"[gps,galileo]", "[gps]", "[galileo]"}) {
+      const Outcome outcome =
+          outcome_of(place, stopped, 363600.0, " --set gnss.systems=" + systems);
+      std::printf(
+          "products end at epoch %d, %s: %.2f %% within three sigma, 3D at most %.3f m in "
+          "the last hour\n",
+          last, systems.c_str(), 100.0 * outcome.within, outcome.worst_late_m);
+      CAPTURE(last, systems);
+      CHECK(outcome.within > 0.975);
+      CHECK(outcome.summary.find("orbit_fallback") != std::string::npos);
+      if (last != 200 || systems != "[gps,galileo]") continue;
+      CHECK(outcome.within > 0.99);
+      CHECK(outcome.worst_late_m < 1.5);
+      CHECK(outcome.summary.find("arcs ended by filter") == std::string::npos);
+    }
+  }
+}
+
+// The error of a satellite's orbit and clock lasts for an hour, however many codes are averaged.
+TEST_CASE("broadcast orbits alone, and one frequency: carriers make nobody too sure") {
+  if (!ready()) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = imported(place, "station");
+  const std::string broadcast = " --set gnss.ephemerides.use_precise=false";
+  for (const std::string systems : {"[gps]", "[gps,galileo]", "[gps,galileo,beidou]"}) {
+    const Outcome outcome =
+        outcome_of(place, log, 363600.0, broadcast + " --set gnss.systems=" + systems);
+    std::printf("broadcast orbits, %s: %.2f %% within three sigma\n", systems.c_str(),
+                100.0 * outcome.within);
+    CHECK(outcome.within > 0.99);
+  }
+  const Outcome single =
+      outcome_of(place, log, 363600.0,
+                 " --set gnss.gps.second_bands=[] --set gnss.galileo.second_bands=[]"
+                 " --set gnss.code_combination=single_frequency");
+  std::printf("one frequency: %.2f %% within three sigma\n", 100.0 * single.within);
+  CHECK(single.within > 0.99);
 }
 
 TEST_CASE("holes in the clock file are told") {
