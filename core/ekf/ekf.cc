@@ -94,9 +94,10 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   }
   last_update_ = time;
   code_schedule_.clear();
-  restless_until_ = GpsTime();
+  new_until_ = restless_until_ = GpsTime();
   measurements_.clear();
   contradicted_ = false;
+  agreed_ = GpsTime();
   base_apart_m_ = {};
   locked_out_ = {};
   has_attitude_ = false;
@@ -159,6 +160,7 @@ void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& 
   const EkfCovariance T = to_antenna(arm, -1.0, P.rows());
   covariance_.noalias() = T * P * T.transpose();
   has_attitude_ = true;
+  agreed_ = GpsTime();
 }
 
 void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
@@ -227,6 +229,7 @@ void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
   const auto bridge =
       has_attitude_ ? bridge_hole(last_sample_, state_.time, time, next) : std::nullopt;
   if (!bridge) return coast(time);
+  agreed_ = GpsTime();
   advance(bridge->filler);
   finish_sub_block();
   const Matrix3d C_eb = state_.q_eb.toRotationMatrix();
@@ -243,6 +246,7 @@ void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
 // Nothing is known of the motion: it goes on as before, give or take the acceleration and turning
 // of the configuration. Biases and scales keep their variances, which are stationary.
 void Ekf::coast(GpsTime time) {
+  agreed_ = GpsTime();
   if (has_attitude_) finish_sub_block();
   const double dt = seconds_between(time, state_.time);
   if (config_.static_point) {

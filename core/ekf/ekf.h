@@ -104,6 +104,9 @@ class Ekf {
   Eigen::Vector3d antenna_velocity_e() const;
 
  private:
+  // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.
+  enum class Hold { kNone, kNew, kHeld };
+
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
   AntennaMotion antenna() const;
@@ -116,7 +119,7 @@ class Ekf {
   void drop_ended_arcs(const MeasurementEpoch& epoch);
   void make_room(const MeasurementEpoch& epoch);
   void gather(const MeasurementEpoch& epoch);
-  bool is_held(const MeasurementEpoch& epoch);
+  Hold hold_of(const MeasurementEpoch& epoch);
   void weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
                   FilterMeasurement* entry);
   int ambiguity_of(const Measurement& carrier, SatelliteId satellite,
@@ -135,6 +138,9 @@ class Ekf {
   void watch_bases(const std::array<int, kMaxTimeBases>& offered,
                    const std::array<int, kMaxTimeBases>& accepted);
   void forget_locked_out_bases();
+  bool is_possible(Observable observable, double off, bool carriers_confirm, GpsTime time) const;
+  template <typename Which>
+  void leave_out(Which which);
   void leave_out_ranges();
   void forget_ambiguities();
   void apply(const EkfCorrection& correction);
@@ -162,7 +168,8 @@ class Ekf {
   FilterMeasurements measurements_;                                     // of the epoch at hand
   boost::container::static_vector<Skipped, kMaxMeasurements> skipped_;  // of those offered
   GpsTime gathered_;                                                    // the epoch they are of
-  bool held_ = false;                                                   // is_held()
+  Hold hold_ = Hold::kNone;
+  GpsTime new_until_;       // no arc goes on from before
   GpsTime restless_until_;  // too many arcs have ended of late
   CodeSchedule code_schedule_;
   RobustUpdate robust_update_;
@@ -172,6 +179,7 @@ class Ekf {
   std::array<int, kMaxTimeBases> locked_out_{};  // epochs in a row without a code accepted
   bool contradicted_ = false;  // the last epoch's ranges, by a prediction that they agree against
   bool initialized_ = false;
+  GpsTime agreed_;  // the last epoch whose codes the IMU's prediction agreed with
   bool has_attitude_ = false;
 };
 

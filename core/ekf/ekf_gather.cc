@@ -21,7 +21,7 @@ constexpr int kMaxRejectedEpochs = 2;
 constexpr int kMinHolding = 5;  // arcs that go on: a position's change and a clock's, and one more
 constexpr int kHeldPerBroken = 10;
 constexpr double kRestless_s = 600.0;  // so long such a receiver is expected to go on
-constexpr double kNew_s = 20.0;        // whether arcs last is not known of new ones
+constexpr double kNew_s = 5.0;         // whether arcs last is not known of new ones
 
 double square(double x) { return x * x; }
 
@@ -95,8 +95,8 @@ int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
 // Whether the position is known against that of the last epoch as well as carriers tell, so that
 // codes of both are of one place. Where arcs end by the handful (a phone, a receiver among trees)
 // it creeps, and what holds it are the codes, whose errors it then follows.
-bool Ekf::is_held(const MeasurementEpoch& epoch) {
-  if (config_.static_point) return true;
+Ekf::Hold Ekf::hold_of(const MeasurementEpoch& epoch) {
+  if (config_.static_point) return Hold::kHeld;
   int held = 0, broken = 0;
   for (const Measurement& carrier : epoch.measurements) {
     if (carrier.observable != Observable::kCarrier || carrier.reason != Reason::kUsed ||
@@ -110,14 +110,15 @@ bool Ekf::is_held(const MeasurementEpoch& epoch) {
       broken += satellite.arc_causes.any() ? 1 : 0;
     }
   }
-  GpsTime until = restless_until_;
+  const auto lasts = [&epoch](GpsTime until) { return until.is_set() && epoch.time <= until; };
   if (held == 0) {
-    until = epoch.time.plus_seconds(kNew_s);
+    new_until_ = epoch.time.plus_seconds(kNew_s);
+    code_schedule_.clear();
   } else if (held < kMinHolding || broken > std::max(1, held / kHeldPerBroken)) {
-    until = epoch.time.plus_seconds(kRestless_s);
+    restless_until_ = epoch.time.plus_seconds(kRestless_s);
   }
-  if (!restless_until_.is_set() || restless_until_ < until) restless_until_ = until;
-  return !restless_until_.is_set() || restless_until_ < epoch.time;
+  if (lasts(restless_until_)) return Hold::kNone;
+  return lasts(new_until_) ? Hold::kNew : Hold::kHeld;
 }
 
 // What a code weighs: less than its variance says, as far as it errs like the one before it.
@@ -125,7 +126,7 @@ void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, dou
                      FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
   const double correlated = square(code.correlated_sigma);
-  if (!held_ || !(correlated > 0.0) || !(code.correlation_time_s > 0.0)) {
+  if (hold_ == Hold::kNone || !(correlated > 0.0) || !(code.correlation_time_s > 0.0)) {
     entry->gain_variance = inflation * entry->variance;
     return;
   }
@@ -139,8 +140,10 @@ void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, dou
     course.disturbance_m = carrier.disturbance_m;
   }
   const double noise = inflation * std::max(entry->variance - correlated, 0.0);
-  entry->gain_variance =
+  const double scheduled =
       code_schedule_.weigh(code, satellite.satellite, course, noise, epoch.time, &entry->schedule);
+  // Of new arcs it is not known whether they last: their codes count in full, but are remembered.
+  entry->gain_variance = hold_ == Hold::kNew ? inflation * entry->variance : scheduled;
 }
 
 void Ekf::gather(const MeasurementEpoch& epoch) {
@@ -149,8 +152,8 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
       if (before.factor > 0.0) code_schedule_.accept(before.schedule);
   }
   gathered_ = epoch.time;
-  held_ = is_held(epoch);
-  if (!held_) code_schedule_.clear();
+  hold_ = hold_of(epoch);
+  if (hold_ == Hold::kNone) code_schedule_.clear();
   AntennaMotion motion = antenna();
   // A prediction hundreds of metres off is too far for a straight line to reach centimetres.
   Vector3d off_e = Vector3d::Zero();

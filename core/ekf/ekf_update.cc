@@ -28,6 +28,14 @@ const ClockFreeTable& of(const std::array<ClockFreeTable, kObservables>& tables,
 
 }  // namespace
 
+template <typename Which>
+void Ekf::leave_out(Which which) {
+  for (const FilterMeasurement& m : measurements_)
+    if (which(m)) skipped_.push_back({m.index, Reason::kOutlier});
+  measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), which),
+                      measurements_.end());
+}
+
 void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* result) {
   take_up_clock_steps(epoch, result);
   std::array<ClockFreeTable, kObservables> tables = clock_free_tables(measurements_, covariance_);
@@ -49,28 +57,46 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
       // It may be the epoch that is wrong, its time stamp for one. The next one tells.
       if (!contradicted_before) return leave_out_ranges();
     }
+    const bool confirmed =
+        observable != Observable::kCarrier &&
+        consistency_ratio(of(tables, Observable::kCarrier)) < config_.prediction_suspect_ratio;
+    if (!is_possible(observable, std::sqrt(variance), confirmed, epoch.time)) {
+      leave_out([&](const FilterMeasurement& m) { return m.observable == observable; });
+      tables = clock_free_tables(measurements_, covariance_);
+      continue;
+    }
     widen(observable, variance, &covariance_);
     // Codes that agree on another position than the carriers stand for: the ambiguities were found
     // at a wrong one.
-    if (observable == Observable::kCode && !ambiguities_.empty()) {
+    if (observable != Observable::kCarrier && !ambiguities_.empty()) {
       forget_ambiguities();
       result->ambiguities_forgotten = true;
       gather(epoch);
     }
     tables = clock_free_tables(measurements_, covariance_);
   }
+  if (!result->prediction_suspect && std::isfinite(result->code_ratio)) agreed_ = epoch.time;
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(of(tables, observable), &measurements_);
 }
 
+// Whether a prediction that codes agreed with a while ago can be wrong by so much (m, of Dopplers
+// m/s) now. An IMU cannot lose its way from one second to the next, nor carriers that confirm it,
+// while signals that come by way of the same wall agree among each other on a wrong position.
+bool Ekf::is_possible(Observable observable, double off, bool carriers_confirm,
+                      GpsTime time) const {
+  constexpr double kAcceleration = 0.5;  // m/s^2, that the covariance does not know of
+  // A broken IMU must not be believed for longer; codes that go on agreeing must be, in the end.
+  constexpr double kLongest_s = 10.0, kLongestConfirmed_s = 60.0;
+  if (!has_attitude_ || !agreed_.is_set()) return true;
+  const double since_s = seconds_between(time, agreed_);
+  if (since_s > (carriers_confirm ? kLongestConfirmed_s : kLongest_s)) return true;
+  const bool rate = observable == Observable::kDoppler;
+  return !carriers_confirm && off <= kAcceleration * (rate ? since_s : 0.5 * since_s * since_s);
+}
+
 void Ekf::leave_out_ranges() {
-  const auto is_range = [](const FilterMeasurement& m) {
-    return m.observable != Observable::kDoppler;
-  };
-  for (const FilterMeasurement& m : measurements_)
-    if (is_range(m)) skipped_.push_back({m.index, Reason::kOutlier});
-  measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), is_range),
-                      measurements_.end());
+  leave_out([](const FilterMeasurement& m) { return m.observable != Observable::kDoppler; });
 }
 
 void Ekf::forget_ambiguities() {

@@ -11,7 +11,7 @@ namespace leonav {
 
 // Looks for a shift that all innovations of one observable share: a clock jump (a receiver that
 // steps its clock by milliseconds, or a phone's by anything). Returns the shift, 0 if there is
-// none. `variance` is that of the median innovation as predicted.
+// none.
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 

@@ -5,31 +5,11 @@
 #include <memory>
 
 #include "core/ekf/ekf_state.h"
+#include "core/ekf/filter_measurement.h"
+#include "core/ekf/weighted_problem.h"
 #include "core/gnss/igg3.h"
-#include "core/gnss/measurement.h"
 
 namespace leonav {
-
-// One scalar measurement on its way through the update.
-struct FilterMeasurement {
-  std::size_t index = 0;  // into MeasurementEpoch::measurements
-  Observable observable = Observable::kCode;
-  double innovation = 0.0;
-  double variance = 0.0;       // of the measurement alone: what it is tested against
-  double gain_variance = 0.0;  // likewise, with its correlation in time: what it weighs
-  EkfVector row = EkfVector::Zero();
-  // |innovation| over its sigma with the clocks taken out (prediction_check.h), tested beside the
-  // plain one before anything is used.
-  double prior_ratio = 0.0;
-  int schedule = -1;    // a code's place in CodeSchedule; -1: none
-  int ambiguity = -1;   // state of its ambiguity, whose coefficient is one; -1: none
-  double factor = 1.0;  // out: IGG-III
-};
-
-using FilterMeasurements = boost::container::static_vector<FilterMeasurement, kMaxMeasurements>;
-
-// H P H^T of one measurement.
-double predicted_variance(const FilterMeasurement& measurement, const EkfCovariance& covariance);
 
 inline constexpr std::size_t kObservables = 3;
 
@@ -44,11 +24,6 @@ struct RobustUpdateResult {
 // The tables of one update. Allocates when constructed, not after.
 class RobustUpdate {
  public:
-  RobustUpdate();
-  ~RobustUpdate();
-  RobustUpdate(RobustUpdate&&) noexcept;
-  RobustUpdate& operator=(RobustUpdate&&) noexcept;
-
   // Re-weights and solves at most `config.max_iterations` times. The residual that is tested is
   // that against the prediction from all *other* measurements and the prior, over its standard
   // deviation: in the first pass (nothing used yet) that is the standardized innovation, afterwards
@@ -61,22 +36,19 @@ class RobustUpdate {
   // Carriers that contradict so much that the weights go to and fro are thrown out worst first;
   // where fewer than three quarters of them are left by that, or beside codes that contradict each
   // other, none is used: any four agree about some position.
-  //
-  // The update is done in the square root of P (P = L L^T, P+ = L (I + L^T H^T R^-1 H L)^-1 L^T):
-  // like Joseph's form symmetric and positive semidefinite whatever the rounding, and states with
-  // zero variance stay untouched. (Bierman, Factorization Methods for Discrete Sequential
-  // Estimation, 1977, ch. 5.)
   RobustUpdateResult operator()(const RobustConfig& config, FilterMeasurements* measurements,
                                 EkfCovariance* covariance);
 
  private:
-  struct Workspace;
   using FactorLimits = boost::container::static_vector<double, kMaxMeasurements>;
   void weigh(const RobustConfig& config, FactorLimits* limits, FilterMeasurements* measurements,
              RobustUpdateResult* result);
   void throw_out_worst_first(const RobustConfig& config, const RobustUpdateResult& weighed,
                              FactorLimits* limits, FilterMeasurements* measurements);
-  std::unique_ptr<Workspace> workspace_;
+  void weigh_relaxed(const RobustConfig& config, FactorLimits* limits,
+                     FilterMeasurements* measurements, RobustUpdateResult* result);
+
+  WeightedProblem problem_;
   bool settled_ = false;  // the worst of this epoch have been thrown out
 };
 

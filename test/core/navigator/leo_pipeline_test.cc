@@ -2,10 +2,8 @@
 #include <algorithm>
 
 #include "core/navigator/pipeline.h"
-#include "recording_sink.h"
+#include "stage_drive.h"
 #include "support/catch.h"
-#include "support/navigator_config.h"
-#include "support/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {
@@ -27,21 +25,11 @@ TEST_CASE("LEO satellites known by precise states alone take part in the whole p
   RecordingSink sink;
   Pipeline pipeline(drive_navigator_config(options), &sink);
   Sequencer& sequencer = pipeline.sequencer();
-  // Nodes every 30 s, each 180 s before its time.
-  double next_node_s = -180.0;
-  const auto send_nodes = [&](double now_s) {
-    for (; next_node_s <= now_s + 180.0; next_node_s += 30.0) {
-      PreciseStates nodes;
-      for (const Ephemeris& e : leo) {
-        nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(next_node_s)));
-      }
-      sequencer.on_precise_states(nodes);
-    }
-  };
+  ProductNodes product(leo, 30.0, 180.0);
   feed(
       drive, 0.06, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
       [&](const ImuSample& s) {
-        send_nodes(seconds_between(s.time, kSkyEpoch));
+        product.send_until(seconds(s.time), &sequencer);
         sequencer.on_imu(s);
       },
       [&](const RawEpoch& r) { sequencer.on_raw_epoch(r); });

@@ -1,5 +1,8 @@
 // What is told of satellites whose orbits change between precise and broadcast ones.
+#include <algorithm>
+#include <iterator>
 #include <map>
+#include <vector>
 
 #include "stage_drive.h"
 #include "support/catch.h"
@@ -14,16 +17,12 @@ RecordingSink run_with_late_product(const SyntheticDrive& drive) {
   Pipeline pipeline(drive_navigator_config(drive.options, MotionModel::kConstantVelocity), &sink);
   Sequencer& sequencer = pipeline.sequencer();
   for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
-  double next_node_s = -100.0;
+  std::vector<Ephemeris> gps;
+  std::copy_if(drive.ephemerides.begin(), drive.ephemerides.end(), std::back_inserter(gps),
+               [](const Ephemeris& e) { return e.satellite.system == System::kGps; });
+  ProductNodes product(gps, 10.0, 5.0);
   for (const RawEpoch& raw : drive.epochs) {
-    for (; next_node_s <= seconds(raw.time) + 5.0; next_node_s += 10.0) {
-      PreciseStates nodes;
-      for (const Ephemeris& e : drive.ephemerides) {
-        if (e.satellite.system == System::kGps)
-          nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(next_node_s)));
-      }
-      sequencer.on_precise_states(nodes);
-    }
+    product.send_until(seconds(raw.time), &sequencer);
     sequencer.on_raw_epoch(raw);
   }
   return sink;

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/navigator/gnss_stage.h"
@@ -24,6 +25,30 @@ inline SyntheticDrive drive_of(double duration_s, double east_m = 0.0, bool imu 
 }
 
 inline double seconds(GpsTime time) { return seconds_between(time, kSkyEpoch); }
+
+// The product of the satellites `of`: nodes every `interval_s`, each told `ahead_s` before its
+// time.
+class ProductNodes {
+ public:
+  ProductNodes(std::vector<Ephemeris> of, double interval_s, double ahead_s)
+      : of_(std::move(of)),
+        interval_s_(interval_s),
+        ahead_s_(ahead_s),
+        next_s_(-std::max(ahead_s, 10.0 * interval_s)) {}
+
+  void send_until(double now_s, Sequencer* sequencer) {
+    for (; next_s_ <= now_s + ahead_s_; next_s_ += interval_s_) {
+      PreciseStates nodes;
+      for (const Ephemeris& e : of_)
+        nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(next_s_)));
+      sequencer->on_precise_states(nodes);
+    }
+  }
+
+ private:
+  std::vector<Ephemeris> of_;
+  double interval_s_, ahead_s_, next_s_;
+};
 
 // The drive's messages into a pipeline, as a live system would receive them, with
 // before_epoch(raw, &sequencer) ahead of each epoch. Allocates nothing.

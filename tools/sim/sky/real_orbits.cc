@@ -215,7 +215,8 @@ std::vector<RealOrbit> from_sp3(const std::string& path, System system, const Or
     }
   }
   std::vector<RealOrbit> orbits;
-  for (const auto& [satellite, list] : nodes) {
+  for (const auto& entry : nodes) {
+    const auto& list = entry.second;
     const PositionAt position = [&](double t) -> std::optional<Eigen::Vector3d> {
       SatelliteState state;
       const PreciseClock any_clock;
@@ -226,7 +227,7 @@ std::vector<RealOrbit> from_sp3(const std::string& path, System system, const Or
       return good ? std::optional(state.p_e) : std::nullopt;
     };
     if (auto table = table_of(position, span)) {
-      orbits.push_back({satellite, std::move(*table), 0, std::nullopt});
+      orbits.push_back({entry.first, std::move(*table), 0, std::nullopt});
     }
   }
   return orbits;
