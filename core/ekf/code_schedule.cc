@@ -52,7 +52,7 @@ double CodeSchedule::weigh(const Measurement& code, SatelliteId satellite, const
     return plain;
   }
   const double dt = seconds_between(time, entry.time);
-  const double r = std::exp(-std::max(dt, 0.0) / code.correlation_time_s);
+  const double r = std::exp(-std::max(dt, 0.0) / course.correlation_time_s);
   Knowledge prior = entry.now;
   prior.cc += square(course.wander) * std::max(dt, 0.0) + square(course.disturbance_m);
   prior.cb *= r;

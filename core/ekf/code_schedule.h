@@ -24,6 +24,7 @@ class CodeSchedule {
     std::uint32_t orbit_issue = 0;  // another one: another error
     double wander = 0.0;            // m/sqrt(s), of the constant
     double disturbance_m = 0;       // 1 sigma of a step in it since the last epoch
+    double correlation_time_s = 0;  // of the process
   };
 
   // Variance with which `code` is to be weighed; `noise_variance` is that of its white part. The

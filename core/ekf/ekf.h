@@ -120,7 +120,7 @@ class Ekf {
   void make_room(const MeasurementEpoch& epoch);
   void gather(const MeasurementEpoch& epoch);
   Hold hold_of(const MeasurementEpoch& epoch);
-  void weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
+  void weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double persistence,
                   FilterMeasurement* entry);
   int ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                    const FilterMeasurement& entry, GpsTime time);

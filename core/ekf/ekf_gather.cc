@@ -5,6 +5,7 @@
 #include "core/ekf/ambiguities.h"
 #include "core/ekf/ekf.h"
 #include "core/ekf/measurement_model.h"
+#include "core/gnss/range_model.h"
 
 namespace leonav {
 namespace {
@@ -122,9 +123,11 @@ Ekf::Hold Ekf::hold_of(const MeasurementEpoch& epoch) {
 }
 
 // What a code weighs: less than its variance says, as far as it errs like the one before it.
-void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
+void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, double persistence,
                      FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
+  const double inflation = correlation_inflation(persistence * config_.code_correlation_time_s,
+                                                 seconds_between(epoch.time, last_update_));
   const double correlated = square(code.correlated_sigma);
   if (hold_ == Hold::kNone || !(correlated > 0.0) || !(code.correlation_time_s > 0.0)) {
     entry->gain_variance = inflation * entry->variance;
@@ -132,6 +135,7 @@ void Ekf::weigh_code(const MeasurementEpoch& epoch, const Measurement& code, dou
   }
   CodeSchedule::Course course;
   course.orbit_issue = satellite.orbit_issue;
+  course.correlation_time_s = persistence * code.correlation_time_s;
   for (const Measurement& carrier : epoch.measurements) {
     if (carrier.observable != Observable::kCarrier ||
         carrier.satellite_index != code.satellite_index)
@@ -160,8 +164,6 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
   if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - motion.p_e;
   motion.p_e += off_e;
   const double dt = seconds_between(epoch.time, last_update_);
-  const double code_inflation = correlation_inflation(config_.code_correlation_time_s, dt);
-  const double doppler_inflation = correlation_inflation(config_.doppler_correlation_time_s, dt);
   measurements_.clear();
   skipped_.clear();
   arcs_without_place_ = 0;
@@ -190,9 +192,10 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
     entry.variance = square(measurement.sigma);
     entry.gain_variance = entry.variance;
     entry.row = prediction.row;
-    if (measurement.observable == Observable::kCode)
-      weigh_code(epoch, measurement, code_inflation, &entry);
-    if (measurement.observable == Observable::kDoppler) entry.gain_variance *= doppler_inflation;
+    const double lasts = persistence(satellite, motion.p_e);
+    if (measurement.observable == Observable::kCode) weigh_code(epoch, measurement, lasts, &entry);
+    if (measurement.observable == Observable::kDoppler)
+      entry.gain_variance *= correlation_inflation(lasts * config_.doppler_correlation_time_s, dt);
     if (carrier) {
       entry.ambiguity = ambiguity_of(measurement, satellite.satellite, entry, epoch.time);
       if (entry.ambiguity < 0) {

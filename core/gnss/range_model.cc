@@ -37,4 +37,11 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
   return prediction;
 }
 
+double persistence(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
+  constexpr double kMediumOrbit = 1.2e-4;  // rad/s, over the sky of a standing antenna
+  const Eigen::Vector3d line = satellite.p_e - p_a_e;
+  const double turn = line.cross(satellite.v_e).norm() / line.squaredNorm();
+  return turn > kMediumOrbit ? kMediumOrbit / turn : 1.0;
+}
+
 }  // namespace leonav

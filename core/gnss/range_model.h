@@ -28,4 +28,9 @@ RangePrediction predict_range(const SatelliteInView& satellite, const Eigen::Vec
 RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
                                        const Eigen::Vector3d& p_a_e, const Eigen::Vector3d& v_a_e);
 
+// For how much shorter a time than those of a satellite in medium orbit this one's errors stay
+// alike, which hang on the direction it is seen in (reflections, the ionosphere, how its orbit's
+// errors project): 1 for the slower ones, about 1/50 for LEO overhead.
+double persistence(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e);
+
 }  // namespace leonav

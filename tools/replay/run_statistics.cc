@@ -24,6 +24,7 @@ void RunStatistics::add(const EpochReport& report) {
   if (report.solution.source == Source::kNone) ++epochs_without_position_;
   used_sum_ += report.satellites_used;
   for (const SatelliteReport& satellite : report.satellites) {
+    used_of_[index_of(satellite.satellite.system)] += satellite.reason == Reason::kUsed ? 1 : 0;
     ++satellites_by_reason_[std::string(to_string(satellite.reason))];
     if (!satellite.arc_started) continue;
     ++carrier_arcs_;
@@ -52,6 +53,11 @@ void RunStatistics::print(std::ostream& out) const {
       << "results committed: " << commits_ << "\ndeadline misses: " << misses_ << "\n";
   if (epochs_ > 0) {
     out << "mean satellites used: " << used_sum_ / static_cast<double>(epochs_) << "\n";
+    for (const System system : kSystems)
+      if (used_of_[index_of(system)] > 0)
+        out << "mean satellites used of " << to_string(system) << ": "
+            << static_cast<double>(used_of_[index_of(system)]) / static_cast<double>(epochs_)
+            << "\n";
   }
   out << "largest jump m: " << largest_jump_m_ << "\n";
   print_map(out, "satellites", satellites_by_reason_);

@@ -30,6 +30,7 @@ class RunStatistics {
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
                 commits_ = 0, misses_ = 0, carrier_arcs_ = 0;
   double used_sum_ = 0.0;
+  std::array<std::uint64_t, kSystemCount> used_of_{};
   double largest_jump_m_ = 0.0;
   // Ordered maps: they are printed in order.
   std::map<std::string, std::uint64_t> solutions_by_source_, events_, satellites_by_reason_,

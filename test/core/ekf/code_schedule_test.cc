@@ -13,12 +13,11 @@ namespace {
 
 const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
 
-Measurement code_of(double noise, double correlated, double time_s) {
+Measurement code_of(double noise, double correlated) {
   Measurement code;
   code.code = {'1', 'C'};
   code.sigma = std::hypot(noise, correlated);
   code.correlated_sigma = correlated;
-  code.correlation_time_s = time_s;
   return code;
 }
 
@@ -42,13 +41,13 @@ TEST_CASE("what codes with correlated errors weigh adds up to the best estimate'
   for (const Case& c : {Case{0.5, 2.0, 3600.0, 30.0}, Case{4.0, 0.7, 3600.0, 1.0},
                         Case{1.0, 1.0, 900.0, 30.0}, Case{3.0, 0.02, 3600.0, 1.0}}) {
     CodeSchedule schedule;
-    const Measurement code = code_of(c.noise, c.correlated, c.time_s);
+    const Measurement code = code_of(c.noise, c.correlated);
     double information = 0.0;
     for (int k = 0; k < 200; ++k) {
       int place = -1;
-      const double variance =
-          schedule.weigh(code, {System::kGps, 7}, {.orbit_issue = 3}, c.noise * c.noise,
-                         kStart.plus_seconds(c.dt * k), &place);
+      const double variance = schedule.weigh(
+          code, {System::kGps, 7}, {.orbit_issue = 3, .correlation_time_s = c.time_s},
+          c.noise * c.noise, kStart.plus_seconds(c.dt * k), &place);
       REQUIRE(variance > 0.0);
       schedule.accept(place);
       information += 1.0 / variance;
@@ -61,11 +60,11 @@ TEST_CASE("what codes with correlated errors weigh adds up to the best estimate'
 
 TEST_CASE("a code that was not used has told nothing, and another orbit errs anew") {
   CodeSchedule schedule;
-  const Measurement code = code_of(0.3, 2.0, 3600.0);
+  const Measurement code = code_of(0.3, 2.0);
   const double plain = 0.09 + 4.0;
   const SatelliteId satellite{System::kGps, 7};
   int place = -1;
-  CodeSchedule::Course course{.orbit_issue = 3};
+  CodeSchedule::Course course{.orbit_issue = 3, .correlation_time_s = 3600.0};
   const auto weigh = [&](double t) {
     return schedule.weigh(code, satellite, course, 0.09, kStart.plus_seconds(t), &place);
   };

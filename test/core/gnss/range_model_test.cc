@@ -114,3 +114,19 @@ TEST_CASE("range rate equals the derivative of the light-time range") {
   CHECK(largest_light_time_term > 0.05);  // so the test would notice if the term were missing
   CHECK(worst < 1e-3);
 }
+
+TEST_CASE("errors that hang on the direction persist as it does") {
+  // A second later: the angle between both lines of sight.
+  const auto turned = [](const SatelliteInView& s) {
+    const Eigen::Vector3d now = s.p_e - kAntenna, later = s.p_e + s.v_e - kAntenna;
+    return std::atan2(now.cross(later).norm(), now.dot(later));
+  };
+  for (const Case& c : cases()) {
+    INFO(c.name);
+    CHECK(persistence(c.satellite, kAntenna) ==
+          Approx(std::min(1.0, 1.2e-4 / turned(c.satellite))).epsilon(5e-3));
+  }
+  CHECK(persistence(satellite(kAntenna.normalized() * 7'348e3, {7'000.0, 0.0, 0.0}), kAntenna) <
+        0.03);
+  CHECK(persistence(satellite({42'164e3, 0.0, 0.0}, {0.0, 0.0, 0.0}), kAntenna) == 1.0);
+}

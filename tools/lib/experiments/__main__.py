@@ -40,7 +40,8 @@ def arguments():
     parser.add_argument("--bin", help="folder of leonav-sim, leonav-replay, leonav-eval; without it they are built first")
     parser.add_argument("--rows", action="append", metavar="PATTERN", help="only rows whose name matches, as in 'code-*'; may be "
                         "repeated (--list tells the names)")
-    parser.add_argument("--seeds", type=at_least(1), default=5, help="seeds 1 to N of every row [5]")
+    parser.add_argument("--seeds", type=at_least(1), default=5, help="so many seeds of every row [5]")
+    parser.add_argument("--first-seed", type=at_least(1), default=1, help="the first of them; the sets are always 1 to 4 [1]")
     parser.add_argument("--jobs", type=at_least(1), default=os.cpu_count() or 1, help="runs at a time [processors]")
     parser.add_argument("--epochs", type=at_least(1100), default=3600, help="of each drive, 1 s each; the first 1000 do not "
                         "count [3600]")
@@ -71,7 +72,7 @@ def main():
         for row in rows:
             print(f"{row.name:40} {report.TITLES[row.group]}: {row.title}")
         return 0
-    seeds = list(range(1, options.seeds + 1))
+    seeds = list(range(options.first_seed, options.first_seed + options.seeds))
     four = [1, 2, 3, 4] if not options.quick else seeds
 
     def seeds_of(row):

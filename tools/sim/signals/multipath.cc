@@ -7,13 +7,24 @@
 
 namespace leonav::sim {
 
+void MultipathAge::advance(double t, double elevation, const LookAngles& rates) {
+  constexpr double kMediumOrbit = 1.2e-4;  // rad/s: GPS, Galileo and BeiDou's most, over the sky
+  constexpr double kSlowest = 0.1;         // geostationary ones: the surroundings change
+  const double turn = std::hypot(rates.elevation, rates.azimuth * std::cos(elevation));
+  const double rate = std::max(kSlowest, turn / kMediumOrbit);
+  if (started_) seconds_ += 0.5 * (rate_ + rate) * (t - t_);
+  started_ = true;
+  t_ = t;
+  rate_ = rate;
+}
+
 MultipathError Multipath::error(SatelliteId satellite, std::size_t signal, double elevation,
-                                double t, double travelled_m, double speed_m_s,
+                                const MultipathAge& age, double travelled_m, double speed_m_s,
                                 double strength) const {
   const double height = strength * std::exp(-std::max(0.0, elevation) / config_.elevation);
-  // One argument for both: the reflectors' geometry changes by time or by way.
-  const double argument = t / config_.time_s + travelled_m / config_.length_m;
-  const double argument_rate = 1.0 / config_.time_s + speed_m_s / config_.length_m;
+  // One argument for both: the reflectors' geometry changes as the satellite or the vehicle goes.
+  const double argument = age.seconds() / config_.time_s + travelled_m / config_.length_m;
+  const double argument_rate = age.rate() / config_.time_s + speed_m_s / config_.length_m;
   const std::uint64_t number = signal_number(place_of(satellite), signal);
   MultipathError error;
   if (config_.code_m > 0.0) {

@@ -84,6 +84,7 @@ void SatelliteObserver::observe(const EpochInstant& now, RawEpoch* raw) {
   Arrival arrival = this->arrival(now, g, pull);
   if (world_.faults.is_out(satellite_.id, now.t_tag)) arrival.present = false;
   turn(now, g.path);
+  age_.advance(now.clock.t, g.path.direction.elevation, g.direction_rates);
   tracking_.step(now.t_tag, arrival);
   for (std::size_t s = 0; s < kTrackedSignals; ++s) {
     if (tracking_.signal(s).code) measure(now, g, arrival, pull, s, raw);
@@ -106,7 +107,7 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
   const double doppler_noise_m_s = noise.doppler_m_s * factor * random.draw();
   const double scatter_db = receiver.cn0.scatter_db * random.draw();
   const MultipathError reflected = world_.multipath.error(
-      satellite_.id, s, g.path.direction.elevation, now.clock.t, now.place.travelled_m,
+      satellite_.id, s, g.path.direction.elevation, age_, now.place.travelled_m,
       now.place.speed_m_s, now.place.place->multipath);
 
   const ClockTable::Value base = world_.clock.time_base_m(system, now.clock.t);

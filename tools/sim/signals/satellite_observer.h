@@ -44,6 +44,7 @@ class SatelliteObserver {
   const TrueSatellite& satellite_;
   Tracking tracking_;
   double wind_up_ = 0.0, wind_up_rate_ = 0.0;  // cycles, and a second
+  MultipathAge age_;
 };
 
 }  // namespace leonav::sim
