@@ -92,13 +92,27 @@ TEST_CASE("The Doppler is the rate of the carrier", "[sim]") {
   REQUIRE(count > 30'000);
 }
 
+TEST_CASE("Reflections grow old as their satellite crosses the sky", "[sim]") {
+  const auto age_after = [](double t, double elevation, LookAngles rates) {
+    sim::MultipathAge age;
+    for (double s = 0.0; s <= t; s += 1.0) age.advance(s, elevation, rates);
+    return age.seconds();
+  };
+  // Medium orbit, low orbit, and one that stands still over the equator.
+  CHECK(age_after(60.0, 0.0, {.elevation = 1.2e-4, .azimuth = 0.0}) == Approx(60.0));
+  CHECK(age_after(60.0, 1.0, {.elevation = 0.0, .azimuth = 6e-3}) ==
+        Approx(60.0 * 50.0 * std::cos(1.0)));
+  CHECK(age_after(60.0, 0.5, {.elevation = 0.0, .azimuth = 0.0}) == Approx(6.0));
+}
+
 TEST_CASE("Multipath moves carrier and Doppler together", "[sim]") {
-  // A wave over many metres, large: what differences over 0.2 s do not resolve is small.
+  // A wave over many metres, large, and long enough for satellites in low orbit, whose reflections
+  // change fifty times as fast: what differences over 0.2 s do not resolve is small.
   const std::string yaml =
       kDrive + "ideal: true\nreceiver: {interval_s: 0.1, clock: {oscillator: ideal}}";
   const SimulatedEpochs plain = simulate_epochs(yaml);
   sim::Scenario scenario = sim::load_scenario_text(yaml, "test.yaml");
-  scenario.receiver.multipath = {0.0, 0.05, 1.0, 20.0, 50.0};
+  scenario.receiver.multipath = {0.0, 0.05, 1.0, 400.0, 50.0};
   const SplineMotion motion = sim::drive(scenario);
   const sim::TrueSky sky = sim::build_sky(scenario);
   const sim::FaultScript none({});
