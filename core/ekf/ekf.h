@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/ekf/clock_free.h"
 #include "core/ekf/code_schedule.h"
 #include "core/ekf/ekf_config.h"
 #include "core/ekf/ekf_state.h"
@@ -138,7 +139,9 @@ class Ekf {
   void watch_bases(const std::array<int, kMaxTimeBases>& offered,
                    const std::array<int, kMaxTimeBases>& accepted);
   void forget_locked_out_bases();
-  bool is_possible(Observable observable, double off, bool carriers_confirm, GpsTime time) const;
+  bool is_confirmed_against(Observable observable, double off,
+                            const std::array<ClockFreeTable, kObservables>& tables,
+                            GpsTime time) const;
   template <typename Which>
   void leave_out(Which which);
   void leave_out_ranges();

@@ -86,7 +86,7 @@ int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
   ambiguity.satellite = satellite;
   ambiguity.value_m = entry.innovation;
   ambiguity.wander = carrier.wander;
-  ambiguity.last_used = time;
+  ambiguity.started = ambiguity.last_used = time;
   const double predicted = std::sqrt(std::max(predicted_variance(entry, covariance_), 0.0));
   add_ambiguity(ambiguity, kStartAmbiguitySigma + kStartShare * predicted, &ambiguities_,
                 &covariance_);

@@ -56,7 +56,7 @@ struct Ambiguity {
   SatelliteId satellite;
   double value_m = 0.0;
   double wander = 0.0;  // m/sqrt(s), random walk
-  GpsTime last_used;
+  GpsTime started, last_used;
   int rejected = 0;  // epochs in a row
 };
 // Index-parallel to the error state from ekf_index::kSize on.

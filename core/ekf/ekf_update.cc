@@ -6,7 +6,6 @@
 #include "core/ekf/clock_steps.h"
 #include "core/ekf/ekf.h"
 #include "core/ekf/prediction_check.h"
-#include "core/median.h"
 
 namespace leonav {
 namespace {
@@ -57,42 +56,52 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
       // It may be the epoch that is wrong, its time stamp for one. The next one tells.
       if (!contradicted_before) return leave_out_ranges();
     }
-    const bool confirmed =
-        observable != Observable::kCarrier &&
-        consistency_ratio(of(tables, Observable::kCarrier)) < config_.prediction_suspect_ratio;
-    if (!is_possible(observable, std::sqrt(variance), confirmed, epoch.time)) {
+    if (is_confirmed_against(observable, std::sqrt(variance), tables, epoch.time)) {
       leave_out([&](const FilterMeasurement& m) { return m.observable == observable; });
       tables = clock_free_tables(measurements_, covariance_);
       continue;
     }
-    widen(observable, variance, &covariance_);
+    widen(observable, variance, seconds_between(epoch.time, last_update_), &covariance_);
     // Codes that agree on another position than the carriers stand for: the ambiguities were found
     // at a wrong one.
-    if (observable != Observable::kCarrier && !ambiguities_.empty()) {
+    if (observable == Observable::kCode && !ambiguities_.empty()) {
       forget_ambiguities();
       result->ambiguities_forgotten = true;
       gather(epoch);
     }
     tables = clock_free_tables(measurements_, covariance_);
   }
-  if (!result->prediction_suspect && std::isfinite(result->code_ratio)) agreed_ = epoch.time;
+  if (!result->prediction_suspect &&
+      agrees(of(tables, Observable::kCode), config_.prediction_suspect_ratio))
+    agreed_ = epoch.time;
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(of(tables, observable), &measurements_);
 }
 
-// Whether a prediction that codes agreed with a while ago can be wrong by so much (m, of Dopplers
-// m/s) now. An IMU cannot lose its way from one second to the next, nor carriers that confirm it,
-// while signals that come by way of the same wall agree among each other on a wrong position.
-bool Ekf::is_possible(Observable observable, double off, bool carriers_confirm,
-                      GpsTime time) const {
-  constexpr double kAcceleration = 0.5;  // m/s^2, that the covariance does not know of
-  // A broken IMU must not be believed for longer; codes that go on agreeing must be, in the end.
-  constexpr double kLongest_s = 10.0, kLongestConfirmed_s = 60.0;
-  if (!has_attitude_ || !agreed_.is_set()) return true;
-  const double since_s = seconds_between(time, agreed_);
-  if (since_s > (carriers_confirm ? kLongestConfirmed_s : kLongest_s)) return true;
-  const bool rate = observable == Observable::kDoppler;
-  return !carriers_confirm && off <= kAcceleration * (rate ? since_s : 0.5 * since_s * since_s);
+// Signals that come by way of the same wall agree among each other on a wrong position. Where codes
+// agreed with an IMU's prediction until a moment ago, and all that has been measured of the motion
+// since confirms it, they are not believed at once: not for 20 s, about what it takes to pass a
+// house or two, and by no more than such a way is longer. What confirms it are carriers of arcs
+// from before, against codes and Dopplers, or Dopplers, against codes: an IMU that fails
+// contradicts both.
+bool Ekf::is_confirmed_against(Observable observable, double off,
+                               const std::array<ClockFreeTable, kObservables>& tables,
+                               GpsTime time) const {
+  constexpr double kLongest_s = 20.0;
+  constexpr double kLongestDetour_m = 100.0;
+  constexpr std::size_t kMinCarriers = 5;  // a move, a clock's, and one more
+  if (observable == Observable::kCarrier || off > kLongestDetour_m || !has_attitude_ ||
+      !agreed_.is_set() || seconds_between(time, agreed_) > kLongest_s)
+    return false;
+  ClockFreeTable carriers;
+  for (const ClockFree& carrier : of(tables, Observable::kCarrier)) {
+    const int state = measurements_[carrier.index].ambiguity;
+    if (ambiguities_[static_cast<std::size_t>(state - kSize)].started <= agreed_)
+      carriers.push_back(carrier);
+  }
+  const double suspect = config_.prediction_suspect_ratio;
+  if (carriers.size() >= kMinCarriers) return agrees(carriers, suspect);
+  return observable == Observable::kCode && agrees(of(tables, Observable::kDoppler), suspect);
 }
 
 void Ekf::leave_out_ranges() {

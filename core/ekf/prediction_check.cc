@@ -78,6 +78,10 @@ double consistency_ratio(const ClockFreeTable& table) {
   return median(ratios) / std::sqrt(kMedianSquare);
 }
 
+bool agrees(const ClockFreeTable& table, double suspect) {
+  return consistency_ratio(table) * std::sqrt(kMedianSquare) < suspect;
+}
+
 void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements) {
   if (table.size() < kMinCount) return;
   for (const ClockFree& entry : table)
@@ -89,7 +93,7 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
                         Observable observable, const ClockFreeTable& table,
                         const EkfCovariance& covariance, double suspect,
                         RobustUpdate* robust_update) {
-  if (!(consistency_ratio(table) * std::sqrt(kMedianSquare) >= suspect)) return 0.0;
+  if (table.size() < kMinCount || agrees(table, suspect)) return 0.0;
   FilterMeasurements offered;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable != observable) continue;
@@ -109,7 +113,7 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
     for (FilterMeasurement& measurement : offered) measurement.gain_variance = measurement.variance;
   // Would they agree?
   EkfCovariance wide = covariance;
-  widen(observable, variance, &wide);
+  widen(observable, variance, 0.0, &wide);
   const RobustUpdateResult fit = (*robust_update)(robust, &offered, &wide);
   std::size_t kept = 0;
   for (const FilterMeasurement& measurement : offered) kept += measurement.factor > 0.0 ? 1 : 0;
@@ -121,14 +125,22 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
   return agree ? variance : 0.0;
 }
 
-void widen(Observable observable, double variance, EkfCovariance* covariance) {
+void widen(Observable observable, double variance, double interval_s, EkfCovariance* covariance) {
   const bool rates = observable == Observable::kDoppler;
-  const auto add = [&](int first, int count) {
-    for (double& state : covariance->diagonal().segment(first, count))
-      if (state > 0.0) state += variance;
+  const double half_s = rates ? 0.5 * interval_s : 0.0;
+  const auto add = [&](int first, int first_rate, int count) {
+    for (int i = 0; i < count; ++i) {
+      double& state = (*covariance)(first + i, first + i);
+      double& rate = (*covariance)(first_rate + i, first_rate + i);
+      if (!rates && state > 0.0) state += variance;
+      if (!rates || !(rate > 0.0)) continue;
+      rate += variance;
+      if (!(state > 0.0)) continue;
+      state += half_s * half_s * variance;
+    }
   };
-  add(rates ? kVelocity : kPosition, 3);
-  add(rates ? kClockDrift : kClock, static_cast<int>(kMaxTimeBases));
+  add(kPosition, kVelocity, 3);
+  add(kClock, kClockDrift, static_cast<int>(kMaxTimeBases));
 }
 
 }  // namespace leonav

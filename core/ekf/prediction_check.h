@@ -19,6 +19,9 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
 // four.
 double consistency_ratio(const ClockFreeTable& table);
 
+// Whether the median standardized innovation is below `suspect`; false for fewer than four.
+bool agrees(const ClockFreeTable& table, double suspect);
+
 // Sets prior_ratio of the table's measurements, where there are four: a clock whose prediction is
 // worth nothing would let all of them pass, whatever they contradict.
 void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements);
@@ -35,7 +38,9 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
 // Adds `variance` to the states an observable sees first (code, carrier: position, clock offsets;
 // Doppler: velocity, clock drifts) and that are states at all: a fixed point has no velocity, a
 // time base none has seen no clock. Added, not scaled: correlations with ambiguities that are
-// nearly perfect would turn a wider prior into a better one.
-void widen(Observable observable, double variance, EkfCovariance* covariance);
+// nearly perfect would turn a wider prior into a better one. A velocity (a drift) that has gone
+// wrong over `interval_s`, evenly, has taken the position (the clock) with it: by half of the way,
+// which is added as well (without the correlation: what came of it is the ranges' to say).
+void widen(Observable observable, double variance, double interval_s, EkfCovariance* covariance);
 
 }  // namespace leonav
