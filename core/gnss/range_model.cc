@@ -38,7 +38,7 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
 }
 
 double persistence(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
-  constexpr double kMediumOrbit = 1.2e-4;  // rad/s, over the sky of a standing antenna
+  constexpr double kMediumOrbit = 1.6e-4;  // rad/s: GPS overhead, the fastest of them
   const Eigen::Vector3d line = satellite.p_e - p_a_e;
   const double turn = line.cross(satellite.v_e).norm() / line.squaredNorm();
   return turn > kMediumOrbit ? kMediumOrbit / turn : 1.0;

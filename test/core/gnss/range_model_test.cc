@@ -124,9 +124,9 @@ TEST_CASE("errors that hang on the direction persist as it does") {
   for (const Case& c : cases()) {
     INFO(c.name);
     CHECK(persistence(c.satellite, kAntenna) ==
-          Approx(std::min(1.0, 1.2e-4 / turned(c.satellite))).epsilon(5e-3));
+          Approx(std::min(1.0, 1.6e-4 / turned(c.satellite))).epsilon(5e-3));
   }
   CHECK(persistence(satellite(kAntenna.normalized() * 7'348e3, {7'000.0, 0.0, 0.0}), kAntenna) <
-        0.03);
+        0.04);
   CHECK(persistence(satellite({42'164e3, 0.0, 0.0}, {0.0, 0.0, 0.0}), kAntenna) == 1.0);
 }
