@@ -40,6 +40,7 @@ struct EkfUpdateResult {
   // Rejected: without weight, or, where weights are switched off, as far out as if they were not.
   std::array<int, kObservables> offered{};  // per Observable
   std::array<int, kObservables> rejected{};
+  std::array<double, kObservables> largest_rejected{};  // innovation, m or m/s, without sign
   // Carriers rejected too often in a row: the arc has slipped, whatever its checks said. Its
   // ambiguity goes with the next epoch.
   boost::container::static_vector<SatelliteId, kMaxArcs> slipped;

@@ -136,7 +136,11 @@ void Ekf::close(const RobustUpdateResult& update, const MeasurementEpoch& epoch,
     if (measurement.ambiguity >= 0) close_carrier(measurement, epoch.time, result);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
-    if (rejected) ++result->rejected[kind];
+    if (rejected) {
+      ++result->rejected[kind];
+      result->largest_rejected[kind] =
+          std::max(result->largest_rejected[kind], std::abs(measurement.innovation));
+    }
     if (measurement.observable != Observable::kCode) continue;
     const auto base = static_cast<std::size_t>(base_of(measurement, epoch));
     ++offered[base];

@@ -205,6 +205,7 @@ void GnssStage::update_filter(const EpochWork& work) {
   watch_consistency(work, result);
   watch_clocks(result, work.time);
   judge_prediction(work, result);
+  judge_lock_out(work, result);
 }
 
 void GnssStage::process_command(const Command& command) {
@@ -223,7 +224,7 @@ void GnssStage::process_command(const Command& command) {
 void GnssStage::report_solution(const EpochWork& work) {
   report_state(ekf_, report_.get());
   if (is_finite(report_->solution)) return;
-  drop_filter(work.time);
+  drop_filter(work.time, ResetCause::kNotFinite, 0.0);
   report_->solution = Solution();
   report_->solution.time = work.time;
 }

@@ -14,6 +14,7 @@
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
 #include "core/navigator/event_source.h"
+#include "core/navigator/lock_out_watch.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/orbit_watch.h"
 #include "core/navigator/stage_work.h"
@@ -45,13 +46,14 @@ class GnssStage {
   bool start_filter(const EpochWork& work);
   void update_filter(const EpochWork& work);
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
+  void judge_lock_out(const EpochWork& work, const EkfUpdateResult& result);
   bool prediction_is_useless() const;
   double position_sigma() const;
   Eigen::Vector3d approximate_position(const EpochWork& work);
   PreprocessAids aids();
   RangeChangePrior change_prior(bool predicted) const;
   void drop_broken_filter(GpsTime time);
-  void drop_filter(GpsTime time);
+  void drop_filter(GpsTime time, ResetCause cause, double value);
   void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
   void watch_clocks(const EkfUpdateResult& result, GpsTime time);
   void watch_usable();
@@ -89,6 +91,7 @@ class GnssStage {
   std::array<ConsistencyWatch, 2> consistency_;  // codes, Dopplers
   OrbitWatch orbit_watch_;
   UsableWatch usable_watch_;
+  LockOutWatch lock_out_watch_;
   std::uint64_t clock_steps_ = 0;
   std::array<std::uint64_t, 5> orbit_changes_{};  // per OrbitChange
   int suspect_epochs_ = 0;

@@ -1,6 +1,7 @@
 // When the filter of GnssStage is dropped, doubted or started over.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/point_solution.h"
@@ -17,6 +18,9 @@ constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to
 constexpr double kLostSigma_m = 1e5;       // likewise, with carrier arcs
 constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
 constexpr double kMinResetHeadingSigma = 0.1;  // rad
+// Codes and Dopplers that are off by more than this, from a filter that was sure of itself.
+constexpr double kMaxLockedOut_m = 250.0, kMaxLockedOut_m_s = 30.0;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Satellites beyond what a position and one clock per time base need.
 int redundancy(const PointSolution& point) {
@@ -37,22 +41,26 @@ bool most_codes_agree(const MeasurementEpoch& epoch) {
   return 3 * used >= 2 * offered;
 }
 
+Eigen::Matrix3d widened(const EkfCovariance& covariance, int first, double sigma) {
+  return covariance.block<3, 3>(first, first) + sigma * sigma * Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 // A filter whose numbers have overflowed is of no more use to anybody, its attitude included.
 void GnssStage::drop_broken_filter(GpsTime time) {
-  if (ekf_.initialized() && !ekf_.is_finite()) drop_filter(time);
+  if (ekf_.initialized() && !ekf_.is_finite()) drop_filter(time, ResetCause::kNotFinite, 0.0);
 }
 
-void GnssStage::drop_filter(GpsTime time) {
+void GnssStage::drop_filter(GpsTime time, ResetCause cause, double value) {
   ekf_.reset();
   carriers_.forget_position();
   alignment_.reset();
   gnss_used_ = false;
   suspect_epochs_ = 0;
+  lock_out_watch_.reset();
   last_reset_time_ = time;
-  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
-               time);
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
 }
 
 bool GnssStage::prediction_is_useless() const {
@@ -124,11 +132,35 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
     suspect_since_ = checked ? work.time : GpsTime();
     suspect_point_ = point;
   }
+  if (checked) lock_out_watch_.reset();
   if (checked && suspect_epochs_ >= config_.ekf.reset_epochs &&
       contradicts(point, work.time, doppler)) {
     restart_from(point, work, ResetCause::kPrediction);
   }
   std::swap(measurements_, check_measurements_);
+}
+
+// Nobody can tell whether the filter or what it throws out is wrong: it goes on from where it is,
+// as unsure as the two are apart, or, where that is more than it could come back from, not at all.
+void GnssStage::judge_lock_out(const EpochWork& work, const EkfUpdateResult& result) {
+  if (!lock_out_watch_.add(result, work.time)) return;
+  const double off_m = result.largest_rejected[static_cast<std::size_t>(Observable::kCode)];
+  const double off_m_s = result.largest_rejected[static_cast<std::size_t>(Observable::kDoppler)];
+  if (off_m > kMaxLockedOut_m || off_m_s > kMaxLockedOut_m_s)
+    return drop_filter(work.time, ResetCause::kLockedOut, off_m);
+  PointSolution own;
+  own.p_e = ekf_.antenna_position_e();
+  own.v_e = ekf_.antenna_velocity_e();
+  own.has_velocity = true;
+  own.covariance_p_e = widened(ekf_.covariance(), ekf_index::kPosition, off_m);
+  own.covariance_v_e = widened(ekf_.covariance(), ekf_index::kVelocity, off_m_s);
+  const ClockFlags& known = ekf_.clocks_known();
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    const auto i = static_cast<Eigen::Index>(base);
+    own.clock_m[base] = known.offset[base] ? ekf_.clocks().offset_m(i) : kUnknown;
+    own.clock_drift_m_s[base] = known.drift[base] ? ekf_.clocks().drift_m_s(i) : kUnknown;
+  }
+  restart_from(own, work, ResetCause::kLockedOut);
 }
 
 // Dopplers alone could all be wrong, of a receiver that has their sign or unit wrong for one:

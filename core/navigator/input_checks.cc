@@ -18,6 +18,9 @@ InputFault check(const ImuSample& sample, const ImuLimits& limits) {
       sample.interval_ns > limits.interval_ns) {
     return InputFault::kOutOfRange;
   }
+  // Gravity, the Earth's rotation and noise: all six are zero only of a sensor that is dead.
+  if (sample.delta_theta_b.isZero(0.0) && sample.delta_velocity_b.isZero(0.0))
+    return InputFault::kNotSane;
   const double dt = sample.interval_s();
   const bool in_range = sample.delta_theta_b.cwiseAbs().maxCoeff() <= limits.rotation_rate * dt &&
                         sample.delta_velocity_b.cwiseAbs().maxCoeff() <= limits.specific_force * dt;

@@ -120,7 +120,8 @@ enum class ResetCause : std::uint8_t {
   kTimeBase = 1,
   kPrediction = 2,
   kOutage = 3,
-  kNotFinite = 4
+  kNotFinite = 4,
+  kLockedOut = 5  // value: the new sigma, m
 };
 
 // Why an input message was not used. On the wire: append only.

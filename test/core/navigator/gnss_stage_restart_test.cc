@@ -77,8 +77,8 @@ TEST_CASE("a filter locked out of all Dopplers is started anew, with codes good 
   CHECK(worst_error(sink, drive, 50.0, 90.0) < 3.0);
 }
 
-TEST_CASE("a point solution that nothing checks does not overthrow the filter") {
-  SyntheticDrive drive = carried_away(90.0, 60.0, 3'000.0);
+TEST_CASE("a point solution that nothing checks does not overthrow the filter at once") {
+  SyntheticDrive drive = carried_away(85.0, 60.0, 3'000.0);
   // Four satellites of one system are left: any four codes fit a position.
   for (RawEpoch& raw : drive.epochs) {
     if (seconds(raw.time) < 59.5) continue;

@@ -32,13 +32,18 @@ TEST_CASE("bad IMU samples are rejected by reason and good ones after them count
   rig.sequencer.on_imu(
       sample_until(GpsTime::from_nanoseconds(std::numeric_limits<std::int64_t>::max())));
   CHECK(rig.rejected(InputFault::kOutOfRange) == 7);
+  bad = sample_until(at_ms(105));
+  bad.delta_theta_b.setZero();
+  bad.delta_velocity_b.setZero();
+  rig.sequencer.on_imu(bad);
+  CHECK(rig.rejected(InputFault::kNotSane) == 1);
   rig.sequencer.on_imu(sample_until(at_ms(100)));
   CHECK(rig.rejected(InputFault::kDuplicate) == 1);
   rig.sequencer.on_imu(sample_until(at_ms(60)));
   CHECK(rig.rejected(InputFault::kTimeBackwards) == 1);
   rig.sequencer.on_imu(sample_until(at_ms(100'000)));
   CHECK(rig.rejected(InputFault::kTooFarAhead) == 1);
-  CHECK(rig.stages.count(EventKind::kRejectedInput) == 11);
+  CHECK(rig.stages.count(EventKind::kRejectedInput) == 12);
   CHECK(rig.stages.samples.size() == 20);
 
   rig.imu(100, 1100);
