@@ -4,6 +4,9 @@ import fnmatch
 import os
 import sys
 
+# The median of five convergence times scatters by half of itself.
+CONVERGENCE_FACTOR = 3
+
 
 def fail(message, code=1):
     print(f"experiments: {message}", file=sys.stderr)
@@ -40,7 +43,8 @@ def arguments():
     parser.add_argument("--bin", help="folder of leonav-sim, leonav-replay, leonav-eval; without it they are built first")
     parser.add_argument("--rows", action="append", metavar="PATTERN", help="only rows whose name matches, as in 'code-*'; may be "
                         "repeated (--list tells the names)")
-    parser.add_argument("--seeds", type=at_least(1), default=5, help="so many seeds of every row [5]")
+    parser.add_argument("--seeds", type=at_least(1), default=5,
+                        help=f"so many seeds of every row, {CONVERGENCE_FACTOR} times as many for convergence [5]")
     parser.add_argument("--first-seed", type=at_least(1), default=1, help="the first of them; the sets are always 1 to 4 [1]")
     parser.add_argument("--jobs", type=at_least(1), default=os.cpu_count() or 1, help="runs at a time [processors]")
     parser.add_argument("--epochs", type=at_least(1100), default=3600, help="of each drive, 1 s each; the first 1000 do not "
@@ -76,7 +80,11 @@ def main():
     four = [1, 2, 3, 4] if not options.quick else seeds
 
     def seeds_of(row):
-        return four if row.group == "sets" else seeds
+        if row.group == "sets":
+            return four
+        if row.group.startswith("convergence") and not options.quick:
+            return list(range(options.first_seed, options.first_seed + CONVERGENCE_FACTOR * options.seeds))
+        return seeds
 
     out = os.path.abspath(options.out)
     try:
