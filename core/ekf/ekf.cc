@@ -246,8 +246,10 @@ void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
 // Nothing is known of the motion: it goes on as before, give or take the acceleration and turning
 // of the configuration. Biases and scales keep their variances, which are stationary.
 void Ekf::coast(GpsTime time) {
-  agreed_ = GpsTime();
-  if (has_attitude_) finish_sub_block();
+  if (has_attitude_) {
+    agreed_ = GpsTime();
+    finish_sub_block();
+  }
   const double dt = seconds_between(time, state_.time);
   if (config_.static_point) {
     state_.time = time;

@@ -40,7 +40,6 @@ struct EkfUpdateResult {
   // Rejected: without weight, or, where weights are switched off, as far out as if they were not.
   std::array<int, kObservables> offered{};  // per Observable
   std::array<int, kObservables> rejected{};
-  std::array<double, kObservables> largest_rejected{};  // innovation, m or m/s, without sign
   // Carriers rejected too often in a row: the arc has slipped, whatever its checks said. Its
   // ambiguity goes with the next epoch.
   boost::container::static_vector<SatelliteId, kMaxArcs> slipped;
@@ -82,6 +81,8 @@ class Ekf {
   // Corrects an attitude from outside: only its own variances and correlations change, and the
   // antenna stays where it is. Nothing without an attitude.
   void turn_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
+  // The clocks' offsets start anew from the next epoch's codes, all arcs with them.
+  void forget_clocks();
   bool initialized() const { return initialized_; }
   bool has_attitude() const { return has_attitude_; }
   // False once a number has overflowed: nothing but a new filter helps.

@@ -230,6 +230,11 @@ void Ekf::forget_locked_out_bases() {
   }
 }
 
+void Ekf::forget_clocks() {
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base)
+    if (known_.offset[base]) locked_out_[base] = kLockedOutEpochs;
+}
+
 void Ekf::take_up_clock_steps(const MeasurementEpoch& epoch, EkfUpdateResult* result) {
   take_up_clock_jump(epoch, result);
   take_up_base_steps(epoch, result);

@@ -90,7 +90,8 @@ bool Ekf::is_confirmed_against(Observable observable, double off,
   constexpr double kLongest_s = 20.0;
   constexpr double kLongestDetour_m = 100.0;
   constexpr std::size_t kMinCarriers = 5;  // a move, a clock's, and one more
-  if (observable == Observable::kCarrier || off > kLongestDetour_m || !has_attitude_ ||
+  const bool model_only = observable == Observable::kCode && !has_attitude_;
+  if (observable == Observable::kCarrier || off > kLongestDetour_m || model_only ||
       !agreed_.is_set() || seconds_between(time, agreed_) > kLongest_s)
     return false;
   ClockFreeTable carriers;
@@ -136,11 +137,7 @@ void Ekf::close(const RobustUpdateResult& update, const MeasurementEpoch& epoch,
     if (measurement.ambiguity >= 0) close_carrier(measurement, epoch.time, result);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
-    if (rejected) {
-      ++result->rejected[kind];
-      result->largest_rejected[kind] =
-          std::max(result->largest_rejected[kind], std::abs(measurement.innovation));
-    }
+    if (rejected) ++result->rejected[kind];
     if (measurement.observable != Observable::kCode) continue;
     const auto base = static_cast<std::size_t>(base_of(measurement, epoch));
     ++offered[base];
@@ -158,8 +155,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   drop_ended_arcs(epoch);
   make_room(epoch);
   disturb_ambiguities(epoch);
-  gather(epoch);
   forget_locked_out_bases();
+  gather(epoch);
   if (start_clocks(epoch, &result)) gather(epoch);
   result.arcs_without_place = arcs_without_place_;
   check_prediction(epoch, &result);

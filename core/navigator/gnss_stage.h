@@ -46,6 +46,7 @@ class GnssStage {
   bool start_filter(const EpochWork& work);
   void update_filter(const EpochWork& work);
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
+  void judge_position(const EpochWork& work, const EkfUpdateResult& result);
   void judge_lock_out(const EpochWork& work, const EkfUpdateResult& result);
   bool prediction_is_useless() const;
   double position_sigma() const;
@@ -100,6 +101,10 @@ class GnssStage {
   bool gnss_used_ = false;  // in the epoch at hand
   GpsTime last_gnss_time_;  // of the last epoch that used any
   GpsTime last_reset_time_;
+  GpsTime last_lock_out_;
+  GpsTime last_judged_;
+  double elsewhere_ = 0.0;  // what codes say for another place, less what they have said for this
+  Eigen::Vector3d mean_off_e_ = Eigen::Vector3d::Zero();
   GpsTime last_epoch_time_;
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/point_solution.h"
@@ -17,9 +18,19 @@ constexpr int kMinResetRedundancy = 2;     // of a point solution that overthrow
 constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
 constexpr double kLostSigma_m = 1e5;       // likewise, with carrier arcs
 constexpr double kRelapse_s = 60.0;  // a second reset this soon: the attitude is to blame as well
-constexpr double kMinResetHeadingSigma = 0.1;  // rad
-// Codes and Dopplers that are off by more than this, from a filter that was sure of itself.
-constexpr double kMaxLockedOut_m = 250.0, kMaxLockedOut_m_s = 30.0;
+constexpr double kMinResetHeadingSigma = 0.1;                        // rad
+constexpr double kMaxLockedOut_m = 250.0, kMaxLockedOut_m_s = 30.0;  // it is made unsure by at most
+constexpr double kLockOutRelapse_s = 90.0;  // locked out once more this soon
+// A place all codes agree on, without a contradiction, against the filter's.
+constexpr int kMinCodesToMove = 7;
+constexpr int kMinMoveRedundancy = 3;
+constexpr double kInconsistent = 1.5;
+constexpr double kElsewhere = 2.0;  // sigmas of one point solution, in the mean of many
+constexpr double kElsewhereOfFilter = 5.0;
+constexpr double kMeanOver_s = 15.0;
+constexpr double kElsewhereEnough = 120.0;  // 30 s of eight codes of one system
+constexpr double kMostTrust = 480.0;        // beyond, more past says no more
+constexpr double kLongestInterval_s = 10.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Satellites beyond what a position and one clock per time base need.
@@ -39,6 +50,18 @@ bool most_codes_agree(const MeasurementEpoch& epoch) {
     used += reason == Reason::kUsed || reason == Reason::kDownweighted ? 1 : 0;
   }
   return 3 * used >= 2 * offered;
+}
+
+// None is thrown out, and hardly one doubted.
+bool all_codes_agree(const MeasurementEpoch& epoch) {
+  int offered = 0, doubted = 0;
+  for (const Measurement& measurement : epoch.measurements) {
+    if (measurement.observable != Observable::kCode) continue;
+    if (measurement.reason == Reason::kOutlier) return false;
+    offered += measurement.reason == Reason::kUsed ? 1 : 0;
+    doubted += measurement.reason == Reason::kDownweighted ? 1 : 0;
+  }
+  return 4 * doubted <= offered;
 }
 
 Eigen::Matrix3d widened(const EkfCovariance& covariance, int first, double sigma) {
@@ -132,7 +155,6 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
     suspect_since_ = checked ? work.time : GpsTime();
     suspect_point_ = point;
   }
-  if (checked) lock_out_watch_.reset();
   if (checked && suspect_epochs_ >= config_.ekf.reset_epochs &&
       contradicts(point, work.time, doppler)) {
     restart_from(point, work, ResetCause::kPrediction);
@@ -140,20 +162,56 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
   std::swap(measurements_, check_measurements_);
 }
 
+// A filter that began where walls made most of the codes stays there, its carriers hold it, also when
+// all codes agree on another place. Against their word stands what codes have said before: the
+// longer, and the more of them, the more. Counted are codes beyond those a position needs, times
+// seconds.
+void GnssStage::judge_position(const EpochWork& work, const EkfUpdateResult& result) {
+  const auto code = static_cast<std::size_t>(Observable::kCode);
+  const double passed_s = seconds_between(work.time, std::exchange(last_judged_, work.time));
+  const double interval_s = std::clamp(passed_s, 0.0, kLongestInterval_s);
+  if (result.offered[code] < kMinCodesToMove) return;
+  if (result.rejected[code] == 0 && consistency_[0].mean() < kInconsistent) {
+    const int beyond = result.offered[code] - 3 - static_cast<int>(kMaxTimeBases);
+    elsewhere_ = std::max(-kMostTrust, elsewhere_ - std::max(beyond, 1) * interval_s);
+    return;
+  }
+  PointSolution point;
+  std::swap(measurements_, check_measurements_);
+  const bool clear = solve(work, ekf_.antenna_position_e(), &point) &&
+                     redundancy(point) >= kMinMoveRedundancy && all_codes_agree(*measurements_);
+  std::swap(measurements_, check_measurements_);
+  if (!clear) return;
+  const double weight = redundancy(point) * interval_s;
+  const Eigen::Vector3d off_e = point.p_e - ekf_.antenna_position_e();
+  mean_off_e_ += std::min(1.0, interval_s / kMeanOver_s) * (off_e - mean_off_e_);
+  const double limit_m = std::max(kElsewhere * norm_of_sigmas(point.covariance_p_e),
+                                  kElsewhereOfFilter * position_sigma());
+  const bool away = mean_off_e_.norm() > limit_m;
+  elsewhere_ = std::max(-kMostTrust, elsewhere_ + (away ? weight : -weight));
+  if (away && elsewhere_ > kElsewhereEnough) restart_from(point, work, ResetCause::kPrediction);
+}
+
 // Nobody can tell whether the filter or what it throws out is wrong: it goes on from where it is,
-// as unsure as the two are apart, or, where that is more than it could come back from, not at all.
+// as unsure as the two are apart. Where that has not helped, or could not and there are enough to
+// start from, it gives up.
 void GnssStage::judge_lock_out(const EpochWork& work, const EkfUpdateResult& result) {
-  if (!lock_out_watch_.add(result, work.time)) return;
-  const double off_m = result.largest_rejected[static_cast<std::size_t>(Observable::kCode)];
-  const double off_m_s = result.largest_rejected[static_cast<std::size_t>(Observable::kDoppler)];
-  if (off_m > kMaxLockedOut_m || off_m_s > kMaxLockedOut_m_s)
-    return drop_filter(work.time, ResetCause::kLockedOut, off_m);
+  const LockOut found = lock_out_watch_.add(result, *measurements_, work.time);
+  if (found == LockOut::kClocks) ekf_.forget_clocks();
+  if (found != LockOut::kPosition) return;
+  const bool again =
+      last_lock_out_.is_set() && seconds_between(work.time, last_lock_out_) < kLockOutRelapse_s;
+  const bool far = lock_out_watch_.off_m() > kMaxLockedOut_m && lock_out_watch_.enough_to_start();
+  if (again || far) return drop_filter(work.time, ResetCause::kLockedOut, lock_out_watch_.off_m());
+  const double off_m = std::min(lock_out_watch_.off_m(), kMaxLockedOut_m);
+  last_lock_out_ = work.time;
   PointSolution own;
   own.p_e = ekf_.antenna_position_e();
   own.v_e = ekf_.antenna_velocity_e();
   own.has_velocity = true;
   own.covariance_p_e = widened(ekf_.covariance(), ekf_index::kPosition, off_m);
-  own.covariance_v_e = widened(ekf_.covariance(), ekf_index::kVelocity, off_m_s);
+  own.covariance_v_e = widened(ekf_.covariance(), ekf_index::kVelocity,
+                               std::min(lock_out_watch_.off_m_s(), kMaxLockedOut_m_s));
   const ClockFlags& known = ekf_.clocks_known();
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     const auto i = static_cast<Eigen::Index>(base);
@@ -225,6 +283,9 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   }
   gnss_used_ = true;
   suspect_epochs_ = 0;
+  lock_out_watch_.reset();
+  elsewhere_ = 0.0;
+  mean_off_e_.setZero();
   last_reset_time_ = work.time;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
 }

@@ -1,37 +1,88 @@
 #include "core/navigator/lock_out_watch.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/ekf/clock_free.h"
+#include "core/median.h"
 
 namespace leonav {
 namespace {
 
 constexpr double kLongest_s = 30.0;
 constexpr double kLongestInterval_s = 10.0;  // three epochs at least, whatever their interval
-constexpr double kLongestDetour_m = 100.0;
+constexpr double kDetour_m = 100.0;          // what codes alone are believed to be wrong by
+constexpr double kLongestDetour_m = 300.0;
+constexpr double kClockShare = 10.0;  // what codes have in common over what they have not
 constexpr int kMinCodes = 2;
+constexpr int kMinConfirming = 2;  // carriers
+constexpr int kMinRedundancy = 2;  // with which a point solution checks the filter
+
+using Innovations = boost::container::static_vector<double, kMaxMeasurements>;
+
+struct Kind {
+  Innovations innovations;
+  int rejected = 0;
+  int offered() const { return static_cast<int>(innovations.size()); }
+  bool most_rejected() const { return 2 * rejected > offered(); }
+};
+
+// What is left of innovations without what they share; of the second worst.
+double off_of(const Kind& kind) {
+  if (kind.offered() < kMinCodes) return 0.0;
+  const double shared = median(kind.innovations);
+  Innovations left;
+  for (const double innovation : kind.innovations) left.push_back(std::abs(innovation - shared));
+  std::sort(left.begin(), left.end());
+  return left[left.size() > 2 ? left.size() - 2 : left.size() - 1];
+}
 
 }  // namespace
 
-bool LockOutWatch::add(const EkfUpdateResult& result, GpsTime time) {
+LockOut LockOutWatch::add(const EkfUpdateResult& result, const MeasurementEpoch& epoch,
+                          GpsTime time) {
   const double passed_s = last_.is_set() ? seconds_between(time, last_) : 0.0;
   last_ = time;
   const double interval_s = std::clamp(passed_s, 0.0, kLongestInterval_s);
-  const auto most_rejected = [&](Observable observable) {
-    const auto kind = static_cast<std::size_t>(observable);
-    return 2 * result.rejected[kind] > result.offered[kind];
-  };
-  const auto code = static_cast<std::size_t>(Observable::kCode);
-  if (result.offered[code] < kMinCodes) return false;
-  if (!most_rejected(Observable::kCode)) {
-    against_s_ = std::max(0.0, against_s_ - interval_s);
-    return false;
+  Kind codes, dopplers, held;
+  std::array<bool, kMaxTimeBases> bases{};
+  for (std::size_t i = 0; i < std::min(result.innovations.size(), epoch.measurements.size()); ++i) {
+    const InnovationReport& report = result.innovations[i];
+    const Measurement& measurement = epoch.measurements[i];
+    if (!(report.innovation_variance > 0.0)) continue;
+    const bool carrier = measurement.observable == Observable::kCarrier;
+    if (carrier && report.innovation_variance >= kUnknownAmbiguity) continue;
+    Kind& kind = carrier ? held : measurement.observable == Observable::kCode ? codes : dopplers;
+    kind.innovations.push_back(report.innovation);
+    kind.rejected += report.weight_factor > 0.0 ? 0 : 1;
+    if (&kind == &codes)
+      bases[index_of(epoch.satellites[measurement.satellite_index].satellite.system)] = true;
   }
-  const bool far = result.largest_rejected[code] > kLongestDetour_m;
-  if (!far && !most_rejected(Observable::kDoppler)) return false;
-  against_s_ += interval_s;
-  if (against_s_ < kLongest_s) return false;
-  reset();
-  return true;
+  const int unknowns = 3 + static_cast<int>(std::count(bases.begin(), bases.end(), true));
+  if (codes.offered() < kMinCodes || codes.offered() - unknowns >= kMinRedundancy)
+    return LockOut::kNone;
+  if (!codes.most_rejected()) {
+    against_s_ = std::max(0.0, against_s_ - interval_s);
+    clocks_s_ = std::max(0.0, clocks_s_ - interval_s);
+    return LockOut::kNone;
+  }
+  enough_to_start_ = codes.offered() >= unknowns;
+  off_m_ = off_of(codes);
+  off_m_s_ = off_of(dopplers);
+  const double shared_m = std::abs(median(codes.innovations));
+  const bool confirmed = held.offered() >= kMinConfirming && !held.most_rejected();
+  const bool moves_otherwise =
+      dopplers.offered() > 0 ? dopplers.most_rejected() : off_m_ > kDetour_m;
+  if (shared_m > kDetour_m && shared_m > kClockShare * off_m_)
+    clocks_s_ += interval_s;
+  else if (off_m_ > kLongestDetour_m || (moves_otherwise && !confirmed))
+    against_s_ += interval_s;
+  const LockOut found = against_s_ >= kLongest_s  ? LockOut::kPosition
+                        : clocks_s_ >= kLongest_s ? LockOut::kClocks
+                                                  : LockOut::kNone;
+  if (found != LockOut::kNone) reset();
+  return found;
 }
 
 }  // namespace leonav

@@ -5,19 +5,36 @@
 
 namespace leonav {
 
+enum class LockOut : unsigned char { kNone, kClocks, kPosition };
+
 class LockOutWatch {
  public:
-  // True when half a minute of epochs, in sum, has spoken against the filter; it then starts
-  // again. Against it: of two codes or more most are thrown out, and so are most Dopplers, or the
-  // codes are off by more than any detour of a signal. An epoch of which most codes are kept counts
-  // back. What houses do to codes alone does not count: it leaves the Dopplers of a vehicle at
-  // rest, and what it does to those of one that moves passes with the street.
-  bool add(const EkfUpdateResult& result, GpsTime time);
-  void reset() { against_s_ = 0.0; }
+  // What has become of it: kNone until half a minute of epochs, in sum, has spoken against the
+  // filter; it then starts again. `result`: what the filter made of `epoch`.
+  //
+  // Only epochs count that no point solution could check: with less than two codes beyond a
+  // position and the clocks. Against the filter is one of whose codes (two or more) most are thrown
+  // out, and
+  // - so are most Dopplers, or there is none and the codes are off by 100 m, while what carriers of
+  //   arcs from before there are does not confirm it; or, whatever confirms it,
+  // - the codes are off by more than any detour of a signal; "off": without what all have in
+  // common,
+  //   and without the worst of them; or
+  // - they are off by hardly more than they have in common: that is the clocks' (kClocks).
+  // An epoch of which most codes are kept counts back. What houses do to codes alone does not
+  // count: it leaves carriers and the Dopplers of a vehicle at rest.
+  LockOut add(const EkfUpdateResult& result, const MeasurementEpoch& epoch, GpsTime time);
+  void reset() { against_s_ = clocks_s_ = 0.0; }
+  // Of the last epoch: as many codes as a position and the clocks need.
+  bool enough_to_start() const { return enough_to_start_; }
+  double off_m() const { return off_m_; }      // of the last epoch
+  double off_m_s() const { return off_m_s_; }  // likewise of the Dopplers
 
  private:
   GpsTime last_;
-  double against_s_ = 0.0;
+  double against_s_ = 0.0, clocks_s_ = 0.0;
+  bool enough_to_start_ = false;
+  double off_m_ = 0.0, off_m_s_ = 0.0;
 };
 
 }  // namespace leonav

@@ -229,6 +229,25 @@ TEST_CASE("new arcs take the places of those out of sight, longest unseen first"
     CHECK((find_ambiguity(filter.ambiguities(), arc) != kNoAmbiguity) == (arc > 4));
 }
 
+TEST_CASE(
+    "clocks are forgotten at an epoch that has carriers alone, and start with the next code") {
+  Receiver receiver(5);
+  Ekf filter(static_config(), ImuErrorModel(), Vector3d::Zero());
+  filter.initialize(synthetic::kStart, receiver.point());
+  for (int k = 1; k <= 20; ++k) step(&filter, receiver.measure(kStep_s * k));
+  REQUIRE(filter.ambiguities().size() == 8);
+  filter.forget_clocks();
+  MeasurementEpoch carriers = receiver.measure(kStep_s * 21);
+  for (Measurement& measurement : carriers.measurements)
+    if (measurement.observable == Observable::kCode) measurement.reason = Reason::kOutlier;
+  CHECK(step(&filter, carriers).used == 0);
+  CHECK(filter.ambiguities().empty());
+  receiver.truth().clocks.offset_m.array() += 5'000.0;
+  for (int k = 22; k <= 24; ++k) step(&filter, receiver.measure(kStep_s * k));
+  CHECK(filter.ambiguities().size() == 8);
+  CHECK((filter.state().p_e - receiver.truth().p_antenna_e).norm() < 0.3);
+}
+
 TEST_CASE("a prediction kilometres off is linearized where the codes say") {
   EkfConfig config = static_config();
   config.static_point = false;

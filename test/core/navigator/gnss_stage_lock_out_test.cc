@@ -1,5 +1,9 @@
 // A filter that is wrong, or is told so, by satellites too few to tell which.
 #include "core/navigator/lock_out_watch.h"
+
+#include <utility>
+#include <vector>
+
 #include "stage_drive.h"
 #include "support/catch.h"
 
@@ -38,46 +42,92 @@ void leave(int count, double from_s, const NavigatorConfig& config, SyntheticDri
   }
 }
 
-EkfUpdateResult result_of(int codes, int codes_rejected, int dopplers, int dopplers_rejected,
-                          double largest_m = 20.0) {
+// An epoch of GPS and what the filter made of it.
+struct Judged {
   EkfUpdateResult result;
-  const auto code = static_cast<std::size_t>(Observable::kCode);
-  const auto doppler = static_cast<std::size_t>(Observable::kDoppler);
-  result.offered[code] = codes;
-  result.rejected[code] = codes_rejected;
-  result.largest_rejected[code] = largest_m;
-  result.offered[doppler] = dopplers;
-  result.rejected[doppler] = dopplers_rejected;
-  return result;
+  MeasurementEpoch epoch;
+
+  Judged& add(Observable observable, std::vector<double> innovations, bool rejected,
+              double variance = 1.0) {
+    if (epoch.satellites.empty()) {
+      epoch.satellites.emplace_back();
+      epoch.satellites[0].satellite = {System::kGps, 1};
+    }
+    for (const double innovation : innovations) {
+      Measurement measurement;
+      measurement.observable = observable;
+      epoch.measurements.push_back(measurement);
+      InnovationReport report;
+      report.innovation = innovation;
+      report.innovation_variance = variance;
+      report.weight_factor = rejected ? 0.0 : 1.0;
+      result.innovations.push_back(report);
+    }
+    return *this;
+  }
+  Judged& codes(std::vector<double> innovations, bool rejected = true) {
+    return add(Observable::kCode, std::move(innovations), rejected);
+  }
+  Judged& dopplers(bool rejected) { return add(Observable::kDoppler, {3.0, -1.0, 2.0}, rejected); }
+  Judged& carriers(bool rejected, double variance = 1.0) {
+    return add(Observable::kCarrier, {0.1, -2.0, 2.0}, rejected, variance);
+  }
+};
+
+struct Found {
+  LockOut lock_out = LockOut::kNone;
+  int after = 0;  // epochs of 1 s; 0: nothing in ten minutes
+  bool operator==(const Found&) const = default;
+};
+
+Found found(const Judged& judged) {
+  LockOutWatch watch;
+  for (int k = 0; k < 600; ++k) {
+    const LockOut lock_out = watch.add(judged.result, judged.epoch, kSkyEpoch.plus_seconds(k));
+    if (lock_out != LockOut::kNone) return {lock_out, k};
+  }
+  return {};
 }
 
-// Epochs of 1 s until it is noticed; 0: not within ten minutes.
-int noticed_after(const EkfUpdateResult& result) {
-  LockOutWatch watch;
-  for (int k = 0; k < 600; ++k)
-    if (watch.add(result, kSkyEpoch.plus_seconds(k))) return k;
-  return 0;
-}
+const Found kNothing{}, kPosition{LockOut::kPosition, 30}, kClocks{LockOut::kClocks, 30};
 
 }  // namespace
 
 TEST_CASE("half a minute against codes and Dopplers is a lock-out, against codes alone none") {
-  CHECK(noticed_after(result_of(3, 3, 3, 3)) == 30);
-  CHECK(noticed_after(result_of(3, 2, 3, 2)) == 30);
-  CHECK(noticed_after(result_of(3, 3, 3, 0)) == 0);
-  CHECK(noticed_after(result_of(3, 3, 0, 0)) == 0);          // no Doppler measured
-  CHECK(noticed_after(result_of(3, 3, 3, 0, 150.0)) == 30);  // no house is that far
-  CHECK(noticed_after(result_of(3, 1, 3, 3)) == 0);
-  CHECK(noticed_after(result_of(1, 1, 1, 1)) == 0);  // it may be the one
+  const std::vector<double> off = {10.0, -20.0, 45.0};
+  CHECK(found(Judged().codes(off).dopplers(true)) == kPosition);
+  CHECK(found(Judged().codes(off).dopplers(false)) == kNothing);
+  CHECK(found(Judged().codes(off, false).dopplers(true)) == kNothing);
+  CHECK(found(Judged().codes({30.0}).dopplers(true)) == kNothing);  // it may be the one
+  CHECK(found(Judged().codes(off)) == kNothing);
+  CHECK(found(Judged().codes({10.0, -120.0, 150.0})) == kPosition);
+}
+
+TEST_CASE("carriers of arcs from before speak for the filter, new ones for nobody") {
+  const std::vector<double> off = {10.0, -120.0, 145.0};
+  CHECK(found(Judged().codes(off).dopplers(true).carriers(false)) == kNothing);
+  CHECK(found(Judged().codes(off).dopplers(true).carriers(true)) == kPosition);
+  CHECK(found(Judged().codes(off).dopplers(true).carriers(false, 2e4)) == kPosition);
+  // No way round is that long.
+  CHECK(found(Judged().codes({10.0, -500.0, 600.0}).dopplers(false).carriers(false)) == kPosition);
+  // One satellite may be that wrong.
+  CHECK(found(Judged().codes({0.0, 30.0, 400.0}).dopplers(false).carriers(false)) == kNothing);
+}
+
+TEST_CASE("what all codes are off by is the clocks', and who can be checked is not locked out") {
+  CHECK(found(Judged().codes({300.0, 302.0, 299.0}).dopplers(false)) == kClocks);
+  CHECK(found(Judged().codes({3.0, -52.0, 129.0, 80.0, -60.0}).dopplers(true)) == kPosition);
+  CHECK(found(Judged().codes({3.0, -52.0, 129.0, 80.0, -60.0, 9.0}).dopplers(true)) == kNothing);
 }
 
 TEST_CASE("epochs that agree with the filter count against a lock-out") {
   LockOutWatch watch;
-  const EkfUpdateResult against = result_of(3, 3, 3, 3), agrees = result_of(3, 0, 3, 0);
-  int noticed = 0;
-  for (int k = 0; k < 200; ++k)
-    noticed += watch.add(k % 2 == 0 ? against : agrees, kSkyEpoch.plus_seconds(k)) ? 1 : 0;
-  CHECK(noticed == 0);
+  const Judged against = Judged().codes({9.0, -8.0, 30.0}).dopplers(true);
+  const Judged agrees = Judged().codes({0.1, -0.1, 0.2}, false).dopplers(false);
+  for (int k = 0; k < 200; ++k) {
+    const Judged& judged = k % 2 == 0 ? against : agrees;
+    CHECK(watch.add(judged.result, judged.epoch, kSkyEpoch.plus_seconds(k)) == LockOut::kNone);
+  }
 }
 
 TEST_CASE("a filter far from where five satellites say it is starts anew after half a minute") {
@@ -92,22 +142,46 @@ TEST_CASE("a filter far from where five satellites say it is starts anew after h
 }
 
 TEST_CASE("a filter that three satellites contradict goes on from where it is, as unsure") {
-  const SyntheticDrive there = drive_of(300.0, 220.0);
-  SyntheticDrive drive = carried_away(300.0, 60.0, 220.0);
+  const SyntheticDrive there = drive_of(300.0, 5'000.0);
+  SyntheticDrive drive = carried_away(300.0, 60.0, 5'000.0);
   const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
   leave(3, 59.5, config, &drive);
   const RecordingSink sink = run(drive, config);
-  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kLockedOut});
-  // Three ranges to satellites do not tell all of a position: its sigma holds what they leave.
-  int held = 0, count = 0;
-  for (const EpochReport& report : sink.epochs) {
-    if (seconds(report.time) < 95.0) continue;
-    CHECK(report.solution.has_attitude);
-    ++count;
-    if (epoch_error(report, there) < 3.0 * report.solution.sigma_p_n.norm()) ++held;
+  REQUIRE_FALSE(resets(sink).empty());
+  CHECK(resets(sink)[0] == ResetCause::kLockedOut);
+  for (const EpochReport& report : sink.epochs)
+    if (seconds(report.time) > 91.0 && seconds(report.time) < 115.0)
+      CHECK(report.solution.sigma_p_n.norm() > 100.0);
+}
+
+TEST_CASE("a filter that is right is not moved by three or four satellites with wrong codes") {
+  for (const int satellites : {3, 4}) {
+    SyntheticDrive drive = drive_of(240.0);
+    const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+    leave(satellites, 59.5, config, &drive);
+    for (RawEpoch& raw : drive.epochs) {
+      if (seconds(raw.time) < 70.0 || seconds(raw.time) > 150.0) continue;
+      for (SignalObservation& o : raw.observations)
+        o.pseudorange_m += 20.0 + 37.0 * (o.satellite.number % 4);
+    }
+    const RecordingSink sink = run(drive, config);
+    CHECK(resets(sink).empty());
+    CHECK(worst_error(sink, drive, 60.0, 150.0) < 10.0);
   }
-  CHECK(count > 200);
-  CHECK(held == count);
+}
+
+TEST_CASE(
+    "a clock that steps while three satellites are in view costs neither place nor attitude") {
+  SyntheticDrive drive = drive_of(240.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  leave(3, 59.5, config, &drive);
+  for (RawEpoch& raw : drive.epochs)
+    for (SignalObservation& o : raw.observations)
+      if (seconds(raw.time) > 90.0) o.pseudorange_m += 3'000.0;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink).empty());
+  CHECK(sink.count(EventKind::kClockStep) >= 1);
+  CHECK(worst_error(sink, drive, 60.0, 240.0) < 10.0);
 }
 
 }  // namespace leonav::test
