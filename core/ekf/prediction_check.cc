@@ -118,10 +118,10 @@ double missing_variance(const RobustConfig& robust, const FilterMeasurements& me
   std::size_t kept = 0;
   for (const FilterMeasurement& measurement : offered) kept += measurement.factor > 0.0 ? 1 : 0;
   const double scale = fit.scale[static_cast<std::size_t>(observable)];
-  // Few have their sum of squares for it, the median of few being worth little.
+  // A median does not see the few that are far out; the sum of squares of those kept does.
   bool agree = scale < (many ? kAgreeScale : suspect) && 4 * kept >= 3 * offered.size();
-  if (!many)
-    agree = agree && redundancy(offered) >= kMinRedundancy && fit.nis < largest_probable(kept);
+  if (!many) agree = agree && redundancy(offered) >= kMinRedundancy;
+  agree = agree && fit.nis < largest_probable(kept);
   return agree ? variance : 0.0;
 }
 
