@@ -162,8 +162,8 @@ void GnssStage::judge_prediction(const EpochWork& work, const EkfUpdateResult& r
   std::swap(measurements_, check_measurements_);
 }
 
-// A filter that began where walls made most of the codes stays there, its carriers hold it, also when
-// all codes agree on another place. Against their word stands what codes have said before: the
+// A filter that began where walls made most of the codes stays there, its carriers hold it, also
+// when all codes agree on another place. Against their word stands what codes have said before: the
 // longer, and the more of them, the more. Counted are codes beyond those a position needs, times
 // seconds.
 void GnssStage::judge_position(const EpochWork& work, const EkfUpdateResult& result) {
