@@ -204,9 +204,7 @@ void GnssStage::update_filter(const EpochWork& work) {
   report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
   watch_consistency(work, result);
   watch_clocks(result, work.time);
-  judge_prediction(work, result);
-  judge_lock_out(work, result);
-  judge_position(work, result);
+  judge(work, result);
 }
 
 void GnssStage::process_command(const Command& command) {
@@ -214,9 +212,7 @@ void GnssStage::process_command(const Command& command) {
   ekf_.reset();
   carriers_.reset();
   alignment_.reset();
-  suspect_epochs_ = 0;
-  lock_out_watch_.reset();
-  elsewhere_ = 0.0;
+  forget_judgements();
   last_gnss_time_ = last_reset_time_ = last_lock_out_ = GpsTime();
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(command.cause), 0.0,
                last_epoch_time_);

@@ -45,6 +45,8 @@ class GnssStage {
   void use_measurements(const EpochWork& work);
   bool start_filter(const EpochWork& work);
   void update_filter(const EpochWork& work);
+  void judge(const EpochWork& work, const EkfUpdateResult& result);
+  void forget_judgements();
   void judge_prediction(const EpochWork& work, const EkfUpdateResult& result);
   void judge_position(const EpochWork& work, const EkfUpdateResult& result);
   void judge_lock_out(const EpochWork& work, const EkfUpdateResult& result);

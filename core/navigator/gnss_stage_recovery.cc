@@ -80,8 +80,7 @@ void GnssStage::drop_filter(GpsTime time, ResetCause cause, double value) {
   carriers_.forget_position();
   alignment_.reset();
   gnss_used_ = false;
-  suspect_epochs_ = 0;
-  lock_out_watch_.reset();
+  forget_judgements();
   last_reset_time_ = time;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
 }
@@ -129,6 +128,14 @@ void GnssStage::watch_usable() {
   if (finding)
     events_.emit(EventKind::kNoneUsable, static_cast<std::uint8_t>(finding->reason),
                  finding->satellites, last_epoch_time_);
+}
+
+// One after the other, until one of them has started the filter over: `result` is of the one
+// before.
+void GnssStage::judge(const EpochWork& work, const EkfUpdateResult& result) {
+  judge_prediction(work, result);
+  if (last_reset_time_ != work.time) judge_lock_out(work, result);
+  if (last_reset_time_ != work.time) judge_position(work, result);
 }
 
 // Most codes or Dopplers thrown out, epoch after epoch, is a filter that has lost its way. A point
@@ -259,7 +266,9 @@ bool GnssStage::contradicts(const PointSolution& point, GpsTime time, bool motio
 // The attitude survives, less sure of its heading, unless it has just been given that chance; what
 // has been learned of the IMU's errors survives with it.
 void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause) {
-  const double moved_m = (point.p_e - ekf_.antenna_position_e()).norm();
+  const double value_m = cause == ResetCause::kLockedOut
+                             ? norm_of_sigmas(point.covariance_p_e)
+                             : (point.p_e - ekf_.antenna_position_e()).norm();
   const bool relapse =
       last_reset_time_.is_set() && seconds_between(work.time, last_reset_time_) < kRelapse_s;
   const bool keep_attitude =
@@ -282,12 +291,17 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
     alignment_.reset();
   }
   gnss_used_ = true;
+  forget_judgements();
+  last_reset_time_ = work.time;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value_m, work.time);
+}
+
+// What has been gathered for and against a filter says nothing about the next one.
+void GnssStage::forget_judgements() {
   suspect_epochs_ = 0;
   lock_out_watch_.reset();
   elsewhere_ = 0.0;
   mean_off_e_.setZero();
-  last_reset_time_ = work.time;
-  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), moved_m, work.time);
 }
 
 }  // namespace leonav

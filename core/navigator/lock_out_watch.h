@@ -14,15 +14,14 @@ class LockOutWatch {
   //
   // Only epochs count that no point solution could check: with less than two codes beyond a
   // position and the clocks. Against the filter is one of whose codes (two or more) most are thrown
-  // out, and
-  // - so are most Dopplers, or there is none and the codes are off by 100 m, while what carriers of
-  //   arcs from before there are does not confirm it; or, whatever confirms it,
-  // - the codes are off by more than any detour of a signal; "off": without what all have in
-  // common,
-  //   and without the worst of them; or
-  // - they are off by hardly more than they have in common: that is the clocks' (kClocks).
-  // An epoch of which most codes are kept counts back. What houses do to codes alone does not
-  // count: it leaves carriers and the Dopplers of a vehicle at rest.
+  // out, if
+  // - most Dopplers are too, or there is none and the codes are off by 100 m, and the carriers of
+  //   arcs from before, if any, do not confirm the filter; or, whatever confirms it,
+  // - the codes are off by more than any detour of a signal, 300 m; or
+  // - they are off by hardly more than what they have in common: that is the clocks' (kClocks).
+  // "Off" is without what all have in common, and of the second worst. An epoch of which most codes
+  // are kept counts back. What houses do to codes alone does not count: it leaves carriers and the
+  // Dopplers of a vehicle at rest.
   LockOut add(const EkfUpdateResult& result, const MeasurementEpoch& epoch, GpsTime time);
   void reset() { against_s_ = clocks_s_ = 0.0; }
   // Of the last epoch: as many codes as a position and the clocks need.

@@ -121,7 +121,7 @@ enum class ResetCause : std::uint8_t {
   kPrediction = 2,
   kOutage = 3,
   kNotFinite = 4,
-  kLockedOut = 5  // value: the new sigma, m
+  kLockedOut = 5  // value: m, the new sigma or, where it starts anew, what it was off by
 };
 
 // Why an input message was not used. On the wire: append only.
