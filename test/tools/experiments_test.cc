@@ -50,7 +50,7 @@ TEST_CASE("A short run of the experiments writes its report and is not run twice
                               "convergence-static-convergence.png"}) {
     CHECK(std::filesystem::file_size(out + "/" + picture) > 1000);
   }
-  CHECK_FALSE(std::filesystem::exists(out + "/work/city-seed1"));
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::path(out) / "work" / "city-seed1"));
 
   const ProgramRun second = experiments(words);
   CHECK(second.exit_code == 0);
