@@ -27,14 +27,16 @@ NavigatorConfig config_of(const SyntheticDriveOptions& options) {
   return config;
 }
 
-// Codes are those of a place 30 m further east from kBurst_s on, for `burst_s`; all else is right.
-SyntheticDrive with_reflected_codes(const SyntheticDriveOptions& options, double burst_s) {
+// Codes are those of a place `east_m` further east from `from_s` on, for `burst_s`; all else is
+// right.
+SyntheticDrive with_reflected_codes(const SyntheticDriveOptions& options, double from_s,
+                                    double burst_s, double east_m = 30.0) {
   SyntheticDrive drive = synthetic_drive(options);
   SyntheticDriveOptions elsewhere = options;
-  elsewhere.start.longitude += 30.0 / (6.378e6 * std::cos(options.start.latitude));
+  elsewhere.start.longitude += east_m / (6.378e6 * std::cos(options.start.latitude));
   const SyntheticDrive there = synthetic_drive(elsewhere);
   for (std::size_t k = 0; k < drive.epochs.size(); ++k) {
-    const double t = seconds(drive.epochs[k].time) - kBurst_s;
+    const double t = seconds(drive.epochs[k].time) - from_s;
     if (t < 0.0 || t >= burst_s) continue;
     for (SignalObservation& o : drive.epochs[k].observations)
       for (const SignalObservation& other : there.epochs[k].observations)
@@ -49,7 +51,7 @@ SyntheticDrive with_reflected_codes(const SyntheticDriveOptions& options, double
 TEST_CASE("codes that agree on a wrong place for ten seconds do not overthrow an IMU") {
   for (const bool carriers : {true, false}) {
     const SyntheticDriveOptions options = noisy_drive(carriers);
-    const SyntheticDrive drive = with_reflected_codes(options, 10.0);
+    const SyntheticDrive drive = with_reflected_codes(options, kBurst_s, 10.0);
     const RecordingSink sink = run(drive, config_of(options));
     const double before_m = worst_error(sink, drive, 60.0, kBurst_s - 0.5);
     const double after_m = worst_error(sink, drive, kBurst_s - 0.5, kDuration_s);
@@ -62,12 +64,22 @@ TEST_CASE("codes that agree on a wrong place for ten seconds do not overthrow an
 
 TEST_CASE("codes that go on agreeing are believed in the end") {
   const SyntheticDriveOptions options = noisy_drive(true);
-  const SyntheticDrive drive = with_reflected_codes(options, 1e9);
+  const SyntheticDrive drive = with_reflected_codes(options, kBurst_s, 1e9);
   const RecordingSink sink = run(drive, config_of(options));
   CHECK(worst_error(sink, drive, kBurst_s, kBurst_s + 15.0) < 2.0);
   for (const EpochReport& report : sink.epochs)
     if (seconds(report.time) > kBurst_s + 30.0)
       CHECK(epoch_error(report, drive) == Approx(30.0).margin(3.0));
+}
+
+TEST_CASE("a filter that began where walls had put it is moved once all codes say so for long") {
+  SyntheticDriveOptions options = noisy_drive(true);
+  options.duration_s = 360.0;
+  const SyntheticDrive drive = with_reflected_codes(options, 0.0, 90.0, 20.0);
+  const RecordingSink sink = run(drive, config_of(options));
+  CHECK(worst_error(sink, drive, 80.0, 200.0) > 15.0);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+  CHECK(worst_error(sink, drive, 300.0, 360.0) < 2.0);
 }
 
 // Of the turn that it misses the heading knows nothing afterwards: that is for the alignment.
