@@ -1,5 +1,6 @@
 // tools/experiments as its users call it, short: rows run, are not run twice, and end in a report.
 #include <filesystem>
+#include <fstream>
 
 #include "support/catch.h"
 #include "support/program_run.h"
@@ -84,6 +85,43 @@ TEST_CASE("A row's own commands give its numbers", "[tools]") {
   const std::string result = text_of(out + "/runs/convergence-static-gps-leo160/seed1.json");
   const std::size_t at = alone.find("\"rmse\": ", alone.find(rmse)) + 8;
   CHECK(has(result, alone.substr(at, 6)));
+}
+
+TEST_CASE("What fails is told, and tried again; what is stopped goes on", "[tools]") {
+  if (!have_programs("leonav-sim", "leonav-replay", "leonav-eval")) return;
+  const TemporaryFile place("unused", "");
+  const std::string bin = place.beside("bin"), out = place.beside("experiments");
+  const std::string real = LEONAV_BIN_DIR "/";
+  std::filesystem::create_directories(bin);
+  std::filesystem::create_symlink(real + "leonav-sim", bin + "/leonav-sim");
+  const auto wrap = [&](const std::string& name, const std::string& trouble) {
+    std::ofstream(bin + "/" + name)
+        << "#!/bin/sh\n[ -e '" << place.beside(name + ".trouble") << "' ] && " << trouble
+        << "\nexec '" << real << name << "' \"$@\"\n";
+    std::filesystem::permissions(bin + "/" + name, std::filesystem::perms::owner_all);
+    std::ofstream(place.beside(name + ".trouble")) << "now\n";
+  };
+  wrap("leonav-eval", "exit 0");          // and nothing written
+  wrap("leonav-replay", "kill -INT $$");  // as a terminal's Ctrl-C does
+  const std::string words =
+      "--bin '" + bin + "' --quick --seeds 1 --rows convergence-static-gps-leo160 '" + out + "'";
+  const ProgramRun stopped = experiments(words);
+  CHECK(stopped.exit_code == 130);
+  CHECK(has(stopped.err, "the same call goes on"));
+  CHECK_FALSE(has(stopped.err, "Traceback"));
+  std::filesystem::remove(place.beside("leonav-replay.trouble"));
+
+  const ProgramRun failed = experiments(words);
+  CHECK(failed.exit_code == 1);
+  CHECK(has(failed.err, "1 runs to do"));
+  CHECK(has(failed.err, "1 runs failed"));
+  CHECK(has(text_of(out + "/report.md"), "errors.json"));
+  std::filesystem::remove(place.beside("leonav-eval.trouble"));
+
+  const ProgramRun good = experiments(words);
+  INFO(good.err);
+  CHECK(good.exit_code == 0);
+  CHECK(has(good.err, "1 runs to do"));
 }
 
 TEST_CASE("Wrong words to the experiments are named", "[tools]") {

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/common/arguments.h"
@@ -39,13 +38,22 @@ Arguments declare() {
   return arguments;
 }
 
-int overlay(const Arguments& arguments, std::vector<std::string> overrides) {
+std::vector<std::string> inputs_of(const std::string& file, const leonav::sim::Scenario& scenario) {
+  std::vector<std::string> inputs{file};
+  if (!scenario.route.file.empty()) inputs.push_back(scenario.route.file);
+  for (const auto& constellation : scenario.constellations) {
+    if (!constellation.file.empty()) inputs.push_back(constellation.file);
+  }
+  return inputs;
+}
+
+int overlay(const Arguments& arguments, const std::vector<std::string>& overrides) {
   if (arguments.has("--export")) throw UsageError("--export is for whole simulations");
   const std::string out = arguments.required("--out"), truth = arguments.required("--truth");
   const std::string recorded = arguments.get("--overlay");
   leonav::check_output(out, {arguments.positional()[0], truth, recorded});
-  overrides.push_back("route.file=" + truth);
-  const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
+  auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
+  leonav::sim::set_track(truth, &scenario.route);
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
   std::cout << to_string(leonav::sim::overlay(scenario, recorded, out, &progress));
   return 0;
@@ -56,6 +64,7 @@ int sky_statistics(const Arguments& arguments, const leonav::sim::Scenario& scen
   const double step_s = arguments.number("--step");
   if (!(step_s > 0.0)) throw UsageError("--step must be above zero");
   const double mask = arguments.number("--mask") * kDegree;
+  if (scenario.duration_s / step_s > 1e6) throw UsageError("--step makes over a million epochs");
   leonav::sim::print(leonav::sim::sky_statistics(scenario, mask, step_s), std::cout);
   return 0;
 }
@@ -68,7 +77,7 @@ int body(int argc, char** argv) {
   }
   std::vector<std::string> overrides = arguments.all("--set");
   if (arguments.has("--seed")) overrides.push_back("seed=" + arguments.get("--seed"));
-  if (arguments.has("--overlay")) return overlay(arguments, std::move(overrides));
+  if (arguments.has("--overlay")) return overlay(arguments, overrides);
   const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
   if (arguments.has("--sky-statistics")) return sky_statistics(arguments, scenario);
   const std::filesystem::path out = arguments.required("--out");
@@ -77,10 +86,16 @@ int body(int argc, char** argv) {
   outputs.truth = arguments.has("--truth") ? arguments.get("--truth")
                                            : (out.parent_path() / "truth.csv").string();
   if (outputs.truth == outputs.log) throw UsageError("--out and --truth name the same file");
-  leonav::check_output(outputs.log, arguments.positional());
-  leonav::check_output(outputs.truth, arguments.positional());
+  const std::vector<std::string> inputs = inputs_of(arguments.positional()[0], scenario);
+  leonav::check_output(outputs.log, inputs);
+  leonav::check_output(outputs.truth, inputs);
   if (arguments.has("--export")) {
     outputs.files = {arguments.get("--export"), arguments.has("--leo-as-gps")};
+    for (const std::string& file : leonav::sim::export_files(*outputs.files)) {
+      leonav::check_output(file, inputs);
+    }
+  } else if (arguments.has("--leo-as-gps")) {
+    throw UsageError("--leo-as-gps is for --export");
   }
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
   std::cout << to_string(leonav::sim::simulate(scenario, outputs, &progress));

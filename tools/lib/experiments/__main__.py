@@ -94,6 +94,8 @@ def main():
         path = report.write(out, rows, results, runner, seeds_of)
     except running.RunError as error:
         fail(str(error))
+    except KeyboardInterrupt:
+        fail("stopped; the same call goes on from here", 130)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     print(path)

@@ -48,8 +48,12 @@ def errors_of(solution_path, truth_path):
 
 
 def judge(row, folder, out):
-    with open(os.path.join(out, "errors.json")) as file:
-        numbers = json.load(file)[0]
+    path = os.path.join(out, "errors.json")
+    try:
+        with open(path) as file:
+            numbers = json.load(file)[0]
+    except (OSError, ValueError, LookupError) as error:
+        raise JudgeError(f"{path}: {error}")
     t, error = errors_of(os.path.join(out, "solution.csv"), os.path.join(folder, "truth.csv"))
     week, tow, satellites, pdop = columns(os.path.join(out, "epochs.csv"), ("gps_week", "gps_tow_s", "satellites", "pdop"))
     t_epoch = (week - week[0]) * WEEK_S + tow - tow[0]

@@ -186,8 +186,8 @@ def write(out, rows, results, runner, seeds_of):
                      if r and "failure" in r} | set(runner.failures))
     if failed:
         lines += ["", "## Runs that failed", ""] + [f"- {text}" for text in failed]
-    lines += ["", "## One row alone", "", "From the project's folder; seed " +
-              "1 as an example, the others differ in `seed` and `satellites.advance_s`.", ""]
+    lines += ["", "## One row alone", "", "From the project's folder; the first seed as an example. Others differ in `seed` "
+              "and `satellites.advance_s`, and with LEO 320 and 640 in the scenario's file.", ""]
     for row in rows:
         lines += [f"`{row.name}`", "", "```sh", *runner.alone(row, seeds_of(row)[0]), "```", ""]
     path = os.path.join(out, "report.md")

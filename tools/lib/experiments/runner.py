@@ -5,6 +5,7 @@ import json
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -16,6 +17,10 @@ import matrix
 
 class RunError(Exception):
     pass
+
+
+class Stopped(Exception):
+    """A program was ended by the user, who will call again."""
 
 
 def shell_line(words):
@@ -30,6 +35,7 @@ class Runner:
     def __init__(self, root, bin_folder, out, jobs, keep_logs):
         self.root, self.bin, self.out, self.jobs, self.keep_logs = root, bin_folder, out, jobs, keep_logs
         self.lock, self.done, self.total, self.failures = threading.Lock(), 0, 0, []
+        self.stopped = False
         self.begun = time.monotonic()
         self.fingerprint = self.digest_files([os.path.join(bin_folder, p) for p in
                                               ("leonav-sim", "leonav-replay", "leonav-eval")])
@@ -105,6 +111,8 @@ class Runner:
         with open(log, "w") as file:
             code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                   cwd=self.root).returncode
+        if self.stopped or code in (-signal.SIGINT, -signal.SIGTERM):
+            raise Stopped()
         if code != 0:
             with open(log, errors="replace") as file:
                 words = [line for line in file.read().replace("\r", "\n").split("\n") if line.strip()]
@@ -128,9 +136,19 @@ class Runner:
             print(f"[{self.done}/{self.total}, {left / 60.0:.0f} min left] {text}", file=sys.stderr, flush=True)
 
     def one_log(self, scene, seed, rows):
+        if self.stopped:
+            return
         folder = os.path.join(self.out, "work", f"{scene.name}-seed{seed}")
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
+        try:
+            self.rows_of_log(scene, seed, rows, folder)
+        except Stopped:
+            self.stopped = True
+        if not self.keep_logs:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    def rows_of_log(self, scene, seed, rows, folder):
         try:
             self.call(self.sim_command(scene, seed, folder), folder)
         except RunError as error:
@@ -155,20 +173,25 @@ class Runner:
                 self.tell(f"{row.name}, seed {seed}: FAILED")
             if not self.keep_logs:
                 shutil.rmtree(out, ignore_errors=True)
-        if not self.keep_logs:
-            shutil.rmtree(folder, ignore_errors=True)
 
     def run(self, rows, seeds_of):
         """Everything that is not there yet. Returns {row name: {seed: result}}."""
         tasks = {}
         for row in rows:
             for seed in seeds_of(row):
-                if self.finished(row, seed) is None:
+                # What failed is tried again: perhaps the disk was full.
+                if "failure" in (self.finished(row, seed) or {"failure": "not run"}):
                     tasks.setdefault((row.scene.name, seed), (row.scene, seed, []))[2].append(row)
         self.total = sum(len(rows_) for _, _, rows_ in tasks.values())
         everything = sum(len(seeds_of(row)) for row in rows)
         print(f"{self.total} runs to do, {everything - self.total} already there", file=sys.stderr)
         with concurrent.futures.ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            for future in [pool.submit(self.one_log, *task) for task in tasks.values()]:
-                future.result()
+            try:
+                for future in [pool.submit(self.one_log, *task) for task in tasks.values()]:
+                    future.result()
+            except BaseException:
+                self.stopped = True  # what has begun ends, the rest does not begin
+                raise
+        if self.stopped:
+            raise KeyboardInterrupt
         return {row.name: {seed: self.finished(row, seed) for seed in seeds_of(row)} for row in rows}

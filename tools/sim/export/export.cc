@@ -15,6 +15,11 @@ namespace leonav::sim {
 namespace {
 
 constexpr const char* kAntennaName = "LEONAV_ZERO     NONE";
+constexpr const char *kObservations = "run.obs", *kNavigation = "run.nav", *kClocks = "run.clk",
+                     *kAntennas = "antennas.atx", *kImu = "imu.csv", *kTruth = "truth.csv",
+                     *kDataset = "dataset.yaml";
+
+std::string orbit_file(System system) { return std::string(to_string(system)) + ".sp3"; }
 
 std::vector<SignalCode> plan_of(System system) {
   const auto signals = signals_of(system);
@@ -22,6 +27,16 @@ std::vector<SignalCode> plan_of(System system) {
 }
 
 }  // namespace
+
+std::vector<std::string> export_files(const ExportOptions& options) {
+  std::vector<std::string> names = {kObservations, kNavigation, kClocks, kAntennas,
+                                    kImu,          kTruth,      kDataset};
+  for (const System system : kSystems) names.push_back(orbit_file(system));
+  for (std::string& name : names) {
+    name = (std::filesystem::path(options.folder) / name).string();
+  }
+  return names;
+}
 
 Export::Export(const Scenario& scenario, const TrueSky& sky, const ExportOptions& options)
     : options_(options) {
@@ -41,7 +56,7 @@ Export::Export(const Scenario& scenario, const TrueSky& sky, const ExportOptions
       header.signals.try_emplace(satellite.id.system, plan_of(satellite.id.system));
     }
   }
-  observations_ = std::make_unique<RinexObservationWriter>(path("run.obs"), std::move(header));
+  observations_ = std::make_unique<RinexObservationWriter>(path(kObservations), std::move(header));
 }
 
 std::string Export::path(const std::string& name) const {
@@ -59,11 +74,11 @@ void Export::write_products(const Products& products) {
       if (own.back().states.empty()) own.pop_back();
     }
     if (own.empty()) continue;
-    orbit_files_.push_back(std::string(to_string(system)) + ".sp3");
+    orbit_files_.push_back(orbit_file(system));
     write_sp3(path(orbit_files_.back()), own);
   }
   has_clocks_ = !products.clocks.empty();
-  if (has_clocks_) write_rinex_clock(path("run.clk"), products.clocks);
+  if (has_clocks_) write_rinex_clock(path(kClocks), products.clocks);
 }
 
 void Export::write(const Products& products, const BroadcastMessages& messages,
@@ -72,11 +87,11 @@ void Export::write(const Products& products, const BroadcastMessages& messages,
   const std::vector<Ephemeris> ephemerides =
       renamed_ ? renamed_->elements(messages) : messages.ephemerides;
   has_navigation_ = !ephemerides.empty();
-  if (has_navigation_) write_rinex_navigation(path("run.nav"), ephemerides);
+  if (has_navigation_) write_rinex_navigation(path(kNavigation), ephemerides);
   if (renamed_) {
-    write_antex(path("antennas.atx"), renamed_->antennas(antennas), kAntennaName);
+    write_antex(path(kAntennas), renamed_->antennas(antennas), kAntennaName);
   } else {
-    write_antex(path("antennas.atx"), antennas, kAntennaName);
+    write_antex(path(kAntennas), antennas, kAntennaName);
   }
 }
 
@@ -92,24 +107,24 @@ void Export::write(const ImuSample& sample) {
 
 void Export::finish(std::span<const TruthPoint> truth) {
   observations_->close();
-  if (!imu_.empty()) write_imu_csv(path("imu.csv"), imu_);
-  write_truth_csv(path("truth.csv"), truth);
+  if (!imu_.empty()) write_imu_csv(path(kImu), imu_);
+  write_truth_csv(path(kTruth), truth);
   write_dataset();
 }
 
 void Export::write_dataset() const {
-  TextFile file(path("dataset.yaml"));
+  TextFile file(path(kDataset));
   file.line("# Written by leonav-sim.");
   file.line("name: simulated");
-  file.line("observations: run.obs");
-  if (has_navigation_) file.line("navigation: run.nav");
+  file.line(std::string("observations: ") + kObservations);
+  if (has_navigation_) file.line(std::string("navigation: ") + kNavigation);
   std::string orbits;
   for (const std::string& name : orbit_files_) orbits += (orbits.empty() ? "" : ", ") + name;
   if (!orbits.empty()) file.line("orbits: [" + orbits + "]");
-  if (has_clocks_) file.line("clocks: run.clk");
-  file.line("antenna_models: antennas.atx");
-  if (!imu_.empty()) file.line("imu: imu.csv");
-  file.line("truth: truth.csv");
+  if (has_clocks_) file.line(std::string("clocks: ") + kClocks);
+  file.line(std::string("antenna_models: ") + kAntennas);
+  if (!imu_.empty()) file.line(std::string("imu: ") + kImu);
+  file.line(std::string("truth: ") + kTruth);
   file.close();
 }
 

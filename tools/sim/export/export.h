@@ -22,6 +22,9 @@ struct ExportOptions {
   bool leo_as_gps = false;
 };
 
+// Every file that an export to the folder may write.
+std::vector<std::string> export_files(const ExportOptions& options);
+
 // Writes run.obs, run.nav, one SP3 file per system (gps.sp3, ...), run.clk, antennas.atx, imu.csv,
 // truth.csv, and the dataset.yaml that names them. Everything throws FileError.
 class Export {

@@ -27,6 +27,7 @@ constexpr std::uint64_t kUncounted = 0;
 Scenario low_satellites_alone(Scenario scenario) {
   const std::vector<TruthPoint>& track = scenario.route.track;
   if (track.empty()) throw std::runtime_error("an overlay needs the truth of the recording");
+  scenario.start = track.front().time;
   scenario.duration_s = seconds_between(track.back().time, track.front().time);
   for (ConstellationConfig& c : scenario.constellations) {
     if (c.system != System::kLeo) c.enabled = false;
@@ -84,8 +85,10 @@ class Overlay {
     if (report_.added == 0 && report_.removed == 0) {
       throw std::runtime_error(
           "nothing to add and nothing to take away: no epoch of the recording lies in the truth's "
-          "time with satellites enough to tell its clock, and no outage names any");
+          "time with satellites enough to tell its clock (nor at its place, if codes scatter), and "
+          "no outage names any");
     }
+    report_.truncated = log_.truncated();
     output_.commit();
     return report_;
   }
@@ -197,8 +200,10 @@ std::string to_string(const OverlayReport& r) {
   return format(
       "%ld messages copied; %ld epochs, %ld with simulated low satellites: %ld observations added, "
       "%ld removed\n%ld epochs without a clock that could be told; clock from epoch to epoch, "
-      "drift removed: %.1f m (1 sigma, by the median)\n",
-      r.messages, r.epochs, r.with_leo, r.added, r.removed, r.without_clock, r.clock_noise_m);
+      "drift removed: %.1f m (1 sigma, by the median)\n%s",
+      r.messages, r.epochs, r.with_leo, r.added, r.removed, r.without_clock, r.clock_noise_m,
+      r.truncated ? "the recording is cut short: its last message is not whole and was left out\n"
+                  : "");
 }
 
 OverlayReport overlay(const Scenario& scenario, const std::string& recorded,

@@ -14,7 +14,8 @@ struct OverlayReport {
   long removed = 0, added = 0;  // observations
   long without_clock = 0;       // epochs whose clock could not be told, which get none
   double clock_noise_m =
-      0.0;  // change of the receiver's clock from epoch to epoch beyond its drift
+      0.0;                 // change of the receiver's clock from epoch to epoch beyond its drift
+  bool truncated = false;  // the recording ends within a message
 };
 std::string to_string(const OverlayReport& report);
 

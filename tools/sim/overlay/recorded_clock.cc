@@ -16,11 +16,19 @@ namespace leonav::sim {
 namespace {
 
 constexpr std::size_t kLeastSatellites = 3;
+// Codes whose median distance from their median is larger are of another place than the truth's.
+constexpr double kWidestScatter_m = 300.0;
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
   std::nth_element(values->begin(), middle, values->end());
   return *middle;
+}
+
+double scatter_about(double middle, const std::vector<double>& values) {
+  std::vector<double> distances;
+  for (const double value : values) distances.push_back(std::abs(value - middle));
+  return median(&distances);
 }
 
 GnssConfig every_code() {
@@ -111,7 +119,9 @@ bool Reading::measure(const RawEpoch& raw, double t, Sighting* sighting) {
     }
   }
   for (auto& [group, values] : codes) {
-    if (values.size() >= kLeastSatellites) sighting->code_m[group] = median(&values);
+    if (values.size() < kLeastSatellites) continue;
+    const double middle = median(&values);
+    if (scatter_about(middle, values) < kWidestScatter_m) sighting->code_m[group] = middle;
   }
   if (sighting->code_m.empty() || dopplers.size() < kLeastSatellites) return false;
   sighting->drift_m_s = median(&dopplers);

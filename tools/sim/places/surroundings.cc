@@ -104,8 +104,9 @@ bool Surroundings::reflect(const PlaceNow& now, const LookAngles& direction,
       kAntennaHeight + distance * rise) {
     return false;
   }
+  // The mirror turns the ray across the street, not along it.
   const double whole = (place.street_width + to_wall(place, -hidden_side)) / across;
-  if (house_height(now, hidden_side, now.travelled_m + (2.0 * distance - whole) * forward, &none) >
+  if (house_height(now, hidden_side, now.travelled_m + whole * forward, &none) >
       kAntennaHeight + whole * rise) {
     return false;
   }

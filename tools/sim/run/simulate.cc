@@ -84,6 +84,11 @@ class Run {
       progress->show(seconds_between(next, scenario_.start) / end_s_);
     }
     outbox_.deliver_all();
+    if (observations_ == 0) {
+      throw std::runtime_error(
+          "no signal of any satellite was received in the whole run; check satellites, "
+          "receiver.elevation_mask_deg, receiver.latency_s, places and outages");
+    }
     if (export_) export_->finish(truth_);
     return std::move(truth_);
   }
@@ -109,6 +114,7 @@ class Run {
       was_off_ = is_off;
       if (!is_off) {
         const RawEpoch epoch = receiver_.epoch(next_tag_s_);
+        observations_ += epoch.observations.size();
         if (export_) export_->write(epoch);
         outbox_.post(scenario_.start.plus_seconds(next_tag_s_ + latency_s), epoch);
       }
@@ -144,7 +150,7 @@ class Run {
   InertialSensor sensor_;
   Outbox outbox_;
   double end_s_, next_tag_s_;
-  std::size_t next_product_ = 0, next_ephemeris_ = 0, epochs_ = 0;
+  std::size_t next_product_ = 0, next_ephemeris_ = 0, epochs_ = 0, observations_ = 0;
   bool was_off_ = false;
   std::vector<TruthPoint> truth_;
 };

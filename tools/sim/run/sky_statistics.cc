@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 #include <ostream>
+#include <stdexcept>
 
 #include "core/gnss/dop.h"
 #include "core/gnss/look_angles.h"
@@ -136,6 +137,9 @@ SkyStatistics sky_statistics(const Scenario& scenario, double mask, double step_
       add_epoch(up, p_a_e, combination, scratch.get(), &statistics.in_the_sky[i]);
       add_epoch(tracked, p_a_e, combination, scratch.get(), &statistics.tracked[i]);
     }
+  }
+  if (statistics.tracked.front().satellites.empty()) {
+    throw std::runtime_error("no epoch to count: the drive is shorter than a step and a second");
   }
   return statistics;
 }

@@ -26,14 +26,19 @@ void read_track(ConfigReader& group, RouteConfig* route) {
   if (file.empty()) return;
   if (!route->waypoints.empty()) group.fail("file", "and waypoints exclude each other");
   try {
-    route->track = read_truth_csv(file).points;
+    set_track(file, route);
   } catch (const FileError& error) {
     group.fail("file", error.what());
   }
-  route->origin = route->track.front().position;
 }
 
 }  // namespace
+
+void set_track(const std::string& file, RouteConfig* route) {
+  route->track = read_truth_csv(file).points;
+  route->origin = route->track.front().position;
+  route->file = file;
+}
 
 void read_route(ConfigReader& group, RouteConfig* route) {
   group.choice<VehicleKind>("vehicle", {{"car", VehicleKind::kCar}, {"uav", VehicleKind::kUav}},

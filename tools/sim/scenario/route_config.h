@@ -1,6 +1,7 @@
 // Where and how the vehicle goes.
 #pragma once
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
@@ -22,6 +23,7 @@ struct RouteConfig {
   Geodetic origin = {0.6965, 2.0322, 50.0};
   double standing_s = 60.0;         // before it sets off
   std::vector<TruthPoint> track;    // of a recorded drive; empty: none
+  std::string file;                 // which it was read from
   double max_gap_s = 2.0;           // a wider hole in it is an error
   std::vector<Waypoint> waypoints;  // empty: a random drive through a city's grid of streets
   double block_m = 250.0;           // of that grid
@@ -29,7 +31,10 @@ struct RouteConfig {
   double max_acceleration_m_s2 = 1.5, max_braking_m_s2 = 2.0, max_lateral_m_s2 = 2.5;
 };
 
-// Reads route.file too; the origin is then its first point.
+// Follows the recorded drive of `file` from its first point on. Throws FileError.
+void set_track(const std::string& file, RouteConfig* route);
+
+// Reads route.file too.
 void read_route(ConfigReader& group, RouteConfig* route);
 
 }  // namespace leonav::sim

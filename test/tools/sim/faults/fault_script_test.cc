@@ -163,5 +163,7 @@ TEST_CASE("Faults that make no sense are refused", "[sim][faults]") {
   refused("{kind: outage, satellites: [X99]}", "X99");
   refused("{kind: imu_gap, satellites: [G01]}", "satellites");
   refused("{kind: outige}", "outage");
+  refused("{from_s: 300, to_s: 330}", "kind: must be given");
+  refused("{}", "kind: must be given");
   refused("{kind: late, stream: imo}", "imu");
 }

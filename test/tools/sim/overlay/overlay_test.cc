@@ -10,6 +10,7 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
+#include "support/program_run.h"
 #include "support/simulated_receiver.h"
 #include "support/temporary_file.h"
 #include "tools/sim/run/simulate.h"
@@ -168,4 +169,38 @@ TEST_CASE("An overlay that changes nothing is an error, and leaves no file", "[s
                       Catch::Contains("nothing to add"));
   REQUIRE_FALSE(std::filesystem::exists(runs.path("laid")));
   REQUIRE_FALSE(std::filesystem::exists(runs.path("laid.part")));
+}
+
+TEST_CASE("The recording's time is the truth's, whatever the scenario says", "[sim][overlay]") {
+  const Runs runs;
+  runs.lay("[]", "laid");
+  runs.lay("[]", "other", {"start_gps_week=2000", "start_gps_tow_s=17"});
+  REQUIRE(text_of(runs.path("laid")) == text_of(runs.path("other")));
+}
+
+TEST_CASE("A truth of another place is refused: codes contradict it", "[sim][overlay]") {
+  const Runs runs;
+  auto truth = read_truth_csv(runs.path("whole.csv")).points;
+  for (TruthPoint& point : truth) point.position.latitude += 0.001;  // 6 km
+  write_truth_csv(runs.path("elsewhere.csv"), truth);
+  std::filesystem::copy_file(runs.path("elsewhere.csv"), runs.path("whole.csv"),
+                             std::filesystem::copy_options::overwrite_existing);
+  REQUIRE_THROWS_WITH(runs.lay("[]", "laid"), Catch::Contains("nor at its place"));
+}
+
+TEST_CASE("A recording that is cut short says so, also with a truth named oddly",
+          "[sim][overlay]") {
+  if (!have_programs("leonav-sim")) return;
+  const Runs runs;
+  std::filesystem::resize_file(runs.path("recorded"),
+                               std::filesystem::file_size(runs.path("recorded")) / 2);
+  const std::string truth = runs.path("drive #1: a.csv");
+  std::filesystem::copy_file(runs.path("whole.csv"), truth);
+  const TemporaryFile scenario("s.yaml", kYaml);
+  const ProgramRun sim =
+      run_program("leonav-sim", scenario.path() + " --overlay " + runs.path("recorded") +
+                                    " --truth '" + truth + "' -o " + runs.path("laid"));
+  INFO(sim.err);
+  REQUIRE(sim.exit_code == 0);
+  REQUIRE_THAT(sim.out, Catch::Contains("cut short"));
 }

@@ -106,6 +106,21 @@ TEST_CASE("A reflection's way is that to the mirrored satellite", "[sim][places]
   REQUIRE(seen >= 4);
 }
 
+TEST_CASE("A reflection passes over the houses ahead, where its ray comes from", "[sim][places]") {
+  // At 45 degrees to the right and 10 degrees up: hidden by the house 12.5 m ahead, thrown back by
+  // the wall 17.5 m ahead, to which the ray comes over the right side at 17.5 + 30 m = 47.5 m: too
+  // low for the houses there (13 m of 20), so that only a crossing lets it through.
+  const auto look_with = [](const std::string& crossings) {
+    std::string places = kEvenStreet;
+    places.replace(places.find("crossing_width_m: 0"), 19, crossings);
+    return Scene(places).look(5.0, 45.0, 10.0);
+  };
+  REQUIRE_FALSE(look_with("crossing_every_m: 45, crossing_width_m: 5").line_of_sight);
+  REQUIRE(look_with("crossing_width_m: 0").line_of_sight);
+  // A crossing 12.5 m behind is of no help.
+  REQUIRE(look_with("crossing_every_m: 14, crossing_width_m: 2").line_of_sight);
+}
+
 TEST_CASE("The rate of a reflection's way is its derivative", "[sim][places]") {
   const Scene street(kEvenStreet);
   const PlaceNow now = street.surroundings.at(5.0);

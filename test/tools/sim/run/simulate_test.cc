@@ -241,4 +241,38 @@ TEST_CASE("What leonav-sim cannot do it says, and leaves nothing behind", "[sim]
   refused(s + " -o /nonexistent/run.lcmlog", "/nonexistent");
   refused(s + out + " --truth /nonexistent/truth.csv", "/nonexistent");
   refused(s + out + " --set recever.interval_s=1", "receiver");
+  refused(s + out + " --set seed=1.5", "whole number");
+  refused(s + out + " --set start_gps_week=2136.5", "whole number");
+  refused(s + out + " --leo-as-gps", "--export");
+  refused("--sky-statistics --step 100 " + s, "shorter than a step");
+  refused("--sky-statistics --step 1e-6 " + s, "million");
+  // A log without a signal is no result.
+  const std::string nothing = "no signal of any satellite";
+  refused(s + out + " --set receiver.elevation_mask_deg=90", nothing);
+  refused(s + out + " --set 'places=[{from_s: 0, place: tunnel}]'", nothing);
+  refused(s + out + " --set 'faults=[{kind: outage}]'", nothing);
+  refused(s + out + " --set duration_s=10 --set receiver.latency_s=10", nothing);
+}
+
+TEST_CASE("A recorded route is not written over by the run that follows it", "[sim]") {
+  if (!have_programs("leonav-sim")) return;
+  const TemporaryFile scenario("s.yaml", kShort);
+  const std::string truth = scenario.beside("truth.csv");
+  const ProgramRun first =
+      run_program("leonav-sim", scenario.path() + " -o " + scenario.beside("first"));
+  REQUIRE(first.exit_code == 0);
+  const std::string before = text_of(truth);
+  const std::string along = scenario.path() + " --set route.file=" + truth + " -o ";
+  // The truth goes beside the log unless something else is said, and into the folder of an export.
+  const std::string folder = std::filesystem::path(truth).parent_path().string();
+  for (const std::string& words : {along + scenario.beside("second"),
+                                   along + scenario.beside("second") + " --truth " +
+                                       scenario.beside("other.csv") + " --export " + folder}) {
+    INFO(words);
+    const ProgramRun second = run_program("leonav-sim", words);
+    REQUIRE(second.exit_code == 1);
+    REQUIRE_THAT(second.err, Catch::Contains("is an input"));
+    REQUIRE(text_of(truth) == before);
+    REQUIRE_FALSE(std::filesystem::exists(scenario.beside("second")));
+  }
 }
