@@ -1,7 +1,9 @@
 #include "core/gnss/carrier_correction.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/earth/ellipsoid.h"
 #include "core/gnss/ionosphere.h"
 #include "core/gnss/path_correction.h"
 #include "core/gnss/weighting.h"
@@ -10,10 +12,11 @@ namespace leonav {
 namespace {
 
 // Broadcast orbits and clocks err by a metre that turns over in hours, precise ones by two or three
-// centimetres that turn over in a quarter of a revolution: hours again, or minutes for LEO.
-constexpr double kBroadcastWander = 0.005;    // m/sqrt(s)
-constexpr double kPreciseWander = 0.0001;     // m/sqrt(s)
-constexpr double kPreciseWanderLeo = 0.0005;  // m/sqrt(s)
+// centimetres that turn over in a quarter of a revolution.
+constexpr double kBroadcastWander = 0.005;     // m/sqrt(s)
+constexpr double kPreciseWander = 0.0001;      // m/sqrt(s)
+constexpr double kEpochWanderLeo = 0.0005;     // m/sqrt(s), from one epoch to the next
+constexpr double kPreciseOrbitSigma_m = 0.02;  // each axis, LEO
 // What the ionosphere model leaves of a GNSS satellite's slant delay moves by a millimetre per
 // second, up or down for minutes; past a LEO satellite the whole delay changes within minutes.
 constexpr double kIonosphereWander = 0.01;     // m/sqrt(s)
@@ -27,9 +30,18 @@ constexpr double kClockWalk = 0.0015;  // m/sqrt(s)
 
 double square(double x) { return x * x; }
 
-double orbit_wander(const SatelliteInView& satellite) {
+// A LEO satellite's line of sight sweeps over its orbit error, alike in all directions and as good
+// as constant for an arc, within minutes: as much again of it shows in each radian.
+double leo_wander(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
+  const Eigen::Vector3d to = satellite.p_e - p_a_e;
+  const double rate = to.cross(satellite.v_e).norm() / to.squaredNorm();  // rad/s
+  return kPreciseOrbitSigma_m * std::sqrt(rate);
+}
+
+double orbit_wander(const SatelliteInView& satellite, const DelayContext& context) {
   if (satellite.source == OrbitSource::kBroadcast) return kBroadcastWander;
-  return satellite.satellite.system == System::kLeo ? kPreciseWanderLeo : kPreciseWander;
+  if (satellite.satellite.system != System::kLeo) return kPreciseWander;
+  return leo_wander(satellite, to_ecef(context.antenna));
 }
 
 }  // namespace
@@ -49,7 +61,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   carrier.arc = status.arc;
   double range = status.first_m - satellite.wind_up_cycles * kSpeedOfLight / f1;
   double noise = noise1;
-  double wander = square(orbit_wander(satellite));
+  double wander = square(orbit_wander(satellite, context));
   if (second != nullptr) {
     const double f2 = frequency_hz(system, second->code.band);
     const IonosphereFree pair = ionosphere_free(f1, f2);
@@ -93,7 +105,8 @@ double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& sate
   const System system = satellite.satellite.system;
   const bool leo = system == System::kLeo;
   const bool broadcast = satellite.source == OrbitSource::kBroadcast;
-  const double clock = broadcast ? kClockWalk : orbit_wander(satellite);
+  const double precise = leo ? kEpochWanderLeo : kPreciseWander;
+  const double clock = broadcast ? kClockWalk : precise;
   if (carrier.second_code.band != 0) return clock * std::sqrt(dt);
   const double rate = leo ? config.ionosphere_rate_leo_m_s : config.ionosphere_rate_m_s;
   const double to_frequency =

@@ -33,9 +33,7 @@ struct ToldErrors {
 // True clocks, 1 sigma over the satellites.
 struct SatelliteClockConfig {
   double offset_s = 1e-4, drift = 1e-11;
-  // White frequency noise of rubidium clocks and hydrogen masers; low satellites steer oven
-  // crystals by GNSS.
-  double noise_s_per_sqrt_s = 1.5e-12;
+  double noise_s_per_sqrt_s = 0.0;  // white frequency noise
   double drift_walk_per_sqrt_s = 0.0;
 };
 

@@ -118,20 +118,24 @@ void add_leo(ConstellationConfig* c) {
 
 }  // namespace
 
+// Clocks' noise of GPS and Galileo as their products show it (docs/models.md), the others' assumed.
 ConstellationConfig nominal_constellation(System system) {
   ConstellationConfig c;
   c.system = system;
   switch (system) {
     case System::kGps:
       add_gps(&c);
+      c.clock.noise_s_per_sqrt_s = 1.2e-11;
       break;
     case System::kGalileo:
       c.shells = {walker(3, 8, 29'599'800.0, 56.0, 1)};
       c.shells[0].first_node = 25.0 * kDegree;
       c.broadcast.issue_interval_s = 600.0;
+      c.clock.noise_s_per_sqrt_s = 1.2e-12;
       break;
     case System::kBeidou:
       add_beidou(&c);
+      c.clock.noise_s_per_sqrt_s = 6.7e-12;
       c.broadcast.issue_interval_s = 3600.0;
       break;
     case System::kLeo:
