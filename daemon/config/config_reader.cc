@@ -42,7 +42,9 @@ YAML::Node ConfigReader::find(const char* key) {
   known_.emplace_back(key);
   if (node_.IsDefined() && node_.IsMap()) {
     for (const auto& entry : node_) {
-      if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+      if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
+      source_->given.push_back(path_of(key));
+      return entry.second;
     }
   }
   return YAML::Node(YAML::NodeType::Undefined);
@@ -190,14 +192,18 @@ std::optional<std::size_t> ConfigReader::choice_index(const char* key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-void ConfigReader::fail(const char* key, const std::string& message) const {
+std::string ConfigReader::where(const char* key) const {
   YAML::Node at = node_;
   if (node_.IsDefined() && node_.IsMap()) {
     for (const auto& entry : node_) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key) at.reset(entry.second);
     }
   }
-  fail_at(at, key, message);
+  return where_is(at, key);
+}
+
+void ConfigReader::fail(const char* key, const std::string& message) const {
+  throw ConfigError(where(key) + ": " + message);
 }
 
 void ConfigReader::finish() const {
@@ -226,13 +232,14 @@ std::string ConfigReader::path_of(const std::string& key) const {
 
 void ConfigReader::fail_at(const YAML::Node& node, const std::string& key,
                            const std::string& message) const {
+  throw ConfigError(where_is(node, key) + ": " + message);
+}
+
+std::string ConfigReader::where_is(const YAML::Node& node, const std::string& key) const {
   const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
   // Nodes that came from the command line have no place in the file.
-  const std::string place =
-      mark.is_null() || mark.line < 0
-          ? "--set " + path_of(key)
-          : source_->name + ":" + std::to_string(mark.line + 1) + ": " + path_of(key);
-  throw ConfigError(place + ": " + message);
+  if (mark.is_null() || mark.line < 0) return "--set " + path_of(key);
+  return source_->name + ":" + std::to_string(mark.line + 1) + ": " + path_of(key);
 }
 
 }  // namespace leonav

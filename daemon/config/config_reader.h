@@ -26,6 +26,7 @@ struct ConfigSource {
   std::vector<std::string> absent;  // known keys that were left at their defaults
   // Overrides that say in full what was read from files: with them the configuration reads none.
   std::vector<std::string> resolved;
+  std::vector<std::string> given = {};  // keys and groups that are there
 };
 
 class ConfigReader {
@@ -65,6 +66,9 @@ class ConfigReader {
     source_->resolved.push_back(path_of(key) + "=" + value);
   }
 
+  // Where `key` stands, for errors that show later: "FILE:LINE: group.key", or "--set group.key".
+  std::string where(const char* key) const;
+
   // Throws ConfigError for `key`, at its line.
   [[noreturn]] void fail(const char* key, const std::string& message) const;
 
@@ -77,6 +81,7 @@ class ConfigReader {
   double parse_number(const char* key, const YAML::Node& node, Bounds bounds) const;
   [[noreturn]] void fail_at(const YAML::Node& node, const std::string& key,
                             const std::string& message) const;
+  std::string where_is(const YAML::Node& node, const std::string& key) const;
   std::string path_of(const std::string& key) const;
 
   ConfigSource* source_;

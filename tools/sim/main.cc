@@ -1,4 +1,5 @@
 // leonav-sim: a scenario -> measurements as a vehicle would have recorded them.
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "tools/common/arguments.h"
+#include "tools/common/format.h"
 #include "tools/dataset/log_output.h"
 #include "tools/sim/overlay/overlay.h"
 #include "tools/sim/run/simulate.h"
@@ -47,23 +49,42 @@ std::vector<std::string> inputs_of(const std::string& file, const leonav::sim::S
   return inputs;
 }
 
+void warn_of_rows(const leonav::sim::RouteConfig& route) {
+  const std::string missing = leonav::sim::left_out(route.file_report);
+  if (!missing.empty()) std::cerr << "leonav-sim: " << route.file << ": " << missing << "\n";
+}
+
 int overlay(const Arguments& arguments, const std::vector<std::string>& overrides) {
-  if (arguments.has("--export")) throw UsageError("--export is for whole simulations");
+  for (const char* option : {"--export", "--leo-as-gps", "--sky-statistics"}) {
+    if (arguments.has(option)) {
+      throw UsageError(std::string(option) + " is for whole simulations, not for --overlay");
+    }
+  }
   const std::string out = arguments.required("--out"), truth = arguments.required("--truth");
   const std::string recorded = arguments.get("--overlay");
   leonav::check_output(out, {arguments.positional()[0], truth, recorded});
   auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
   leonav::sim::set_track(truth, &scenario.route);
+  warn_of_rows(scenario.route);
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
   std::cout << to_string(leonav::sim::overlay(scenario, recorded, out, &progress));
   return 0;
 }
 
 int sky_statistics(const Arguments& arguments, const leonav::sim::Scenario& scenario) {
+  for (const char* option : {"--out", "--truth", "--export", "--leo-as-gps"}) {
+    if (arguments.has(option)) {
+      throw UsageError(std::string(option) + " writes a run; --sky-statistics makes none");
+    }
+  }
   constexpr double kDegree = std::numbers::pi / 180.0;
   const double step_s = arguments.number("--step");
   if (!(step_s > 0.0)) throw UsageError("--step must be above zero");
-  const double mask = arguments.number("--mask") * kDegree;
+  const double mask_deg = arguments.number("--mask");
+  if (!(mask_deg >= 0.0 && mask_deg < 90.0)) {
+    throw UsageError("--mask must be from 0 to below 90 degrees");
+  }
+  const double mask = mask_deg * kDegree;
   if (scenario.duration_s / step_s > 1e6) throw UsageError("--step makes over a million epochs");
   leonav::sim::print(leonav::sim::sky_statistics(scenario, mask, step_s), std::cout);
   return 0;
@@ -77,8 +98,14 @@ int body(int argc, char** argv) {
   }
   std::vector<std::string> overrides = arguments.all("--set");
   if (arguments.has("--seed")) overrides.push_back("seed=" + arguments.get("--seed"));
+  for (const char* option : {"--mask", "--step"}) {
+    if (arguments.has(option) && !arguments.has("--sky-statistics")) {
+      throw UsageError(std::string(option) + " is for --sky-statistics");
+    }
+  }
   if (arguments.has("--overlay")) return overlay(arguments, overrides);
   const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
+  warn_of_rows(scenario.route);
   if (arguments.has("--sky-statistics")) return sky_statistics(arguments, scenario);
   const std::filesystem::path out = arguments.required("--out");
   leonav::sim::RunOutputs outputs;
@@ -98,7 +125,10 @@ int body(int argc, char** argv) {
     throw UsageError("--leo-as-gps is for --export");
   }
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
+  const auto begun = std::chrono::steady_clock::now();
   std::cout << to_string(leonav::sim::simulate(scenario, outputs, &progress));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+  std::cout << leonav::format("%.0f s simulated in %.1f s\n", scenario.duration_s, took.count());
   return 0;
 }
 

@@ -82,7 +82,7 @@ def main():
     def seeds_of(row):
         if row.group == "sets":
             return four
-        if row.group.startswith("convergence") and not options.quick:
+        if row.by_time and not options.quick:
             return list(range(options.first_seed, options.first_seed + CONVERGENCE_FACTOR * options.seeds))
         return seeds
 

@@ -25,7 +25,29 @@ def columns(path, names):
             data = [[float(row[p]) if row[p] else math.nan for p in places] for row in rows if len(row) == len(header)]
     except (OSError, ValueError, StopIteration) as error:
         raise JudgeError(f"{path}: {error}")
+    if not data:
+        raise JudgeError(f"{path}: has no row")
     return np.array(data).reshape(-1, len(names)).T
+
+
+def numbers_of(path):
+    """What leonav-eval wrote of the one solution that it was given."""
+    try:
+        with open(path) as file:
+            read = json.load(file)[0]
+        three_d = read["3d_m"]
+        result = {
+            "rmse": [read[k]["rmse"] for k in ("north_m", "east_m", "up_m", "3d_m")],
+            "p50_3d": three_d["p50"], "p95_3d": three_d["p95"], "worst_3d": three_d["worst"],
+            "epochs": read["epochs"],
+        }
+        maybe = {key: read[key] for key in ("convergence_s", "settled_s", "within_three_sigma")}
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise JudgeError(f"{path}: {type(error).__name__}: {error}; not what leonav-eval --json writes")
+    flat = result["rmse"] + [v for k, v in result.items() if k != "rmse"] + [v for v in maybe.values() if v is not None]
+    if any(isinstance(v, bool) or not isinstance(v, (int, float)) for v in flat):
+        raise JudgeError(f"{path}: has something else in the place of a number; not what leonav-eval --json writes")
+    return {**result, **maybe}
 
 
 def errors_of(solution_path, truth_path):
@@ -48,12 +70,7 @@ def errors_of(solution_path, truth_path):
 
 
 def judge(row, folder, out):
-    path = os.path.join(out, "errors.json")
-    try:
-        with open(path) as file:
-            numbers = json.load(file)[0]
-    except (OSError, ValueError, LookupError) as error:
-        raise JudgeError(f"{path}: {error}")
+    result = numbers_of(os.path.join(out, "errors.json"))
     t, error = errors_of(os.path.join(out, "solution.csv"), os.path.join(folder, "truth.csv"))
     week, tow, satellites, pdop = columns(os.path.join(out, "epochs.csv"), ("gps_week", "gps_tow_s", "satellites", "pdop"))
     t_epoch = (week - week[0]) * WEEK_S + tow - tow[0]
@@ -63,20 +80,15 @@ def judge(row, folder, out):
     np.savez_compressed(os.path.join(out, "series.npz"), t=t.astype(np.float32), error=error.astype(np.float32),
                         t_epoch=t_epoch.astype(np.float32), satellites=satellites.astype(np.float32),
                         pdop=pdop.astype(np.float32))
-    result = {
-        "rmse": [numbers[k]["rmse"] for k in ("north_m", "east_m", "up_m", "3d_m")],
-        "p50_3d": numbers["3d_m"]["p50"], "p95_3d": numbers["3d_m"]["p95"], "worst_3d": numbers["3d_m"]["worst"],
-        "epochs": numbers["epochs"],
+    result |= {
         "availability": float(np.count_nonzero(settled)) / max(1, int(np.count_nonzero(judged))),
-        "convergence_s": numbers["convergence_s"], "settled_s": numbers["settled_s"],
-        "within_three_sigma": numbers["within_three_sigma"],
         "within_5m": [100.0 * float(np.mean(np.abs(e[settled]) < 5.0)) for e in error] if settled.any() else None,
         "satellites": float(np.mean(satellites[judged])) if judged.any() else None,
         "below_four": float(np.mean(satellites[judged] < 4)) if judged.any() else None,
         "pdop": float(np.mean(pdop[good])) if good.any() else None,
     }
     if row.group == "sets":
-        result["after_convergence"] = after_convergence(t, error, numbers["convergence_s"])
+        result["after_convergence"] = after_convergence(t, error, result["convergence_s"])
     return result
 
 

@@ -125,7 +125,7 @@ def converging(group, rows, results, runner):
 
 def draw(group, rows, results, runner):
     """File names of the pictures, in the report's folder."""
-    if not any(spread.good(results[row.name]) for row in rows):
+    if group == "mismatch" or not any(spread.good(results[row.name]) for row in rows):
         return []
     if group == "sets" or group.startswith("convergence"):
         return [converging(group, rows, results, runner)]

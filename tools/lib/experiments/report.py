@@ -5,6 +5,7 @@ import constellation
 import plots
 import published
 import spread
+import verdicts
 
 TITLES = {
     "code": "Code and Doppler, robust (Electronics 2024)",
@@ -17,6 +18,7 @@ TITLES = {
     "sets": "Convergence of four data sets of 2,000 epochs",
     "convergence-static": "Convergence to 10 cm, open sky, static",
     "convergence-drive": "Convergence to 10 cm, open sky, driving, without IMU",
+    "mismatch": "Where the estimator is told wrongly: multipath and IMU",
 }
 TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
 
@@ -28,11 +30,11 @@ def published_text(p):
 
 
 def rmse_table(rows, results, lines, notes):
-    lines += ["| | N, m | E, m | U, m | 3D, m | 3D 95 %, m | available | satellites | PDOP | published N / E / U / 3D, m |",
-              "|---|---|---|---|---|---|---|---|---|---|"]
+    lines += ["| | seeds | N, m | E, m | U, m | 3D, m | 3D 95 %, m | available | satellites | PDOP | published N / E / U / 3D, m |",
+              "|---|---|---|---|---|---|---|---|---|---|---|"]
     for row in rows:
         r = results[row.name]
-        cells = [spread.text(spread.of(r, "rmse", i)) for i in range(4)]
+        cells = [f"{len(spread.good(r))} of {len(r)}"] + [spread.text(spread.of(r, "rmse", i)) for i in range(4)]
         available = spread.of(r, "availability")
         cells += [spread.text(spread.of(r, "p95_3d")), "-" if available is None else f"{100.0 * available[0]:.1f} %",
                   spread.text(spread.of(r, "satellites"), 1), spread.text(spread.of(r, "pdop"), 1),
@@ -43,22 +45,22 @@ def rmse_table(rows, results, lines, notes):
 
 
 def gain_lines(rows, results):
-    """What LEO brings, row against row."""
+    """What LEO brings, row against row, over the seeds that both have."""
     by_title = {row.title: row for row in rows}
     lines = []
     for row in rows:
         partner = by_title.get(row.title.replace("/LEO", "", 1))
         if partner is None or partner is row:
             continue
+        seeds = spread.common(results[partner.name], results[row.name])
         ours = []
         for i in range(4):
-            a, b = spread.of(results[partner.name], "rmse", i), spread.of(results[row.name], "rmse", i)
+            a, b = (spread.of(results[r.name], "rmse", i, seeds) for r in (partner, row))
             ours.append("-" if a is None or b is None or a[0] == 0.0 else f"{100.0 * (1.0 - b[0] / a[0]):.0f} %")
         theirs = "-"
         if row.published and partner.published:
             theirs = " / ".join("-" if a is None or b is None else f"{100.0 * (1.0 - b / a):.0f} %"
                                 for a, b in zip(partner.published.rmse, row.published.rmse))
-        seeds = spread.good(results[partner.name]).keys() & spread.good(results[row.name]).keys()
         better = sum(results[row.name][s]["rmse"][3] < results[partner.name][s]["rmse"][3] for s in seeds)
         lines.append(f"| {partner.title} → {row.title} | {' / '.join(ours)} | {better} of {len(seeds)} | {theirs} |")
     if lines:
@@ -148,12 +150,33 @@ def convergence_table(rows, results, lines):
         key = row.name.split("-", 2)[2].rsplit("-leo", 1)[0].removesuffix("-leo")
         target = TARGET_S.get(key) if not row.name.endswith("leo0") else None
         if not spread.good(r):
-            verdict = "not run" if not any(r.values()) else "failed"
+            verdict = "failed" if any(r.values()) else "not run"
         else:
             verdict = "-" if target is None else f"{target:.0f}: " + ("met" if median is not None and median < target else "MISSED")
         lines.append(f"| {row.title} | {'-' if median is None else f'{median:.0f}'} | "
                      f"{f'{min(times):.0f} to {max(times):.0f}' if times else '-'} | {reached} of {count} | "
                      f"{'-' if settled is None else f'{settled:.0f}'} | {verdict} |")
+
+
+def mismatch_table(rows, results, lines):
+    lines += ["Beside each the row whose drives are as the estimator takes them to be, over the seeds that both have: the median "
+              "time to 10 cm, or the mean 3D RMSE; and the share of components within three stated sigma (mean).", "",
+              "| | seeds | matched | mismatched | within three sigma, matched → mismatched |", "|---|---|---|---|---|"]
+    for row in rows:
+        both = results.get(row.matched, {}), results[row.name]
+        paired = row.matched in results
+        seeds = spread.common(*both) if paired else sorted(spread.good(both[1]))
+        cells, shares = [], []
+        for r in both:
+            if row.by_time:
+                median, reached, _ = spread.median_time(r, seeds=[s for s in seeds if s in r])
+                cells.append("-" if not reached else "never" if median is None else f"{median:.0f} s")
+            else:
+                mean = spread.of(r, "rmse", 3, seeds)
+                cells.append("-" if mean is None else f"{mean[0]:.2f} m")
+            share = spread.of(r, "within_three_sigma", seeds=seeds)
+            shares.append("-" if share is None else f"{100.0 * share[0]:.1f} %")
+        lines.append(f"| {row.title} (`{row.matched}`) | {len(seeds)} | {cells[0]} | {cells[1]} | {shares[0]} → {shares[1]} |")
 
 
 def write(out, rows, results, runner, seeds_of):
@@ -163,6 +186,7 @@ def write(out, rows, results, runner, seeds_of):
              "over all epochs after the first 1,000. The papers drove a real car through Beijing: their errors hold what their "
              "receiver and their streets did, ours what the simulator knows of it; compare the improvements before the metres.",
              ""]
+    lines += verdicts.lines(rows, results)
     for group, title in TITLES.items():
         chosen = [row for row in rows if row.group == group]
         if not chosen:
@@ -171,6 +195,8 @@ def write(out, rows, results, runner, seeds_of):
         notes = []
         if group == "sets":
             sets_table(chosen, results, lines)
+        elif group == "mismatch":
+            mismatch_table(chosen, results, lines)
         elif group.startswith("convergence"):
             convergence_table(chosen, results, lines)
         else:
@@ -182,8 +208,8 @@ def write(out, rows, results, runner, seeds_of):
             lines += ["", f"![{title}]({picture})"]
         lines.append("")
     lines += sky_lines(rows, results)
-    failed = sorted({f"{row.name}, seed {s}: {r['failure']}" for row in rows for s, r in results[row.name].items()
-                     if r and "failure" in r} | set(runner.failures))
+    failed = [f"{row.name}, seed {s}: {r['failure']}" for row in rows for s, r in results[row.name].items()
+              if r and "failure" in r]
     if failed:
         lines += ["", "## Runs that failed", ""] + [f"- {text}" for text in failed]
     lines += ["", "## One row alone", "", "From the project's folder; the first seed as an example. Others differ in `seed` "

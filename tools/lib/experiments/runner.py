@@ -104,7 +104,8 @@ class Runner:
                 result = json.load(file)
         except (OSError, ValueError):
             return None
-        return result if result.get("definition") == self.definition(row, seed) else None
+        ours = isinstance(result, dict) and result.get("definition") == self.definition(row, seed)
+        return result if ours else None
 
     def call(self, command, folder):
         log = os.path.join(folder, os.path.basename(command[0]) + ".log")
@@ -155,6 +156,8 @@ class Runner:
             with self.lock:
                 self.failures.append(str(error))
                 self.done += len(rows) - 1
+            for row in rows:
+                self.store(row, seed, {"failure": f"not simulated: {error}"})
             self.tell(f"{scene.name}, seed {seed}: NOT SIMULATED")
             return
         for row in rows:

@@ -18,6 +18,10 @@ constexpr const char* kAntennaName = "LEONAV_ZERO     NONE";
 constexpr const char *kObservations = "run.obs", *kNavigation = "run.nav", *kClocks = "run.clk",
                      *kAntennas = "antennas.atx", *kImu = "imu.csv", *kTruth = "truth.csv",
                      *kDataset = "dataset.yaml";
+constexpr const char *kToldOrbits =
+                         "Simulated by leonav-sim: what the receiver is told, errors included",
+                     *kTrueOrbits =
+                         "Simulated by leonav-sim: low satellites as GPS, without any error";
 
 std::string orbit_file(System system) { return std::string(to_string(system)) + ".sp3"; }
 
@@ -75,7 +79,7 @@ void Export::write_products(const Products& products) {
     }
     if (own.empty()) continue;
     orbit_files_.push_back(orbit_file(system));
-    write_sp3(path(orbit_files_.back()), own);
+    write_sp3(path(orbit_files_.back()), own, renamed_ ? kTrueOrbits : kToldOrbits);
   }
   has_clocks_ = !products.clocks.empty();
   if (has_clocks_) write_rinex_clock(path(kClocks), products.clocks);

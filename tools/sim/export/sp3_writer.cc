@@ -36,7 +36,7 @@ void write_names(const std::vector<SatelliteId>& satellites, TextFile* file) {
 }
 
 void write_header(std::span<const OrbitEpoch> epochs, const std::vector<SatelliteId>& satellites,
-                  TextFile* file) {
+                  const std::string& comment, TextFile* file) {
   const GpsTime first = epochs.front().time;
   const double interval_s = epochs.size() > 1 ? seconds_between(epochs[1].time, first) : 0.0;
   file->line("#dP" + date(first) + formatted(" %7zu ORBIT IGb14 FIT LEON", epochs.size()));
@@ -53,7 +53,7 @@ void write_header(std::span<const OrbitEpoch> epochs, const std::vector<Satellit
   for (int i = 0; i < 2; ++i) {
     file->line("%i    0    0    0    0      0      0      0      0         0");
   }
-  file->line("/* Simulated by leonav-sim: what the receiver is told, errors included");
+  file->line("/* " + comment);
   for (int i = 0; i < 3; ++i) file->line("/*");
 }
 
@@ -72,13 +72,14 @@ void write_state(const PreciseState& state, TextFile* file) {
 
 }  // namespace
 
-void write_sp3(const std::string& path, std::span<const OrbitEpoch> epochs) {
+void write_sp3(const std::string& path, std::span<const OrbitEpoch> epochs,
+               const std::string& comment) {
   std::set<SatelliteId> satellites;
   for (const OrbitEpoch& epoch : epochs) {
     for (const PreciseState& state : epoch.states) satellites.insert(state.satellite);
   }
   TextFile file(path);
-  write_header(epochs, {satellites.begin(), satellites.end()}, &file);
+  write_header(epochs, {satellites.begin(), satellites.end()}, comment, &file);
   for (const OrbitEpoch& epoch : epochs) {
     file.line("*  " + date(epoch.time));
     for (const PreciseState& state : epoch.states) write_state(state, &file);

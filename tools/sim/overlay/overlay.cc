@@ -12,6 +12,7 @@
 #include "drivers/lcm/event_log.h"
 #include "tools/common/format.h"
 #include "tools/sim/overlay/recorded_clock.h"
+#include "tools/sim/overlay/recording_rules.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/run/antennas.h"
 #include "tools/sim/run/told_products.h"
@@ -70,6 +71,7 @@ class Overlay {
         output_(output) {
     report_.without_clock = clock_.without;
     report_.clock_noise_m = clock_noise_m();
+    report_.unused = keys_of_the_recording(scenario.given);
   }
 
   OverlayReport run(ProgressBar* progress) {
@@ -81,6 +83,13 @@ class Overlay {
       }
       progress->show(static_cast<double>(log_.position_bytes()) /
                      static_cast<double>(log_.size_bytes()));
+    }
+    if (report_.epochs == 0) {
+      throw std::runtime_error(
+          "the recording has no channel " + std::string(channel_name(Channel::kGnssEpoch)) +
+          (clock_.other_prefix.empty() ? ""
+                                       : "; it has " + clock_.other_prefix +
+                                             "GNSS_EPOCH: --overlay knows no other prefix"));
     }
     if (report_.added == 0 && report_.removed == 0) {
       throw std::runtime_error(
@@ -197,17 +206,25 @@ class Overlay {
 }  // namespace
 
 std::string to_string(const OverlayReport& r) {
-  return format(
-      "%ld messages copied; %ld epochs, %ld with simulated low satellites: %ld observations added, "
-      "%ld removed\n%ld epochs without a clock that could be told; clock from epoch to epoch, "
-      "drift removed: %.1f m (1 sigma, by the median)\n%s",
-      r.messages, r.epochs, r.with_leo, r.added, r.removed, r.without_clock, r.clock_noise_m,
-      r.truncated ? "the recording is cut short: its last message is not whole and was left out\n"
-                  : "");
+  std::string unused;
+  for (const std::string& key : r.unused) unused += (unused.empty() ? "" : ", ") + key;
+  if (!unused.empty()) unused = "not used, as the recording says it: " + unused + "\n";
+  return unused +
+         format(
+             "%ld messages copied; %ld epochs, %ld with simulated low satellites: %ld observations "
+             "added, "
+             "%ld removed\n%ld epochs without a clock that could be told; clock from epoch to "
+             "epoch, "
+             "drift removed: %.1f m (1 sigma, by the median)\n%s",
+             r.messages, r.epochs, r.with_leo, r.added, r.removed, r.without_clock, r.clock_noise_m,
+             r.truncated
+                 ? "the recording is cut short: its last message is not whole and was left out\n"
+                 : "");
 }
 
 OverlayReport overlay(const Scenario& scenario, const std::string& recorded,
                       const std::string& output, ProgressBar* progress) {
+  check_overlay_faults(scenario.faults);
   Overlay job(scenario, recorded, output);
   return job.run(progress);
 }

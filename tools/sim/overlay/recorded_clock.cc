@@ -102,8 +102,9 @@ bool Reading::measure(const RawEpoch& raw, double t, Sighting* sighting) {
     const SatelliteInView& satellite = epoch_->satellites[m.satellite_index];
     if (satellite.reason != Reason::kUsed || m.reason != Reason::kUsed) continue;
     if (m.observable == Observable::kDoppler) {
+      // Counted in seconds of the receiver's clock: m = (rate + c drift) / (1 + drift).
       const double rate = predict_range_rate(satellite, p_a_e, now.v_e).range_rate_m_s;
-      dopplers.push_back(m.value - rate);
+      dopplers.push_back((m.value - rate) / (1.0 - m.value / kSpeedOfLight));
     }
     if (m.observable != Observable::kCode) continue;
     const double range = predict_range(satellite, p_a_e).range_m;
@@ -191,8 +192,11 @@ RecordedClock recorded_clock(const std::string& log, const Scenario& scenario,
   Reading reading(scenario, motion);
   const InputHandlers handlers{[&reading](const RawEpoch& raw) { reading.take(raw); },
                                reading.catalog()};
-  read_inputs(log, std::string(kDefaultChannelPrefix), handlers, nullptr);
-  return reading.clock();
+  const InputCounts counts =
+      read_inputs(log, std::string(kDefaultChannelPrefix), handlers, nullptr);
+  RecordedClock clock = reading.clock();
+  clock.other_prefix = counts.other_prefix;
+  return clock;
 }
 
 }  // namespace leonav::sim

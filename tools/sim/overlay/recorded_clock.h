@@ -20,6 +20,7 @@ namespace leonav::sim {
 struct RecordedClock {
   std::map<GpsTime, ClockReading> readings;  // t: s from the motion's start
   long without = 0;                          // epochs within the motion that have none
+  std::string other_prefix;                  // of epochs on channels of another name; empty: none
 };
 
 // Throws EventLogError as read_inputs() does.

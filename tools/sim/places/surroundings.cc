@@ -43,8 +43,8 @@ Surroundings::Surroundings(const Scenario& scenario, const SplineMotion& motion)
   for (const PlaceSegment& segment : segments) {
     const double from_s = segment.from_s ? *segment.from_s : odometer_.when_s(*segment.from_m);
     if (from_s < segments_.back().from_s) {
-      throw std::runtime_error("places: segment " + std::to_string(segments_.size()) +
-                               " begins before the one ahead of it; put them in order");
+      throw std::runtime_error(segment.where +
+                               ": begins before the segment ahead of it; put them in order");
     }
     segments_.push_back({from_s, segment.place});
   }

@@ -1,6 +1,8 @@
 #include "tools/sim/route/drive.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,11 +68,25 @@ SplineMotion along_road(const Scenario& scenario) {
   return SplineMotion(std::move(splines));
 }
 
+// What keeps a file from being a route, and what of it was not read.
+std::string why_not(const RouteConfig& route, const std::string& what) {
+  const std::string missing = left_out(route.file_report);
+  return route.file + ": " + what + (missing.empty() ? "" : "; " + missing);
+}
+
+SplineMotion along_track(const RouteConfig& route) {
+  try {
+    return recorded_track(route);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(why_not(route, error.what()));
+  }
+}
+
 }  // namespace
 
 SplineMotion drive(const Scenario& scenario) {
   if (scenario.route.track.empty()) return along_road(scenario);
-  MotionSplines splines = recorded_track(scenario.route).splines();
+  MotionSplines splines = along_track(scenario.route).splines();
   splines.start = scenario.start;
   splines.duration_s = std::min(splines.duration_s, scenario.duration_s);
   return SplineMotion(std::move(splines));

@@ -58,21 +58,22 @@ Road::Road(const std::vector<Waypoint>& waypoints, double rounding_m) {
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const Eigen::Vector3d way = waypoints[i].p_n - waypoints[i - 1].p_n;
     const double leg = way.norm();
-    const auto refuse = [i](const char* why) {
-      throw std::runtime_error("route.waypoints " + std::to_string(i) + " and " +
-                               std::to_string(i + 1) + " " + why);
+    const auto refuse = [&waypoints](std::size_t which, const char* why) {
+      throw std::runtime_error(waypoints[which].where + ": " + why);
     };
-    if (!(leg > 1.0)) refuse("are less than a metre apart; leave one out");
+    if (!(leg > 1.0)) {
+      refuse(i, "is less than a metre from the waypoint before; leave one out");
+    }
     if (!(std::abs(way.z()) <= way.head<2>().norm())) {
-      refuse("are steeper than 45 degrees: no course; put them farther apart");
+      refuse(i, "is steeper than 45 degrees from the waypoint before: no course; put it farther");
     }
     if (i > 1) {
       const Eigen::Vector3d before = waypoints[i - 1].p_n - waypoints[i - 2].p_n;
       const double cosine = before.head<2>().normalized().dot(way.head<2>().normalized());
       if (cosine < kSharpest) {
-        throw std::runtime_error("route.waypoints " + std::to_string(i) +
-                                 ": the road turns back on itself here by more than 150 degrees; "
-                                 "go round with one waypoint more");
+        refuse(i - 1,
+               "the road turns back on itself here by more than 150 degrees; go round with one "
+               "waypoint more");
       }
     }
     places_.push_back(places_.back() + leg);

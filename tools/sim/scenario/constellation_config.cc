@@ -10,6 +10,7 @@ constexpr Bounds kAngle = {-360.0, 360.0}, kSigma = {0.0, 1e3};
 
 void read_shell(ConfigReader& group, ConstellationConfig* c) {
   OrbitShell shell;
+  shell.node_span = 360.0 * kDegree;  // as Walker has it
   group.integer("planes", 1, 100, &shell.planes);
   group.integer("per_plane", 1, 100, &shell.per_plane);
   group.number("semi_major_axis_km", {6500.0, 1e5}, &shell.semi_major_axis_m, 1e3);
@@ -21,6 +22,12 @@ void read_shell(ConfigReader& group, ConstellationConfig* c) {
   group.number("first_anomaly_deg", kAngle, &shell.first_anomaly, kDegree);
   group.integer("first_number", 1, kHighestNumber[index_of(c->system)], &shell.first_number);
   if (shell.semi_major_axis_m == 0.0) group.fail("semi_major_axis_km", "must be given");
+  constexpr double kLowestPerigee_m = 6.5e6;
+  if (shell.semi_major_axis_m * (1.0 - shell.eccentricity) < kLowestPerigee_m) {
+    group.fail("eccentricity",
+               "takes the orbit below 6500 km from the Earth's centre: "
+               "semi_major_axis_km (1 - eccentricity) must be at least that");
+  }
   c->shells.push_back(shell);
 }
 

@@ -88,6 +88,7 @@ void read_fault(ConfigReader& group, std::vector<Fault>* faults) {
       fault.kind == FaultKind::kBadOrbit || fault.kind == FaultKind::kSpoofing;
   if (of_satellites) read_whom(group, &fault);
   read_sizes(group, &fault);
+  fault.where = group.where("kind");
   faults->push_back(fault);
 }
 

@@ -34,6 +34,7 @@ struct Fault {
   double gyro_limit = 1e9, accel_limit = 1e9;  // rad/s, m/s^2
   Stream stream = Stream::kGnss;
   double delay_s = 1.0;
+  std::string where;  // in the scenario, for errors
 };
 
 // One element of the list "faults".

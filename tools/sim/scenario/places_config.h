@@ -35,6 +35,7 @@ Place usual_place(PlaceKind kind);
 struct PlaceSegment {
   std::optional<double> from_s, from_m;  // one of them; m along the way
   Place place;
+  std::string where;  // in the scenario, for errors; empty: drawn
 };
 
 // A way through a town, drawn at random.

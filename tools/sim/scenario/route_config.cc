@@ -1,6 +1,8 @@
 #include "tools/sim/scenario/route_config.h"
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace leonav::sim {
 namespace {
@@ -17,30 +19,57 @@ void read_waypoint(ConfigReader& group, RouteConfig* route) {
   w.p_n.z() = -up_m;
   group.number("speed_m_s", {0.5, 300.0}, &w.speed_m_s);
   group.number("stop_s", {0.0, 1e5}, &w.stop_s);
+  w.where = group.where("");
   route->waypoints.push_back(w);
 }
 
-void read_track(ConfigReader& group, RouteConfig* route) {
+void read_track(ConfigReader& group, const std::filesystem::path& folder, RouteConfig* route) {
   std::string file;
   group.text("file", &file);
   if (file.empty()) return;
   if (!route->waypoints.empty()) group.fail("file", "and waypoints exclude each other");
   try {
-    set_track(file, route);
+    set_track((folder / file).string(), route);
   } catch (const FileError& error) {
     group.fail("file", error.what());
+  }
+}
+
+// One wrong row would be a flight round the world, which the smoothing makes look like a route.
+void check_leaps(const std::string& file, const std::vector<TruthPoint>& points) {
+  constexpr double kFastest_m_s = 500.0, kScatter_m = 10.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double dt = seconds_between(points[i].time, points[i - 1].time);
+    const double leap = (to_ecef(points[i].position) - to_ecef(points[i - 1].position)).norm();
+    if (leap <= kFastest_m_s * dt + kScatter_m) continue;
+    throw FileError(file, 0,
+                    "leaps by " + std::to_string(std::lround(leap)) + " m in " +
+                        std::to_string(dt) + " s before time of week " +
+                        std::to_string(points[i].time.tow_s()) +
+                        ", faster than 500 m/s; mend or take out the rows there");
   }
 }
 
 }  // namespace
 
 void set_track(const std::string& file, RouteConfig* route) {
-  route->track = read_truth_csv(file).points;
+  TruthCsv truth = read_truth_csv(file);
+  check_leaps(file, truth.points);
+  route->track = std::move(truth.points);
+  route->file_report = std::move(truth.report);
   route->origin = route->track.front().position;
   route->file = file;
 }
 
-void read_route(ConfigReader& group, RouteConfig* route) {
+std::string left_out(const CsvReport& report) {
+  if (report.skipped == 0) return "";
+  std::string text = std::to_string(report.skipped) + " rows were left out";
+  if (!report.problems.empty()) text += ": " + report.problems.front();
+  if (report.skipped > 1 && !report.problems.empty()) text += ", and others";
+  return text;
+}
+
+void read_route(ConfigReader& group, const std::filesystem::path& folder, RouteConfig* route) {
   group.choice<VehicleKind>("vehicle", {{"car", VehicleKind::kCar}, {"uav", VehicleKind::kUav}},
                             &route->vehicle);
   group.number("origin_latitude_deg", {-90.0, 90.0}, &route->origin.latitude, kDegree);
@@ -55,7 +84,7 @@ void read_route(ConfigReader& group, RouteConfig* route) {
   group.groups("waypoints", [&](ConfigReader& r) { read_waypoint(r, route); });
   if (route->waypoints.size() == 1) group.fail("waypoints", "one alone makes no road; give two");
   group.number("max_gap_s", {0.01, 60.0}, &route->max_gap_s);
-  read_track(group, route);
+  read_track(group, folder, route);
 }
 
 }  // namespace leonav::sim

@@ -28,7 +28,8 @@ struct Scenario {
   AtmosphereConfig atmosphere;
   PlacesConfig places;
   std::vector<Fault> faults;
-  bool ideal = false;  // nothing that a navigator could not model is left
+  bool ideal = false;              // nothing that a navigator could not model is left
+  std::vector<std::string> given;  // its keys that were not left at their defaults
 };
 
 }  // namespace leonav::sim

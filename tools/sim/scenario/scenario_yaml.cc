@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "daemon/config/config_file.h"
 #include "tools/sim/scenario/nominal_constellations.h"
@@ -33,7 +34,7 @@ void remove_what_is_off(Scenario* scenario) {
   if (scenario->receiver.ideal) remove_errors(&scenario->receiver);
 }
 
-void read_root(ConfigReader& root, Scenario* scenario) {
+void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario* scenario) {
   double seed = 1.0;
   std::optional<double> week, tow_s;
   root.text("name", &scenario->name);
@@ -44,7 +45,7 @@ void read_root(ConfigReader& root, Scenario* scenario) {
   if (week && *week != std::floor(*week)) root.fail("start_gps_week", "must be a whole number");
   scenario->seed = static_cast<std::uint64_t>(seed);
   root.number("duration_s", {10.0, 86'400.0}, &scenario->duration_s);
-  root.group("route", [&](ConfigReader& r) { read_route(r, &scenario->route); });
+  root.group("route", [&](ConfigReader& r) { read_route(r, folder, &scenario->route); });
   scenario->start = GpsTime::from_week_and_tow(static_cast<int>(week.value_or(2136.0)),
                                                tow_s.value_or(345'600.0));
   const auto& track = scenario->route.track;
@@ -90,9 +91,12 @@ Scenario load_scenario_text(const std::string& text, const std::string& name,
                             const std::vector<std::string>& overrides) {
   Scenario scenario = default_scenario();
   ConfigSource source{name, {}, {}};
-  read_yaml(text, overrides, &source, [&](ConfigReader& root) { read_root(root, &scenario); });
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+  read_yaml(text, overrides, &source,
+            [&](ConfigReader& root) { read_root(root, folder, &scenario); });
+  scenario.given = std::move(source.given);
   for (ConstellationConfig& c : scenario.constellations) {
-    if (!c.file.empty()) c.file = (std::filesystem::path(name).parent_path() / c.file).string();
+    if (!c.file.empty()) c.file = (folder / c.file).string();
   }
   return scenario;
 }

@@ -122,9 +122,13 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
   const double late_m = signal_delay_m(system, satellite_.group_delay_m, o.code.band);
   o.pseudorange_m = common + late_m + kSpeedOfLight * now.clock.code_s + delay * g.path.tecu +
                     reflected.code_m + code_noise_m;
+  // Cycles are counted in seconds of the receiver's clock, which a fast oscillator makes shorter:
+  // at a drift of 1e-5 a low satellite's rate of 6 km/s is 6 cm/s smaller.
+  const double receiver_seconds = 1.0 + now.clock.drift;  // in one of GPS time
   o.doppler_hz =
-      -(rate - delay * g.tecu_rate + reflected.doppler_m_s + doppler_noise_m_s) / wavelength -
-      wind_up_rate_;
+      -((rate - delay * g.tecu_rate + reflected.doppler_m_s + doppler_noise_m_s) / wavelength +
+        wind_up_rate_) /
+      receiver_seconds;
   o.cn0_dbhz = std::clamp(arrival.cn0_dbhz[s] + scatter_db, 0.0, 99.0);
   if (track.carrier) {
     o.carrier_cycles = (common + kSpeedOfLight * now.clock.carrier_s - delay * g.path.tecu +

@@ -114,7 +114,7 @@ TEST_CASE("Orbits come back to the millimetre and the picosecond, with their fla
     }
     epochs.push_back(epoch);
   }
-  write_sp3(path, epochs);
+  write_sp3(path, epochs, "A comment.");
   const Sp3File file = read_sp3(path);
   CHECK(file.version == 'd');
   CHECK(file.time_system == "GPS");

@@ -204,3 +204,39 @@ TEST_CASE("A recording that is cut short says so, also with a truth named oddly"
   REQUIRE(sim.exit_code == 0);
   REQUIRE_THAT(sim.out, Catch::Contains("cut short"));
 }
+
+TEST_CASE("What an overlay cannot do it says: faults, keys, names of channels", "[sim][overlay]") {
+  const Runs runs;
+  for (const std::string kind :
+       {"imu_gap", "imu_saturation", "late", "duplicate", "receiver_reset"}) {
+    INFO(kind);
+    REQUIRE_THROWS_WITH(runs.lay("[{kind: " + kind + "}]", "laid"),
+                        Catch::Contains("test.yaml:7: faults[0].kind: has no effect"));
+  }
+  for (const std::string kind : {"satellite_clock", "bad_orbit", "spoofing"}) {
+    INFO(kind);
+    REQUIRE_THROWS_WITH(runs.lay("[{kind: " + kind + ", satellites: [L03, G05]}]", "laid"),
+                        Catch::Contains("only outages meet satellites of the recording"));
+    REQUIRE(runs.lay("[{kind: " + kind + ", systems: [leo]}]", "laid").added > 0);
+    REQUIRE(runs.lay("[{kind: " + kind + "}]", "laid").added > 0);
+  }
+  const std::string told = to_string(
+      runs.lay("[]", "laid", {"satellites.gps.along_error_m=3", "receiver.noise.gps.code_m=1"}));
+  INFO(told);
+  REQUIRE_THAT(told, Catch::Contains("not used, as the recording says it: "));
+  for (const char* key :
+       {"duration_s", "route.standing_s", "imu.rate_hz", "receiver.interval_s",
+        "receiver.clock.drift_ppb", "satellites.gps.along_error_m", "receiver.noise.gps.code_m"}) {
+    REQUIRE_THAT(told, Catch::Contains(key));
+  }
+  for (const char* key : {"lever_arm", "atmosphere", "advance_s", "faults", "ideal"}) {
+    REQUIRE_THAT(told, !Catch::Contains(key));
+  }
+  EventLogWriter renamed(runs.path("renamed"));
+  for (const LogEvent& event : events(runs.path("recorded"))) {
+    renamed.write(event.timestamp_us, "OTHER_" + event.channel.substr(7), event.data);
+  }
+  REQUIRE(renamed.flush(true));
+  std::filesystem::rename(runs.path("renamed"), runs.path("recorded"));
+  REQUIRE_THROWS_WITH(runs.lay("[]", "laid"), Catch::Contains("it has OTHER_GNSS_EPOCH"));
+}

@@ -180,7 +180,8 @@ TEST_CASE("Segments begin where the way says", "[sim][places]") {
 
 TEST_CASE("Places that make no sense are refused", "[sim][places]") {
   REQUIRE_THROWS_WITH(Scene("[{from_s: 50, place: tunnel}, {from_s: 10, place: woods}]"),
-                      Catch::Contains("in order"));
+                      Catch::Contains("places[1].from_s: begins before the segment ahead") &&
+                          Catch::Contains(".yaml:") && Catch::Contains("in order"));
   REQUIRE_THROWS_WITH(Scene("[{place: tunnel}]"), Catch::Contains("from_s or from_m"));
   REQUIRE_THROWS_WITH(Scene("[{from_s: 1, from_m: 1, place: tunnel}]"),
                       Catch::Contains("not both"));

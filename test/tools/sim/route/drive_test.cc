@@ -154,22 +154,23 @@ TEST_CASE("A drive of a day stays near its origin", "[sim]") {
   CHECK(far < 7000.0);
 }
 
-TEST_CASE("Waypoints that make no road are refused by their number", "[sim]") {
+TEST_CASE("Waypoints that make no road are refused by line and number", "[sim]") {
   const auto refused = [](const std::string& waypoints) -> std::string {
     try {
-      drive(scenario_of("route: {waypoints: [" + waypoints + "]}"));
+      drive(scenario_of("route:\n  waypoints: [" + waypoints + "]"));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "";
   };
-  CHECK(refused("{}").find("test.yaml:1: route.waypoints: one alone") != std::string::npos);
+  CHECK(refused("{}").find("test.yaml:2: route.waypoints: one alone") != std::string::npos);
   CHECK(refused("{}, {north_m: 0.5}") ==
-        "route.waypoints 1 and 2 are less than a metre apart; leave one out");
-  CHECK(refused("{}, {north_m: 50}, {north_m: 60, up_m: 20}").find("2 and 3 are steeper") !=
-        std::string::npos);
-  CHECK(refused("{}, {north_m: 50}, {north_m: 10}").find("waypoints 2: the road turns back") !=
-        std::string::npos);
+        "test.yaml:2: route.waypoints[1]: is less than a metre from the waypoint before; leave one "
+        "out");
+  CHECK(refused("{},\n {north_m: 50},\n {north_m: 60, up_m: 20}")
+            .find("test.yaml:4: route.waypoints[2]: is steeper") != std::string::npos);
+  CHECK(refused("{},\n {north_m: 50},\n {north_m: 10}")
+            .find("test.yaml:3: route.waypoints[1]: the road turns back") != std::string::npos);
   CHECK(refused("{}, {north_m: 50, speed_m_s: -3}").find("speed_m_s") != std::string::npos);
   CHECK(refused("{}, {north_m: .nan}").find("north_m") != std::string::npos);
   CHECK(refused("{}, {nort_m: 50}").find("nort_m") != std::string::npos);

@@ -85,6 +85,42 @@ TEST_CASE("A truth file that is no route is refused with its name", "[sim]") {
   points.resize(10);
   write_truth_csv(text.path(), points);
   CHECK(refused(text.path()).find("at least 20") != std::string::npos);
+  CHECK(refused(text.path()).find("truth.csv: the truth has 10") != std::string::npos);
   CHECK_THROWS_WITH(load_scenario_text("route: {file: x.csv, waypoints: [{}, {north_m: 50}]}", "y"),
                     Catch::Contains("exclude each other"));
+}
+
+TEST_CASE("A truth file lies beside the scenario, as files of satellites do", "[sim]") {
+  const TemporaryFile scenario("scenario.yaml", "duration_s: 20\nroute: {file: drive.csv}\n");
+  write_truth_csv(scenario.beside("drive.csv"), points_of(original(), false));
+  CHECK(load_scenario(scenario.path()).route.file == scenario.beside("drive.csv"));
+}
+
+TEST_CASE("A truth file that leaps is refused; rows that are not read are told", "[sim]") {
+  const TemporaryFile file("truth.csv", "");
+  std::vector<TruthPoint> points = points_of(original(), false);
+  std::vector<TruthPoint> leaping = points;
+  for (std::size_t i = 900; i < leaping.size(); ++i) leaping[i].position.latitude *= -1.0;
+  write_truth_csv(file.path(), leaping);
+  CHECK_THROWS_WITH(scenario_of(file.path()), Catch::Contains("test.yaml:2: route.file: ") &&
+                                                  Catch::Contains("truth.csv") &&
+                                                  Catch::Contains("500 m/s"));
+  // The fastest that goes: an airliner's 300 m/s.
+  std::vector<TruthPoint> fast = points;
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    fast[i].position.latitude += 30.0 * static_cast<double>(i) / 6.37e6;
+  }
+  write_truth_csv(file.path(), fast);
+  CHECK(left_out(scenario_of(file.path()).route.file_report).empty());
+  std::swap(points[300], points[700]);
+  write_truth_csv(file.path(), points);
+  const std::string told = left_out(scenario_of(file.path()).route.file_report);
+  INFO(told);
+  CHECK(told.find("2 rows were left out: ") == 0);
+  CHECK(told.find("truth.csv:302: ") != std::string::npos);
+  points.resize(22);
+  points[5].time = points[6].time = points[7].time = points[20].time;
+  write_truth_csv(file.path(), points);
+  CHECK_THROWS_WITH(drive(scenario_of(file.path())),
+                    Catch::Contains("at least 20") && Catch::Contains("rows were left out"));
 }

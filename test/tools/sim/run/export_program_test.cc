@@ -101,3 +101,20 @@ TEST_CASE("RTKLIB reads the files, and positions by each system of GPS, Galileo 
     CHECK(epochs > 40);
   }
 }
+
+TEST_CASE("Files of orbits say whether they hold what the receiver is told") {
+  if (!test::have_programs("leonav-sim")) return;
+  const test::TemporaryFile place("scenario.yaml", "name: short\nduration_s: 20\n");
+  for (const bool renamed : {false, true}) {
+    const std::string folder = place.beside(renamed ? "renamed" : "files");
+    const auto sim = test::run_program(
+        "leonav-sim", quoted(place.path()) + " -o " + quoted(place.beside("run.lcmlog")) +
+                          (renamed ? " --leo-as-gps" : "") + " --export " + quoted(folder));
+    INFO(sim.err);
+    REQUIRE(sim.exit_code == 0);
+    CHECK(sim.out.find("20 s simulated in ") != std::string::npos);
+    const std::string orbits = test::text_of(folder + "/gps.sp3");
+    CHECK((orbits.find("without any error") != std::string::npos) == renamed);
+    CHECK((orbits.find("errors included") == std::string::npos) == renamed);
+  }
+}

@@ -246,6 +246,15 @@ TEST_CASE("What leonav-sim cannot do it says, and leaves nothing behind", "[sim]
   refused(s + out + " --leo-as-gps", "--export");
   refused("--sky-statistics --step 100 " + s, "shorter than a step");
   refused("--sky-statistics --step 1e-6 " + s, "million");
+  for (const std::string mask : {"90", "100", "-1000", "-1"}) {
+    refused("--sky-statistics --mask=" + mask + " " + s, "--mask must be from 0 to below 90");
+  }
+  // What would be ignored.
+  refused("--sky-statistics " + s + out, "--out writes a run");
+  refused(s + out + " --mask 20", "--sky-statistics");
+  const std::string over = s + out + " --overlay x.lcmlog --truth x.csv";
+  refused(over + " --sky-statistics", "--sky-statistics is for whole");
+  refused(over + " --leo-as-gps", "--leo-as-gps is for whole");
   // A log without a signal is no result.
   const std::string nothing = "no signal of any satellite";
   refused(s + out + " --set receiver.elevation_mask_deg=90", nothing);

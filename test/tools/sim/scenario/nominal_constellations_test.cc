@@ -95,3 +95,19 @@ TEST_CASE("Numbers that are taken or too high are errors") {
   CHECK_THROWS_WITH(load_scenario_text("satellites: {leo: {told: both}}\n", "scenario.yaml"),
                     Catch::Contains("precise"));
 }
+
+TEST_CASE("Orbits through the Earth are refused, planes without a span go all round") {
+  const auto leo = [](const std::string& shell) {
+    return load_scenario_text("satellites: {leo: {shells: [{" + shell + "}]}}", "s.yaml")
+        .constellations[index_of(System::kLeo)];
+  };
+  CHECK_THROWS_WITH(leo("semi_major_axis_km: 6600, eccentricity: 0.5"),
+                    Catch::Contains("s.yaml:1: ") && Catch::Contains("6500 km"));
+  CHECK_NOTHROW(leo("semi_major_axis_km: 26560, eccentricity: 0.5"));
+  CHECK_NOTHROW(leo("semi_major_axis_km: 6600, eccentricity: 0.01"));
+  constexpr double kTurn = 2.0 * 3.14159265358979;
+  CHECK(leo("planes: 6, semi_major_axis_km: 7348").shells[0].node_span == Approx(kTurn));
+  CHECK(leo("planes: 6, semi_major_axis_km: 7348, node_span_deg: 180").shells[0].node_span ==
+        Approx(0.5 * kTurn));
+  CHECK(leo("planes: 6, semi_major_axis_km: 7348, node_span_deg: 0").shells[0].node_span == 0.0);
+}

@@ -1,0 +1,135 @@
+"""What LEO brings: every row with LEO against the same drives without, and the papers' improvement beside it."""
+import math
+import re
+import statistics
+
+import published
+import spread
+
+# Why a row with LEO is no better, or better by less than the papers say: only what is proven, by the section of
+# docs/models.md that is named. What satellite counts tell is said by satellites_text().
+CAUSES = {
+    "code-gps-leo-ins": "height: reflected codes that pass for good ones are long at the elevations where most LEO satellites "
+                        "stand, and push the antenna up; without houses LEO improves it (docs/models.md, Where LEO does not help)",
+}
+NOT_KNOWN = "cause not known"
+
+
+def name_without_leo(name):
+    """Of the row that has everything but LEO."""
+    if name.startswith("convergence-"):
+        return re.sub(r"-leo\d+$", "-leo0", name)
+    return "-".join(part for part in name.split("-") if not re.fullmatch(r"leo\d*", part))
+
+
+def pairs(rows):
+    """(without LEO, with LEO), of the same scene: the same logs."""
+    by_name = {row.name: row for row in rows}
+    for row in rows:
+        partner = by_name.get(name_without_leo(row.name))
+        if partner is not None and partner is not row and partner.scene.name == row.scene.name:
+            yield partner, row
+
+
+def published_3d(row):
+    if row.group == "sets":
+        return statistics.fmean(published.SETS[row.name.removeprefix("sets-")])
+    if row.published is None:
+        return None
+    *components, three_d = row.published.rmse
+    if three_d is None and None not in components:
+        three_d = math.hypot(*components)
+    return three_d
+
+
+def improvement(before, after):
+    """Share that an error fell by; None: not known."""
+    if before is None or after is None or not math.isfinite(before) or not math.isfinite(after) or before == 0.0:
+        return None
+    return 1.0 - after / before
+
+
+def value_of(row, result):
+    """What is compared, one number per seed: less is better; never converged is infinity."""
+    if row.by_time:
+        value = result["convergence_s"]
+    else:
+        value = result["after_convergence"] if row.group == "sets" else result["rmse"][3]
+    return math.inf if value is None else value
+
+
+def added_by_leo(row):
+    """Satellites that LEO adds in the papers; None: not printed."""
+    name = row.name.removesuffix("-ins")
+    key = name.split("-", 1)[1]
+    if row.group == "low":
+        return published.LOW_SKY[key + "-ins"] - published.LOW_SKY[name_without_leo(key) + "-ins"]
+    where = {"code": published.A, "carrier": published.B}.get(row.group)
+    means = [next((n for w, n, _ in published.SKY.get(k, []) if w == where), None) for k in (name_without_leo(key), key)]
+    return None if None in means else means[1] - means[0]
+
+
+def satellites_text(partner, row, results, seeds):
+    """Of a row that LEO improves by less than published: that fewer LEO satellites were there. "": they were not fewer."""
+    theirs = added_by_leo(row)
+    before, after = (spread.of(results[r.name], "satellites", seeds=seeds) for r in (partner, row))
+    if theirs is None or before is None or after is None or after[0] - before[0] >= theirs - 0.5:
+        return ""
+    return f"LEO adds {after[0] - before[0]:.1f} satellites here, {theirs:.1f} in the paper (see Satellites and PDOP)"
+
+
+class Verdict:
+    def __init__(self, partner, row, results):
+        self.partner, self.row = partner, row
+        self.seeds = spread.common(results[partner.name], results[row.name])
+        before, after = ([value_of(r, results[r.name][s]) for s in self.seeds] for r in (partner, row))
+        self.better = sum(b < a for a, b in zip(before, after))
+        if row.by_time:
+            self.before, self.after = (statistics.median(v) if v else None for v in (before, after))
+        else:
+            both = [(a, b) for a, b in zip(before, after) if math.isfinite(a) and math.isfinite(b)]
+            self.before, self.after = (statistics.fmean(v) for v in zip(*both)) if both else (None, None)
+        self.improves = self.before is not None and self.after < self.before
+        self.ours = improvement(self.before, self.after)
+        self.theirs = improvement(published_3d(partner), published_3d(row))
+        self.reached = None if self.theirs is None or self.ours is None else self.ours >= self.theirs
+        self.cause = self.find_cause(results)
+
+    def find_cause(self, results):
+        if self.before is None or (self.improves and self.reached is not False):
+            return "-"
+        fewer = satellites_text(self.partner, self.row, results, self.seeds) if self.improves else ""
+        return "; ".join(c for c in (CAUSES.get(self.row.name, ""), fewer) if c) or NOT_KNOWN
+
+    def line(self):
+        def number(value):
+            if value is None or not math.isfinite(value):
+                return "-" if value is None else "never"
+            return f"{value:.0f} s" if self.row.by_time else f"{value:.2f} m"
+        if self.before is None:
+            verdict = "no seed of both"
+        else:
+            verdict = "improves" if self.improves else "DOES NOT IMPROVE"
+            if self.ours is not None:
+                verdict += f" ({100.0 * self.ours:+.0f} %)"
+        theirs = "-" if self.theirs is None else f"{100.0 * self.theirs:+.0f} %"
+        if self.reached is not None:
+            theirs += ": reached" if self.reached else ": MISSED"
+        return (f"| `{self.partner.name}` → `{self.row.name}` | {number(self.before)} | {number(self.after)} | {len(self.seeds)} | "
+                f"{self.better} | {verdict} | {theirs} | {self.cause} |")
+
+
+def lines(rows, results):
+    verdicts = [Verdict(partner, row, results) for partner, row in pairs(rows)]
+    if not verdicts:
+        return []
+    judged = [v for v in verdicts if v.before is not None]
+    compared = [v for v in judged if v.reached is not None]
+    return ["## What LEO brings: verdicts", "",
+            f"LEO improves {sum(v.improves for v in judged)} of {len(judged)} rows, and reaches {sum(v.reached for v in compared)} "
+            f"of {len(compared)} published improvements.", "",
+            "Every row with LEO against the same drives without. Mean 3D RMSE over the seeds that both rows have (of the sets: from "
+            "3 m on); of convergence the median time to 10 cm. Published: the improvement of the 3D error, where it is not printed of "
+            "the root of the squares of N, E and U.", "",
+            "| without LEO → with LEO | without | with | seeds | better in | verdict | published | cause |",
+            "|---|---|---|---|---|---|---|---|"] + [v.line() for v in verdicts] + [""]
