@@ -18,6 +18,24 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
+// Built anew, so that errors name --set and not the line of the text given with it. An anchor may
+// stand within itself: deeper than any configuration it is left as it is.
+YAML::Node without_places(const YAML::Node& given, int depth) {
+  constexpr int kDeepest = 16;
+  if (depth > kDeepest) return given;
+  if (given.IsScalar()) return YAML::Node(given.Scalar());
+  YAML::Node copy(given.Type());
+  if (given.IsSequence()) {
+    for (const YAML::Node& element : given) copy.push_back(without_places(element, depth + 1));
+  } else if (given.IsMap()) {
+    for (const auto& entry : given) {  // doubled keys too, which are an error later
+      copy.force_insert(without_places(entry.first, depth + 1),
+                        without_places(entry.second, depth + 1));
+    }
+  }
+  return copy;
+}
+
 void apply_override(const std::string& text, YAML::Node root) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
@@ -42,20 +60,10 @@ void apply_override(const std::string& text, YAML::Node root) {
     }
     node.reset(child);
   }
-  // Built anew, so that errors name --set and not the line of the text given with it.
-  if (value.IsSequence()) {
-    YAML::Node copy(YAML::NodeType::Sequence);
-    for (const YAML::Node& element : value) {
-      copy.push_back(element.IsScalar() ? YAML::Node(element.Scalar()) : element);
-    }
-    node[keys.back()] = copy;
-  } else if (value.IsScalar()) {
-    node[keys.back()] = YAML::Node(value.Scalar());
-  } else if (value.IsNull()) {
-    node[keys.back()] = YAML::Node(YAML::NodeType::Null);
-  } else {
+  if (!value.IsSequence() && !value.IsScalar() && !value.IsNull()) {
     throw ConfigError("--set " + path + ": set one key at a time");
   }
+  node[keys.back()] = without_places(value, 0);
 }
 
 }  // namespace

@@ -40,6 +40,28 @@ Arguments declare() {
   return arguments;
 }
 
+// Options that another one leaves without a meaning.
+void refuse_ignored_options(const Arguments& arguments) {
+  using Names = std::initializer_list<const char*>;
+  const auto refuse = [&arguments](Names options, const std::string& why) {
+    for (const char* option : options) {
+      if (arguments.has(option)) throw UsageError(option + why);
+    }
+  };
+  const bool only_counts = arguments.has("--sky-statistics");
+  if (arguments.has("--overlay")) {
+    refuse({"--export", "--leo-as-gps", "--sky-statistics"},
+           " is for whole simulations, not for --overlay");
+  }
+  if (only_counts) {
+    refuse({"--out", "--truth", "--export", "--leo-as-gps"},
+           " writes a run; --sky-statistics makes none");
+  } else {
+    refuse({"--mask", "--step"}, " is for --sky-statistics");
+  }
+  if (!arguments.has("--export")) refuse({"--leo-as-gps"}, " is for --export");
+}
+
 std::vector<std::string> inputs_of(const std::string& file, const leonav::sim::Scenario& scenario) {
   std::vector<std::string> inputs{file};
   if (!scenario.route.file.empty()) inputs.push_back(scenario.route.file);
@@ -55,11 +77,6 @@ void warn_of_rows(const leonav::sim::RouteConfig& route) {
 }
 
 int overlay(const Arguments& arguments, const std::vector<std::string>& overrides) {
-  for (const char* option : {"--export", "--leo-as-gps", "--sky-statistics"}) {
-    if (arguments.has(option)) {
-      throw UsageError(std::string(option) + " is for whole simulations, not for --overlay");
-    }
-  }
   const std::string out = arguments.required("--out"), truth = arguments.required("--truth");
   const std::string recorded = arguments.get("--overlay");
   leonav::check_output(out, {arguments.positional()[0], truth, recorded});
@@ -72,11 +89,6 @@ int overlay(const Arguments& arguments, const std::vector<std::string>& override
 }
 
 int sky_statistics(const Arguments& arguments, const leonav::sim::Scenario& scenario) {
-  for (const char* option : {"--out", "--truth", "--export", "--leo-as-gps"}) {
-    if (arguments.has(option)) {
-      throw UsageError(std::string(option) + " writes a run; --sky-statistics makes none");
-    }
-  }
   constexpr double kDegree = std::numbers::pi / 180.0;
   const double step_s = arguments.number("--step");
   if (!(step_s > 0.0)) throw UsageError("--step must be above zero");
@@ -98,11 +110,7 @@ int body(int argc, char** argv) {
   }
   std::vector<std::string> overrides = arguments.all("--set");
   if (arguments.has("--seed")) overrides.push_back("seed=" + arguments.get("--seed"));
-  for (const char* option : {"--mask", "--step"}) {
-    if (arguments.has(option) && !arguments.has("--sky-statistics")) {
-      throw UsageError(std::string(option) + " is for --sky-statistics");
-    }
-  }
+  refuse_ignored_options(arguments);
   if (arguments.has("--overlay")) return overlay(arguments, overrides);
   const auto scenario = leonav::sim::load_scenario(arguments.positional()[0], overrides);
   warn_of_rows(scenario.route);
@@ -121,8 +129,6 @@ int body(int argc, char** argv) {
     for (const std::string& file : leonav::sim::export_files(*outputs.files)) {
       leonav::check_output(file, inputs);
     }
-  } else if (arguments.has("--leo-as-gps")) {
-    throw UsageError("--leo-as-gps is for --export");
   }
   leonav::ProgressBar progress(&std::cerr, "leonav-sim", leonav::is_stderr_terminal());
   const auto begun = std::chrono::steady_clock::now();

@@ -63,9 +63,11 @@ void set_track(const std::string& file, RouteConfig* route) {
 
 std::string left_out(const CsvReport& report) {
   if (report.skipped == 0) return "";
-  std::string text = std::to_string(report.skipped) + " rows were left out";
+  const bool one = report.skipped == 1;
+  std::string text =
+      one ? "1 row was left out" : std::to_string(report.skipped) + " rows were left out";
   if (!report.problems.empty()) text += ": " + report.problems.front();
-  if (report.skipped > 1 && !report.problems.empty()) text += ", and others";
+  if (!one && !report.problems.empty()) text += ", and others";
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 
 #include "core/gnss/signal.h"
 #include "drivers/lcm/channels.h"
@@ -13,6 +14,7 @@
 #include "support/program_run.h"
 #include "support/simulated_receiver.h"
 #include "support/temporary_file.h"
+#include "tools/sim/overlay/recorded_clock.h"
 #include "tools/sim/run/simulate.h"
 
 using namespace leonav;
@@ -239,4 +241,28 @@ TEST_CASE("What an overlay cannot do it says: faults, keys, names of channels", 
   REQUIRE(renamed.flush(true));
   std::filesystem::rename(runs.path("renamed"), runs.path("recorded"));
   REQUIRE_THROWS_WITH(runs.lay("[]", "laid"), Catch::Contains("it has OTHER_GNSS_EPOCH"));
+}
+
+TEST_CASE("A fast oscillator's drift is read as it is", "[sim][overlay]") {
+  const Runs runs;
+  const std::string fast =
+      "duration_s: 60\nideal: true\nroute: {standing_s: 100}\nreceiver: {interval_s: 0.5, "
+      "lever_arm_b_m: [0, 0, 0], clock: {oscillator: ideal, drift_ppb: 10000}}\n";
+  runs.write(fast, "fast");
+  const auto scenario =
+      sim::load_scenario_text(fast, "test.yaml", {"route.file=" + runs.path("fast.csv")});
+  const sim::RecordedClock clock =
+      sim::recorded_clock(runs.path("fast"), scenario, sim::drive(scenario));
+  // Dopplers taken for metres in a second of GPS time: wrong by 1e-5 of range rate and drift, 3
+  // cm/s and more.
+  double worst_m_s = 0.0;
+  int count = 0;
+  for (const auto& [stamp, reading] : clock.readings) {
+    if (reading.t < 2.0 || reading.t > 56.0) continue;
+    worst_m_s = std::max(worst_m_s, kSpeedOfLight * std::abs(reading.drift - 1e-5));
+    ++count;
+  }
+  std::cout << "drift of a recorded clock: off by " << worst_m_s << " m/s at most\n";
+  REQUIRE(count > 100);
+  REQUIRE(worst_m_s < 2e-3);
 }

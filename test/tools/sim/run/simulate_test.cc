@@ -249,6 +249,12 @@ TEST_CASE("What leonav-sim cannot do it says, and leaves nothing behind", "[sim]
   for (const std::string mask : {"90", "100", "-1000", "-1"}) {
     refused("--sky-statistics --mask=" + mask + " " + s, "--mask must be from 0 to below 90");
   }
+  // A line of the file is named for what the file says, --set for what that says.
+  refused(s + out + " --set 'route.waypoints=[{}, {north_m: 0.5}]'",
+          "--set route.waypoints[1]: is less than a metre");
+  refused(s + out + " --set 'faults=[{kind: outage, from_s: 3, from_s: 4}]'",
+          "--set faults[0].from_s: given twice");
+  refused(s + out + " --set 'faults=&a [*a]'", "--set faults[0]");
   // What would be ignored.
   refused("--sky-statistics " + s + out, "--out writes a run");
   refused(s + out + " --mask 20", "--sky-statistics");
