@@ -83,13 +83,15 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
 // since confirms it, they are not believed at once: not for 20 s, about what it takes to pass a
 // house or two, and by no more than such a way is longer. What confirms it are carriers of arcs
 // from before, against codes and Dopplers, or Dopplers, against codes: an IMU that fails
-// contradicts both.
+// contradicts both. Three or four carriers must all have moved to the centimetre as it says: beside
+// a corner half of the Dopplers come by way of walls as well.
 bool Ekf::is_confirmed_against(Observable observable, double off,
                                const std::array<ClockFreeTable, kObservables>& tables,
                                GpsTime time) const {
   constexpr double kLongest_s = 20.0;
   constexpr double kLongestDetour_m = 100.0;
-  constexpr std::size_t kMinCarriers = 5;  // a move, a clock's, and one more
+  constexpr std::size_t kManyCarriers = 5;  // a move, a clock's, and one more
+  constexpr std::size_t kMinCarriers = 3;
   const bool model_only = observable == Observable::kCode && !has_attitude_;
   if (observable == Observable::kCarrier || off > kLongestDetour_m || model_only ||
       !agreed_.is_set() || seconds_between(time, agreed_) > kLongest_s)
@@ -101,7 +103,8 @@ bool Ekf::is_confirmed_against(Observable observable, double off,
       carriers.push_back(carrier);
   }
   const double suspect = config_.prediction_suspect_ratio;
-  if (carriers.size() >= kMinCarriers) return agrees(carriers, suspect);
+  if (carriers.size() >= kManyCarriers) return agrees(carriers, suspect);
+  if (carriers.size() >= kMinCarriers && all_agree(carriers)) return true;
   return observable == Observable::kCode && agrees(of(tables, Observable::kDoppler), suspect);
 }
 

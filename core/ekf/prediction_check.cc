@@ -82,6 +82,12 @@ bool agrees(const ClockFreeTable& table, double suspect) {
   return consistency_ratio(table) * std::sqrt(kMedianSquare) < suspect;
 }
 
+bool all_agree(const ClockFreeTable& table) {
+  return std::all_of(table.begin(), table.end(), [](const ClockFree& entry) {
+    return entry.innovation * entry.innovation < 9.0 * entry.variance;
+  });
+}
+
 void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements) {
   if (table.size() < kMinCount) return;
   for (const ClockFree& entry : table)

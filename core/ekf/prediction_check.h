@@ -22,6 +22,9 @@ double consistency_ratio(const ClockFreeTable& table);
 // Whether the median standardized innovation is below `suspect`; false for fewer than four.
 bool agrees(const ClockFreeTable& table, double suspect);
 
+// Whether all standardized innovations are below three.
+bool all_agree(const ClockFreeTable& table);
+
 // Sets prior_ratio of the table's measurements, where there are four: a clock whose prediction is
 // worth nothing would let all of them pass, whatever they contradict.
 void set_prior_ratios(const ClockFreeTable& table, FilterMeasurements* measurements);
