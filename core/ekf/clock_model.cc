@@ -16,9 +16,8 @@ void start(Eigen::Index index, double sigma, EkfCovariance* covariance) {
 }  // namespace
 
 void propagate_clocks(const ClockModel& model, const ClockFlags& known, double dt,
-                      ClockState* clocks, EkfCovariance* covariance) {
+                      EkfCovariance* covariance) {
   EkfCovariance& P = *covariance;
-  clocks->offset_m += dt * clocks->drift_m_s;
   P.middleRows<4>(kClock) += dt * P.middleRows<4>(kClockDrift);
   P.middleCols<4>(kClock) += dt * P.middleCols<4>(kClockDrift);
   for (Eigen::Index i = 0; i < 4; ++i) {

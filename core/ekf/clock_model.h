@@ -7,11 +7,11 @@
 
 namespace leonav {
 
-// Moves offsets by their drifts and the covariance of the bases observed so far by `dt` seconds.
-// The oscillator's noise is the same for all bases (fully correlated), the noise of each base
-// against it is its own.
+// Moves the covariance of the bases observed so far by `dt` seconds (their offsets by their drifts
+// is the caller's). The oscillator's noise is the same for all bases (fully correlated), the noise
+// of each base against it is its own.
 void propagate_clocks(const ClockModel& model, const ClockFlags& known, double dt,
-                      ClockState* clocks, EkfCovariance* covariance);
+                      EkfCovariance* covariance);
 
 // Starts the offset of a base that was not observed before, uncorrelated with all else.
 void start_clock_offset(std::size_t base, double offset_m, double sigma_m, ClockState* clocks,

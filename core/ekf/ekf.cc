@@ -62,17 +62,13 @@ void Ekf::reset() {
 }
 
 void Ekf::initialize(GpsTime time, const PointSolution& point) {
-  state_ = NavState{};
-  state_.time = time;
-  state_.p_e = point.p_e;
-  if (config_.vertical_arm) state_.p_e -= vertical_arm_e(point.p_e);
+  now_ = FilterState{};
+  now_.nav.time = time;
+  now_.nav.p_e = point.p_e;
+  if (config_.vertical_arm) now_.nav.p_e -= vertical_arm_e(point.p_e);
   const bool moves = !config_.static_point;
-  state_.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
-  clocks_ = ClockState{};
+  now_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   known_ = ClockFlags{};
-  ambiguities_.clear();
-  wet_delay_m_ = 0.0;
-  carrier_clock_m_ = 0.0;
   covariance_.setZero(kSize, kSize);
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
@@ -85,17 +81,18 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     if (!std::isfinite(point.clock_m[base])) continue;
-    start_clock_offset(base, point.clock_m[base], clock_sigma, &clocks_, &covariance_);
+    start_clock_offset(base, point.clock_m[base], clock_sigma, &now_.clocks, &covariance_);
     known_.offset[base] = true;
     const bool has_drift = point.has_velocity && std::isfinite(point.clock_drift_m_s[base]);
     start_clock_drift(base, has_drift ? point.clock_drift_m_s[base] : 0.0,
-                      has_drift ? drift_sigma : kUnknownDrift, &clocks_, &covariance_);
+                      has_drift ? drift_sigma : kUnknownDrift, &now_.clocks, &covariance_);
     known_.drift[base] = true;
   }
   last_update_ = time;
   code_schedule_.clear();
   new_until_ = restless_until_ = GpsTime();
   measurements_.clear();
+  process_.continuous = false;
   contradicted_ = false;
   agreed_ = GpsTime();
   base_apart_m_ = {};
@@ -128,7 +125,7 @@ void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy
   P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
   P.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
   P.block<12, 12>(kGyroBias, kGyroBias) = covariance;
-  state_.errors = errors;
+  now_.nav.errors = errors;
   place_attitude(before, q_eb, sigma_rpy, P);
 }
 
@@ -145,21 +142,22 @@ void Ekf::turn_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rp
 // `of_antenna` is the covariance with position and velocity of the antenna, its attitude empty.
 void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                          const Vector3d& sigma_rpy, const EkfCovariance& of_antenna) {
-  state_.q_eb = q_eb.normalized();
-  state_.p_e.setZero();
-  state_.v_e.setZero();
-  const AntennaMotion arm = antenna_motion(state_, measured_rate_b_, lever_arm_b_, true);
-  state_.p_e = before.p_e - arm.p_e;
-  state_.v_e = before.v_e - arm.v_e;
+  now_.nav.q_eb = q_eb.normalized();
+  now_.nav.p_e.setZero();
+  now_.nav.v_e.setZero();
+  const AntennaMotion arm = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, true);
+  now_.nav.p_e = before.p_e - arm.p_e;
+  now_.nav.v_e = before.v_e - arm.v_e;
 
   EkfCovariance P = of_antenna;
   const Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(before.p_e)).transpose();
   const Matrix3d J =
-      C_en * rotation_from_rpy_errors(C_en.transpose() * state_.q_eb.toRotationMatrix());
+      C_en * rotation_from_rpy_errors(C_en.transpose() * now_.nav.q_eb.toRotationMatrix());
   P.block<3, 3>(kAttitude, kAttitude) = J * sigma_rpy.cwiseAbs2().asDiagonal() * J.transpose();
   const EkfCovariance T = to_antenna(arm, -1.0, P.rows());
   covariance_.noalias() = T * P * T.transpose();
   has_attitude_ = true;
+  process_.continuous = false;
   agreed_ = GpsTime();
 }
 
@@ -171,48 +169,54 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
     }
     return;
   }
-  const GpsTime start = state_.time;
+  const GpsTime start = now_.nav.time;
   if (has_attitude_) {
-    mechanization_.restate(state_);
-    transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
+    mechanization_.restate(now_.nav);
+    transition_.begin(imu_, now_.nav.errors, gravity_gradient_e(now_.nav.p_e));
   }
   for (const ImuSample& sample : block) {
     if (sample.interval_ns <= 0 || sample.time > time) continue;
-    if (sample.time <= state_.time) continue;  // already behind us
+    if (sample.time <= now_.nav.time) continue;  // already behind us
     if (has_attitude_)
       predict_sample(sample);
     else
       measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
     last_sample_ = sample;
   }
-  if (time > state_.time) predict_hole(time, ImuSample{});
+  if (time > now_.nav.time) predict_hole(time, ImuSample{});
   if (has_attitude_) finish_sub_block();
 
-  const double dt = seconds_between(state_.time, start);
+  const double dt = seconds_between(now_.nav.time, start);
   if (dt <= 0.0) return;
-  state_.errors.gyro_bias_b *= relaxed(imu_.gyro_bias, dt);
-  state_.errors.accel_bias_b *= relaxed(imu_.accel_bias, dt);
-  state_.errors.gyro_scale *= relaxed(imu_.gyro_scale, dt);
-  state_.errors.accel_scale *= relaxed(imu_.accel_scale, dt);
-  propagate_clocks(config_.clock, known_, dt, &clocks_, &covariance_);
-  propagate_ambiguities(ambiguities_, dt, &covariance_);
-  if (config_.wet_delay_sigma_m > 0.0)
-    covariance_(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
-  if (config_.use_carrier)
-    covariance_(kCarrierClock, kCarrierClock) += square(config_.carrier_clock_noise) * dt;
+  now_.nav.errors.gyro_bias_b *= relaxed(imu_.gyro_bias, dt);
+  now_.nav.errors.accel_bias_b *= relaxed(imu_.accel_bias, dt);
+  now_.nav.errors.gyro_scale *= relaxed(imu_.gyro_scale, dt);
+  now_.nav.errors.accel_scale *= relaxed(imu_.accel_scale, dt);
+  now_.clocks.offset_m += dt * now_.clocks.drift_m_s;
+  for (EkfCovariance* covariance : with_noise()) {
+    propagate_clocks(config_.clock, known_, dt, covariance);
+    propagate_ambiguities(now_.ambiguities, dt, covariance);
+    if (config_.wet_delay_sigma_m > 0.0)
+      (*covariance)(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
+    if (config_.use_carrier)
+      (*covariance)(kCarrierClock, kCarrierClock) += square(config_.carrier_clock_noise) * dt;
+  }
+  if (process_.continuous)
+    process_.transition.middleRows<4>(kClock) +=
+        dt * process_.transition.middleRows<4>(kClockDrift);
 }
 
 void Ekf::predict_sample(const ImuSample& sample) {
-  if (sample.start() > state_.time) predict_hole(sample.start(), sample);
-  advance(sample.start() < state_.time ? split(sample, state_.time).after : sample);
+  if (sample.start() > now_.nav.time) predict_hole(sample.start(), sample);
+  advance(sample.start() < now_.nav.time ? split(sample, now_.nav.time).after : sample);
 }
 
 void Ekf::advance(const ImuSample& sample) {
-  const Matrix3d C_before = state_.q_eb.toRotationMatrix();
+  const Matrix3d C_before = now_.nav.q_eb.toRotationMatrix();
   mechanization_.advance(sample);
-  state_ = mechanization_.state();
+  now_.nav = mechanization_.state();
   measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
-  transition_.add({.C_eb = 0.5 * (C_before + state_.q_eb.toRotationMatrix()),
+  transition_.add({.C_eb = 0.5 * (C_before + now_.nav.q_eb.toRotationMatrix()),
                    .f_b = mechanization_.specific_force_b(),
                    .omega_ib_b = mechanization_.omega_ib_b(),
                    .interval_s = sample.interval_s()});
@@ -220,27 +224,30 @@ void Ekf::advance(const ImuSample& sample) {
 }
 
 void Ekf::finish_sub_block() {
-  transition_.propagate(&covariance_);
-  transition_.begin(imu_, state_.errors, gravity_gradient_e(state_.p_e));
+  for (EkfCovariance* covariance : with_noise()) transition_.propagate(covariance);
+  if (process_.continuous) transition_.advance(&process_.transition);
+  transition_.begin(imu_, now_.nav.errors, gravity_gradient_e(now_.nav.p_e));
 }
 
 // A short hole is a sample that was not measured and is less certain for it.
 void Ekf::predict_hole(GpsTime time, const ImuSample& next) {
   const auto bridge =
-      has_attitude_ ? bridge_hole(last_sample_, state_.time, time, next) : std::nullopt;
+      has_attitude_ ? bridge_hole(last_sample_, now_.nav.time, time, next) : std::nullopt;
   if (!bridge) return coast(time);
   agreed_ = GpsTime();
   advance(bridge->filler);
   finish_sub_block();
-  const Matrix3d C_eb = state_.q_eb.toRotationMatrix();
+  const Matrix3d C_eb = now_.nav.q_eb.toRotationMatrix();
   const double half = 0.5 * bridge->filler.interval_s();
   const Matrix3d V = C_eb * bridge->sigma_velocity_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
-  covariance_.block<3, 3>(kPosition, kPosition) += half * half * V;
-  covariance_.block<3, 3>(kPosition, kVelocity) += half * V;
-  covariance_.block<3, 3>(kVelocity, kPosition) += half * V;
-  covariance_.block<3, 3>(kVelocity, kVelocity) += V;
-  covariance_.block<3, 3>(kAttitude, kAttitude) +=
-      C_eb * bridge->sigma_theta_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+  for (EkfCovariance* covariance : with_noise()) {
+    covariance->block<3, 3>(kPosition, kPosition) += half * half * V;
+    covariance->block<3, 3>(kPosition, kVelocity) += half * V;
+    covariance->block<3, 3>(kVelocity, kPosition) += half * V;
+    covariance->block<3, 3>(kVelocity, kVelocity) += V;
+    covariance->block<3, 3>(kAttitude, kAttitude) +=
+        C_eb * bridge->sigma_theta_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+  }
 }
 
 // Nothing is known of the motion: it goes on as before, give or take the acceleration and turning
@@ -250,42 +257,29 @@ void Ekf::coast(GpsTime time) {
     agreed_ = GpsTime();
     finish_sub_block();
   }
-  const double dt = seconds_between(time, state_.time);
+  const double dt = seconds_between(time, now_.nav.time);
   if (config_.static_point) {
-    state_.time = time;
+    now_.nav.time = time;
     return;
   }
-  propagate_constant_velocity(state_.p_e, config_.acceleration_noise_horizontal,
-                              config_.acceleration_noise_vertical, dt, &covariance_);
-  state_.p_e += dt * state_.v_e;
-  state_.time = time;
+  for (EkfCovariance* covariance : with_noise())
+    propagate_constant_velocity(now_.nav.p_e, config_.acceleration_noise_horizontal,
+                                config_.acceleration_noise_vertical, dt, covariance);
+  if (process_.continuous)
+    process_.transition.middleRows<3>(kPosition) +=
+        dt * process_.transition.middleRows<3>(kVelocity);
+  now_.nav.p_e += dt * now_.nav.v_e;
+  now_.nav.time = time;
   if (!has_attitude_) return;
-  covariance_.diagonal().segment<3>(kAttitude).array() += square(config_.hole_attitude_noise) * dt;
-  mechanization_.reset(state_);
-}
-
-void Ekf::apply(const EkfCorrection& correction) {
-  state_.p_e += correction.segment<3>(kPosition);
-  state_.v_e += correction.segment<3>(kVelocity);
-  if (has_attitude_) {
-    state_.q_eb = (quaternion_from_rotation_vector(correction.segment<3>(kAttitude)) * state_.q_eb)
-                      .normalized();
-  }
-  state_.errors.gyro_bias_b += correction.segment<3>(kGyroBias);
-  state_.errors.accel_bias_b += correction.segment<3>(kAccelBias);
-  state_.errors.gyro_scale += correction.segment<3>(kGyroScale);
-  state_.errors.accel_scale += correction.segment<3>(kAccelScale);
-  clocks_.offset_m += correction.segment<4>(kClock);
-  clocks_.drift_m_s += correction.segment<4>(kClockDrift);
-  wet_delay_m_ += correction(kWetDelay);
-  carrier_clock_m_ += correction(kCarrierClock);
-  for (std::size_t i = 0; i < ambiguities_.size(); ++i)
-    ambiguities_[i].value_m += correction(kSize + static_cast<Eigen::Index>(i));
+  for (EkfCovariance* covariance : with_noise())
+    covariance->diagonal().segment<3>(kAttitude).array() +=
+        square(config_.hole_attitude_noise) * dt;
+  mechanization_.reset(now_.nav);
 }
 
 AntennaMotion Ekf::antenna() const {
-  AntennaMotion motion = antenna_motion(state_, measured_rate_b_, lever_arm_b_, has_attitude_);
-  if (!has_attitude_ && config_.vertical_arm) motion.p_e += vertical_arm_e(state_.p_e);
+  AntennaMotion motion = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, has_attitude_);
+  if (!has_attitude_ && config_.vertical_arm) motion.p_e += vertical_arm_e(now_.nav.p_e);
   return motion;
 }
 
@@ -297,15 +291,12 @@ Vector3d Ekf::antenna_position_e() const { return antenna().p_e; }
 
 Vector3d Ekf::antenna_velocity_e() const { return antenna().v_e; }
 
-bool Ekf::is_finite() const {
-  return state_.p_e.allFinite() && state_.v_e.allFinite() && state_.q_eb.coeffs().allFinite() &&
-         state_.errors.gyro_bias_b.allFinite() && state_.errors.accel_bias_b.allFinite() &&
-         state_.errors.gyro_scale.allFinite() && state_.errors.accel_scale.allFinite() &&
-         clocks_.offset_m.allFinite() && clocks_.drift_m_s.allFinite() &&
-         std::isfinite(wet_delay_m_) && std::isfinite(carrier_clock_m_) &&
-         covariance_.allFinite() &&
-         std::all_of(ambiguities_.begin(), ambiguities_.end(),
-                     [](const Ambiguity& a) { return std::isfinite(a.value_m); });
+bool Ekf::is_finite() const { return leonav::is_finite(now_) && covariance_.allFinite(); }
+
+boost::container::static_vector<EkfCovariance*, 2> Ekf::with_noise() {
+  boost::container::static_vector<EkfCovariance*, 2> both{&covariance_};
+  if (process_.continuous) both.push_back(&process_.noise);
+  return both;
 }
 
 }  // namespace leonav

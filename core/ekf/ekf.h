@@ -11,6 +11,8 @@
 #include "core/ekf/code_schedule.h"
 #include "core/ekf/ekf_config.h"
 #include "core/ekf/ekf_state.h"
+#include "core/ekf/filter_process.h"
+#include "core/ekf/filter_state.h"
 #include "core/ekf/ins_transition.h"
 #include "core/ekf/measurement_model.h"
 #include "core/ekf/robust_update.h"
@@ -97,11 +99,23 @@ class Ekf {
   // on standardized innovations; the covariance stays symmetric and positive (robust_update.h).
   EkfUpdateResult update(const MeasurementEpoch& epoch);
 
-  const NavState& state() const { return state_; }
-  const ClockState& clocks() const { return clocks_; }
+  // For estimators that look back; kept only if EkfConfig::keep_process. The process since
+  // begin_process() or a start, the state as the last update found it (its clocks' steps taken up),
+  // and that update's measurements.
+  const FilterProcess& process() const { return process_; }
+  void begin_process() {
+    if (config_.keep_process) process_.begin(covariance_.rows());
+  }
+  const FilterState& prior() const { return prior_; }
+  const FilterMeasurements& measurements() const { return measurements_; }
+  const std::array<double, kObservables>& measurement_scale() const { return scale_; }
+
+  const FilterState& whole_state() const { return now_; }
+  const NavState& state() const { return now_.nav; }
+  const ClockState& clocks() const { return now_.clocks; }
   const ClockFlags& clocks_known() const { return known_; }
-  double wet_delay_m() const { return wet_delay_m_; }
-  const Ambiguities& ambiguities() const { return ambiguities_; }
+  double wet_delay_m() const { return now_.wet_delay_m; }
+  const Ambiguities& ambiguities() const { return now_.ambiguities; }
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
@@ -148,18 +162,21 @@ class Ekf {
   void leave_out(Which which);
   void leave_out_ranges();
   void forget_ambiguities();
-  void apply(const EkfCorrection& correction);
+  void forget_ambiguity(int place);
+  // The covariance and, if it is kept, the process's noise: what adds to one adds to the other.
+  boost::container::static_vector<EkfCovariance*, 2> with_noise();
+  void start_offset(std::size_t base, double offset_m, double sigma_m);
+  void start_drift(std::size_t base, double drift_m_s, double sigma_m_s);
+  void copy_drift(std::size_t from, std::size_t to, double sigma_m_s);
 
   EkfConfig config_;
   ImuErrorModel imu_;
   Eigen::Vector3d lever_arm_b_;
-  NavState state_;
-  ClockState clocks_;
+  FilterState now_, prior_;
   ClockFlags known_;
-  double wet_delay_m_ = 0.0;
-  double carrier_clock_m_ = 0.0;
-  Ambiguities ambiguities_;
   EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
+  FilterProcess process_;
+  std::array<double, kObservables> scale_ = {1.0, 1.0, 1.0};  // of the last update
   Mechanization mechanization_;
   InsTransition transition_;
   ImuSample last_sample_;  // that was measured, not filled in; interval 0: none yet

@@ -75,6 +75,30 @@ double step_sigma(const CommonStep& step) {
 
 }  // namespace
 
+void Ekf::start_offset(std::size_t base, double offset_m, double sigma_m) {
+  start_clock_offset(base, offset_m, sigma_m, &now_.clocks, &covariance_);
+  if (process_.continuous)
+    process_.start(kClock + static_cast<Eigen::Index>(base), square(sigma_m));
+}
+
+void Ekf::start_drift(std::size_t base, double drift_m_s, double sigma_m_s) {
+  start_clock_drift(base, drift_m_s, sigma_m_s, &now_.clocks, &covariance_);
+  if (process_.continuous)
+    process_.start(kClockDrift + static_cast<Eigen::Index>(base), square(sigma_m_s));
+}
+
+void Ekf::copy_drift(std::size_t from, std::size_t to, double sigma_m_s) {
+  copy_clock_drift(from, to, sigma_m_s, &now_.clocks, &covariance_);
+  if (!process_.continuous) return;
+  const auto f = kClockDrift + static_cast<Eigen::Index>(from);
+  const auto t = kClockDrift + static_cast<Eigen::Index>(to);
+  EkfCovariance& N = process_.noise;
+  N.row(t) = N.row(f);
+  N.col(t) = N.col(f);
+  N(t, t) = N(f, f) + square(sigma_m_s);
+  process_.transition.row(t) = process_.transition.row(f);
+}
+
 // Starts the clocks of bases that appear for the first time; true if any: the innovations change.
 bool Ekf::start_clocks(const MeasurementEpoch& epoch, EkfUpdateResult* result) {
   bool started = false;
@@ -87,18 +111,18 @@ bool Ekf::start_clocks(const MeasurementEpoch& epoch, EkfUpdateResult* result) {
       std::size_t other = 0;
       while (other < kMaxTimeBases && !known_.drift[other]) ++other;
       if (other < kMaxTimeBases)
-        copy_clock_drift(other, base, kInterSystemDriftSigma, &clocks_, &covariance_);
+        copy_drift(other, base, kInterSystemDriftSigma);
       else if (doppler)
-        start_clock_drift(base, clocks_.drift_m_s(static_cast<Eigen::Index>(base)) + doppler->value,
-                          kStartDriftSigma + doppler->sigma, &clocks_, &covariance_);
+        start_drift(base, now_.clocks.drift_m_s(static_cast<Eigen::Index>(base)) + doppler->value,
+                    kStartDriftSigma + doppler->sigma);
       else
-        start_clock_drift(base, 0.0, kUnknownDrift, &clocks_, &covariance_);
+        start_drift(base, 0.0, kUnknownDrift);
       known_.drift[base] = true;
       started = true;
     }
     if (code) {
-      start_clock_offset(base, clocks_.offset_m(static_cast<Eigen::Index>(base)) + code->value,
-                         kStartClockSigma + code->sigma, &clocks_, &covariance_);
+      start_offset(base, now_.clocks.offset_m(static_cast<Eigen::Index>(base)) + code->value,
+                   kStartClockSigma + code->sigma);
       known_.offset[base] = true;
       if (locked_out_[base] == kStartsAnew) result->base_step_m[base] = code->value;
       locked_out_[base] = 0;
@@ -120,13 +144,14 @@ double Ekf::take_up_code_step(const MeasurementEpoch& epoch, int base, const Com
   for (std::size_t i = 0; i < kMaxTimeBases; ++i)
     if (known_.offset[i] && is_base(static_cast<int>(i), base))
       direction(kClock + static_cast<int>(i)) = 1.0;
-  for (std::size_t i = 0; i < ambiguities_.size(); ++i)
-    if (is_base(static_cast<int>(index_of(ambiguities_[i].satellite.system)), base))
+  for (std::size_t i = 0; i < now_.ambiguities.size(); ++i)
+    if (is_base(static_cast<int>(index_of(now_.ambiguities[i].satellite.system)), base))
       direction(kSize + static_cast<int>(i)) = -1.0;
-  clocks_.offset_m += shift_m * direction.segment<4>(kClock);
-  for (std::size_t i = 0; i < ambiguities_.size(); ++i)
-    ambiguities_[i].value_m += shift_m * direction(kSize + static_cast<int>(i));
-  if (!exact) covariance_ += square(step_sigma(step)) * direction * direction.transpose();
+  now_.clocks.offset_m += shift_m * direction.segment<4>(kClock);
+  for (std::size_t i = 0; i < now_.ambiguities.size(); ++i)
+    now_.ambiguities[i].value_m += shift_m * direction(kSize + static_cast<int>(i));
+  for (EkfCovariance* covariance : with_noise())
+    if (!exact) *covariance += square(step_sigma(step)) * direction * direction.transpose();
   for (FilterMeasurement& m : measurements_)
     if (m.observable == Observable::kCode && is_base(base_of(m, epoch), base))
       m.innovation -= shift_m;
@@ -139,14 +164,15 @@ void Ekf::take_up_clock_step(const MeasurementEpoch& epoch, int base, const Comm
   for (std::size_t i = 0; i < kMaxTimeBases; ++i)
     if (known_.offset[i] && is_base(static_cast<int>(i), base))
       direction(kClock + static_cast<int>(i)) = 1.0;
-  clocks_.offset_m += step.value_m * direction.segment<4>(kClock);
-  covariance_.topLeftCorner<kSize, kSize>() +=
-      square(step_sigma(step)) * direction * direction.transpose();
+  now_.clocks.offset_m += step.value_m * direction.segment<4>(kClock);
+  for (EkfCovariance* covariance : with_noise())
+    covariance->topLeftCorner<kSize, kSize>() +=
+        square(step_sigma(step)) * direction * direction.transpose();
   for (FilterMeasurement& m : measurements_) {
     if (m.observable == Observable::kDoppler || !is_base(base_of(m, epoch), base)) continue;
     // An arc that begins here was begun with the clock as predicted.
     if (m.ambiguity >= 0 && covariance_(m.ambiguity, m.ambiguity) >= kUnknownAmbiguity)
-      ambiguities_[static_cast<std::size_t>(m.ambiguity - kSize)].value_m -= step.value_m;
+      now_.ambiguities[static_cast<std::size_t>(m.ambiguity - kSize)].value_m -= step.value_m;
     else
       m.innovation -= step.value_m;
   }
@@ -224,9 +250,9 @@ void Ekf::forget_locked_out_bases() {
     if (locked_out_[base] < kLockedOutEpochs) continue;
     locked_out_[base] = kStartsAnew;
     known_.offset[base] = false;
-    for (int i = static_cast<int>(ambiguities_.size()) - 1; i >= 0; --i)
-      if (index_of(ambiguities_[static_cast<std::size_t>(i)].satellite.system) == base)
-        remove_ambiguity(i, &ambiguities_, &covariance_);
+    for (int i = static_cast<int>(now_.ambiguities.size()) - 1; i >= 0; --i)
+      if (index_of(now_.ambiguities[static_cast<std::size_t>(i)].satellite.system) == base)
+        forget_ambiguity(i);
   }
 }
 

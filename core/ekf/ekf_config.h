@@ -54,7 +54,9 @@ struct EkfConfig {
   // them all.
   double prediction_suspect_ratio = 3.0;
   double reset_ratio =
-      0.7;               // share of code measurements rejected in one epoch that counts as suspect
+      0.7;  // share of code measurements rejected in one epoch that counts as suspect
+  // Whether Ekf::process() is kept, for the smoother.
+  bool keep_process = false;
   int reset_epochs = 3;  // suspect epochs in a row before the filter restarts from a point solution
 };
 

@@ -37,8 +37,8 @@ double correlation_inflation(double correlation_time_s, double dt) {
 
 // An arc has ended where its satellite has another one now, or has not been seen for long.
 void Ekf::drop_ended_arcs(const MeasurementEpoch& epoch) {
-  for (int i = static_cast<int>(ambiguities_.size()) - 1; i >= 0; --i) {
-    const Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(i)];
+  for (int i = static_cast<int>(now_.ambiguities.size()) - 1; i >= 0; --i) {
+    const Ambiguity& ambiguity = now_.ambiguities[static_cast<std::size_t>(i)];
     bool ended = ambiguity.rejected >= kMaxRejectedEpochs ||
                  seconds_between(epoch.time, ambiguity.last_used) > config_.max_arc_gap_s;
     for (const Measurement& measurement : epoch.measurements) {
@@ -47,8 +47,13 @@ void Ekf::drop_ended_arcs(const MeasurementEpoch& epoch) {
       const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
       ended = ended || satellite.satellite == ambiguity.satellite;
     }
-    if (ended) remove_ambiguity(i, &ambiguities_, &covariance_);
+    if (ended) forget_ambiguity(i);
   }
+}
+
+void Ekf::forget_ambiguity(int place) {
+  remove_ambiguity(place, &now_.ambiguities, &covariance_);
+  if (process_.continuous) process_.remove(kSize + place);
 }
 
 // New arcs take the places of those unseen at this epoch, longest unseen first.
@@ -59,28 +64,28 @@ void Ekf::make_room(const MeasurementEpoch& epoch) {
     if (measurement.observable != Observable::kCarrier || measurement.reason != Reason::kUsed)
       continue;
     seen.push_back(measurement.arc);
-    fresh += find_ambiguity(ambiguities_, measurement.arc) == kNoAmbiguity ? 1 : 0;
+    fresh += find_ambiguity(now_.ambiguities, measurement.arc) == kNoAmbiguity ? 1 : 0;
   }
-  while (ambiguities_.size() + fresh > ambiguities_.capacity()) {
+  while (now_.ambiguities.size() + fresh > now_.ambiguities.capacity()) {
     int longest = kNoAmbiguity;
-    for (int i = 0; i < static_cast<int>(ambiguities_.size()); ++i) {
-      const Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(i)];
+    for (int i = 0; i < static_cast<int>(now_.ambiguities.size()); ++i) {
+      const Ambiguity& ambiguity = now_.ambiguities[static_cast<std::size_t>(i)];
       if (std::find(seen.begin(), seen.end(), ambiguity.arc) != seen.end()) continue;
       if (longest == kNoAmbiguity ||
-          ambiguity.last_used < ambiguities_[static_cast<std::size_t>(longest)].last_used)
+          ambiguity.last_used < now_.ambiguities[static_cast<std::size_t>(longest)].last_used)
         longest = i;
     }
     if (longest == kNoAmbiguity) return;
-    remove_ambiguity(longest, &ambiguities_, &covariance_);
+    forget_ambiguity(longest);
   }
 }
 
 // State index of the arc's ambiguity, started if need be; kNoAmbiguity: no place for another.
 int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                       const FilterMeasurement& entry, GpsTime time) {
-  int place = find_ambiguity(ambiguities_, carrier.arc);
+  int place = find_ambiguity(now_.ambiguities, carrier.arc);
   if (place != kNoAmbiguity) return kSize + place;
-  if (ambiguities_.size() == ambiguities_.capacity()) return kNoAmbiguity;
+  if (now_.ambiguities.size() == now_.ambiguities.capacity()) return kNoAmbiguity;
   Ambiguity ambiguity;
   ambiguity.arc = carrier.arc;
   ambiguity.satellite = satellite;
@@ -88,9 +93,10 @@ int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
   ambiguity.wander = carrier.wander;
   ambiguity.started = ambiguity.last_used = time;
   const double predicted = std::sqrt(std::max(predicted_variance(entry, covariance_), 0.0));
-  add_ambiguity(ambiguity, kStartAmbiguitySigma + kStartShare * predicted, &ambiguities_,
-                &covariance_);
-  return kSize + static_cast<int>(ambiguities_.size()) - 1;
+  const double sigma_m = kStartAmbiguitySigma + kStartShare * predicted;
+  add_ambiguity(ambiguity, sigma_m, &now_.ambiguities, &covariance_);
+  if (process_.continuous) process_.append(square(sigma_m));
+  return kSize + static_cast<int>(now_.ambiguities.size()) - 1;
 }
 
 // Whether the position is known against that of the last epoch as well as carriers tell, so that
@@ -104,9 +110,9 @@ Ekf::Hold Ekf::hold_of(const MeasurementEpoch& epoch) {
         carrier.satellite_index >= epoch.satellites.size())
       continue;
     const SatelliteInView& satellite = epoch.satellites[carrier.satellite_index];
-    const int place = find_ambiguity(ambiguities_, carrier.arc);
+    const int place = find_ambiguity(now_.ambiguities, carrier.arc);
     if (place != kNoAmbiguity) {
-      held += ambiguities_[static_cast<std::size_t>(place)].last_used == last_update_ ? 1 : 0;
+      held += now_.ambiguities[static_cast<std::size_t>(place)].last_used == last_update_ ? 1 : 0;
     } else {
       broken += satellite.arc_causes.any() ? 1 : 0;
     }
@@ -183,7 +189,7 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
       continue;
     }
     const MeasurementPrediction prediction = predict_measurement(
-        measurement, satellite, motion, clocks_, wet_delay_m_, carrier_clock_m_);
+        measurement, satellite, motion, now_.clocks, now_.wet_delay_m, now_.carrier_clock_m);
     FilterMeasurement entry;
     entry.index = i;
     entry.observable = measurement.observable;
@@ -204,8 +210,8 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
         continue;
       }
       const auto place = static_cast<std::size_t>(entry.ambiguity - kSize);
-      ambiguities_[place].wander = measurement.wander;  // its orbit may be another by now
-      entry.innovation -= ambiguities_[place].value_m;
+      now_.ambiguities[place].wander = measurement.wander;  // its orbit may be another by now
+      entry.innovation -= now_.ambiguities[place].value_m;
     }
     measurements_.push_back(entry);
   }
@@ -214,20 +220,22 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
 // An arc whose constant, or a position whose meaning, may have stepped since the last epoch is less
 // certain for it.
 void Ekf::disturb_ambiguities(const MeasurementEpoch& epoch) {
-  covariance_.diagonal().segment<3>(kPosition).array() += square(epoch.position_disturbance_m);
+  for (EkfCovariance* covariance : with_noise())
+    covariance->diagonal().segment<3>(kPosition).array() += square(epoch.position_disturbance_m);
   for (const Measurement& measurement : epoch.measurements) {
     if (measurement.observable != Observable::kCarrier || !(measurement.disturbance_m > 0.0))
       continue;
-    const int place = find_ambiguity(ambiguities_, measurement.arc);
+    const int place = find_ambiguity(now_.ambiguities, measurement.arc);
     if (place == kNoAmbiguity) continue;
-    covariance_(kSize + place, kSize + place) += square(measurement.disturbance_m);
+    for (EkfCovariance* covariance : with_noise())
+      (*covariance)(kSize + place, kSize + place) += square(measurement.disturbance_m);
   }
 }
 
 // What the update made of a carrier decides whether its arc goes on.
 void Ekf::close_carrier(const FilterMeasurement& measurement, GpsTime time,
                         EkfUpdateResult* result) {
-  Ambiguity& ambiguity = ambiguities_[static_cast<std::size_t>(measurement.ambiguity - kSize)];
+  Ambiguity& ambiguity = now_.ambiguities[static_cast<std::size_t>(measurement.ambiguity - kSize)];
   ambiguity.last_used = time;
   ambiguity.rejected = measurement.factor > 0.0 ? 0 : ambiguity.rejected + 1;
   if (ambiguity.rejected >= kMaxRejectedEpochs) result->slipped.push_back(ambiguity.satellite);

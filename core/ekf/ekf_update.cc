@@ -61,10 +61,12 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
       tables = clock_free_tables(measurements_, covariance_);
       continue;
     }
+    const EkfCorrection before = covariance_.diagonal();
     widen(observable, variance, seconds_between(epoch.time, last_update_), &covariance_);
+    if (process_.continuous) process_.noise.diagonal() += covariance_.diagonal() - before;
     // Codes that agree on another position than the carriers stand for: the ambiguities were found
     // at a wrong one.
-    if (observable == Observable::kCode && !ambiguities_.empty()) {
+    if (observable == Observable::kCode && !now_.ambiguities.empty()) {
       forget_ambiguities();
       result->ambiguities_forgotten = true;
       gather(epoch);
@@ -99,7 +101,7 @@ bool Ekf::is_confirmed_against(Observable observable, double off,
   ClockFreeTable carriers;
   for (const ClockFree& carrier : of(tables, Observable::kCarrier)) {
     const int state = measurements_[carrier.index].ambiguity;
-    if (ambiguities_[static_cast<std::size_t>(state - kSize)].started <= agreed_)
+    if (now_.ambiguities[static_cast<std::size_t>(state - kSize)].started <= agreed_)
       carriers.push_back(carrier);
   }
   const double suspect = config_.prediction_suspect_ratio;
@@ -113,9 +115,8 @@ void Ekf::leave_out_ranges() {
 }
 
 void Ekf::forget_ambiguities() {
-  ambiguities_.clear();
+  while (!now_.ambiguities.empty()) forget_ambiguity(static_cast<int>(now_.ambiguities.size()) - 1);
   code_schedule_.clear();
-  covariance_.conservativeResize(kSize, kSize);
 }
 
 // What the update made of each measurement.
@@ -173,7 +174,13 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   }
 
   const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
-  apply(update.correction);
+  if (process_.continuous) {
+    prior_ = now_;
+    add(process_.transition.rightCols<1>(), has_attitude_, &prior_);
+    process_.transition.rightCols<1>() -= update.correction;
+  }
+  scale_ = update.scale;
+  add(update.correction, has_attitude_, &now_);
   close(update, epoch, &result);
   if (!measurements_.empty()) last_update_ = epoch.time;
   return result;

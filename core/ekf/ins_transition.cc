@@ -130,14 +130,28 @@ InsTransition::Matrix InsTransition::noise() const {
   return Q;
 }
 
-void InsTransition::propagate(EkfCovariance* covariance) const {
-  if (duration_s_ <= 0.0) return;
-  EkfCovariance& P = *covariance;
+Eigen::Matrix<double, kInsSize - 9, 1> InsTransition::error_decays() const {
   Eigen::Matrix<double, kInsSize - 9, 1> decays;
   decays << Vector3d::Constant(decay(model_.gyro_bias, duration_s_)),
       Vector3d::Constant(decay(model_.accel_bias, duration_s_)),
       Vector3d::Constant(decay(model_.gyro_scale, duration_s_)),
       Vector3d::Constant(decay(model_.accel_scale, duration_s_));
+  return decays;
+}
+
+void InsTransition::advance(ProcessMatrix* transition) const {
+  if (duration_s_ <= 0.0) return;
+  BoundedMatrix<9, kMaxSize + 1> rows;
+  rows.noalias() = top_ * transition->topRows<kInsSize>();
+  transition->middleRows<kInsSize - 9>(9) =
+      error_decays().asDiagonal() * transition->middleRows<kInsSize - 9>(9);
+  transition->topRows<9>() = rows;
+}
+
+void InsTransition::propagate(EkfCovariance* covariance) const {
+  if (duration_s_ <= 0.0) return;
+  EkfCovariance& P = *covariance;
+  const Eigen::Matrix<double, kInsSize - 9, 1> decays = error_decays();
 
   // Phi P: the upper nine rows are full, the rows of biases and scales only shrink.
   BoundedMatrix<9, kMaxSize> rows;

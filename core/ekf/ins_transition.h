@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/ekf/ekf_state.h"
+#include "core/ekf/filter_process.h"
 #include "core/ins/imu_error_model.h"
 #include "core/ins/nav_state.h"
 
@@ -40,8 +41,12 @@ class InsTransition {
 
   // P <- Phi P Phi^T + Q on the inertial states and their correlations with the others.
   void propagate(EkfCovariance* covariance) const;
+  // F <- Phi F on its inertial rows.
+  void advance(ProcessMatrix* transition) const;
 
  private:
+  Eigen::Matrix<double, ekf_index::kInsSize - 9, 1> error_decays() const;
+
   ImuErrorModel model_;
   Eigen::Array3d gyro_gain_ = Eigen::Array3d::Ones();  // 1 / (1 + scale)
   Eigen::Array3d accel_gain_ = Eigen::Array3d::Ones();

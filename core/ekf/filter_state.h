@@ -1,0 +1,25 @@
+// The filter's nominal state as a whole, and its error state's two operations: add and difference.
+#pragma once
+#include "core/ekf/ekf_state.h"
+#include "core/ins/nav_state.h"
+
+namespace leonav {
+
+struct FilterState {
+  NavState nav;
+  ClockState clocks;
+  double wet_delay_m = 0.0;      // at zenith, beyond the modelled one
+  double carrier_clock_m = 0.0;  // of the carriers against the codes
+  Ambiguities ambiguities;
+};
+
+// Corrects `state` by an error in the order of ekf_index; the attitude only if `has_attitude`.
+void add(const EkfCorrection& error, bool has_attitude, FilterState* state);
+
+// The error of `reference` if `state` were true: add(difference(a, b), true, &b) makes b equal a.
+// Both have the same ambiguities in the same order.
+EkfCorrection difference(const FilterState& state, const FilterState& reference);
+
+bool is_finite(const FilterState& state);
+
+}  // namespace leonav

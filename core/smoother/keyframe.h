@@ -1,0 +1,88 @@
+// What the smoother is told of one epoch, and what it keeps of it.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+
+#include "core/capacity.h"
+#include "core/ekf/filter_process.h"
+#include "core/ekf/filter_state.h"
+#include "core/gnss/measurement.h"
+#include "core/ins/imu.h"
+
+namespace leonav {
+
+// One measurement of a keyframe. What it weighs is factor / gain_variance.
+struct KeyframeMeasurement {
+  Measurement measurement;  // satellite_index: into the keyframe's satellites
+  int ambiguity = -1;       // place among the state's ambiguities; -1: none
+  double variance = 0.0;    // of the measurement alone: what it is tested against
+  double gain_variance = 0.0;
+  double factor = 1.0;           // IGG-III: the filter's, later the window's
+  double others_variance = 0.0;  // of what all other measurements predict for it
+};
+using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
+using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxKeyframeSatellites>;
+
+// Of one epoch, as the filter has treated it (the same measurements, corrections, variances).
+struct KeyframeInput {
+  std::uint64_t index = 0;  // k
+  GpsTime time;
+  bool valid = false;   // the filter has a state
+  bool linked = false;  // to the keyframe before; false: the filter has started over since
+  bool has_attitude = false;
+  FilterState from;       // the filter's at the keyframe before, after its update
+  FilterState prior;      // as predicted from there, clock steps taken up
+  FilterProcess process;  // likewise
+  FilterState state;      // the filter's, after its update
+  EkfCovariance covariance;
+  Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();  // rad/s, for the lever arm
+  Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();  // m, antenna beyond what the attitude tells
+  KeyframeSatellites satellites;
+  KeyframeMeasurements measurements;
+  ImuBlock block;          // since the keyframe before
+  ImuSample before_block;  // the last measured one before it; interval 0: none
+};
+
+// The states that are estimated: those core states (before the ambiguities) whose variance is not
+// zero, in order, and all ambiguities.
+struct ActiveStates {
+  boost::container::static_vector<int, ekf_index::kSize> core;
+  int ambiguities = 0;
+
+  Eigen::Index core_size() const { return static_cast<Eigen::Index>(core.size()); }
+  Eigen::Index size() const { return core_size() + ambiguities; }
+};
+
+// The process from the keyframe before, about the pair of states it was linearized at:
+//   (x - to) = F (x_before - from) + w,  w ~ N,  in active states.
+struct KeyframeLink {
+  FilterState from, to;
+  EkfCovariance F;       // size x size before
+  EkfCovariance noise;   // N
+  EkfCovariance weight;  // W = N^-1
+  EkfCovariance WF;
+  EkfCovariance FWF;
+};
+
+struct Keyframe {
+  std::uint64_t index = 0;
+  GpsTime time;
+  bool has_attitude = false;
+  ActiveStates active;
+  FilterState state;  // the estimate
+  KeyframeLink link;  // of all but the window's first
+  Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();
+  KeyframeSatellites satellites;
+  KeyframeMeasurements measurements;
+  bool judged = false;  // its factors have been decided here, not only by the filter
+  ImuBlock block;
+  ImuSample before_block;
+};
+
+// Between an error of all states and one of the active ones.
+EkfCorrection active_part(const ActiveStates& active, const EkfCorrection& error);
+EkfCorrection whole_error(const ActiveStates& active, const EkfCorrection& part);
+
+}  // namespace leonav

@@ -1,0 +1,173 @@
+#include "core/smoother/smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Index;
+
+// So many of the newest keyframes get the variances of their measurements' predictions anew; those
+// of older ones hardly change any more.
+constexpr int kFreshVariances = 5;
+constexpr double kSettledWeights = 1e-2;  // factors that change less have converged
+// A window this far from the filter, in sigmas of both, has gone astray.
+constexpr double kAstraySigmas = 30.0;
+constexpr double kAstray_m = 100.0;
+
+double position_sigma(const EkfCovariance& covariance) {
+  return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
+}
+
+}  // namespace
+
+Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
+                   const Eigen::Vector3d& lever_arm_b, const RelinkConfig& relink)
+    : config_(config),
+      robust_(robust),
+      lever_arm_b_(lever_arm_b),
+      window_(config.window),
+      chain_(static_cast<int>(kMaxWindow)),
+      solver_(&chain_),
+      relinker_(relink),
+      saved_(std::make_unique<Saved[]>(kMaxWindow)),
+      next_prior_(std::make_unique<WindowPrior>()) {}
+
+void Smoother::add(const KeyframeInput& input) {
+  if (solved_) settle(false);
+  if (!input.valid) return window_.clear();
+  filter_state_ = input.state.nav;
+  filter_sigma_m_ = position_sigma(input.covariance);
+  if (failed_ || !input.linked) window_.clear();
+  failed_ = false;
+  make_room();
+  if (window_.size() == 0 || !window_.append(input)) window_.start(input);
+}
+
+void Smoother::make_room() {
+  if (!window_.full()) return;
+  if (marginalize_oldest(window_, lever_arm_b_, next_prior_.get()))
+    window_.drop_oldest(*next_prior_);
+  else
+    window_.clear();
+}
+
+SmootherResult Smoother::solve(SolveBudget* budget) {
+  SmootherResult result;
+  if (window_.size() == 0) return result;
+  save();
+  solved_ = true;
+  result.status = window_.size() == 1 ? SmootherStatus::kStarted : SmootherStatus::kOk;
+  while (result.iterations < std::max(1, config_.max_iterations)) {
+    if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
+    double moved_sigmas = 0.0, reweighed = 0.0;
+    if (!iterate(result.iterations, &moved_sigmas, &reweighed)) {
+      result.status = SmootherStatus::kSingular;
+      failed_ = true;
+      return result;
+    }
+    ++result.iterations;
+    result.converged = result.iterations > 1 && moved_sigmas < config_.converged_sigmas &&
+                       reweighed < kSettledWeights;
+    if (result.converged) break;
+  }
+  finish(&result);
+  return result;
+}
+
+// Weights, a step, and how far it went.
+bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
+  for (int i = 0; i < window_.size() && robust_.enabled; ++i) {
+    Keyframe& keyframe = window_.at(i);
+    // A new keyframe's first weights are the filter's.
+    if (iteration == 0 && !keyframe.judged) {
+      keyframe.judged = true;
+      *reweighed = 1.0;
+      continue;
+    }
+    *reweighed = std::max(*reweighed, reweigh(robust_, lever_arm_b_, &keyframe));
+  }
+  if (!solver_->solve(window_, lever_arm_b_, &corrections_)) return false;
+  if (iteration == 0 && solver_ == &chain_)
+    chain_.find_others_variances(lever_arm_b_, kFreshVariances, &window_);
+  double moved_m = 0.0;
+  for (int i = 0; i < window_.size(); ++i) {
+    Keyframe& keyframe = window_.at(i);
+    const EkfCorrection error =
+        whole_error(keyframe.active, corrections_[static_cast<std::size_t>(i)]);
+    moved_m = std::max(moved_m, error.segment<3>(kPosition).norm());
+    leonav::add(error, keyframe.has_attitude, &keyframe.state);
+    if (!is_finite(keyframe.state)) return false;
+  }
+  *moved_sigmas = moved_m / std::max(filter_sigma_m_, 1e-6);
+  return true;
+}
+
+void Smoother::finish(SmootherResult* result) {
+  const Keyframe& newest = window_.newest();
+  result->has_attitude = newest.has_attitude;
+  result->state = newest.state.nav;
+  EkfCovariance covariance;
+  chain_.newest_covariance(&covariance);
+  const ActiveStates& active = newest.active;
+  for (Index i = 0; i < active.core_size(); ++i) {
+    const int row = active.core[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < active.core_size(); ++j) {
+      const int column = active.core[static_cast<std::size_t>(j)];
+      if (row < kInsSize && column < kInsSize) result->covariance(row, column) = covariance(i, j);
+    }
+  }
+  for (const KeyframeMeasurement& measurement : newest.measurements)
+    result->used += measurement.factor > 0.0 ? 1 : 0;
+  const double apart_m = (result->state.p_e - filter_state_.p_e).norm();
+  const double sigma_m =
+      filter_sigma_m_ + std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
+  if (!result->covariance.allFinite() ||
+      !(apart_m < std::max(kAstray_m, kAstraySigmas * sigma_m))) {
+    result->status = SmootherStatus::kDiverged;
+    failed_ = true;
+  }
+}
+
+void Smoother::settle(bool taken) {
+  if (!solved_) return;
+  solved_ = false;
+  if (!taken) {
+    failed_ = false;
+    restore();
+    return;
+  }
+  if (failed_) return;
+  for (int i = 1; i < window_.size(); ++i) relinker_(window_.at(i - 1), &window_.at(i));
+}
+
+void Smoother::save() {
+  for (int i = 0; i < window_.size(); ++i) {
+    const Keyframe& keyframe = window_.at(i);
+    Saved& saved = saved_[static_cast<std::size_t>(i)];
+    saved.state = keyframe.state;
+    saved.judged = keyframe.judged;
+    saved.weights.clear();
+    for (const KeyframeMeasurement& measurement : keyframe.measurements)
+      saved.weights.emplace_back(measurement.factor, measurement.others_variance);
+  }
+}
+
+void Smoother::restore() {
+  for (int i = 0; i < window_.size(); ++i) {
+    Keyframe& keyframe = window_.at(i);
+    const Saved& saved = saved_[static_cast<std::size_t>(i)];
+    keyframe.state = saved.state;
+    keyframe.judged = saved.judged;
+    for (std::size_t m = 0; m < saved.weights.size(); ++m) {
+      keyframe.measurements[m].factor = saved.weights[m].first;
+      keyframe.measurements[m].others_variance = saved.weights[m].second;
+    }
+  }
+}
+
+}  // namespace leonav

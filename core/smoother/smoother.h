@@ -1,0 +1,92 @@
+// The sliding-window smoother: keyframes in, the newest one's state out.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <memory>
+
+#include "core/smoother/chain_solver.h"
+#include "core/smoother/relink.h"
+#include "core/smoother/smoother_config.h"
+#include "core/smoother/window.h"
+
+namespace leonav {
+
+// Asked before every iteration but the first of a solve.
+class SolveBudget {
+ public:
+  virtual ~SolveBudget() = default;
+  virtual bool may_iterate(int iterations_done) = 0;
+};
+
+// On the wire: append only.
+enum class SmootherStatus : std::uint8_t {
+  kOk = 0,
+  kNoFilter = 1,      // the filter has no state to start from
+  kStarted = 2,       // a window of one keyframe: the filter's answer
+  kSingular = 3,      // the window has no unique solution: it starts over
+  kDiverged = 4,      // nor one that is near the filter's: likewise
+  kFewSatellites = 5  // too few measurements for an answer of its own; it goes on
+};
+
+struct SmootherResult {
+  SmootherStatus status = SmootherStatus::kNoFilter;
+  int iterations = 0;
+  bool converged = false;
+  bool has_attitude = false;
+  NavState state;  // at the newest keyframe
+  Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
+      Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
+  int used = 0;  // measurements of the newest keyframe with a factor above zero
+};
+
+// For every keyframe: add(), solve(), and settle() once it is known whether the result was taken.
+// Allocates when constructed, not after; never throws.
+class Smoother {
+ public:
+  Smoother(const SmootherConfig& config, const RobustConfig& robust,
+           const Eigen::Vector3d& lever_arm_b, const RelinkConfig& relink);
+
+  // A keyframe that does not follow the newest one starts a window of its own.
+  void add(const KeyframeInput& input);
+  // Iterates from where the last solve that was taken has left the window; the weights of all its
+  // measurements are decided anew at every iteration.
+  SmootherResult solve(SolveBudget* budget);
+  // Not taken: the window is as it was before solve(), so that what follows does not depend on how
+  // far that came.
+  void settle(bool taken);
+
+  const Window& window() const { return window_; }
+  // Another solver instead of the chain's, for comparison. Not owned.
+  void use_solver(WindowSolver* solver) { solver_ = solver; }
+
+ private:
+  // What a solve changes of a keyframe.
+  struct Saved {
+    FilterState state;
+    boost::container::static_vector<std::pair<double, double>, kMaxMeasurements> weights;
+    bool judged = false;
+  };
+  void save();
+  void restore();
+  void make_room();
+  bool iterate(int iteration, double* moved_sigmas, double* reweighed);
+  void finish(SmootherResult* result);
+
+  SmootherConfig config_;
+  RobustConfig robust_;
+  Eigen::Vector3d lever_arm_b_;
+  Window window_;
+  ChainSolver chain_;
+  WindowSolver* solver_;
+  Relinker relinker_;
+  WindowCorrections corrections_;
+  std::unique_ptr<Saved[]> saved_;
+  std::unique_ptr<WindowPrior> next_prior_;
+  NavState filter_state_;  // at the newest keyframe
+  double filter_sigma_m_ = 0.0;
+  bool solved_ = false;  // and not settled
+  bool failed_ = false;  // it starts over with the next keyframe
+};
+
+}  // namespace leonav

@@ -1,0 +1,14 @@
+// Tuning of the sliding-window smoother. SI units.
+#pragma once
+
+namespace leonav {
+
+struct SmootherConfig {
+  int window = 20;                    // keyframes, 5 to kMaxWindow
+  double keyframe_interval_s = 0.95;  // epochs nearer to the last keyframe are not one
+  int max_iterations = 4;             // linearizations of one solve
+  // Largest correction of a position, in its own sigmas, that ends a solve.
+  double converged_sigmas = 0.01;
+};
+
+}  // namespace leonav

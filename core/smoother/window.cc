@@ -1,0 +1,126 @@
+#include "core/smoother/window.h"
+
+#include <algorithm>
+
+#include "core/smoother/definite_inverse.h"
+
+namespace leonav {
+namespace {
+
+using Eigen::Index;
+using ekf_index::kSize;
+
+// A state that the process hardly moves gets this share of its variance as noise, so that the
+// noise has an inverse beside which the variance's own does not vanish.
+constexpr double kNoiseFloor = 1e-11;
+
+ActiveStates active_states(const KeyframeInput& input) {
+  ActiveStates active;
+  for (int i = 0; i < kSize; ++i)
+    if (input.covariance(i, i) > 0.0) active.core.push_back(i);
+  active.ambiguities = static_cast<int>(input.state.ambiguities.size());
+  return active;
+}
+
+Index whole_index(const ActiveStates& active, Index i) {
+  if (i < active.core_size()) return active.core[static_cast<std::size_t>(i)];
+  return kSize + i - active.core_size();
+}
+
+bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
+  KeyframeLink& link = keyframe->link;
+  const ActiveStates& rows = keyframe->active;
+  const ActiveStates& columns = before.active;
+  if (input.process.transition.cols() != kSize + columns.ambiguities + 1) return false;
+  link.F.resize(rows.size(), columns.size());
+  EkfCovariance& noise = link.noise;
+  noise.resize(rows.size(), rows.size());
+  for (Index i = 0; i < rows.size(); ++i) {
+    const Index row = whole_index(rows, i);
+    for (Index j = 0; j < columns.size(); ++j)
+      link.F(i, j) = input.process.transition(row, whole_index(columns, j));
+    for (Index j = 0; j < rows.size(); ++j)
+      noise(i, j) = input.process.noise(row, whole_index(rows, j));
+    noise(i, i) += kNoiseFloor * input.covariance(row, row);
+  }
+  if (!invert(noise, &link.weight)) return false;
+  link.WF.noalias() = link.weight * link.F;
+  link.FWF.noalias() = link.F.transpose() * link.WF;
+  return true;
+}
+
+void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
+  keyframe->index = input.index;
+  keyframe->time = input.time;
+  keyframe->has_attitude = input.has_attitude;
+  keyframe->active = active_states(input);
+  keyframe->measured_rate_b = input.measured_rate_b;
+  keyframe->mast_e = input.mast_e;
+  keyframe->judged = false;
+}
+
+}  // namespace
+
+Window::Window(int capacity)
+    : capacity_(std::clamp(capacity, 2, static_cast<int>(kMaxWindow))),
+      slots_(std::make_unique<Keyframe[]>(static_cast<std::size_t>(capacity_))) {}
+
+bool Window::start(const KeyframeInput& input) {
+  first_ = 0;
+  size_ = 0;
+  Keyframe& keyframe = slots_[0];
+  copy_common(input, &keyframe);
+  keyframe.satellites.clear();
+  keyframe.measurements.clear();
+  keyframe.block.clear();
+  keyframe.state = input.state;
+  prior_.at = input.state;
+  const ActiveStates& active = keyframe.active;
+  EkfCovariance covariance(active.size(), active.size());
+  for (Index i = 0; i < active.size(); ++i)
+    for (Index j = 0; j < active.size(); ++j)
+      covariance(i, j) = input.covariance(whole_index(active, i), whole_index(active, j));
+  if (active.size() == 0 || !invert(covariance, &prior_.information)) return false;
+  prior_.gradient.setZero(active.size());
+  size_ = 1;
+  return true;
+}
+
+bool Window::append(const KeyframeInput& input) {
+  const Keyframe& before = newest();
+  Keyframe& keyframe = slots_[slot(size_)];
+  copy_common(input, &keyframe);
+  keyframe.satellites = input.satellites;
+  keyframe.measurements = input.measurements;
+  keyframe.block = input.block;
+  keyframe.before_block = input.before_block;
+  keyframe.link.from = input.from;
+  keyframe.link.to = input.prior;
+  if (!make_link(input, before, &keyframe)) return false;
+  keyframe.state = predicted_state(before, keyframe);
+  ++size_;
+  return true;
+}
+
+void Window::drop_oldest(const WindowPrior& prior) {
+  prior_ = prior;
+  first_ = slot(1);
+  --size_;
+}
+
+FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe) {
+  const EkfCorrection moved =
+      active_part(before.active, difference(before.state, keyframe.link.from));
+  FilterState state = keyframe.link.to;
+  add(whole_error(keyframe.active, keyframe.link.F * moved), keyframe.has_attitude, &state);
+  return state;
+}
+
+EkfCorrection link_error(const Keyframe& before, const Keyframe& keyframe) {
+  EkfCorrection error = active_part(keyframe.active, difference(keyframe.state, keyframe.link.to));
+  error.noalias() -=
+      keyframe.link.F * active_part(before.active, difference(before.state, keyframe.link.from));
+  return error;
+}
+
+}  // namespace leonav
