@@ -46,7 +46,7 @@ struct EngineCounters {
   Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps, imu_smoothed,
       epochs_without_imu;
   // ins, or gnss where that publishes
-  Gauge solution_time_ns, source, commits, misses, worst_tick_ns;
+  Gauge solution_time_ns, source, commits, misses, smoother_commits, smoother_misses, worst_tick_ns;
   // gnss
   std::array<Gauge, kSystemCount> satellites_used;
   std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
@@ -54,6 +54,9 @@ struct EngineCounters {
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
   Gauge orbit_fallbacks, orbit_returns;
   Gauge worst_epoch_ns;
+  Gauge keyframes_skipped;
+  // smoother
+  Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage
   Gauge resets;
   // main

@@ -29,6 +29,9 @@ class EncodingSink : public OutputSink {
   void on_decision(const Decision& decision) override {
     target_->take(Channel::kDecision, encoder_.encode(decision));
   }
+  void on_smoother(const SmootherReport& report) override {
+    target_->take(Channel::kSmoother, encoder_.encode(report));
+  }
 
  private:
   MessageTarget* target_;

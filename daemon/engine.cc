@@ -32,8 +32,13 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
       inertial_sink_(kInertialOutBytes, &out_wakeup_, &counters_),
       gnss_sink_(kGnssOutBytes, &out_wakeup_, &counters_),
       main_ring_(kMainOutBytes, &out_wakeup_),
-      inertial_(config.navigator, &ekf_mailbox_, &inertial_sink_),
-      gnss_(config.navigator, &ekf_mailbox_, &gnss_sink_),
+      smoother_(config.navigator.estimator == Estimator::kSmoother
+                    ? std::make_unique<SmootherWorker>(config.navigator, &out_wakeup_, &counters_,
+                                                       hooks_.before_iteration)
+                    : nullptr),
+      inertial_(config.navigator, &ekf_mailbox_,
+                smoother_ != nullptr ? smoother_->mailbox() : nullptr, &inertial_sink_),
+      gnss_(config.navigator, &ekf_mailbox_, smoother_.get(), &gnss_sink_),
       sequencer_(config.navigator, this),
       dispatch_(&sequencer_) {
   for (std::size_t i = 0; i < kChannelCount; ++i) {
@@ -58,6 +63,7 @@ std::vector<std::string> Engine::start() {
   }
   started_ = true;
   refused.push_back(out_thread_.start("out", threads.out, [this] { run_out(); }));
+  if (smoother_ != nullptr) refused.push_back(smoother_->start(threads.smoother));
   refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));
   refused.push_back(inertial_thread_.start("ins", threads.ins, [this] { run_inertial(); }));
   std::erase(refused, std::string());
@@ -74,14 +80,19 @@ void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us)
 
 // A slot still in use from kMaxMailboxEpochs ago is left alone: the epoch becomes a miss, which is
 // a decision in the journal like any other.
-void Engine::open_epoch(std::uint64_t index) { ekf_mailbox_.open(index); }
+void Engine::open_epoch(std::uint64_t index) {
+  ekf_mailbox_.open(index);
+  if (smoother_ != nullptr) smoother_->mailbox()->open(index);
+}
 
 bool Engine::idle() const { return gnss_ring_.idle() && idle_but_gnss(); }
 
 bool Engine::idle_but_gnss() const {
   // In the order of flow: what a stage has not done could still feed the next one.
-  return inertial_ring_.idle() && io_sink_.ring().idle() && inertial_sink_.ring().idle() &&
-         gnss_sink_.ring().idle() && main_ring_.idle();
+  if (!inertial_ring_.idle() || (smoother_ != nullptr && !smoother_->idle())) return false;
+  const auto rings = out_rings();
+  return std::all_of(rings.begin(), rings.end(),
+                     [](const MessageRing* ring) { return ring->idle(); });
 }
 
 bool Engine::finish() {
@@ -91,6 +102,7 @@ bool Engine::finish() {
     gnss_wakeup_.notify();
     inertial_thread_.join();
     gnss_thread_.join();
+    if (smoother_ != nullptr) smoother_->finish();
     no_more_outputs_.store(true, std::memory_order_release);
     out_wakeup_.notify();
     out_thread_.join();
@@ -167,6 +179,7 @@ bool Engine::drain_outputs() {
     write_out(header, bytes);
   };
   bool any = io_sink_.ring().consume_one(write);
+  if (smoother_ != nullptr) any = smoother_->outputs().consume_one(write_after_causes) || any;
   for (MessageRing* ring : {&inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
     any = ring->consume_one(write_after_causes) || any;
   }
@@ -212,10 +225,16 @@ void Engine::flush_journal(bool sync) {
   counters_.journal_failed.set(1);
 }
 
+boost::container::static_vector<const MessageRing*, 5> Engine::out_rings() const {
+  boost::container::static_vector<const MessageRing*, 5> rings{
+      &io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_};
+  if (smoother_ != nullptr) rings.push_back(&smoother_->outputs());
+  return rings;
+}
+
 RingStatistics Engine::out_ring() const {
   RingStatistics worst;
-  for (const MessageRing* ring :
-       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+  for (const MessageRing* ring : out_rings()) {
     const RingStatistics one = ring->statistics();
     worst.high_water_percent = std::max(worst.high_water_percent, one.high_water_percent);
     worst.waits += one.waits;
@@ -225,8 +244,7 @@ RingStatistics Engine::out_ring() const {
 
 WorkCount Engine::out_work() const {
   WorkCount sum;
-  for (const MessageRing* ring :
-       {&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
+  for (const MessageRing* ring : out_rings()) {
     const WorkCount one = ring->count();
     sum.done += one.done;
     sum.pushed += one.pushed;

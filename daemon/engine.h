@@ -2,6 +2,7 @@
 // them, the journal.
 #pragma once
 #include <atomic>
+#include <boost/container/static_vector.hpp>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,6 +15,7 @@
 #include "daemon/counters.h"
 #include "daemon/input_dispatch.h"
 #include "daemon/realtime_thread.h"
+#include "daemon/smoother_worker.h"
 #include "daemon/stage_sink.h"
 #include "daemon/work_ring.h"
 #include "drivers/lcm/event_log.h"
@@ -22,11 +24,13 @@ namespace leonav {
 
 // Where tests hold a thread still; empty in production.
 struct EngineHooks {
-  std::function<void(std::uint64_t epoch)> before_epoch;  // in `gnss`
+  std::function<void(std::uint64_t epoch)> before_epoch;      // in `gnss`
+  std::function<void(std::uint64_t epoch)> before_iteration;  // in `smoother`
 };
 
-// Threads: the caller of receive() is `io`; `ins`, `gnss` and `out` are the engine's own. Rings:
-// io -> ins, io -> gnss, and from io, ins, gnss and the caller of publish() (`main`) to out.
+// Threads: the caller of receive() is `io`; `ins`, `gnss`, `smoother` (if it gives the answer) and
+// `out` are the engine's own. Rings: io -> ins, io -> gnss, gnss -> smoother, and from io, ins,
+// gnss, smoother and the caller of publish() (`main`) to out.
 class Engine final : private StageInputs {
  public:
   // `target` gets every output, in the `out` thread.
@@ -62,6 +66,7 @@ class Engine final : private StageInputs {
   RingStatistics out_ring() const;  // the worst of those to `out`
   WorkCount inertial_work() const { return inertial_ring_.count(); }
   WorkCount gnss_work() const { return gnss_ring_.count(); }
+  WorkCount smoother_work() const { return smoother_ != nullptr ? smoother_->work() : WorkCount(); }
   WorkCount out_work() const;  // of all rings to `out`
   // After start(): where the journal is written; empty: nowhere.
   const std::string& journal_path() const { return config_.journal.path; }
@@ -77,6 +82,7 @@ class Engine final : private StageInputs {
   void run_inertial();
   void run_gnss();
   void run_out();
+  boost::container::static_vector<const MessageRing*, 5> out_rings() const;
   bool drain_outputs();
   void journal_configuration();
   void journal_end();
@@ -98,6 +104,7 @@ class Engine final : private StageInputs {
   StageSink io_sink_, inertial_sink_, gnss_sink_;
   MessageRing main_ring_;
   TimedMailbox<EkfUpdate> ekf_mailbox_;
+  std::unique_ptr<SmootherWorker> smoother_;  // nullptr: the filter gives the answer
   InertialNavigator inertial_;
   GnssStage gnss_;
   Sequencer sequencer_;

@@ -75,6 +75,10 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("filter resets", counters->resets.get(), message);
   add_count("commits", counters->commits.get(), message);
+  add_count("smoother commits", counters->smoother_commits.get(), message);
+  add_count("smoother failures", counters->smoother_failures.get(), message);
+  add_count("smoother iterations", counters->smoother_iterations.get(), message);
+  add_count("keyframes skipped", counters->keyframes_skipped.get(), message);
   add_count("published", counters->published.get(), message);
   add_count("health dropped", counters->unpublished.get(), message);
   add_count("journaled", counters->journaled.get(), message);
@@ -108,6 +112,8 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s) {
   message.source = std::string(
       to_string(solution_.dead ? Source::kNone : static_cast<Source>(counters.source.get())));
   message.ekf_misses = counters.misses.get();
+  message.smoother_misses = counters.smoother_misses.get();
+  message.worst_solve_ms = static_cast<double>(counters.worst_solve_ns.take()) * 1e-6;
   message.worst_tick_us = static_cast<double>(counters.worst_tick_ns.take()) * 1e-3;
   message.worst_ekf_ms = static_cast<double>(counters.worst_epoch_ns.take()) * 1e-6;
   const RingStatistics rings[] = {engine_->inertial_ring(), engine_->gnss_ring(),
@@ -144,6 +150,9 @@ void HealthMonitor::judge(double now_s) {
   if (expects_imu_) judge_stream(counters.accepted_imu.get(), now_s, &imu_);
   judge_stream(counters.accepted_epochs.get(), now_s, &gnss_);
   if (misses > last_misses_) worsen("DEGRADED", "deadline missed");
+  const std::int64_t smoother_misses = counters.smoother_misses.get();
+  if (smoother_misses > last_smoother_misses_) worsen("DEGRADED", "smoother late");
+  last_smoother_misses_ = smoother_misses;
   if (lost > last_lost_) worsen("DEGRADED", "inputs lost before they got here");
   if (waits > last_waits_) worsen("DEGRADED", "a queue was full");
   last_misses_ = misses;

@@ -42,7 +42,7 @@ class HealthMonitor {
   Stream imu_, gnss_, solution_;
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
-  std::int64_t last_misses_ = 0, last_lost_ = 0;
+  std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_lost_ = 0;
   std::uint64_t last_waits_ = 0;
   std::string status_ = "OK", why_;
   std::vector<std::uint8_t> bytes_;

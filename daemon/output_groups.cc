@@ -8,8 +8,12 @@ std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes) {
   switch (channel) {
     case Channel::kSolution:
       return 0;
-    case Channel::kDecision:
-      return 1;
+    case Channel::kDecision: {
+      const bool has_mailbox = bytes.size() > wire::kDecisionMailboxOffset;
+      return has_mailbox && bytes[wire::kDecisionMailboxOffset] == 2 ? 8 : 1;
+    }
+    case Channel::kSmoother:
+      return 7;
     case Channel::kEpoch:
       return 2;
     case Channel::kEvent: {

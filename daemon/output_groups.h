@@ -11,10 +11,11 @@
 
 namespace leonav {
 
-// SOLUTION, DECISION, EPOCH, and EVENT by stage.
-inline constexpr std::array<std::string_view, 7> kOutputGroups = {
-    "SOLUTION",       "DECISION",   "EPOCH",         "EVENT sequencer",
-    "EVENT inertial", "EVENT gnss", "EVENT smoother"};
+// SOLUTION, DECISION (of the inertial stage), EPOCH, EVENT by stage, SMOOTHER, and DECISION of the
+// GNSS stage.
+inline constexpr std::array<std::string_view, 9> kOutputGroups = {
+    "SOLUTION",   "DECISION",       "EPOCH",    "EVENT sequencer",  "EVENT inertial",
+    "EVENT gnss", "EVENT smoother", "SMOOTHER", "DECISION keyframe"};
 
 // nullopt: not compared (inputs; HEALTH, which tells of the machine).
 std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes);

@@ -51,8 +51,19 @@ void StageSink::on_event(const Event& event) {
 }
 
 void StageSink::on_decision(const Decision& decision) {
-  (decision.committed ? counters_->commits : counters_->misses).add(1);
+  Gauge* counter = decision.committed ? &counters_->commits : &counters_->misses;
+  if (decision.mailbox == 1)
+    counter = decision.committed ? &counters_->smoother_commits : &counters_->smoother_misses;
+  if (decision.mailbox == 2) counter = &counters_->keyframes_skipped;
+  counter->add(1);
   encoder_.on_decision(decision);
+}
+
+void StageSink::on_smoother(const SmootherReport& report) {
+  if (report.status == SmootherStatus::kSingular || report.status == SmootherStatus::kDiverged)
+    counters_->smoother_failures.add(1);
+  counters_->smoother_iterations.add(report.iterations);
+  encoder_.on_smoother(report);
 }
 
 void StageSink::take(Channel channel, ByteSpan bytes) {

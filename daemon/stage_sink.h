@@ -16,6 +16,7 @@ class StageSink final : public OutputSink, private MessageTarget {
   void on_epoch(const EpochReport& report) override;
   void on_event(const Event& event) override;
   void on_decision(const Decision& decision) override;
+  void on_smoother(const SmootherReport& report) override;
 
   MessageRing& ring() { return ring_; }
   const MessageRing& ring() const { return ring_; }

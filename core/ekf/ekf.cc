@@ -279,8 +279,13 @@ void Ekf::coast(GpsTime time) {
 
 AntennaMotion Ekf::antenna() const {
   AntennaMotion motion = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, has_attitude_);
-  if (!has_attitude_ && config_.vertical_arm) motion.p_e += vertical_arm_e(now_.nav.p_e);
+  motion.p_e += mast_e();
   return motion;
+}
+
+Vector3d Ekf::mast_e() const {
+  if (has_attitude_ || !config_.vertical_arm) return Vector3d::Zero();
+  return vertical_arm_e(now_.nav.p_e);
 }
 
 Vector3d Ekf::vertical_arm_e(const Vector3d& p_e) const {

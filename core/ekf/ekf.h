@@ -99,16 +99,20 @@ class Ekf {
   // on standardized innovations; the covariance stays symmetric and positive (robust_update.h).
   EkfUpdateResult update(const MeasurementEpoch& epoch);
 
-  // For estimators that look back; kept only if EkfConfig::keep_process. The process since
-  // begin_process() or a start, the state as the last update found it (its clocks' steps taken up),
-  // and that update's measurements.
+  // For estimators that look back; kept only if EkfConfig::keep_process: the process since
+  // begin_process(). Of the last update: its measurements, and by how much their sigmas were raised
+  // because they contradicted each other.
   const FilterProcess& process() const { return process_; }
   void begin_process() {
     if (config_.keep_process) process_.begin(covariance_.rows());
   }
-  const FilterState& prior() const { return prior_; }
   const FilterMeasurements& measurements() const { return measurements_; }
-  const std::array<double, kObservables>& measurement_scale() const { return scale_; }
+  double relaxed_by(Observable observable) const {
+    return relaxed_[static_cast<std::size_t>(observable)];
+  }
+  // Of the last sample, errors not removed, rad/s; and the antenna beyond what the attitude tells.
+  const Eigen::Vector3d& measured_rate_b() const { return measured_rate_b_; }
+  Eigen::Vector3d mast_e() const;
 
   const FilterState& whole_state() const { return now_; }
   const NavState& state() const { return now_.nav; }
@@ -172,11 +176,11 @@ class Ekf {
   EkfConfig config_;
   ImuErrorModel imu_;
   Eigen::Vector3d lever_arm_b_;
-  FilterState now_, prior_;
+  FilterState now_;
   ClockFlags known_;
   EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
   FilterProcess process_;
-  std::array<double, kObservables> scale_ = {1.0, 1.0, 1.0};  // of the last update
+  std::array<double, kObservables> relaxed_ = {1.0, 1.0, 1.0};  // in the last update
   Mechanization mechanization_;
   InsTransition transition_;
   ImuSample last_sample_;  // that was measured, not filled in; interval 0: none yet

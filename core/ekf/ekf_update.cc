@@ -174,12 +174,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   }
 
   const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
-  if (process_.continuous) {
-    prior_ = now_;
-    add(process_.transition.rightCols<1>(), has_attitude_, &prior_);
-    process_.transition.rightCols<1>() -= update.correction;
-  }
-  scale_ = update.scale;
+  if (process_.continuous) process_.transition.rightCols<1>() -= update.correction;
+  relaxed_ = update.relaxed;
   add(update.correction, has_attitude_, &now_);
   close(update, epoch, &result);
   if (!measurements_.empty()) last_update_ = epoch.time;

@@ -194,6 +194,10 @@ RobustUpdateResult RobustUpdate::operator()(const RobustConfig& config,
   result.nis = problem_.nis(*measurements);
   problem_.finish(&result.correction, covariance);
   unrelax(result.scale, measurements);
+  for (const FilterMeasurement& measurement : *measurements) {
+    const auto kind = static_cast<std::size_t>(measurement.observable);
+    if (is_relaxed(measurement, result.scale[kind])) result.relaxed[kind] = result.scale[kind];
+  }
   return result;
 }
 

@@ -19,6 +19,8 @@ struct RobustUpdateResult {
   // Per Observable: by how much the residuals are larger than they should be, from their median;
   // 1 if they are not.
   std::array<double, kObservables> scale = {1.0, 1.0, 1.0};
+  // Likewise by how much the sigmas of measurements that contradict each other have been raised.
+  std::array<double, kObservables> relaxed = {1.0, 1.0, 1.0};
 };
 
 // The tables of one update. Allocates when constructed, not after.

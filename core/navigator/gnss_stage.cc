@@ -23,6 +23,11 @@ RobustConfig robust_start(RobustConfig config) {
   return config;
 }
 
+EkfConfig filter_config(EkfConfig config, bool keep_process) {
+  config.keep_process = keep_process;
+  return config;
+}
+
 EventKind event_of(OrbitChange change) {
   switch (change) {
     case OrbitChange::kNone:
@@ -41,19 +46,21 @@ EventKind event_of(OrbitChange change) {
 }  // namespace
 
 GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
-                     OutputSink* sink)
+                     KeyframeSink* keyframes, OutputSink* sink)
     : config_(config),
       mailbox_(ekf_mailbox),
+      keyframes_(keyframes),
       sink_(sink),
       events_(Stage::kGnss, sink),
       inertial_(config.motion == MotionModel::kInertial),
       catalog_(config.gnss.catalog),
       carriers_(config.gnss.cycle_slips),
-      ekf_(config.ekf, config.imu, config.vehicle.lever_arm_b),
+      ekf_(filter_config(config.ekf, keyframes != nullptr), config.imu, config.vehicle.lever_arm_b),
       alignment_(config.alignment, config.imu),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
-      report_(std::make_unique<EpochReport>()) {
+      report_(std::make_unique<EpochReport>()),
+      keyframe_maker_(config.smoother.keyframe_interval_s) {
   const AlignmentConfig& alignment = config_.alignment;
   if (alignment.initial_heading)
     given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});
@@ -78,7 +85,7 @@ void GnssStage::process(const GnssWork& work) {
 void GnssStage::process_epoch(const EpochWork& work) {
   start_report(work.index, work.time, work.empty, report_.get());
   last_epoch_time_ = work.time;
-  gnss_used_ = false;
+  gnss_used_ = updated_ = false;
   if (inertial_ && !ekf_.has_attitude()) {
     for (const ImuSample& sample : work.block) alignment_.add(sample);
   }
@@ -98,6 +105,28 @@ void GnssStage::process_epoch(const EpochWork& work) {
   deliver(work);
   watch_orbits();
   publish(work);
+  push_keyframe(work);
+}
+
+// Last: the smoother may go to work on it at once.
+void GnssStage::push_keyframe(const EpochWork& work) {
+  if (keyframes_ == nullptr) return;
+  keyframe_maker_.add(work.block);
+  const bool due = keyframe_maker_.is_due(ekf_, work.time);
+  KeyframeInput* keyframe = due ? keyframes_->next_keyframe(work.index) : nullptr;
+  if (keyframe == nullptr) {
+    if (due) {
+      Decision skipped;
+      skipped.sequence = next_decision_++;
+      skipped.epoch = work.index;
+      skipped.time = work.time;
+      skipped.mailbox = 2;
+      sink_->on_decision(skipped);
+    }
+    return keyframes_->no_keyframe(work.index, due);
+  }
+  keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &ekf_, keyframe);
+  keyframes_->push_keyframe();
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
@@ -193,6 +222,7 @@ void GnssStage::update_filter(const EpochWork& work) {
     carriers_.check_range_changes(approximate_p_e, change_prior(predicted), measurements_.get());
   }
   const EkfUpdateResult result = ekf_.update(*measurements_);
+  updated_ = true;
   if (config_.ekf.use_carrier) {
     carriers_.remember(*measurements_, ekf_.antenna_position_e());
     for (const SatelliteId satellite : result.slipped)
@@ -246,7 +276,7 @@ void GnssStage::publish(const EpochWork& work) {
   report_->solution.source = source();
   report_->solution.anchor_epoch = work.index;
   report_->sequence = next_report_++;
-  if (!inertial_ && ekf_.initialized()) {
+  if (!inertial_ && keyframes_ == nullptr && ekf_.initialized()) {
     report_->solution.sequence = next_solution_++;
     sink_->on_solution(report_->solution);
   }

@@ -14,6 +14,7 @@
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
 #include "core/navigator/event_source.h"
+#include "core/navigator/keyframe_maker.h"
 #include "core/navigator/lock_out_watch.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/orbit_watch.h"
@@ -25,13 +26,15 @@ namespace leonav {
 
 class GnssStage {
  public:
-  GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox, OutputSink* sink);
+  // `keyframes` only where the smoother gives the answer, else nullptr.
+  GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
+            KeyframeSink* keyframes, OutputSink* sink);
 
   // Allocates nothing, never throws. For an epoch: preprocess, predict over the block, update,
   // align if still needed, deliver to the mailbox, report. Without IMU (constant-velocity model) it
   // also publishes the solution itself, as there is no inertial tick to do so, and the mailbox is
-  // not used. While aligning the reported position is the antenna's: without attitude the lever arm
-  // has no direction.
+  // not used; where there is a smoother, that publishes. While aligning the reported position is
+  // the antenna's: without attitude the lever arm has no direction.
   void process(const GnssWork& work);
 
   Source source() const;  // of its own answer, after the last work
@@ -70,11 +73,13 @@ class GnssStage {
   void set_heading(double heading, double sigma);
   void report_solution(const EpochWork& work);
   void deliver(const EpochWork& work);
+  void push_keyframe(const EpochWork& work);
   void publish(const EpochWork& work);
   void watch_orbits();
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
+  KeyframeSink* keyframes_;
   OutputSink* sink_;
   EventSource events_;
   bool inertial_;
@@ -101,6 +106,7 @@ class GnssStage {
   GpsTime suspect_since_;  // the first of them, if codes had a position for it
   PointSolution suspect_point_;
   bool gnss_used_ = false;  // in the epoch at hand
+  bool updated_ = false;    // likewise: the filter has had measurements_
   GpsTime last_gnss_time_;  // of the last epoch that used any
   GpsTime last_reset_time_;
   GpsTime last_lock_out_;
@@ -108,6 +114,8 @@ class GnssStage {
   double elsewhere_ = 0.0;  // what codes say for another place, less what they have said for this
   Eigen::Vector3d mean_off_e_ = Eigen::Vector3d::Zero();
   GpsTime last_epoch_time_;
+  KeyframeMaker keyframe_maker_;
+  std::uint64_t next_decision_ = 1;
 };
 
 }  // namespace leonav

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <variant>
 
 #include "core/earth/gravity.h"
@@ -24,9 +25,12 @@ std::int64_t to_nanoseconds(double seconds) {
 }  // namespace
 
 InertialNavigator::InertialNavigator(const NavigatorConfig& config,
-                                     TimedMailbox<EkfUpdate>* ekf_mailbox, OutputSink* sink)
+                                     TimedMailbox<EkfUpdate>* ekf_mailbox,
+                                     TimedMailbox<SmootherUpdate>* smoother_mailbox,
+                                     OutputSink* sink)
     : config_(config),
       mailbox_(ekf_mailbox),
+      smoother_mailbox_(smoother_mailbox),
       sink_(sink),
       events_(Stage::kInertial, sink),
       solution_period_ns_(
@@ -49,13 +53,13 @@ void InertialNavigator::process(const InertialWork& work) {
 
 void InertialNavigator::on_epoch(const EpochIssued& epoch) {
   if (waiting_.full()) {  // the IMU has stopped, so no deadline is ever reached
-    const EpochIssued oldest = waiting_.front();
+    Waiting oldest = waiting_.front();
     waiting_.pop_front();
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
-                 static_cast<double>(oldest.index), imu_time_);
-    decide(oldest, imu_time_, true);
+                 static_cast<double>(oldest.issued.index), imu_time_);
+    decide(&oldest, imu_time_, true);
   }
-  waiting_.push_back(epoch);
+  waiting_.push_back({epoch, false, {}});
 }
 
 void InertialNavigator::on_sample(const ImuSample& sample) {
@@ -77,7 +81,7 @@ void InertialNavigator::on_restart(const Restart& restart) {
     start_over(imu_time_);
   } else {
     forget_anchor();
-    if (!waiting_.empty()) last_void_epoch_ = waiting_.back().index;
+    if (!waiting_.empty()) last_void_epoch_ = waiting_.back().issued.index;
   }
   source_ = Source::kNone;
 }
@@ -96,7 +100,7 @@ void InertialNavigator::forget_samples() {
 
 void InertialNavigator::start_over(GpsTime now) {
   while (!waiting_.empty()) {
-    decide(waiting_.front(), now, false);
+    decide(&waiting_.front(), now, false);
     waiting_.pop_front();
   }
   forget_anchor();
@@ -114,51 +118,96 @@ void InertialNavigator::drop_anchor(GpsTime now) {
 }
 
 void InertialNavigator::decide_due_epochs(GpsTime now) {
-  while (!waiting_.empty() && waiting_.front().deadline_ekf <= now) {
-    decide(waiting_.front(), now, true);
+  for (Waiting& waiting : waiting_)
+    if (!waiting.ekf_decided && waiting.issued.deadline_ekf <= now) decide_ekf(&waiting, now, true);
+  while (!waiting_.empty() && waiting_.front().ekf_decided) {
+    Waiting& oldest = waiting_.front();
+    const GpsTime deadline = oldest.issued.deadline_smoother;
+    if (deadline.is_set() && deadline > now) return;
+    if (deadline.is_set()) decide_smoother(&oldest, now, true);
     waiting_.pop_front();
   }
 }
 
-void InertialNavigator::decide(const EpochIssued& epoch, GpsTime now, bool usable) {
-  EkfUpdate update;
+// All that is left to decide.
+void InertialNavigator::decide(Waiting* waiting, GpsTime now, bool usable) {
+  if (!waiting->ekf_decided) decide_ekf(waiting, now, usable);
+  if (waiting->issued.deadline_smoother.is_set()) decide_smoother(waiting, now, usable);
+}
+
+template <typename Update>
+bool InertialNavigator::take(TimedMailbox<Update>* mailbox, std::uint8_t number,
+                             const EpochIssued& epoch, GpsTime now, Update* update) {
   Decision decision;
   decision.sequence = next_decision_++;
   decision.epoch = epoch.index;
   decision.time = now;
-  decision.committed = mailbox_->take(epoch.index, &update);
+  decision.mailbox = number;
+  decision.committed = mailbox->take(epoch.index, update);
+  if constexpr (std::is_same_v<Update, SmootherUpdate>) decision.iterations = update->iterations;
   sink_->on_decision(decision);
-  if (!decision.committed) {
-    ++misses_;
-    events_.emit(EventKind::kDeadlineMiss, 0, static_cast<double>(epoch.index), now);
-  } else if (usable && update.valid && epoch.index > last_void_epoch_) {
-    commit(update, now);
-  }
+  if (!decision.committed)
+    events_.emit(EventKind::kDeadlineMiss, number, static_cast<double>(epoch.index), now);
+  return decision.committed;
 }
 
-// Goes on from the new anchor: the samples since then once more.
-void InertialNavigator::commit(const EkfUpdate& update, GpsTime now) {
-  if (update.state.time > now) return;  // the IMU is behind or gone: nothing to propagate with
+void InertialNavigator::decide_ekf(Waiting* waiting, GpsTime now, bool usable) {
+  const EpochIssued& epoch = waiting->issued;
+  waiting->ekf_decided = true;
+  EkfUpdate update;
+  if (!take(mailbox_, 0, epoch, now, &update)) {
+    ++misses_;
+    return;
+  }
+  if (!usable || !update.valid || epoch.index <= last_void_epoch_) return;
+  const bool smoother_answers = anchor_.valid && anchor_source_ == Source::kSmoother;
+  if (epoch.deadline_smoother.is_set() && smoother_answers)
+    waiting->held = update;
+  else
+    commit(update, Source::kEkf, now);
+}
+
+void InertialNavigator::decide_smoother(Waiting* waiting, GpsTime now, bool usable) {
+  const EpochIssued& epoch = waiting->issued;
+  SmootherUpdate update;
+  const bool taken = take(smoother_mailbox_, 1, epoch, now, &update);
+  if (!taken) ++smoother_misses_;
+  if (!usable || epoch.index <= last_void_epoch_) return;
+  if (taken && update.anchor.valid && commit(update.anchor, Source::kSmoother, now)) return;
+  const bool no_keyframe = taken && !update.keyframe;  // the one before stays the anchor
+  if (waiting->held.valid && !no_keyframe) commit(waiting->held, Source::kEkf, now);
+}
+
+// Goes on from the new anchor: the samples since then once more. False: it cannot.
+bool InertialNavigator::commit(const EkfUpdate& update, Source source, GpsTime now) {
+  if (update.state.time > now) return false;  // the IMU is behind or gone
   const bool too_old = history_.empty() || history_.front().start() > update.state.time;
   if (too_old && history_.full()) {
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
                  static_cast<double>(update.index), now);
-    return;
+    return false;
   }
   const bool had_answer = anchor_.valid;
   const Eigen::Vector3d old_p_e = had_answer ? current(now).p_e : Eigen::Vector3d::Zero();
   const PvaCovariance old_covariance = had_answer ? covariance_at(now) : PvaCovariance::Zero();
 
+  if (had_answer && source != anchor_source_)
+    events_.emit(EventKind::kSourceChange, static_cast<std::uint8_t>(source),
+                 static_cast<double>(update.index), now);
   anchor_ = update;
+  anchor_source_ = source;
   if (update.gnss_used) last_gnss_time_ = update.state.time;
   bridged_s_ = bridge_angle_variance_ = bridge_velocity_variance_ = 0.0;
   forget_before(update.state.time);
   mechanization_.reset(update.state);
   for (const ImuSample& sample : history_) step(sample);
   if (had_answer) report_jump(old_p_e, old_covariance, now);
+  return true;
 }
 
+// What an epoch that is still to be decided might go on from is kept.
 void InertialNavigator::forget_before(GpsTime time) {
+  for (const Waiting& waiting : waiting_) time = std::min(time, waiting.issued.time);
   while (!history_.empty() && history_.front().time <= time) {
     last_sample_ = history_.front();
     history_.pop_front();
@@ -171,9 +220,14 @@ void InertialNavigator::forget_before(GpsTime time) {
 }
 
 void InertialNavigator::step(const ImuSample& sample) {
-  if (!anchor_.has_attitude || sample.time <= mechanization_.state().time) return;
-  if (sample.start() > mechanization_.state().time) bridge(sample);
-  mechanization_.advance(sample);
+  if (!anchor_.has_attitude) return;
+  if (sample.time <= mechanization_.state().time) {
+    last_sample_ = sample;
+    return;
+  }
+  const GpsTime from = mechanization_.state().time;
+  if (sample.start() > from) bridge(sample);
+  mechanization_.advance(sample.start() < from ? split(sample, from).after : sample);
   last_sample_ = sample;
 }
 
@@ -239,7 +293,7 @@ Source InertialNavigator::source_at(GpsTime now) const {
   if (!anchor_.has_attitude) return Source::kAligning;
   const bool recent = last_gnss_time_.is_set() &&
                       now.nanoseconds() - last_gnss_time_.nanoseconds() <= ins_only_after_ns_;
-  return recent ? Source::kEkf : Source::kInsOnly;
+  return recent ? anchor_source_ : Source::kInsOnly;
 }
 
 // At most solution_rate_hz on average; a quarter of a period of jitter in the stamps costs nothing.

@@ -21,6 +21,9 @@ enum class InertialCapacity : std::uint8_t {
 };
 
 // - Before the first valid anchor nothing is published.
+// - While the smoother gives the answer, the filter's result of an epoch waits for the smoother's
+//   deadline and becomes the anchor only if the smoother misses it, or has no answer. From then on
+//   the filter's results are used at once, until the smoother is in time again.
 // - An anchor without attitude (aligning) is extrapolated at constant velocity.
 // - A missed epoch leaves the older anchor in use: the answer goes on, its sigma grows.
 // - Short holes in the IMU stream are bridged as in the filter (core/ins/bridge.h), longer ones at
@@ -34,21 +37,33 @@ enum class InertialCapacity : std::uint8_t {
 class InertialNavigator {
  public:
   InertialNavigator(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
-                    OutputSink* sink);
+                    TimedMailbox<SmootherUpdate>* smoother_mailbox, OutputSink* sink);
 
   // Allocates nothing, never throws.
   void process(const InertialWork& work);
 
   Source source() const { return source_; }
   std::uint64_t misses() const { return misses_; }
+  std::uint64_t smoother_misses() const { return smoother_misses_; }
 
  private:
   void on_sample(const ImuSample& sample);
   void on_epoch(const EpochIssued& epoch);
   void on_restart(const Restart& restart);
+  // An epoch whose decisions are not all made.
+  struct Waiting {
+    EpochIssued issued;
+    bool ekf_decided = false;
+    EkfUpdate held;  // valid: waits for the smoother's deadline
+  };
   void decide_due_epochs(GpsTime now);
-  void decide(const EpochIssued& epoch, GpsTime now, bool usable);
-  void commit(const EkfUpdate& update, GpsTime now);
+  void decide(Waiting* waiting, GpsTime now, bool usable);
+  void decide_ekf(Waiting* waiting, GpsTime now, bool usable);
+  void decide_smoother(Waiting* waiting, GpsTime now, bool usable);
+  template <typename Update>
+  bool take(TimedMailbox<Update>* mailbox, std::uint8_t number, const EpochIssued& epoch,
+            GpsTime now, Update* update);
+  bool commit(const EkfUpdate& update, Source source, GpsTime now);
   void step(const ImuSample& sample);
   void bridge(const ImuSample& next);
   void forget_before(GpsTime time);
@@ -66,14 +81,16 @@ class InertialNavigator {
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
+  TimedMailbox<SmootherUpdate>* smoother_mailbox_;
   OutputSink* sink_;
   EventSource events_;
   std::int64_t solution_period_ns_;
   std::int64_t ins_only_after_ns_;
-  boost::circular_buffer<ImuSample> history_;    // since the anchor
-  boost::circular_buffer<EpochIssued> waiting_;  // issued, not decided
+  boost::circular_buffer<ImuSample> history_;  // since the anchor
+  boost::circular_buffer<Waiting> waiting_;    // issued, not decided
   Mechanization mechanization_;
-  EkfUpdate anchor_;                   // valid: there is one
+  EkfUpdate anchor_;  // valid: there is one
+  Source anchor_source_ = Source::kEkf;
   std::uint64_t last_void_epoch_ = 0;  // this and those before it are no anchors any more
   ImuSample last_sample_;              // before the mechanization's time
   double bridged_s_ = 0.0;             // of constant velocity since the anchor
@@ -84,7 +101,7 @@ class InertialNavigator {
   GpsTime next_solution_due_;
   double pending_jump_m_ = 0.0;  // not published yet
   Source source_ = Source::kNone;
-  std::uint64_t misses_ = 0, next_solution_ = 1, next_decision_ = 1;
+  std::uint64_t misses_ = 0, smoother_misses_ = 0, next_solution_ = 1, next_decision_ = 1;
 };
 
 }  // namespace leonav

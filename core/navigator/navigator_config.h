@@ -6,6 +6,7 @@
 #include "core/gnss/gnss_config.h"
 #include "core/ins/alignment.h"
 #include "core/ins/imu_error_model.h"
+#include "core/smoother/smoother_config.h"
 
 namespace leonav {
 
@@ -22,13 +23,18 @@ struct RealtimeConfig {
   double gnss_latency_allowance_s = 0.5;  // how long after its time an epoch may come in
 };
 
+// Who gives the answer; the filter runs in both cases.
+enum class Estimator : unsigned char { kEkf, kSmoother };
+
 struct NavigatorConfig {
+  Estimator estimator = Estimator::kEkf;
   VehicleConfig vehicle;
   MotionModel motion = MotionModel::kInertial;
   ImuErrorModel imu;
   AlignmentConfig alignment;
   GnssConfig gnss;
   EkfConfig ekf;
+  SmootherConfig smoother;
   RealtimeConfig realtime;
   double solution_rate_hz = 200.0;  // published at most this often
 };

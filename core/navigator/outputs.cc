@@ -52,6 +52,10 @@ std::string_view to_string(EventKind kind) {
       return "clock_fallback";
     case EventKind::kClockReturn:
       return "clock_return";
+    case EventKind::kSmootherFailed:
+      return "smoother_failed";
+    case EventKind::kSourceChange:
+      return "source_change";
   }
   return "unknown";
 }

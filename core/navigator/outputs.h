@@ -9,6 +9,7 @@
 #include "core/capacity.h"
 #include "core/gnss/measurement.h"
 #include "core/ins/nav_state.h"
+#include "core/smoother/smoother_status.h"
 
 namespace leonav {
 
@@ -85,6 +86,18 @@ struct EpochReport {
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
 };
 
+// The smoother's answer at a keyframe, if it was in time.
+struct SmootherReport {
+  std::uint64_t sequence = 0;
+  std::uint64_t index = 0;  // k
+  SmootherStatus status = SmootherStatus::kNoFilter;
+  int iterations = 0;
+  bool converged = false;
+  int keyframes = 0;  // in the window
+  int used = 0;       // measurements of this keyframe with a weight
+  Solution solution;  // source kSmoother if the answer is its own, else kNone
+};
+
 // On the wire: append only.
 enum class EventKind : std::uint8_t {
   kRejectedInput = 0,  // code: InputFault
@@ -101,8 +114,10 @@ enum class EventKind : std::uint8_t {
   kOrbitReturn = 11,    // a precise state serves where broadcast did; likewise
   kClockStep = 12,      // of a clock, beyond its noise; code: ClockStep, value: metres
   kNoneUsable = 13,  // all satellites left out, epoch after epoch; code: Reason, value: satellites
-  kClockFallback = 14,  // precise: no clock file's clock, the orbit's serves; code, value: as 10
-  kClockReturn = 15,    // a clock file's serves again, or for the first time; likewise
+  kClockFallback = 14,   // precise: no clock file's clock, the orbit's serves; code, value: as 10
+  kClockReturn = 15,     // a clock file's serves again, or for the first time; likewise
+  kSmootherFailed = 16,  // its window starts over; code: SmootherStatus, value: epoch
+  kSourceChange = 17,    // of the answer's anchor; code: Source it now comes from, value: epoch
 };
 std::string_view to_string(EventKind kind);
 
@@ -157,7 +172,7 @@ struct Decision {
   std::uint64_t sequence = 0;
   std::uint64_t epoch = 0;
   GpsTime time;              // IMU data time at which it was decided
-  std::uint8_t mailbox = 0;  // 0 ekf, 1 smoother
+  std::uint8_t mailbox = 0;  // 0 ekf, 1 smoother, 2 keyframe (never committed: it had no room)
   bool committed = false;
   std::int32_t iterations = 0;
 };
@@ -170,6 +185,7 @@ class OutputSink {
   virtual void on_epoch(const EpochReport& report) = 0;
   virtual void on_event(const Event& event) = 0;
   virtual void on_decision(const Decision& decision) = 0;
+  virtual void on_smoother(const SmootherReport& report) = 0;
 };
 
 }  // namespace leonav

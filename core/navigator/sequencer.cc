@@ -298,8 +298,12 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
   }
   if (inertial_) {
     stages_->open_epoch(work.index);
-    const GpsTime deadline = imu_time_.plus_seconds(config_.realtime.deadline_ekf_s);
-    stages_->push_inertial(EpochIssued{work.index, time, deadline});
+    const RealtimeConfig& realtime = config_.realtime;
+    EpochIssued issued{work.index, time, imu_time_.plus_seconds(realtime.deadline_ekf_s), {}};
+    if (config_.estimator == Estimator::kSmoother)
+      issued.deadline_smoother =
+          imu_time_.plus_seconds(std::max(realtime.deadline_ekf_s, realtime.deadline_smoother_s));
+    stages_->push_inertial(issued);
   }
   stages_->push_gnss(*work_);
 }

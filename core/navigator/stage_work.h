@@ -12,15 +12,18 @@
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/imu.h"
 #include "core/navigator/outputs.h"
+#include "core/smoother/keyframe.h"
+#include "core/smoother/smoother_status.h"
 
 namespace leonav {
 
-// A GNSS epoch has been issued: from the first IMU sample stamped `deadline_ekf` or later the
-// navigator asks the mailbox for it.
+// A GNSS epoch has been issued: from the first IMU sample stamped with a deadline or later the
+// navigator asks that mailbox for it.
 struct EpochIssued {
   std::uint64_t index = 0;
-  GpsTime time;          // t_k
-  GpsTime deadline_ekf;  // tau + D_ekf
+  GpsTime time;               // t_k
+  GpsTime deadline_ekf;       // tau + D_ekf
+  GpsTime deadline_smoother;  // tau + D_smoother; unset: there is no smoother
 };
 
 // The filter starts over: what comes from epochs issued before this is worth nothing.
@@ -65,6 +68,26 @@ struct EkfUpdate {
   Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
       Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
   bool gnss_used = false;  // at least one measurement counted in this epoch
+};
+
+// SmootherStage -> InertialNavigator, likewise. Of an epoch that is no keyframe GnssStage has one
+// delivered that says so.
+struct SmootherUpdate {
+  EkfUpdate anchor;       // valid: the smoother's answer
+  bool keyframe = false;  // false: it follows the last one too soon to be one itself
+  SmootherStatus status = SmootherStatus::kNoFilter;
+  std::int32_t iterations = 0;
+};
+
+// GnssStage -> SmootherStage.
+class KeyframeSink {
+ public:
+  virtual ~KeyframeSink() = default;
+  // Where the next keyframe is to be written; nullptr: no room, the epoch is not to be one.
+  virtual KeyframeInput* next_keyframe(std::uint64_t epoch) = 0;
+  virtual void push_keyframe() = 0;
+  // The epoch is none: it is not due, or it has no room.
+  virtual void no_keyframe(std::uint64_t epoch, bool due) = 0;
 };
 
 }  // namespace leonav

@@ -26,6 +26,11 @@ class TimedMailbox {
   // dropped.
   bool deliver(std::uint64_t epoch, const T& result);
 
+  // Worker side: the deadline has not passed yet.
+  bool is_open(std::uint64_t epoch) {
+    return slot(epoch).tag.load(std::memory_order_acquire) == tag(epoch, kOpen);
+  }
+
   // Navigator side, at the deadline. True and *result: committed. False: cancelled, a miss.
   bool take(std::uint64_t epoch, T* result);
 

@@ -8,6 +8,7 @@
 #include "core/smoother/chain_solver.h"
 #include "core/smoother/relink.h"
 #include "core/smoother/smoother_config.h"
+#include "core/smoother/smoother_status.h"
 #include "core/smoother/window.h"
 
 namespace leonav {
@@ -17,16 +18,6 @@ class SolveBudget {
  public:
   virtual ~SolveBudget() = default;
   virtual bool may_iterate(int iterations_done) = 0;
-};
-
-// On the wire: append only.
-enum class SmootherStatus : std::uint8_t {
-  kOk = 0,
-  kNoFilter = 1,      // the filter has no state to start from
-  kStarted = 2,       // a window of one keyframe: the filter's answer
-  kSingular = 3,      // the window has no unique solution: it starts over
-  kDiverged = 4,      // nor one that is near the filter's: likewise
-  kFewSatellites = 5  // too few measurements for an answer of its own; it goes on
 };
 
 struct SmootherResult {

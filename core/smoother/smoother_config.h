@@ -7,6 +7,9 @@ struct SmootherConfig {
   int window = 20;                    // keyframes, 5 to kMaxWindow
   double keyframe_interval_s = 0.95;  // epochs nearer to the last keyframe are not one
   int max_iterations = 4;             // linearizations of one solve
+  // Of one solve: after so long no further iteration begins. Only in the service; how many
+  // iterations came of it is in the journal. 0: until the deadline.
+  double time_limit_s = 0.25;
   // Largest correction of a position, in its own sigmas, that ends a solve.
   double converged_sigmas = 0.01;
 };

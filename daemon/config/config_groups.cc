@@ -91,6 +91,14 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
   group.integer("reset_epochs", 1, 1000, &ekf.reset_epochs);
 }
 
+void read_smoother(ConfigReader& group, SmootherConfig* config) {
+  group.integer("window", 5, static_cast<int>(kMaxWindow), &config->window);
+  group.number("keyframe_interval_s", {0.0, 10.0}, &config->keyframe_interval_s);
+  group.integer("max_iterations", 1, 20, &config->max_iterations);
+  group.number("time_limit_ms", {0.0, 1e4}, &config->time_limit_s, kMillisecond);
+  group.number("converged_sigmas", {1e-9, 1.0}, &config->converged_sigmas);
+}
+
 void read_robust(ConfigReader& group, RobustConfig* config) {
   group.boolean("enabled", &config->enabled);
   group.number("k0", {0.1, 100.0}, &config->k0);
@@ -111,6 +119,7 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
   group.group("io", [&](ConfigReader& thread) { read_thread(thread, &threads->io); });
   group.group("ins", [&](ConfigReader& thread) { read_thread(thread, &threads->ins); });
   group.group("gnss", [&](ConfigReader& thread) { read_thread(thread, &threads->gnss); });
+  group.group("smoother", [&](ConfigReader& thread) { read_thread(thread, &threads->smoother); });
   group.group("out", [&](ConfigReader& thread) { read_thread(thread, &threads->out); });
 }
 

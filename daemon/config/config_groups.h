@@ -12,6 +12,7 @@ void read_gnss(ConfigReader& group, GnssConfig* config);
 // The keys of gnss that tell how the ground moves. Reads the file of ocean loading.
 void read_ground(ConfigReader& group, GnssConfig* config);
 void read_ekf(ConfigReader& group, NavigatorConfig* config);
+void read_smoother(ConfigReader& group, SmootherConfig* config);
 void read_robust(ConfigReader& group, RobustConfig* config);
 // Deadlines and rates belong to the navigator, priorities and processors to the threads.
 void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads);

@@ -26,7 +26,7 @@ struct ThreadConfig {
 
 struct ThreadsConfig {
   bool lock_memory = true;  // mlockall
-  ThreadConfig io, ins, gnss, out;
+  ThreadConfig io, ins, gnss, smoother, out;
 };
 
 // Where the configuration came from, for the journal.

@@ -34,13 +34,15 @@ DaemonConfig read_root(ConfigReader& root) {
   NavigatorConfig& navigator = config.navigator;
   navigator.gnss = default_gnss_config();
   navigator.imu = default_imu();
-  int estimator = 0;
-  root.choice<int>("estimator", {{"ekf", 0}}, &estimator);
+  root.choice<Estimator>("estimator",
+                         {{"ekf", Estimator::kEkf}, {"smoother", Estimator::kSmoother}},
+                         &navigator.estimator);
   root.group("vehicle", [&](ConfigReader& r) { read_vehicle(r, &navigator.vehicle); });
   root.group("imu", [&](ConfigReader& r) { read_imu(r, &navigator.imu); });
   root.group("alignment", [&](ConfigReader& r) { read_alignment(r, &navigator.alignment); });
   root.group("gnss", [&](ConfigReader& r) { read_gnss(r, &navigator.gnss); });
   root.group("ekf", [&](ConfigReader& r) { read_ekf(r, &navigator); });
+  root.group("smoother", [&](ConfigReader& r) { read_smoother(r, &navigator.smoother); });
   root.group("robust", [&](ConfigReader& r) { read_robust(r, &navigator.ekf.robust); });
   root.group("realtime", [&](ConfigReader& r) { read_realtime(r, &navigator, &config.threads); });
   root.group("lcm", [&](ConfigReader& r) {

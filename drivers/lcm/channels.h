@@ -25,11 +25,12 @@ enum class Channel : std::uint8_t {
   kEpoch,
   kEvent,
   kDecision,
+  kSmoother,
   kHealth,
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 14;
+inline constexpr std::size_t kChannelCount = 15;
 inline constexpr std::array<Channel, 7> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris, Channel::kOrbitClock,
     Channel::kIonosphere, Channel::kAntenna,   Channel::kCommand};

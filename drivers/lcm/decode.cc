@@ -220,7 +220,7 @@ DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {
   InputFault fault = read(bytes, &message);
   if (fault != InputFault::kNone) return result_of(message, fault);
   if (!is_time(message.time_ns) || message.epoch <= 0 || message.mailbox < 0 ||
-      message.mailbox > 1 || message.committed < 0 || message.committed > 1 ||
+      message.mailbox > 2 || message.committed < 0 || message.committed > 1 ||
       message.iterations < 0) {
     fault = InputFault::kOutOfRange;
   } else {

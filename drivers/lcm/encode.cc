@@ -12,6 +12,7 @@
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
+#include <leonav/smoother_t.hpp>
 
 #include "drivers/lcm/wire.h"
 
@@ -291,6 +292,19 @@ ByteSpan Encoder::encode(const Decision& decision) {
   message.mailbox = static_cast<std::int8_t>(decision.mailbox);
   message.committed = decision.committed ? 1 : 0;
   message.iterations = decision.iterations;
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const SmootherReport& report) {
+  smoother_t message;
+  set_header(report.solution.time, report.sequence, &message);
+  message.epoch = static_cast<std::int64_t>(report.index);
+  message.status = static_cast<std::int8_t>(report.status);
+  message.iterations = report.iterations;
+  message.converged = report.converged ? 1 : 0;
+  message.keyframes = report.keyframes;
+  message.used = report.used;
+  fill(report.solution, &message.solution);
   return storage_->write(message);
 }
 

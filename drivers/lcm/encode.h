@@ -40,6 +40,7 @@ class Encoder {
   ByteSpan encode(const EpochReport& report);
   ByteSpan encode(const Event& event);
   ByteSpan encode(const Decision& decision);
+  ByteSpan encode(const SmootherReport& report);
 
  private:
   struct Storage;

@@ -22,6 +22,7 @@ inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
 inline constexpr std::size_t kEventStageOffset = 28;
+inline constexpr std::size_t kDecisionMailboxOffset = 36;
 
 inline constexpr std::uint8_t kFlagLossOfLock = 1;
 inline constexpr std::uint8_t kFlagHalfCycle = 2;

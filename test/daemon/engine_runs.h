@@ -42,7 +42,7 @@ inline Collector run_pipeline(const std::vector<Input>& list,
   Collector outputs;
   EncodingSink sink(&outputs);
   Pipeline pipeline(drive_config().navigator, &sink);
-  for (const std::uint64_t epoch : missed) pipeline.record_miss(epoch);
+  for (const std::uint64_t epoch : missed) pipeline.record({.epoch = epoch});
   InputDispatch dispatch(&pipeline.sequencer());
   for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
   return outputs;

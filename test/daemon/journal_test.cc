@@ -114,7 +114,7 @@ TEST_CASE("whatever a journal holds, the inputs before it regenerate") {
     if (one.channel != Channel::kDecision) continue;
     Decision decision;
     REQUIRE(decoder.decode(one.data, &decision).fault == InputFault::kNone);
-    if (!decision.committed) pipeline.record_miss(decision.epoch);
+    pipeline.record(decision);
   }
   std::uint64_t outputs = 0, without_cause = 0, different = 0;
   for (const Recorded& one : journal) {

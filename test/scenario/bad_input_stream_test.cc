@@ -30,6 +30,7 @@ struct Run final : OutputSink {
   void on_epoch(const EpochReport& e) override { epochs.push_back(e); }
   void on_event(const Event& e) override { events.push_back(e); }
   void on_decision(const Decision&) override {}
+  void on_smoother(const SmootherReport&) override {}
 
   void send(const ImuSample& s) { dispatch.dispatch(Channel::kImu, encoder.encode(s, ++count)); }
   void send(const RawEpoch& r) {

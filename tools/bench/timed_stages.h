@@ -24,6 +24,7 @@ class CountingSink final : public OutputSink {
   }
   void on_event(const Event&) override {}
   void on_decision(const Decision&) override {}
+  void on_smoother(const SmootherReport&) override {}
 
   std::vector<int> satellites;  // used, of each epoch
   std::uint64_t solutions = 0, carriers = 0, slips = 0;
@@ -32,8 +33,8 @@ class CountingSink final : public OutputSink {
 class TimedStages final : private StageInputs {
  public:
   explicit TimedStages(const NavigatorConfig& config)
-      : inertial_(config, &mailbox_, &sink_),
-        gnss_(config, &mailbox_, &sink_),
+      : inertial_(config, &mailbox_, nullptr, &sink_),
+        gnss_(config, &mailbox_, nullptr, &sink_),
         sequencer_(config, this) {}
 
   Sequencer* sequencer() { return &sequencer_; }

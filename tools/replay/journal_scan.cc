@@ -45,8 +45,8 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
     Decision decision;
     if (decoder.decode(event.data, &decision).fault != InputFault::kNone) {
       ++scan.unreadable_decisions;
-    } else if (decision.mailbox == 0 && !decision.committed) {
-      scan.missed_epochs.push_back(decision.epoch);
+    } else {
+      scan.decisions.push_back(decision);
     }
   }
   scan.truncated = log.truncated();

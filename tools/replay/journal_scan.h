@@ -14,9 +14,9 @@ struct JournalScan {
   std::array<std::uint64_t, kChannelCount> messages{};  // by channel
   std::uint64_t other_messages = 0;                     // on channels that are not leonav's
   std::uint64_t unreadable_decisions = 0;
-  std::vector<std::uint64_t> missed_epochs;  // the EKF's
-  bool truncated = false;                    // the last event is cut short
-  bool stopped_cleanly = false;              // its last message says so, and none is missing
+  std::vector<Decision> decisions;
+  bool truncated = false;        // the last event is cut short
+  bool stopped_cleanly = false;  // its last message says so, and none is missing
 
   std::uint64_t inputs() const;
   std::string describe() const;  // "IMU 100, GNSS_EPOCH 3, ..."

@@ -16,7 +16,7 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       pipeline_(config.navigator, this),
       dispatch_(&pipeline_.sequencer()) {
   if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
-  for (const std::uint64_t epoch : scan_.missed_epochs) pipeline_.record_miss(epoch);
+  for (const Decision& decision : scan_.decisions) pipeline_.record(decision);
 }
 
 void ReplayRun::run() {
@@ -55,6 +55,12 @@ void ReplayRun::on_event(const Event& event) {
 void ReplayRun::on_decision(const Decision& decision) {
   statistics_.add(decision);
   encoder_.on_decision(decision);
+}
+
+void ReplayRun::on_smoother(const SmootherReport& report) {
+  files_.add(report);
+  statistics_.add(report);
+  encoder_.on_smoother(report);
 }
 
 void ReplayRun::take(Channel channel, ByteSpan bytes) {

@@ -45,6 +45,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   void on_epoch(const EpochReport& report) override;
   void on_event(const Event& event) override;
   void on_decision(const Decision& decision) override;
+  void on_smoother(const SmootherReport& report) override;
   void take(Channel channel, ByteSpan bytes) override;
 
   std::string prefix_;

@@ -86,7 +86,9 @@ void ResultFiles::add(const EpochReport& report) {
   satellites_ = report.satellites_used;
   pdop_ = report.pdop > 0.0 ? std::optional(report.pdop) : std::nullopt;
   if (!interval_ns_ && report.solution.source != Source::kNone) {
-    solution_.write(to_solution_row(report.solution, satellites_, pdop_));
+    write_row();
+    row_ = to_solution_row(report.solution, satellites_, pdop_);
+    row_epoch_ = report.index;
   }
   epochs_.time(report.time)
       .number(static_cast<double>(report.index), 0)
@@ -105,6 +107,16 @@ void ResultFiles::add(const EpochReport& report) {
       .end_row();
   write_satellites(report);
   write_measurements(report);
+}
+
+void ResultFiles::add(const SmootherReport& report) {
+  if (!row_ || row_epoch_ != report.index || report.solution.source != Source::kSmoother) return;
+  row_ = to_solution_row(report.solution, row_->satellites, row_->pdop);
+}
+
+void ResultFiles::write_row() {
+  if (row_) solution_.write(*row_);
+  row_.reset();
 }
 
 void ResultFiles::write_satellites(const EpochReport& report) {
@@ -146,6 +158,7 @@ void ResultFiles::write_measurements(const EpochReport& report) {
 }
 
 void ResultFiles::close() {
+  write_row();
   solution_.close();
   epochs_.close();
   satellites_file_.close();

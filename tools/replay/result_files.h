@@ -17,10 +17,13 @@ class ResultFiles {
 
   void add(const Solution& solution);
   void add(const EpochReport& report);
+  // After the epoch's own report: the row is the smoother's where it has an answer.
+  void add(const SmootherReport& report);
   void close();  // throws FileError
   long solution_rows() const { return solution_.rows(); }
 
  private:
+  void write_row();
   void write_satellites(const EpochReport& report);
   void write_measurements(const EpochReport& report);
 
@@ -28,6 +31,8 @@ class ResultFiles {
   GpsTime next_row_;
   std::optional<int> satellites_;
   std::optional<double> pdop_;
+  std::optional<SolutionRow> row_;  // of the last epoch, not written yet
+  std::uint64_t row_epoch_ = 0;
   SolutionCsvWriter solution_;
   CsvWriter epochs_, satellites_file_, measurements_;
 };

@@ -44,13 +44,29 @@ void RunStatistics::add(const Event& event) {
   ++events_[name];
 }
 
-void RunStatistics::add(const Decision& decision) { ++(decision.committed ? commits_ : misses_); }
+void RunStatistics::add(const Decision& decision) {
+  if (decision.mailbox == 0) ++(decision.committed ? commits_ : misses_);
+  if (decision.mailbox == 1) ++(decision.committed ? smoother_commits_ : smoother_misses_);
+  if (decision.mailbox == 2) ++keyframes_skipped_;
+}
+
+void RunStatistics::add(const SmootherReport& report) {
+  ++smoother_statuses_[std::string(to_string(report.status))];
+  smoother_iterations_ += static_cast<std::uint64_t>(report.iterations);
+}
 
 void RunStatistics::print(std::ostream& out) const {
   out << "solutions: " << solutions_ << "\n";
   print_map(out, "solutions by source", solutions_by_source_);
   out << "epochs: " << epochs_ << "\nempty epochs: " << empty_epochs_ << "\n"
       << "results committed: " << commits_ << "\ndeadline misses: " << misses_ << "\n";
+  if (!smoother_statuses_.empty()) {
+    out << "smoother results committed: " << smoother_commits_
+        << "\nsmoother deadline misses: " << smoother_misses_
+        << "\nkeyframes skipped: " << keyframes_skipped_
+        << "\nsmoother iterations: " << smoother_iterations_ << "\n";
+    print_map(out, "smoother results", smoother_statuses_);
+  }
   if (epochs_ > 0) {
     out << "mean satellites used: " << used_sum_ / static_cast<double>(epochs_) << "\n";
     for (const System system : kSystems)

@@ -16,6 +16,7 @@ class RunStatistics {
   void add(const EpochReport& report);
   void add(const Event& event);
   void add(const Decision& decision);
+  void add(const SmootherReport& report);
 
   // "key: value" lines.
   void print(std::ostream& out) const;
@@ -28,13 +29,14 @@ class RunStatistics {
 
  private:
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
-                commits_ = 0, misses_ = 0, carrier_arcs_ = 0;
+                commits_ = 0, misses_ = 0, carrier_arcs_ = 0, smoother_commits_ = 0,
+                smoother_misses_ = 0, keyframes_skipped_ = 0, smoother_iterations_ = 0;
   double used_sum_ = 0.0;
   std::array<std::uint64_t, kSystemCount> used_of_{};
   double largest_jump_m_ = 0.0;
   // Ordered maps: they are printed in order.
-  std::map<std::string, std::uint64_t> solutions_by_source_, events_, satellites_by_reason_,
-      arc_ends_, measurements_by_reason_;
+  std::map<std::string, std::uint64_t> smoother_statuses_, solutions_by_source_, events_,
+      satellites_by_reason_, arc_ends_, measurements_by_reason_;
 };
 
 }  // namespace leonav

@@ -14,7 +14,7 @@ TEST_CASE("numbers that overflow never reach the navigator, and the filter comes
   config.alignment.initial_heading = 0.0;
   RecordingSink sink;
   TimedMailbox<EkfUpdate> mailbox;
-  GnssStage stage(config, &mailbox, &sink);
+  GnssStage stage(config, &mailbox, nullptr, &sink);
   for (const Ephemeris& ephemeris : drive.ephemerides) stage.process(GnssWork(ephemeris));
   std::size_t next = 0;
   std::uint64_t index = 0;
@@ -63,7 +63,7 @@ TEST_CASE("a filter that is finite while its solution is not is dropped before i
     CAPTURE(push);
     RecordingSink sink;
     TimedMailbox<EkfUpdate> mailbox;
-    GnssStage stage(config, &mailbox, &sink);
+    GnssStage stage(config, &mailbox, nullptr, &sink);
     for (const Ephemeris& ephemeris : drive.ephemerides) stage.process(GnssWork(ephemeris));
     EkfUpdate update;
     std::size_t next = 0;

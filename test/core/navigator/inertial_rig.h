@@ -16,7 +16,7 @@ struct InertialRig {
   InertialNavigator navigator;
 
   explicit InertialRig(double duration_s = 30.0, const NavigatorConfig& c = NavigatorConfig())
-      : config(c), drive(make_drive(duration_s)), navigator(c, &mailbox, &sink) {}
+      : config(c), drive(make_drive(duration_s)), navigator(c, &mailbox, nullptr, &sink) {}
 
   static SyntheticDrive make_drive(double duration_s) {
     SyntheticDriveOptions options;

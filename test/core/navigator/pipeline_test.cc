@@ -111,7 +111,7 @@ TEST_CASE("a run replays bit for bit, recorded misses included") {
   RecordingSink first, second, undisturbed;
   for (RecordingSink* sink : {&first, &second}) {
     Pipeline pipeline(config, sink);
-    for (const std::uint64_t epoch : {20, 21, 33}) pipeline.record_miss(epoch);
+    for (const std::uint64_t epoch : {20, 21, 33}) pipeline.record({.epoch = epoch});
     feed(drive, &pipeline);
   }
   Pipeline pipeline(config, &undisturbed);
@@ -224,6 +224,7 @@ struct CountingSink : OutputSink {
   void on_epoch(const EpochReport&) override { ++epochs; }
   void on_event(const Event&) override {}
   void on_decision(const Decision&) override {}
+  void on_smoother(const SmootherReport&) override {}
 };
 
 TEST_CASE("once constructed, the stages allocate nothing") {

@@ -36,6 +36,7 @@ struct CountingSink : OutputSink {
     if (event.kind == EventKind::kFilterReset) ++resets;
   }
   void on_decision(const Decision&) override {}
+  void on_smoother(const SmootherReport&) override {}
 };
 
 Walker dense_leo() { return {System::kLeo, 16, 24, 7'478e3, 0.96, 0.001}; }

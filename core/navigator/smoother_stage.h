@@ -1,0 +1,41 @@
+// Keyframes -> smoother -> anchor and report.
+#pragma once
+#include <cstdint>
+
+#include "core/navigator/event_source.h"
+#include "core/navigator/navigator_config.h"
+#include "core/navigator/stage_work.h"
+#include "core/navigator/timed_mailbox.h"
+#include "core/smoother/smoother.h"
+
+namespace leonav {
+
+class SmootherStage {
+ public:
+  SmootherStage(const NavigatorConfig& config, TimedMailbox<SmootherUpdate>* mailbox,
+                OutputSink* sink);
+
+  // Adds the keyframe, solves under `budget`, delivers, reports. A keyframe whose deadline has
+  // passed already is added and not solved: the next one's solve catches up. Without IMU there is
+  // no deadline, and the solution is published here. Allocates nothing, never throws.
+  void process(const KeyframeInput& input, SolveBudget* budget);
+
+  const Smoother& smoother() const { return smoother_; }
+  Smoother& smoother() { return smoother_; }
+  Source source() const { return source_; }
+
+ private:
+  SmootherUpdate answer(const KeyframeInput& input, const SmootherResult& result) const;
+  void report(const KeyframeInput& input, const SmootherResult& result,
+              const SmootherUpdate& update);
+
+  TimedMailbox<SmootherUpdate>* mailbox_;
+  OutputSink* sink_;
+  EventSource events_;
+  bool inertial_;
+  Smoother smoother_;
+  Source source_ = Source::kNone;
+  std::uint64_t next_report_ = 1, next_solution_ = 1;
+};
+
+}  // namespace leonav
