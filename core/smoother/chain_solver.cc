@@ -89,45 +89,6 @@ void ChainSolver::newest_covariance(EkfCovariance* covariance) const {
   covariance->triangularView<Eigen::StrictlyUpper>() = covariance->transpose();
 }
 
-// With P_k = L_k^-T (I + B_(k+1)^T P_(k+1) B_(k+1)) L_k^-1, newest first.
-void ChainSolver::find_others_variances(const Eigen::Vector3d& lever_arm_b, int count,
-                                        Window* window) const {
-  EkfCovariance middle;  // I + B^T P B of the keyframe at hand
-  const int last = std::max(0, size_ - count);
-  for (int i = size_ - 1; i >= last; --i) {
-    const EkfCovariance& root = block(i).root;
-    const Index n = root.rows();
-    if (i == size_ - 1) middle.setIdentity(n, n);
-    EkfCovariance P = middle;
-    root.transpose().triangularView<Eigen::Upper>().solveInPlace(P);
-    root.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(P);
-
-    Keyframe& keyframe = window->at(i);
-    const ActiveStates& active = keyframe.active;
-    const Index core = active.core_size();
-    const AntennaMotion antenna = antenna_of(keyframe, lever_arm_b);
-    BoundedVector<kSize> row(core), product(core);
-    for (KeyframeMeasurement& measurement : keyframe.measurements) {
-      const EkfVector whole = linearize(measurement, keyframe, antenna).row;
-      for (Index j = 0; j < core; ++j) row(j) = whole(active.core[static_cast<std::size_t>(j)]);
-      product.noalias() = P.topLeftCorner(core, core) * row;
-      double variance = row.dot(product);
-      if (measurement.ambiguity >= 0) {
-        const Index ambiguity = core + measurement.ambiguity;
-        variance += 2.0 * P.col(ambiguity).head(core).dot(row) + P(ambiguity, ambiguity);
-      }
-      const double weight = measurement.factor / measurement.gain_variance;
-      measurement.others_variance = variance / std::max(1.0 - weight * variance, 1e-9);
-    }
-    if (i == last || i == 0) continue;
-    const EkfCovariance& below = block(i).below;
-    EkfCovariance product_below(n, below.cols());
-    product_below.noalias() = P * below;
-    middle.setIdentity(below.cols(), below.cols());
-    middle.noalias() += below.transpose() * product_below;
-  }
-}
-
 // By covariance, not by elimination: where a state is known badly but moves little, its noise's
 // inverse would drown what is known of it.
 bool marginalize_oldest(const Window& window, const Eigen::Vector3d& lever_arm_b,
@@ -140,7 +101,8 @@ bool marginalize_oldest(const Window& window, const Eigen::Vector3d& lever_arm_b
   if (!factorize(&sum.information)) return false;
   const auto root = sum.information.triangularView<Eigen::Lower>();
   root.solveInPlace(sum.gradient);
-  sum.information.transpose().triangularView<Eigen::Upper>().solveInPlace(sum.gradient);  // the oldest's error, by all but the link
+  sum.information.transpose().triangularView<Eigen::Upper>().solveInPlace(
+      sum.gradient);  // the oldest's error, by all but the link
 
   // Covariance (F P F^T + N) and its inverse; W^-1 is N.
   const KeyframeLink& link = next.link;

@@ -21,12 +21,9 @@ class ChainSolver final : public WindowSolver {
   bool solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
              WindowCorrections* corrections) override;
 
-  // The rest is of the last solve(), which must have succeeded, and of the states it was given.
-
-  // Covariance of the newest keyframe's active states.
+  // Covariance of the newest keyframe's active states, of the last solve(), which must have
+  // succeeded, at the states it was given.
   void newest_covariance(EkfCovariance* covariance) const;
-  // Sets KeyframeMeasurement::others_variance in the `count` newest keyframes.
-  void find_others_variances(const Eigen::Vector3d& lever_arm_b, int count, Window* window) const;
 
  private:
   struct Block {

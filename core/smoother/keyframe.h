@@ -18,8 +18,7 @@ struct KeyframeMeasurement {
   int ambiguity = -1;       // place among the state's ambiguities; -1: none
   double variance = 0.0;    // of the measurement alone: what it is tested against
   double gain_variance = 0.0;
-  double factor = 1.0;           // IGG-III: the filter's, later the window's
-  double others_variance = 0.0;  // of what all other measurements predict for it
+  double factor = 1.0;  // IGG-III: the filter's, later the window's
 };
 using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
 using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxKeyframeSatellites>;

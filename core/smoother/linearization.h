@@ -28,8 +28,10 @@ struct MeasurementInformation {
 void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b,
                         MeasurementInformation* sum);
 
-// Decides the factors anew: IGG-III on each residual against the prediction from all others, over
-// its standard deviation, as the filter does (robust_update.h). Returns the largest change.
+// Decides the factors anew: IGG-III on each residual over the measurement's sigma. Returns the
+// largest change. (The filter tests against the prediction from all *other* measurements. Over a
+// window, iterated, that lets four or five satellites outvote each other in turn: measured in a
+// dense city it throws out the right ones, docs/models.md.)
 double reweigh(const RobustConfig& config, const Eigen::Vector3d& lever_arm_b, Keyframe* keyframe);
 
 }  // namespace leonav

@@ -11,9 +11,6 @@ namespace {
 using namespace ekf_index;
 using Eigen::Index;
 
-// So many of the newest keyframes get the variances of their measurements' predictions anew; those
-// of older ones hardly change any more.
-constexpr int kFreshVariances = 5;
 constexpr double kSettledWeights = 1e-2;  // factors that change less have converged
 // A window this far from the filter, in sigmas of both, has gone astray.
 constexpr double kAstraySigmas = 30.0;
@@ -92,8 +89,6 @@ bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
     *reweighed = std::max(*reweighed, reweigh(robust_, lever_arm_b_, &keyframe));
   }
   if (!solver_->solve(window_, lever_arm_b_, &corrections_)) return false;
-  if (iteration == 0 && solver_ == &chain_)
-    chain_.find_others_variances(lever_arm_b_, kFreshVariances, &window_);
   double moved_m = 0.0;
   for (int i = 0; i < window_.size(); ++i) {
     Keyframe& keyframe = window_.at(i);
@@ -151,9 +146,9 @@ void Smoother::save() {
     Saved& saved = saved_[static_cast<std::size_t>(i)];
     saved.state = keyframe.state;
     saved.judged = keyframe.judged;
-    saved.weights.clear();
+    saved.factors.clear();
     for (const KeyframeMeasurement& measurement : keyframe.measurements)
-      saved.weights.emplace_back(measurement.factor, measurement.others_variance);
+      saved.factors.push_back(measurement.factor);
   }
 }
 
@@ -163,10 +158,8 @@ void Smoother::restore() {
     const Saved& saved = saved_[static_cast<std::size_t>(i)];
     keyframe.state = saved.state;
     keyframe.judged = saved.judged;
-    for (std::size_t m = 0; m < saved.weights.size(); ++m) {
-      keyframe.measurements[m].factor = saved.weights[m].first;
-      keyframe.measurements[m].others_variance = saved.weights[m].second;
-    }
+    for (std::size_t m = 0; m < saved.factors.size(); ++m)
+      keyframe.measurements[m].factor = saved.factors[m];
   }
 }
 

@@ -55,7 +55,7 @@ class Smoother {
   // What a solve changes of a keyframe.
   struct Saved {
     FilterState state;
-    boost::container::static_vector<std::pair<double, double>, kMaxMeasurements> weights;
+    boost::container::static_vector<double, kMaxMeasurements> factors;
     bool judged = false;
   };
   void save();
