@@ -21,6 +21,7 @@ struct DriveOptions {
   bool inertial = true;  // otherwise constant velocity
   bool carriers = true;
   bool robust = false;
+  std::size_t gps_satellites = 5;  // of eight, the others of Galileo
   double code_sigma = 3.0, doppler_sigma = 0.2, carrier_sigma = 0.005;
   double wander = 0.0;         // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;  // an arc's length; they end one after the other
@@ -147,8 +148,8 @@ class Drive {
   MeasurementEpoch measure_epoch() {
     const double share = options_.noise;
     MeasurementEpoch epoch =
-        measure(kStart.plus_seconds(epoch_), sky_at(epoch_), truth_, share * options_.code_sigma,
-                share * options_.doppler_sigma, &noise_);
+        measure(kStart.plus_seconds(epoch_), sky_at(epoch_, options_.gps_satellites), truth_,
+                share * options_.code_sigma, share * options_.doppler_sigma, &noise_);
     epoch.index = static_cast<std::uint64_t>(epoch_);
     const auto codes = epoch.measurements;
     for (const Measurement& code : codes) {

@@ -61,7 +61,7 @@ struct DenseStep {
 
 // A state that the process does not move gets a noise too small to tell.
 inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd covariance) {
-  constexpr double kNothing = 1e-16;  // m^2
+  constexpr double kNothing = 1e-14;  // m^2
   for (double& variance : covariance.diagonal()) variance = std::max(variance, kNothing);
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
