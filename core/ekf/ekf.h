@@ -123,6 +123,8 @@ class Ekf {
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
+  // Of the last IMU sample, errors not removed, rad/s: for the lever arm.
+  const Eigen::Vector3d& measured_rate_b() const { return measured_rate_b_; }
 
  private:
   // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.

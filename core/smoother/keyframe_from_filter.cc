@@ -1,0 +1,67 @@
+#include "core/smoother/keyframe_from_filter.h"
+
+#include <algorithm>
+#include <array>
+
+namespace leonav {
+namespace {
+
+using ekf_index::kSize;
+
+constexpr int kNoPlace = -1;
+
+double square(double x) { return x * x; }
+
+// What the filter has used, with the variances that it gave: codes and Dopplers that contradicted
+// each other weigh less.
+void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, KeyframeInput* input) {
+  std::array<int, kMaxSatellites> place;
+  place.fill(kNoPlace);
+  for (const FilterMeasurement& used : filter.measurements()) {
+    KeyframeMeasurement measurement;
+    measurement.measurement = epoch.measurements[used.index];
+    std::uint16_t& satellite = measurement.measurement.satellite_index;
+    if (place[satellite] == kNoPlace) {
+      if (input->satellites.size() == input->satellites.capacity()) continue;
+      place[satellite] = static_cast<int>(input->satellites.size());
+      input->satellites.push_back(epoch.satellites[satellite]);
+    }
+    satellite = static_cast<std::uint16_t>(place[satellite]);
+    if (used.ambiguity >= 0) measurement.ambiguity = used.ambiguity - kSize;
+    const double relaxed = square(filter.relaxed_by(used.observable));
+    measurement.variance = used.variance * relaxed;
+    measurement.gain_variance = used.gain_variance * relaxed;
+    measurement.factor = std::min(1.0, used.factor * relaxed);
+    input->measurements.push_back(measurement);
+  }
+}
+
+}  // namespace
+
+void keyframe_from_filter(std::uint64_t index, GpsTime time, const MeasurementEpoch* measurements,
+                          FilterState* from, Ekf* filter, KeyframeInput* input) {
+  input->index = index;
+  input->time = time;
+  input->satellites.clear();
+  input->measurements.clear();
+  input->valid = filter->initialized() && filter->is_finite();
+  input->linked = input->valid && filter->process().continuous;
+  if (!input->valid) return;
+  input->has_attitude = filter->has_attitude();
+  input->state = filter->whole_state();
+  input->covariance = filter->covariance();
+  input->measured_rate_b = filter->measured_rate_b();
+  input->mast_e = filter->mast_e();
+  if (input->linked) {
+    input->from = *from;
+    // Where the process alone would have led, without the filter's updates.
+    input->prior = input->state;
+    add(filter->process().transition.rightCols<1>(), input->has_attitude, &input->prior);
+    input->process = filter->process();
+    if (measurements != nullptr) copy_measurements(*measurements, *filter, input);
+  }
+  *from = input->state;
+  filter->begin_process();
+}
+
+}  // namespace leonav
