@@ -101,6 +101,19 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   initialized_ = true;
 }
 
+void Ekf::place(const FilterState& state, bool has_attitude, const ImuSample& last_sample) {
+  now_ = state;
+  has_attitude_ = has_attitude;
+  initialized_ = true;
+  const Eigen::Index states = kSize + static_cast<Eigen::Index>(state.ambiguities.size());
+  covariance_.setZero(states, states);
+  begin_process();
+  last_sample_ = last_sample;
+  if (last_sample.interval_ns > 0)
+    measured_rate_b_ = last_sample.delta_theta_b / last_sample.interval_s();
+  mechanization_.reset(state.nav, last_sample);
+}
+
 void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
                        const Vector3d& gyro_bias_b, double gyro_bias_sigma) {
   ImuErrors errors;

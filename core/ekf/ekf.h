@@ -73,6 +73,9 @@ class Ekf {
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but its configuration.
   void reset();
+  // Goes on from `state` as if it were certain, its process begun: to integrate from elsewhere what
+  // another filter has integrated. `last_sample`: the last one measured before; interval 0: none.
+  void place(const FilterState& state, bool has_attitude, const ImuSample& last_sample);
   // Goes over to the inertial model: attitude and gyro bias given, covariance of position, velocity
   // and clocks kept; position moves from antenna to IMU centre by the lever arm.
   void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
@@ -110,8 +113,7 @@ class Ekf {
   double relaxed_by(Observable observable) const {
     return relaxed_[static_cast<std::size_t>(observable)];
   }
-  // Of the last sample, errors not removed, rad/s; and the antenna beyond what the attitude tells.
-  const Eigen::Vector3d& measured_rate_b() const { return measured_rate_b_; }
+  // The antenna beyond what the attitude tells of it.
   Eigen::Vector3d mast_e() const;
 
   const FilterState& whole_state() const { return now_; }

@@ -57,6 +57,12 @@ void Mechanization::reset(const NavState& state) {
   previous_ = ImuSample();
 }
 
+void Mechanization::reset(const NavState& state, const ImuSample& previous) {
+  reset(state);
+  if (previous.interval_ns > 0 && previous.time == state.time)
+    previous_ = correct(previous, state.errors);
+}
+
 void Mechanization::restate(const NavState& state) {
   if (state.time != state_.time) return reset(state);
   state_ = state;

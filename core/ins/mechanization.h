@@ -16,6 +16,9 @@ class Mechanization {
  public:
   // Starts at `state`; `state.errors` are removed from every sample.
   void reset(const NavState& state);
+  // Likewise, where the motion until then is known: `previous` (errors not removed) ends at `state`
+  // and counts for coning and sculling.
+  void reset(const NavState& state, const ImuSample& previous);
   // Goes on from a corrected state: at the same time the motion behind it still counts for coning
   // and sculling, which a correction of the state does not interrupt. Otherwise as reset().
   void restate(const NavState& state);

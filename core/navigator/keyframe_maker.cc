@@ -22,7 +22,8 @@ void KeyframeMaker::make(const EpochWork& work, const MeasurementEpoch* measurem
   keyframe_from_filter(work.index, work.time, measurements, &last_state_, ekf, keyframe);
   keyframe->block.clear();
   keyframe->before_block = before_block_;
-  if (keyframe->linked && whole_) keyframe->block = *block_;
+  keyframe->block_whole = keyframe->linked && whole_;
+  if (keyframe->block_whole) keyframe->block = *block_;
   last_time_ = work.time;
   block_->clear();
   before_block_ = newest_;

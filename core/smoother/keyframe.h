@@ -39,8 +39,9 @@ struct KeyframeInput {
   Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();  // m, antenna beyond what the attitude tells
   KeyframeSatellites satellites;
   KeyframeMeasurements measurements;
-  ImuBlock block;          // since the keyframe before
-  ImuSample before_block;  // the last measured one before it; interval 0: none
+  ImuBlock block;            // since the keyframe before
+  bool block_whole = false;  // nothing of it is missing here
+  ImuSample before_block;    // the last measured one before it; interval 0: none
 };
 
 // The states that are estimated: those core states (before the ambiguities) whose variance is not
@@ -74,6 +75,7 @@ struct Keyframe {
   KeyframeMeasurements measurements;
   bool judged = false;  // its factors have been decided here, not only by the filter
   ImuBlock block;
+  bool block_whole = false;
   ImuSample before_block;
 };
 

@@ -1,7 +1,9 @@
 // Integrates a link's IMU block anew where the estimate has left the place it was linearized at.
 #pragma once
-#include "core/ekf/ekf_config.h"
-#include "core/ins/imu_error_model.h"
+#include <cstdint>
+#include <memory>
+
+#include "core/ekf/ekf.h"
 #include "core/smoother/keyframe.h"
 
 namespace leonav {
@@ -12,16 +14,20 @@ struct RelinkConfig {
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
 };
 
+// Allocates when constructed, not after.
 class Relinker {
  public:
-  explicit Relinker(const RelinkConfig& config) : config_(config) {}
+  explicit Relinker(const RelinkConfig& config);
 
-  // Nothing while the keyframe before is near where the link begins. Otherwise the link begins
-  // there: position, velocity and attitude are integrated anew and so is their F; the noise stays.
+  // Nothing while the keyframe before is near where the link begins. Otherwise the link is moved to
+  // begin there: position, velocity and attitude are integrated anew, F of the inertial states with
+  // them. What is linear anyway (clocks, ambiguities) follows its old F; the noise stays.
   void operator()(const Keyframe& before, Keyframe* keyframe);
+  std::uint64_t relinked() const { return relinked_; }
 
  private:
-  RelinkConfig config_;
+  std::unique_ptr<Ekf> propagator_;
+  std::uint64_t relinked_ = 0;
 };
 
 }  // namespace leonav

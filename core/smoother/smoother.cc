@@ -11,6 +11,7 @@ namespace {
 using namespace ekf_index;
 using Eigen::Index;
 
+constexpr std::size_t kEnoughSatellites = 4;
 constexpr double kSettledWeights = 1e-2;  // factors that change less have converged
 // A window this far from the filter, in sigmas of both, has gone astray.
 constexpr double kAstraySigmas = 30.0;
@@ -18,6 +19,24 @@ constexpr double kAstray_m = 100.0;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
+}
+
+// Whether the window's measurements are of satellites enough to tell a position.
+bool has_enough_satellites(const Window& window) {
+  boost::container::static_vector<SatelliteId, kEnoughSatellites> seen;
+  for (int i = window.size() - 1; i >= 0; --i) {
+    const Keyframe& keyframe = window.at(i);
+    for (const KeyframeMeasurement& measurement : keyframe.measurements) {
+      const SatelliteId satellite =
+          keyframe.satellites[measurement.measurement.satellite_index].satellite;
+      if (!(measurement.factor > 0.0) ||
+          std::find(seen.begin(), seen.end(), satellite) != seen.end())
+        continue;
+      seen.push_back(satellite);
+      if (seen.size() == kEnoughSatellites) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -116,6 +135,7 @@ void Smoother::finish(SmootherResult* result) {
       if (row < kInsSize && column < kInsSize) result->covariance(row, column) = covariance(i, j);
     }
   }
+  if (!has_enough_satellites(window_)) result->status = SmootherStatus::kFewSatellites;
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
   const double apart_m = (result->state.p_e - filter_state_.p_e).norm();

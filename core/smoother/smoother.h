@@ -48,6 +48,7 @@ class Smoother {
   void settle(bool taken);
 
   const Window& window() const { return window_; }
+  std::uint64_t relinked() const { return relinker_.relinked(); }
   // Another solver instead of the chain's, for comparison. Not owned.
   void use_solver(WindowSolver* solver) { solver_ = solver; }
 

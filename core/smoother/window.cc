@@ -85,6 +85,7 @@ bool Window::append(const KeyframeInput& input) {
   keyframe.satellites = input.satellites;
   keyframe.measurements = input.measurements;
   keyframe.block = input.block;
+  keyframe.block_whole = input.block_whole;
   keyframe.before_block = input.before_block;
   keyframe.link.from = input.from;
   keyframe.link.to = input.prior;
