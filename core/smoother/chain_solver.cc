@@ -19,62 +19,70 @@ bool factorize(EkfCovariance* matrix) {
   return root.info() == Eigen::Success && matrix->diagonal().allFinite();
 }
 
-// What the prior adds: information and the gradient where the estimate is now.
-void add_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient) {
-  const WindowPrior& prior = window.prior();
-  const Keyframe& oldest = window.at(0);
-  const EkfCorrection moved = active_part(oldest.active, difference(oldest.state, prior.at));
-  *information += prior.information;
-  *gradient += prior.gradient - prior.information * moved;
+// A x = b with A = root root^T, in place.
+void solve_in_place(const EkfCovariance& root, EkfCorrection* x) {
+  root.triangularView<Eigen::Lower>().solveInPlace(*x);
+  root.transpose().triangularView<Eigen::Upper>().solveInPlace(*x);
+}
+
+// The error's covariance after the link, (F A^-1 F^T + N), and its inverse.
+bool move(const EkfCovariance& root, const LinearLink& link, EkfCovariance* spread,
+          EkfCovariance* information) {
+  *spread = link.F.transpose();
+  root.triangularView<Eigen::Lower>().solveInPlace(*spread);
+  EkfCovariance covariance = link.noise;
+  covariance.selfadjointView<Eigen::Lower>().rankUpdate(spread->transpose());
+  covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
+  return invert(covariance, information);
 }
 
 }  // namespace
 
 ChainSolver::ChainSolver(int capacity)
     : blocks_(std::make_unique<Block[]>(static_cast<std::size_t>(capacity))),
-      information_(std::make_unique<MeasurementInformation>()) {}
+      information_(std::make_unique<MeasurementInformation>()),
+      link_(std::make_unique<LinearLink>()) {}
+
+// What the keyframes before `keyframe`, the i-th, tell of it.
+bool ChainSolver::predict(const Keyframe& before, const Keyframe& keyframe, int i) {
+  Block& own = block(i);
+  linearize_link(before, keyframe, link_.get());
+  if (!move(block(i - 1).root, *link_, &own.spread, &own.predicted)) return false;
+  own.from_before = -link_->offset;
+  own.from_before.noalias() += link_->F * block(i - 1).filtered;
+  return true;
+}
 
 bool ChainSolver::solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
                         WindowCorrections* corrections) {
   size_ = window.size();
   for (int i = 0; i < size_; ++i) {
     Block& own = block(i);
-    gather_information(window.at(i), lever_arm_b, information_.get());
-    EkfCovariance& sum = information_->information;
-    EkfCorrection& gradient = information_->gradient;
     if (i == 0) {
-      add_prior(window, &sum, &gradient);
+      linearize_prior(window, &own.root, &own.filtered);
     } else {
-      // The one before has been factorized with this link in it.
-      const Block& before = block(i - 1);
-      const KeyframeLink& link = window.at(i).link;
-      own.below = -link.WF;
-      before.root.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
-          own.below);
-      sum += link.weight;
-      sum.selfadjointView<Eigen::Lower>().rankUpdate(own.below, -1.0);
-      gradient.noalias() -= link.weight * link_error(window.at(i - 1), window.at(i));
-      gradient.noalias() -= own.below * before.solved;
+      if (!predict(window.at(i - 1), window.at(i), i)) return false;
+      own.root = own.predicted;
+      own.filtered.noalias() = own.predicted * own.from_before;
     }
-    if (i + 1 < size_) {
-      const KeyframeLink& next = window.at(i + 1).link;
-      sum += next.FWF;
-      gradient.noalias() += next.WF.transpose() * link_error(window.at(i), window.at(i + 1));
-    }
-    own.root = sum;
+    gather_information(window.at(i), lever_arm_b, information_.get());
+    own.root += information_->information;
+    own.filtered += information_->gradient;
     if (!factorize(&own.root)) return false;
-    own.solved = gradient;
-    own.root.triangularView<Eigen::Lower>().solveInPlace(own.solved);
+    solve_in_place(own.root, &own.filtered);
   }
 
   corrections->resize(static_cast<std::size_t>(size_));
   for (int i = size_ - 1; i >= 0; --i) {
     EkfCorrection& correction = (*corrections)[static_cast<std::size_t>(i)];
-    correction = block(i).solved;
-    if (i + 1 < size_)
-      correction.noalias() -=
-          block(i + 1).below.transpose() * (*corrections)[static_cast<std::size_t>(i) + 1];
-    block(i).root.transpose().triangularView<Eigen::Upper>().solveInPlace(correction);
+    correction = block(i).filtered;
+    if (i + 1 < size_) {
+      const Block& next = block(i + 1);
+      const EkfCorrection more = (*corrections)[static_cast<std::size_t>(i) + 1] - next.from_before;
+      EkfCorrection added = next.spread * (next.predicted * more);
+      block(i).root.transpose().triangularView<Eigen::Upper>().solveInPlace(added);
+      correction += added;
+    }
     if (!correction.allFinite()) return false;
   }
   return true;
@@ -89,10 +97,11 @@ void ChainSolver::newest_covariance(EkfCovariance* covariance) const {
   covariance->triangularView<Eigen::StrictlyUpper>() = covariance->transpose();
 }
 
-// With P_k = L_k^-T (I + B_(k+1)^T P_(k+1) B_(k+1)) L_k^-1, newest first.
+// The covariance of keyframe k by all keyframes, newest first, with S the spread of the next one:
+//   L_k^-T (I - S (P^-1 - P^-1 C P^-1) S^T) L_k^-1,  C the next one's own.
 void ChainSolver::find_others_variances(const Eigen::Vector3d& lever_arm_b, int count,
                                         Window* window) const {
-  EkfCovariance middle;  // I + B^T P B of the keyframe at hand
+  EkfCovariance middle;  // what is in brackets, of the keyframe at hand
   const int last = std::max(0, size_ - count);
   for (int i = size_ - 1; i >= last; --i) {
     const EkfCovariance& root = block(i).root;
@@ -120,38 +129,38 @@ void ChainSolver::find_others_variances(const Eigen::Vector3d& lever_arm_b, int 
       measurement.others_variance = variance / std::max(1.0 - weight * variance, 1e-9);
     }
     if (i == last || i == 0) continue;
-    const EkfCovariance& below = block(i).below;
-    EkfCovariance product_below(n, below.cols());
-    product_below.noalias() = P * below;
-    middle.setIdentity(below.cols(), below.cols());
-    middle.noalias() += below.transpose() * product_below;
+    const Block& own = block(i);
+    EkfCovariance inner = own.predicted;
+    EkfCovariance added(n, n);
+    added.noalias() = own.predicted * P;
+    inner.noalias() -= added * own.predicted;
+    EkfCovariance spread_inner(own.spread.rows(), n);
+    spread_inner.noalias() = own.spread * inner;
+    middle.setIdentity(own.spread.rows(), own.spread.rows());
+    middle.noalias() -= spread_inner * own.spread.transpose();
   }
 }
 
-// By covariance, not by elimination: where a state is known badly but moves little, its noise's
-// inverse would drown what is known of it.
 bool marginalize_oldest(const Window& window, const Eigen::Vector3d& lever_arm_b,
                         WindowPrior* prior) {
   const Keyframe& oldest = window.at(0);
   const Keyframe& next = window.at(1);
   MeasurementInformation sum;
+  EkfCovariance root;
+  EkfCorrection error;  // of the oldest, by all but the link
+  linearize_prior(window, &root, &error);
   gather_information(oldest, lever_arm_b, &sum);
-  add_prior(window, &sum.information, &sum.gradient);
-  if (!factorize(&sum.information)) return false;
-  const auto root = sum.information.triangularView<Eigen::Lower>();
-  root.solveInPlace(sum.gradient);
-  sum.information.transpose().triangularView<Eigen::Upper>().solveInPlace(sum.gradient);  // the oldest's error, by all but the link
-
-  // Covariance (F P F^T + N) and its inverse; W^-1 is N.
-  const KeyframeLink& link = next.link;
-  EkfCovariance spread = link.F.transpose();
-  root.solveInPlace(spread);
-  EkfCovariance predicted = link.noise;
-  predicted.noalias() += spread.transpose() * spread;
-  if (!invert(predicted, &prior->information)) return false;
+  root += sum.information;
+  error += sum.gradient;
+  if (!factorize(&root)) return false;
+  solve_in_place(root, &error);
+  LinearLink link;
+  linearize_link(oldest, next, &link);
+  EkfCovariance spread;
+  if (!move(root, link, &spread, &prior->information)) return false;
   prior->at = next.state;
-  const EkfCorrection error = link.F * sum.gradient - link_error(oldest, next);
-  prior->gradient.noalias() = prior->information * error;
+  const EkfCorrection moved = link.F * error - link.offset;
+  prior->gradient.noalias() = prior->information * moved;
   return prior->gradient.allFinite();
 }
 

@@ -1,18 +1,21 @@
-// Gauss-Newton steps of the window by its own structure: block-tridiagonal in time.
+// Gauss-Newton steps of the window by its own structure: a chain in time.
 #pragma once
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <memory>
 
+#include "core/smoother/linear_link.h"
 #include "core/smoother/linearization.h"
 #include "core/smoother/window_solver.h"
 
 namespace leonav {
 
-// Cholesky factors of the normal equations, keyframe by keyframe: with S_k what is left of a
-// keyframe's block once those before it are eliminated,
-//   S_k = L_k L_k^T,  B_(k+1) = H_(k+1,k) L_k^-T,  S_(k+1) = H_(k+1,k+1) - B_(k+1) B_(k+1)^T.
-// Allocates when constructed, not after.
+// Forward, what all keyframes up to one tell of it; backward, what those after it add (Rauch, Tung,
+// Striebel 1965). With A_k the information of keyframe k from all up to k, H_k of its measurements:
+//   P_k = F A_(k-1)^-1 F^T + N,  A_k = P_k^-1 + H_k.
+// The noise N is added, never inverted: where a state hardly moves, eliminating keyframes from the
+// normal equations would subtract W = N^-1 from itself and leave what is known of the state to
+// rounding. Allocates when constructed, not after.
 class ChainSolver final : public WindowSolver {
  public:
   explicit ChainSolver(int capacity);
@@ -30,15 +33,19 @@ class ChainSolver final : public WindowSolver {
 
  private:
   struct Block {
-    EkfCovariance root;    // L_k, lower
-    EkfCovariance below;   // B_k: against the keyframe before
-    EkfCorrection solved;  // L_k^-1 times the gradient
+    EkfCovariance root;         // L with L L^T = A_k, lower
+    EkfCorrection filtered;     // the keyframe's error by all up to it
+    EkfCovariance spread;       // L_(k-1)^-1 F^T
+    EkfCovariance predicted;    // P_k^-1
+    EkfCorrection from_before;  // the error that the keyframes before predict
   };
   Block& block(int i) const { return blocks_[static_cast<std::size_t>(i)]; }
+  bool predict(const Keyframe& before, const Keyframe& keyframe, int i);
 
   std::unique_ptr<Block[]> blocks_;
   int size_ = 0;
   std::unique_ptr<MeasurementInformation> information_;
+  std::unique_ptr<LinearLink> link_;
 };
 
 // What the oldest keyframe, with its measurements, leaves behind about the next one when it goes:

@@ -58,11 +58,8 @@ struct ActiveStates {
 //   (x - to) = F (x_before - from) + w,  w ~ N,  in active states.
 struct KeyframeLink {
   FilterState from, to;
-  EkfCovariance F;       // size x size before
-  EkfCovariance noise;   // N
-  EkfCovariance weight;  // W = N^-1
-  EkfCovariance WF;
-  EkfCovariance FWF;
+  EkfCovariance F;      // size x size before
+  EkfCovariance noise;  // N; zero where the process does not move a state
 };
 
 struct Keyframe {

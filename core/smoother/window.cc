@@ -10,10 +10,6 @@ namespace {
 using Eigen::Index;
 using ekf_index::kSize;
 
-// A state that the process hardly moves gets this share of its variance as noise, so that the
-// noise has an inverse beside which the variance's own does not vanish.
-constexpr double kNoiseFloor = 1e-11;
-
 ActiveStates active_states(const KeyframeInput& input) {
   ActiveStates active;
   for (int i = 0; i < kSize; ++i)
@@ -41,12 +37,8 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
       link.F(i, j) = input.process.transition(row, whole_index(columns, j));
     for (Index j = 0; j < rows.size(); ++j)
       noise(i, j) = input.process.noise(row, whole_index(rows, j));
-    noise(i, i) += kNoiseFloor * input.covariance(row, row);
   }
-  if (!invert(noise, &link.weight)) return false;
-  link.WF.noalias() = link.weight * link.F;
-  link.FWF.noalias() = link.F.transpose() * link.WF;
-  return true;
+  return link.F.allFinite() && noise.allFinite();
 }
 
 void copy_common(const KeyframeInput& input, Keyframe* keyframe) {

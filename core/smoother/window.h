@@ -34,8 +34,8 @@ class Window {
   // The only keyframe: the filter's state and covariance, which hold its measurements. False: the
   // covariance is none.
   bool start(const KeyframeInput& input);
-  // One more, at the state that the newest one predicts. Not when full. False: its process has no
-  // inverse.
+  // One more, at the state that the newest one predicts. Not when full. False: its process
+  // does not begin there or is not finite.
   bool append(const KeyframeInput& input);
   // The oldest leaves; `prior` is what it leaves behind.
   void drop_oldest(const WindowPrior& prior);

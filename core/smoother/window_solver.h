@@ -10,7 +10,7 @@ namespace leonav {
 // One error per keyframe, in active states.
 using WindowCorrections = boost::container::static_vector<EkfCorrection, kMaxWindow>;
 
-// The cost is half the sum of the prior's, every link's (link_error, weighed by its W) and every
+// The cost is half the sum of the prior's, every link's (link_error, weighed by N^-1) and every
 // measurement's (residual^2 factor / gain_variance), in the factors as they are.
 class WindowSolver {
  public:

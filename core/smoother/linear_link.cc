@@ -1,0 +1,79 @@
+#include "core/smoother/linear_link.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/rotation.h"
+
+namespace leonav {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+AttitudeChange attitude_change(const ActiveStates& active, const FilterState& estimate,
+                               const FilterState& linearized_at) {
+  AttitudeChange change;
+  const auto place = std::find(active.core.begin(), active.core.end(), ekf_index::kAttitude);
+  if (place == active.core.end()) return change;
+  change.place = place - active.core.begin();
+  const Vector3d turned =
+      rotation_vector_from_quaternion(estimate.nav.q_eb * linearized_at.nav.q_eb.conjugate());
+  const double angle = turned.norm();
+  const Matrix3d S = skew(turned);
+  // (1 - cos x) / x^2, (x - sin x) / x^3, (1 - x/2 cot(x/2)) / x^2: series near zero.
+  double a = 0.5, b = 1.0 / 6.0, c = 1.0 / 12.0;
+  const double square = angle * angle;
+  if (angle < 1e-2) {
+    a -= square / 24.0;
+    b -= square / 120.0;
+    c += square / 720.0;
+  } else {
+    a = (1.0 - std::cos(angle)) / square;
+    b = (angle - std::sin(angle)) / (square * angle);
+    c = (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / square;
+  }
+  change.to_error += a * S + b * S * S;
+  change.of_error += -0.5 * S + c * S * S;
+  return change;
+}
+
+void linearize_link(const Keyframe& before, const Keyframe& keyframe, LinearLink* linear) {
+  const KeyframeLink& link = keyframe.link;
+  linear->F = link.F;
+  linear->noise = link.noise;
+  linear->offset = link_error(before, keyframe);
+  const AttitudeChange then = attitude_change(before.active, before.state, link.from);
+  if (then.place >= 0) {
+    auto columns = linear->F.middleCols<3>(then.place);
+    columns = (columns * then.of_error).eval();
+  }
+  const AttitudeChange now = attitude_change(keyframe.active, keyframe.state, link.to);
+  if (now.place < 0) return;
+  auto rows = linear->F.middleRows<3>(now.place);
+  rows = (now.to_error * rows).eval();
+  auto noise_rows = linear->noise.middleRows<3>(now.place);
+  noise_rows = (now.to_error * noise_rows).eval();
+  auto noise_columns = linear->noise.middleCols<3>(now.place);
+  noise_columns = (noise_columns * now.to_error.transpose()).eval();
+  auto offset = linear->offset.segment<3>(now.place);
+  offset = (now.to_error * offset).eval();
+}
+
+void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient) {
+  const WindowPrior& prior = window.prior();
+  const Keyframe& oldest = window.at(0);
+  const EkfCorrection moved = active_part(oldest.active, difference(oldest.state, prior.at));
+  *information = prior.information;
+  *gradient = prior.gradient;
+  gradient->noalias() -= prior.information * moved;
+  const AttitudeChange change = attitude_change(oldest.active, oldest.state, prior.at);
+  if (change.place < 0) return;
+  auto rows = information->middleRows<3>(change.place);
+  rows = (change.of_error.transpose() * rows).eval();
+  auto columns = information->middleCols<3>(change.place);
+  columns = (columns * change.of_error).eval();
+  auto slope = gradient->segment<3>(change.place);
+  slope = (change.of_error.transpose() * slope).eval();
+}
+
+}  // namespace leonav

@@ -1,0 +1,142 @@
+// Windows of the tests: filled keyframe by keyframe, solved by whichever solver, and by dense least
+// squares.
+#pragma once
+#include <Eigen/Dense>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/smoother/chain_solver.h"
+#include "core/smoother/window.h"
+
+namespace leonav::synthetic {
+
+// Appends, after the oldest keyframe has gone if there is no place. False: a start anew.
+inline bool feed(const KeyframeInput& input, const Eigen::Vector3d& lever_b, Window* window) {
+  if (window->full()) {
+    const auto prior = std::make_unique<WindowPrior>();
+    if (!marginalize_oldest(*window, lever_b, prior.get())) return false;
+    window->drop_oldest(*prior);
+  }
+  if (window->size() > 0 && input.linked && window->append(input)) return true;
+  window->start(input);
+  return false;
+}
+
+inline void apply(const WindowCorrections& corrections, Window* window) {
+  for (int i = 0; i < window->size(); ++i) {
+    Keyframe& keyframe = window->at(i);
+    add(whole_error(keyframe.active, corrections[static_cast<std::size_t>(i)]),
+        keyframe.has_attitude, &keyframe.state);
+  }
+}
+
+// Steps of `solver` until they have become nothing; false if one fails.
+inline bool iterate(WindowSolver* solver, const Eigen::Vector3d& lever_b, int steps,
+                    Window* window) {
+  const auto corrections = std::make_unique<WindowCorrections>();
+  for (int i = 0; i < steps; ++i) {
+    if (!solver->solve(*window, lever_b, corrections.get())) return false;
+    apply(*corrections, window);
+  }
+  return true;
+}
+
+// How an error of the estimate changes its difference from where a link or prior was linearized.
+inline Eigen::MatrixXd change_of_difference(const ActiveStates& active, const FilterState& estimate,
+                                            const FilterState& linearized_at) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Identity(active.size(), active.size());
+  const AttitudeChange change = attitude_change(active, estimate, linearized_at);
+  if (change.place >= 0) J.block<3, 3>(change.place, change.place) = change.of_error;
+  return J;
+}
+
+// A Gauss-Newton step of the whole window as one problem of whitened rows, by QR. The noise is
+// whitened by its own root, not by that of its inverse.
+struct DenseStep {
+  Eigen::VectorXd correction;  // of all keyframes' active states, oldest first
+  Eigen::MatrixXd covariance;
+  std::vector<Eigen::Index> first;  // of each keyframe
+};
+
+// A state that the process does not move gets a noise too small to tell.
+inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd covariance) {
+  constexpr double kNothing = 1e-14;  // m^2
+  for (double& variance : covariance.diagonal()) variance = std::max(variance, kNothing);
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
+  Eigen::LLT<Eigen::MatrixXd>(scaled).matrixL().solveInPlace(root);
+  return root * scale.asDiagonal();
+}
+
+inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b) {
+  DenseStep step;
+  Eigen::Index states = 0, rows = 0;
+  for (int i = 0; i < window.size(); ++i) {
+    step.first.push_back(states);
+    states += window.at(i).active.size();
+    rows +=
+        window.at(i).active.size() + static_cast<Eigen::Index>(window.at(i).measurements.size());
+  }
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, states);
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(rows);
+  Eigen::Index row = 0;
+  for (int k = 0; k < window.size(); ++k) {
+    const Keyframe& keyframe = window.at(k);
+    const Eigen::Index own = step.first[static_cast<std::size_t>(k)];
+    const Eigen::Index n = keyframe.active.size();
+    if (k == 0) {
+      // The information's root R, with R^T R; its gradient is R^T of what is whitened.
+      const Eigen::MatrixXd R =
+          Eigen::MatrixXd(Eigen::LLT<Eigen::MatrixXd>(window.prior().information).matrixU());
+      const EkfCorrection moved =
+          active_part(keyframe.active, difference(keyframe.state, window.prior().at));
+      J.block(row, own, n, n) =
+          R * change_of_difference(keyframe.active, keyframe.state, window.prior().at);
+      r.segment(row, n) =
+          R.transpose().triangularView<Eigen::Lower>().solve(window.prior().gradient) - R * moved;
+    } else {
+      const Keyframe& before = window.at(k - 1);
+      const Eigen::MatrixXd root = inverse_root(keyframe.link.noise);
+      J.block(row, own, n, n) =
+          root * change_of_difference(keyframe.active, keyframe.state, keyframe.link.to);
+      J.block(row, step.first[static_cast<std::size_t>(k) - 1], n, before.active.size()) =
+          -root * keyframe.link.F *
+          change_of_difference(before.active, before.state, keyframe.link.from);
+      r.segment(row, n) = -root * link_error(before, keyframe);
+    }
+    row += n;
+    const AntennaMotion antenna = antenna_of(keyframe, lever_b);
+    for (const KeyframeMeasurement& m : keyframe.measurements) {
+      const double weight = std::sqrt(m.factor / m.gain_variance);
+      const LinearMeasurement linear = linearize(m, keyframe, antenna);
+      for (Eigen::Index i = 0; i < keyframe.active.core_size(); ++i)
+        J(row, own + i) = weight * linear.row(keyframe.active.core[static_cast<std::size_t>(i)]);
+      if (m.ambiguity >= 0) J(row, own + keyframe.active.core_size() + m.ambiguity) = weight;
+      r(row++) = weight * linear.residual;
+    }
+  }
+  const Eigen::VectorXd scale = J.colwise().norm().cwiseInverse();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J * scale.asDiagonal());
+  step.correction = scale.asDiagonal() * Eigen::VectorXd(qr.solve(r));
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(states, states);
+  qr.matrixQR().topRows(states).triangularView<Eigen::Upper>().solveInPlace(inverse);
+  inverse = scale.asDiagonal() * inverse;
+  step.covariance = inverse * inverse.transpose();
+  return step;
+}
+
+// Of what two solutions of the same window are apart at most, in sigmas of `dense`.
+inline double apart_in_sigmas(const WindowCorrections& corrections, const DenseStep& dense) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < dense.first.size(); ++k)
+    for (Eigen::Index i = 0; i < corrections[k].size(); ++i) {
+      const Eigen::Index j = dense.first[k] + i;
+      most = std::max(most, std::abs(corrections[k](i) - dense.correction(j)) /
+                                std::sqrt(dense.covariance(j, j)));
+    }
+  return most;
+}
+
+}  // namespace leonav::synthetic
