@@ -28,7 +28,7 @@ install_packages() {
 }
 
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
-                       libyaml-cpp-dev libspdlog-dev)
+                       libyaml-cpp-dev libspdlog-dev libceres-dev)
 
 # build PRESET [CMAKE_ARGUMENT...]
 build() {
