@@ -1,0 +1,80 @@
+// Weights that later keyframes change: what one epoch cannot tell, a window can.
+#include "smoother_rig.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+using namespace synthetic;
+
+constexpr int kFaulty = 10;  // the epoch
+
+// Of the measurement of a kind of the faulty epoch's first satellite in the window; -1: none.
+double factor_of(const Smoother& smoother, Observable observable) {
+  const Window& window = smoother.window();
+  for (int k = 0; k < window.size(); ++k)
+    for (const KeyframeMeasurement& m : window.at(k).measurements)
+      if (window.at(k).index == kFaulty && m.measurement.observable == observable &&
+          m.measurement.satellite_index == 0)
+        return m.factor;
+  return -1.0;
+}
+
+}  // namespace
+
+TEST_CASE("an outlier that the filter took for good is found out by what comes later") {
+  // After an outage no more satellites than it takes: nothing contradicts the first one's code.
+  DriveOptions options;
+  options.robust = true;
+  options.inertial = false;
+  options.carriers = false;
+  options.code_sigma = 0.5;
+  options.edit = [](int epoch, MeasurementEpoch* measured) {
+    const bool outage = epoch >= kFaulty - 8 && epoch < kFaulty;
+    const auto missing = [&](SatelliteId id) {
+      return outage || (epoch == kFaulty && id.number > 1 && id.number < 6);
+    };
+    remove_satellites(missing, measured);
+    if (epoch == kFaulty) measured->measurements[0].value += 5.0;
+  };
+  Drive drive(options);
+  const auto smoother = smoother_of(drive, 20);
+  double by_filter = -1.0, then = -1.0, now = -1.0;
+  for (int epoch = 1; epoch <= kFaulty + 6; ++epoch) {
+    const KeyframeInput& input = drive.step();
+    if (epoch == kFaulty)
+      for (const KeyframeMeasurement& m : input.measurements)
+        if (m.measurement.observable == Observable::kCode && m.measurement.satellite_index == 0)
+          by_filter = m.factor;
+    solve(input, smoother.get());
+    if (epoch == kFaulty) then = factor_of(*smoother, Observable::kCode);
+    now = factor_of(*smoother, Observable::kCode);
+  }
+  WARN("outlier: factor by the filter " << by_filter << ", by the window then " << then << ", now "
+                                        << now);
+  CHECK(by_filter > 0.8);
+  CHECK(then > 0.8);
+  CHECK(now == 0.0);
+}
+
+TEST_CASE("a measurement wrongly thrown out comes back") {
+  DriveOptions options;
+  options.robust = true;
+  options.carriers = false;
+  Drive drive(options);
+  const auto smoother = smoother_of(drive, 20, 1);  // a new keyframe's first weights are given
+  double now = -1.0;
+  for (int epoch = 1; epoch <= kFaulty + 6; ++epoch) {
+    KeyframeInput input = drive.step();
+    // As a filter would that was wrong.
+    if (epoch == kFaulty)
+      for (KeyframeMeasurement& m : input.measurements)
+        if (m.measurement.satellite_index == 0) m.factor = 0.0;
+    solve(input, smoother.get());
+    if (epoch == kFaulty) CHECK(factor_of(*smoother, Observable::kCode) == 0.0);
+    now = factor_of(*smoother, Observable::kCode);
+  }
+  CHECK(now > 0.5);
+}
+
+}  // namespace leonav

@@ -1,0 +1,78 @@
+// Input that is none: a status says so, and the smoother starts over.
+#include <limits>
+
+#include "smoother_rig.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+using namespace synthetic;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Fault {
+  const char* name;
+  void (*make)(KeyframeInput*);
+  SmootherStatus expected;
+};
+
+const Fault kFaults[] = {
+    {"a measurement is not a number",
+     [](KeyframeInput* input) { input->measurements[2].measurement.value = kNan; },
+     SmootherStatus::kSingular},
+    {"a weight is infinite",
+     [](KeyframeInput* input) { input->measurements[2].gain_variance = 0.0; },
+     SmootherStatus::kSingular},
+    {"noise of less than nothing",
+     [](KeyframeInput* input) { input->process.noise.diagonal().array() -= 1e12; },
+     SmootherStatus::kSingular},
+    {"a process that is not finite",
+     [](KeyframeInput* input) { input->process.transition(0, 3) = kNan; },
+     SmootherStatus::kStarted},
+    {"a process from other states",
+     [](KeyframeInput* input) { input->process.transition.conservativeResize(39, 38); },
+     SmootherStatus::kStarted},
+    {"far from the filter", [](KeyframeInput* input) { input->prior.nav.p_e.x() += 1e5; },
+     SmootherStatus::kDiverged},
+    {"the filter has started over", [](KeyframeInput* input) { input->linked = false; },
+     SmootherStatus::kStarted},
+    {"there is no filter", [](KeyframeInput* input) { input->valid = false; },
+     SmootherStatus::kNoFilter},
+};
+
+}  // namespace
+
+TEST_CASE("what cannot be solved is reported, and the smoother starts over") {
+  const Fault& fault = kFaults[GENERATE(range(0, 8))];
+  CAPTURE(fault.name);
+  const bool full = GENERATE(false, true);
+  Drive drive{DriveOptions{}};
+  const auto smoother = smoother_of(drive, full ? 5 : 20);
+  for (int epoch = 1; epoch <= 8; ++epoch) solve(drive.step(), smoother.get());
+  KeyframeInput input = drive.step();
+  fault.make(&input);
+  CHECK(solve(input, smoother.get()).status == fault.expected);
+  // The next one follows the one that failed or starts anew; then all is well.
+  const SmootherStatus next = solve(drive.step(), smoother.get()).status;
+  CHECK((next == SmootherStatus::kStarted || next == SmootherStatus::kOk));
+  for (int more = 0; more < 3; ++more) {
+    const SmootherResult result = solve(drive.step(), smoother.get());
+    CHECK(result.status == SmootherStatus::kOk);
+    CHECK((result.state.p_e - drive.truth().p_e).norm() < 10.0);
+    CHECK(result.covariance.allFinite());
+  }
+}
+
+TEST_CASE("a covariance that is none starts nothing") {
+  Drive drive{DriveOptions{}};
+  const auto smoother = smoother_of(drive, 5);
+  KeyframeInput input = drive.step();
+  input.covariance(0, 0) = kNan;
+  CHECK(solve(input, smoother.get()).status != SmootherStatus::kOk);
+  const SmootherResult result = solve(drive.step(), smoother.get());
+  CHECK((result.status == SmootherStatus::kOk || result.status == SmootherStatus::kStarted));
+  CHECK(result.covariance.allFinite());
+}
+
+}  // namespace leonav

@@ -1,0 +1,120 @@
+// Is the smoother's covariance true? Normalized estimation errors squared over 100 runs, as for the
+// filter, also after an outage.
+#include <cmath>
+
+#include "core/earth/rotation.h"
+#include "core/ekf/nees.h"
+#include "smoother_rig.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+using namespace synthetic;
+using namespace ekf_index;
+
+// As kLeastNees3 and kMostNees3, for nine means to be in together: 99.4 % each.
+constexpr double kLeastOfNine = 2.36, kMostOfNine = 3.73;
+
+using Errors = Eigen::Matrix<double, 9, 1>;  // position, velocity, attitude
+
+Errors errors_of(const NavState& estimate, const NavState& truth) {
+  Errors errors;
+  errors << truth.p_e - estimate.p_e, truth.v_e - estimate.v_e,
+      rotation_vector_from_quaternion(truth.q_eb * estimate.q_eb.conjugate());
+  return errors;
+}
+
+// NEES of position, velocity and attitude, of errors drawn with a share of their noise.
+template <typename Covariance>
+Eigen::Vector3d nees_of(const Errors& errors, const Covariance& covariance, double noise) {
+  Eigen::Vector3d each;
+  for (int i = 0; i < 3; ++i)
+    each(i) = nees(Eigen::Vector3d(errors.segment<3>(3 * i)),
+                   Eigen::Matrix3d(covariance.template block<3, 3>(3 * i, 3 * i)));
+  return each / (noise * noise);
+}
+
+struct Consistency {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();       // NEES at the end
+  Eigen::Vector3d of_filter = Eigen::Vector3d::Zero();  // likewise
+  double within = 0.0;  // share of the smoother's errors within 3 sigma
+};
+
+Consistency run(const DriveOptions& base, int window, int epochs) {
+  Consistency sum;
+  int count = 0;
+  for (int i = 0; i < kRuns; ++i) {
+    DriveOptions options = base;
+    options.seed = 7000u + static_cast<std::uint64_t>(i);
+    Drive drive(options);
+    const auto smoother = smoother_of(drive, window);
+    for (int epoch = 1; epoch <= epochs; ++epoch) {
+      const SmootherResult result = solve(drive.step(), smoother.get());
+      REQUIRE(result.status == (epoch == 1 ? SmootherStatus::kStarted : SmootherStatus::kOk));
+      const Errors errors = errors_of(result.state, drive.truth());
+      for (int axis = 0; axis < 9; ++axis) {
+        sum.within +=
+            std::abs(errors(axis)) <= 3.0 * std::sqrt(result.covariance(axis, axis)) ? 1.0 : 0.0;
+        ++count;
+      }
+      if (epoch < epochs) continue;
+      sum.mean += nees_of(errors, result.covariance, options.noise) / kRuns;
+      sum.of_filter += nees_of(errors_of(drive.filter().state(), drive.truth()),
+                               drive.filter().covariance(), options.noise) /
+                       kRuns;
+    }
+  }
+  sum.within /= count;
+  return sum;
+}
+
+void report(const char* what, const Consistency& consistency) {
+  WARN(what << ": NEES of position, velocity, attitude " << consistency.mean.transpose()
+            << " of 3 (the filter's: " << consistency.of_filter.transpose() << "); within 3 sigma "
+            << 100.0 * consistency.within << " %");
+}
+
+void check(const char* what, const Consistency& consistency, double least = kLeastNees3,
+           double most = kMostNees3) {
+  report(what, consistency);
+  CHECK(consistency.mean.minCoeff() > least);
+  CHECK(consistency.mean.maxCoeff() < most);
+  CHECK(consistency.within > 0.98);
+}
+
+}  // namespace
+
+TEST_CASE("the smoother's errors are as large as its covariance says") {
+  DriveOptions options;
+  options.arc_epochs = 20;
+  options.carriers = GENERATE(false, true);
+  options.wander = options.carriers ? 0.005 : 0.0;
+  check(options.carriers ? "with carriers" : "without carriers", run(options, 10, 30));
+}
+
+TEST_CASE("weights cost the smoother no more than they cost the filter") {
+  DriveOptions options;
+  options.robust = true;
+  check("weighted", run(options, 10, 30), kLeastNees3, 1.085 * kMostNees3);  // as in ekf_nees_test
+}
+
+// Linear: a heading that is off by a degree bends twelve seconds of motion by more than a carrier's
+// sigma, in the filter and in links that are not integrated anew.
+TEST_CASE("the smoother's errors are as large as its covariance says after an outage") {
+  DriveOptions options;
+  options.noise = GENERATE(0.1, 1.0);
+  options.edit = [](int epoch, MeasurementEpoch* measured) {
+    if (epoch > 12 && epoch <= 24) remove_satellites([](SatelliteId) { return true; }, measured);
+  };
+  const int epochs = GENERATE(24, 25, 32);
+  const Consistency consistency = run(options, 10, epochs);
+  if (options.noise < 1.0)
+    return check(epochs == 24 ? "in an outage" : "after an outage", consistency, kLeastOfNine,
+                 kMostOfNine);
+  report(epochs == 24 ? "in an outage, all noise" : "after an outage, all noise", consistency);
+  for (int i = 0; i < 3; ++i) CHECK(consistency.mean(i) < 1.02 * consistency.of_filter(i));
+  CHECK(consistency.within > 0.98);
+}
+
+}  // namespace leonav

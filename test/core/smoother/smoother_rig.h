@@ -1,0 +1,39 @@
+// A smoother that follows a drive.
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "core/smoother/smoother.h"
+#include "drive_rig.h"
+
+namespace leonav::synthetic {
+
+// As many iterations as may be.
+struct Unlimited final : SolveBudget {
+  bool may_iterate(int) override { return true; }
+};
+
+struct Stingy final : SolveBudget {
+  bool may_iterate(int) override { return false; }
+};
+
+inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, int window, int iterations = 4) {
+  SmootherConfig config;
+  config.window = window;
+  config.max_iterations = iterations;
+  RelinkConfig relink;
+  relink.ekf = drive.config();
+  relink.imu = mems();
+  relink.lever_arm_b = drive.lever_b();
+  return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), relink);
+}
+
+inline SmootherResult solve(const KeyframeInput& input, Smoother* smoother, bool take = true) {
+  Unlimited budget;
+  smoother->add(input);
+  const SmootherResult result = smoother->solve(&budget);
+  smoother->settle(take);
+  return result;
+}
+
+}  // namespace leonav::synthetic
