@@ -87,7 +87,7 @@ def judge(row, folder, out):
         "below_four": float(np.mean(satellites[judged] < 4)) if judged.any() else None,
         "pdop": float(np.mean(pdop[good])) if good.any() else None,
     }
-    if row.group == "sets":
+    if row.is_set():
         result["after_convergence"] = after_convergence(t, error, result["convergence_s"])
     return result
 

@@ -10,8 +10,9 @@ ADVANCE_S = 7001.0  # per seed: another sky for every seed, the same for all row
 class Scene:
     """What is simulated; one log for each seed, shared by the rows that name it."""
 
-    def __init__(self, name, duration_s, overrides=(), leo_factor=None, file="config/scenario/urban.yaml"):
+    def __init__(self, name, duration_s, overrides=(), leo_factor=None, file="config/scenario/urban.yaml", open_leo=False):
         self.name, self.duration_s, self.leo_factor, self.file = name, duration_s, leo_factor, file
+        self.open_leo = open_leo  # LEO is laid over the drive as if there were no houses
         self.overrides = [f"duration_s={duration_s:g}"] + list(overrides)
 
     def settings(self, seed):
@@ -31,6 +32,11 @@ class Row:
         self.published = published_
         self.by_time = bound_m < 1.0  # judged by when it converges, not by its errors
         self.matched = None  # name of the row whose drives are as the estimator takes them to be
+        self.housed = None  # row of the same drives whose LEO satellites stand behind the same houses as the others
+
+    def is_set(self):
+        """Judged from where it has converged on."""
+        return self.group == "sets" or (self.housed is not None and self.housed.is_set())
 
 
 def mode(systems, ins, carrier, robust=True):
@@ -133,6 +139,8 @@ TWICE_AS_BAD = ["imu.angle_random_walk_deg_per_sqrt_h=0.1", "imu.velocity_random
 MISMATCHES = [("convergence-static-gps-leo160", "multipath", "multipath of 200 s, taken for 60 s", ["receiver.multipath.time_s=200"]),
               ("convergence-static-gps-gal-bds-leo160", "multipath", "multipath of 200 s, taken for 60 s",
                ["receiver.multipath.time_s=200"]),
+              ("convergence-static-gps-gal-bds-leo160", "carrier-multipath", "carriers without multipath",
+               ["receiver.multipath.carrier_m=0"]),
               ("carrier-gps-leo-ins", "imu", "an IMU twice as bad as it is taken for", TWICE_AS_BAD)]
 
 
@@ -151,10 +159,27 @@ def mismatch_rows(rows):
     return result
 
 
+# Of the pairs below: the papers laid simulated LEO over their drive without its houses.
+OPEN_LEO = ["code-gps-ins-plain", "code-gps-leo-ins-plain", "carrier-bds-ins", "carrier-bds-leo-ins", "low-gps-ins", "low-gps-leo-ins",
+            "low-bds-ins", "low-bds-leo-ins", "sets-gps-ins", "sets-gps-leo-ins", "sets-bds-ins", "sets-bds-leo-ins"]
+
+
+def open_leo_rows(rows):
+    by_name = {row.name: row for row in rows}
+    result = []
+    for name in OPEN_LEO:
+        row = by_name[name]
+        scene = Scene(f"{row.scene.name}-open-leo", row.scene.duration_s, row.scene.overrides[1:], open_leo=True)
+        result.append(Row(f"open-{name}", "open-leo", f"{row.title}, {row.group}", scene, row.settings, row.settle_epochs, row.bound_m,
+                          row.published))
+        result[-1].housed = row
+    return result
+
+
 def all_rows(epochs, sets_epochs, convergence_epochs):
     city = Scene("city", epochs + 2.0, ["places=city"])
     dense = Scene("dense", epochs + 2.0, ["places=dense_city"])
     sets = Scene("sets", sets_epochs + 2.0, ["places=city"])
     rows = (code_rows(city) + carrier_rows(city) + low_rows(dense) + set_rows(sets) +
             convergence_rows(convergence_epochs + 2.0))
-    return rows + mismatch_rows(rows)
+    return rows + mismatch_rows(rows) + open_leo_rows(rows)

@@ -65,9 +65,16 @@ class Runner:
         os.replace(temporary, path)
         return path
 
-    def sim_command(self, scene, seed, folder):
-        return [os.path.join(self.bin, "leonav-sim"), self.scene_file(scene, seed), *with_settings(scene.settings(seed)),
-                "-o", os.path.join(folder, "run.lcmlog")]
+    def sim_commands(self, scene, seed, folder):
+        program, log = os.path.join(self.bin, "leonav-sim"), os.path.join(folder, "run.lcmlog")
+        settings = scene.settings(seed)
+        if not scene.open_leo:
+            return [[program, self.scene_file(scene, seed), *with_settings(settings), "-o", log]]
+        drive = os.path.join(folder, "drive.lcmlog")
+        leo = [*settings[:2], "receiver.lever_arm_b_m=[0, 0, -1.2]", "places=none"]
+        return [[program, self.scene_file(scene, seed), *with_settings([*settings, "satellites.leo.enabled=false"]), "-o", drive],
+                [program, os.path.join(self.root, "config/scenario/open_sky.yaml"), *with_settings(leo), "--overlay", drive,
+                 "--truth", os.path.join(folder, "truth.csv"), "-o", log]]
 
     def replay_command(self, row, folder, out):
         return [os.path.join(self.bin, "leonav-replay"), "--config", os.path.join(self.root, "config/urban.yaml"),
@@ -84,7 +91,7 @@ class Runner:
     def alone(self, row, seed):
         folder = "alone"
         lines = [shell_line(["mkdir", "-p", folder])]
-        for command in (self.sim_command(row.scene, seed, folder), self.replay_command(row, folder, folder),
+        for command in (*self.sim_commands(row.scene, seed, folder), self.replay_command(row, folder, folder),
                         self.eval_command(row, folder, folder)):
             lines.append(shell_line([os.path.relpath(w, self.root) if os.path.isabs(w) and w.startswith(self.root + "/")
                                      else w for w in command]))
@@ -95,6 +102,8 @@ class Runner:
 
     def definition(self, row, seed):
         files = [os.path.join(self.root, "config/urban.yaml"), self.scene_file(row.scene, seed)]
+        if row.scene.open_leo:
+            files.append(os.path.join(self.root, "config/scenario/open_sky.yaml"))
         return "\n".join(self.alone(row, seed) + [self.fingerprint, self.digest_files(files)])
 
     def finished(self, row, seed):
@@ -151,7 +160,8 @@ class Runner:
 
     def rows_of_log(self, scene, seed, rows, folder):
         try:
-            self.call(self.sim_command(scene, seed, folder), folder)
+            for command in self.sim_commands(scene, seed, folder):
+                self.call(command, folder)
         except RunError as error:
             with self.lock:
                 self.failures.append(str(error))

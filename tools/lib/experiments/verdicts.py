@@ -6,12 +6,8 @@ import statistics
 import published
 import spread
 
-# Why a row with LEO is no better, or better by less than the papers say: only what is proven, by the section of
-# docs/models.md that is named. What satellite counts tell is said by satellites_text().
-CAUSES = {
-    "code-gps-leo-ins": "height: reflected codes that pass for good ones are long at the elevations where most LEO satellites "
-                        "stand, and push the antenna up; without houses LEO improves it (docs/models.md, Where LEO does not help)",
-}
+# Why a row with LEO is better by less than the papers say stands there only where it is proven: fewer LEO satellites
+# (satellites_text), or rows open-* that reach it (houses_text).
 NOT_KNOWN = "cause not known"
 
 
@@ -32,8 +28,8 @@ def pairs(rows):
 
 
 def published_3d(row):
-    if row.group == "sets":
-        return statistics.fmean(published.SETS[row.name.removeprefix("sets-")])
+    if row.is_set():
+        return statistics.fmean(published.SETS[row.name.removeprefix("open-").removeprefix("sets-")])
     if row.published is None:
         return None
     *components, three_d = row.published.rmse
@@ -54,7 +50,7 @@ def value_of(row, result):
     if row.by_time:
         value = result["convergence_s"]
     else:
-        value = result["after_convergence"] if row.group == "sets" else result["rmse"][3]
+        value = result["after_convergence"] if row.is_set() else result["rmse"][3]
     return math.inf if value is None else value
 
 
@@ -78,6 +74,14 @@ def satellites_text(partner, row, results, seeds):
     return f"LEO adds {after[0] - before[0]:.1f} satellites here, {theirs:.1f} in the paper (see Satellites and PDOP)"
 
 
+def houses_text(verdict, others):
+    """That LEO over the same drives reaches the published improvement where no house hides it. "": no such row does."""
+    for other in others:
+        if other.row.housed is verdict.row and other.reached:
+            return f"LEO stands behind our houses; laid over the drive without them, as in the paper, {100.0 * other.ours:+.0f} % (`{other.row.name}`)"
+    return ""
+
+
 class Verdict:
     def __init__(self, partner, row, results):
         self.partner, self.row = partner, row
@@ -93,13 +97,13 @@ class Verdict:
         self.ours = improvement(self.before, self.after)
         self.theirs = improvement(published_3d(partner), published_3d(row))
         self.reached = None if self.theirs is None or self.ours is None else self.ours >= self.theirs
-        self.cause = self.find_cause(results)
+        self.cause = "-"
 
-    def find_cause(self, results):
+    def find_cause(self, results, others):
         if self.before is None or (self.improves and self.reached is not False):
-            return "-"
+            return
         fewer = satellites_text(self.partner, self.row, results, self.seeds) if self.improves else ""
-        return "; ".join(c for c in (CAUSES.get(self.row.name, ""), fewer) if c) or NOT_KNOWN
+        self.cause = "; ".join(c for c in (houses_text(self, others), fewer) if c) or NOT_KNOWN
 
     def line(self):
         def number(value):
@@ -123,6 +127,8 @@ def lines(rows, results):
     verdicts = [Verdict(partner, row, results) for partner, row in pairs(rows)]
     if not verdicts:
         return []
+    for verdict in verdicts:
+        verdict.find_cause(results, verdicts)
     judged = [v for v in verdicts if v.before is not None]
     compared = [v for v in judged if v.reached is not None]
     return ["## What LEO brings: verdicts", "",
