@@ -23,14 +23,9 @@ struct DriveOptions {
   bool robust = false;
   std::size_t gps_satellites = 5;  // of eight, the others of Galileo
   double code_sigma = 3.0, doppler_sigma = 0.2, carrier_sigma = 0.005;
-<<<<<<< HEAD
-  double wander = 0.0;         // of the carriers, m/sqrt(s)
-  int arc_epochs = 1'000'000;  // an arc's length; they end one after the other
-=======
   double wander = 0.0;                          // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, at the start
->>>>>>> ceres
   Eigen::Vector3d lever_b{0.5, 0.3, -1.2};
   // Changes what the receiver measures at an epoch (1 is the first), its truth included.
   std::function<void(int, MeasurementEpoch*)> edit;
@@ -62,11 +57,7 @@ class Drive {
     point.covariance_v_e = 0.04 * Eigen::Matrix3d::Identity();
     filter_.initialize(start.time, point);
     if (!options.inertial) return;
-<<<<<<< HEAD
-    const Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};
-=======
     const Eigen::Vector3d& sigma_rpy = options.sigma_rpy;
->>>>>>> ceres
     const Eigen::Vector3d rotation = options.noise * sigma_rpy.cwiseProduct(noise_.normal3());
     filter_.set_attitude(quaternion_from_rotation_vector(C_en * -rotation) * start.q_eb, sigma_rpy,
                          Eigen::Vector3d::Zero(), mems().gyro_bias.sigma);
@@ -81,12 +72,9 @@ class Drive {
     if (options_.edit) options_.edit(epoch_, &measured_);
     filter_.predict({input_->block.data(), input_->block.size()}, measured_.time);
     result_ = filter_.update(measured_);
-<<<<<<< HEAD
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
-=======
-    keyframe_from_filter(measured_, &from_, &filter_, input_.get());
->>>>>>> ceres
+    input_->block_whole = input_->linked;
     return *input_;
   }
 
