@@ -19,7 +19,7 @@ TITLES = {
     "convergence-static": "Convergence to 10 cm, open sky, static",
     "convergence-drive": "Convergence to 10 cm, open sky, driving, without IMU",
     "mismatch": "Where the estimator is told wrongly: multipath and IMU",
-    "open-leo": "LEO as the papers simulate it: over the same drives, without their houses",
+    "open-leo": "LEO as the papers simulate it: over the same drives without their houses, all masked at 5 degrees",
 }
 TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
 

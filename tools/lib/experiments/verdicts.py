@@ -78,7 +78,7 @@ def houses_text(verdict, others):
     """That LEO over the same drives reaches the published improvement where no house hides it. "": no such row does."""
     for other in others:
         if other.row.housed is verdict.row and other.reached:
-            return f"LEO stands behind our houses; laid over the drive without them, as in the paper, {100.0 * other.ours:+.0f} % (`{other.row.name}`)"
+            return f"LEO stands behind our houses; laid over the drive without them and masked at 5 degrees, as in the paper, {100.0 * other.ours:+.0f} % (`{other.row.name}`)"
     return ""
 
 
