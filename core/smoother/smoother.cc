@@ -135,7 +135,8 @@ void Smoother::finish(SmootherResult* result) {
       if (row < kInsSize && column < kInsSize) result->covariance(row, column) = covariance(i, j);
     }
   }
-  if (!has_enough_satellites(window_)) result->status = SmootherStatus::kFewSatellites;
+  if (window_.size() > 1 && !has_enough_satellites(window_))
+    result->status = SmootherStatus::kFewSatellites;
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
   const double apart_m = (result->state.p_e - filter_state_.p_e).norm();

@@ -42,7 +42,11 @@ inline Collector run_pipeline(const std::vector<Input>& list,
   Collector outputs;
   EncodingSink sink(&outputs);
   Pipeline pipeline(drive_config().navigator, &sink);
-  for (const std::uint64_t epoch : missed) pipeline.record({.epoch = epoch});
+  for (const std::uint64_t epoch : missed) {
+    Decision decision;
+    decision.epoch = epoch;
+    pipeline.record(decision);
+  }
   InputDispatch dispatch(&pipeline.sequencer());
   for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
   return outputs;

@@ -1,5 +1,6 @@
 // The engine with the smoother in its thread: in time it gives the single thread's bytes; late, the
 // filter answers, every miss is told, and the journal's decisions give the same bytes again.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -62,16 +63,20 @@ Collector replay(const std::vector<Decision>& decisions) {
   return outputs;
 }
 
-// With the smoother held at its first iteration of every third keyframe until its deadline has
-// passed.
+bool is_done(const WorkCount& work) { return work.done == work.pushed; }
+
+// Late: the smoother is held before its first iteration of every third keyframe until its deadline
+// has passed, while all other stages keep up.
 Collector run_engine(bool late) {
   std::atomic<std::uint64_t> samples{0};
+  std::atomic<bool> held{false};
   EngineHooks hooks;
   hooks.before_iteration = [&](std::uint64_t epoch) {
     if (!late || epoch % 3 != 0) return;
-    const std::uint64_t until = samples.load() + 150;  // 0.75 s
-    while (samples.load() < until && samples.load() < inputs().size() - 1)
-      std::this_thread::sleep_for(std::chrono::microseconds(50));
+    const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, inputs().size());
+    held = true;
+    while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
+    held = false;
   };
   Collector outputs;
   Engine engine(smoother_config(), &outputs, hooks);
@@ -80,18 +85,10 @@ Collector run_engine(bool late) {
   for (const Input& input : inputs()) {
     engine.receive(input.channel, input.bytes, ++stamp);
     ++samples;
-    // The others are in time: between two inputs all stages finish, but a smoother that is held.
-    if (!late) {
-      while (!engine.idle()) std::this_thread::yield();
-    } else {
-      const auto work = engine.smoother_work();
-      if (work.done == work.pushed)
-        while (!engine.idle()) std::this_thread::yield();
-      else
-        std::this_thread::sleep_for(std::chrono::microseconds(20));
-    }
+    while (!engine.idle() &&
+           !(held.load() && is_done(engine.gnss_work()) && is_done(engine.inertial_work())))
+      std::this_thread::yield();
   }
-  samples = inputs().size();
   REQUIRE(engine.finish());
   return outputs;
 }

@@ -44,7 +44,7 @@ struct InertialRig {
   void issue(std::uint64_t index, double t, double deadline_s) {
     mailbox.open(index);
     const GpsTime time = kSkyEpoch.plus_seconds(t);
-    navigator.process(EpochIssued{index, time, time.plus_seconds(deadline_s)});
+    navigator.process(EpochIssued{index, time, time.plus_seconds(deadline_s), {}});
   }
   void feed(double from_s, double to_s) {
     for (const ImuSample& sample : drive.imu) {

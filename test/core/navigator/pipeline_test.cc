@@ -111,7 +111,7 @@ TEST_CASE("a run replays bit for bit, recorded misses included") {
   RecordingSink first, second, undisturbed;
   for (RecordingSink* sink : {&first, &second}) {
     Pipeline pipeline(config, sink);
-    for (const std::uint64_t epoch : {20, 21, 33}) pipeline.record({.epoch = epoch});
+    for (const std::uint64_t epoch : {20, 21, 33}) pipeline.record(decided(epoch, 0, false));
     feed(drive, &pipeline);
   }
   Pipeline pipeline(config, &undisturbed);

@@ -6,6 +6,17 @@
 
 namespace leonav::test {
 
+// What a journal says of an epoch.
+inline Decision decided(std::uint64_t epoch, std::uint8_t mailbox, bool committed,
+                        int iterations = 0) {
+  Decision decision;
+  decision.epoch = epoch;
+  decision.mailbox = mailbox;
+  decision.committed = committed;
+  decision.iterations = iterations;
+  return decision;
+}
+
 struct RecordingSink : OutputSink {
   std::vector<Solution> solutions;
   std::vector<EpochReport> epochs;

@@ -65,9 +65,9 @@ TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   const NavigatorConfig config = smoother_config(drive.options);
   std::vector<Decision> recorded;
   for (const std::uint64_t epoch : {25, 26, 40})
-    recorded.push_back({.epoch = epoch, .mailbox = 1, .committed = false});
-  recorded.push_back({.epoch = 45, .mailbox = 1, .committed = true, .iterations = 1});
-  recorded.push_back({.epoch = 48, .mailbox = 2, .committed = false});
+    recorded.push_back(decided(epoch, 1, false));
+  recorded.push_back(decided(45, 1, true, 1));
+  recorded.push_back(decided(48, 2, false));
   RecordingSink first, second;
   for (RecordingSink* sink : {&first, &second}) {
     Pipeline pipeline(config, sink);
