@@ -64,8 +64,7 @@ TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
   const NavigatorConfig config = smoother_config(drive.options);
   std::vector<Decision> recorded;
-  for (const std::uint64_t epoch : {25, 26, 40})
-    recorded.push_back(decided(epoch, 1, false));
+  for (const std::uint64_t epoch : {25, 26, 40}) recorded.push_back(decided(epoch, 1, false));
   recorded.push_back(decided(45, 1, true, 1));
   recorded.push_back(decided(48, 2, false));
   RecordingSink first, second;
