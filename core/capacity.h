@@ -23,9 +23,7 @@ inline constexpr std::size_t kMaxPendingEpochs = 40;
 // Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
 inline constexpr std::size_t kMaxArcs = 64;
 
-// The smoother's window, and satellites with a measurement in one of its keyframes.
-inline constexpr std::size_t kMaxWindow = 60;
-inline constexpr std::size_t kMaxKeyframeSatellites = 128;
+inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
 
 inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
 inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once

@@ -131,7 +131,7 @@ void Engine::run_inertial() {
 }
 
 void Engine::run_gnss() {
-  const bool publishes = config_.navigator.motion == MotionModel::kConstantVelocity;
+  const bool publishes = config_.navigator.motion != MotionModel::kInertial;
   for (;;) {
     const std::uint32_t ticket = gnss_wakeup_.ticket();
     const bool last_round = no_more_inputs_.load(std::memory_order_acquire);
@@ -140,7 +140,9 @@ void Engine::run_gnss() {
       if (epoch != nullptr && hooks_.before_epoch) hooks_.before_epoch(epoch->index);
       const Stopwatch watch;
       gnss_.process(work);
-      if (publishes) counters_.source.set(static_cast<std::int64_t>(gnss_.source()));
+      Source source = gnss_.source();
+      if (smoother_ != nullptr && source != Source::kNone) source = smoother_->source();
+      if (publishes) counters_.source.set(static_cast<std::int64_t>(source));
       if (epoch != nullptr) {
         counters_.worst_epoch_ns.raise_to(watch.nanoseconds());
       }

@@ -142,22 +142,24 @@ void HealthMonitor::judge(double now_s) {
   status_ = "OK";
   why_.clear();
   EngineCounters& counters = engine_->counters();
-  const std::int64_t misses = counters.misses.get(), lost = sum(counters.lost);
-  const std::uint64_t waits =
-      engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
   if (counters.journal_failed.get() != 0) worsen("FAULT", "journal: " + engine_->journal_error());
   judge_solution(now_s);
   if (expects_imu_) judge_stream(counters.accepted_imu.get(), now_s, &imu_);
   judge_stream(counters.accepted_epochs.get(), now_s, &gnss_);
-  if (misses > last_misses_) worsen("DEGRADED", "deadline missed");
-  const std::int64_t smoother_misses = counters.smoother_misses.get();
-  if (smoother_misses > last_smoother_misses_) worsen("DEGRADED", "smoother late");
-  last_smoother_misses_ = smoother_misses;
-  if (lost > last_lost_) worsen("DEGRADED", "inputs lost before they got here");
-  if (waits > last_waits_) worsen("DEGRADED", "a queue was full");
-  last_misses_ = misses;
-  last_lost_ = lost;
-  last_waits_ = waits;
+  const std::uint64_t waits =
+      engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
+  judge_count(counters.misses.get(), "deadline missed", &last_misses_);
+  judge_count(counters.smoother_misses.get(), "smoother late", &last_smoother_misses_);
+  judge_count(counters.smoother_failures.get(), "smoother failed", &last_smoother_failures_);
+  judge_count(counters.keyframes_skipped.get(), "keyframes skipped", &last_keyframes_skipped_);
+  judge_count(sum(counters.lost), "inputs lost before they got here", &last_lost_);
+  judge_count(static_cast<std::int64_t>(waits), "a queue was full", &last_waits_);
+}
+
+// Degraded where it has grown since the last look.
+void HealthMonitor::judge_count(std::int64_t count, const char* reason, std::int64_t* last) {
+  if (count > *last) worsen("DEGRADED", reason);
+  *last = count;
 }
 
 void HealthMonitor::judge_solution(double now_s) {

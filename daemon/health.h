@@ -35,6 +35,7 @@ class HealthMonitor {
   void judge(double now_s);
   void judge_solution(double now_s);
   void judge_stream(std::int64_t number, double now_s, Stream* stream);
+  void judge_count(std::int64_t count, const char* reason, std::int64_t* last);
   void worsen(const char* status, const std::string& reason);
 
   Engine* engine_;
@@ -42,8 +43,8 @@ class HealthMonitor {
   Stream imu_, gnss_, solution_;
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
-  std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_lost_ = 0;
-  std::uint64_t last_waits_ = 0;
+  std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_smoother_failures_ = 0,
+               last_keyframes_skipped_ = 0, last_lost_ = 0, last_waits_ = 0;
   std::string status_ = "OK", why_;
   std::vector<std::uint8_t> bytes_;
 };

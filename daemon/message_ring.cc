@@ -35,7 +35,7 @@ bool MessageRing::try_push(Channel channel, std::int64_t timestamp_us, ByteSpan 
   if (filled > high_water_.load(std::memory_order_relaxed)) {
     high_water_.store(filled, std::memory_order_relaxed);
   }
-  pushed_.fetch_add(1, std::memory_order_release);
+  work_.push();
   consumer_->notify();
   return true;
 }

@@ -40,7 +40,7 @@ class MessageRing {
     queue_.pop(reinterpret_cast<std::uint8_t*>(&header), sizeof header);
     queue_.pop(incoming_.data(), header.size);
     use(header, ByteSpan(incoming_.data(), header.size));
-    done_.fetch_add(1, std::memory_order_release);
+    work_.finish();
     return true;
   }
 
@@ -48,19 +48,13 @@ class MessageRing {
   // that a fast producer cannot hold the consumer for ever.
   template <typename Use>
   void consume_present(Use&& use) {
-    const std::uint64_t pushed = pushed_.load(std::memory_order_acquire);
-    while (done_.load(std::memory_order_relaxed) < pushed && consume_one(use)) {
+    const std::uint64_t pushed = work_.count().pushed;
+    while (work_.count().done < pushed && consume_one(use)) {
     }
   }
 
-  bool idle() const {
-    return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
-  }
-  // What was done is read first, so that it is never more than what was pushed.
-  WorkCount count() const {
-    const std::uint64_t done = done_.load(std::memory_order_acquire);
-    return {done, pushed_.load(std::memory_order_acquire)};
-  }
+  bool idle() const { return work_.idle(); }
+  WorkCount count() const { return work_.count(); }
   RingStatistics statistics() const;
 
  private:
@@ -70,7 +64,8 @@ class MessageRing {
   Wakeup* consumer_;
   Buffer outgoing_;  // the producer's
   Buffer incoming_;  // the consumer's
-  std::atomic<std::uint64_t> pushed_{0}, done_{0}, waits_{0}, high_water_{0};
+  WorkCounter work_;
+  std::atomic<std::uint64_t> waits_{0}, high_water_{0};
 };
 
 }  // namespace leonav

@@ -39,9 +39,7 @@ void SmootherWorker::push_keyframe() {
   if (!inertial_) ring_.consume_one([this](const KeyframeInput& keyframe) { process(keyframe); });
 }
 
-void SmootherWorker::no_keyframe(std::uint64_t epoch, bool due) {
-  SmootherUpdate none;
-  none.keyframe = due;
+void SmootherWorker::no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) {
   mailbox_.deliver(epoch, none);
 }
 

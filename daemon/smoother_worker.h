@@ -26,14 +26,16 @@ class SmootherWorker final : public KeyframeSink, private SolveBudget {
   // GNSS thread.
   KeyframeInput* next_keyframe(std::uint64_t epoch) override;
   void push_keyframe() override;
-  void no_keyframe(std::uint64_t epoch, bool due) override;
+  void no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) override;
+
+  // Of the answer, in the thread that works where there is no IMU.
+  Source source() const { return stage_.source(); }
 
   TimedMailbox<SmootherUpdate>* mailbox() { return &mailbox_; }
   MessageRing& outputs() { return sink_.ring(); }
   const MessageRing& outputs() const { return sink_.ring(); }
   bool idle() const { return ring_.idle(); }
   WorkCount work() const { return ring_.count(); }
-  std::uint64_t high_water_percent() const { return ring_.high_water_percent(); }
 
  private:
   void run();

@@ -8,17 +8,13 @@
 
 #include "daemon/backoff.h"
 #include "daemon/wakeup.h"
+#include "daemon/work_counter.h"
 
 namespace leonav {
 
 struct RingStatistics {
   std::uint64_t high_water_percent = 0;  // fullest it has been
   std::uint64_t waits = 0;               // how often the producer found it full
-};
-
-// Of a ring, or of all rings to one thread.
-struct WorkCount {
-  std::uint64_t done = 0, pushed = 0;
 };
 
 template <typename T>
@@ -41,7 +37,7 @@ class WorkRing {
     if (filled > high_water_.load(std::memory_order_relaxed)) {
       high_water_.store(filled, std::memory_order_relaxed);
     }
-    pushed_.fetch_add(1, std::memory_order_release);
+    work_.push();
     consumer_->notify();
   }
 
@@ -49,19 +45,13 @@ class WorkRing {
   template <typename Use>
   bool consume_one(Use&& use) {
     if (!queue_.consume_one(use)) return false;
-    done_.fetch_add(1, std::memory_order_release);
+    work_.finish();
     return true;
   }
 
   // Any thread: everything that was pushed has been dealt with.
-  bool idle() const {
-    return done_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_acquire);
-  }
-  // What was done is read first, so that it is never more than what was pushed.
-  WorkCount count() const {
-    const std::uint64_t done = done_.load(std::memory_order_acquire);
-    return {done, pushed_.load(std::memory_order_acquire)};
-  }
+  bool idle() const { return work_.idle(); }
+  WorkCount count() const { return work_.count(); }
   RingStatistics statistics() const {
     return {100 * high_water_.load(std::memory_order_relaxed) / capacity_,
             waits_.load(std::memory_order_relaxed)};
@@ -71,7 +61,8 @@ class WorkRing {
   std::size_t capacity_;
   boost::lockfree::spsc_queue<T> queue_;
   Wakeup* consumer_;
-  std::atomic<std::uint64_t> pushed_{0}, done_{0}, waits_{0}, high_water_{0};
+  WorkCounter work_;
+  std::atomic<std::uint64_t> waits_{0}, high_water_{0};
 };
 
 }  // namespace leonav

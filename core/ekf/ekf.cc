@@ -93,7 +93,7 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   new_until_ = restless_until_ = GpsTime();
   measurements_.clear();
   process_.continuous = false;
-  contradicted_ = false;
+  contradicted_ = doppler_contradicted_ = false;
   agreed_ = GpsTime();
   base_apart_m_ = {};
   locked_out_ = {};

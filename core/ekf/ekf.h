@@ -207,7 +207,9 @@ class Ekf {
   // By which the last epoch's codes of a base were apart from the others'; 0: not.
   std::array<double, kMaxTimeBases> base_apart_m_{};
   std::array<int, kMaxTimeBases> locked_out_{};  // epochs in a row without a code accepted
-  bool contradicted_ = false;  // the last epoch's ranges, by a prediction that they agree against
+  // The last epoch's, by a prediction that they agree against.
+  bool contradicted_ = false;  // ranges
+  bool doppler_contradicted_ = false;
   bool initialized_ = false;
   GpsTime agreed_;  // the last epoch whose codes the IMU's prediction agreed with
   bool has_attitude_ = false;

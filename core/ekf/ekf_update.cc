@@ -43,12 +43,17 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
   // A wider prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
   const bool contradicted_before = std::exchange(contradicted_, false);
-  // Carriers first: where they agree on a move, the codes then agree with it too.
+  const bool doppler_contradicted_before = std::exchange(doppler_contradicted_, false);
+  const double suspect = config_.prediction_suspect_ratio;
+  // Carriers first: where they agree on a move, the codes then agree with it too. Dopplers alone
+  // contradict an IMU in passing, by way of walls, or again and again because it has failed.
+  const auto missing = [&](Observable observable) {
+    return missing_variance(config_.robust, measurements_, observable, of(tables, observable),
+                            covariance_, suspect, &robust_update_);
+  };
   for (const Observable observable :
        {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
-    const double variance =
-        missing_variance(config_.robust, measurements_, observable, of(tables, observable),
-                         covariance_, config_.prediction_suspect_ratio, &robust_update_);
+    const double variance = missing(observable);
     if (variance <= 0.0) continue;
     result->prediction_suspect = true;
     if (observable != Observable::kDoppler) {
@@ -56,7 +61,11 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
       // It may be the epoch that is wrong, its time stamp for one. The next one tells.
       if (!contradicted_before) return leave_out_ranges();
     }
-    if (is_confirmed_against(observable, std::sqrt(variance), tables, epoch.time)) {
+    const bool doppler = observable == Observable::kDoppler;
+    doppler_contradicted_ |= doppler;
+    const bool passing = doppler && has_attitude_ && !doppler_contradicted_before &&
+                         !(missing(Observable::kCarrier) > 0.0);
+    if (passing || is_confirmed_against(observable, std::sqrt(variance), tables, epoch.time)) {
       leave_out([&](const FilterMeasurement& m) { return m.observable == observable; });
       tables = clock_free_tables(measurements_, covariance_);
       continue;
@@ -73,8 +82,7 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
     }
     tables = clock_free_tables(measurements_, covariance_);
   }
-  if (!result->prediction_suspect &&
-      agrees(of(tables, Observable::kCode), config_.prediction_suspect_ratio))
+  if (!result->prediction_suspect && agrees(of(tables, Observable::kCode), suspect))
     agreed_ = epoch.time;
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(of(tables, observable), &measurements_);

@@ -1,4 +1,4 @@
-// What the filter's state has gone through since its last update, for estimators that look back.
+// What the filter's state has gone through since begin(), for estimators that look back.
 #pragma once
 #include "core/ekf/ekf_state.h"
 

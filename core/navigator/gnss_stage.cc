@@ -123,7 +123,9 @@ void GnssStage::push_keyframe(const EpochWork& work) {
       skipped.mailbox = 2;
       sink_->on_decision(skipped);
     }
-    return keyframes_->no_keyframe(work.index, due);
+    SmootherUpdate none;
+    none.due = due;
+    return keyframes_->no_keyframe(work.index, none);
   }
   keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &ekf_, keyframe);
   keyframes_->push_keyframe();

@@ -174,8 +174,8 @@ void InertialNavigator::decide_smoother(Waiting* waiting, GpsTime now, bool usab
   if (!taken) ++smoother_misses_;
   if (!usable || epoch.index <= last_void_epoch_) return;
   if (taken && update.anchor.valid && commit(update.anchor, Source::kSmoother, now)) return;
-  const bool no_keyframe = taken && !update.keyframe;  // the one before stays the anchor
-  if (waiting->held.valid && !no_keyframe) commit(waiting->held, Source::kEkf, now);
+  const bool not_due = taken && !update.due;  // the one before stays the anchor
+  if (waiting->held.valid && !not_due) commit(waiting->held, Source::kEkf, now);
 }
 
 // Goes on from the new anchor: the samples since then once more. False: it cannot.

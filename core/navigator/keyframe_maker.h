@@ -12,7 +12,7 @@ class KeyframeMaker {
  public:
   explicit KeyframeMaker(double interval_s) : interval_s_(interval_s) {}
 
-  // The IMU since the epoch before.
+  // Of every epoch, keyframe or not: the IMU since the epoch before.
   void add(const ImuBlock& block);
   // Whether an epoch is to be a keyframe: not too soon after the last one, unless the filter has
   // started over since.

@@ -46,9 +46,7 @@ void Pipeline::push_keyframe() {
   smoother_->process(*keyframe_, this);
 }
 
-void Pipeline::no_keyframe(std::uint64_t epoch, bool due) {
-  SmootherUpdate none;
-  none.keyframe = due;
+void Pipeline::no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) {
   smoother_mailbox_.deliver(epoch, none);
 }
 

@@ -38,7 +38,7 @@ void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
 SmootherUpdate SmootherStage::answer(const KeyframeInput& input,
                                      const SmootherResult& result) const {
   SmootherUpdate update;
-  update.keyframe = true;
+  update.due = true;
   update.status = result.status;
   update.iterations = result.iterations;
   update.anchor.index = input.index;
@@ -76,7 +76,7 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
     filter.index = input.index;
     filter.state = input.state.nav;
     filter.covariance = input.covariance.topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
-    solution = solution_of(filter, Source::kEkf);
+    solution = solution_of(filter, input.measurements.empty() ? Source::kInsOnly : Source::kEkf);
   }
   if (!is_finite(solution)) return;
   source_ = solution.source;

@@ -73,8 +73,8 @@ struct EkfUpdate {
 // SmootherStage -> InertialNavigator, likewise. Of an epoch that is no keyframe GnssStage has one
 // delivered that says so.
 struct SmootherUpdate {
-  EkfUpdate anchor;       // valid: the smoother's answer
-  bool keyframe = false;  // false: it follows the last one too soon to be one itself
+  EkfUpdate anchor;  // valid: the smoother's answer
+  bool due = false;  // false: it follows the last keyframe too soon to be one itself
   SmootherStatus status = SmootherStatus::kNoFilter;
   std::int32_t iterations = 0;
 };
@@ -86,8 +86,8 @@ class KeyframeSink {
   // Where the next keyframe is to be written; nullptr: no room, the epoch is not to be one.
   virtual KeyframeInput* next_keyframe(std::uint64_t epoch) = 0;
   virtual void push_keyframe() = 0;
-  // The epoch is none: it is not due, or it has no room.
-  virtual void no_keyframe(std::uint64_t epoch, bool due) = 0;
+  // The epoch is none, not being due or having no room: what the mailbox gets instead.
+  virtual void no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) = 0;
 };
 
 }  // namespace leonav

@@ -21,7 +21,7 @@ struct KeyframeMeasurement {
   double factor = 1.0;  // IGG-III: the filter's, later the window's
 };
 using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
-using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxKeyframeSatellites>;
+using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxMeasurements>;
 
 // Of one epoch, as the filter has treated it (the same measurements, corrections, variances).
 struct KeyframeInput {

@@ -22,7 +22,6 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
     measurement.measurement = epoch.measurements[used.index];
     std::uint16_t& satellite = measurement.measurement.satellite_index;
     if (place[satellite] == kNoPlace) {
-      if (input->satellites.size() == input->satellites.capacity()) continue;
       place[satellite] = static_cast<int>(input->satellites.size());
       input->satellites.push_back(epoch.satellites[satellite]);
     }

@@ -8,6 +8,7 @@ namespace {
 
 using namespace ekf_index;
 using Eigen::Index;
+
 double weight_of(const KeyframeMeasurement& measurement) {
   return measurement.factor / measurement.gain_variance;
 }

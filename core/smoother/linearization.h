@@ -30,8 +30,7 @@ void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_a
 
 // Decides the factors anew: IGG-III on each residual over the measurement's sigma. Returns the
 // largest change. (The filter tests against the prediction from all *other* measurements. Over a
-// window, iterated, that lets four or five satellites outvote each other in turn: measured in a
-// dense city it throws out the right ones, docs/models.md.)
+// window, iterated, that would let four or five satellites outvote each other in turn.)
 double reweigh(const RobustConfig& config, const Eigen::Vector3d& lever_arm_b, Keyframe* keyframe);
 
 }  // namespace leonav

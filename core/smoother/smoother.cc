@@ -47,10 +47,9 @@ Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
       robust_(robust),
       lever_arm_b_(lever_arm_b),
       window_(config.window),
-      chain_(static_cast<int>(kMaxWindow)),
-      solver_(&chain_),
+      chain_(window_.capacity()),
       relinker_(relink),
-      saved_(std::make_unique<Saved[]>(kMaxWindow)),
+      saved_(std::make_unique<Saved[]>(static_cast<std::size_t>(window_.capacity()))),
       next_prior_(std::make_unique<WindowPrior>()) {}
 
 void Smoother::add(const KeyframeInput& input) {
@@ -107,7 +106,7 @@ bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
     }
     *reweighed = std::max(*reweighed, reweigh(robust_, lever_arm_b_, &keyframe));
   }
-  if (!solver_->solve(window_, lever_arm_b_, &corrections_)) return false;
+  if (!chain_.solve(window_, lever_arm_b_, &corrections_)) return false;
   double moved_m = 0.0;
   for (int i = 0; i < window_.size(); ++i) {
     Keyframe& keyframe = window_.at(i);

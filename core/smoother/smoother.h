@@ -48,9 +48,7 @@ class Smoother {
   void settle(bool taken);
 
   const Window& window() const { return window_; }
-  std::uint64_t relinked() const { return relinker_.relinked(); }
-  // Another solver instead of the chain's, for comparison. Not owned.
-  void use_solver(WindowSolver* solver) { solver_ = solver; }
+  std::uint64_t relinked() const { return relinker_.relinked(); }  // links, so far
 
  private:
   // What a solve changes of a keyframe.
@@ -70,7 +68,6 @@ class Smoother {
   Eigen::Vector3d lever_arm_b_;
   Window window_;
   ChainSolver chain_;
-  WindowSolver* solver_;
   Relinker relinker_;
   WindowCorrections corrections_;
   std::unique_ptr<Saved[]> saved_;

@@ -10,7 +10,7 @@ struct SmootherConfig {
   // Of one solve: after so long no further iteration begins. Only in the service; how many
   // iterations came of it is in the journal. 0: until the deadline.
   double time_limit_s = 0.25;
-  // Largest correction of a position, in its own sigmas, that ends a solve.
+  // Largest correction of a position, in sigmas of the filter's, that ends a solve.
   double converged_sigmas = 0.01;
 };
 

@@ -24,6 +24,7 @@ class Window {
 
   void clear() { size_ = 0; }
   int size() const { return size_; }
+  int capacity() const { return capacity_; }
   bool full() const { return size_ == capacity_; }
   Keyframe& at(int i) { return slots_[slot(i)]; }  // 0: the oldest
   const Keyframe& at(int i) const { return slots_[slot(i)]; }

@@ -37,19 +37,33 @@ inline std::vector<std::uint64_t> missed_epochs(const Collector& outputs) {
   return missed;
 }
 
-inline Collector run_pipeline(const std::vector<Input>& list,
-                              const std::vector<std::uint64_t>& missed) {
+// As a replay does it.
+inline Collector run_pipeline(const NavigatorConfig& config, const std::vector<Input>& list,
+                              const std::vector<Decision>& recorded) {
   Collector outputs;
   EncodingSink sink(&outputs);
-  Pipeline pipeline(drive_config().navigator, &sink);
-  for (const std::uint64_t epoch : missed) {
-    Decision decision;
-    decision.epoch = epoch;
-    pipeline.record(decision);
-  }
+  Pipeline pipeline(config, &sink);
+  for (const Decision& decision : recorded) pipeline.record(decision);
   InputDispatch dispatch(&pipeline.sequencer());
   for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
   return outputs;
+}
+
+inline Collector run_pipeline(const std::vector<Input>& list,
+                              const std::vector<std::uint64_t>& missed) {
+  std::vector<Decision> decisions(missed.size());
+  for (std::size_t i = 0; i < missed.size(); ++i) decisions[i].epoch = missed[i];
+  return run_pipeline(drive_config().navigator, list, decisions);
+}
+
+// A minute's drive as messages; `keep` may leave one out.
+template <typename Keep>
+std::vector<Input> drive_messages(Keep keep) {
+  std::vector<Input> made;
+  feed_messages(synthetic_drive(noisy_drive(60.0)), [&](Channel channel, ByteSpan bytes) {
+    if (keep(channel)) made.push_back({channel, Bytes(bytes.begin(), bytes.end())});
+  });
+  return made;
 }
 
 inline std::vector<Input> read_journal_inputs(const std::string& path) {

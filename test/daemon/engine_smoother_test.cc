@@ -21,14 +21,7 @@ using test::Input;
 constexpr std::size_t kDecisions = 1, kSmoother = 7, kKeyframes = 8;
 
 const std::vector<Input>& inputs() {
-  static const std::vector<Input> list = [] {
-    std::vector<Input> made;
-    test::feed_messages(test::synthetic_drive(test::noisy_drive(60.0)),
-                        [&](Channel channel, ByteSpan bytes) {
-                          made.push_back({channel, Bytes(bytes.begin(), bytes.end())});
-                        });
-    return made;
-  }();
+  static const std::vector<Input> list = test::drive_messages([](Channel) { return true; });
   return list;
 }
 
@@ -54,13 +47,7 @@ std::vector<Decision> decisions_of(const Collector& outputs) {
 }
 
 Collector replay(const std::vector<Decision>& decisions) {
-  Collector outputs;
-  EncodingSink sink(&outputs);
-  Pipeline pipeline(smoother_config().navigator, &sink);
-  for (const Decision& decision : decisions) pipeline.record(decision);
-  InputDispatch dispatch(&pipeline.sequencer());
-  for (const Input& input : inputs()) dispatch.dispatch(input.channel, input.bytes);
-  return outputs;
+  return test::run_pipeline(smoother_config().navigator, inputs(), decisions);
 }
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }

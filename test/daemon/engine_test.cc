@@ -23,19 +23,17 @@ using test::run_pipeline;
 // A drive with an outage of two seconds, and now and then a message that is damaged.
 const std::vector<Input>& inputs() {
   static const std::vector<Input> list = [] {
-    std::vector<Input> made;
     int epochs = 0;
-    test::feed_messages(test::synthetic_drive(test::noisy_drive(60.0)),
-                        [&](Channel channel, ByteSpan bytes) {
-                          if (channel == Channel::kGnssEpoch && (++epochs == 30 || epochs == 31)) {
-                            return;
-                          }
-                          made.push_back({channel, Bytes(bytes.begin(), bytes.end())});
-                          if (made.size() % 997 == 0) {
-                            made.push_back(made.back());
-                            made.back().bytes.resize(made.back().bytes.size() / 2);
-                          }
-                        });
+    const std::vector<Input> whole = test::drive_messages([&](Channel channel) {
+      return channel != Channel::kGnssEpoch || (++epochs != 30 && epochs != 31);
+    });
+    std::vector<Input> made;
+    for (const Input& input : whole) {
+      made.push_back(input);
+      if (made.size() % 997 != 0) continue;
+      made.push_back(made.back());
+      made.back().bytes.resize(made.back().bytes.size() / 2);
+    }
     made.push_back({Channel::kImu, Bytes(100'000, 0x55)});
     return made;
   }();

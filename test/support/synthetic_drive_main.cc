@@ -1,5 +1,4 @@
-// leonav-synthetic-drive: the tests' synthetic drive as a log and a truth file, so that the whole
-// chain can be shown where no recording is at hand.
+// leonav-synthetic-drive: the tests' synthetic drive as a log and a truth file.
 #include <algorithm>
 #include <iostream>
 

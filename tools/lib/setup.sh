@@ -28,7 +28,8 @@ install_packages() {
 }
 
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
-                       libyaml-cpp-dev libspdlog-dev libceres-dev)
+                       libyaml-cpp-dev libspdlog-dev)
+leonav_test_packages=(catch2 libceres-dev)
 
 # build PRESET [CMAKE_ARGUMENT...]
 build() {

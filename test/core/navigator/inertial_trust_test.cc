@@ -126,6 +126,22 @@ TEST_CASE("beside a corner three carriers that moved as the IMU says outweigh wh
   CHECK(worst_m < 3.0);
 }
 
+TEST_CASE("Dopplers alone that agree once on another velocity do not overthrow an IMU") {
+  const SyntheticDriveOptions options = noisy_drive(false);
+  SyntheticDriveOptions faster = options;
+  faster.turn_rate_rad_s *= 1.5;
+  SyntheticDrive drive = synthetic_drive(options);
+  const SyntheticDrive other = synthetic_drive(faster);
+  const auto hit = static_cast<std::size_t>(kBurst_s);
+  REQUIRE(drive.epochs[hit].observations.size() == other.epochs[hit].observations.size());
+  for (std::size_t i = 0; i < drive.epochs[hit].observations.size(); ++i)
+    drive.epochs[hit].observations[i].doppler_hz = other.epochs[hit].observations[i].doppler_hz;
+  const NavState truth = drive.truth_at(drive.epochs[hit].time);
+  REQUIRE((other.truth_at(truth.time).v_e - truth.v_e).norm() > 4.0);
+  const RecordingSink sink = run(drive, config_of(options));
+  CHECK(worst_error(sink, drive, kBurst_s, kBurst_s + 10.0) < 1.5);
+}
+
 // Of the turn that it misses the heading knows nothing afterwards: that is for the alignment.
 TEST_CASE("an IMU that fails is not believed against what measures its motion") {
   for (const bool carriers : {true, false}) {

@@ -11,7 +11,7 @@ namespace {
 
 struct CountingSink : OutputSink {
   std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
-              carriers = 0, epochs_of_30 = 0;
+              carriers = 0, epochs_of_30 = 0, solved = 0;
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
     ++epochs;
@@ -36,7 +36,9 @@ struct CountingSink : OutputSink {
     if (event.kind == EventKind::kFilterReset) ++resets;
   }
   void on_decision(const Decision&) override {}
-  void on_smoother(const SmootherReport&) override {}
+  void on_smoother(const SmootherReport& report) override {
+    if (report.status == SmootherStatus::kOk) ++solved;
+  }
 };
 
 Walker dense_leo() { return {System::kLeo, 16, 24, 7'478e3, 0.96, 0.001}; }
@@ -94,40 +96,44 @@ TEST_CASE(
     return t > 40.5 && t < 50.5;
   });
   const std::vector<PreciseState> states = precise_states(sky);
-  for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
-    CountingSink sink;
-    Pipeline pipeline(full_config(motion), &sink);
-    std::size_t next_state = 0, seen = 0;
-    start_counting_allocations();
-    feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
-      PreciseStates message;
-      for (int i = 0; i < 40 && next_state < states.size(); ++i) {
-        message.push_back(states[next_state++]);
-      }
-      sequencer->on_precise_states(message);
-      AntennaPattern antenna;
-      antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
-      antenna.band = '1';
-      sequencer->on_antenna(antenna);
-      if (++seen == 75) sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
-      if (seen == 80) sequencer->on_command({CommandKind::kSetHeading, 0.5, 0.1});
-    });
-    // Time itself leaps, in both streams.
-    for (int i = 0; i < 40; ++i) {
-      ImuSample sample = drive.imu[static_cast<std::size_t>(i)];
-      sample.time = sample.time.plus_seconds(7200.0);
-      pipeline.sequencer().on_imu(sample);
+  const MotionModel motion = GENERATE(MotionModel::kInertial, MotionModel::kConstantVelocity);
+  const Estimator estimator = GENERATE(Estimator::kEkf, Estimator::kSmoother);
+  CAPTURE(static_cast<int>(motion), static_cast<int>(estimator));
+  NavigatorConfig config = full_config(motion);
+  config.estimator = estimator;
+  CountingSink sink;
+  Pipeline pipeline(config, &sink);
+  std::size_t next_state = 0, seen = 0;
+  start_counting_allocations();
+  feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
+    PreciseStates message;
+    for (int i = 0; i < 40 && next_state < states.size(); ++i) {
+      message.push_back(states[next_state++]);
     }
-    const std::size_t allocations = stop_counting_allocations();
-    CHECK(allocations == 0);
-    CHECK(next_state == states.size());
-    CHECK(sink.full_epochs > 80);
-    CHECK(sink.precise > 100);
-    CHECK(sink.resets >= 2);
-    CHECK(sink.solutions > 80);
-    CHECK(sink.carriers > 1000);
-    CHECK(sink.arcs > 60);
+    sequencer->on_precise_states(message);
+    AntennaPattern antenna;
+    antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
+    antenna.band = '1';
+    sequencer->on_antenna(antenna);
+    if (++seen == 75) sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+    if (seen == 80) sequencer->on_command({CommandKind::kSetHeading, 0.5, 0.1});
+  });
+  // Time itself leaps, in both streams.
+  for (int i = 0; i < 40; ++i) {
+    ImuSample sample = drive.imu[static_cast<std::size_t>(i)];
+    sample.time = sample.time.plus_seconds(7200.0);
+    pipeline.sequencer().on_imu(sample);
   }
+  const std::size_t allocations = stop_counting_allocations();
+  CHECK(allocations == 0);
+  CHECK(next_state == states.size());
+  CHECK(sink.full_epochs > 80);
+  CHECK(sink.precise > 100);
+  CHECK(sink.resets >= 2);
+  CHECK(sink.solutions > 80);
+  CHECK(sink.carriers > 1000);
+  CHECK(sink.arcs > 60);
+  CHECK((sink.solved > 60) == (estimator == Estimator::kSmoother));
 }
 
 // The sky that leonav-bench measures: tools/speed.
@@ -140,7 +146,9 @@ TEST_CASE("thirty satellites of three systems on two frequencies, 200 Hz IMU: no
   options.slip_probability = 0.02;
   const SyntheticDrive drive = synthetic_drive(options);
   CountingSink sink;
-  Pipeline pipeline(full_config(MotionModel::kInertial), &sink);
+  NavigatorConfig config = full_config(MotionModel::kInertial);
+  config.estimator = GENERATE(Estimator::kEkf, Estimator::kSmoother);
+  Pipeline pipeline(config, &sink);
   start_counting_allocations();
   feed(drive, &pipeline);
   CHECK(stop_counting_allocations() == 0);

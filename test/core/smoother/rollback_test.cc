@@ -15,7 +15,7 @@ bool same(const FilterState& a, const FilterState& b) {
          (a.nav.q_eb.coeffs() - b.nav.q_eb.coeffs()).cwiseAbs().maxCoeff() == 0.0;
 }
 
-// Bit for bit: states, factors, variances.
+// Bit for bit: states and factors.
 void check_same(const Window& a, const Window& b) {
   REQUIRE(a.size() == b.size());
   for (int k = 0; k < a.size(); ++k) {
