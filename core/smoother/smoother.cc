@@ -96,7 +96,7 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 
 // Weights, a step, and how far it went.
 bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
-  for (int i = 0; i < window_.size() && robust_.enabled; ++i) {
+  for (int i = 0; i < window_.size() && robust_.enabled && config_.reweigh; ++i) {
     Keyframe& keyframe = window_.at(i);
     // A new keyframe's first weights are the filter's.
     if (iteration == 0 && !keyframe.judged) {

@@ -4,9 +4,10 @@
 namespace leonav {
 
 struct SmootherConfig {
-  int window = 20;                    // keyframes, 5 to kMaxWindow
+  int window = 20;                    // keyframes, 2 to kMaxWindow
   double keyframe_interval_s = 0.95;  // epochs nearer to the last keyframe are not one
   int max_iterations = 4;             // linearizations of one solve
+  bool reweigh = true;  // at every iteration, over the whole window; false: the filter's weights
   // Of one solve: after so long no further iteration begins. Only in the service; how many
   // iterations came of it is in the journal. 0: until the deadline.
   double time_limit_s = 0.25;

@@ -92,9 +92,10 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
 }
 
 void read_smoother(ConfigReader& group, SmootherConfig* config) {
-  group.integer("window", 5, static_cast<int>(kMaxWindow), &config->window);
+  group.integer("window", 2, static_cast<int>(kMaxWindow), &config->window);
   group.number("keyframe_interval_s", {0.0, 10.0}, &config->keyframe_interval_s);
   group.integer("max_iterations", 1, 20, &config->max_iterations);
+  group.boolean("reweigh", &config->reweigh);
   group.number("time_limit_ms", {0.0, 1e4}, &config->time_limit_s, kMillisecond);
   group.number("converged_sigmas", {1e-9, 1.0}, &config->converged_sigmas);
 }

@@ -32,11 +32,14 @@ class Row:
         self.published = published_
         self.by_time = bound_m < 1.0  # judged by when it converges, not by its errors
         self.matched = None  # name of the row whose drives are as the estimator takes them to be
+        self.filter = None  # row of the same drives and settings that the filter answers, where this one is the smoother's
+        self.studied = None  # row that this one varies
+        self.published_sets = None  # 3D errors of the four sets
         self.housed = None  # row of the same drives whose LEO satellites stand behind the same houses as the others
 
     def is_set(self):
         """Judged from where it has converged on."""
-        return self.group == "sets" or (self.housed is not None and self.housed.is_set())
+        return self.published_sets is not None
 
 
 def mode(systems, ins, carrier, robust=True):
@@ -105,8 +108,12 @@ def low_rows(scene):
 
 def set_rows(scene):
     """Four data sets of 2,000 epochs from a cold start: seeds 1 to 4."""
-    return [Row(f"sets-{name_of(s, ins)}", "sets", title_of(s, ins), scene, mode(s, ins, True), settle_epochs=0)
-            for s, ins in INS_MODES]
+    rows = []
+    for systems, ins in INS_MODES:
+        name = name_of(systems, ins)
+        rows.append(Row(f"sets-{name}", "sets", title_of(systems, ins), scene, mode(systems, ins, True), settle_epochs=0))
+        rows[-1].published_sets = published.SETS[name]
+    return rows
 
 
 # An antenna of its own point: convergence is the carriers', not the lever arm's. A standing antenna's multipath is
@@ -159,8 +166,9 @@ def mismatch_rows(rows):
     return result
 
 
-# Of the pairs below: the papers laid simulated LEO over their drive without its houses, and hardly masked (report.py, sky_lines).
-OPEN_LEO = ["code-gps-ins-plain", "code-gps-leo-ins-plain", "carrier-bds-ins", "carrier-bds-leo-ins", "low-gps-ins", "low-gps-leo-ins",
+# The papers laid simulated LEO over their drive without its houses, and hardly masked (report.py, sky_lines). LEO/INS
+# without weights is there to tell what the reflected codes of GPS do to the row with both.
+OPEN_LEO = ["code-gps-ins-plain", "code-gps-leo-ins-plain", "code-leo-ins-plain", "carrier-bds-ins", "carrier-bds-leo-ins", "low-gps-ins", "low-gps-leo-ins",
             "low-bds-ins", "low-bds-leo-ins", "sets-gps-ins", "sets-gps-leo-ins", "sets-bds-ins", "sets-bds-leo-ins"]
 
 
@@ -170,9 +178,44 @@ def open_leo_rows(rows):
     for name in OPEN_LEO:
         row = by_name[name]
         scene = Scene(f"{row.scene.name}-open-leo", row.scene.duration_s, row.scene.overrides[1:], open_leo=True)
-        result.append(Row(f"open-{name}", "open-leo", f"{row.title}, {row.group}", scene, row.settings + ["gnss.elevation_mask_deg=5"], row.settle_epochs, row.bound_m,
-                          row.published))
-        result[-1].housed = row
+        result.append(Row(f"open-{name}", "open-leo", f"{row.title}, {row.group}", scene,
+                          row.settings + ["gnss.elevation_mask_deg=5"], row.settle_epochs, row.bound_m, row.published))
+        result[-1].housed, result[-1].published_sets = row, row.published_sets
+    return result
+
+
+SMOOTHED_GROUPS = ("code", "code-plain", "few-gps", "few-leo", "carrier", "carrier-plain", "low", "sets")
+
+
+def smoother_rows(rows):
+    """The same drives, the same measurements, the sliding window's answer."""
+    result = []
+    for row in rows:
+        if row.group not in SMOOTHED_GROUPS:
+            continue
+        published_ = {"carrier": published.CARRIER_SMOOTHER.get(row.name.removeprefix("carrier-")),
+                      "low": row.published}.get(row.group)
+        result.append(Row(f"fgo-{row.name}", f"fgo-{row.group}", row.title, row.scene, row.settings + ["estimator=smoother"],
+                          row.settle_epochs, row.bound_m, published_))
+        result[-1].filter, result[-1].published_sets = row, row.published_sets
+    return result
+
+
+# What the smoother's gain is made of: keyframes, iterations, weights.
+STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"]) for w in (2, 5, 10, 40, 60)] + [
+    ("once", "one iteration", ["smoother.max_iterations=1"]),
+    ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"])]
+
+
+def study_rows(rows):
+    by_name = {row.name: row for row in rows}
+    result = []
+    for name in ("fgo-carrier-gps-leo-ins", "fgo-low-gps-leo-ins"):
+        row = by_name[name]
+        for short, words, settings in STUDIES:
+            result.append(Row(f"study-{row.scene.name}-{short}", "study", f"{row.title}, {row.scene.name}: {words}", row.scene,
+                              row.settings + settings, row.settle_epochs, row.bound_m))
+            result[-1].filter, result[-1].studied = row.filter, row
     return result
 
 
@@ -182,4 +225,5 @@ def all_rows(epochs, sets_epochs, convergence_epochs):
     sets = Scene("sets", sets_epochs + 2.0, ["places=city"])
     rows = (code_rows(city) + carrier_rows(city) + low_rows(dense) + set_rows(sets) +
             convergence_rows(convergence_epochs + 2.0))
-    return rows + mismatch_rows(rows) + open_leo_rows(rows)
+    smoothed = smoother_rows(rows)
+    return rows + mismatch_rows(rows) + open_leo_rows(rows) + smoothed + study_rows(smoothed)

@@ -90,7 +90,7 @@ def sky(group, rows, results, runner):
     figure, axes = plt.subplots(2, 1, figsize=(10.0, 4.5), sharex=True)
     for row in rows:
         runs = all_series(row, results, runner)
-        if not runs or ("INS" in row.title) != (group != "code"):
+        if not runs or ("INS" in row.title) != (group.removeprefix("fgo-") != "code"):
             continue
         axes[0].plot(runs[0]["t_epoch"], runs[0]["satellites"], lw=0.7, label=row.title)
         pdop = np.where((runs[0]["pdop"] > 0.0) & (runs[0]["pdop"] < 20.0), runs[0]["pdop"], np.nan)
@@ -114,7 +114,7 @@ def converging(group, rows, results, runner):
         t = np.arange(0.0, max(d["t"][-1] for d in runs) + 1.0, 1.0)
         lines = [np.interp(t, d["t"], np.linalg.norm(d["error"], axis=0), right=np.nan) for d in runs if len(d["t"])]
         axis.semilogy(t / 60.0, np.nanmedian(lines, axis=0), lw=1.0, label=row.title)
-    axis.axhline(0.1 if group != "sets" else 3.0, color="k", lw=0.8, ls="--")
+    axis.axhline(3.0 if group.endswith("sets") else 0.1, color="k", lw=0.8, ls="--")
     axis.set_ylim(0.005, 20.0)
     axis.set_xlabel("minutes from the start")
     axis.set_ylabel("3D error, m (median of the seeds)")
@@ -123,13 +123,37 @@ def converging(group, rows, results, runner):
     return save(figure, runner, f"{group}-convergence.png")
 
 
+def windows(group, rows, results, runner):
+    """3D RMSE over the length of the window."""
+    figure, axis = plt.subplots(figsize=(7.0, 4.0))
+    for studied in dict.fromkeys(row.studied for row in rows):
+        lengths = {row: int(row.name.rsplit("-w", 1)[1]) for row in rows if row.studied is studied and "-w" in row.name}
+        lengths = {row: length for row, length in (lengths | {studied: 20}).items() if row.name in results}
+        points = sorted((length, *(spread.of(results[row.name], "rmse", 3) or (np.nan, 0.0))) for row, length in lengths.items())
+        line = axis.errorbar([p[0] for p in points], [p[1] for p in points], [p[2] for p in points], fmt="o-", capsize=3,
+                             label=f"{studied.title}, {studied.scene.name}")
+        of_filter = spread.of(results.get(studied.filter.name, {}), "rmse", 3)
+        if of_filter is not None:
+            axis.axhline(of_filter[0], color=line[0].get_color(), ls="--", lw=0.8, label="the filter")
+    axis.set_xlabel("keyframes in the window")
+    axis.set_ylabel("3D RMSE, m (mean of the seeds)")
+    axis.set_ylim(bottom=0.0)
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8)
+    return save(figure, runner, f"{group}-windows.png")
+
+
 def draw(group, rows, results, runner):
     """File names of the pictures, in the report's folder."""
     if group == "mismatch" or not any(spread.good(results[row.name]) for row in rows):
         return []
-    if group == "sets" or group.startswith("convergence"):
+    if group == "study":
+        return [windows(group, rows, results, runner)]
+    if group.startswith("convergence"):
         return [converging(group, rows, results, runner)]
+    if group.endswith("sets"):
+        return [converging(group, rows, results, runner), bars(group, rows, results, runner)]
     pictures = [bars(group, rows, results, runner), distributions(group, rows, results, runner)]
-    if group in ("code", "carrier", "low"):
+    if group.removeprefix("fgo-") in ("code", "carrier", "low"):
         pictures += [errors_in_time(group, rows, results, runner), sky(group, rows, results, runner)]
     return pictures

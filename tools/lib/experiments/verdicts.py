@@ -29,7 +29,7 @@ def pairs(rows):
 
 def published_3d(row):
     if row.is_set():
-        return statistics.fmean(published.SETS[row.name.removeprefix("open-").removeprefix("sets-")])
+        return statistics.fmean(row.published_sets)
     if row.published is None:
         return None
     *components, three_d = row.published.rmse
@@ -77,9 +77,27 @@ def satellites_text(partner, row, results, seeds):
 def houses_text(verdict, others):
     """That LEO over the same drives reaches the published improvement where no house hides it. "": no such row does."""
     for other in others:
-        if other.row.housed is verdict.row and other.reached:
-            return f"LEO stands behind our houses; laid over the drive without them and masked at 5 degrees, as in the paper, {100.0 * other.ours:+.0f} % (`{other.row.name}`)"
+        if other.row.housed is (verdict.row.filter or verdict.row) and other.reached:
+            return ("LEO stands behind our houses; laid over the drive without them and masked at 5 degrees, as in the paper, "
+                    f"{100.0 * other.ours:+.0f} % (`{other.row.name}`)")
     return ""
+
+
+def reflections_text(verdict, results):
+    """That what the other system's codes bring without weights keeps LEO from more: LEO without them is better than both."""
+    name = "-".join(part for part in verdict.row.name.split("-") if part != "gps")
+    alone = results.get(name)
+    if "-plain" not in name or name == verdict.row.name or not alone:
+        return ""
+    seeds = [s for s in verdict.seeds if s in spread.good(alone)]
+    if not seeds:
+        return ""
+    mean = statistics.fmean(value_of(verdict.row, alone[s]) for s in seeds)
+    gain = improvement(verdict.before, mean)
+    if gain is None or gain < verdict.theirs:
+        return ""
+    return (f"reflected GPS codes keep their full weight whatever LEO adds: the same LEO without GPS {mean:.2f} m, "
+            f"{100.0 * gain:+.0f} % (`{name}`)")
 
 
 class Verdict:
@@ -97,15 +115,16 @@ class Verdict:
         self.ours = improvement(self.before, self.after)
         self.theirs = improvement(published_3d(partner), published_3d(row))
         self.reached = None if self.theirs is None or self.ours is None else self.ours >= self.theirs
-        self.cause = "-"
 
-    def find_cause(self, results, others):
+    def cause(self, results, others):
+        """Why it does not improve, or by less than published; "-": it does."""
         if self.before is None or (self.improves and self.reached is not False):
-            return
+            return "-"
         fewer = satellites_text(self.partner, self.row, results, self.seeds) if self.improves else ""
-        self.cause = "; ".join(c for c in (houses_text(self, others), fewer) if c) or NOT_KNOWN
+        reflections = reflections_text(self, results) if self.improves else ""
+        return "; ".join(c for c in (houses_text(self, others), fewer, reflections) if c) or NOT_KNOWN
 
-    def line(self):
+    def line(self, results, others):
         def number(value):
             if value is None or not math.isfinite(value):
                 return "-" if value is None else "never"
@@ -120,15 +139,13 @@ class Verdict:
         if self.reached is not None:
             theirs += ": reached" if self.reached else ": MISSED"
         return (f"| `{self.partner.name}` → `{self.row.name}` | {number(self.before)} | {number(self.after)} | {len(self.seeds)} | "
-                f"{self.better} | {verdict} | {theirs} | {self.cause} |")
+                f"{self.better} | {verdict} | {theirs} | {self.cause(results, others)} |")
 
 
 def lines(rows, results):
     verdicts = [Verdict(partner, row, results) for partner, row in pairs(rows)]
     if not verdicts:
         return []
-    for verdict in verdicts:
-        verdict.find_cause(results, verdicts)
     judged = [v for v in verdicts if v.before is not None]
     compared = [v for v in judged if v.reached is not None]
     return ["## What LEO brings: verdicts", "",
@@ -138,4 +155,4 @@ def lines(rows, results):
             "3 m on); of convergence the median time to 10 cm. Published: the improvement of the 3D error, where it is not printed of "
             "the root of the squares of N, E and U.", "",
             "| without LEO → with LEO | without | with | seeds | better in | verdict | published | cause |",
-            "|---|---|---|---|---|---|---|---|"] + [v.line() for v in verdicts] + [""]
+            "|---|---|---|---|---|---|---|---|"] + [v.line(results, verdicts) for v in verdicts] + [""]
