@@ -10,9 +10,9 @@
 
 #include "daemon/engine.h"
 #include "drive_inputs.h"
-#include "support/allocation_counter.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace {
 
@@ -39,14 +39,14 @@ long resident_size() {
 }  // namespace
 
 TEST_CASE("the counter of allocations sees those of a thread by its role") {
-  const auto before = test::thread_allocations();
+  const auto before = thread_allocations();
   RealtimeThread thread;
   std::unique_ptr<int> number;
   thread.start("ins", {}, [&] { number = std::make_unique<int>(7); });
   thread.join();
   CHECK(*number == 7);
-  CHECK(test::thread_allocations().inertial == before.inertial + 1);
-  CHECK(test::thread_allocations().gnss == before.gnss);
+  CHECK(thread_allocations().inertial == before.inertial + 1);
+  CHECK(thread_allocations().gnss == before.gnss);
 }
 
 TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
@@ -55,7 +55,7 @@ TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
   config.journal.path = folder.beside("journal.lcmlog");
   const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(120.0));
   CountingTarget target;
-  const auto before = test::thread_allocations();
+  const auto before = thread_allocations();
   Engine engine(config, &target);
   engine.start();
   std::uint64_t messages = 0;
@@ -66,7 +66,7 @@ TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
     while (channel == Channel::kGnssEpoch && !engine.idle()) usleep(100);
   });
   REQUIRE(engine.finish());
-  const auto after = test::thread_allocations();
+  const auto after = thread_allocations();
   std::cout << "allocations over " << target.solutions << " solutions and " << target.epochs
             << " epochs: ins " << after.inertial - before.inertial << ", gnss "
             << after.gnss - before.gnss << "\n";

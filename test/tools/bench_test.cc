@@ -27,6 +27,12 @@ TEST_CASE("a full sky is measured, and a limit that is not kept is no success") 
   CHECK(slow.exit_code == 1);
   CHECK_THAT(slow.err, Contains("99 % of the GNSS epochs") && Contains("--max-epoch-ms"));
   CHECK(bench("--max-epoch-ms soon").exit_code == 2);
+  CHECK_THAT(kept.out, !Contains("solve"));
+  const std::string smoother = "--set estimator=smoother --set smoother.window=5 ";
+  const ProgramRun solves = bench(smoother + "--max-solve-ms 1e4");
+  CHECK(solves.exit_code == 0);
+  CHECK_THAT(solves.out, Contains("keyframes at most 5; allocations per solve 0.000"));
+  CHECK(bench(smoother + "--max-solve-ms 1e-6").exit_code == 1);
 }
 
 TEST_CASE("a synthetic drive refuses slips without carriers") {

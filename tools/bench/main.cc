@@ -84,17 +84,35 @@ double peak_memory_mb() {
 
 // What all runs took, and what the last one used: all use the same.
 struct Bench {
-  Times imu_sample, gnss_epoch;
+  Times imu_sample, gnss_epoch, solve;
   std::vector<double> speeds;
   std::vector<double> satellites;  // of each epoch, sorted
   std::uint64_t carriers = 0, slips = 0;
+  std::vector<double> iterations;  // of each solve, sorted
+  int keyframes = 0;
+  std::size_t solve_allocations = 0;  // of all runs
 };
+
+// Returns what 99 % of the solves keep to, ms of the processor.
+double print_solves(const Bench& bench) {
+  const double solve_ms = print_rows("solve", "ms", 1e3, bench.solve);
+  const double solves = static_cast<double>(bench.solve.wall_s.size());
+  std::printf(
+      "%-22s median %.0f, 99 %% %.0f, most %.0f; keyframes at most %d; allocations per solve "
+      "%.3f\n",
+      "  iterations", at_share(bench.iterations, 0.5), at_share(bench.iterations, 0.99),
+      bench.iterations.back(), bench.keyframes,
+      static_cast<double>(bench.solve_allocations) / solves);
+  return solve_ms;
+}
 
 Bench run(const leonav::NavigatorConfig& config, const Recording& recording, int repeats) {
   Bench bench;
   for (int i = 0; i < repeats; ++i) {
     leonav::TimedStages stages(config);
     stages.imu_sample.reserve(recording.messages.size());
+    stages.solve.reserve(recording.messages.size());
+    stages.reserve();
     leonav::InputDispatch dispatch(stages.sequencer());
     const auto start = std::chrono::steady_clock::now();
     for (const Message& message : recording.messages)
@@ -103,11 +121,16 @@ Bench run(const leonav::NavigatorConfig& config, const Recording& recording, int
     bench.speeds.push_back(recording.span_s / std::chrono::duration<double>(end - start).count());
     bench.imu_sample.append(stages.imu_sample);
     bench.gnss_epoch.append(stages.gnss_epoch);
+    bench.solve.append(stages.solve);
+    bench.solve_allocations += stages.solve_allocations;
     const leonav::CountingSink& sink = stages.sink();
     bench.satellites.assign(sink.satellites.begin(), sink.satellites.end());
     std::sort(bench.satellites.begin(), bench.satellites.end());
     bench.carriers = sink.carriers;
     bench.slips = sink.slips;
+    bench.iterations.assign(sink.iterations.begin(), sink.iterations.end());
+    std::sort(bench.iterations.begin(), bench.iterations.end());
+    bench.keyframes = sink.keyframes;
     if (bench.satellites.empty()) throw std::runtime_error("the log gave no GNSS epoch");
     if (sink.solutions == 0 || bench.satellites.back() == 0.0) {
       throw std::runtime_error("nothing was navigated: " + std::to_string(sink.satellites.size()) +
@@ -130,16 +153,19 @@ void require(const leonav::Arguments& arguments, const char* option, bool at_lea
 }
 
 int body(int argc, char** argv) {
-  leonav::Arguments arguments("leonav-bench", "--config vehicle.yaml [options] run.lcmlog",
-                              "Feeds a log's inputs through the navigator in one thread and prints "
-                              "microseconds per IMU sample,\n"
-                              "milliseconds per GNSS epoch, replay speed and peak memory.");
+  leonav::Arguments arguments(
+      "leonav-bench", "--config vehicle.yaml [options] run.lcmlog",
+      "Feeds a log's inputs through the navigator in one thread and prints "
+      "microseconds per IMU sample,\n"
+      "milliseconds per GNSS epoch and solve of the smoother, replay speed and peak memory.");
   arguments.option("--config", "FILE", "the vehicle's configuration")
       .option("--set", "GROUP.KEY=VALUE", "override one key of it; may be repeated")
       .option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
       .option("--max-imu-us", "US",
               "fail unless 99 % of the IMU samples take at most so much processor time")
       .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
+      .option("--max-solve-ms", "MS",
+              "likewise of the smoother's solves (--set estimator=smoother)")
       .option("--min-satellites", "N", "fail unless half of the epochs use so many");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) throw leonav::UsageError("give one log (--help)");
@@ -147,7 +173,8 @@ int body(int argc, char** argv) {
   if (!(repeats >= 1.0 && repeats <= 1000.0)) {
     throw leonav::UsageError("--repeat must be 1 to 1000");
   }
-  for (const char* limit : {"--max-imu-us", "--max-epoch-ms", "--min-satellites"}) {
+  for (const char* limit :
+       {"--max-imu-us", "--max-epoch-ms", "--max-solve-ms", "--min-satellites"}) {
     if (arguments.has(limit)) arguments.number(limit);  // refused before the long run, not after
   }
   const leonav::DaemonConfig config =
@@ -166,6 +193,7 @@ int body(int argc, char** argv) {
       static_cast<double>(bench.carriers) / epochs, static_cast<double>(bench.slips) / epochs);
   const double imu_us = print_rows("IMU sample", "us", 1e6, bench.imu_sample);
   const double epoch_ms = print_rows("GNSS epoch", "ms", 1e3, bench.gnss_epoch);
+  const double solve_ms = bench.iterations.empty() ? 0.0 : print_solves(bench);
   std::printf("%-22s %.0f times real time (median run, decoding included)\n", "replay",
               bench.speeds[bench.speeds.size() / 2]);
   std::printf("%-22s %.1f MB, the log in memory included\n", "peak memory", peak_memory_mb());
@@ -174,6 +202,11 @@ int body(int argc, char** argv) {
           "processor time of 99 % of the IMU samples, us");
   require(arguments, "--max-epoch-ms", false, epoch_ms,
           "processor time of 99 % of the GNSS epochs, ms");
+  require(arguments, "--max-solve-ms", false, solve_ms, "processor time of 99 % of the solves, ms");
+  if (bench.solve_allocations > 0) {
+    throw std::runtime_error("the smoother has allocated memory " +
+                             std::to_string(bench.solve_allocations) + " times");
+  }
   return 0;
 }
 

@@ -1,11 +1,15 @@
 // The navigator's stages run in one thread with a stopwatch on each.
 #pragma once
+#include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "core/navigator/gnss_stage.h"
 #include "core/navigator/inertial_navigator.h"
 #include "core/navigator/sequencer.h"
+#include "core/navigator/smoother_stage.h"
 #include "stopwatch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav {
 
@@ -24,27 +28,44 @@ class CountingSink final : public OutputSink {
   }
   void on_event(const Event&) override {}
   void on_decision(const Decision&) override {}
-  void on_smoother(const SmootherReport&) override {}
+  void on_smoother(const SmootherReport& report) override {
+    iterations.push_back(report.iterations);
+    keyframes = std::max(keyframes, report.keyframes);
+  }
 
   std::vector<int> satellites;  // used, of each epoch
+  std::vector<int> iterations;  // of each solve
+  int keyframes = 0;            // most in a window
   std::uint64_t solutions = 0, carriers = 0, slips = 0;
 };
 
-class TimedStages final : private StageInputs {
+class TimedStages final : private StageInputs, private KeyframeSink, private SolveBudget {
  public:
   explicit TimedStages(const NavigatorConfig& config)
-      : inertial_(config, &mailbox_, nullptr, &sink_),
-        gnss_(config, &mailbox_, nullptr, &sink_),
+      : keyframe_(std::make_unique<KeyframeInput>()),
+        smoother_(config.estimator == Estimator::kSmoother
+                      ? std::make_unique<SmootherStage>(config, &smoother_mailbox_, &sink_)
+                      : nullptr),
+        inertial_(config, &mailbox_, &smoother_mailbox_, &sink_),
+        gnss_(config, &mailbox_, smoother_ != nullptr ? this : nullptr, &sink_),
         sequencer_(config, this) {}
+
+  // Before the first message: what the sink keeps of each solve.
+  void reserve() { sink_.iterations.reserve(1 << 20); }
 
   Sequencer* sequencer() { return &sequencer_; }
   const CountingSink& sink() const { return sink_; }
 
   Times imu_sample;  // one inertial tick, commits with their re-propagation included
   Times gnss_epoch;  // prediction over the block, preprocessing, slip checks, update, report
+  Times solve;       // a keyframe into the window, all iterations, links and prior
+  std::size_t solve_allocations = 0;
 
  private:
-  void open_epoch(std::uint64_t index) override { mailbox_.open(index); }
+  void open_epoch(std::uint64_t index) override {
+    mailbox_.open(index);
+    smoother_mailbox_.open(index);
+  }
   void push_inertial(const InertialWork& work) override {
     const Stopwatch watch;
     inertial_.process(work);
@@ -54,11 +75,30 @@ class TimedStages final : private StageInputs {
     const Stopwatch watch;
     gnss_.process(work);
     if (std::holds_alternative<EpochWork>(work)) watch.stop(&gnss_epoch);
+    if (has_keyframe_) solve_keyframe();
   }
+  void solve_keyframe() {
+    has_keyframe_ = false;
+    start_counting_allocations();
+    const Stopwatch watch;
+    smoother_->process(*keyframe_, this);
+    solve_allocations += stop_counting_allocations();
+    watch.stop(&solve);
+  }
+  KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
+  void push_keyframe() override { has_keyframe_ = true; }  // so that the filter's time is its own
+  void no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) override {
+    smoother_mailbox_.deliver(epoch, none);
+  }
+  bool may_iterate(int) override { return true; }
   void event(const Event&) override {}
 
   CountingSink sink_;
   TimedMailbox<EkfUpdate> mailbox_;
+  TimedMailbox<SmootherUpdate> smoother_mailbox_;
+  std::unique_ptr<KeyframeInput> keyframe_;
+  bool has_keyframe_ = false;
+  std::unique_ptr<SmootherStage> smoother_;  // nullptr: the filter gives the answer
   InertialNavigator inertial_;
   GnssStage gnss_;
   Sequencer sequencer_;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav {
 namespace {
@@ -371,10 +371,10 @@ TEST_CASE("Hostile input breaks nothing and allocates nothing", "[carrier_arcs]"
   inputs.push_back({});
   inputs.push_back(inputs[7]);  // twice the same satellite
   inputs[7].elevation = std::numeric_limits<double>::quiet_NaN();
-  test::start_counting_allocations();
+  start_counting_allocations();
   run.arcs.process(raw.time, inputs, &run.epoch);
   run.arcs.settle({}, &run.epoch);
-  CHECK(test::stop_counting_allocations() == 0);
+  CHECK(stop_counting_allocations() == 0);
   REQUIRE(run.epoch.satellites.size() == 10);
   for (const std::size_t i : {0, 4, 5, 8, 9}) CHECK(run.epoch.satellites[i].arc == 0);
   CHECK(run.epoch.satellites[1].arc == 2);

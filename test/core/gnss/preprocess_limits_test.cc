@@ -6,9 +6,9 @@
 
 #include "core/gnss/point_solution.h"
 #include "core/gnss/preprocess.h"
-#include "support/allocation_counter.h"
 #include "support/catch.h"
 #include "support/simulated_sky.h"
+#include "tools/allocations/allocation_counter.h"
 
 using namespace leonav;
 using namespace leonav::test;

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav {
 namespace {
@@ -147,9 +147,9 @@ TEST_CASE("Hostile rows are not tested and harm no other; nothing is allocated",
   s.rows[3].direction.x() = std::numeric_limits<double>::infinity();
   s.rows[5].residual_m += 1e300;
   s.rows[6].residual_m -= 3e6;
-  test::start_counting_allocations();
+  start_counting_allocations();
   const RangeChangeResult result = range_change(s.rows, s.prior, {});
-  CHECK(test::stop_counting_allocations() == 0);
+  CHECK(stop_counting_allocations() == 0);
   for (std::size_t i = 0; i < 4; ++i) CHECK(result.rows[i].verdict == RangeVerdict::kNotTested);
   CHECK(result.rows[6].verdict == RangeVerdict::kSlipped);
   CHECK(result.rows[8].verdict == RangeVerdict::kConsistent);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "stage_drive.h"
-#include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav::test {
 namespace {

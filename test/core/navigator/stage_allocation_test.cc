@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "stage_drive.h"
-#include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <cstring>
 
 #include "smoother_rig.h"
-#include "support/allocation_counter.h"
 #include "support/catch.h"
+#include "tools/allocations/allocation_counter.h"
 
 namespace leonav {
 namespace {
@@ -93,9 +93,9 @@ TEST_CASE("the smoother allocates when constructed, not after") {
     KeyframeInput input = drive.step();
     if (epoch == 25) input.process.noise(0, 0) = -1.0;
     if (epoch == 35) input.linked = false;
-    test::start_counting_allocations();
+    start_counting_allocations();
     const SmootherResult result = solve(input, smoother.get(), epoch % 7 != 0);
-    allocations += test::stop_counting_allocations();
+    allocations += stop_counting_allocations();
     failures += result.status == SmootherStatus::kOk ? 0 : 1;
   }
   CHECK(allocations == 0);

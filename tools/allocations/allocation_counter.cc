@@ -1,4 +1,4 @@
-#include "support/allocation_counter.h"
+#include "tools/allocations/allocation_counter.h"
 
 #include <malloc.h>
 #include <sys/prctl.h>
@@ -9,7 +9,7 @@
 
 // glibc lets a program replace the malloc family by forwarding to its own entry points; operator
 // new and Eigen both end there. Sanitizers bring their own malloc, with hooks for this.
-namespace leonav::test {
+namespace leonav {
 namespace {
 std::atomic<bool> counting{false};
 std::atomic<std::size_t> allocations{0}, inertial{0}, gnss{0};
@@ -35,7 +35,7 @@ std::size_t stop_counting_allocations() {
 
 ThreadAllocations thread_allocations() { return {inertial, gnss}; }
 
-}  // namespace leonav::test
+}  // namespace leonav
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*,
@@ -43,7 +43,7 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const
                                                          void (*on_free)(const volatile void*));
 namespace {
 const int hooks_installed = __sanitizer_install_malloc_and_free_hooks(
-    [](const volatile void*, std::size_t) { leonav::test::note_allocation(); },
+    [](const volatile void*, std::size_t) { leonav::note_allocation(); },
     [](const volatile void*) {});
 }
 #else
@@ -54,19 +54,19 @@ void* __libc_realloc(void* p, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
-  leonav::test::note_allocation();
+  leonav::note_allocation();
   return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) {
-  leonav::test::note_allocation();
+  leonav::note_allocation();
   return __libc_calloc(count, size);
 }
 void* realloc(void* p, std::size_t size) {
-  leonav::test::note_allocation();
+  leonav::note_allocation();
   return __libc_realloc(p, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  leonav::test::note_allocation();
+  leonav::note_allocation();
   return __libc_memalign(alignment, size);
 }
 }

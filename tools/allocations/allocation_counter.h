@@ -1,9 +1,9 @@
-// Counts heap allocations of the test program, by operator new and by malloc alike. Link the target
-// test_allocation_counter.
+// Counts heap allocations of the program that this is linked to, by operator new and by malloc
+// alike.
 #pragma once
 #include <cstddef>
 
-namespace leonav::test {
+namespace leonav {
 
 // Of all threads.
 void start_counting_allocations();
@@ -16,4 +16,4 @@ struct ThreadAllocations {
 };
 ThreadAllocations thread_allocations();
 
-}  // namespace leonav::test
+}  // namespace leonav
