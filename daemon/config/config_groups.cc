@@ -124,6 +124,11 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
   group.group("out", [&](ConfigReader& thread) { read_thread(thread, &threads->out); });
 }
 
+void read_drill(ConfigReader& group, DrillConfig* config) {
+  group.integer("late_solve_every", 0, 1000000, &config->late_solve_every);
+  group.number("late_solve_ms", {0.0, 1e4}, &config->late_solve_s, kMillisecond);
+}
+
 void read_lcm(ConfigReader& group, LcmConfig* config) {
   group.text("url", &config->url);
   group.text("prefix", &config->prefix);

@@ -16,6 +16,7 @@ void read_smoother(ConfigReader& group, SmootherConfig* config);
 void read_robust(ConfigReader& group, RobustConfig* config);
 // Deadlines and rates belong to the navigator, priorities and processors to the threads.
 void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads);
+void read_drill(ConfigReader& group, DrillConfig* config);
 void read_lcm(ConfigReader& group, LcmConfig* config);
 void read_journal(ConfigReader& group, JournalConfig* config);
 

@@ -7,6 +7,12 @@
 
 namespace leonav {
 
+// Delays on purpose, in the service only.
+struct DrillConfig {
+  int late_solve_every = 0;  // epochs; 0: never
+  double late_solve_s = 1.5;
+};
+
 struct LcmConfig {
   // ttl=0: messages stay on this host.
   std::string url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
@@ -43,6 +49,7 @@ struct DaemonConfig {
   LcmConfig lcm;
   JournalConfig journal;
   ThreadsConfig threads;
+  DrillConfig drill;
   ConfigText source;
 };
 

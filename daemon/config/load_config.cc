@@ -45,6 +45,7 @@ DaemonConfig read_root(ConfigReader& root) {
   root.group("smoother", [&](ConfigReader& r) { read_smoother(r, &navigator.smoother); });
   root.group("robust", [&](ConfigReader& r) { read_robust(r, &navigator.ekf.robust); });
   root.group("realtime", [&](ConfigReader& r) { read_realtime(r, &navigator, &config.threads); });
+  root.group("drill", [&](ConfigReader& r) { read_drill(r, &config.drill); });
   root.group("lcm", [&](ConfigReader& r) {
     read_lcm(r, &config.lcm);
     check_prefix(r, config.lcm.prefix);

@@ -4,9 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <exception>
+#include <thread>
+#include <utility>
 
 #include "daemon/config/load_config.h"
 #include "daemon/engine.h"
@@ -55,6 +58,19 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   }
 }
 
+EngineHooks drill_hooks(const DrillConfig& drill) {
+  EngineHooks hooks;
+  if (drill.late_solve_every == 0) return hooks;
+  spdlog::warn("drill: the smoother waits {} s at every {}. epoch", drill.late_solve_s,
+               drill.late_solve_every);
+  hooks.before_iteration = [drill, last = std::uint64_t{0}](std::uint64_t epoch) mutable {
+    if (std::exchange(last, epoch) == epoch) return;  // not the first iteration
+    if (epoch % static_cast<std::uint64_t>(drill.late_solve_every) != 0) return;
+    std::this_thread::sleep_for(std::chrono::duration<double>(drill.late_solve_s));
+  };
+  return hooks;
+}
+
 int run(const DaemonConfig& config) {
   const sigset_t set = stop_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread exists: all inherit it
@@ -63,7 +79,7 @@ int run(const DaemonConfig& config) {
   const ServiceManager manager;
   if (!manager.problem().empty()) spdlog::warn("{}", manager.problem());
   LcmPublisher publisher(config.lcm);
-  Engine engine(config, &publisher);
+  Engine engine(config, &publisher, drill_hooks(config.drill));
   LcmReceiver receiver(config.lcm, &engine);
   for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
 
@@ -105,8 +121,10 @@ int run(const DaemonConfig& config) {
     return kExitFailure;
   }
   EngineCounters& counters = engine.counters();
-  spdlog::info("stopped; {} messages published, {} journaled, {} deadline misses",
-               counters.published.get(), counters.journaled.get(), counters.misses.get());
+  spdlog::info(
+      "stopped; {} messages published, {} journaled, {} deadline misses, {} of the smoother",
+      counters.published.get(), counters.journaled.get(), counters.misses.get(),
+      counters.smoother_misses.get());
   return 0;
 }
 

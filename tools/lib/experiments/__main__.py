@@ -1,4 +1,4 @@
-"""The papers' matrix on the EKF: simulate, replay, judge, report. Called by tools/experiments."""
+"""The papers' matrix on the EKF and the smoother: simulate, replay, judge, report. Called by tools/experiments."""
 import argparse
 import fnmatch
 import os
@@ -36,7 +36,7 @@ def at_least(least):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="experiments", description="Runs the papers' experiments on the EKF and writes "
+    parser = argparse.ArgumentParser(prog="experiments", description="Runs the papers' experiments on the EKF and the smoother and writes "
                                      "OUT/report.md. A second call does only what is not there yet: runs whose commands, "
                                      "programs or files changed are done again.")
     parser.add_argument("out", nargs="?", default="experiments-output", help="output folder [experiments-output]")
@@ -80,7 +80,7 @@ def main():
     four = [1, 2, 3, 4] if not options.quick else seeds
 
     def seeds_of(row):
-        if row.group == "sets":
+        if row.is_set():
             return four
         if row.by_time and not options.quick:
             return list(range(options.first_seed, options.first_seed + CONVERGENCE_FACTOR * options.seeds))
