@@ -11,6 +11,7 @@
 #include "daemon/config/load_config.h"
 #include "daemon/input_dispatch.h"
 #include "drivers/lcm/event_log.h"
+#include "growth.h"
 #include "timed_stages.h"
 #include "tools/common/arguments.h"
 
@@ -110,8 +111,6 @@ Bench run(const leonav::NavigatorConfig& config, const Recording& recording, int
   Bench bench;
   for (int i = 0; i < repeats; ++i) {
     leonav::TimedStages stages(config);
-    stages.imu_sample.reserve(recording.messages.size());
-    stages.solve.reserve(recording.messages.size());
     stages.reserve();
     leonav::InputDispatch dispatch(stages.sequencer());
     const auto start = std::chrono::steady_clock::now();
@@ -166,6 +165,9 @@ int body(int argc, char** argv) {
       .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
       .option("--max-solve-ms", "MS",
               "likewise of the smoother's solves (--set estimator=smoother)")
+      .flag("--growth",
+            "instead: an hour's log or a day's once through the smoother; prints after ten minutes "
+            "and every hour what it\n                   needs, and fails where that grows")
       .option("--min-satellites", "N", "fail unless half of the epochs use so many");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) throw leonav::UsageError("give one log (--help)");
@@ -179,6 +181,10 @@ int body(int argc, char** argv) {
   }
   const leonav::DaemonConfig config =
       leonav::load_config(arguments.required("--config"), arguments.all("--set"));
+  if (arguments.has("--growth")) {
+    leonav::measure_growth(config.navigator, arguments.positional()[0], config.lcm.prefix);
+    return 0;
+  }
   const Recording recording = load(arguments.positional()[0], config.lcm.prefix);
   const Bench bench = run(config.navigator, recording, static_cast<int>(repeats));
 

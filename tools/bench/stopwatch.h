@@ -11,8 +11,14 @@ struct Times {
   std::vector<double> wall_s, processor_s;
 
   void reserve(std::size_t count) {
-    wall_s.reserve(count);
-    processor_s.reserve(count);
+    // Touched too: memory that comes with the notes would look like the navigator's.
+    wall_s.assign(count, 0.0);
+    processor_s.assign(count, 0.0);
+    clear();
+  }
+  void clear() {
+    wall_s.clear();
+    processor_s.clear();
   }
   void append(const Times& more) {
     wall_s.insert(wall_s.end(), more.wall_s.begin(), more.wall_s.end());

@@ -50,8 +50,21 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
         gnss_(config, &mailbox_, smoother_ != nullptr ? this : nullptr, &sink_),
         sequencer_(config, this) {}
 
-  // Before the first message: what the sink keeps of each solve.
-  void reserve() { sink_.iterations.reserve(1 << 20); }
+  // Before the first message: places for some hours' notes.
+  void reserve() {
+    for (Times* times : {&imu_sample, &gnss_epoch, &solve}) times->reserve(1 << 20);
+    sink_.satellites.reserve(1 << 20);
+    sink_.iterations.reserve(1 << 20);
+  }
+  // All notes; their places are kept.
+  void forget() {
+    for (Times* times : {&imu_sample, &gnss_epoch, &solve}) times->clear();
+    sink_.satellites.clear();
+    sink_.iterations.clear();
+  }
+  const Window* window() const {
+    return smoother_ != nullptr ? &smoother_->smoother().window() : nullptr;
+  }
 
   Sequencer* sequencer() { return &sequencer_; }
   const CountingSink& sink() const { return sink_; }

@@ -1,0 +1,123 @@
+#include "growth.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+#include "daemon/input_dispatch.h"
+#include "drivers/lcm/event_log.h"
+#include "timed_stages.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kFirstRow_s = 600.0, kRow_s = 3600.0;
+// Chance: other satellites in view, other work on the machine.
+constexpr double kMoreMemory_mb = 1.0, kMoreTime = 1.5, kMoreOfWindow = 1.05;
+
+double resident_mb() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    double kilobytes = 0.0;
+    if (word == "VmRSS:" && status >> kilobytes) return kilobytes / 1024.0;
+  }
+  return 0.0;
+}
+
+struct Row {
+  double hours = 0.0, resident_mb = 0.0, solve_ms = 0.0, slow_solve_ms = 0.0;
+  std::size_t solves = 0;
+  int keyframes = 0;
+  double satellites = 0.0;                 // in the window, per keyframe
+  long unknowns = 0, residual_blocks = 0;  // of the window
+};
+
+Row row_of(double seconds, TimedStages* stages) {
+  Row row;
+  row.hours = seconds / 3600.0;
+  row.resident_mb = resident_mb();
+  std::vector<double>& times = stages->solve.processor_s;
+  if (times.empty()) throw std::runtime_error("the log gave the smoother no keyframe");
+  row.solves = times.size();
+  std::sort(times.begin(), times.end());
+  row.solve_ms = 1e3 * times[times.size() / 2];
+  row.slow_solve_ms = 1e3 * times[(times.size() - 1) * 99 / 100];
+  const Window& window = *stages->window();
+  row.keyframes = window.size();
+  row.residual_blocks = row.keyframes;  // the prior and the links
+  for (int i = 0; i < window.size(); ++i) {
+    row.satellites += static_cast<double>(window.at(i).satellites.size()) / window.size();
+    row.unknowns += static_cast<long>(window.at(i).active.size());
+    row.residual_blocks += static_cast<long>(window.at(i).measurements.size());
+  }
+  stages->forget();
+  return row;
+}
+
+void print(const Row& row) {
+  std::printf("%8.2f  %6zu  %9d  %10.1f  %8ld  %15ld  %9.3f  %9.3f  %8.1f\n", row.hours, row.solves,
+              row.keyframes, row.satellites, row.unknowns, row.residual_blocks, row.solve_ms,
+              row.slow_solve_ms, row.resident_mb);
+  std::fflush(stdout);
+}
+
+void require_no_growth(const Row& first, const Row& last) {
+  const auto grown = [](const char* what, double before, double after) {
+    throw std::runtime_error(std::string(what) + " have grown from " + std::to_string(before) +
+                             " to " + std::to_string(after));
+  };
+  if (last.resident_mb > first.resident_mb + kMoreMemory_mb)
+    grown("the resident megabytes", first.resident_mb, last.resident_mb);
+  // More satellites are more work: time goes with the cube of the unknowns.
+  const double size = static_cast<double>(last.unknowns) / static_cast<double>(first.unknowns);
+  if (last.solve_ms > kMoreTime * std::max(1.0, size * size * size) * first.solve_ms)
+    grown("the milliseconds of a solve", first.solve_ms, last.solve_ms);
+  const auto per_satellite = [](const Row& row, long count) {
+    return static_cast<double>(count) / (row.keyframes * (1.0 + row.satellites));
+  };
+  const double more = std::max(kMoreOfWindow, first.satellites / std::max(1.0, last.satellites));
+  if (last.keyframes > first.keyframes) grown("the keyframes", first.keyframes, last.keyframes);
+  if (per_satellite(last, last.unknowns) > more * per_satellite(first, first.unknowns))
+    grown("the unknowns per keyframe and satellite", per_satellite(first, first.unknowns),
+          per_satellite(last, last.unknowns));
+  if (per_satellite(last, last.residual_blocks) >
+      more * per_satellite(first, first.residual_blocks))
+    grown("the residuals per keyframe and satellite", per_satellite(first, first.residual_blocks),
+          per_satellite(last, last.residual_blocks));
+}
+
+}  // namespace
+
+void measure_growth(const NavigatorConfig& config, const std::string& log_path,
+                    const std::string& prefix) {
+  if (config.estimator != Estimator::kSmoother)
+    throw std::runtime_error("growth is the smoother's: give --set estimator=smoother");
+  TimedStages stages(config);
+  stages.reserve();
+  InputDispatch dispatch(stages.sequencer());
+  EventLogReader reader(log_path);
+  std::printf("%8s  %6s  %9s  %10s  %8s  %15s  %9s  %9s  %8s\n", "hours", "solves", "keyframes",
+              "satellites", "unknowns", "residual blocks", "median ms", "99 % ms", "RSS, MB");
+  LogEvent event;
+  std::vector<Row> rows;
+  std::int64_t first_us = -1;
+  double next_s = kFirstRow_s, now_s = 0.0;
+  while (reader.next(&event)) {
+    const auto channel = channel_from_name(event.channel, prefix);
+    if (!channel || !is_input(*channel)) continue;
+    if (first_us < 0) first_us = event.timestamp_us;
+    now_s = static_cast<double>(event.timestamp_us - first_us) * 1e-6;
+    dispatch.dispatch(*channel, event.data);
+    if (now_s < next_s) continue;
+    rows.push_back(row_of(now_s, &stages));
+    print(rows.back());
+    next_s = rows.size() == 1 ? kRow_s : next_s + kRow_s;
+  }
+  if (rows.size() < 2) throw std::runtime_error(log_path + ": shorter than an hour");
+  require_no_growth(rows.front(), rows.back());
+}
+
+}  // namespace leonav
