@@ -10,7 +10,7 @@ namespace leonav {
 // Delays on purpose, in the service only.
 struct DrillConfig {
   int late_solve_every = 0;  // epochs; 0: never
-  double late_solve_s = 1.5;
+  double late_solve_s = 0.8;
 };
 
 struct LcmConfig {
