@@ -13,7 +13,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kFirstRow_s = 600.0, kRow_s = 3600.0;
+constexpr double kFirstRow_s = 600.0, kRow_s = 3600.0, kEnd_s = 10.0;
 // Chance: other satellites in view, other work on the machine.
 constexpr double kMoreMemory_mb = 1.0, kMoreTime = 1.5, kMoreOfWindow = 1.05;
 
@@ -115,6 +115,10 @@ void measure_growth(const NavigatorConfig& config, const std::string& log_path,
     rows.push_back(row_of(now_s, &stages));
     print(rows.back());
     next_s = rows.size() == 1 ? kRow_s : next_s + kRow_s;
+  }
+  if (now_s > next_s - kEnd_s) {  // the log's last hour is short by an epoch
+    rows.push_back(row_of(now_s, &stages));
+    print(rows.back());
   }
   if (rows.size() < 2) throw std::runtime_error(log_path + ": shorter than an hour");
   require_no_growth(rows.front(), rows.back());

@@ -116,6 +116,18 @@ def set_rows(scene):
     return rows
 
 
+# Of every satellite, for half a minute and for a minute.
+OUTAGES = "faults=[" + ", ".join(f"{{kind: outage, from_s: {a}, to_s: {b}, systems: [gps, galileo, beidou, leo]}}"
+                                 for a, b in ((1500, 1530), (2500, 2560))) + "]"
+
+
+def outage_rows(epochs):
+    """Are the stated sigmas true where nothing is reflected, with and without LEO, in outages and after them?"""
+    scene = Scene("outages", epochs + 2.0, ["places=none", OUTAGES])
+    return [Row(f"outages-{name_of(s, True)}", "outages", title_of(s, True), scene, mode(s, True, True))
+            for s in (["gps"], ["gps", "leo"])]
+
+
 # An antenna of its own point: convergence is the carriers', not the lever arm's. A standing antenna's multipath is
 # alike for a minute (receiver.multipath.time_s): taken for white, more satellites made it slower, not faster.
 OPEN = ["places=none", "receiver.lever_arm_b_m=[0, 0, 0]", "imu.enabled=false"]
@@ -184,7 +196,7 @@ def open_leo_rows(rows):
     return result
 
 
-SMOOTHED_GROUPS = ("code", "code-plain", "few-gps", "few-leo", "carrier", "carrier-plain", "low", "sets")
+SMOOTHED_GROUPS = ("code", "code-plain", "few-gps", "few-leo", "carrier", "carrier-plain", "low", "outages", "sets")
 
 
 def smoother_rows(rows):
@@ -223,7 +235,7 @@ def all_rows(epochs, sets_epochs, convergence_epochs):
     city = Scene("city", epochs + 2.0, ["places=city"])
     dense = Scene("dense", epochs + 2.0, ["places=dense_city"])
     sets = Scene("sets", sets_epochs + 2.0, ["places=city"])
-    rows = (code_rows(city) + carrier_rows(city) + low_rows(dense) + set_rows(sets) +
+    rows = (code_rows(city) + carrier_rows(city) + low_rows(dense) + outage_rows(epochs) + set_rows(sets) +
             convergence_rows(convergence_epochs + 2.0))
     smoothed = smoother_rows(rows)
     return rows + mismatch_rows(rows) + open_leo_rows(rows) + smoothed + study_rows(smoothed)
