@@ -180,8 +180,15 @@ bool Engine::drain_outputs() {
     io_sink_.ring().consume_present(write);
     write_out(header, bytes);
   };
+  // What the smoother answers depends on the answers of its that came too late before, and on the
+  // keyframes that found no room.
+  const auto write_after_decisions = [&](const MessageHeader& header, ByteSpan bytes) {
+    for (MessageRing* ring : {&inertial_sink_.ring(), &gnss_sink_.ring()})
+      ring->consume_present(write_after_causes);
+    write_after_causes(header, bytes);
+  };
   bool any = io_sink_.ring().consume_one(write);
-  if (smoother_ != nullptr) any = smoother_->outputs().consume_one(write_after_causes) || any;
+  if (smoother_ != nullptr) any = smoother_->outputs().consume_one(write_after_decisions) || any;
   for (MessageRing* ring : {&inertial_sink_.ring(), &gnss_sink_.ring(), &main_ring_}) {
     any = ring->consume_one(write_after_causes) || any;
   }

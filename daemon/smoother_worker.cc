@@ -39,8 +39,8 @@ void SmootherWorker::push_keyframe() {
   if (!inertial_) ring_.consume_one([this](const KeyframeInput& keyframe) { process(keyframe); });
 }
 
-void SmootherWorker::no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) {
-  mailbox_.deliver(epoch, none);
+void SmootherWorker::no_keyframe(const Solution& filter, const SmootherUpdate& none) {
+  stage_.pass(filter, none);
 }
 
 void SmootherWorker::run() {

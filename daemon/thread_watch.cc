@@ -3,9 +3,9 @@
 namespace leonav {
 
 std::string ThreadWatch::hanging() {
-  static constexpr std::array<const char*, 3> kNames = {"ins", "gnss", "out"};
-  const std::array<WorkCount, 3> now = {engine_->inertial_work(), engine_->gnss_work(),
-                                        engine_->out_work()};
+  static constexpr std::array<const char*, kThreads> kNames = {"ins", "gnss", "smoother", "out"};
+  const std::array<WorkCount, kThreads> now = {engine_->inertial_work(), engine_->gnss_work(),
+                                               engine_->smoother_work(), engine_->out_work()};
   const std::int64_t io_rounds = engine_->counters().io_rounds.get();
   std::string names;
   bool behind = false;

@@ -20,7 +20,8 @@ class ThreadWatch {
 
  private:
   Engine* engine_;
-  std::array<WorkCount, 3> last_{};  // ins, gnss, out
+  static constexpr std::size_t kThreads = 4;
+  std::array<WorkCount, kThreads> last_{};  // ins, gnss, smoother, out
   std::int64_t last_io_rounds_ = -1;
 };
 

@@ -53,8 +53,9 @@ struct EkfUpdateResult {
   // taken out. NaN: fewer than four.
   double code_ratio = std::numeric_limits<double>::quiet_NaN();
   double doppler_ratio = std::numeric_limits<double>::quiet_NaN();
-  // The measurements agreed with each other but not with the prediction. Ranges: left out, and at
-  // the second such epoch in a row, like Dopplers at once, believed: the covariance was widened.
+  // The measurements agreed with each other but not with the prediction. Ranges, and Dopplers
+  // beside an IMU whose word no carrier contradicts: left out, and at the second such epoch in a
+  // row believed: the covariance was widened. Other Dopplers at once.
   bool prediction_suspect = false;
   // Steps that the clocks' noise does not hold, taken up by the clocks; 0: none.
   double clock_jump_m = 0.0;                        // of all codes

@@ -51,6 +51,7 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
     return missing_variance(config_.robust, measurements_, observable, of(tables, observable),
                             covariance_, suspect, &robust_update_);
   };
+  bool doppler_left_out = false;
   for (const Observable observable :
        {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
     const double variance = missing(observable);
@@ -66,6 +67,7 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
     const bool passing = doppler && has_attitude_ && !doppler_contradicted_before &&
                          !(missing(Observable::kCarrier) > 0.0);
     if (passing || is_confirmed_against(observable, std::sqrt(variance), tables, epoch.time)) {
+      doppler_left_out |= doppler;
       leave_out([&](const FilterMeasurement& m) { return m.observable == observable; });
       tables = clock_free_tables(measurements_, covariance_);
       continue;
@@ -79,6 +81,8 @@ void Ekf::check_prediction(const MeasurementEpoch& epoch, EkfUpdateResult* resul
       forget_ambiguities();
       result->ambiguities_forgotten = true;
       gather(epoch);
+      if (doppler_left_out)
+        leave_out([](const FilterMeasurement& m) { return m.observable == Observable::kDoppler; });
     }
     tables = clock_free_tables(measurements_, covariance_);
   }

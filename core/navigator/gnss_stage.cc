@@ -125,9 +125,10 @@ void GnssStage::push_keyframe(const EpochWork& work) {
     }
     SmootherUpdate none;
     none.due = due;
-    return keyframes_->no_keyframe(work.index, none);
+    return keyframes_->no_keyframe(report_->solution, none);
   }
   keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &ekf_, keyframe);
+  keyframe->has_gnss = source() != Source::kInsOnly;
   keyframes_->push_keyframe();
 }
 

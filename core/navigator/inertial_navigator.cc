@@ -160,6 +160,8 @@ void InertialNavigator::decide_ekf(Waiting* waiting, GpsTime now, bool usable) {
     return;
   }
   if (!usable || !update.valid || epoch.index <= last_void_epoch_) return;
+  // The smoother's answer, also between its keyframes, rests on the same GNSS.
+  if (update.gnss_used && anchor_.valid) last_gnss_time_ = update.state.time;
   const bool smoother_answers = anchor_.valid && anchor_source_ == Source::kSmoother;
   if (epoch.deadline_smoother.is_set() && smoother_answers)
     waiting->held = update;

@@ -46,8 +46,8 @@ void Pipeline::push_keyframe() {
   smoother_->process(*keyframe_, this);
 }
 
-void Pipeline::no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) {
-  smoother_mailbox_.deliver(epoch, none);
+void Pipeline::no_keyframe(const Solution& filter, const SmootherUpdate& none) {
+  smoother_->pass(filter, none);
 }
 
 bool Pipeline::may_iterate(int iterations_done) {

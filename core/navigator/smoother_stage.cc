@@ -69,15 +69,27 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
   report.solution.time = input.time;
   sink_->on_smoother(report);
   if (inertial_ || !input.valid) return;
-  // Nobody else has published it.
   Solution solution = report.solution;
   if (!update.anchor.valid) {
     EkfUpdate filter;
     filter.index = input.index;
     filter.state = input.state.nav;
     filter.covariance = input.covariance.topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
-    solution = solution_of(filter, input.measurements.empty() ? Source::kInsOnly : Source::kEkf);
+    solution = solution_of(filter, Source::kEkf);
   }
+  if (!input.has_gnss) solution.source = Source::kInsOnly;
+  publish(solution);
+}
+
+void SmootherStage::pass(const Solution& filter, const SmootherUpdate& none) {
+  if (inertial_)
+    mailbox_->deliver(filter.anchor_epoch, none);
+  else if (filter.source != Source::kNone)
+    publish(filter);
+}
+
+// Where there is no IMU nobody else does.
+void SmootherStage::publish(Solution solution) {
   if (!is_finite(solution)) return;
   source_ = solution.source;
   solution.sequence = next_solution_++;

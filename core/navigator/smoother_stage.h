@@ -20,12 +20,17 @@ class SmootherStage {
   // no deadline, and the solution is published here. Allocates nothing, never throws.
   void process(const KeyframeInput& input, SolveBudget* budget);
 
+  // An epoch that is no keyframe. With IMU the stage's only member that may be called in another
+  // thread, that of the filter.
+  void pass(const Solution& filter, const SmootherUpdate& none);
+
   const Smoother& smoother() const { return smoother_; }
   Smoother& smoother() { return smoother_; }
   Source source() const { return source_; }
 
  private:
   SmootherUpdate answer(const KeyframeInput& input, const SmootherResult& result) const;
+  void publish(Solution solution);
   void report(const KeyframeInput& input, const SmootherResult& result,
               const SmootherUpdate& update);
 

@@ -30,6 +30,7 @@ struct KeyframeInput {
   bool valid = false;   // the filter has a state
   bool linked = false;  // to the keyframe before; false: the filter has started over since
   bool has_attitude = false;
+  bool has_gnss = false;  // the filter has used some of late
   FilterState from;       // the filter's at the keyframe before, after its update
   FilterState prior;      // as predicted from there, clock steps taken up
   FilterProcess process;  // likewise

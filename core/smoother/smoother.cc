@@ -59,8 +59,11 @@ void Smoother::add(const KeyframeInput& input) {
   filter_sigma_m_ = position_sigma(input.covariance);
   if (failed_ || !input.linked) window_.clear();
   failed_ = false;
+  const bool follows = window_.size() > 0;
   make_room();
-  if (window_.size() == 0 || !window_.append(input)) window_.start(input);
+  const bool appended = window_.size() > 0 && window_.append(input);
+  lost_ = follows && !appended;
+  if (!appended) window_.start(input);
 }
 
 void Smoother::make_room() {
@@ -76,16 +79,18 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   if (window_.size() == 0) return result;
   save();
   solved_ = true;
-  result.status = window_.size() == 1 ? SmootherStatus::kStarted : SmootherStatus::kOk;
+  result.status = window_.size() > 1 ? SmootherStatus::kOk
+                  : lost_            ? SmootherStatus::kSingular
+                                     : SmootherStatus::kStarted;
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
     double moved_sigmas = 0.0, reweighed = 0.0;
-    if (!iterate(result.iterations, &moved_sigmas, &reweighed)) {
+    // The one that fails counts: a replay has to make it as well.
+    if (!iterate(result.iterations++, &moved_sigmas, &reweighed)) {
       result.status = SmootherStatus::kSingular;
       failed_ = true;
       return result;
     }
-    ++result.iterations;
     result.converged = result.iterations > 1 && moved_sigmas < config_.converged_sigmas &&
                        reweighed < kSettledWeights;
     if (result.converged) break;

@@ -76,6 +76,7 @@ class Smoother {
   double filter_sigma_m_ = 0.0;
   bool solved_ = false;  // and not settled
   bool failed_ = false;  // it starts over with the next keyframe
+  bool lost_ = false;    // the window before the newest keyframe could not be kept
 };
 
 }  // namespace leonav

@@ -10,6 +10,7 @@
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
+#include <leonav/smoother_t.hpp>
 
 #include "drivers/lcm/convert.h"
 #include "drivers/lcm/wire.h"
@@ -230,6 +231,20 @@ DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {
     decision->mailbox = static_cast<std::uint8_t>(message.mailbox);
     decision->committed = message.committed == 1;
     decision->iterations = message.iterations;
+  }
+  return result_of(message, fault);
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, SmootherReport* report) {
+  smoother_t message{};
+  InputFault fault = read(bytes, &message);
+  if (fault != InputFault::kNone) return result_of(message, fault);
+  if (!is_time(message.time_ns) || message.epoch <= 0 || message.iterations < 0) {
+    fault = InputFault::kOutOfRange;
+  } else {
+    report->sequence = static_cast<std::uint64_t>(message.sequence);
+    report->index = static_cast<std::uint64_t>(message.epoch);
+    report->iterations = message.iterations;
   }
   return result_of(message, fault);
 }

@@ -42,6 +42,8 @@ class Decoder {
   DecodeResult decode(ByteSpan bytes, AntennaPattern* pattern);
   DecodeResult decode(ByteSpan bytes, Command* command);
   DecodeResult decode(ByteSpan bytes, Decision* decision);
+  // Which epoch it is of, and the iterations that were made; nothing else is read.
+  DecodeResult decode(ByteSpan bytes, SmootherReport* report);
 
  private:
   struct Storage;

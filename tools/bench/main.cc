@@ -199,6 +199,8 @@ int body(int argc, char** argv) {
       static_cast<double>(bench.carriers) / epochs, static_cast<double>(bench.slips) / epochs);
   const double imu_us = print_rows("IMU sample", "us", 1e6, bench.imu_sample);
   const double epoch_ms = print_rows("GNSS epoch", "ms", 1e3, bench.gnss_epoch);
+  if (bench.iterations.empty() && arguments.has("--max-solve-ms"))
+    throw std::runtime_error("--max-solve-ms, but nothing was solved: --set estimator=smoother");
   const double solve_ms = bench.iterations.empty() ? 0.0 : print_solves(bench);
   std::printf("%-22s %.0f times real time (median run, decoding included)\n", "replay",
               bench.speeds[bench.speeds.size() / 2]);

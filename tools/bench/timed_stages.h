@@ -100,8 +100,8 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
   }
   KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
   void push_keyframe() override { has_keyframe_ = true; }  // so that the filter's time is its own
-  void no_keyframe(std::uint64_t epoch, const SmootherUpdate& none) override {
-    smoother_mailbox_.deliver(epoch, none);
+  void no_keyframe(const Solution& filter, const SmootherUpdate& none) override {
+    smoother_->pass(filter, none);
   }
   bool may_iterate(int) override { return true; }
   void event(const Event&) override {}

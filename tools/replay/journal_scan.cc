@@ -27,6 +27,21 @@ std::string JournalScan::describe() const {
   return text;
 }
 
+namespace {
+
+void note_answer(ByteSpan bytes, Decoder* decoder, JournalScan* scan) {
+  SmootherReport report;
+  if (decoder->decode(bytes, &report).fault != InputFault::kNone) return;
+  Decision decision;
+  decision.epoch = report.index;
+  decision.mailbox = 1;
+  decision.committed = true;
+  decision.iterations = report.iterations;
+  scan->delivered.push_back(decision);
+}
+
+}  // namespace
+
 JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   EventLogReader log(path);
   Decoder decoder;
@@ -41,6 +56,7 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
     }
     ++scan.messages[index_of(*channel)];
     scan.stopped_cleanly = *channel == Channel::kEnd && decode_journal_end(event.data) == before;
+    if (*channel == Channel::kSmoother) note_answer(event.data, &decoder, &scan);
     if (*channel != Channel::kDecision) continue;
     Decision decision;
     if (decoder.decode(event.data, &decision).fault != InputFault::kNone) {

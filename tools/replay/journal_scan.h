@@ -15,6 +15,8 @@ struct JournalScan {
   std::uint64_t other_messages = 0;                     // on channels that are not leonav's
   std::uint64_t unreadable_decisions = 0;
   std::vector<Decision> decisions;
+  // Answers of the smoother, with their iterations: those of the last epochs have no decision yet.
+  std::vector<Decision> delivered;
   bool truncated = false;        // the last event is cut short
   bool stopped_cleanly = false;  // its last message says so, and none is missing
 

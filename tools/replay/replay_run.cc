@@ -16,6 +16,7 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       pipeline_(config.navigator, this),
       dispatch_(&pipeline_.sequencer()) {
   if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
+  for (const Decision& delivered : scan_.delivered) pipeline_.record(delivered);
   for (const Decision& decision : scan_.decisions) pipeline_.record(decision);
 }
 

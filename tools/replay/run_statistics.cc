@@ -61,7 +61,7 @@ void RunStatistics::print(std::ostream& out) const {
   out << "epochs: " << epochs_ << "\nempty epochs: " << empty_epochs_ << "\n"
       << "results committed: " << commits_ << "\ndeadline misses: " << misses_ << "\n";
   if (!smoother_statuses_.empty()) {
-    out << "smoother results committed: " << smoother_commits_
+    out << "smoother decisions in time: " << smoother_commits_
         << "\nsmoother deadline misses: " << smoother_misses_
         << "\nkeyframes skipped: " << keyframes_skipped_
         << "\nsmoother iterations: " << smoother_iterations_ << "\n";
