@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "daemon/engine.h"
@@ -25,6 +26,10 @@ const std::vector<Input>& inputs() {
   return list;
 }
 
+// Where the smoother is held at every third keyframe until its deadline has passed, while all other
+// stages keep up: before its first iteration or, with a solve begun, before the second.
+enum class Hold { kNever, kBefore, kWithin };
+
 DaemonConfig smoother_config() {
   DaemonConfig config = test::drive_config();
   config.navigator.estimator = Estimator::kSmoother;
@@ -33,9 +38,20 @@ DaemonConfig smoother_config() {
   return config;
 }
 
+// With the smoother's answers before them: of the last epochs nothing has been decided yet.
 std::vector<Decision> decisions_of(const Collector& outputs) {
   Decoder decoder;
   std::vector<Decision> decisions;
+  for (const Bytes& bytes : outputs.groups[kSmoother]) {
+    SmootherReport report;
+    REQUIRE(decoder.decode(bytes, &report).fault == InputFault::kNone);
+    Decision decision;
+    decision.epoch = report.index;
+    decision.mailbox = 1;
+    decision.committed = true;
+    decision.iterations = report.iterations;
+    decisions.push_back(decision);
+  }
   for (const std::size_t group : {kDecisions, kKeyframes}) {
     for (const Bytes& bytes : outputs.groups[group]) {
       Decision decision;
@@ -52,21 +68,25 @@ Collector replay(const std::vector<Decision>& decisions) {
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }
 
-// Late: the smoother is held before its first iteration of every third keyframe until its deadline
-// has passed, while all other stages keep up.
-Collector run_engine(bool late) {
+Collector run_engine(Hold hold, double time_limit_s = 0.0) {
   std::atomic<std::uint64_t> samples{0};
   std::atomic<bool> held{false};
+  std::uint64_t last_epoch = 0;
+  int iteration = 0;
   EngineHooks hooks;
   hooks.before_iteration = [&](std::uint64_t epoch) {
-    if (!late || epoch % 3 != 0) return;
+    iteration = std::exchange(last_epoch, epoch) == epoch ? iteration + 1 : 0;
+    if (hold == Hold::kNever || epoch % 3 != 0) return;
+    if (iteration != (hold == Hold::kBefore ? 0 : 1)) return;
     const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, inputs().size());
     held = true;
     while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
     held = false;
   };
   Collector outputs;
-  Engine engine(smoother_config(), &outputs, hooks);
+  DaemonConfig config = smoother_config();
+  config.navigator.smoother.time_limit_s = time_limit_s;
+  Engine engine(config, &outputs, hooks);
   engine.start();
   std::int64_t stamp = 0;
   for (const Input& input : inputs()) {
@@ -90,7 +110,7 @@ int missed_of(const std::vector<Decision>& decisions, int mailbox) {
 }  // namespace
 
 TEST_CASE("a smoother in time gives the bytes of the single thread") {
-  const Collector threaded = run_engine(false);
+  const Collector threaded = run_engine(Hold::kNever);
   CHECK(missed_of(decisions_of(threaded), 0) == 0);
   CHECK(missed_of(decisions_of(threaded), 1) == 0);
   check_same(replay({}), threaded);
@@ -98,8 +118,9 @@ TEST_CASE("a smoother in time gives the bytes of the single thread") {
 }
 
 TEST_CASE("a smoother that is late leaves the filter's answer, and its run replays") {
-  const Collector in_time = run_engine(false);
-  const Collector late = run_engine(true);
+  const Hold hold = GENERATE(Hold::kBefore, Hold::kWithin);
+  const Collector in_time = run_engine(Hold::kNever);
+  const Collector late = run_engine(hold);
   const std::vector<Decision> decisions = decisions_of(late);
   const int missed = missed_of(decisions, 1);
   CHECK(missed >= 10);
@@ -109,4 +130,10 @@ TEST_CASE("a smoother that is late leaves the filter's answer, and its run repla
   CHECK(late.groups[0].size() == in_time.groups[0].size());
   CHECK(late.groups[kSmoother].size() >= 15);
   check_same(replay(decisions), late);
+}
+
+TEST_CASE("solves that time has cut short replay with as many iterations, the last ones too") {
+  const Collector in_time = run_engine(Hold::kNever), hurried = run_engine(Hold::kNever, 1e-9);
+  CHECK(in_time.groups[kSmoother] != hurried.groups[kSmoother]);
+  check_same(replay(decisions_of(hurried)), hurried);
 }

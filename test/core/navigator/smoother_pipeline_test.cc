@@ -94,4 +94,45 @@ TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   CHECK(first.solutions.back().source == Source::kSmoother);
 }
 
+TEST_CASE("epochs between two keyframes: the smoother's anchor goes on, with GNSS behind it") {
+  SyntheticDriveOptions options = noisy_drive(90.0);
+  options.epoch_interval_s = 0.2;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = smoother_config(options);
+  config.realtime.epoch_interval_s = 0.2;
+  const RecordingSink sink = run(drive, config);
+  CHECK(sink.smoothed.size() < drive.epochs.size() / 4);
+  const GpsTime aligned = kSkyEpoch.plus_seconds(50.0);
+  std::size_t smoothed = 0, others = 0;
+  for (const Solution& solution : sink.solutions)
+    if (solution.time > aligned) ++(solution.source == Source::kSmoother ? smoothed : others);
+  CHECK(smoothed > 1000);
+  CHECK(others == 0);
+}
+
+TEST_CASE("without an IMU every epoch has its answer, and says whether GNSS is behind it") {
+  SyntheticDriveOptions options = noisy_drive(90.0);
+  options.epoch_interval_s = 0.5;
+  SyntheticDrive drive = synthetic_drive(options);
+  const auto is_out = [](GpsTime time) {
+    const double t = seconds_between(time, kSkyEpoch);
+    return t > 40.0 && t < 60.0;
+  };
+  for (RawEpoch& raw : drive.epochs)
+    if (is_out(raw.time)) raw.observations.clear();
+  NavigatorConfig config = smoother_config(options);
+  config.motion = MotionModel::kConstantVelocity;
+  config.realtime.epoch_interval_s = 0.5;
+  const RecordingSink sink = run(drive, config);
+  CHECK(sink.solutions.size() + 2 >= drive.epochs.size());
+  std::uint64_t sequence = 0;
+  for (const Solution& solution : sink.solutions) {
+    CHECK(solution.sequence == ++sequence);
+    const double t = seconds_between(solution.time, kSkyEpoch);
+    if (t > 43.0 && t < 60.0) CHECK(solution.source == Source::kInsOnly);
+    if (t > 20.0 && t < 40.0) CHECK(solution.source != Source::kInsOnly);
+  }
+  CHECK(sink.solutions.back().source != Source::kInsOnly);
+}
+
 }  // namespace leonav::test
