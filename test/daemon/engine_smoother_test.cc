@@ -69,8 +69,7 @@ Collector replay(const std::vector<Decision>& decisions) {
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }
 
 Collector run_engine(Hold hold, double time_limit_s = 0.0) {
-  std::atomic<std::uint64_t> samples{0};
-  std::atomic<bool> held{false};
+  std::atomic<std::uint64_t> samples{0}, held_until{0};
   std::uint64_t last_epoch = 0;
   int iteration = 0;
   EngineHooks hooks;
@@ -79,9 +78,8 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0) {
     if (hold == Hold::kNever || epoch % 3 != 0) return;
     if (iteration != (hold == Hold::kBefore ? 0 : 1)) return;
     const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, inputs().size());
-    held = true;
+    held_until = until;
     while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
-    held = false;
   };
   Collector outputs;
   DaemonConfig config = smoother_config();
@@ -92,8 +90,8 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0) {
   for (const Input& input : inputs()) {
     engine.receive(input.channel, input.bytes, ++stamp);
     ++samples;
-    while (!engine.idle() &&
-           !(held.load() && is_done(engine.gnss_work()) && is_done(engine.inertial_work())))
+    while (!engine.idle() && !(samples.load() < held_until.load() && is_done(engine.gnss_work()) &&
+                               is_done(engine.inertial_work())))
       std::this_thread::yield();
   }
   REQUIRE(engine.finish());
