@@ -10,9 +10,9 @@
 
 namespace leonav {
 
-// Slot k % N serves epoch k. The navigator opens it, one worker delivers (of several, one each epoch), the navigator takes: a
-// single compare-exchange decides between deliver() and cancel, so a result is either visible at
-// the deadline or never. T is copied; slots are allocated once.
+// Slot k % N serves epoch k. The navigator opens it, one worker delivers (of several, one each
+// epoch), the navigator takes: a single compare-exchange decides between deliver() and cancel, so a
+// result is either visible at the deadline or never. T is copied; slots are allocated once.
 template <typename T>
 class TimedMailbox {
  public:
