@@ -140,9 +140,11 @@ void Engine::run_gnss() {
       if (epoch != nullptr && hooks_.before_epoch) hooks_.before_epoch(epoch->index);
       const Stopwatch watch;
       gnss_.process(work);
-      Source source = gnss_.source();
-      if (smoother_ != nullptr && source != Source::kNone) source = smoother_->source();
-      if (publishes) counters_.source.set(static_cast<std::int64_t>(source));
+      if (publishes) {
+        Source source = gnss_.source();
+        if (smoother_ != nullptr && source != Source::kNone) source = smoother_->source();
+        counters_.source.set(static_cast<std::int64_t>(source));
+      }
       if (epoch != nullptr) {
         counters_.worst_epoch_ns.raise_to(watch.nanoseconds());
       }

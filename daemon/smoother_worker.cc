@@ -39,9 +39,7 @@ void SmootherWorker::push_keyframe() {
   if (!inertial_) ring_.consume_one([this](const KeyframeInput& keyframe) { process(keyframe); });
 }
 
-void SmootherWorker::no_keyframe(const Solution& filter, const SmootherUpdate& none) {
-  stage_.pass(filter, none);
-}
+void SmootherWorker::no_keyframe(const Solution& filter, bool due) { stage_.pass(filter, due); }
 
 void SmootherWorker::run() {
   for (;;) {

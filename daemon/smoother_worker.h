@@ -26,7 +26,7 @@ class SmootherWorker final : public KeyframeSink, private SolveBudget {
   // GNSS thread.
   KeyframeInput* next_keyframe(std::uint64_t epoch) override;
   void push_keyframe() override;
-  void no_keyframe(const Solution& filter, const SmootherUpdate& none) override;
+  void no_keyframe(const Solution& filter, bool due) override;
 
   // Of the answer, in the thread that works where there is no IMU.
   Source source() const { return stage_.source(); }

@@ -50,8 +50,8 @@ struct EkfConfig {
   double doppler_correlation_time_s = 0.0;
   // Median standardized innovation of code, carrier or Doppler, clocks taken out (0.67 when all is
   // well), from which on the prediction is taken to be wrong, not the measurements, if these agree:
-  // the filter widens its covariance (for ranges, or
-  // Dopplers alone against an IMU, at the second such epoch) instead of rejecting them all.
+  // the filter widens its covariance (for ranges, or Dopplers alone against an IMU, at the second
+  // such epoch) instead of rejecting them all.
   double prediction_suspect_ratio = 3.0;
   double reset_ratio =
       0.7;  // share of code measurements rejected in one epoch that counts as suspect

@@ -123,9 +123,7 @@ void GnssStage::push_keyframe(const EpochWork& work) {
       skipped.mailbox = 2;
       sink_->on_decision(skipped);
     }
-    SmootherUpdate none;
-    none.due = due;
-    return keyframes_->no_keyframe(report_->solution, none);
+    return keyframes_->no_keyframe(report_->solution, due);
   }
   keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &ekf_, keyframe);
   keyframe->has_gnss = source() != Source::kInsOnly;

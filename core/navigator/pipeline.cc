@@ -46,9 +46,7 @@ void Pipeline::push_keyframe() {
   smoother_->process(*keyframe_, this);
 }
 
-void Pipeline::no_keyframe(const Solution& filter, const SmootherUpdate& none) {
-  smoother_->pass(filter, none);
-}
+void Pipeline::no_keyframe(const Solution& filter, bool due) { smoother_->pass(filter, due); }
 
 bool Pipeline::may_iterate(int iterations_done) {
   return iterations_allowed_ < 0 || iterations_done < iterations_allowed_;

@@ -34,7 +34,7 @@ class Pipeline final : private StageInputs, private KeyframeSink, private SolveB
   void event(const Event& event) override;
   KeyframeInput* next_keyframe(std::uint64_t epoch) override;
   void push_keyframe() override;
-  void no_keyframe(const Solution& filter, const SmootherUpdate& none) override;
+  void no_keyframe(const Solution& filter, bool due) override;
   bool may_iterate(int iterations_done) override;
 
   // What became of one epoch when this was recorded.

@@ -81,7 +81,9 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
   publish(solution);
 }
 
-void SmootherStage::pass(const Solution& filter, const SmootherUpdate& none) {
+void SmootherStage::pass(const Solution& filter, bool due) {
+  SmootherUpdate none;
+  none.due = due;
   if (inertial_)
     mailbox_->deliver(filter.anchor_epoch, none);
   else if (filter.source != Source::kNone)

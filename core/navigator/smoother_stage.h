@@ -22,7 +22,7 @@ class SmootherStage {
 
   // An epoch that is no keyframe. With IMU the stage's only member that may be called in another
   // thread, that of the filter.
-  void pass(const Solution& filter, const SmootherUpdate& none);
+  void pass(const Solution& filter, bool due);
 
   const Smoother& smoother() const { return smoother_; }
   Smoother& smoother() { return smoother_; }

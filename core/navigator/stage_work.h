@@ -86,9 +86,8 @@ class KeyframeSink {
   // Where the next keyframe is to be written; nullptr: no room, the epoch is not to be one.
   virtual KeyframeInput* next_keyframe(std::uint64_t epoch) = 0;
   virtual void push_keyframe() = 0;
-  // The epoch is none, not being due or having no room: the filter's answer of it, and what the
-  // mailbox gets instead of the smoother's.
-  virtual void no_keyframe(const Solution& filter, const SmootherUpdate& none) = 0;
+  // The epoch is none, not being due or having no room. `filter`: its answer.
+  virtual void no_keyframe(const Solution& filter, bool due) = 0;
 };
 
 }  // namespace leonav

@@ -7,8 +7,8 @@
 namespace leonav {
 
 // Streams the log through the smoother and prints a row after ten minutes of data and then every
-// hour. Throws std::runtime_error where the last row's memory, time per solve, or unknowns and
-// residuals per keyframe and satellite are more than the first one's by more than chance.
+// hour. Throws std::runtime_error where the last rows' memory, keyframes, unknowns, residual blocks
+// or time per solve are more than the first ones' by more than chance.
 void measure_growth(const NavigatorConfig& config, const std::string& log_path,
                     const std::string& prefix);
 

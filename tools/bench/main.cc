@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "daemon/input_dispatch.h"
 #include "drivers/lcm/event_log.h"
 #include "growth.h"
+#include "measured.h"
 #include "timed_stages.h"
 #include "tools/common/arguments.h"
 
@@ -49,10 +49,6 @@ Recording load(const std::string& path, const std::string& prefix) {
   return recording;
 }
 
-double at_share(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
 // One row for the wall's clock and one for the processor's; returns what 99 % of the latter keep
 // to.
 double print_rows(const char* name, const char* unit, double per_second, const Times& times) {
@@ -66,21 +62,12 @@ double print_rows(const char* name, const char* unit, double per_second, const T
     for (double& value : values) value *= per_second;
     std::sort(values.begin(), values.end());
     std::printf("%-22s %8zu  median %9.3f  99 %% %9.3f  99.9 %% %9.3f  worst %9.3f %s\n",
-                wall ? name : "  processor time", values.size(), at_share(values, 0.5),
-                at_share(values, 0.99), at_share(values, 0.999), values.back(), unit);
-    processor = at_share(values, 0.99);
+                wall ? name : "  processor time", values.size(), leonav::at_share(values, 0.5),
+                leonav::at_share(values, 0.99), leonav::at_share(values, 0.999), values.back(),
+                unit);
+    processor = leonav::at_share(values, 0.99);
   }
   return processor;
-}
-
-double peak_memory_mb() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    double kilobytes = 0.0;
-    if (word == "VmHWM:" && status >> kilobytes) return kilobytes / 1024.0;
-  }
-  return 0.0;
 }
 
 // What all runs took, and what the last one used: all use the same.
@@ -101,8 +88,8 @@ double print_solves(const Bench& bench) {
   std::printf(
       "%-22s median %.0f, 99 %% %.0f, most %.0f; keyframes at most %d; allocations per solve "
       "%.3f\n",
-      "  iterations", at_share(bench.iterations, 0.5), at_share(bench.iterations, 0.99),
-      bench.iterations.back(), bench.keyframes,
+      "  iterations", leonav::at_share(bench.iterations, 0.5),
+      leonav::at_share(bench.iterations, 0.99), bench.iterations.back(), bench.keyframes,
       static_cast<double>(bench.solve_allocations) / solves);
   return solve_ms;
 }
@@ -189,7 +176,7 @@ int body(int argc, char** argv) {
   const Bench bench = run(config.navigator, recording, static_cast<int>(repeats));
 
   const double epochs = static_cast<double>(bench.satellites.size());
-  const double satellites = at_share(bench.satellites, 0.5);
+  const double satellites = leonav::at_share(bench.satellites, 0.5);
   std::printf("%zu inputs over %.1f s, %.0f runs\n", recording.messages.size(), recording.span_s,
               repeats);
   std::printf(
@@ -204,7 +191,8 @@ int body(int argc, char** argv) {
   const double solve_ms = bench.iterations.empty() ? 0.0 : print_solves(bench);
   std::printf("%-22s %.0f times real time (median run, decoding included)\n", "replay",
               bench.speeds[bench.speeds.size() / 2]);
-  std::printf("%-22s %.1f MB, the log in memory included\n", "peak memory", peak_memory_mb());
+  std::printf("%-22s %.1f MB, the log in memory included\n", "peak memory",
+              leonav::memory_mb("VmHWM:"));
   require(arguments, "--min-satellites", true, satellites, "satellites used, median");
   require(arguments, "--max-imu-us", false, imu_us,
           "processor time of 99 % of the IMU samples, us");

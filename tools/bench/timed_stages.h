@@ -100,9 +100,7 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
   }
   KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
   void push_keyframe() override { has_keyframe_ = true; }  // so that the filter's time is its own
-  void no_keyframe(const Solution& filter, const SmootherUpdate& none) override {
-    smoother_->pass(filter, none);
-  }
+  void no_keyframe(const Solution& filter, bool due) override { smoother_->pass(filter, due); }
   bool may_iterate(int) override { return true; }
   void event(const Event&) override {}
 
