@@ -18,7 +18,8 @@ struct KeyframeMeasurement {
   int ambiguity = -1;       // place among the state's ambiguities; -1: none
   double variance = 0.0;    // of the measurement alone: what it is tested against
   double gain_variance = 0.0;
-  double factor = 1.0;  // IGG-III: the filter's, later the window's
+  double factor = 1.0;    // IGG-III: the filter's, later the window's
+  double residual = 0.0;  // at the estimate where the window decided it, m or m/s
 };
 using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
 using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxMeasurements>;

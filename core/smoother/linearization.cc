@@ -1,8 +1,5 @@
 #include "core/smoother/linearization.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace leonav {
 namespace {
 
@@ -62,20 +59,6 @@ void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_a
     sum->information(ambiguity, ambiguity) += weight;
     sum->gradient(ambiguity) += weight * linear.residual;
   }
-}
-
-double reweigh(const RobustConfig& config, const Eigen::Vector3d& lever_arm_b, Keyframe* keyframe) {
-  const AntennaMotion antenna = antenna_of(*keyframe, lever_arm_b);
-  double change = 0.0;
-  for (KeyframeMeasurement& measurement : keyframe->measurements) {
-    const double residual = linearize(measurement, *keyframe, antenna).residual;
-    const double factor =
-        igg3_factor(residual / std::sqrt(measurement.variance), config.k0, config.k1);
-    change = std::max(change, std::abs(factor - measurement.factor));
-    measurement.factor = factor;
-  }
-  keyframe->judged = true;
-  return change;
 }
 
 }  // namespace leonav

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "core/ekf/measurement_model.h"
-#include "core/gnss/igg3.h"
 #include "core/smoother/keyframe.h"
 
 namespace leonav {
@@ -27,10 +26,5 @@ struct MeasurementInformation {
 // With the factors as they are.
 void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b,
                         MeasurementInformation* sum);
-
-// Decides the factors anew: IGG-III on each residual over the measurement's sigma. Returns the
-// largest change. (The filter tests against the prediction from all *other* measurements. Over a
-// window, iterated, that would let four or five satellites outvote each other in turn.)
-double reweigh(const RobustConfig& config, const Eigen::Vector3d& lever_arm_b, Keyframe* keyframe);
 
 }  // namespace leonav

@@ -47,6 +47,7 @@ Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
       robust_(robust),
       lever_arm_b_(lever_arm_b),
       window_(config.window),
+      weights_(robust, config.code_alike_s),
       chain_(window_.capacity()),
       relinker_(relink),
       saved_(std::make_unique<Saved[]>(static_cast<std::size_t>(window_.capacity()))),
@@ -101,16 +102,8 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 
 // Weights, a step, and how far it went.
 bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
-  for (int i = 0; i < window_.size() && robust_.enabled && config_.reweigh; ++i) {
-    Keyframe& keyframe = window_.at(i);
-    // A new keyframe's first weights are the filter's.
-    if (iteration == 0 && !keyframe.judged) {
-      keyframe.judged = true;
-      *reweighed = 1.0;
-      continue;
-    }
-    *reweighed = std::max(*reweighed, reweigh(robust_, lever_arm_b_, &keyframe));
-  }
+  if (robust_.enabled && config_.reweigh)
+    *reweighed = weights_.decide(iteration == 0, lever_arm_b_, &window_);
   if (!chain_.solve(window_, lever_arm_b_, &corrections_)) return false;
   double moved_m = 0.0;
   for (int i = 0; i < window_.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "core/smoother/smoother_config.h"
 #include "core/smoother/smoother_status.h"
 #include "core/smoother/window.h"
+#include "core/smoother/window_weights.h"
 
 namespace leonav {
 
@@ -67,6 +68,7 @@ class Smoother {
   RobustConfig robust_;
   Eigen::Vector3d lever_arm_b_;
   Window window_;
+  WindowWeights weights_;
   ChainSolver chain_;
   Relinker relinker_;
   WindowCorrections corrections_;

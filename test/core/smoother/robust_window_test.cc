@@ -77,4 +77,38 @@ TEST_CASE("a measurement wrongly thrown out comes back") {
   CHECK(now > 0.5);
 }
 
+TEST_CASE("a code that is a little too long for many seconds weighs less") {
+  const auto last_factor = [](double alike_s, double lasting_sigma) {
+    DriveOptions options;
+    options.robust = true;
+    options.carriers = false;
+    options.code_sigma = 0.5;
+    options.edit = [=](int, MeasurementEpoch* measured) {
+      measured->measurements[0].value += 1.25 * 0.5;
+      measured->measurements[0].correlated_sigma = lasting_sigma;
+    };
+    Drive drive(options);
+    SmootherConfig config;
+    config.code_alike_s = alike_s;
+    const auto smoother = smoother_of(drive, config);
+    double sum = 0.0;
+    for (int epoch = 1; epoch <= 40; ++epoch) {
+      solve(drive.step(), smoother.get());
+      if (epoch <= 20) continue;
+      const Keyframe& newest = smoother->window().newest();
+      for (const KeyframeMeasurement& m : newest.measurements)
+        if (m.measurement.observable == Observable::kCode && m.measurement.satellite_index == 0)
+          sum += m.factor / 20.0;
+    }
+    return sum;
+  };
+  const double judged = last_factor(5.0, 0.0), alone = last_factor(0.0, 0.0);
+  const double lasting = last_factor(5.0, 0.5);  // an error that the model says may stay
+  WARN("mean factor: means judged " << judged << ", each by itself " << alone
+                                    << ", of a lasting error " << lasting);
+  CHECK(alone > 0.7);
+  CHECK(judged < 0.5 * alone);
+  CHECK(lasting > 0.7);
+}
+
 }  // namespace leonav

@@ -17,15 +17,19 @@ struct Stingy final : SolveBudget {
   bool may_iterate(int) override { return false; }
 };
 
-inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, int window, int iterations = 4) {
-  SmootherConfig config;
-  config.window = window;
-  config.max_iterations = iterations;
+inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, const SmootherConfig& config) {
   RelinkConfig relink;
   relink.ekf = drive.config();
   relink.imu = mems();
   relink.lever_arm_b = drive.lever_b();
   return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), relink);
+}
+
+inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, int window, int iterations = 4) {
+  SmootherConfig config;
+  config.window = window;
+  config.max_iterations = iterations;
+  return smoother_of(drive, config);
 }
 
 inline SmootherResult solve(const KeyframeInput& input, Smoother* smoother, bool take = true) {

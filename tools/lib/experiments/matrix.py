@@ -216,7 +216,8 @@ def smoother_rows(rows):
 # What the smoother's gain is made of: keyframes, iterations, weights.
 STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"]) for w in (2, 5, 10, 40, 60)] + [
     ("once", "one iteration", ["smoother.max_iterations=1"]),
-    ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"])]
+    ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"]),
+    ("no-means", "each code judged by itself", ["smoother.code_alike_s=0"])]
 
 
 def study_rows(rows):

@@ -1,0 +1,90 @@
+#include "core/smoother/window_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+double WindowWeights::decide(bool first, const Eigen::Vector3d& lever_arm_b, Window* window) {
+  for (int i = 0; i < window->size(); ++i) {
+    Keyframe& keyframe = window->at(i);
+    const AntennaMotion antenna = antenna_of(keyframe, lever_arm_b);
+    for (KeyframeMeasurement& measurement : keyframe.measurements)
+      measurement.residual = linearize(measurement, keyframe, antenna).residual;
+  }
+  gather_means(*window);
+  double change = 0.0;
+  for (int i = 0; i < window->size(); ++i) {
+    Keyframe& keyframe = window->at(i);
+    const bool keep = first && !keyframe.judged;
+    change = std::max(change, keep ? 1.0 : reweigh(&keyframe));
+    keyframe.judged = true;
+  }
+  return change;
+}
+
+// An error of the varying part is another one after `alike_s`, so that a mean over n times that has
+// a variance of 1/n.
+void WindowWeights::gather_means(const Window& window) {
+  means_.clear();
+  if (!(alike_s_ > 0.0) || window.size() < 2) return;
+  for (int i = 0; i < window.size(); ++i) {
+    const Keyframe& keyframe = window.at(i);
+    for (const KeyframeMeasurement& measurement : keyframe.measurements) {
+      CodeMean* mean = mean_of(keyframe, measurement);
+      if (mean == nullptr) continue;
+      // A gross error is judged by itself.
+      const double most = robust_.k1 * std::sqrt(measurement.variance);
+      const double lasting =
+          std::min(measurement.variance, square(measurement.measurement.correlated_sigma));
+      ++mean->count;
+      mean->residuals += std::clamp(measurement.residual, -most, most);
+      mean->lasting += lasting;
+      mean->varying += measurement.variance - lasting;
+    }
+  }
+  const double interval_s =
+      seconds_between(window.newest().time, window.at(0).time) / (window.size() - 1);
+  for (CodeMean& mean : means_) {
+    const double errors = std::max(1.0, mean.count * interval_s / alike_s_);
+    const double n = std::min<double>(errors, mean.count);
+    mean.ratio =
+        mean.residuals / mean.count / std::sqrt((mean.lasting + mean.varying / n) / mean.count);
+  }
+}
+
+WindowWeights::CodeMean* WindowWeights::mean_of(const Keyframe& keyframe,
+                                                const KeyframeMeasurement& measurement) {
+  if (measurement.measurement.observable != Observable::kCode) return nullptr;
+  const SatelliteId satellite =
+      keyframe.satellites[measurement.measurement.satellite_index].satellite;
+  const SignalCode code = measurement.measurement.code;
+  for (CodeMean& mean : means_)
+    if (mean.satellite == satellite && mean.code == code) return &mean;
+  if (means_.size() == means_.capacity()) return nullptr;
+  means_.push_back({satellite, code});
+  return &means_.back();
+}
+
+double WindowWeights::reweigh(Keyframe* keyframe) {
+  double change = 0.0;
+  for (KeyframeMeasurement& measurement : keyframe->measurements) {
+    double factor =
+        igg3_factor(measurement.residual / std::sqrt(measurement.variance), robust_.k0, robust_.k1);
+    if (!means_.empty())
+      if (const CodeMean* mean = mean_of(*keyframe, measurement))
+        factor = std::min(factor, igg3_factor(mean->ratio, robust_.k0, robust_.k1));
+    change = std::max(change, std::abs(factor - measurement.factor));
+    measurement.factor = factor;
+  }
+  return change;
+}
+
+}  // namespace leonav
