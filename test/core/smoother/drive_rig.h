@@ -22,6 +22,7 @@ struct DriveOptions {
   bool carriers = true;
   bool robust = false;
   std::size_t gps_satellites = 5;  // of eight, the others of Galileo
+  bool leo = false;                // those are near and fast instead, of LEO
   double code_sigma = 3.0, doppler_sigma = 0.2, carrier_sigma = 0.005;
   double wander = 0.0;                          // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
@@ -148,11 +149,24 @@ class Drive {
     place_antenna(rate_b);
   }
 
+  // On straight lines: 1,200 km away at 16 s, at 7.5 km/s.
+  static void bring_near(double t, std::vector<SatelliteInView>* sky) {
+    for (SatelliteInView& view : *sky) {
+      if (view.satellite.system != System::kGalileo) continue;
+      view.satellite.system = System::kLeo;
+      const Eigen::Vector3d start_e = start_position();
+      view.v_e *= 7500.0 / view.v_e.norm();
+      view.p_e = start_e + 1.2e6 * (view.p_e - start_e).normalized() + (t - 16.0) * view.v_e;
+    }
+  }
+
   MeasurementEpoch measure_epoch() {
     const double share = options_.noise;
+    std::vector<SatelliteInView> sky = sky_at(epoch_, options_.gps_satellites);
+    if (options_.leo) bring_near(epoch_, &sky);
     MeasurementEpoch epoch =
-        measure(kStart.plus_seconds(epoch_), sky_at(epoch_, options_.gps_satellites), truth_,
-                share * options_.code_sigma, share * options_.doppler_sigma, &noise_);
+        measure(kStart.plus_seconds(epoch_), sky, truth_, share * options_.code_sigma,
+                share * options_.doppler_sigma, &noise_);
     epoch.index = static_cast<std::uint64_t>(epoch_);
     const auto codes = epoch.measurements;
     for (const Measurement& code : codes) {

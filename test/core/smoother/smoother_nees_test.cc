@@ -96,6 +96,15 @@ TEST_CASE("the smoother's errors are as large as its covariance says") {
   check(options.carriers ? "with carriers" : "without carriers", run(options, 10, 30));
 }
 
+TEST_CASE("the smoother's errors are as large as its covariance says with LEO satellites") {
+  DriveOptions options;
+  options.leo = true;
+  options.arc_epochs = 20;
+  options.carriers = GENERATE(false, true);
+  options.wander = options.carriers ? 0.005 : 0.0;
+  check(options.carriers ? "LEO, with carriers" : "LEO, without carriers", run(options, 10, 30));
+}
+
 TEST_CASE("weights cost the smoother no more than they cost the filter") {
   DriveOptions options;
   options.robust = true;

@@ -213,11 +213,12 @@ def smoother_rows(rows):
     return result
 
 
-# What the smoother's gain is made of: keyframes, iterations, weights.
-STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"]) for w in (2, 5, 10, 40, 60)] + [
-    ("once", "one iteration", ["smoother.max_iterations=1"]),
-    ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"]),
-    ("no-means", "each code judged by itself", ["smoother.code_alike_s=0"])]
+# What the smoother's gain is made of: keyframes, iterations, weights; and what arcs that end could cost at most.
+STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"], []) for w in (2, 5, 10, 40, 60)] + [
+    ("once", "one iteration", ["smoother.max_iterations=1"], []),
+    ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"], []),
+    ("no-means", "each code judged by itself", ["smoother.code_alike_s=0"], []),
+    ("no-slips", "a receiver that never slips", [], ["receiver.tracking.slips_per_hour=0"])]
 
 
 def study_rows(rows):
@@ -225,8 +226,9 @@ def study_rows(rows):
     result = []
     for name in ("fgo-carrier-gps-leo-ins", "fgo-low-gps-leo-ins"):
         row = by_name[name]
-        for short, words, settings in STUDIES:
-            result.append(Row(f"study-{row.scene.name}-{short}", "study", f"{row.title}, {row.scene.name}: {words}", row.scene,
+        for short, words, settings, simulated in STUDIES:
+            scene = Scene(f"{row.scene.name}-{short}", row.scene.duration_s, row.scene.overrides[1:] + simulated) if simulated else row.scene
+            result.append(Row(f"study-{row.scene.name}-{short}", "study", f"{row.title}, {row.scene.name}: {words}", scene,
                               row.settings + settings, row.settle_epochs, row.bound_m))
             result[-1].filter, result[-1].studied = row.filter, row
     return result
