@@ -16,6 +16,9 @@ constexpr double kSettledWeights = 1e-2;  // factors that change less have conve
 // A window this far from the filter, in sigmas of both, has gone astray.
 constexpr double kAstraySigmas = 30.0;
 constexpr double kAstray_m = 100.0;
+// Where the position itself is known worse, a reflected code does not stand out: a few satellites
+// would outvote the others.
+constexpr double kVague_m = 5.0;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
@@ -102,7 +105,7 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 
 // Weights, a step, and how far it went.
 bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
-  if (robust_.enabled && config_.reweigh)
+  if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
     *reweighed = weights_.decide(iteration == 0, lever_arm_b_, &window_);
   if (!chain_.solve(window_, lever_arm_b_, &corrections_)) return false;
   double moved_m = 0.0;
