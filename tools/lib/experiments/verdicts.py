@@ -83,7 +83,17 @@ def houses_text(verdict, others):
     return ""
 
 
-def reflections_text(verdict, results):
+def reflections_text(verdict, others, results):
+    """Likewise of the row of the same drives whose LEO no house hides, where that misses it too."""
+    own = own_reflections_text(verdict, results)
+    for other in others:
+        if not own and other.row.housed is (verdict.row.filter or verdict.row):
+            open_text = own_reflections_text(other, results)
+            return open_text and f"LEO stands behind our houses, and {open_text}"
+    return own
+
+
+def own_reflections_text(verdict, results):
     """That what the other system's codes bring without weights keeps LEO from more: LEO without them is better than both."""
     name = "-".join(part for part in verdict.row.name.split("-") if part != "gps")
     alone = results.get(name)
@@ -121,7 +131,7 @@ class Verdict:
         if self.before is None or (self.improves and self.reached is not False):
             return "-"
         fewer = satellites_text(self.partner, self.row, results, self.seeds) if self.improves else ""
-        reflections = reflections_text(self, results) if self.improves else ""
+        reflections = reflections_text(self, others, results) if self.improves else ""
         return "; ".join(c for c in (houses_text(self, others), fewer, reflections) if c) or NOT_KNOWN
 
     def line(self, results, others):
