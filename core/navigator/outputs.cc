@@ -86,4 +86,13 @@ std::string_view to_string(InputFault fault) {
   return "unknown";
 }
 
+Decision decision_of(const SmootherReport& report) {
+  Decision decision;
+  decision.epoch = report.index;
+  decision.mailbox = 1;
+  decision.committed = true;
+  decision.iterations = report.iterations;
+  return decision;
+}
+
 }  // namespace leonav

@@ -177,6 +177,10 @@ struct Decision {
   std::int32_t iterations = 0;
 };
 
+// What an answer of the smoother says of its epoch's decision: of the last ones of a run none is
+// recorded yet.
+Decision decision_of(const SmootherReport& report);
+
 // Receives outputs in order. Called by the stages; must not block for long and must not throw.
 class OutputSink {
  public:

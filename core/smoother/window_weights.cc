@@ -10,6 +10,10 @@ namespace {
 
 double square(double x) { return x * x; }
 
+SatelliteId satellite_of(const Keyframe& keyframe, const KeyframeMeasurement& measurement) {
+  return keyframe.satellites[measurement.measurement.satellite_index].satellite;
+}
+
 }  // namespace
 
 double WindowWeights::decide(bool first, const Eigen::Vector3d& lever_arm_b, Window* window) {
@@ -38,8 +42,13 @@ void WindowWeights::gather_means(const Window& window) {
   for (int i = 0; i < window.size(); ++i) {
     const Keyframe& keyframe = window.at(i);
     for (const KeyframeMeasurement& measurement : keyframe.measurements) {
-      CodeMean* mean = mean_of(keyframe, measurement);
-      if (mean == nullptr) continue;
+      if (measurement.measurement.observable != Observable::kCode) continue;
+      CodeMean* mean = find_mean(satellite_of(keyframe, measurement), measurement.measurement.code);
+      if (mean == nullptr) {
+        if (means_.size() == means_.capacity()) continue;
+        means_.push_back({satellite_of(keyframe, measurement), measurement.measurement.code});
+        mean = &means_.back();
+      }
       // A gross error is judged by itself.
       const double most = robust_.k1 * std::sqrt(measurement.variance);
       const double lasting =
@@ -60,17 +69,10 @@ void WindowWeights::gather_means(const Window& window) {
   }
 }
 
-WindowWeights::CodeMean* WindowWeights::mean_of(const Keyframe& keyframe,
-                                                const KeyframeMeasurement& measurement) {
-  if (measurement.measurement.observable != Observable::kCode) return nullptr;
-  const SatelliteId satellite =
-      keyframe.satellites[measurement.measurement.satellite_index].satellite;
-  const SignalCode code = measurement.measurement.code;
+WindowWeights::CodeMean* WindowWeights::find_mean(SatelliteId satellite, SignalCode code) {
   for (CodeMean& mean : means_)
     if (mean.satellite == satellite && mean.code == code) return &mean;
-  if (means_.size() == means_.capacity()) return nullptr;
-  means_.push_back({satellite, code});
-  return &means_.back();
+  return nullptr;
 }
 
 double WindowWeights::reweigh(Keyframe* keyframe) {
@@ -78,8 +80,9 @@ double WindowWeights::reweigh(Keyframe* keyframe) {
   for (KeyframeMeasurement& measurement : keyframe->measurements) {
     double factor =
         igg3_factor(measurement.residual / std::sqrt(measurement.variance), robust_.k0, robust_.k1);
-    if (!means_.empty())
-      if (const CodeMean* mean = mean_of(*keyframe, measurement))
+    if (measurement.measurement.observable == Observable::kCode)
+      if (const CodeMean* mean =
+              find_mean(satellite_of(*keyframe, measurement), measurement.measurement.code))
         factor = std::min(factor, igg3_factor(mean->ratio, robust_.k0, robust_.k1));
     change = std::max(change, std::abs(factor - measurement.factor));
     measurement.factor = factor;

@@ -33,7 +33,7 @@ class WindowWeights {
     double ratio = 0.0;      // the mean over its sigma
   };
   void gather_means(const Window& window);
-  CodeMean* mean_of(const Keyframe& keyframe, const KeyframeMeasurement& measurement);
+  CodeMean* find_mean(SatelliteId satellite, SignalCode code);
   double reweigh(Keyframe* keyframe);
 
   RobustConfig robust_;

@@ -45,12 +45,7 @@ std::vector<Decision> decisions_of(const Collector& outputs) {
   for (const Bytes& bytes : outputs.groups[kSmoother]) {
     SmootherReport report;
     REQUIRE(decoder.decode(bytes, &report).fault == InputFault::kNone);
-    Decision decision;
-    decision.epoch = report.index;
-    decision.mailbox = 1;
-    decision.committed = true;
-    decision.iterations = report.iterations;
-    decisions.push_back(decision);
+    decisions.push_back(decision_of(report));
   }
   for (const std::size_t group : {kDecisions, kKeyframes}) {
     for (const Bytes& bytes : outputs.groups[group]) {

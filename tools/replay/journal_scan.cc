@@ -32,12 +32,7 @@ namespace {
 void note_answer(ByteSpan bytes, Decoder* decoder, JournalScan* scan) {
   SmootherReport report;
   if (decoder->decode(bytes, &report).fault != InputFault::kNone) return;
-  Decision decision;
-  decision.epoch = report.index;
-  decision.mailbox = 1;
-  decision.committed = true;
-  decision.iterations = report.iterations;
-  scan->delivered.push_back(decision);
+  scan->delivered.push_back(decision_of(report));
 }
 
 }  // namespace

@@ -111,4 +111,27 @@ TEST_CASE("a code that is a little too long for many seconds weighs less") {
   CHECK(lasting > 0.7);
 }
 
+TEST_CASE("where the position is vague the filter's weights stay") {
+  const bool vague = GENERATE(true, false);
+  DriveOptions options;
+  options.robust = true;
+  options.carriers = false;
+  Drive drive(options);
+  const auto smoother = smoother_of(drive, 20);
+  double most = 0.0;
+  for (int epoch = 1; epoch <= 12; ++epoch) {
+    KeyframeInput input = drive.step();
+    if (vague) input.covariance.topLeftCorner<3, 3>() += 100.0 * Eigen::Matrix3d::Identity();
+    for (KeyframeMeasurement& m : input.measurements) m.factor = 0.3;
+    solve(input, smoother.get());
+    for (int k = 0; k < smoother->window().size(); ++k)
+      for (const KeyframeMeasurement& m : smoother->window().at(k).measurements)
+        most = std::max(most, std::abs(m.factor - 0.3));
+  }
+  if (vague)
+    CHECK(most == 0.0);
+  else
+    CHECK(most > 0.5);
+}
+
 }  // namespace leonav
