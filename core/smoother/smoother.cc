@@ -64,14 +64,17 @@ void Smoother::add(const KeyframeInput& input) {
   if (failed_ || !input.linked) window_.clear();
   failed_ = false;
   const bool follows = window_.size() > 0;
-  make_room();
-  const bool appended = window_.size() > 0 && window_.append(input);
-  lost_ = follows && !appended;
-  if (!appended) window_.start(input);
+  if (window_.full()) leave_oldest();
+  linked_ = window_.size() > 0 && window_.append(input);
+  lost_ = follows && !linked_;
+  if (!linked_) return (void)window_.start(input);
+  if (config_.window > 1) return;
+  leave_oldest();  // a window of one keyframe: what was before it is its prior
+  linked_ = window_.size() > 0;
+  lost_ = !linked_;
 }
 
-void Smoother::make_room() {
-  if (!window_.full()) return;
+void Smoother::leave_oldest() {
   if (marginalize_oldest(window_, lever_arm_b_, next_prior_.get()))
     window_.drop_oldest(*next_prior_);
   else
@@ -83,9 +86,9 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   if (window_.size() == 0) return result;
   save();
   solved_ = true;
-  result.status = window_.size() > 1 ? SmootherStatus::kOk
-                  : lost_            ? SmootherStatus::kSingular
-                                     : SmootherStatus::kStarted;
+  result.status = linked_ ? SmootherStatus::kOk
+                  : lost_ ? SmootherStatus::kSingular
+                          : SmootherStatus::kStarted;
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
     double moved_sigmas = 0.0, reweighed = 0.0;
@@ -135,8 +138,7 @@ void Smoother::finish(SmootherResult* result) {
       if (row < kInsSize && column < kInsSize) result->covariance(row, column) = covariance(i, j);
     }
   }
-  if (window_.size() > 1 && !has_enough_satellites(window_))
-    result->status = SmootherStatus::kFewSatellites;
+  if (linked_ && !has_enough_satellites(window_)) result->status = SmootherStatus::kFewSatellites;
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
   const double apart_m = (result->state.p_e - filter_state_.p_e).norm();

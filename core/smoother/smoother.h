@@ -60,7 +60,7 @@ class Smoother {
   };
   void save();
   void restore();
-  void make_room();
+  void leave_oldest();
   bool iterate(int iteration, double* moved_sigmas, double* reweighed);
   void finish(SmootherResult* result);
 
@@ -78,6 +78,7 @@ class Smoother {
   double filter_sigma_m_ = 0.0;
   bool solved_ = false;  // and not settled
   bool failed_ = false;  // it starts over with the next keyframe
+  bool linked_ = false;  // the newest keyframe follows the one before
   bool lost_ = false;    // the window before the newest keyframe could not be kept
 };
 

@@ -4,7 +4,7 @@
 namespace leonav {
 
 struct SmootherConfig {
-  int window = 20;                    // keyframes, 2 to kMaxWindow
+  int window = 20;                    // keyframes, 1 to kMaxWindow
   double keyframe_interval_s = 0.95;  // epochs nearer to the last keyframe are not one
   int max_iterations = 4;             // linearizations of one solve
   bool reweigh = true;  // at every iteration, over the whole window; false: the filter's weights

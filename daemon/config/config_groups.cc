@@ -92,7 +92,7 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
 }
 
 void read_smoother(ConfigReader& group, SmootherConfig* config) {
-  group.integer("window", 2, static_cast<int>(kMaxWindow), &config->window);
+  group.integer("window", 1, static_cast<int>(kMaxWindow), &config->window);
   group.number("keyframe_interval_s", {0.0, 10.0}, &config->keyframe_interval_s);
   group.integer("max_iterations", 1, 20, &config->max_iterations);
   group.boolean("reweigh", &config->reweigh);

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/smoother/smoother.h"
-#include "drive_rig.h"
+#include "smoother_rig.h"
 #include "support/catch.h"
 #include "window_rig.h"
 
@@ -134,6 +134,26 @@ TEST_CASE("what has left the window is not lost: a short window is a long one") 
   WARN(course.name << ", noise " << options.noise << ": windows of 5 and 60 apart " << most
                    << " sigma; from the filter " << moved);
   CHECK(most < (options.noise < 1.0 ? 1e-6 : 3e-3));
+}
+
+TEST_CASE("a window of one keyframe is the filter with more than one pass") {
+  DriveOptions options;
+  options.noise = 1e-4;
+  options.carrier_sigma = 0.05;
+  Drive drive(options);
+  const auto smoother = smoother_of(drive, 1);
+  for (int i = 0; i < kEpochs; ++i) {
+    const KeyframeInput& input = drive.step();
+    const SmootherResult result = solve(input, smoother.get());
+    REQUIRE(result.status == (i > 0 ? SmootherStatus::kOk : SmootherStatus::kStarted));
+    REQUIRE(smoother->window().size() == 1);
+    const EkfCovariance& covariance = drive.filter().covariance();
+    CHECK(apart_in_sigmas(smoother->window().newest().state, drive.filter().whole_state(),
+                          covariance) < 1e-6);
+    // Inverted twice at every keyframe, which costs digits.
+    CHECK(apart_in_correlations(result.covariance.topLeftCorner<9, 9>(),
+                                covariance.topLeftCorner<9, 9>()) < 1e-5);
+  }
 }
 
 }  // namespace leonav

@@ -214,7 +214,7 @@ def smoother_rows(rows):
 
 
 # What the smoother's gain is made of: keyframes, iterations, weights; and what arcs that end could cost at most.
-STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"], []) for w in (2, 5, 10, 40, 60)] + [
+STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"], []) for w in (1, 2, 5, 10, 40, 60)] + [
     ("once", "one iteration", ["smoother.max_iterations=1"], []),
     ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"], []),
     ("no-means", "each code judged by itself", ["smoother.code_alike_s=0"], []),
