@@ -1,5 +1,6 @@
 """Pictures of the report."""
 import os
+import re
 
 import matplotlib
 
@@ -127,7 +128,8 @@ def windows(group, rows, results, runner):
     """3D RMSE over the length of the window."""
     figure, axis = plt.subplots(figsize=(7.0, 4.0))
     for studied in dict.fromkeys(row.studied for row in rows):
-        lengths = {row: int(row.name.rsplit("-w", 1)[1]) for row in rows if row.studied is studied and "-w" in row.name}
+        named = {row: re.search(r"-w(\d+)$", row.name) for row in rows if row.studied is studied}
+        lengths = {row: int(name[1]) for row, name in named.items() if name}
         lengths = {row: length for row, length in (lengths | {studied: 20}).items() if row.name in results}
         points = sorted((length, *(spread.of(results[row.name], "rmse", 3) or (np.nan, 0.0))) for row, length in lengths.items())
         line = axis.errorbar([p[0] for p in points], [p[1] for p in points], [p[2] for p in points], fmt="o-", capsize=3,
