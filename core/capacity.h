@@ -23,6 +23,9 @@ inline constexpr std::size_t kMaxPendingEpochs = 40;
 // Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
 inline constexpr std::size_t kMaxArcs = 64;
 
+// Instants between two keyframes at which constraints on the motion act: 3 s, ten times a second.
+inline constexpr std::size_t kMaxMotionInstants = 32;
+
 inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
 
 inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO

@@ -15,6 +15,7 @@
 #include "core/ekf/filter_state.h"
 #include "core/ekf/ins_transition.h"
 #include "core/ekf/measurement_model.h"
+#include "core/ekf/motion_constraint.h"
 #include "core/ekf/robust_update.h"
 #include "core/gnss/common_step.h"
 #include "core/gnss/measurement.h"
@@ -97,6 +98,11 @@ class Ekf {
   // Predicts over `block` to `time`. Short holes are bridged (core/ins/bridge.h), also across
   // blocks; over longer ones the motion goes on at constant velocity with grown uncertainty.
   void predict(std::span<const ImuSample> block, GpsTime time);
+
+  // Takes what constraints tell of the state as it is now, linearized there. Each component is
+  // tested against the prediction; one that is further away than `gate` sigmas is left out. Returns
+  // which were used. Nothing without an attitude.
+  MotionComponents constrain(const MotionMeasurements& measurements, double gate);
 
   // Uses the code, carrier and Doppler of epoch.measurements whose reason is kUsed, against the
   // state as predicted to the epoch, linearized at epoch.approximate_p_e if that is given. IGG-III

@@ -4,6 +4,34 @@ namespace leonav {
 
 using Eigen::Index;
 
+void meet(const EkfCorrection& gain, const EkfCorrection& spread, double variance,
+          EkfCovariance* covariance) {
+  covariance->noalias() -= gain * spread.transpose();
+  covariance->noalias() -= spread * gain.transpose();
+  covariance->noalias() += (variance * gain) * gain.transpose();
+}
+
+// The joint density of x_now and the measurement, given x_then, conditioned on the measurement;
+// what is left is the measurement's own density, given x_then.
+void FilterProcess::condition(const EkfCorrection& h, double innovation, double variance) {
+  const Index then = transition.cols() - 1;
+  if (!informed) {
+    information.setZero(then, then);
+    gradient.setZero(then);
+    informed = true;
+  }
+  const EkfCorrection spread = noise * h;
+  const double total = h.dot(spread) + variance;
+  const EkfCorrection gain = spread / total;
+  const double unexplained = innovation - h.dot(transition.col(then));
+  const EkfCorrection seen = transition.leftCols(then).transpose() * h;
+  transition.leftCols(then).noalias() -= gain * seen.transpose();
+  transition.col(then) += unexplained * gain;
+  meet(gain, spread, total, &noise);
+  information.noalias() += (seen / total) * seen.transpose();
+  gradient += (unexplained / total) * seen;
+}
+
 void FilterProcess::start(Index row, double variance) {
   transition.row(row).setZero();
   noise.row(row).setZero();

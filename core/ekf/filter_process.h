@@ -15,6 +15,11 @@ struct FilterProcess {
   // the sign of what undoes it.
   ProcessMatrix transition;
   EkfCovariance noise;
+  // What constraints on the motion since tell of the state then, beyond what is told of the
+  // process: 0.5 x_then^T information x_then - gradient^T x_then. Only where `informed`.
+  EkfCovariance information;
+  EkfCorrection gradient;
+  bool informed = false;
   // False once something other than a process has happened: the filter has been started, or has got
   // an attitude from outside.
   bool continuous = false;
@@ -23,11 +28,20 @@ struct FilterProcess {
     transition.setIdentity(states, states + 1);
     noise.setZero(states, states);
     continuous = true;
+    informed = false;
   }
+  // A measurement h x_now = innovation, of the filter's state now, with noise of `variance`: the
+  // process is from now on the one that has met it.
+  void condition(const EkfCorrection& h, double innovation, double variance);
   // State `row` starts anew, or an additional last one does.
   void start(Eigen::Index row, double variance);
   void append(double variance);
   void remove(Eigen::Index row);
 };
+
+// A covariance P after a scalar measurement, in Joseph's form, which stays symmetric and positive:
+// `spread` P h, `variance` h P h + R, `gain` one over the other.
+void meet(const EkfCorrection& gain, const EkfCorrection& spread, double variance,
+          EkfCovariance* covariance);
 
 }  // namespace leonav

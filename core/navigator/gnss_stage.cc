@@ -56,6 +56,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       catalog_(config.gnss.catalog),
       carriers_(config.gnss.cycle_slips),
       ekf_(filter_config(config.ekf, keyframes != nullptr), config.imu, config.vehicle.lever_arm_b),
+      motion_aid_(config.vehicle.motion),
       alignment_(config.alignment, config.imu),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
@@ -89,7 +90,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
   if (inertial_ && !ekf_.has_attitude()) {
     for (const ImuSample& sample : work.block) alignment_.add(sample);
   }
-  ekf_.predict({work.block.data(), work.block.size()}, work.time);
+  motion_aid_.predict({work.block.data(), work.block.size()}, work.time, &ekf_);
   drop_broken_filter(work.time);
   if (!work.empty) {
     use_measurements(work);
@@ -125,7 +126,8 @@ void GnssStage::push_keyframe(const EpochWork& work) {
     }
     return keyframes_->no_keyframe(report_->solution, due);
   }
-  keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &ekf_, keyframe);
+  keyframe_maker_.make(work, updated_ ? measurements_.get() : nullptr, &motion_aid_, &ekf_,
+                       keyframe);
   keyframe->has_gnss = source() != Source::kInsOnly;
   keyframes_->push_keyframe();
 }

@@ -16,6 +16,7 @@
 #include "core/navigator/event_source.h"
 #include "core/navigator/keyframe_maker.h"
 #include "core/navigator/lock_out_watch.h"
+#include "core/navigator/motion_aid.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/orbit_watch.h"
 #include "core/navigator/stage_work.h"
@@ -90,6 +91,7 @@ class GnssStage {
   Eigen::Matrix3d C_er_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d last_position_covariance_ = Eigen::Matrix3d::Zero();  // after the last update
   Ekf ekf_;
+  MotionAid motion_aid_;
   Alignment alignment_;
   GivenHeading given_heading_;
   std::unique_ptr<MeasurementEpoch> measurements_;

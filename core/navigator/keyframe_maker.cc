@@ -17,12 +17,14 @@ bool KeyframeMaker::is_due(const Ekf& ekf, GpsTime time) const {
          seconds_between(time, last_time_) >= interval_s_;
 }
 
-void KeyframeMaker::make(const EpochWork& work, const MeasurementEpoch* measurements, Ekf* ekf,
-                         KeyframeInput* keyframe) {
+void KeyframeMaker::make(const EpochWork& work, const MeasurementEpoch* measurements,
+                         MotionAid* motion, Ekf* ekf, KeyframeInput* keyframe) {
   keyframe_from_filter(work.index, work.time, measurements, &last_state_, ekf, keyframe);
   keyframe->block.clear();
   keyframe->before_block = before_block_;
-  keyframe->block_whole = keyframe->linked && whole_;
+  keyframe->instants = motion->instants();
+  keyframe->block_whole = keyframe->linked && whole_ && motion->whole();
+  motion->forget();
   if (keyframe->block_whole) keyframe->block = *block_;
   last_time_ = work.time;
   block_->clear();

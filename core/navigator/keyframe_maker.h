@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/ekf/ekf.h"
+#include "core/navigator/motion_aid.h"
 #include "core/navigator/stage_work.h"
 #include "core/smoother/keyframe.h"
 
@@ -19,8 +20,9 @@ class KeyframeMaker {
   bool is_due(const Ekf& ekf, GpsTime time) const;
   // Writes it, and begins the filter's process to the next one. `measurements`: the epoch as the
   // filter's update had it; nullptr: there was none.
-  void make(const EpochWork& work, const MeasurementEpoch* measurements, Ekf* ekf,
-            KeyframeInput* keyframe);
+  // `motion`: its instants go into it.
+  void make(const EpochWork& work, const MeasurementEpoch* measurements, MotionAid* motion,
+            Ekf* ekf, KeyframeInput* keyframe);
 
  private:
   double interval_s_;

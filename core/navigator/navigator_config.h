@@ -6,14 +6,20 @@
 #include "core/gnss/gnss_config.h"
 #include "core/ins/alignment.h"
 #include "core/ins/imu_error_model.h"
+#include "core/navigator/motion_aid.h"
 #include "core/smoother/smoother_config.h"
 
 namespace leonav {
+
+// What moves as it likes has no constraints.
+enum class VehicleKind : unsigned char { kCar, kRail, kBoat, kUav, kHandheld };
 
 struct VehicleConfig {
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  // m, IMU centre to antenna phase centre
   Eigen::Vector3d mounting_rpy =
       Eigen::Vector3d::Zero();  // rad; rotates IMU axes into the body frame
+  VehicleKind kind = VehicleKind::kHandheld;
+  MotionAidConfig motion;
 };
 
 struct RealtimeConfig {

@@ -68,6 +68,8 @@ bool ChainSolver::solve(const Window& window, const Eigen::Vector3d& lever_arm_b
     gather_information(window.at(i), lever_arm_b, information_.get());
     own.root += information_->information;
     own.filtered += information_->gradient;
+    if (i + 1 < size_)
+      add_link_information(window.at(i), window.at(i + 1).link, &own.root, &own.filtered);
     if (!factorize(&own.root)) return false;
     solve_in_place(own.root, &own.filtered);
   }
@@ -108,6 +110,7 @@ bool marginalize_oldest(const Window& window, const Eigen::Vector3d& lever_arm_b
   gather_information(oldest, lever_arm_b, &sum);
   root += sum.information;
   error += sum.gradient;
+  add_link_information(oldest, next.link, &root, &error);
   if (!factorize(&root)) return false;
   solve_in_place(root, &error);
   LinearLink link;

@@ -7,6 +7,7 @@
 #include "core/capacity.h"
 #include "core/ekf/filter_process.h"
 #include "core/ekf/filter_state.h"
+#include "core/ekf/motion_constraint.h"
 #include "core/gnss/measurement.h"
 #include "core/ins/imu.h"
 
@@ -44,6 +45,7 @@ struct KeyframeInput {
   ImuBlock block;            // since the keyframe before
   bool block_whole = false;  // nothing of it is missing here
   ImuSample before_block;    // the last measured one before it; interval 0: none
+  MotionInstants instants;   // constraints on the motion in it
 };
 
 // The states that are estimated: those core states (before the ambiguities) whose variance is not
@@ -62,6 +64,11 @@ struct KeyframeLink {
   FilterState from, to;
   EkfCovariance F;      // size x size before
   EkfCovariance noise;  // N; zero where the process does not move a state
+  // Where constraints on the motion between the two were met: what they tell of the keyframe before
+  // beyond this, 0.5 e^T information e - gradient^T e with e = x_before - from.
+  bool informed = false;
+  EkfCovariance information;
+  EkfCorrection gradient;
 };
 
 struct Keyframe {
@@ -79,6 +86,7 @@ struct Keyframe {
   ImuBlock block;
   bool block_whole = false;
   ImuSample before_block;
+  MotionInstants instants;
 };
 
 // Between an error of all states and one of the active ones.

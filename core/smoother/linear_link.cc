@@ -10,6 +10,28 @@ namespace leonav {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+namespace {
+
+// 0.5 (x - at)^T at_information (x - at) - at_gradient^T (x - at) about the keyframe's estimate.
+void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
+                         const EkfCovariance& at_information, const EkfCorrection& at_gradient,
+                         EkfCovariance* information, EkfCorrection* gradient) {
+  const EkfCorrection moved = active_part(keyframe.active, difference(keyframe.state, at));
+  *information = at_information;
+  *gradient = at_gradient;
+  gradient->noalias() -= at_information * moved;
+  const AttitudeChange change = attitude_change(keyframe.active, keyframe.state, at);
+  if (change.place < 0) return;
+  auto rows = information->middleRows<3>(change.place);
+  rows = (change.of_error.transpose() * rows).eval();
+  auto columns = information->middleCols<3>(change.place);
+  columns = (columns * change.of_error).eval();
+  auto slope = gradient->segment<3>(change.place);
+  slope = (change.of_error.transpose() * slope).eval();
+}
+
+}  // namespace
+
 AttitudeChange attitude_change(const ActiveStates& active, const FilterState& estimate,
                                const FilterState& linearized_at) {
   AttitudeChange change;
@@ -61,19 +83,18 @@ void linearize_link(const Keyframe& before, const Keyframe& keyframe, LinearLink
 
 void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient) {
   const WindowPrior& prior = window.prior();
-  const Keyframe& oldest = window.at(0);
-  const EkfCorrection moved = active_part(oldest.active, difference(oldest.state, prior.at));
-  *information = prior.information;
-  *gradient = prior.gradient;
-  gradient->noalias() -= prior.information * moved;
-  const AttitudeChange change = attitude_change(oldest.active, oldest.state, prior.at);
-  if (change.place < 0) return;
-  auto rows = information->middleRows<3>(change.place);
-  rows = (change.of_error.transpose() * rows).eval();
-  auto columns = information->middleCols<3>(change.place);
-  columns = (columns * change.of_error).eval();
-  auto slope = gradient->segment<3>(change.place);
-  slope = (change.of_error.transpose() * slope).eval();
+  linearize_quadratic(window.at(0), prior.at, prior.information, prior.gradient, information,
+                      gradient);
+}
+
+void add_link_information(const Keyframe& before, const KeyframeLink& link,
+                          EkfCovariance* information, EkfCorrection* gradient) {
+  if (!link.informed) return;
+  EkfCovariance told;
+  EkfCorrection slope;
+  linearize_quadratic(before, link.from, link.information, link.gradient, &told, &slope);
+  *information += told;
+  *gradient += slope;
 }
 
 }  // namespace leonav

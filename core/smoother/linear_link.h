@@ -26,6 +26,11 @@ struct LinearLink {
 };
 void linearize_link(const Keyframe& before, const Keyframe& keyframe, LinearLink* link);
 
+// What the link to the next keyframe tells of the one before beyond the process, if it is informed:
+// adds it to 0.5 e^T information e - gradient^T e of that keyframe's error e.
+void add_link_information(const Keyframe& before, const KeyframeLink& link,
+                          EkfCovariance* information, EkfCorrection* gradient);
+
 // The prior of the window's first keyframe: 0.5 e^T information e - gradient^T e of its error e.
 void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient);
 

@@ -12,6 +12,7 @@ struct RelinkConfig {
   EkfConfig ekf;
   ImuErrorModel imu;
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
+  MotionConstraintConfig motion;
 };
 
 // Allocates when constructed, not after.
@@ -21,11 +22,16 @@ class Relinker {
 
   // Nothing while the keyframe before is near where the link begins. Otherwise the link is moved to
   // begin there: position, velocity and attitude are integrated anew, F of the inertial states with
-  // them. What is linear anyway (clocks, ambiguities) follows its old F; the noise stays.
+  // them, and constraints on the motion are met anew on the way, those that the filter has used.
+  // What is linear anyway (clocks, ambiguities) follows its old F; the noise stays.
   void operator()(const Keyframe& before, Keyframe* keyframe);
   std::uint64_t relinked() const { return relinked_; }
 
  private:
+  void propagate(const Keyframe& before, const Keyframe& keyframe);
+
+  MotionConstraintConfig motion_;
+  MotionMeasurements measurements_;
   std::unique_ptr<Ekf> propagator_;
   std::uint64_t relinked_ = 0;
 };

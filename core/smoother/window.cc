@@ -38,6 +38,18 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
     for (Index j = 0; j < rows.size(); ++j)
       noise(i, j) = input.process.noise(row, whole_index(rows, j));
   }
+  link.informed = input.process.informed;
+  if (link.informed) {
+    link.information.resize(columns.size(), columns.size());
+    link.gradient.resize(columns.size());
+    for (Index i = 0; i < columns.size(); ++i) {
+      const Index row = whole_index(columns, i);
+      link.gradient(i) = input.process.gradient(row);
+      for (Index j = 0; j < columns.size(); ++j)
+        link.information(i, j) = input.process.information(row, whole_index(columns, j));
+    }
+    if (!link.information.allFinite() || !link.gradient.allFinite()) return false;
+  }
   return link.F.allFinite() && noise.allFinite();
 }
 
@@ -65,6 +77,7 @@ bool Window::start(const KeyframeInput& input) {
   keyframe.satellites.clear();
   keyframe.measurements.clear();
   keyframe.block.clear();
+  keyframe.instants.clear();
   keyframe.state = input.state;
   prior_.at = input.state;
   const ActiveStates& active = keyframe.active;
@@ -87,6 +100,7 @@ bool Window::append(const KeyframeInput& input) {
   keyframe.block = input.block;
   keyframe.block_whole = input.block_whole;
   keyframe.before_block = input.before_block;
+  keyframe.instants = input.instants;
   keyframe.link.from = input.from;
   keyframe.link.to = input.prior;
   if (!make_link(input, before, &keyframe)) return false;

@@ -22,11 +22,37 @@ void read_thread(ConfigReader& group, ThreadConfig* config) {
   group.integer("cpu", -1, 1023, &config->cpu);
 }
 
+// On, off, or as the kind of vehicle has it.
+void read_switch(ConfigReader& group, const char* key, bool by_kind, bool* value) {
+  int choice = -1;
+  group.choice<int>(key, {{"by_kind", -1}, {"true", 1}, {"false", 0}}, &choice);
+  *value = choice < 0 ? by_kind : choice == 1;
+}
+
 }  // namespace
 
 void read_vehicle(ConfigReader& group, VehicleConfig* config) {
   group.vector("lever_arm_b_m", {-100.0, 100.0}, &config->lever_arm_b);
   group.vector("mounting_rpy_deg", {-360.0, 360.0}, &config->mounting_rpy, kDegree);
+  group.choice<VehicleKind>("kind",
+                            {{"car", VehicleKind::kCar},
+                             {"rail", VehicleKind::kRail},
+                             {"boat", VehicleKind::kBoat},
+                             {"uav", VehicleKind::kUav},
+                             {"handheld", VehicleKind::kHandheld}},
+                            &config->kind);
+  MotionConstraintConfig& motion = config->motion.constraints;
+  const bool wheeled = config->kind == VehicleKind::kCar || config->kind == VehicleKind::kRail;
+  read_switch(group, "non_holonomic", wheeled, &motion.non_holonomic);
+  read_switch(group, "zero_velocity", wheeled, &motion.zero_velocity);
+  group.number("constraint_interval_s", {0.02, 10.0}, &motion.interval_s);
+  group.vector("constraint_point_b_m", {-100.0, 100.0}, &motion.point_b);
+  group.number("side_velocity_sigma_m_s", {1e-4, 100.0}, &motion.side_sigma);
+  group.number("vertical_velocity_sigma_m_s", {1e-4, 100.0}, &motion.vertical_sigma);
+  group.number("slip_deg_per_m_s2", {0.0, 45.0}, &motion.slip_per_acceleration, kDegree);
+  group.number("standing_velocity_sigma_m_s", {1e-4, 100.0}, &motion.standing_velocity_sigma);
+  group.number("standing_rate_sigma_deg_s", {1e-6, 100.0}, &motion.standing_rate_sigma, kDegree);
+  group.number("constraint_gate", {1.0, 100.0}, &motion.gate);
 }
 
 void read_imu(ConfigReader& group, ImuErrorModel* config) {

@@ -24,6 +24,7 @@ struct DriveOptions {
   std::size_t gps_satellites = 5;  // of eight, the others of Galileo
   bool leo = false;                // those are near and fast instead, of LEO
   double code_sigma = 3.0, doppler_sigma = 0.2, carrier_sigma = 0.005;
+  bool constrained = false;                     // it neither slides nor flies
   double wander = 0.0;                          // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, at the start
@@ -71,7 +72,7 @@ class Drive {
     if (options_.edit_truth) options_.edit_truth(epoch_, &truth_);
     measured_ = measure_epoch();
     if (options_.edit) options_.edit(epoch_, &measured_);
-    filter_.predict({input_->block.data(), input_->block.size()}, measured_.time);
+    predict();
     result_ = filter_.update(measured_);
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
@@ -79,6 +80,12 @@ class Drive {
     return *input_;
   }
 
+  static MotionConstraintConfig motion() {
+    MotionConstraintConfig config;
+    config.non_holonomic = true;
+    config.slip_per_acceleration = 0.0;
+    return config;
+  }
   int epoch() const { return epoch_; }
   const Ekf& filter() const { return filter_; }
   const EkfConfig& config() const { return config_; }
@@ -97,6 +104,22 @@ class Drive {
     config.use_carrier = options.carriers;
     config.robust.enabled = options.robust;
     return config;
+  }
+
+  void predict() {
+    const std::span<const ImuSample> block{input_->block.data(), input_->block.size()};
+    input_->instants.clear();
+    for (std::size_t i = 19; i < block.size() && options_.constrained; i += 20) {
+      filter_.predict(block, block[i].time);
+      MotionInstant instant;
+      instant.time = block[i].time;
+      MotionMeasurements measurements;
+      motion_measurements(motion(), instant, filter_.state(), filter_.measured_rate_b(),
+                          &measurements);
+      instant.used = filter_.constrain(measurements, motion().gate);
+      input_->instants.push_back(instant);
+    }
+    filter_.predict(block, measured_.time);
   }
 
   static ImuErrorModel drawn(ImuErrorModel model, double share) {

@@ -16,7 +16,8 @@ using Eigen::Index;
 // Two keyframes a second apart; the estimate of the first is displaced by `error`.
 class Pair {
  public:
-  Pair() : drive_(options()), relinker_({drive_.config(), mems(), drive_.lever_b()}) {
+  Pair()
+      : drive_(options()), relinker_({drive_.config(), mems(), drive_.lever_b(), Drive::motion()}) {
     for (int i = 0; i < 3; ++i) feed(drive_.step(), drive_.lever_b(), &window_);
     before().state = keyframe().link.from;
   }

@@ -22,6 +22,7 @@ inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, const SmootherC
   relink.ekf = drive.config();
   relink.imu = mems();
   relink.lever_arm_b = drive.lever_b();
+  relink.motion = Drive::motion();
   return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), relink);
 }
 

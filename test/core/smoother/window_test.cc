@@ -90,12 +90,14 @@ const Course kCourses[] = {
        };
      },
      500.0},
+    {"constraints on the motion between keyframes",
+     [](DriveOptions* options) { options->constrained = true; }},
 };
 
 }  // namespace
 
 TEST_CASE("a window is the filter, whatever happens, as long as all is linear") {
-  const Course& course = kCourses[GENERATE(range(0, 9))];
+  const Course& course = kCourses[GENERATE(range(0, 10))];
   const int capacity = GENERATE(5, 60);
   DriveOptions options;
   options.noise = 1e-4;
@@ -111,7 +113,7 @@ TEST_CASE("a window is the filter, whatever happens, as long as all is linear") 
 
 // What leaves is linearized for good: what that costs goes with the square of the noise.
 TEST_CASE("what has left the window is not lost: a short window is a long one") {
-  const Course& course = kCourses[GENERATE(range(0, 9))];
+  const Course& course = kCourses[GENERATE(range(0, 10))];
   DriveOptions options;
   options.noise = GENERATE(1.0, 0.01);
   if (options.noise < 1.0) options.carrier_sigma = 0.05;

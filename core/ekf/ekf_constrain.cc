@@ -1,0 +1,36 @@
+// Constraints on the motion, in Ekf.
+#include <cmath>
+
+#include "core/ekf/ekf.h"
+
+namespace leonav {
+
+using ekf_index::kSize;
+
+MotionComponents Ekf::constrain(const MotionMeasurements& measurements, double gate) {
+  if (!initialized_ || !has_attitude_) return 0;
+  EkfCorrection correction = EkfCorrection::Zero(covariance_.rows());
+  MotionComponents used = 0;
+  for (const MotionMeasurement& measurement : measurements) {
+    const EkfVector& h = measurement.row;
+    const EkfCorrection spread = covariance_.leftCols<kSize>() * h;
+    const double variance = h.dot(spread.head<kSize>()) + measurement.variance;
+    const double innovation = measurement.residual - h.dot(correction.head<kSize>());
+    if (!(std::abs(innovation) < gate * std::sqrt(variance))) continue;
+    used = static_cast<MotionComponents>(used | 1u << measurement.component);
+    if (process_.continuous) {
+      EkfCorrection row = EkfCorrection::Zero(covariance_.rows());
+      row.head<kSize>() = h;
+      process_.condition(row, measurement.residual, measurement.variance);
+    }
+    const EkfCorrection gain = spread / variance;
+    correction += innovation * gain;
+    meet(gain, spread, variance, &covariance_);
+  }
+  if (used == 0) return 0;
+  if (process_.continuous) process_.transition.rightCols<1>() -= correction;
+  add(correction, true, &now_);
+  return used;
+}
+
+}  // namespace leonav

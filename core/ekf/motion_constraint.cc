@@ -1,0 +1,74 @@
+#include "core/ekf/motion_constraint.h"
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "core/ekf/measurement_model.h"
+
+namespace leonav {
+
+using namespace ekf_index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+BodyVelocity body_velocity(const NavState& state, const Vector3d& measured_rate_b,
+                           const Vector3d& point_b) {
+  const AntennaMotion point = antenna_motion(state, measured_rate_b, point_b, true);
+  const Matrix3d C_be = state.q_eb.toRotationMatrix().transpose();
+  BodyVelocity velocity;
+  velocity.v_b = C_be * point.v_e;
+  auto& columns = velocity.columns;
+  columns.middleRows<3>(kVelocity) = C_be.transpose();
+  columns.middleRows<3>(kAttitude) = (C_be * (point.d_v_d_attitude + skew(point.v_e))).transpose();
+  columns.middleRows<3>(kGyroBias) = (C_be * point.d_v_d_gyro_bias).transpose();
+  columns.middleRows<3>(kGyroScale) = (C_be * point.d_v_d_gyro_scale).transpose();
+  return velocity;
+}
+
+RestingRate resting_rate(const NavState& state, const Vector3d& measured_rate_b) {
+  const Matrix3d C_be = state.q_eb.toRotationMatrix().transpose();
+  const Vector3d omega_ie{0.0, 0.0, kEarthRotationRate};
+  const Vector3d earth_b = C_be * omega_ie;
+  const Vector3d scale = 1.0 + state.errors.gyro_scale.array();
+  RestingRate rate;
+  rate.residual_b = measured_rate_b - scale.cwiseProduct(earth_b) - state.errors.gyro_bias_b;
+  rate.columns.middleRows<3>(kGyroBias).setIdentity();
+  rate.columns.middleRows<3>(kGyroScale) = earth_b.asDiagonal();
+  rate.columns.middleRows<3>(kAttitude) = (scale.asDiagonal() * C_be * skew(omega_ie)).transpose();
+  return rate;
+}
+
+namespace {
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+void motion_measurements(const MotionConstraintConfig& config, const MotionInstant& instant,
+                         const NavState& state, const Vector3d& measured_rate_b,
+                         MotionMeasurements* measurements) {
+  measurements->clear();
+  const BodyVelocity velocity = body_velocity(state, measured_rate_b, config.point_b);
+  const auto add = [&](MotionComponent first, int axis, double residual, double variance,
+                       const EkfVector& row) {
+    measurements->push_back({static_cast<int>(first) + axis, residual, variance, row});
+  };
+  if (instant.standing && config.zero_velocity) {
+    const RestingRate rate = resting_rate(state, instant.standing_rate_b);
+    for (int axis = 0; axis < 3; ++axis) {
+      add(MotionComponent::kVelocity, axis, -velocity.v_b(axis),
+          square(config.standing_velocity_sigma), velocity.columns.col(axis));
+      add(MotionComponent::kAngularRate, axis, rate.residual_b(axis),
+          square(config.standing_rate_sigma), rate.columns.col(axis));
+    }
+    return;
+  }
+  if (!config.non_holonomic) return;
+  const double across = measured_rate_b.z() * velocity.v_b.x();  // m/s^2
+  const double slip = config.slip_per_acceleration * across * velocity.v_b.x();
+  add(MotionComponent::kSide, 0, -velocity.v_b.y(), square(config.side_sigma) + square(slip),
+      velocity.columns.col(1));
+  add(MotionComponent::kVertical, 0, -velocity.v_b.z(), square(config.vertical_sigma),
+      velocity.columns.col(2));
+}
+
+}  // namespace leonav

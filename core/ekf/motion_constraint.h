@@ -1,0 +1,79 @@
+// What the way a vehicle moves tells of its state, as scalar measurements.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+
+#include "core/ekf/ekf_state.h"
+#include "core/ins/nav_state.h"
+
+namespace leonav {
+
+// The components that constraints have, and a set of them.
+enum class MotionComponent : std::uint8_t {
+  kSide = 0,         // m/s, of the point that does not slide
+  kVertical = 1,     // likewise
+  kVelocity = 2,     // three, m/s
+  kAngularRate = 5,  // three, rad/s
+};
+using MotionComponents = std::uint8_t;
+
+// One component of one constraint.
+struct MotionMeasurement {
+  int component = 0;      // its bit in MotionComponents
+  double residual = 0.0;  // measured less predicted: m/s, of a rate rad/s
+  double variance = 0.0;
+  EkfVector row = EkfVector::Zero();
+};
+// The components of all constraints at one instant.
+using MotionMeasurements = boost::container::static_vector<MotionMeasurement, 8>;
+
+// Velocity of a point of the body relative to the Earth, in body axes (m/s), and its Jacobian.
+struct BodyVelocity {
+  Eigen::Vector3d v_b = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, ekf_index::kSize, 3> columns =
+      Eigen::Matrix<double, ekf_index::kSize, 3>::Zero();  // transposed
+};
+// `measured_rate_b`: the gyros', errors not removed, rad/s. `point_b`: from the IMU, m. Groves,
+// Principles of GNSS, Inertial, and Multisensor Integrated Navigation Systems, 2013, 15.1.
+BodyVelocity body_velocity(const NavState& state, const Eigen::Vector3d& measured_rate_b,
+                           const Eigen::Vector3d& point_b);
+
+// What gyros at rest show less what they should: their bias and the Earth's rate (rad/s).
+struct RestingRate {
+  Eigen::Vector3d residual_b = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, ekf_index::kSize, 3> columns =
+      Eigen::Matrix<double, ekf_index::kSize, 3>::Zero();
+};
+RestingRate resting_rate(const NavState& state, const Eigen::Vector3d& measured_rate_b);
+
+struct MotionConstraintConfig {
+  bool non_holonomic = false;                         // neither side nor vertical velocity
+  bool zero_velocity = false;                         // nor any other while it stands, nor a turn
+  double interval_s = 0.2;                            // from one instant to the next
+  Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  // m from the IMU: what does not slide
+  // 1 sigma at one instant. What the vehicle makes of it is alike from one to the next, so these
+  // are larger than what it really does.
+  double side_sigma = 0.1, vertical_sigma = 0.1;  // m/s
+  double slip_per_acceleration = 0.01;            // rad of side slip per m/s^2 across, 1 sigma
+  double standing_velocity_sigma = 0.02;          // m/s
+  double standing_rate_sigma = 2e-4;              // rad/s
+  double gate = 4.0;  // sigmas; what is further from the prediction is left out
+};
+
+// What is known of the motion at one instant.
+struct MotionInstant {
+  GpsTime time;
+  bool standing = false;
+  Eigen::Vector3d standing_rate_b = Eigen::Vector3d::Zero();  // measured mean, rad/s
+  MotionComponents used = 0;                                  // by the filter
+};
+
+using MotionInstants = boost::container::static_vector<MotionInstant, kMaxMotionInstants>;
+
+// The components that hold at the instant, with the state as it is then.
+void motion_measurements(const MotionConstraintConfig& config, const MotionInstant& instant,
+                         const NavState& state, const Eigen::Vector3d& measured_rate_b,
+                         MotionMeasurements* measurements);
+
+}  // namespace leonav

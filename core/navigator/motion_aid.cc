@@ -1,0 +1,64 @@
+#include "core/navigator/motion_aid.h"
+
+#include <cmath>
+
+#include "core/earth/ellipsoid.h"
+
+namespace leonav {
+namespace {
+
+// The next multiple of the interval after `time`.
+GpsTime next_instant(GpsTime time, double interval_s) {
+  const auto interval = std::llround(interval_s * 1e9);
+  return GpsTime::from_nanoseconds((time.nanoseconds() / interval + 1) * interval);
+}
+
+}  // namespace
+
+void MotionAid::forget() {
+  instants_.clear();
+  whole_ = true;
+}
+
+void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < block.size() && config_.enabled(); ++i) {
+    const ImuSample& sample = block[i];
+    if (sample.interval_ns <= 0 || sample.time > time) continue;
+    detector_.add(sample);
+    const double interval_s = config_.constraints.interval_s;
+    if (!next_.is_set() || sample.time > next_.plus_seconds(interval_s))
+      next_ = next_instant(sample.time, interval_s);
+    if (sample.time < next_) continue;
+    next_ = next_instant(sample.time, interval_s);
+    ekf->predict(block.subspan(begin, i + 1 - begin), sample.time);
+    begin = i + 1;
+    constrain(ekf);
+  }
+  ekf->predict(block.subspan(begin), time);
+}
+
+void MotionAid::constrain(Ekf* ekf) {
+  if (!ekf->initialized() || !ekf->has_attitude()) return;
+  const NavState& state = ekf->state();
+  const double sigma =
+      std::sqrt(ekf->covariance().diagonal().segment<3>(ekf_index::kVelocity).maxCoeff());
+  MotionInstant instant;
+  instant.time = state.time;
+  instant.standing_rate_b = detector_.rate_b();
+  const Eigen::Vector3d rest_b =
+      state.errors.gyro_bias_b +
+      state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
+  standing_ =
+      config_.constraints.zero_velocity && detector_.stands(rest_b, state.v_e.norm(), sigma);
+  instant.standing = standing_;
+  motion_measurements(config_.constraints, instant, state, ekf->measured_rate_b(), &measurements_);
+  instant.used = ekf->constrain(measurements_, config_.constraints.gate);
+  if (instants_.size() == instants_.capacity()) {
+    whole_ = false;
+    return;
+  }
+  instants_.push_back(instant);
+}
+
+}  // namespace leonav

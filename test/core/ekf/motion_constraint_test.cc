@@ -1,0 +1,124 @@
+// Constraints on the motion: their Jacobians, the filter's update by them, and the process that has
+// met them, against numerical differences and a batch solution.
+#include "core/ekf/motion_constraint.h"
+
+#include <cmath>
+#include <functional>
+
+#include "core/earth/rotation.h"
+#include "core/ekf/ekf.h"
+#include "support/catch.h"
+#include "synthetic.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Vector3d;
+
+NavState turning_state() {
+  NavState state;
+  state.p_e = synthetic::start_position();
+  const Eigen::Matrix3d C_en = synthetic::C_en_at(state.p_e);
+  state.q_eb = Eigen::Quaterniond(C_en * rotation_from_euler({0.1, -0.2, 2.1}));
+  state.v_e = C_en * Vector3d{9.0, -14.0, 0.5};
+  state.errors.gyro_bias_b << 0.01, -0.02, 0.03;
+  state.errors.gyro_scale << 0.02, 0.01, -0.03;
+  return state;
+}
+
+const Vector3d kRate_b{0.3, -0.2, 0.8};
+const Vector3d kPoint_b{-1.4, 0.2, 0.6};
+
+NavState moved(const NavState& state, int index, double step) {
+  FilterState whole;
+  whole.nav = state;
+  EkfCorrection error = EkfCorrection::Zero(kSize);
+  error(index) = step;
+  add(error, true, &whole);
+  return whole.nav;
+}
+
+// The largest difference between `columns` and the fourth-order numerical derivative of `value`.
+template <typename Columns>
+double worst(const NavState& state, const Columns& columns,
+             const std::function<Vector3d(const NavState&)>& value) {
+  constexpr double kStep = 1e-3;
+  double most = 0.0;
+  for (int i = 0; i < kInsSize; ++i) {
+    const auto at = [&](double steps) { return value(moved(state, i, steps * kStep)); };
+    const Vector3d slope = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * kStep);
+    most = std::max(most, (slope - columns.row(i).transpose()).cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("the Jacobians of constraints on the motion are the numerical derivatives") {
+  const NavState state = turning_state();
+  const BodyVelocity velocity = body_velocity(state, kRate_b, kPoint_b);
+  CHECK(worst(state, velocity.columns,
+              [](const NavState& s) { return body_velocity(s, kRate_b, kPoint_b).v_b; }) < 1e-7);
+  const RestingRate rate = resting_rate(state, kRate_b);
+  CHECK(worst(state, rate.columns, [](const NavState& s) {
+          return Vector3d(-resting_rate(s, kRate_b).residual_b);
+        }) < 1e-9);
+}
+
+TEST_CASE("a body's point moves as the body turns about it") {
+  NavState state = turning_state();
+  state.errors = ImuErrors();
+  const Eigen::Matrix3d C_be = state.q_eb.toRotationMatrix().transpose();
+  const Vector3d earth_b = C_be * Vector3d{0.0, 0.0, kEarthRotationRate};
+  const Vector3d expected = C_be * state.v_e + (kRate_b - earth_b).cross(kPoint_b);
+  CHECK((body_velocity(state, kRate_b, kPoint_b).v_b - expected).norm() < 1e-12);
+}
+
+// x_then with covariance P, x_now = F x_then + w, a measurement of x_now: by the conditioned
+// process as by all equations at once.
+TEST_CASE("a conditioned process tells what the measurement has told") {
+  constexpr int n = 5;
+  synthetic::Generator noise(7);
+  const auto random = [&](int rows, int columns) {
+    Eigen::MatrixXd m(rows, columns);
+    for (double& x : m.reshaped()) x = noise.normal();
+    return m;
+  };
+  const Eigen::MatrixXd F = random(n, n), A = random(n, n), B = random(n, n);
+  const Eigen::MatrixXd N = A * A.transpose(), P = B * B.transpose();
+  FilterProcess process;
+  process.begin(n);
+  process.transition.leftCols(n) = F;
+  process.noise = N;
+  const Eigen::VectorXd filter_moved = random(n, 1);  // what updates have made of the state
+  process.transition.col(n) = -filter_moved;
+
+  // All of [x_then, x_now], x_now about the process alone.
+  Eigen::MatrixXd joint(2 * n, 2 * n);
+  joint << P, P * F.transpose(), F * P, F * P * F.transpose() + N;
+  Eigen::MatrixXd information = joint.inverse();
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2 * n);
+  for (int i = 0; i < 3; ++i) {
+    const EkfCorrection h = random(n, 1);
+    const double innovation = noise.normal(), variance = 0.1 + i;
+    process.condition(h, innovation, variance);
+    information.bottomRightCorner(n, n) += h * h.transpose() / variance;
+    gradient.tail(n) += h * (innovation + h.dot(filter_moved)) / variance;
+  }
+  const Eigen::VectorXd expected = information.ldlt().solve(gradient);
+
+  // x_then by the prior and what the process tells of it; x_now by the process.
+  const Eigen::MatrixXd then = P.inverse() + process.information;
+  const Eigen::VectorXd x_then = then.ldlt().solve(Eigen::VectorXd(process.gradient));
+  const Eigen::VectorXd x_now =
+      process.transition.leftCols(n) * x_then + process.transition.col(n) + filter_moved;
+  const Eigen::MatrixXd F_new = process.transition.leftCols(n);
+  const Eigen::MatrixXd P_now = F_new * then.inverse() * F_new.transpose() + process.noise;
+  CHECK((x_then - expected.head(n)).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((x_now - expected.tail(n)).cwiseAbs().maxCoeff() < 1e-9);
+  const Eigen::MatrixXd P_expected = information.inverse().bottomRightCorner(n, n);
+  CHECK((P_now - P_expected).cwiseAbs().maxCoeff() < 1e-9 * P_expected.cwiseAbs().maxCoeff());
+}
+
+}  // namespace leonav
