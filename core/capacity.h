@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxPendingEpochs = 40;
 inline constexpr std::size_t kMaxArcs = 64;
 
 // Instants between two keyframes at which constraints on the motion act: 3 s, ten times a second.
-inline constexpr std::size_t kMaxMotionInstants = 32;
+inline constexpr std::size_t kMaxConstraintInstants = 32;
 
 inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
 

@@ -43,7 +43,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-void motion_measurements(const MotionConstraintConfig& config, const MotionInstant& instant,
+void motion_measurements(const MotionConstraintConfig& config, const ConstraintInstant& instant,
                          const NavState& state, const Vector3d& measured_rate_b,
                          MotionMeasurements* measurements) {
   measurements->clear();

@@ -62,17 +62,18 @@ struct MotionConstraintConfig {
 };
 
 // What is known of the motion at one instant.
-struct MotionInstant {
+struct ConstraintInstant {
   GpsTime time;
   bool standing = false;
   Eigen::Vector3d standing_rate_b = Eigen::Vector3d::Zero();  // measured mean, rad/s
   MotionComponents used = 0;                                  // by the filter
 };
 
-using MotionInstants = boost::container::static_vector<MotionInstant, kMaxMotionInstants>;
+using ConstraintInstants =
+    boost::container::static_vector<ConstraintInstant, kMaxConstraintInstants>;
 
 // The components that hold at the instant, with the state as it is then.
-void motion_measurements(const MotionConstraintConfig& config, const MotionInstant& instant,
+void motion_measurements(const MotionConstraintConfig& config, const ConstraintInstant& instant,
                          const NavState& state, const Eigen::Vector3d& measured_rate_b,
                          MotionMeasurements* measurements);
 

@@ -43,7 +43,7 @@ void MotionAid::constrain(Ekf* ekf) {
   const NavState& state = ekf->state();
   const double sigma =
       std::sqrt(ekf->covariance().diagonal().segment<3>(ekf_index::kVelocity).maxCoeff());
-  MotionInstant instant;
+  ConstraintInstant instant;
   instant.time = state.time;
   instant.standing_rate_b = detector_.rate_b();
   const Eigen::Vector3d rest_b =

@@ -26,7 +26,7 @@ class MotionAid {
   void predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf);
   bool standing() const { return standing_; }
   // Since the last call of forget(); as many as have a place.
-  const MotionInstants& instants() const { return instants_; }
+  const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
   void forget();
 
@@ -35,7 +35,7 @@ class MotionAid {
 
   MotionAidConfig config_;
   StandstillDetector detector_;
-  MotionInstants instants_;
+  ConstraintInstants instants_;
   MotionMeasurements measurements_;
   GpsTime next_;
   bool standing_ = false, whole_ = true;

@@ -42,10 +42,10 @@ struct KeyframeInput {
   Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();  // m, antenna beyond what the attitude tells
   KeyframeSatellites satellites;
   KeyframeMeasurements measurements;
-  ImuBlock block;            // since the keyframe before
-  bool block_whole = false;  // nothing of it is missing here
-  ImuSample before_block;    // the last measured one before it; interval 0: none
-  MotionInstants instants;   // constraints on the motion in it
+  ImuBlock block;               // since the keyframe before
+  bool block_whole = false;     // nothing of it is missing here
+  ImuSample before_block;       // the last measured one before it; interval 0: none
+  ConstraintInstants instants;  // constraints on the motion in it
 };
 
 // The states that are estimated: those core states (before the ambiguities) whose variance is not
@@ -86,7 +86,7 @@ struct Keyframe {
   ImuBlock block;
   bool block_whole = false;
   ImuSample before_block;
-  MotionInstants instants;
+  ConstraintInstants instants;
 };
 
 // Between an error of all states and one of the active ones.

@@ -53,7 +53,7 @@ Relinker::Relinker(const RelinkConfig& config)
 void Relinker::propagate(const Keyframe& before, const Keyframe& keyframe) {
   propagator_->place(before.state, true, keyframe.before_block);
   const std::span<const ImuSample> block{keyframe.block.data(), keyframe.block.size()};
-  for (const MotionInstant& instant : keyframe.instants) {
+  for (const ConstraintInstant& instant : keyframe.instants) {
     propagator_->predict(block, instant.time);  // takes up what is still ahead of it
     motion_measurements(motion_, instant, propagator_->state(), propagator_->measured_rate_b(),
                         &measurements_);

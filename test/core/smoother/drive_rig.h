@@ -111,7 +111,7 @@ class Drive {
     input_->instants.clear();
     for (std::size_t i = 19; i < block.size() && options_.constrained; i += 20) {
       filter_.predict(block, block[i].time);
-      MotionInstant instant;
+      ConstraintInstant instant;
       instant.time = block[i].time;
       MotionMeasurements measurements;
       motion_measurements(motion(), instant, filter_.state(), filter_.measured_rate_b(),
@@ -135,6 +135,16 @@ class Drive {
     const AntennaMotion antenna = antenna_motion(truth(), rate_b, lever_b(), true);
     truth_.p_antenna_e = antenna.p_e;
     truth_.v_antenna_e = antenna.v_e;
+  }
+
+  // A turn in steps slides sideways by millimetres per second; takes that out of the sample.
+  void keep_on_rails(ImuSample* ideal) const {
+    for (int again = 0; again < 2; ++again) {
+      Mechanization ahead = mechanization_;
+      ahead.advance(*ideal);
+      const Eigen::Vector3d v_b = ahead.state().q_eb.conjugate() * ahead.state().v_e;
+      ideal->delta_velocity_b.tail<2>() -= v_b.tail<2>();
+    }
   }
 
   // A start, then turns left and right; without an IMU, white acceleration.
@@ -163,7 +173,8 @@ class Drive {
       const double t = epoch_ - 1 + k * kStep;
       const Maneuver maneuver{.yaw_rate = 0.4 * std::sin(0.5 * t),
                               .acceleration = std::cos(0.7 * t)};
-      const ImuSample ideal = ideal_sample(truth(), maneuver, kStep);
+      ImuSample ideal = ideal_sample(truth(), maneuver, kStep);
+      if (options_.constrained) keep_on_rails(&ideal);
       advance_errors(model, kStep, &errors_, &noise_);
       input_->block.push_back(with_errors(ideal, model, errors_, &noise_));
       rate_b = ideal.delta_theta_b / kStep;
