@@ -2,8 +2,6 @@
 
 namespace leonav {
 
-using ekf_index::kSize;
-
 int find_ambiguity(const Ambiguities& ambiguities, std::uint32_t arc) {
   for (std::size_t i = 0; i < ambiguities.size(); ++i)
     if (ambiguities[i].arc == arc) return static_cast<int>(i);
@@ -21,8 +19,9 @@ void add_ambiguity(const Ambiguity& ambiguity, double sigma_m, Ambiguities* ambi
 }
 
 void remove_ambiguity(int place, Ambiguities* ambiguities, EkfCovariance* covariance) {
-  const Eigen::Index gone = kSize + place;
   const Eigen::Index last = covariance->rows() - 1;
+  const Eigen::Index gone =
+      covariance->rows() - static_cast<Eigen::Index>(ambiguities->size()) + place;
   for (Eigen::Index i = gone; i < last; ++i) covariance->col(i) = covariance->col(i + 1);
   for (Eigen::Index i = gone; i < last; ++i) covariance->row(i) = covariance->row(i + 1);
   covariance->conservativeResize(last, last);
@@ -30,8 +29,9 @@ void remove_ambiguity(int place, Ambiguities* ambiguities, EkfCovariance* covari
 }
 
 void propagate_ambiguities(const Ambiguities& ambiguities, double dt, EkfCovariance* covariance) {
+  const Eigen::Index first = covariance->rows() - static_cast<Eigen::Index>(ambiguities.size());
   for (std::size_t i = 0; i < ambiguities.size(); ++i) {
-    const Eigen::Index state = kSize + static_cast<Eigen::Index>(i);
+    const Eigen::Index state = first + static_cast<Eigen::Index>(i);
     (*covariance)(state, state) += ambiguities[i].wander * ambiguities[i].wander * dt;
   }
 }

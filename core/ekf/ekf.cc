@@ -54,6 +54,7 @@ Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& leve
     : config_(config), imu_(imu), lever_arm_b_(lever_arm_b) {}
 
 void Ekf::reset() {
+  now_.vehicle.clear();
   initialize(GpsTime(), PointSolution());
   last_sample_ = ImuSample();
   measured_rate_b_.setZero();
@@ -61,7 +62,21 @@ void Ekf::reset() {
   initialized_ = false;
 }
 
+// What is known of the vehicle outlives the filter that found it; its correlations do not.
+void Ekf::start_vehicle(const FilterState& before, const EkfCovariance& covariance) {
+  const VehicleConstantsConfig& config = config_.vehicle;
+  for (int i = 0; i < config.count; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const bool known = place < before.vehicle.size();
+    now_.vehicle.push_back(known ? before.vehicle[place] : config.initial[place]);
+    covariance_(kSize + i, kSize + i) =
+        known ? covariance(kSize + i, kSize + i) : square(config.sigma[place]);
+  }
+}
+
 void Ekf::initialize(GpsTime time, const PointSolution& point) {
+  const FilterState before = now_;
+  const EkfCovariance covariance_before = covariance_;
   now_ = FilterState{};
   now_.nav.time = time;
   now_.nav.p_e = point.p_e;
@@ -69,7 +84,8 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   const bool moves = !config_.static_point;
   now_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   known_ = ClockFlags{};
-  covariance_.setZero(kSize, kSize);
+  covariance_.setZero(kSize + config_.vehicle.count, kSize + config_.vehicle.count);
+  start_vehicle(before, covariance_before);
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
   if (moves) {
@@ -105,7 +121,8 @@ void Ekf::place(const FilterState& state, bool has_attitude, const ImuSample& la
   now_ = state;
   has_attitude_ = has_attitude;
   initialized_ = true;
-  const Eigen::Index states = kSize + static_cast<Eigen::Index>(state.ambiguities.size());
+  const Eigen::Index states =
+      state.first_ambiguity() + static_cast<Eigen::Index>(state.ambiguities.size());
   covariance_.setZero(states, states);
   begin_process();
   last_sample_ = last_sample;
@@ -209,6 +226,9 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
   for (EkfCovariance* covariance : with_noise()) {
     propagate_clocks(config_.clock, known_, dt, covariance);
     propagate_ambiguities(now_.ambiguities, dt, covariance);
+    for (int i = 0; i < config_.vehicle.count; ++i)
+      (*covariance)(kSize + i, kSize + i) +=
+          square(config_.vehicle.wander[static_cast<std::size_t>(i)]) * dt;
     if (config_.wet_delay_sigma_m > 0.0)
       (*covariance)(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
     if (config_.use_carrier)

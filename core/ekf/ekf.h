@@ -128,6 +128,7 @@ class Ekf {
   const ClockState& clocks() const { return now_.clocks; }
   const ClockFlags& clocks_known() const { return known_; }
   double wet_delay_m() const { return now_.wet_delay_m; }
+  const VehicleConstants& vehicle() const { return now_.vehicle; }
   const Ambiguities& ambiguities() const { return now_.ambiguities; }
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
@@ -139,6 +140,7 @@ class Ekf {
   // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.
   enum class Hold { kNone, kNew, kHeld };
 
+  void start_vehicle(const FilterState& before, const EkfCovariance& covariance);
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
   AntennaMotion antenna() const;

@@ -146,10 +146,11 @@ double Ekf::take_up_code_step(const MeasurementEpoch& epoch, int base, const Com
       direction(kClock + static_cast<int>(i)) = 1.0;
   for (std::size_t i = 0; i < now_.ambiguities.size(); ++i)
     if (is_base(static_cast<int>(index_of(now_.ambiguities[i].satellite.system)), base))
-      direction(kSize + static_cast<int>(i)) = -1.0;
+      direction(now_.first_ambiguity() + static_cast<int>(i)) = -1.0;
   now_.clocks.offset_m += shift_m * direction.segment<4>(kClock);
   for (std::size_t i = 0; i < now_.ambiguities.size(); ++i)
-    now_.ambiguities[i].value_m += shift_m * direction(kSize + static_cast<int>(i));
+    now_.ambiguities[i].value_m +=
+        shift_m * direction(now_.first_ambiguity() + static_cast<int>(i));
   for (EkfCovariance* covariance : with_noise())
     if (!exact) *covariance += square(step_sigma(step)) * direction * direction.transpose();
   for (FilterMeasurement& m : measurements_)
@@ -172,7 +173,8 @@ void Ekf::take_up_clock_step(const MeasurementEpoch& epoch, int base, const Comm
     if (m.observable == Observable::kDoppler || !is_base(base_of(m, epoch), base)) continue;
     // An arc that begins here was begun with the clock as predicted.
     if (m.ambiguity >= 0 && covariance_(m.ambiguity, m.ambiguity) >= kUnknownAmbiguity)
-      now_.ambiguities[static_cast<std::size_t>(m.ambiguity - kSize)].value_m -= step.value_m;
+      now_.ambiguities[static_cast<std::size_t>(m.ambiguity - now_.first_ambiguity())].value_m -=
+          step.value_m;
     else
       m.innovation -= step.value_m;
   }

@@ -1,5 +1,7 @@
 // Tuning of the extended Kalman filter. SI units.
 #pragma once
+#include <array>
+
 #include "core/gnss/igg3.h"
 #include "core/ins/imu_error_model.h"
 
@@ -17,6 +19,14 @@ struct ClockModel {
   double drift_noise = 0.5;                 // m/s/sqrt(s)
   double inter_system_noise = 0.01;         // m/sqrt(s)
   double inter_system_drift_noise = 0.001;  // m/s/sqrt(s)
+};
+
+// The vehicle's constants that the filter estimates, in the order of ekf_index. Without an IMU's
+// attitude nothing is known of them.
+struct VehicleConstantsConfig {
+  int count = 0;  // 0, 2 or 3
+  std::array<double, 3> initial{}, sigma{};
+  std::array<double, 3> wander{};  // random walk, per sqrt(s)
 };
 
 struct EkfConfig {
@@ -41,6 +51,7 @@ struct EkfConfig {
   double carrier_clock_noise = 0.0;
   double max_arc_gap_s = 120.0;  // an ambiguity not observed for longer is dropped
   ClockModel clock;
+  VehicleConstantsConfig vehicle;
   RobustConfig robust;
   // Code errors (multipath, atmosphere) stay alike over about this long, s; 0: independent from
   // epoch to epoch. A filter that takes them as independent averages what does not average and

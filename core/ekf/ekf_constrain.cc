@@ -5,22 +5,21 @@
 
 namespace leonav {
 
-using ekf_index::kSize;
-
 MotionComponents Ekf::constrain(const MotionMeasurements& measurements, double gate) {
   if (!initialized_ || !has_attitude_) return 0;
   EkfCorrection correction = EkfCorrection::Zero(covariance_.rows());
+  const Eigen::Index known = now_.first_ambiguity();
   MotionComponents used = 0;
   for (const MotionMeasurement& measurement : measurements) {
-    const EkfVector& h = measurement.row;
-    const EkfCorrection spread = covariance_.leftCols<kSize>() * h;
-    const double variance = h.dot(spread.head<kSize>()) + measurement.variance;
-    const double innovation = measurement.residual - h.dot(correction.head<kSize>());
+    const auto h = measurement.row.head(known);
+    const EkfCorrection spread = covariance_.leftCols(known) * h;
+    const double variance = h.dot(spread.head(known)) + measurement.variance;
+    const double innovation = measurement.residual - h.dot(correction.head(known));
     if (!(std::abs(innovation) < gate * std::sqrt(variance))) continue;
     used = static_cast<MotionComponents>(used | 1u << measurement.component);
     if (process_.continuous) {
       EkfCorrection row = EkfCorrection::Zero(covariance_.rows());
-      row.head<kSize>() = h;
+      row.head(known) = h;
       process_.condition(row, measurement.residual, measurement.variance);
     }
     const EkfCorrection gain = spread / variance;

@@ -53,7 +53,7 @@ void Ekf::drop_ended_arcs(const MeasurementEpoch& epoch) {
 
 void Ekf::forget_ambiguity(int place) {
   remove_ambiguity(place, &now_.ambiguities, &covariance_);
-  if (process_.continuous) process_.remove(kSize + place);
+  if (process_.continuous) process_.remove(now_.first_ambiguity() + place);
 }
 
 // New arcs take the places of those unseen at this epoch, longest unseen first.
@@ -84,7 +84,7 @@ void Ekf::make_room(const MeasurementEpoch& epoch) {
 int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
                       const FilterMeasurement& entry, GpsTime time) {
   int place = find_ambiguity(now_.ambiguities, carrier.arc);
-  if (place != kNoAmbiguity) return kSize + place;
+  if (place != kNoAmbiguity) return now_.first_ambiguity() + place;
   if (now_.ambiguities.size() == now_.ambiguities.capacity()) return kNoAmbiguity;
   Ambiguity ambiguity;
   ambiguity.arc = carrier.arc;
@@ -96,7 +96,7 @@ int Ekf::ambiguity_of(const Measurement& carrier, SatelliteId satellite,
   const double sigma_m = kStartAmbiguitySigma + kStartShare * predicted;
   add_ambiguity(ambiguity, sigma_m, &now_.ambiguities, &covariance_);
   if (process_.continuous) process_.append(square(sigma_m));
-  return kSize + static_cast<int>(now_.ambiguities.size()) - 1;
+  return now_.first_ambiguity() + static_cast<int>(now_.ambiguities.size()) - 1;
 }
 
 // Whether the position is known against that of the last epoch as well as carriers tell, so that
@@ -209,7 +209,7 @@ void Ekf::gather(const MeasurementEpoch& epoch) {
         skipped_.push_back({i, Reason::kCapacity});
         continue;
       }
-      const auto place = static_cast<std::size_t>(entry.ambiguity - kSize);
+      const auto place = static_cast<std::size_t>(entry.ambiguity - now_.first_ambiguity());
       now_.ambiguities[place].wander = measurement.wander;  // its orbit may be another by now
       entry.innovation -= now_.ambiguities[place].value_m;
     }
@@ -227,15 +227,17 @@ void Ekf::disturb_ambiguities(const MeasurementEpoch& epoch) {
       continue;
     const int place = find_ambiguity(now_.ambiguities, measurement.arc);
     if (place == kNoAmbiguity) continue;
+    const int state = now_.first_ambiguity() + place;
     for (EkfCovariance* covariance : with_noise())
-      (*covariance)(kSize + place, kSize + place) += square(measurement.disturbance_m);
+      (*covariance)(state, state) += square(measurement.disturbance_m);
   }
 }
 
 // What the update made of a carrier decides whether its arc goes on.
 void Ekf::close_carrier(const FilterMeasurement& measurement, GpsTime time,
                         EkfUpdateResult* result) {
-  Ambiguity& ambiguity = now_.ambiguities[static_cast<std::size_t>(measurement.ambiguity - kSize)];
+  Ambiguity& ambiguity =
+      now_.ambiguities[static_cast<std::size_t>(measurement.ambiguity - now_.first_ambiguity())];
   ambiguity.last_used = time;
   ambiguity.rejected = measurement.factor > 0.0 ? 0 : ambiguity.rejected + 1;
   if (ambiguity.rejected >= kMaxRejectedEpochs) result->slipped.push_back(ambiguity.satellite);

@@ -16,19 +16,23 @@ namespace leonav {
 // errors in ECEF: C_eb_true = exp([attitude x]) C_eb):
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
 //   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s),
-//   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), and
-//   one ambiguity (m) per carrier arc under way.
+//   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), the
+//   vehicle's constants as far as they are estimated, and one ambiguity (m) per carrier arc under
+//   way.
 // The constant-velocity and static models keep the same order; the states they lack have zero
 // covariance and take no correction.
 namespace ekf_index {
 inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12,
                      kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25,
-                     kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // ambiguities follow
+                     kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // what comes and goes follows
 inline constexpr int kInsSize = 21;
-inline constexpr int kMaxSize = kSize + static_cast<int>(kMaxArcs);
+// The vehicle's constants, from kSize on: none, the direction of travel in body axes (yaw and
+// pitch, rad), or that and the odometer's scale error (measured speed over true speed less one).
+inline constexpr int kMountingYaw = 0, kMountingPitch = 1, kOdometerScale = 2, kMaxVehicle = 3;
+inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 
-// Square, kSize and the arcs under way; its storage has a fixed capacity.
+// Square, kSize, the vehicle's constants and the arcs under way; its storage has a fixed capacity.
 using EkfCovariance = BoundedMatrix<ekf_index::kMaxSize, ekf_index::kMaxSize>;
 // Likewise one number per state.
 using EkfCorrection = BoundedVector<ekf_index::kMaxSize>;
@@ -37,6 +41,8 @@ using EkfCorrection = BoundedVector<ekf_index::kMaxSize>;
 using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
 // Of gyro bias, accelerometer bias, gyro scale, accelerometer scale.
 using ImuErrorCovariance = Eigen::Matrix<double, 12, 12>;
+
+using VehicleConstants = boost::container::static_vector<double, ekf_index::kMaxVehicle>;
 
 struct ClockState {
   Eigen::Vector4d offset_m = Eigen::Vector4d::Zero();
@@ -59,7 +65,7 @@ struct Ambiguity {
   GpsTime started, last_used;
   int rejected = 0;  // epochs in a row
 };
-// Index-parallel to the error state from ekf_index::kSize on.
+// Index-parallel to the error state from FilterState::first_ambiguity() on.
 using Ambiguities = boost::container::static_vector<Ambiguity, kMaxArcs>;
 
 }  // namespace leonav

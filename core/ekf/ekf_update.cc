@@ -113,7 +113,8 @@ bool Ekf::is_confirmed_against(Observable observable, double off,
   ClockFreeTable carriers;
   for (const ClockFree& carrier : of(tables, Observable::kCarrier)) {
     const int state = measurements_[carrier.index].ambiguity;
-    if (now_.ambiguities[static_cast<std::size_t>(state - kSize)].started <= agreed_)
+    if (now_.ambiguities[static_cast<std::size_t>(state - now_.first_ambiguity())].started <=
+        agreed_)
       carriers.push_back(carrier);
   }
   const double suspect = config_.prediction_suspect_ratio;

@@ -25,14 +25,18 @@ void add(const EkfCorrection& error, bool has_attitude, FilterState* state) {
   state->clocks.drift_m_s += error.segment<4>(kClockDrift);
   state->wet_delay_m += error(kWetDelay);
   state->carrier_clock_m += error(kCarrierClock);
+  for (std::size_t i = 0; i < state->vehicle.size(); ++i)
+    state->vehicle[i] += error(kSize + static_cast<Index>(i));
+  const Index first = state->first_ambiguity();
   for (std::size_t i = 0; i < state->ambiguities.size(); ++i)
-    state->ambiguities[i].value_m += error(kSize + static_cast<Index>(i));
+    state->ambiguities[i].value_m += error(first + static_cast<Index>(i));
 }
 
 EkfCorrection difference(const FilterState& state, const FilterState& reference) {
   const NavState& a = state.nav;
   const NavState& b = reference.nav;
-  EkfCorrection error(kSize + static_cast<Index>(state.ambiguities.size()));
+  const Index first = state.first_ambiguity();
+  EkfCorrection error(first + static_cast<Index>(state.ambiguities.size()));
   error.segment<3>(kPosition) = a.p_e - b.p_e;
   error.segment<3>(kVelocity) = a.v_e - b.v_e;
   error.segment<3>(kAttitude) = rotation_vector_from_quaternion(a.q_eb * b.q_eb.conjugate());
@@ -44,8 +48,10 @@ EkfCorrection difference(const FilterState& state, const FilterState& reference)
   error.segment<4>(kClockDrift) = state.clocks.drift_m_s - reference.clocks.drift_m_s;
   error(kWetDelay) = state.wet_delay_m - reference.wet_delay_m;
   error(kCarrierClock) = state.carrier_clock_m - reference.carrier_clock_m;
+  for (std::size_t i = 0; i < state.vehicle.size(); ++i)
+    error(kSize + static_cast<Index>(i)) = state.vehicle[i] - reference.vehicle[i];
   for (std::size_t i = 0; i < state.ambiguities.size(); ++i)
-    error(kSize + static_cast<Index>(i)) =
+    error(first + static_cast<Index>(i)) =
         state.ambiguities[i].value_m - reference.ambiguities[i].value_m;
   return error;
 }
@@ -57,6 +63,8 @@ bool is_finite(const FilterState& state) {
          nav.errors.gyro_scale.allFinite() && nav.errors.accel_scale.allFinite() &&
          state.clocks.offset_m.allFinite() && state.clocks.drift_m_s.allFinite() &&
          std::isfinite(state.wet_delay_m) && std::isfinite(state.carrier_clock_m) &&
+         std::all_of(state.vehicle.begin(), state.vehicle.end(),
+                     [](double x) { return std::isfinite(x); }) &&
          std::all_of(state.ambiguities.begin(), state.ambiguities.end(),
                      [](const Ambiguity& a) { return std::isfinite(a.value_m); });
 }

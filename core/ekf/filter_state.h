@@ -10,14 +10,18 @@ struct FilterState {
   ClockState clocks;
   double wet_delay_m = 0.0;      // at zenith, beyond the modelled one
   double carrier_clock_m = 0.0;  // of the carriers against the codes
+  VehicleConstants vehicle;
   Ambiguities ambiguities;
+
+  // Place in the error state.
+  int first_ambiguity() const { return ekf_index::kSize + static_cast<int>(vehicle.size()); }
 };
 
 // Corrects `state` by an error in the order of ekf_index; the attitude only if `has_attitude`.
 void add(const EkfCorrection& error, bool has_attitude, FilterState* state);
 
 // The error of `reference` if `state` were true: add(difference(a, b), true, &b) makes b equal a.
-// Both have the same ambiguities in the same order.
+// Both have the same vehicle's constants and the same ambiguities in the same order.
 EkfCorrection difference(const FilterState& state, const FilterState& reference);
 
 bool is_finite(const FilterState& state);

@@ -1,5 +1,7 @@
 #include "core/ekf/motion_constraint.h"
 
+#include <cmath>
+
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/ekf/measurement_model.h"
@@ -37,6 +39,15 @@ RestingRate resting_rate(const NavState& state, const Vector3d& measured_rate_b)
   return rate;
 }
 
+TravelAxes travel_axes(double yaw, double pitch) {
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
+  TravelAxes axes;
+  axes.C_bv << cp * cy, -sy, sp * cy, cp * sy, cy, sp * sy, -sp, 0.0, cp;
+  axes.d_yaw << -cp * sy, -cy, -sp * sy, cp * cy, -sy, sp * cy, 0.0, 0.0, 0.0;
+  axes.d_pitch << -sp * cy, 0.0, cp * cy, -sp * sy, 0.0, cp * sy, -cp, 0.0, -sp;
+  return axes;
+}
+
 namespace {
 
 double square(double x) { return x * x; }
@@ -44,13 +55,16 @@ double square(double x) { return x * x; }
 }  // namespace
 
 void motion_measurements(const MotionConstraintConfig& config, const ConstraintInstant& instant,
-                         const NavState& state, const Vector3d& measured_rate_b,
+                         const FilterState& whole, const Vector3d& measured_rate_b,
                          MotionMeasurements* measurements) {
+  const NavState& state = whole.nav;
   measurements->clear();
   const BodyVelocity velocity = body_velocity(state, measured_rate_b, config.point_b);
   const auto add = [&](MotionComponent first, int axis, double residual, double variance,
-                       const EkfVector& row) {
-    measurements->push_back({static_cast<int>(first) + axis, residual, variance, row});
+                       const EkfVector& row) -> MotionMeasurement& {
+    measurements->push_back({static_cast<int>(first) + axis, residual, variance});
+    measurements->back().row.head<kSize>() = row;
+    return measurements->back();
   };
   if (instant.standing && config.zero_velocity) {
     const RestingRate rate = resting_rate(state, instant.standing_rate_b);
@@ -63,12 +77,21 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
     return;
   }
   if (!config.non_holonomic) return;
-  const double across = measured_rate_b.z() * velocity.v_b.x();  // m/s^2
-  const double slip = config.slip_per_acceleration * across * velocity.v_b.x();
-  add(MotionComponent::kSide, 0, -velocity.v_b.y(), square(config.side_sigma) + square(slip),
-      velocity.columns.col(1));
-  add(MotionComponent::kVertical, 0, -velocity.v_b.z(), square(config.vertical_sigma),
-      velocity.columns.col(2));
+  const bool mounted = whole.vehicle.size() > kMountingPitch;
+  const TravelAxes axes =
+      mounted ? travel_axes(whole.vehicle[kMountingYaw], whole.vehicle[kMountingPitch])
+              : travel_axes(0.0, 0.0);
+  const Vector3d v = axes.C_bv.transpose() * velocity.v_b;  // forward, side, down
+  const auto zero = [&](MotionComponent component, int axis, double variance) {
+    MotionMeasurement& measurement =
+        add(component, 0, -v(axis), variance, velocity.columns * axes.C_bv.col(axis));
+    measurement.row(kSize + kMountingYaw) = axes.d_yaw.col(axis).dot(velocity.v_b);
+    measurement.row(kSize + kMountingPitch) = axes.d_pitch.col(axis).dot(velocity.v_b);
+  };
+  const double across = measured_rate_b.z() * v.x();  // m/s^2
+  const double slip = config.slip_per_acceleration * across * v.x();
+  zero(MotionComponent::kSide, 1, square(config.side_sigma) + square(slip));
+  zero(MotionComponent::kVertical, 2, square(config.vertical_sigma));
 }
 
 }  // namespace leonav

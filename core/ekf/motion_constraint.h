@@ -4,7 +4,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
 
-#include "core/ekf/ekf_state.h"
+#include "core/ekf/filter_state.h"
 #include "core/ins/nav_state.h"
 
 namespace leonav {
@@ -18,12 +18,15 @@ enum class MotionComponent : std::uint8_t {
 };
 using MotionComponents = std::uint8_t;
 
+// Of the states before the ambiguities, with all of the vehicle's constants.
+using ConstraintVector = Eigen::Matrix<double, ekf_index::kSize + ekf_index::kMaxVehicle, 1>;
+
 // One component of one constraint.
 struct MotionMeasurement {
   int component = 0;      // its bit in MotionComponents
   double residual = 0.0;  // measured less predicted: m/s, of a rate rad/s
   double variance = 0.0;
-  EkfVector row = EkfVector::Zero();
+  ConstraintVector row = ConstraintVector::Zero();
 };
 // The components of all constraints at one instant.
 using MotionMeasurements = boost::container::static_vector<MotionMeasurement, 8>;
@@ -38,6 +41,14 @@ struct BodyVelocity {
 // Principles of GNSS, Inertial, and Multisensor Integrated Navigation Systems, 2013, 15.1.
 BodyVelocity body_velocity(const NavState& state, const Eigen::Vector3d& measured_rate_b,
                            const Eigen::Vector3d& point_b);
+
+// Forward, side and down axes of the way the vehicle goes, in body axes (columns), and their
+// slopes. `yaw`, `pitch`: of the direction of travel in body axes, rad; right-handed about down and
+// side.
+struct TravelAxes {
+  Eigen::Matrix3d C_bv, d_yaw, d_pitch;
+};
+TravelAxes travel_axes(double yaw, double pitch);
 
 // What gyros at rest show less what they should: their bias and the Earth's rate (rad/s).
 struct RestingRate {
@@ -74,7 +85,7 @@ using ConstraintInstants =
 
 // The components that hold at the instant, with the state as it is then.
 void motion_measurements(const MotionConstraintConfig& config, const ConstraintInstant& instant,
-                         const NavState& state, const Eigen::Vector3d& measured_rate_b,
+                         const FilterState& state, const Eigen::Vector3d& measured_rate_b,
                          MotionMeasurements* measurements);
 
 }  // namespace leonav

@@ -52,7 +52,8 @@ void MotionAid::constrain(Ekf* ekf) {
   standing_ =
       config_.constraints.zero_velocity && detector_.stands(rest_b, state.v_e.norm(), sigma);
   instant.standing = standing_;
-  motion_measurements(config_.constraints, instant, state, ekf->measured_rate_b(), &measurements_);
+  motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
+                      &measurements_);
   instant.used = ekf->constrain(measurements_, config_.constraints.gate);
   if (instants_.size() == instants_.capacity()) {
     whole_ = false;

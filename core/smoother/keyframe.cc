@@ -3,7 +3,6 @@
 namespace leonav {
 
 using Eigen::Index;
-using ekf_index::kSize;
 
 EkfCorrection active_part(const ActiveStates& active, const EkfCorrection& error) {
   EkfCorrection part(active.size());
@@ -14,7 +13,7 @@ EkfCorrection active_part(const ActiveStates& active, const EkfCorrection& error
 }
 
 EkfCorrection whole_error(const ActiveStates& active, const EkfCorrection& part) {
-  EkfCorrection error = EkfCorrection::Zero(kSize + active.ambiguities);
+  EkfCorrection error = EkfCorrection::Zero(active.before_ambiguities + active.ambiguities);
   for (Index i = 0; i < active.core_size(); ++i)
     error(active.core[static_cast<std::size_t>(i)]) = part(i);
   error.tail(active.ambiguities) = part.tail(active.ambiguities);

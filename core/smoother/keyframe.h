@@ -51,7 +51,8 @@ struct KeyframeInput {
 // The states that are estimated: those core states (before the ambiguities) whose variance is not
 // zero, in order, and all ambiguities.
 struct ActiveStates {
-  boost::container::static_vector<int, ekf_index::kSize> core;
+  boost::container::static_vector<int, ekf_index::kSize + ekf_index::kMaxVehicle> core;
+  int before_ambiguities = ekf_index::kSize;  // states, with those that are not estimated
   int ambiguities = 0;
 
   Eigen::Index core_size() const { return static_cast<Eigen::Index>(core.size()); }

@@ -6,8 +6,6 @@
 namespace leonav {
 namespace {
 
-using ekf_index::kSize;
-
 constexpr int kNoPlace = -1;
 
 double square(double x) { return x * x; }
@@ -26,7 +24,8 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
       input->satellites.push_back(epoch.satellites[satellite]);
     }
     satellite = static_cast<std::uint16_t>(place[satellite]);
-    if (used.ambiguity >= 0) measurement.ambiguity = used.ambiguity - kSize;
+    if (used.ambiguity >= 0)
+      measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
     const double relaxed = square(filter.relaxed_by(used.observable));
     measurement.variance = used.variance * relaxed;
     measurement.gain_variance = used.gain_variance * relaxed;

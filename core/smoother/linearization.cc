@@ -41,12 +41,15 @@ void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_a
   sum->information.setZero(active.size(), active.size());
   sum->gradient.setZero(active.size());
   const AntennaMotion antenna = antenna_of(keyframe, lever_arm_b);
-  BoundedVector<kSize> row(core);
+  BoundedVector<kSize + kMaxVehicle> row(core);
   for (const KeyframeMeasurement& measurement : keyframe.measurements) {
     const double weight = weight_of(measurement);
     if (!(weight > 0.0)) continue;
     const LinearMeasurement linear = linearize(measurement, keyframe, antenna);
-    for (Index i = 0; i < core; ++i) row(i) = linear.row(active.core[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < core; ++i) {
+      const int state = active.core[static_cast<std::size_t>(i)];
+      row(i) = state < kSize ? linear.row(state) : 0.0;
+    }
     for (Index j = 0; j < core; ++j) {
       if (row(j) == 0.0) continue;
       sum->information.col(j).head(core) += (weight * row(j)) * row;

@@ -23,6 +23,9 @@ EkfConfig propagating(EkfConfig config) {
   return config;
 }
 
+// What the propagator knows of: neither clocks nor wet delay.
+bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
+
 bool is_far(const EkfCorrection& moved) {
   return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
          moved.segment<3>(kVelocity).norm() > kFarVelocity ||
@@ -55,8 +58,8 @@ void Relinker::propagate(const Keyframe& before, const Keyframe& keyframe) {
   const std::span<const ImuSample> block{keyframe.block.data(), keyframe.block.size()};
   for (const ConstraintInstant& instant : keyframe.instants) {
     propagator_->predict(block, instant.time);  // takes up what is still ahead of it
-    motion_measurements(motion_, instant, propagator_->state(), propagator_->measured_rate_b(),
-                        &measurements_);
+    motion_measurements(motion_, instant, propagator_->whole_state(),
+                        propagator_->measured_rate_b(), &measurements_);
     const auto unused = [&](const MotionMeasurement& measurement) {
       return (instant.used >> measurement.component & 1) == 0;
     };
@@ -79,13 +82,14 @@ void Relinker::operator()(const Keyframe& before, Keyframe* keyframe) {
   if (process.informed) add(process.transition.rightCols<1>(), true, &whole);
   FilterState to = predicted_state(before, *keyframe);
   to.nav = whole.nav;
-  const auto F = process.transition.topLeftCorner<kInsSize, kInsSize>();
+  to.vehicle = whole.vehicle;
+  const ProcessMatrix& F = process.transition;
   if (link.informed) take_information(process, before.active, &link);
   for (Index i = 0; i < keyframe->active.core_size(); ++i) {
     const int row = keyframe->active.core[static_cast<std::size_t>(i)];
     for (Index j = 0; j < before.active.core_size(); ++j) {
       const int column = before.active.core[static_cast<std::size_t>(j)];
-      if (row < kInsSize && column < kInsSize) link.F(i, j) = F(row, column);
+      if (is_of_motion(row) && is_of_motion(column)) link.F(i, j) = F(row, column);
     }
   }
   link.from = before.state;

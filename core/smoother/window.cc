@@ -8,11 +8,11 @@ namespace leonav {
 namespace {
 
 using Eigen::Index;
-using ekf_index::kSize;
 
 ActiveStates active_states(const KeyframeInput& input) {
   ActiveStates active;
-  for (int i = 0; i < kSize; ++i)
+  active.before_ambiguities = input.state.first_ambiguity();
+  for (int i = 0; i < active.before_ambiguities; ++i)
     if (input.covariance(i, i) > 0.0) active.core.push_back(i);
   active.ambiguities = static_cast<int>(input.state.ambiguities.size());
   return active;
@@ -20,14 +20,15 @@ ActiveStates active_states(const KeyframeInput& input) {
 
 Index whole_index(const ActiveStates& active, Index i) {
   if (i < active.core_size()) return active.core[static_cast<std::size_t>(i)];
-  return kSize + i - active.core_size();
+  return active.before_ambiguities + i - active.core_size();
 }
 
 bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   KeyframeLink& link = keyframe->link;
   const ActiveStates& rows = keyframe->active;
   const ActiveStates& columns = before.active;
-  if (input.process.transition.cols() != kSize + columns.ambiguities + 1) return false;
+  if (input.process.transition.cols() != columns.before_ambiguities + columns.ambiguities + 1)
+    return false;
   link.F.resize(rows.size(), columns.size());
   EkfCovariance& noise = link.noise;
   noise.resize(rows.size(), rows.size());

@@ -13,6 +13,8 @@ constexpr double kPpm = 1e-6;
 constexpr double kHour = 3600.0;
 constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 constexpr double kMillisecond = 1e-3;
+// A bracket that settles: a tenth of a degree in an hour.
+constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
 
 // Correlation times from a second to a month.
 constexpr Bounds kCorrelationTime = {1.0, 2.6e6};
@@ -29,9 +31,25 @@ void read_switch(ConfigReader& group, const char* key, bool by_kind, bool* value
   *value = choice < 0 ? by_kind : choice == 1;
 }
 
+// The direction of travel, where something tells of it.
+void read_travel_direction(ConfigReader& group, const MotionConstraintConfig& motion,
+                           VehicleConstantsConfig* config) {
+  bool estimated = true;
+  double sigma = 2.0 * kDegree;
+  group.boolean("estimate_travel_direction", &estimated);
+  group.number("travel_direction_sigma_deg", {0.01, 20.0}, &sigma, kDegree);
+  if (!estimated || !motion.non_holonomic) return;
+  config->count = ekf_index::kMountingPitch + 1;
+  for (const auto i : {ekf_index::kMountingYaw, ekf_index::kMountingPitch}) {
+    config->sigma[static_cast<std::size_t>(i)] = sigma;
+    config->wander[static_cast<std::size_t>(i)] = kTravelDirectionWander;
+  }
+}
+
 }  // namespace
 
-void read_vehicle(ConfigReader& group, VehicleConfig* config) {
+void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
+  VehicleConfig* config = &navigator->vehicle;
   group.vector("lever_arm_b_m", {-100.0, 100.0}, &config->lever_arm_b);
   group.vector("mounting_rpy_deg", {-360.0, 360.0}, &config->mounting_rpy, kDegree);
   group.choice<VehicleKind>("kind",
@@ -53,6 +71,7 @@ void read_vehicle(ConfigReader& group, VehicleConfig* config) {
   group.number("standing_velocity_sigma_m_s", {1e-4, 100.0}, &motion.standing_velocity_sigma);
   group.number("standing_rate_sigma_deg_s", {1e-6, 100.0}, &motion.standing_rate_sigma, kDegree);
   group.number("constraint_gate", {1.0, 100.0}, &motion.gate);
+  read_travel_direction(group, motion, &navigator->ekf.vehicle);
 }
 
 void read_imu(ConfigReader& group, ImuErrorModel* config) {

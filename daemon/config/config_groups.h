@@ -5,7 +5,7 @@
 
 namespace leonav {
 
-void read_vehicle(ConfigReader& group, VehicleConfig* config);
+void read_vehicle(ConfigReader& group, NavigatorConfig* navigator);
 void read_imu(ConfigReader& group, ImuErrorModel* config);
 void read_alignment(ConfigReader& group, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);

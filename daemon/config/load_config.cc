@@ -37,7 +37,7 @@ DaemonConfig read_root(ConfigReader& root) {
   root.choice<Estimator>("estimator",
                          {{"ekf", Estimator::kEkf}, {"smoother", Estimator::kSmoother}},
                          &navigator.estimator);
-  root.group("vehicle", [&](ConfigReader& r) { read_vehicle(r, &navigator.vehicle); });
+  root.group("vehicle", [&](ConfigReader& r) { read_vehicle(r, &navigator); });
   root.group("imu", [&](ConfigReader& r) { read_imu(r, &navigator.imu); });
   root.group("alignment", [&](ConfigReader& r) { read_alignment(r, &navigator.alignment); });
   root.group("gnss", [&](ConfigReader& r) { read_gnss(r, &navigator.gnss); });

@@ -66,6 +66,52 @@ TEST_CASE("the Jacobians of constraints on the motion are the numerical derivati
         }) < 1e-9);
 }
 
+TEST_CASE("the axes of travel are orthonormal, and their slopes the numerical derivatives") {
+  constexpr double kYaw = 0.3, kPitch = -0.2, kStep = 1e-6;
+  const TravelAxes axes = travel_axes(kYaw, kPitch);
+  CHECK((axes.C_bv.transpose() * axes.C_bv).isIdentity(1e-14));
+  CHECK(axes.C_bv.determinant() > 0.0);
+  CHECK(axes.C_bv.col(0).y() > 0.0);  // yaw to the right
+  CHECK(axes.C_bv.col(0).z() > 0.0);  // pitch below the horizon
+  const Eigen::Matrix3d by_yaw =
+      (travel_axes(kYaw + kStep, kPitch).C_bv - travel_axes(kYaw - kStep, kPitch).C_bv) /
+      (2.0 * kStep);
+  const Eigen::Matrix3d by_pitch =
+      (travel_axes(kYaw, kPitch + kStep).C_bv - travel_axes(kYaw, kPitch - kStep).C_bv) /
+      (2.0 * kStep);
+  CHECK((by_yaw - axes.d_yaw).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((by_pitch - axes.d_pitch).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("the rows of the non-holonomic constraint are the slopes of what it predicts") {
+  FilterState state;
+  state.nav = turning_state();
+  state.vehicle = {0.05, -0.03};
+  MotionConstraintConfig config;
+  config.non_holonomic = true;
+  config.point_b = kPoint_b;
+  const auto measure = [&](const FilterState& at) {
+    MotionMeasurements measurements;
+    motion_measurements(config, ConstraintInstant(), at, kRate_b, &measurements);
+    return measurements;
+  };
+  const MotionMeasurements here = measure(state);
+  REQUIRE(here.size() == 2);
+  constexpr double kStep = 1e-4;
+  for (int i = 0; i < state.first_ambiguity(); ++i) {
+    EkfCorrection error = EkfCorrection::Zero(state.first_ambiguity());
+    error(i) = kStep;
+    FilterState after = state, before = state;
+    add(error, true, &after);
+    add(-error, true, &before);
+    for (std::size_t m = 0; m < here.size(); ++m) {
+      const double slope =
+          (measure(before)[m].residual - measure(after)[m].residual) / (2.0 * kStep);
+      CHECK(std::abs(slope - here[m].row(i)) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("a body's point moves as the body turns about it") {
   NavState state = turning_state();
   state.errors = ImuErrors();

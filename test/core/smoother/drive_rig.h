@@ -103,6 +103,7 @@ class Drive {
     config.keep_process = true;
     config.use_carrier = options.carriers;
     config.robust.enabled = options.robust;
+    if (options.constrained) config.vehicle = {2, {}, {0.02, 0.02}, {1e-5, 1e-5}};
     return config;
   }
 
@@ -114,7 +115,7 @@ class Drive {
       ConstraintInstant instant;
       instant.time = block[i].time;
       MotionMeasurements measurements;
-      motion_measurements(motion(), instant, filter_.state(), filter_.measured_rate_b(),
+      motion_measurements(motion(), instant, filter_.whole_state(), filter_.measured_rate_b(),
                           &measurements);
       instant.used = filter_.constrain(measurements, motion().gate);
       input_->instants.push_back(instant);
