@@ -12,7 +12,7 @@ struct StandstillConfig {
   double max_rate_rad_s = 0.005;       // of any tenth of a second, the bias taken out
   // Speed, that of the filter and 3.5 of its sigmas, below which the vehicle may be taken to stand:
   // an IMU in steady motion feels as one that stands, so only this tells creeping traffic apart.
-  double max_speed_m_s = 0.1;
+  double max_speed_m_s = 0.08;
 };
 
 class StandstillDetector {

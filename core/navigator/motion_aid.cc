@@ -1,5 +1,6 @@
 #include "core/navigator/motion_aid.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
@@ -11,6 +12,28 @@ namespace {
 GpsTime next_instant(GpsTime time, double interval_s) {
   const auto interval = std::llround(interval_s * 1e9);
   return GpsTime::from_nanoseconds((time.nanoseconds() / interval + 1) * interval);
+}
+
+// Speed and its sigma: of wheels along the direction of travel, else of whatever moves fastest.
+struct Speed {
+  double m_s = 0.0, sigma = 0.0;
+};
+
+Speed speed_of(const Ekf& ekf, const MotionConstraintConfig& config) {
+  const auto& P = ekf.covariance();
+  if (!config.non_holonomic)
+    return {ekf.state().v_e.norm(),
+            std::sqrt(P.diagonal().segment<3>(ekf_index::kVelocity).maxCoeff())};
+  const VehicleConstants& vehicle = ekf.vehicle();
+  const TravelAxes axes = vehicle.empty() ? travel_axes(0.0, 0.0)
+                                          : travel_axes(vehicle[ekf_index::kMountingYaw],
+                                                        vehicle[ekf_index::kMountingPitch]);
+  const BodyVelocity velocity = body_velocity(ekf.state(), ekf.measured_rate_b(), config.point_b);
+  const Eigen::Vector3d forward = axes.C_bv.col(0);
+  const EkfVector row = velocity.columns * forward;
+  constexpr int kSize = ekf_index::kSize;
+  return {std::abs(forward.dot(velocity.v_b)),
+          std::sqrt(std::max(0.0, row.dot(P.topLeftCorner<kSize, kSize>() * row)))};
 }
 
 }  // namespace
@@ -41,16 +64,14 @@ void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf
 void MotionAid::constrain(Ekf* ekf) {
   if (!ekf->initialized() || !ekf->has_attitude()) return;
   const NavState& state = ekf->state();
-  const double sigma =
-      std::sqrt(ekf->covariance().diagonal().segment<3>(ekf_index::kVelocity).maxCoeff());
+  const Speed speed = speed_of(*ekf, config_.constraints);
   ConstraintInstant instant;
   instant.time = state.time;
   instant.standing_rate_b = detector_.rate_b();
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-  standing_ =
-      config_.constraints.zero_velocity && detector_.stands(rest_b, state.v_e.norm(), sigma);
+  standing_ = config_.constraints.zero_velocity && detector_.stands(rest_b, speed.m_s, speed.sigma);
   instant.standing = standing_;
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);

@@ -1,0 +1,67 @@
+// Constraints on the motion in the navigator: what carries a car through a tunnel, and what must
+// not be taken for standing.
+#include "core/navigator/motion_aid.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "stage_drive.h"
+#include "support/catch.h"
+
+namespace leonav::test {
+namespace {
+
+constexpr double kTunnelBegin_s = 110.0, kTunnelEnd_s = 170.0, kDuration_s = 200.0;
+
+SyntheticDriveOptions noisy_drive() {
+  SyntheticDriveOptions options;
+  options.duration_s = kDuration_s;
+  options.code_sigma_m = 1.0;
+  options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.003;
+  options.angle_random_walk = 1e-4;
+  options.velocity_random_walk = 1e-3;
+  options.gyro_bias_b = {2e-4, -3e-4, 4e-4};
+  options.accel_bias_b = {0.02, -0.03, 0.02};
+  return options;
+}
+
+NavigatorConfig config_of(const SyntheticDriveOptions& options, bool constrained,
+                          Estimator estimator) {
+  NavigatorConfig config = drive_navigator_config(options);
+  config.estimator = estimator;
+  config.ekf.use_carrier = true;
+  config.imu.gyro_bias.sigma = 5e-4;
+  config.imu.accel_bias.sigma = 0.03;
+  MotionConstraintConfig& motion = config.vehicle.motion.constraints;
+  motion.non_holonomic = motion.zero_velocity = constrained;
+  if (constrained) config.ekf.vehicle = {2, {}, {0.03, 0.03}, {3e-5, 3e-5}};
+  return config;
+}
+
+double worst_in_tunnel(const SyntheticDrive& drive, const NavigatorConfig& config) {
+  RecordingSink sink;
+  Pipeline pipeline(config, &sink);
+  SyntheticDrive darkened = drive;
+  for (RawEpoch& epoch : darkened.epochs)
+    if (seconds(epoch.time) > kTunnelBegin_s && seconds(epoch.time) < kTunnelEnd_s)
+      epoch.observations.clear();
+  feed(darkened, &pipeline);
+  return worst_error(sink, drive, kTunnelBegin_s, kTunnelEnd_s + 0.5);
+}
+
+}  // namespace
+
+TEST_CASE("a car's constraints carry both estimators through a minute without satellites") {
+  const Estimator estimator = GENERATE(Estimator::kEkf, Estimator::kSmoother);
+  const SyntheticDriveOptions options = noisy_drive();
+  const SyntheticDrive drive = synthetic_drive(options);
+  const double free_m = worst_in_tunnel(drive, config_of(options, false, estimator));
+  const double held_m = worst_in_tunnel(drive, config_of(options, true, estimator));
+  std::printf("%s: worst in a minute's tunnel %.2f m without constraints, %.2f m with\n",
+              estimator == Estimator::kEkf ? "filter" : "smoother", free_m, held_m);
+  CHECK(held_m < 0.5 * free_m);
+  CHECK(held_m < 3.0);
+}
+
+}  // namespace leonav::test
