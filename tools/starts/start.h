@@ -1,0 +1,66 @@
+// One cold start of the navigator somewhere in a recorded run, beside the truth.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/navigator/pipeline.h"
+#include "daemon/input_dispatch.h"
+#include "tools/evaluation/track.h"
+
+namespace leonav {
+
+// What the vehicle does in the first ten seconds.
+enum class Way { kStanding, kStraight, kCurve, kOther };
+std::string_view to_string(Way way);
+
+// The truth at or between its points; nullopt outside, or where it has no attitude or velocity.
+struct TrueMotion {
+  double yaw = 0.0;    // rad
+  double speed = 0.0;  // m/s, horizontal
+};
+std::optional<TrueMotion> motion_at(const Track& truth, GpsTime time);
+// kOther: none of the three for the whole time, or not known.
+Way way_at(const Track& truth, GpsTime start);
+
+struct StartResult {
+  GpsTime start;
+  Way way = Way::kOther;
+  double aligned_after_s = -1.0;  // -1: not
+  // Of the heading, rad: when it was aligned, and thirty seconds after the start; with the sigmas
+  // that the answer told.
+  double error_when_aligned = 0.0, sigma_when_aligned = 0.0;
+  std::optional<double> error_at_30_s;
+  double sigma_at_30_s = 0.0;
+};
+
+// A message of the log that a receiver would repeat: orbits, clocks, ionosphere, antennas.
+struct Product {
+  Channel channel;
+  std::vector<std::uint8_t> data;
+};
+
+class Start final : private OutputSink {
+ public:
+  // Begins with what was told of the satellites before.
+  Start(const NavigatorConfig& config, const Track& truth, GpsTime start,
+        std::span<const Product> products);
+  void dispatch(Channel channel, ByteSpan data) { dispatch_.dispatch(channel, data); }
+  const StartResult& result() const { return result_; }
+
+ private:
+  void on_solution(const Solution&) override {}
+  void on_epoch(const EpochReport& report) override;
+  void on_event(const Event&) override {}
+  void on_decision(const Decision&) override {}
+  void on_smoother(const SmootherReport&) override {}
+
+  const Track& truth_;
+  StartResult result_;
+  Pipeline pipeline_;
+  InputDispatch dispatch_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,16 @@
+// What many cold starts say together.
+#pragma once
+#include <iosfwd>
+#include <span>
+
+#include "start.h"
+
+namespace leonav {
+
+// A heading that is neither within 5 degrees nor within five of the sigmas it was told with.
+bool is_false(const StartResult& result);
+
+// A row per way of starting. Returns the false alignments.
+int print_table(std::span<const StartResult> results, std::ostream& out);
+
+}  // namespace leonav
