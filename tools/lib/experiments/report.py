@@ -2,6 +2,7 @@
 import os
 
 import constellation
+import motion
 import plots
 import published
 import smoother_verdicts
@@ -32,6 +33,7 @@ TITLES = {
     "fgo-sets": "Smoother: convergence of four data sets of 2,000 epochs (Remote Sensing 2024, table 4)",
     "study": "What the smoother's gain is made of",
     "open-leo": "LEO as the papers simulate it: over the same drives without their houses, all masked at 5 degrees",
+    **motion.TITLES,
 }
 TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
 
@@ -209,6 +211,8 @@ def write(out, rows, results, runner, seeds_of):
             sets_table(chosen, results, lines)
         elif group == "mismatch":
             mismatch_table(chosen, results, lines)
+        elif group in motion.TITLES:
+            motion.table(chosen, results, runner, lines)
         elif group.startswith("convergence"):
             convergence_table(chosen, results, lines)
         else:

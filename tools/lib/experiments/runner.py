@@ -12,7 +12,7 @@ import threading
 import time
 
 import judge
-import matrix
+import scenes
 
 
 class RunError(Exception):
@@ -83,7 +83,7 @@ class Runner:
     def eval_command(self, row, folder, out):
         judged_from = []
         if row.settle_epochs:
-            judged_from = ["--from", f"{matrix.START_WEEK}:{matrix.START_TOW + row.settle_epochs + 0.5}"]
+            judged_from = ["--from", f"{scenes.START_WEEK}:{scenes.START_TOW + row.settle_epochs + 0.5}"]
         return [os.path.join(self.bin, "leonav-eval"), "--truth", os.path.join(folder, "truth.csv"), *judged_from,
                 "--convergence-bound", f"{row.bound_m:g}", "--json", os.path.join(out, "errors.json"),
                 os.path.join(out, "solution.csv")]
