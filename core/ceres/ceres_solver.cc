@@ -66,6 +66,8 @@ bool CeresSolver::solve(const Window& window, const Eigen::Vector3d& lever_arm_b
   costs.push_back(std::make_unique<PriorCost>(window, unknowns));
   for (int k = 0; k < window.size(); ++k) {
     if (k > 0) costs.push_back(std::make_unique<LinkCost>(window, unknowns, k));
+    if (k > 0 && window.at(k).link.informed)
+      costs.push_back(std::make_unique<InformationCost>(window, unknowns, k));
     costs.push_back(std::make_unique<MeasurementsCost>(window, unknowns, k, lever_arm_b));
   }
   ceres::Problem::Options ownership;

@@ -1,6 +1,7 @@
 #include "core/ceres/window_costs.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -147,6 +148,33 @@ void LinkCost::evaluate(const std::vector<At>& at, VectorXd* residuals,
   to_change(keyframe.active, at[1].state, link.to, &(*jacobians)[1]);
 }
 
+InformationCost::InformationCost(const Window& window, const WindowUnknowns& unknowns, int k)
+    : WindowCost(window, unknowns, {k - 1}), link_(window.at(k).link) {
+  constexpr double kNothing = 1e-12;  // of the largest eigenvalue: rounding
+  const MatrixXd information = link_.information;
+  const VectorXd scale = information.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const VectorXd inverse = (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(inverse.asDiagonal() * information *
+                                                      inverse.asDiagonal());
+  const VectorXd& values = parts.eigenvalues();
+  const Index rank = (values.array() > kNothing * values.maxCoeff()).count();
+  const VectorXd sigma = values.tail(rank).cwiseSqrt();
+  const auto directions = parts.eigenvectors().rightCols(rank);
+  root_ = sigma.asDiagonal() * directions.transpose() * scale.asDiagonal();
+  drawn_ = sigma.cwiseInverse().asDiagonal() *
+           (directions.transpose() * (inverse.asDiagonal() * VectorXd(link_.gradient)));
+  usable_ = parts.info() == Eigen::Success && root_.allFinite() && drawn_.allFinite();
+  set_num_residuals(static_cast<int>(rank));
+}
+
+void InformationCost::evaluate(const std::vector<At>& at, VectorXd* residuals,
+                               std::vector<MatrixXd>* jacobians) const {
+  const Keyframe& before = window_.at(keyframes_[0]);
+  *residuals = root_ * active_part(before.active, difference(at[0].state, link_.from)) - drawn_;
+  (*jacobians)[0] = root_;
+  to_change(before.active, at[0].state, link_.from, &(*jacobians)[0]);
+}
+
 MeasurementsCost::MeasurementsCost(const Window& window, const WindowUnknowns& unknowns, int k,
                                    const Eigen::Vector3d& lever_arm_b)
     : WindowCost(window, unknowns, {k}), lever_arm_b_(lever_arm_b) {
@@ -168,7 +196,7 @@ void MeasurementsCost::evaluate(const std::vector<At>& at, VectorXd* residuals,
     const LinearMeasurement linear = linearize(measurement, *keyframe, antenna);
     (*residuals)(i) = -root * linear.residual;
     for (Index j = 0; j < active.core_size(); ++j)
-      jacobian(i, j) = root * linear.row(active.core[static_cast<std::size_t>(j)]);
+      jacobian(i, j) = root * row_of(linear, active.core[static_cast<std::size_t>(j)]);
     if (measurement.ambiguity >= 0) jacobian(i, active.core_size() + measurement.ambiguity) = root;
   }
 }

@@ -67,6 +67,20 @@ class LinkCost final : public WindowCost {
   Eigen::MatrixXd root_;  // R with R^T R the inverse of the noise, moved rows only
 };
 
+// What constraints on the motion in the link that ends at keyframe k tell of the one before.
+class InformationCost final : public WindowCost {
+ public:
+  InformationCost(const Window& window, const WindowUnknowns& unknowns, int k);
+
+ private:
+  void evaluate(const std::vector<At>& at, Eigen::VectorXd* residuals,
+                std::vector<Eigen::MatrixXd>* jacobians) const override;
+
+  const KeyframeLink& link_;
+  Eigen::MatrixXd root_;   // R with R^T R the information; as many rows as that has rank
+  Eigen::VectorXd drawn_;  // R^-T gradient
+};
+
 class MeasurementsCost final : public WindowCost {
  public:
   MeasurementsCost(const Window& window, const WindowUnknowns& unknowns, int k,

@@ -12,6 +12,10 @@ double weight_of(const KeyframeMeasurement& measurement) {
 
 }  // namespace
 
+double row_of(const LinearMeasurement& linear, int state) {
+  return state < kSize ? linear.row(state) : 0.0;
+}
+
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b) {
   AntennaMotion antenna = antenna_motion(keyframe.state.nav, keyframe.measured_rate_b, lever_arm_b,
                                          keyframe.has_attitude);
@@ -46,10 +50,8 @@ void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_a
     const double weight = weight_of(measurement);
     if (!(weight > 0.0)) continue;
     const LinearMeasurement linear = linearize(measurement, keyframe, antenna);
-    for (Index i = 0; i < core; ++i) {
-      const int state = active.core[static_cast<std::size_t>(i)];
-      row(i) = state < kSize ? linear.row(state) : 0.0;
-    }
+    for (Index i = 0; i < core; ++i)
+      row(i) = row_of(linear, active.core[static_cast<std::size_t>(i)]);
     for (Index j = 0; j < core; ++j) {
       if (row(j) == 0.0) continue;
       sum->information.col(j).head(core) += (weight * row(j)) * row;

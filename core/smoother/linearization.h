@@ -13,6 +13,9 @@ struct LinearMeasurement {
   EkfVector row = EkfVector::Zero();
 };
 
+// Its slope by a state before the ambiguities; the vehicle's constants move no range.
+double row_of(const LinearMeasurement& linear, int state);
+
 // The antenna of a keyframe, as its state and the lever arm have it.
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b);
 LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,

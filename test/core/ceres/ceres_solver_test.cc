@@ -92,6 +92,13 @@ TEST_CASE("windows without an IMU or without carriers: the chain leads where Cer
   compare(options, 10, 25);
 }
 
+TEST_CASE("constraints on the motion between keyframes: the chain leads where Ceres leads") {
+  DriveOptions options;
+  options.constrained = true;
+  options.carrier_sigma = 0.05;
+  compare(options, GENERATE(3, 10, 20), 25);
+}
+
 TEST_CASE("Ceres refuses a window without information") {
   DriveOptions options;
   Drive drive(options);

@@ -112,7 +112,8 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
       const double weight = std::sqrt(m.factor / m.gain_variance);
       const LinearMeasurement linear = linearize(m, keyframe, antenna);
       for (Eigen::Index i = 0; i < keyframe.active.core_size(); ++i)
-        J(row, own + i) = weight * linear.row(keyframe.active.core[static_cast<std::size_t>(i)]);
+        J(row, own + i) =
+            weight * row_of(linear, keyframe.active.core[static_cast<std::size_t>(i)]);
       if (m.ambiguity >= 0) J(row, own + keyframe.active.core_size() + m.ambiguity) = weight;
       r(row++) = weight * linear.residual;
     }
