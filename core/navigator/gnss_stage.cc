@@ -91,6 +91,8 @@ void GnssStage::process_epoch(const EpochWork& work) {
     for (const ImuSample& sample : work.block) alignment_.add(sample);
   }
   motion_aid_.predict({work.block.data(), work.block.size()}, work.time, &ekf_);
+  if (const auto share = motion_aid_.contradiction())
+    events_.emit(EventKind::kConstraintsLeftOut, 0, *share, work.time);
   drop_broken_filter(work.time);
   if (!work.empty) {
     use_measurements(work);

@@ -1,12 +1,16 @@
 #include "core/navigator/motion_aid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
 
 namespace leonav {
 namespace {
+
+constexpr double kWatched_s = 10.0;
+constexpr double kContradicted = 0.5, kAgain = 0.25;
 
 // The next multiple of the interval after `time`.
 GpsTime next_instant(GpsTime time, double interval_s) {
@@ -43,6 +47,22 @@ void MotionAid::forget() {
   whole_ = true;
 }
 
+void MotionAid::count(MotionComponents used) {
+  const double keep = std::exp(-config_.constraints.interval_s / kWatched_s);
+  const auto offered = static_cast<double>(measurements_.size());
+  offered_ = keep * offered_ + offered;
+  left_out_ = keep * left_out_ + offered - std::popcount(used);
+}
+
+std::optional<double> MotionAid::contradiction() {
+  const double enough = kWatched_s / config_.constraints.interval_s;
+  const double share = offered_ > enough ? left_out_ / offered_ : 0.0;
+  if (share < kAgain) contradicted_ = false;
+  if (contradicted_ || share < kContradicted) return std::nullopt;
+  contradicted_ = true;
+  return share;
+}
+
 void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < block.size() && config_.enabled(); ++i) {
@@ -76,6 +96,7 @@ void MotionAid::constrain(Ekf* ekf) {
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);
   instant.used = ekf->constrain(measurements_, config_.constraints.gate);
+  count(instant.used);
   if (instants_.size() == instants_.capacity()) {
     whole_ = false;
     return;

@@ -1,6 +1,7 @@
 // Predicts the filter over a block of IMU samples, held by what the vehicle's way of moving tells.
 #pragma once
 #include <boost/container/static_vector.hpp>
+#include <optional>
 #include <span>
 
 #include "core/capacity.h"
@@ -29,15 +30,22 @@ class MotionAid {
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
   void forget();
+  // The share of all components that the gate has left out, over the last ten seconds' worth of
+  // instants, when it has risen above a half: the vehicle slides, or is not what the configuration
+  // says. Told once; again after it was below a quarter.
+  std::optional<double> contradiction();
 
  private:
   void constrain(Ekf* ekf);
+  void count(MotionComponents used);
 
   MotionAidConfig config_;
   StandstillDetector detector_;
   ConstraintInstants instants_;
   MotionMeasurements measurements_;
   GpsTime next_;
+  double offered_ = 0.0, left_out_ = 0.0;  // fading
+  bool contradicted_ = false;
   bool standing_ = false, whole_ = true;
 };
 

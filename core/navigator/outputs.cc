@@ -56,6 +56,8 @@ std::string_view to_string(EventKind kind) {
       return "smoother_failed";
     case EventKind::kSourceChange:
       return "source_change";
+    case EventKind::kConstraintsLeftOut:
+      return "constraints_left_out";
   }
   return "unknown";
 }

@@ -64,4 +64,22 @@ TEST_CASE("a car's constraints carry both estimators through a minute without sa
   CHECK(held_m < 3.0);
 }
 
+TEST_CASE("constraints that do not hold are left out, and that is told") {
+  const SyntheticDriveOptions options = noisy_drive();
+  NavigatorConfig config = config_of(options, true, Estimator::kEkf);
+  const SyntheticDrive drive = synthetic_drive(options);
+  const auto events_of = [&](const NavigatorConfig& with) {
+    int told = 0;
+    for (const Event& event : run(drive, with).events)
+      told += event.kind == EventKind::kConstraintsLeftOut ? 1 : 0;
+    return told;
+  };
+  CHECK(events_of(config) == 0);
+  // A point forty metres ahead sways with every turn.
+  config.ekf.vehicle = {};
+  config.vehicle.motion.constraints.point_b = {40.0, 0.0, 0.0};
+  config.vehicle.motion.constraints.slip_per_acceleration = 0.0;
+  CHECK(events_of(config) >= 1);
+}
+
 }  // namespace leonav::test
