@@ -35,7 +35,7 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
 }  // namespace
 
 Alignment::Alignment(const AlignmentConfig& config, const ImuErrorModel& imu)
-    : config_(config), imu_(imu), unconfirmed_(imu), standing_(imu) {}
+    : config_(config), imu_(imu), unconfirmed_(imu), standing_(imu), here_(imu) {}
 
 void Alignment::reset() { *this = Alignment(config_, imu_); }
 
@@ -104,6 +104,7 @@ void Alignment::watch_for_standstill(const ImuSample& sample) {
   const double variance = window_.force_squared / window_.seconds - force.squaredNorm();
   still_ = variance < config_.static_accel_m_s2 * config_.static_accel_m_s2 &&
            window_.angle.norm() < config_.static_gyro_rad_s * window_.seconds;
+  if (!still_) here_.clear();
   const Eigen::Vector3d rate = window_.angle / window_.seconds;
   if (still_ && standing_.is_plausible(rate, window_.seconds)) {
     if (unconfirmed_.seconds() > kMaxUnconfirmed_s) unconfirmed_.clear();
@@ -116,9 +117,26 @@ void Alignment::confirm_standstill(double speed_3d, double sigma_v) {
   const bool stood = unconfirmed_.seconds() > 0.0;
   if (stood && may_stand(speed_3d, sigma_v, config_.min_course_speed_m_s)) {
     standing_.add(unconfirmed_);
+    here_.add(unconfirmed_);
     standing_q_lb_ = q_lb_;
   }
   unconfirmed_.clear();
+}
+
+// What gyros at rest show is the Earth's rate, whose horizontal part points north (Groves 2013,
+// 5.6.2). A turntable, or a bias beyond its sigma, is not of the Earth's length and inclination.
+std::optional<Alignment::North> Alignment::gyrocompass(double latitude) const {
+  constexpr double kLikely = 4.0;  // sigmas
+  if (!here_.known()) return std::nullopt;
+  const Eigen::Vector3d rate_l = standing_q_lb_ * here_.mean_b();
+  const double north = kEarthRotationRate * std::cos(latitude);
+  const double down = -kEarthRotationRate * std::sin(latitude);
+  const double sigma = here_.mean_sigma();
+  const double heading_sigma = sigma / std::max(north, 1e-3 * kEarthRotationRate);
+  if (!(heading_sigma < config_.max_gyrocompass_sigma)) return std::nullopt;
+  if (std::abs(rate_l.head<2>().norm() - north) > kLikely * sigma) return std::nullopt;
+  if (std::abs(rate_l.z() - down) > kLikely * sigma) return std::nullopt;
+  return North{std::atan2(-rate_l.y(), rate_l.x()), heading_sigma};
 }
 
 void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw) {
@@ -147,14 +165,22 @@ std::optional<AlignedAttitude> Alignment::attitude(
   EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
   watch_course(v_n, sigma_v, angles.yaw);
   double turn_l = 0.0, heading_sigma = 0.0;
+  bool by_north = false;
   if (given) {
     turn_l = given->heading - angles.yaw;
     heading_sigma = given->sigma;
   } else {
     const auto agreement = courses_.agreement();
-    if (!agreement || !(agreement->sigma < config_.max_course_sigma)) return std::nullopt;
-    turn_l = agreement->yaw_offset;
-    heading_sigma = agreement->sigma;
+    if (agreement && agreement->sigma < config_.max_course_sigma) {
+      turn_l = agreement->yaw_offset;
+      heading_sigma = agreement->sigma;
+    } else if (const auto north = gyrocompass(to_geodetic(p_e).latitude)) {
+      turn_l = north->turn_l;
+      heading_sigma = north->sigma;
+      by_north = true;
+    } else {
+      return std::nullopt;
+    }
   }
 
   angles.yaw = wrap_to_pi(angles.yaw + turn_l);
@@ -162,8 +188,9 @@ std::optional<AlignedAttitude> Alignment::attitude(
   AlignedAttitude aligned;
   aligned.q_eb = (q_en * Eigen::Quaterniond(rotation_from_euler(angles))).normalized();
   aligned.sigma_rpy << config_.levelling_sigma, config_.levelling_sigma, heading_sigma;
-  aligned.gyro_bias_sigma = standing_.sigma();
-  if (standing_.known()) {
+  aligned.gyro_bias_sigma = by_north ? imu_.gyro_bias.sigma : standing_.sigma();
+  // What has told north cannot tell the bias too.
+  if (standing_.known() && !by_north) {
     // What stood still turned with the Earth: that is not the gyros' error.
     const Eigen::Quaterniond q_eb_standing =
         q_en * quaternion_from_rotation_vector(turn_l * kDown) * standing_q_lb_;

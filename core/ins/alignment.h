@@ -1,5 +1,5 @@
-// Initial attitude: levelling from the specific force, heading from course over ground or
-// configuration.
+// Initial attitude: levelling from the specific force, heading from course over ground, from the
+// Earth's rotation, or from the configuration.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -26,7 +26,9 @@ struct AlignmentConfig {
   double initial_heading_sigma = 0.087;  // rad
   double levelling_sigma = 0.035;        // rad, roll and pitch after levelling
   double static_gyro_rad_s = 0.05;       // mean rate below this while standing
-  double static_accel_m_s2 = 0.3;        // spread of the specific force below this while standing
+  // rad; good gyros find north while standing, once its 1 sigma is below this; 0: never.
+  double max_gyrocompass_sigma = 0.087;
+  double static_accel_m_s2 = 0.3;  // spread of the specific force below this while standing
 };
 
 struct AlignedAttitude {
@@ -74,6 +76,10 @@ class Alignment {
   void level_on(const ImuSample& sample);
   void watch_for_standstill(const ImuSample& sample);
   void confirm_standstill(double speed_3d, double sigma_v);
+  struct North {
+    double turn_l = 0.0, sigma = 0.0;  // rad; from l to north
+  };
+  std::optional<North> gyrocompass(double latitude) const;
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
 
   AlignmentConfig config_;
@@ -89,6 +95,7 @@ class Alignment {
   StandingRate unconfirmed_;  // still windows since the last velocity
   StandingRate standing_;     // still windows that a velocity confirmed
   Eigen::Quaterniond standing_q_lb_ = Eigen::Quaterniond::Identity();  // the attitude then
+  StandingRate here_;  // of those, since it has last moved: all of one heading
   CourseWindow courses_{config_.course_window_s};
   struct Heading {
     double time_s, relative_yaw;

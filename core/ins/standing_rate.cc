@@ -54,6 +54,8 @@ double StandingRate::mean_variance() const {
   return noise_density2_ / seconds_ + std::max(0.0, scatter - expected);
 }
 
+double StandingRate::mean_sigma() const { return std::sqrt(bias_variance_ + mean_variance()); }
+
 // Of the mean that is believed: the bias was zero within its sigma before.
 double StandingRate::share() const { return bias_variance_ / (bias_variance_ + mean_variance()); }
 

@@ -21,6 +21,10 @@ class StandingRate {
   void clear();
 
   double seconds() const { return seconds_; }
+  // rad/s, as measured, and 1 sigma per axis of it as the Earth's rate alone, the bias included.
+  // Only if known().
+  Eigen::Vector3d mean_b() const { return angle_b_ / seconds_; }
+  double mean_sigma() const;
   // From three windows on there is something to compare.
   bool known() const { return windows_ >= 3; }
   // rad/s, drawn towards no bias by what is known of it beforehand; zero unless known().

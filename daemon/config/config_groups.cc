@@ -101,6 +101,7 @@ void read_alignment(ConfigReader& group, AlignmentConfig* config) {
   group.number("initial_heading_deg", {-360.0, 360.0}, &config->initial_heading, kDegree);
   group.number("initial_heading_sigma_deg", {0.01, 180.0}, &config->initial_heading_sigma, kDegree);
   group.number("static_gyro_deg_per_s", {0.0, 100.0}, &config->static_gyro_rad_s, kDegree);
+  group.number("max_gyrocompass_sigma_deg", {0.0, 45.0}, &config->max_gyrocompass_sigma, kDegree);
   group.number("static_accel_m_s2", {0.0, 10.0}, &config->static_accel_m_s2);
 }
 

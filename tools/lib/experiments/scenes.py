@@ -43,7 +43,8 @@ class Row:
 
 def mode(systems, ins, carrier, robust=True):
     names = ", ".join(SYSTEMS[s] for s in systems)
-    settings = [f"gnss.systems=[{names}]"]
+    # The papers' rows start to move before they have a heading.
+    settings = [f"gnss.systems=[{names}]", "alignment.max_gyrocompass_sigma_deg=0"]
     if not ins:
         settings.append("ekf.motion=constant_velocity")
     if not carrier:
