@@ -5,7 +5,8 @@
 namespace leonav {
 namespace {
 
-constexpr double kPart_s = 0.0999;  // rounding must not make it a sample longer
+// An engine's shaking goes out by the mean.
+constexpr double kPart_s = 0.1999;  // rounding must not make it a sample longer
 constexpr double kSpeedSigmas = 3.5;
 
 }  // namespace
@@ -41,8 +42,8 @@ bool StandstillDetector::stands(const Eigen::Vector3d& rate_bias_b, double speed
 }
 
 Eigen::Vector3d StandstillDetector::rate_b() const {
-  const Part &last = before_last(0), &before = before_last(1);
-  return (last.angle_b + before.angle_b) / std::max(1e-9, last.seconds + before.seconds);
+  const Part& last = parts_[static_cast<std::size_t>((next_ + kParts - 1) % kParts)];
+  return last.angle_b / std::max(1e-9, last.seconds);
 }
 
 }  // namespace leonav

@@ -8,8 +8,8 @@
 namespace leonav {
 
 struct StandstillConfig {
-  double max_force_change_m_s2 = 0.1;  // between tenths of a second, each axis
-  double max_rate_rad_s = 0.005;       // of any tenth of a second, the bias taken out
+  double max_force_change_m_s2 = 0.1;  // between fifths of a second, each axis
+  double max_rate_rad_s = 0.005;       // of any fifth of a second, the bias taken out
   // Speed, that of the filter and 3.5 of its sigmas, below which the vehicle may be taken to stand:
   // an IMU in steady motion feels as one that stands, so only this tells creeping traffic apart.
   double max_speed_m_s = 0.08;
@@ -26,19 +26,15 @@ class StandstillDetector {
   bool feels_still(const Eigen::Vector3d& rate_bias_b) const;
   // And the velocity allows it: `speed`, `sigma` in m/s.
   bool stands(const Eigen::Vector3d& rate_bias_b, double speed, double sigma) const;
-  // Mean of the last fifth of a second, rad/s.
+  // Mean of the last whole fifth of a second, rad/s.
   Eigen::Vector3d rate_b() const;
 
  private:
-  static constexpr int kParts = 10;
+  static constexpr int kParts = 5;
   struct Part {
     double seconds = 0.0;
     Eigen::Vector3d angle_b = Eigen::Vector3d::Zero(), velocity_b = Eigen::Vector3d::Zero();
   };
-  const Part& before_last(int i) const {
-    return parts_[static_cast<std::size_t>((next_ + kParts - 1 - i) % kParts)];
-  }
-
   StandstillConfig config_;
   std::array<Part, kParts> parts_;
   Part current_;
