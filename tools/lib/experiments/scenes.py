@@ -41,10 +41,13 @@ class Row:
         return self.published_sets is not None
 
 
+# Of the papers' rows: from the course alone, at the first chance.
+ALIGNMENT = ["alignment.max_gyrocompass_sigma_deg=0", "alignment.course_window_s=3", "alignment.max_course_sigma_deg=20"]
+
+
 def mode(systems, ins, carrier, robust=True):
     names = ", ".join(SYSTEMS[s] for s in systems)
-    # The papers' rows start to move before they have a heading.
-    settings = [f"gnss.systems=[{names}]", "alignment.max_gyrocompass_sigma_deg=0"]
+    settings = [f"gnss.systems=[{names}]", *ALIGNMENT]
     if not ins:
         settings.append("ekf.motion=constant_velocity")
     if not carrier:
