@@ -49,13 +49,13 @@ void MotionAid::forget() {
 
 void MotionAid::count(MotionComponents used) {
   const double keep = std::exp(-config_.constraints.interval_s / kWatched_s);
-  const auto offered = static_cast<double>(measurements_.size());
-  offered_ = keep * offered_ + offered;
-  left_out_ = keep * left_out_ + offered - std::popcount(used);
+  const bool all = std::popcount(used) == static_cast<int>(measurements_.size());
+  offered_ = keep * offered_ + 1.0;
+  left_out_ = keep * left_out_ + (all ? 0.0 : 1.0);
 }
 
 std::optional<double> MotionAid::contradiction() {
-  const double enough = kWatched_s / config_.constraints.interval_s;
+  const double enough = 0.5 * kWatched_s / config_.constraints.interval_s;
   const double share = offered_ > enough ? left_out_ / offered_ : 0.0;
   if (share < kAgain) contradicted_ = false;
   if (contradicted_ || share < kContradicted) return std::nullopt;

@@ -30,9 +30,9 @@ class MotionAid {
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
   void forget();
-  // The share of all components that the gate has left out, over the last ten seconds' worth of
-  // instants, when it has risen above a half: the vehicle slides, or is not what the configuration
-  // says. Told once; again after it was below a quarter.
+  // The share of the last ten seconds' instants at which the gate has left something out, when it
+  // has risen above a half: the vehicle slides, or is not what the configuration says. Told once;
+  // again after it was below a quarter.
   std::optional<double> contradiction();
 
  private:

@@ -118,7 +118,7 @@ enum class EventKind : std::uint8_t {
   kClockReturn = 15,     // a clock file's serves again, or for the first time; likewise
   kSmootherFailed = 16,  // its window starts over; code: SmootherStatus, value: epoch
   kSourceChange = 17,    // of the answer's anchor; code: Source it now comes from, value: epoch
-  kConstraintsLeftOut = 18,  // most of those on the motion contradict the filter; value: share
+  kConstraintsLeftOut = 18,  // on the motion contradict the filter; value: share of the instants
 };
 std::string_view to_string(EventKind kind);
 
