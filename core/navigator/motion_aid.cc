@@ -1,7 +1,6 @@
 #include "core/navigator/motion_aid.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
@@ -49,9 +48,11 @@ void MotionAid::forget() {
 
 void MotionAid::count(MotionComponents used) {
   const double keep = std::exp(-config_.constraints.interval_s / kWatched_s);
-  const bool all = std::popcount(used) == static_cast<int>(measurements_.size());
+  unsigned left_out = 0;
+  for (const MotionMeasurement& m : measurements_) left_out |= 1u << m.component;
+  left_out &= ~static_cast<unsigned>(used);
   offered_ = keep * offered_ + 1.0;
-  left_out_ = keep * left_out_ + (all ? 0.0 : 1.0);
+  left_out_ = keep * left_out_ + (left_out != 0 ? 1.0 : 0.0);
 }
 
 std::optional<double> MotionAid::contradiction() {
