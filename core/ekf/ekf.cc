@@ -63,20 +63,25 @@ void Ekf::reset() {
 }
 
 // What is known of the vehicle outlives the filter that found it; its correlations do not.
-void Ekf::start_vehicle(const FilterState& before, const EkfCovariance& covariance) {
-  const VehicleConstantsConfig& config = config_.vehicle;
-  for (int i = 0; i < config.count; ++i) {
+void Ekf::start_vehicle(const VehicleConstants& before, const VehicleConstants& variances) {
+  for (int i = 0; i < config_.vehicle.count; ++i) {
     const auto place = static_cast<std::size_t>(i);
-    const bool known = place < before.vehicle.size();
-    now_.vehicle.push_back(known ? before.vehicle[place] : config.initial[place]);
+    const bool known = place < before.size();
+    now_.vehicle.push_back(known ? before[place] : 0.0);
     covariance_(kSize + i, kSize + i) =
-        known ? covariance(kSize + i, kSize + i) : square(config.sigma[place]);
+        known ? variances[place] : square(config_.vehicle.sigma[place]);
   }
 }
 
+VehicleConstants Ekf::vehicle_variances() const {
+  VehicleConstants variances;
+  for (int i = 0; i < static_cast<int>(now_.vehicle.size()); ++i)
+    variances.push_back(covariance_(kSize + i, kSize + i));
+  return variances;
+}
+
 void Ekf::initialize(GpsTime time, const PointSolution& point) {
-  const FilterState before = now_;
-  const EkfCovariance covariance_before = covariance_;
+  const VehicleConstants vehicle = now_.vehicle, variances = vehicle_variances();
   now_ = FilterState{};
   now_.nav.time = time;
   now_.nav.p_e = point.p_e;
@@ -85,7 +90,7 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   now_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   known_ = ClockFlags{};
   covariance_.setZero(kSize + config_.vehicle.count, kSize + config_.vehicle.count);
-  start_vehicle(before, covariance_before);
+  start_vehicle(vehicle, variances);
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
   if (moves) {

@@ -140,7 +140,8 @@ class Ekf {
   // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.
   enum class Hold { kNone, kNew, kHeld };
 
-  void start_vehicle(const FilterState& before, const EkfCovariance& covariance);
+  void start_vehicle(const VehicleConstants& before, const VehicleConstants& variances);
+  VehicleConstants vehicle_variances() const;
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
   AntennaMotion antenna() const;

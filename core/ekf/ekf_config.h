@@ -24,9 +24,9 @@ struct ClockModel {
 // The vehicle's constants that the filter estimates, in the order of ekf_index. Without an IMU's
 // attitude nothing is known of them.
 struct VehicleConstantsConfig {
-  int count = 0;  // 0, 2 or 3
-  std::array<double, 3> initial{}, sigma{};
-  std::array<double, 3> wander{};  // random walk, per sqrt(s)
+  int count = 0;                   // the first so many; each starts from zero
+  std::array<double, 2> sigma{};   // at the start
+  std::array<double, 2> wander{};  // random walk, per sqrt(s)
 };
 
 struct EkfConfig {

@@ -26,9 +26,9 @@ inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9,
                      kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25,
                      kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // what comes and goes follows
 inline constexpr int kInsSize = 21;
-// The vehicle's constants, from kSize on: none, the direction of travel in body axes (yaw and
-// pitch, rad), or that and the odometer's scale error (measured speed over true speed less one).
-inline constexpr int kMountingYaw = 0, kMountingPitch = 1, kOdometerScale = 2, kMaxVehicle = 3;
+// The vehicle's constants, from kSize on, as many as are estimated: the direction of travel in body
+// axes (yaw and pitch, rad).
+inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kMaxVehicle = 2;
 inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 

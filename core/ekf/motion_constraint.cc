@@ -48,6 +48,11 @@ TravelAxes travel_axes(double yaw, double pitch) {
   return axes;
 }
 
+TravelAxes travel_axes(const VehicleConstants& vehicle) {
+  if (vehicle.size() <= kTravelPitch) return travel_axes(0.0, 0.0);
+  return travel_axes(vehicle[kTravelYaw], vehicle[kTravelPitch]);
+}
+
 namespace {
 
 double square(double x) { return x * x; }
@@ -77,16 +82,13 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
     return;
   }
   if (!config.non_holonomic) return;
-  const bool mounted = whole.vehicle.size() > kMountingPitch;
-  const TravelAxes axes =
-      mounted ? travel_axes(whole.vehicle[kMountingYaw], whole.vehicle[kMountingPitch])
-              : travel_axes(0.0, 0.0);
+  const TravelAxes axes = travel_axes(whole.vehicle);
   const Vector3d v = axes.C_bv.transpose() * velocity.v_b;  // forward, side, down
   const auto zero = [&](MotionComponent component, int axis, double variance) {
     MotionMeasurement& measurement =
         add(component, 0, -v(axis), variance, velocity.columns * axes.C_bv.col(axis));
-    measurement.row(kSize + kMountingYaw) = axes.d_yaw.col(axis).dot(velocity.v_b);
-    measurement.row(kSize + kMountingPitch) = axes.d_pitch.col(axis).dot(velocity.v_b);
+    measurement.row(kSize + kTravelYaw) = axes.d_yaw.col(axis).dot(velocity.v_b);
+    measurement.row(kSize + kTravelPitch) = axes.d_pitch.col(axis).dot(velocity.v_b);
   };
   const double across = measured_rate_b.z() * v.x();  // m/s^2
   const double slip = config.slip_per_acceleration * across * v.x();

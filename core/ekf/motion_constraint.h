@@ -49,6 +49,8 @@ struct TravelAxes {
   Eigen::Matrix3d C_bv, d_yaw, d_pitch;
 };
 TravelAxes travel_axes(double yaw, double pitch);
+// Of the vehicle's constants; the body's own axes where these are not estimated.
+TravelAxes travel_axes(const VehicleConstants& vehicle);
 
 // What gyros at rest show less what they should: their bias and the Earth's rate (rad/s).
 struct RestingRate {

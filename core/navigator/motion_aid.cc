@@ -27,10 +27,7 @@ Speed speed_of(const Ekf& ekf, const MotionConstraintConfig& config) {
   if (!config.non_holonomic)
     return {ekf.state().v_e.norm(),
             std::sqrt(P.diagonal().segment<3>(ekf_index::kVelocity).maxCoeff())};
-  const VehicleConstants& vehicle = ekf.vehicle();
-  const TravelAxes axes = vehicle.empty() ? travel_axes(0.0, 0.0)
-                                          : travel_axes(vehicle[ekf_index::kMountingYaw],
-                                                        vehicle[ekf_index::kMountingPitch]);
+  const TravelAxes axes = travel_axes(ekf.vehicle());
   const BodyVelocity velocity = body_velocity(ekf.state(), ekf.measured_rate_b(), config.point_b);
   const Eigen::Vector3d forward = axes.C_bv.col(0);
   const EkfVector row = velocity.columns * forward;
@@ -92,8 +89,8 @@ void MotionAid::constrain(Ekf* ekf) {
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-  standing_ = config_.constraints.zero_velocity && detector_.stands(rest_b, speed.m_s, speed.sigma);
-  instant.standing = standing_;
+  instant.standing =
+      config_.constraints.zero_velocity && detector_.stands(rest_b, speed.m_s, speed.sigma);
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);
   instant.used = ekf->constrain(measurements_, config_.constraints.gate);

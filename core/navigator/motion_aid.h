@@ -25,7 +25,6 @@ class MotionAid {
 
   // As Ekf::predict.
   void predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf);
-  bool standing() const { return standing_; }
   // Since the last call of forget(); as many as have a place.
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
@@ -46,7 +45,7 @@ class MotionAid {
   GpsTime next_;
   double offered_ = 0.0, left_out_ = 0.0;  // fading
   bool contradicted_ = false;
-  bool standing_ = false, whole_ = true;
+  bool whole_ = true;
 };
 
 }  // namespace leonav

@@ -39,8 +39,8 @@ void read_travel_direction(ConfigReader& group, const MotionConstraintConfig& mo
   group.boolean("estimate_travel_direction", &estimated);
   group.number("travel_direction_sigma_deg", {0.01, 20.0}, &sigma, kDegree);
   if (!estimated || !motion.non_holonomic) return;
-  config->count = ekf_index::kMountingPitch + 1;
-  for (const auto i : {ekf_index::kMountingYaw, ekf_index::kMountingPitch}) {
+  config->count = ekf_index::kTravelPitch + 1;
+  for (const auto i : {ekf_index::kTravelYaw, ekf_index::kTravelPitch}) {
     config->sigma[static_cast<std::size_t>(i)] = sigma;
     config->wander[static_cast<std::size_t>(i)] = kTravelDirectionWander;
   }
@@ -63,7 +63,7 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
   const bool wheeled = config->kind == VehicleKind::kCar || config->kind == VehicleKind::kRail;
   read_switch(group, "non_holonomic", wheeled, &motion.non_holonomic);
   read_switch(group, "zero_velocity", wheeled, &motion.zero_velocity);
-  group.number("constraint_interval_s", {0.02, 10.0}, &motion.interval_s);
+  group.number("constraint_interval_s", {0.1, 10.0}, &motion.interval_s);
   group.vector("constraint_point_b_m", {-100.0, 100.0}, &motion.point_b);
   group.number("side_velocity_sigma_m_s", {1e-4, 100.0}, &motion.side_sigma);
   group.number("vertical_velocity_sigma_m_s", {1e-4, 100.0}, &motion.vertical_sigma);

@@ -37,6 +37,10 @@ inline constexpr std::array<Channel, 7> kInputChannels = {
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCommand; }
+// What is told again and again whatever the vehicle does: orbits, clocks, ionosphere, antennas.
+constexpr bool is_product(Channel channel) {
+  return channel >= Channel::kEphemeris && channel <= Channel::kAntenna;
+}
 
 std::string_view name_of(Channel channel);  // "IMU", "GNSS_EPOCH", ...
 

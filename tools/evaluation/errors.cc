@@ -6,9 +6,8 @@
 #include "core/earth/rotation.h"
 
 namespace leonav {
-namespace {
 
-// The truth at one instant, or nothing where it has a hole. Positions move by less than a
+// Positions move by less than a
 // millimetre against ECEF interpolation when latitude, longitude and height are taken linearly
 // between neighbours; with velocities at both ends a cubic removes the chord error in turns.
 std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_gap_s) {
@@ -42,6 +41,8 @@ std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_
   }
   return out;
 }
+
+namespace {
 
 std::optional<double> course_of(const TrackPoint& truth, const ErrorOptions& options) {
   if (!truth.v_n || !(truth.v_n->head<2>().norm() >= options.course_speed_m_s)) return std::nullopt;

@@ -41,6 +41,9 @@ struct Comparison {
   Eigen::Vector3d removed_offset_neu = Eigen::Vector3d::Zero();  // m
 };
 
+// The truth at `time`: cubic where it has velocities, else linear. nullopt: outside, or in a hole.
+std::optional<TrackPoint> truth_at(const Track& truth, GpsTime time, double max_gap_s);
+
 // Course over ground of the truth (rad, clockwise from north); nullopt in holes and below
 // course_speed_m_s.
 std::optional<double> course_at(const Track& truth, GpsTime time, const ErrorOptions& options);

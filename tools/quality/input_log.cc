@@ -20,9 +20,8 @@ class Reading {
     ++counts.messages[index_of(channel)];
     if (channel == Channel::kGnssEpoch) return take_epoch(data);
     if (handlers_.catalog == nullptr) return;
-    const bool is_product = channel == Channel::kEphemeris || channel == Channel::kOrbitClock ||
-                            channel == Channel::kIonosphere;
-    if (is_product && !take_product(channel, data)) ++counts.refused_products;
+    if (channel == Channel::kAntenna || !is_product(channel)) return;
+    if (!take_product(channel, data)) ++counts.refused_products;
   }
 
   // The epoch that waits.

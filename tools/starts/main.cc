@@ -64,11 +64,6 @@ std::vector<GpsTime> choose(const Track& truth, int number, double seconds, std:
   return chosen;
 }
 
-bool is_product(Channel channel) {
-  return channel == Channel::kEphemeris || channel == Channel::kOrbitClock ||
-         channel == Channel::kIonosphere || channel == Channel::kAntenna;
-}
-
 // The starts that are under way while the log is read once.
 class Starts {
  public:
@@ -87,7 +82,6 @@ class Starts {
     while (!under_way_.empty()) end_first();
     return std::move(results_);
   }
-  std::size_t begun() const { return next_; }
 
  private:
   void move_to(GpsTime now) {
@@ -138,13 +132,14 @@ int run(int argc, char** argv) {
   const double number = arguments.number("--number"), seconds = arguments.number("--seconds");
   if (!(number >= 1.0 && number <= 10'000.0)) throw UsageError("--number: must be 1 to 10000");
   if (!(seconds >= 31.0 && seconds <= 3600.0)) throw UsageError("--seconds: must be 31 to 3600");
+  const double seed = arguments.number("--seed");
+  if (!(seed >= 0.0 && seed <= 1e15)) throw UsageError("--seed: must be 0 to 1e15");
   const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
   if (config.navigator.motion != MotionModel::kInertial)
     throw std::runtime_error("ekf.motion is not inertial: there is no heading to be found");
   const Track truth = load_truth(arguments.required("--truth"));
   Starts starts(config.navigator, truth,
-                choose(truth, static_cast<int>(number), seconds,
-                       static_cast<std::uint64_t>(arguments.number("--seed"))),
+                choose(truth, static_cast<int>(number), seconds, static_cast<std::uint64_t>(seed)),
                 seconds);
   EventLogReader log(arguments.positional().front());
   LogEvent event;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/earth/rotation.h"
+#include "tools/evaluation/errors.h"
 
 namespace leonav {
 namespace {
@@ -33,17 +34,9 @@ std::string_view to_string(Way way) {
 }
 
 std::optional<TrueMotion> motion_at(const Track& truth, GpsTime time) {
-  const auto after =
-      std::lower_bound(truth.begin(), truth.end(), time,
-                       [](const TrackPoint& point, GpsTime t) { return point.time < t; });
-  if (after == truth.end() || (after == truth.begin() && after->time != time)) return std::nullopt;
-  const auto before = after->time == time ? after : after - 1;
-  if (!before->rpy[2] || !after->rpy[2] || !before->v_n || !after->v_n) return std::nullopt;
-  const double whole = seconds_between(after->time, before->time);
-  const double share = whole > 0.0 ? seconds_between(time, before->time) / whole : 0.0;
-  const Eigen::Vector3d v_n = *before->v_n + share * (*after->v_n - *before->v_n);
-  const double turn = wrap_to_pi(*after->rpy[2] - *before->rpy[2]);
-  return TrueMotion{wrap_to_pi(*before->rpy[2] + share * turn), v_n.head<2>().norm()};
+  const auto point = truth_at(truth, time, ErrorOptions{}.max_truth_gap_s);
+  if (!point || !point->rpy[2] || !point->v_n) return std::nullopt;
+  return TrueMotion{*point->rpy[2], point->v_n->head<2>().norm()};
 }
 
 Way way_at(const Track& truth, GpsTime start) {

@@ -7,6 +7,8 @@
 #include <ostream>
 #include <vector>
 
+#include "tools/evaluation/statistics.h"
+
 namespace leonav {
 namespace {
 
@@ -19,25 +21,6 @@ bool is_off(double error, double sigma) {
   return std::abs(error) > std::max(kFalse, kFalseSigmas * sigma);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? NAN : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-double worst(const std::vector<double>& values) {
-  double most = values.empty() ? NAN : 0.0;
-  for (const double v : values) most = std::max(most, std::abs(v));
-  return most;
-}
-
 }  // namespace
 
 bool is_false(const StartResult& result) {
@@ -47,11 +30,11 @@ bool is_false(const StartResult& result) {
 }
 
 int print_table(std::span<const StartResult> results, std::ostream& out) {
-  out << "start         number  aligned within 30 s  after s (median, last)  heading error deg: "
-         "when "
-         "aligned (rms, worst)  at 30 s (rms, worst, over sigma)  false\n";
+  out << "start         number  aligned within 30 s  after s (median, last)"
+         "  heading error deg: when aligned (rms, worst)"
+         "  at 30 s (rms, worst, over sigma)  false\n";
   int all_false = 0;
-  for (const Way way : {Way::kStanding, Way::kStraight, Way::kCurve, Way::kOther}) {
+  for (const Way way : {Way::kStanding, Way::kStraight, Way::kCurve}) {
     int number = 0, in_time = 0, wrong = 0;
     std::vector<double> after, first, later, ratio;
     for (const StartResult& result : results) {
@@ -72,8 +55,9 @@ int print_table(std::span<const StartResult> results, std::ostream& out) {
     std::snprintf(line, sizeof line,
                   "%-12s  %6d  %17.0f %%  %10.1f %10.1f  %28.2f %7.2f  %19.2f %7.2f %6.1f  %5d\n",
                   std::string(to_string(way)).c_str(), number, 100.0 * in_time / number,
-                  median(after), worst(after), rms(first), worst(first), rms(later), worst(later),
-                  worst(ratio), wrong);
+                  percentile(after, 0.5), distribution_of(after).worst, distribution_of(first).rmse,
+                  distribution_of(first).worst, distribution_of(later).rmse,
+                  distribution_of(later).worst, distribution_of(ratio).worst, wrong);
     out << line;
   }
   return all_false;

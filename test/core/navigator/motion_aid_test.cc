@@ -35,7 +35,7 @@ NavigatorConfig config_of(const SyntheticDriveOptions& options, bool constrained
   config.imu.accel_bias.sigma = 0.03;
   MotionConstraintConfig& motion = config.vehicle.motion.constraints;
   motion.non_holonomic = motion.zero_velocity = constrained;
-  if (constrained) config.ekf.vehicle = {2, {}, {0.03, 0.03}, {3e-5, 3e-5}};
+  if (constrained) config.ekf.vehicle = {2, {0.03, 0.03}, {3e-5, 3e-5}};
   return config;
 }
 

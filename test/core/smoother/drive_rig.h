@@ -103,7 +103,7 @@ class Drive {
     config.keep_process = true;
     config.use_carrier = options.carriers;
     config.robust.enabled = options.robust;
-    if (options.constrained) config.vehicle = {2, {}, {0.02, 0.02}, {1e-5, 1e-5}};
+    if (options.constrained) config.vehicle = {2, {0.02, 0.02}, {1e-5, 1e-5}};
     return config;
   }
 

@@ -47,7 +47,7 @@ def arguments():
                         help=f"so many seeds of every row, {CONVERGENCE_FACTOR} times as many for convergence [5]")
     parser.add_argument("--first-seed", type=at_least(1), default=1, help="the first of them; the sets are always 1 to 4 [1]")
     parser.add_argument("--jobs", type=at_least(1), default=os.cpu_count() or 1, help="runs at a time [processors]")
-    parser.add_argument("--epochs", type=at_least(1100), default=3600, help="of each drive, 1 s each; the first 1000 do not "
+    parser.add_argument("--epochs", type=at_least(1100), default=3600, help="of each drive but those of the motion rows, 1 s each; the first 1000 do not "
                         "count [3600]")
     parser.add_argument("--quick", action="store_true", help="a smoke run: few rows, two seeds, short")
     parser.add_argument("--keep", action="store_true", help="keep the logs and tables of every run (some 250 MB an hour)")

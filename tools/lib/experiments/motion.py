@@ -41,11 +41,11 @@ def rows():
     return result
 
 
-def numbers_of(series):
+def numbers_of(row, series):
     """RMSE north, east, up, horizontal; 95 % and, in the tunnels and with few satellites, the worst and last, m."""
     t, (north, east, up) = series["t"], series["error"]
     horizontal = np.hypot(north, east)
-    judged = t >= 600
+    judged = t >= row.settle_epochs
 
     def rms(values):
         return float(np.sqrt(np.mean(values ** 2))) if len(values) else np.nan
@@ -68,6 +68,6 @@ def table(rows_, results, runner, lines):
               "| | seeds | N | E | U | horizontal | 95 % | 30 s, worst | 60 s, worst | 60 s, end | few, RMSE | few, worst |",
               "|---|---|---|---|---|---|---|---|---|---|---|---|"]
     for row in rows_:
-        every = [numbers_of(s) for s in plots.all_series(row, results, runner)]
+        every = [numbers_of(row, s) for s in plots.all_series(row, results, runner)]
         cells = [spread.text(spread.mean_spread([one[i] for one in every])) for i in range(10)] if every else ["-"] * 10
         lines.append(f"| {row.title} | {len(every)} | " + " | ".join(cells) + " |")

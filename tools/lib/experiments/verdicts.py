@@ -86,11 +86,13 @@ def houses_text(verdict, others):
 def reflections_text(verdict, others, results):
     """Likewise of the row of the same drives whose LEO no house hides, where that misses it too."""
     own = own_reflections_text(verdict, results)
+    if own:
+        return own
     for other in others:
-        if not own and other.row.housed is (verdict.row.filter or verdict.row):
+        if other.row.housed is (verdict.row.filter or verdict.row):
             open_text = own_reflections_text(other, results)
             return open_text and f"LEO stands behind our houses, and {open_text}"
-    return own
+    return ""
 
 
 def own_reflections_text(verdict, results):
