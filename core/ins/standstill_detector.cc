@@ -8,6 +8,8 @@ namespace {
 // An engine's shaking goes out by the mean.
 constexpr double kPart_s = 0.1999;  // rounding must not make it a sample longer
 constexpr double kSpeedSigmas = 3.5;
+constexpr double kMovingSigmas = 3.0;
+constexpr int kRemembered = 15;  // fifths of a second
 
 }  // namespace
 
@@ -18,27 +20,54 @@ void StandstillDetector::add(const ImuSample& sample) {
   current_.angle_b += sample.delta_theta_b;
   current_.velocity_b += sample.delta_velocity_b;
   if (current_.seconds < kPart_s) return;
+  const Part leaving = parts_[static_cast<std::size_t>(next_)];
+  const bool left = known_ == kParts;
   parts_[static_cast<std::size_t>(next_)] = current_;
   next_ = (next_ + 1) % kParts;
   known_ = std::min(known_ + 1, kParts);
   current_ = Part();
+  if (left) remember(leaving.force_b());
+}
+
+// The force before the last second, as long as nothing has moved.
+void StandstillDetector::remember(const Eigen::Vector3d& force_b) {
+  if (spread().maxCoeff() >= config_.max_force_change_m_s2 || (before_ >= kParts && !goes_on())) {
+    before_ = 0;
+    return;
+  }
+  before_ = std::min(before_ + 1, kRemembered);
+  before_b_ += (force_b - before_b_) / before_;
+}
+
+Eigen::Vector3d StandstillDetector::spread() const {
+  Eigen::Vector3d least = parts_[0].force_b(), most = least;
+  for (const Part& part : parts_) {
+    least = least.cwiseMin(part.force_b());
+    most = most.cwiseMax(part.force_b());
+  }
+  return most - least;
+}
+
+bool StandstillDetector::goes_on() const {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Part& part : parts_) mean += part.force_b() / kParts;
+  return (mean - before_b_).cwiseAbs().maxCoeff() < config_.max_force_drift_m_s2;
 }
 
 bool StandstillDetector::feels_still(const Eigen::Vector3d& rate_bias_b) const {
-  if (known_ < kParts) return false;
-  Eigen::Vector3d least = parts_[0].velocity_b / parts_[0].seconds, most = least;
+  if (known_ < kParts || before_ < kParts) return false;
   for (const Part& part : parts_) {
     const Eigen::Vector3d rate = part.angle_b / part.seconds - rate_bias_b;
     if (!(rate.cwiseAbs().maxCoeff() < config_.max_rate_rad_s)) return false;
-    least = least.cwiseMin(part.velocity_b / part.seconds);
-    most = most.cwiseMax(part.velocity_b / part.seconds);
   }
-  return (most - least).maxCoeff() < config_.max_force_change_m_s2;
+  return spread().maxCoeff() < config_.max_force_change_m_s2 && goes_on();
 }
 
 bool StandstillDetector::stands(const Eigen::Vector3d& rate_bias_b, double speed,
                                 double sigma) const {
-  return speed + kSpeedSigmas * sigma < config_.max_speed_m_s && feels_still(rate_bias_b);
+  sigma = std::max(sigma, config_.least_sigma_m_s);
+  return speed + kSpeedSigmas * sigma < config_.max_speed_m_s && speed < kMovingSigmas * sigma &&
+         feels_still(rate_bias_b);
 }
 
 Eigen::Vector3d StandstillDetector::rate_b() const {

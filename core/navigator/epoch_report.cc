@@ -88,6 +88,7 @@ void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* re
   report->nis_degrees = 0;
   report->satellites.clear();
   report->aiding.clear();
+  report->constraints.clear();
 }
 
 void report_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,

@@ -85,6 +85,7 @@ void GnssStage::process(const GnssWork& work) {
 
 void GnssStage::process_epoch(const EpochWork& work) {
   start_report(work.index, work.time, work.empty, report_.get());
+  const GpsTime before = last_epoch_time_;
   last_epoch_time_ = work.time;
   gnss_used_ = updated_ = false;
   if (inertial_ && !ekf_.has_attitude()) {
@@ -93,6 +94,8 @@ void GnssStage::process_epoch(const EpochWork& work) {
   motion_aid_.predict({work.block.data(), work.block.size()}, work.time, &ekf_);
   if (const auto share = motion_aid_.contradiction())
     events_.emit(EventKind::kConstraintsLeftOut, 0, *share, work.time);
+  for (const ConstraintInstant& instant : motion_aid_.instants())
+    if (!before.is_set() || instant.time > before) report_->constraints.push_back(instant);
   drop_broken_filter(work.time);
   if (!work.empty) {
     use_measurements(work);
@@ -105,6 +108,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
   }
   watch_motion(work);
   report_solution(work);
+  motion_aid_.set_satellites(report_->satellites_used);
   deliver(work);
   watch_orbits();
   publish(work);
@@ -113,7 +117,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
 
 // Last: the smoother may go to work on it at once.
 void GnssStage::push_keyframe(const EpochWork& work) {
-  if (keyframes_ == nullptr) return;
+  if (keyframes_ == nullptr) return motion_aid_.forget();
   keyframe_maker_.add(work.block);
   const bool due = keyframe_maker_.is_due(ekf_, work.time);
   KeyframeInput* keyframe = due ? keyframes_->next_keyframe(work.index) : nullptr;

@@ -9,6 +9,7 @@ namespace leonav {
 namespace {
 
 constexpr double kWatched_s = 10.0;
+constexpr double kFewSatellites = 3.0;  // times the sigma
 constexpr double kContradicted = 0.5, kAgain = 0.25;
 
 // The next multiple of the interval after `time`.
@@ -89,8 +90,10 @@ void MotionAid::constrain(Ekf* ekf) {
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-  instant.standing =
-      config_.constraints.zero_velocity && detector_.stands(rest_b, speed.m_s, speed.sigma);
+  const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
+  standing_ = config_.constraints.zero_velocity &&
+              detector_.stands(rest_b, speed.m_s, doubt * speed.sigma);
+  instant.standing = standing_;
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);
   instant.used = ekf->constrain(measurements_, config_.constraints.gate);

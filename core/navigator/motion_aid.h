@@ -25,6 +25,9 @@ class MotionAid {
 
   // As Ekf::predict.
   void predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf);
+  // How many satellites the last epoch used. With few, nobody outvotes a reflection, and the filter's
+  // velocity is worse than its sigma: a stop that begins must show the more.
+  void set_satellites(int used) { few_satellites_ = used < kEnoughSatellites; }
   // Since the last call of forget(); as many as have a place.
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
@@ -35,6 +38,7 @@ class MotionAid {
   std::optional<double> contradiction();
 
  private:
+  static constexpr int kEnoughSatellites = 5;
   void constrain(Ekf* ekf);
   void count(MotionComponents used);
 
@@ -45,7 +49,7 @@ class MotionAid {
   GpsTime next_;
   double offered_ = 0.0, left_out_ = 0.0;  // fading
   bool contradicted_ = false;
-  bool whole_ = true;
+  bool standing_ = false, few_satellites_ = true, whole_ = true;
 };
 
 }  // namespace leonav

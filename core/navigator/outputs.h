@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/capacity.h"
+#include "core/ekf/motion_constraint.h"
 #include "core/gnss/measurement.h"
 #include "core/ins/nav_state.h"
 #include "core/smoother/smoother_status.h"
@@ -84,6 +85,7 @@ struct EpochReport {
   int nis_degrees = 0;
   boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
+  ConstraintInstants constraints;  // since the last epoch; not on the wire
 };
 
 // The smoother's answer at a keyframe, if it was in time.

@@ -28,9 +28,10 @@ Pull spoofed(const Fault& fault, double since_s) {
 
 }  // namespace
 
-bool FaultScript::is_out(SatelliteId satellite, double t) const {
+bool FaultScript::is_out(SatelliteId satellite, double elevation, double t) const {
   return std::ranges::any_of(faults_, [&](const Fault& fault) {
-    return is_now(fault, FaultKind::kOutage, t) && meets(fault, satellite);
+    return is_now(fault, FaultKind::kOutage, t) && meets(fault, satellite) &&
+           elevation < fault.below_elevation;
   });
 }
 

@@ -20,7 +20,7 @@ class FaultScript {
   explicit FaultScript(std::vector<Fault> faults) : faults_(std::move(faults)) {}
 
   // `t` in s from the start: the epoch's stamp, the IMU sample's end, the product's time.
-  bool is_out(SatelliteId satellite, double t) const;
+  bool is_out(SatelliteId satellite, double elevation, double t) const;
   Pull pull(SatelliteId satellite, double t) const;
   bool is_receiver_off(double t) const;
   bool is_imu_missing(double t) const;

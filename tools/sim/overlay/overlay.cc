@@ -137,9 +137,12 @@ class Overlay {
   long remove_observations() {
     const double t = seconds_between(raw_->time, motion_.start());
     const auto before = raw_->observations.size();
-    const auto kept =
-        std::remove_if(raw_->observations.begin(), raw_->observations.end(),
-                       [&](const SignalObservation& o) { return faults_.is_out(o.satellite, t); });
+    const auto kept = std::remove_if(raw_->observations.begin(), raw_->observations.end(),
+                                     [&](const SignalObservation& o) {
+                                       // check_overlay_faults() lets no outage ask for the
+                                       // elevation.
+                                       return faults_.is_out(o.satellite, 0.0, t);
+                                     });
     raw_->observations.erase(kept, raw_->observations.end());
     return static_cast<long>(before - raw_->observations.size());
   }

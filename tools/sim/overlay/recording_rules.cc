@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
@@ -57,7 +58,10 @@ void check_overlay_faults(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
     switch (fault.kind) {
       case FaultKind::kOutage:
-        break;
+        if (fault.below_elevation > 0.5 * std::numbers::pi) break;
+        throw std::runtime_error(fault.where +
+                                 ": below_elevation_deg has no effect with --overlay, which does "
+                                 "not look where the recording's satellites are; take it out");
       case FaultKind::kSatelliteClock:
       case FaultKind::kBadOrbit:
       case FaultKind::kSpoofing:

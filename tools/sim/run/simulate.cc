@@ -83,6 +83,10 @@ class Run {
       outbox_.deliver(next);
       progress->show(seconds_between(next, scenario_.start) / end_s_);
     }
+    if (const double step = std::max(scenario_.truth_interval_s, 1.0 / scenario_.imu.rate_hz);
+        scenario_.truth_interval_s > 0.0) {
+      for (int i = 1; i * step < end_s_; ++i) add_truth(i * step);
+    }
     outbox_.deliver_all();
     if (observations_ == 0) {
       throw std::runtime_error(
@@ -94,6 +98,8 @@ class Run {
   }
 
  private:
+  void add_truth(double t) { truth_.push_back(motion_.point(scenario_.start.plus_seconds(t))); }
+
   void post_products(GpsTime until) {
     while (next_ephemeris_ < ephemerides_.size() &&
            ephemerides_[next_ephemeris_].arrival <= until) {
@@ -118,7 +124,7 @@ class Run {
         if (export_) export_->write(epoch);
         outbox_.post(scenario_.start.plus_seconds(next_tag_s_ + latency_s), epoch);
       }
-      truth_.push_back(motion_.point(scenario_.start.plus_seconds(next_tag_s_)));
+      if (scenario_.truth_interval_s == 0.0) add_truth(next_tag_s_);
       ++epochs_;
       next_tag_s_ = scenario_.receiver.interval_s * static_cast<double>(epochs_ + 1);
     }

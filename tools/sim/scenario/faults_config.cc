@@ -57,6 +57,9 @@ void read_sizes(ConfigReader& group, Fault* fault) {
           &fault->stream);
       break;
     case FaultKind::kOutage:
+      if (!group.is_scalar("below_elevation_deg")) break;
+      group.number("below_elevation_deg", {0.0, 90.0}, &fault->below_elevation, kDegree);
+      break;
     case FaultKind::kImuGap:
     case FaultKind::kReceiverReset:
       break;

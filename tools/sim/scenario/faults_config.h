@@ -28,6 +28,7 @@ struct Fault {
   // Whom it meets: none named means all.
   std::vector<System> systems;
   std::vector<SatelliteId> satellites;
+  double below_elevation = 2.0;  // rad; an outage leaves the satellites above: 2: none
   double jump_m = 0.0, drift_m_s = 0.0;
   double along_m = 0.0, cross_m = 0.0, radial_m = 0.0;
   double pull_m_s = 1.0, pull_time_s = 20.0;   // rate, and how long it takes to get there

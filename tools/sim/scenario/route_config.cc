@@ -17,7 +17,7 @@ void read_waypoint(ConfigReader& group, RouteConfig* route) {
   group.number("east_m", kPlace, &w.p_n.y());
   group.number("up_m", {-1e3, 1e4}, &up_m);
   w.p_n.z() = -up_m;
-  group.number("speed_m_s", {0.5, 300.0}, &w.speed_m_s);
+  group.number("speed_m_s", {0.05, 300.0}, &w.speed_m_s);
   group.number("stop_s", {0.0, 1e5}, &w.stop_s);
   w.where = group.where("");
   route->waypoints.push_back(w);

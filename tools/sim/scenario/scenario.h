@@ -21,6 +21,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   GpsTime start;
   double duration_s = 600.0;
+  double truth_interval_s = 0.0;  // of truth.csv; 0: the receiver's
   RouteConfig route;
   ImuConfig imu;
   std::array<ConstellationConfig, kSystemCount> constellations;  // by System

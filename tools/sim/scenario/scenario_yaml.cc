@@ -45,6 +45,7 @@ void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario
   if (week && *week != std::floor(*week)) root.fail("start_gps_week", "must be a whole number");
   scenario->seed = static_cast<std::uint64_t>(seed);
   root.number("duration_s", {10.0, 86'400.0}, &scenario->duration_s);
+  root.number("truth_interval_s", {0.0, 60.0}, &scenario->truth_interval_s);
   root.group("route", [&](ConfigReader& r) { read_route(r, folder, &scenario->route); });
   scenario->start = GpsTime::from_week_and_tow(static_cast<int>(week.value_or(2136.0)),
                                                tow_s.value_or(345'600.0));

@@ -82,7 +82,8 @@ void SatelliteObserver::observe(const EpochInstant& now, RawEpoch* raw) {
   const Geometry g = geometry(now);
   const Pull pull = world_.faults.pull(satellite_.id, now.t_tag);
   Arrival arrival = this->arrival(now, g, pull);
-  if (world_.faults.is_out(satellite_.id, now.t_tag)) arrival.present = false;
+  if (world_.faults.is_out(satellite_.id, g.path.direction.elevation, now.t_tag))
+    arrival.present = false;
   turn(now, g.path);
   age_.advance(now.clock.t, g.path.direction.elevation, g.direction_rates);
   tracking_.step(now.t_tag, arrival);

@@ -147,9 +147,9 @@ TEST_CASE("Faults that name no satellite meet all", "[sim][faults]") {
   fault.from_s = 5.0;
   fault.to_s = 6.0;
   const sim::FaultScript script({fault});
-  REQUIRE(script.is_out({System::kLeo, 399}, 5.0));
-  REQUIRE_FALSE(script.is_out({System::kLeo, 399}, 4.999));
-  REQUIRE_FALSE(script.is_out({System::kLeo, 399}, 6.0));
+  REQUIRE(script.is_out({System::kLeo, 399}, 1.0, 5.0));
+  REQUIRE_FALSE(script.is_out({System::kLeo, 399}, 1.0, 4.999));
+  REQUIRE_FALSE(script.is_out({System::kLeo, 399}, 1.0, 6.0));
 }
 
 TEST_CASE("Faults that make no sense are refused", "[sim][faults]") {

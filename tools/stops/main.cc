@@ -1,0 +1,69 @@
+// leonav-stops: where the detector of standstills was right, wrong, and blind, on a recorded run.
+#include <iostream>
+#include <stdexcept>
+
+#include "daemon/config/load_config.h"
+#include "daemon/input_dispatch.h"
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/event_log.h"
+#include "stops.h"
+#include "tools/common/arguments.h"
+#include "tools/common/progress_bar.h"
+
+namespace {
+
+using namespace leonav;
+
+Arguments declare() {
+  const StopsConfig usual;
+  Arguments arguments(
+      "leonav-stops", "--config FILE --truth truth.csv [options] run.lcmlog",
+      "Runs the filter over a log and holds the instants at which it took the vehicle for standing "
+      "\nagainst the truth: false declarations, missed stops. Exit codes: 0 none was false; 1 a "
+      "file\ncannot be used, or some were false; 2 command line.");
+  arguments.option("--config", "FILE", "configuration, as for leonavd")
+      .option("--truth", "FILE", "truth.csv with velocity")
+      .option("--still", "M_S", "no declaration below this speed is false", "0.06")
+      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+  return arguments;
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments = declare();
+  if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.positional().size() != 1) throw UsageError("expected one log file");
+  StopsConfig judged;
+  judged.still_m_s = arguments.number("--still");
+  if (!(judged.still_m_s > 0.0 && judged.still_m_s < judged.creep_m_s))
+    throw UsageError("--still: must be above 0 and below 0.3");
+  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  if (!config.navigator.vehicle.motion.constraints.zero_velocity)
+    throw std::runtime_error(
+        "vehicle.zero_velocity is off: nothing asks whether it stands; --set vehicle.kind=car");
+  const Track truth = load_truth(arguments.required("--truth"));
+  StopsRecorder recorder;
+  Pipeline pipeline(config.navigator, &recorder);
+  InputDispatch dispatch(&pipeline.sequencer());
+  EventLogReader log(arguments.positional().front());
+  LogEvent event;
+  ProgressBar progress(&std::cerr, "leonav-stops", is_stderr_terminal());
+  while (log.next(&event)) {
+    progress.show(static_cast<double>(log.position_bytes()) /
+                  static_cast<double>(log.size_bytes()));
+    const auto channel = channel_from_name(event.channel, config.lcm.prefix);
+    if (channel && is_input(*channel)) dispatch.dispatch(*channel, event.data);
+  }
+  const StopsResult result = judge_stops(recorder.asked(), truth, judged);
+  if (result.asked == 0)
+    throw std::runtime_error(
+        "the detector was never asked: did the run align, and is the truth of this log, with "
+        "velocity?");
+  print_stops(result, judged, std::cout);
+  if (!result.wrong.empty())
+    throw std::runtime_error(std::to_string(result.wrong.size()) + " false declarations");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return leonav::run_tool("leonav-stops", run, argc, argv); }
