@@ -92,8 +92,8 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
   };
   const double across = measured_rate_b.z() * v.x();  // m/s^2
   const double slip = config.slip_per_acceleration * across * v.x();
-  zero(MotionComponent::kSide, 1, square(config.side_sigma) + square(slip));
-  zero(MotionComponent::kVertical, 2, square(config.vertical_sigma));
+  zero(MotionComponent::kSide, 1, square(config.side_sigma) + square(slip) + instant.side_doubt);
+  zero(MotionComponent::kVertical, 2, square(config.vertical_sigma) + instant.vertical_doubt);
 }
 
 }  // namespace leonav

@@ -80,6 +80,9 @@ struct ConstraintInstant {
   bool standing = false;
   Eigen::Vector3d standing_rate_b = Eigen::Vector3d::Zero();  // measured mean, rad/s
   MotionComponents used = 0;                                  // by the filter
+  // Beyond the constraints' own variances, (m/s)^2: where speed and direction are both badly known,
+  // their product, which no Jacobian sees, is what the vehicle seems to slide by.
+  double side_doubt = 0.0, vertical_doubt = 0.0;
 };
 
 using ConstraintInstants =

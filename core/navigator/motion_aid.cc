@@ -9,6 +9,7 @@ namespace leonav {
 namespace {
 
 constexpr double kWatched_s = 10.0;
+constexpr double kAlike_s = 10.0;
 constexpr double kFewSatellites = 3.0;  // times the sigma
 constexpr double kContradicted = 0.5, kAgain = 0.25;
 
@@ -18,23 +19,46 @@ GpsTime next_instant(GpsTime time, double interval_s) {
   return GpsTime::from_nanoseconds((time.nanoseconds() / interval + 1) * interval);
 }
 
-// Speed and its sigma: of wheels along the direction of travel, else of whatever moves fastest.
-struct Speed {
-  double m_s = 0.0, sigma = 0.0;
+// Along the direction of travel: its sigma, and how far it is known to point there.
+struct ForwardMotion {
+  double speed = 0.0, sigma = 0.0;                  // m/s
+  double side_variance = 0.0, down_variance = 0.0;  // rad^2, of the direction across and down
 };
 
-Speed speed_of(const Ekf& ekf, const MotionConstraintConfig& config) {
-  const auto& P = ekf.covariance();
-  if (!config.non_holonomic)
-    return {ekf.state().v_e.norm(),
-            std::sqrt(P.diagonal().segment<3>(ekf_index::kVelocity).maxCoeff())};
+ForwardMotion forward_motion(const Ekf& ekf, const Eigen::Vector3d& point_b) {
+  constexpr int kSize = ekf_index::kSize, kAttitude = ekf_index::kAttitude;
   const TravelAxes axes = travel_axes(ekf.vehicle());
-  const BodyVelocity velocity = body_velocity(ekf.state(), ekf.measured_rate_b(), config.point_b);
+  const BodyVelocity velocity = body_velocity(ekf.state(), ekf.measured_rate_b(), point_b);
   const Eigen::Vector3d forward = axes.C_bv.col(0);
-  const EkfVector row = velocity.columns * forward;
-  constexpr int kSize = ekf_index::kSize;
-  return {std::abs(forward.dot(velocity.v_b)),
-          std::sqrt(std::max(0.0, row.dot(P.topLeftCorner<kSize, kSize>() * row)))};
+  const Eigen::Index known = kSize + static_cast<Eigen::Index>(ekf.vehicle().size());
+  const auto variance_of = [&](const auto& row) {
+    const auto h = row.head(known);
+    return std::max(0.0, h.dot(ekf.covariance().topLeftCorner(known, known) * h));
+  };
+  ForwardMotion motion;
+  motion.speed = std::abs(forward.dot(velocity.v_b));
+  ConstraintVector row = ConstraintVector::Zero();
+  row.head<kSize>() = velocity.columns * forward;
+  motion.sigma = std::sqrt(variance_of(row));
+  const auto across = [&](int axis) {
+    ConstraintVector turned = ConstraintVector::Zero();
+    const Eigen::Vector3d axis_b = axes.C_bv.col(axis);
+    turned.segment<3>(kAttitude) = ekf.state().q_eb * axis_b.cross(forward);
+    if (known > kSize) {
+      turned(kSize + ekf_index::kTravelYaw) = axes.d_yaw.col(axis).dot(forward);
+      turned(kSize + ekf_index::kTravelPitch) = axes.d_pitch.col(axis).dot(forward);
+    }
+    return variance_of(turned);
+  };
+  motion.side_variance = across(1);
+  motion.down_variance = across(2);
+  return motion;
+}
+
+// Speed and its sigma: of wheels along the direction of travel, else of whatever moves fastest.
+ForwardMotion any_motion(const Ekf& ekf) {
+  const auto velocity = ekf.covariance().diagonal().segment<3>(ekf_index::kVelocity);
+  return {ekf.state().v_e.norm(), std::sqrt(velocity.maxCoeff())};
 }
 
 }  // namespace
@@ -83,7 +107,9 @@ void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf
 void MotionAid::constrain(Ekf* ekf) {
   if (!ekf->initialized() || !ekf->has_attitude()) return;
   const NavState& state = ekf->state();
-  const Speed speed = speed_of(*ekf, config_.constraints);
+  const MotionConstraintConfig& constraints = config_.constraints;
+  const ForwardMotion forward =
+      constraints.non_holonomic ? forward_motion(*ekf, constraints.point_b) : any_motion(*ekf);
   ConstraintInstant instant;
   instant.time = state.time;
   instant.standing_rate_b = detector_.rate_b();
@@ -92,8 +118,12 @@ void MotionAid::constrain(Ekf* ekf) {
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
   const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
   standing_ = config_.constraints.zero_velocity &&
-              detector_.stands(rest_b, speed.m_s, doubt * speed.sigma);
+              detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
   instant.standing = standing_;
+  // What is off stays off for long: so many instants together tell no more than one.
+  const double alike = kAlike_s / constraints.interval_s * forward.sigma * forward.sigma;
+  instant.side_doubt = alike * forward.side_variance;
+  instant.vertical_doubt = alike * forward.down_variance;
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);
   instant.used = ekf->constrain(measurements_, config_.constraints.gate);
