@@ -230,6 +230,7 @@ void GnssStage::update_filter(const EpochWork& work) {
     const bool predicted = approximate_p_e == ekf_.antenna_position_e();
     carriers_.check_range_changes(approximate_p_e, change_prior(predicted), measurements_.get());
   }
+  const OutageWatch::Position before = antenna_position();
   const EkfUpdateResult result = ekf_.update(*measurements_);
   updated_ = true;
   if (config_.ekf.use_carrier) {
@@ -240,10 +241,25 @@ void GnssStage::update_filter(const EpochWork& work) {
         ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
   }
   gnss_used_ = result.used > 0;
+  if (gnss_used_) watch_outage(before, work.time);
   report_update(*measurements_, result, ekf_.antenna_position_e(), report_.get());
   watch_consistency(work, result);
   watch_clocks(result, work.time);
   judge(work, result);
+}
+
+OutageWatch::Position GnssStage::antenna_position() const {
+  return {ekf_.antenna_position_e(),
+          ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition)};
+}
+
+void GnssStage::watch_outage(const OutageWatch::Position& before, GpsTime time) {
+  if (const auto over = outage_watch_.add(time, before, antenna_position()))
+    events_.emit(EventKind::kOutageOver,
+                 static_cast<std::uint8_t>(std::min(255.0, 10.0 * over->step_sigmas)),
+                 over->lasted_s, time);
+  if (const auto after_s = outage_watch_.reconverged())
+    events_.emit(EventKind::kReconverged, 0, *after_s, time);
 }
 
 void GnssStage::process_command(const Command& command) {

@@ -19,6 +19,7 @@
 #include "core/navigator/motion_aid.h"
 #include "core/navigator/navigator_config.h"
 #include "core/navigator/orbit_watch.h"
+#include "core/navigator/outage_watch.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/timed_mailbox.h"
 #include "core/navigator/usable_watch.h"
@@ -62,6 +63,8 @@ class GnssStage {
   void drop_broken_filter(GpsTime time);
   void drop_filter(GpsTime time, ResetCause cause, double value);
   void watch_consistency(const EpochWork& work, const EkfUpdateResult& result);
+  OutageWatch::Position antenna_position() const;
+  void watch_outage(const OutageWatch::Position& before, GpsTime time);
   void watch_clocks(const EkfUpdateResult& result, GpsTime time);
   void watch_usable();
   bool contradicts(const PointSolution& point, GpsTime time, bool motion) const;
@@ -102,6 +105,7 @@ class GnssStage {
   OrbitWatch orbit_watch_;
   UsableWatch usable_watch_;
   LockOutWatch lock_out_watch_;
+  OutageWatch outage_watch_;
   std::uint64_t clock_steps_ = 0;
   std::array<std::uint64_t, 5> orbit_changes_{};  // per OrbitChange
   int suspect_epochs_ = 0;

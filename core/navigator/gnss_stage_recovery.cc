@@ -300,6 +300,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
 void GnssStage::forget_judgements() {
   suspect_epochs_ = 0;
   lock_out_watch_.reset();
+  outage_watch_.reset();
   elsewhere_ = 0.0;
   mean_off_e_.setZero();
 }

@@ -25,8 +25,8 @@ class MotionAid {
 
   // As Ekf::predict.
   void predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf);
-  // How many satellites the last epoch used. With few, nobody outvotes a reflection, and the filter's
-  // velocity is worse than its sigma: a stop that begins must show the more.
+  // How many satellites the last epoch used. With few, nobody outvotes a reflection, and the
+  // filter's velocity is worse than its sigma: a stop that begins must show the more.
   void set_satellites(int used) { few_satellites_ = used < kEnoughSatellites; }
   // Since the last call of forget(); as many as have a place.
   const ConstraintInstants& instants() const { return instants_; }

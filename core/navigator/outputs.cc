@@ -58,6 +58,10 @@ std::string_view to_string(EventKind kind) {
       return "source_change";
     case EventKind::kConstraintsLeftOut:
       return "constraints_left_out";
+    case EventKind::kOutageOver:
+      return "outage_over";
+    case EventKind::kReconverged:
+      return "reconverged";
   }
   return "unknown";
 }

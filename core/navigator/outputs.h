@@ -121,6 +121,10 @@ enum class EventKind : std::uint8_t {
   kSmootherFailed = 16,  // its window starts over; code: SmootherStatus, value: epoch
   kSourceChange = 17,    // of the answer's anchor; code: Source it now comes from, value: epoch
   kConstraintsLeftOut = 18,  // on the motion contradict the filter; value: share of the instants
+  // Satellites are back after 5 s or more; value: seconds without; code: by how many tenths of its
+  // 3D sigma the filter's position stepped.
+  kOutageOver = 20,
+  kReconverged = 21,  // its sigma is again at most 1.5 times that of before; value: seconds since
 };
 std::string_view to_string(EventKind kind);
 

@@ -42,6 +42,8 @@ void RunStatistics::add(const Event& event) {
     name += " " + std::string(to_string(static_cast<InputFault>(event.code)));
   }
   ++events_[name];
+  if (event.kind == EventKind::kOutageOver) outage_steps_.push_back(0.1 * event.code);
+  if (event.kind == EventKind::kReconverged) reconverged_s_.push_back(event.value);
 }
 
 void RunStatistics::add(const Decision& decision) {
@@ -76,6 +78,12 @@ void RunStatistics::print(std::ostream& out) const {
             << "\n";
   }
   out << "largest jump m: " << largest_jump_m_ << "\n";
+  if (!outage_steps_.empty())
+    out << "outages: " << outage_steps_.size() << "\nlargest step after one, in its sigmas: "
+        << *std::max_element(outage_steps_.begin(), outage_steps_.end()) << "\n";
+  if (!reconverged_s_.empty())
+    out << "longest time to the sigma of before s: "
+        << *std::max_element(reconverged_s_.begin(), reconverged_s_.end()) << "\n";
   print_map(out, "satellites", satellites_by_reason_);
   print_map(out, "measurements", measurements_by_reason_);
   out << "carrier arcs: " << carrier_arcs_ << "\n";

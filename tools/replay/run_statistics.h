@@ -5,6 +5,7 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "core/navigator/outputs.h"
 
@@ -34,6 +35,9 @@ class RunStatistics {
   double used_sum_ = 0.0;
   std::array<std::uint64_t, kSystemCount> used_of_{};
   double largest_jump_m_ = 0.0;
+  // Of outages of 5 s and more: what the filter's position stepped by at their ends, over its
+  // sigma, and the seconds until that was as before.
+  std::vector<double> outage_steps_, reconverged_s_;
   // Ordered maps: they are printed in order.
   std::map<std::string, std::uint64_t> smoother_statuses_, solutions_by_source_, events_,
       satellites_by_reason_, arc_ends_, measurements_by_reason_;
