@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "core/conventions/convention.h"
 #include "core/gnss/satellite.h"
 #include "drivers/lcm/channels.h"
 
@@ -59,6 +60,8 @@ struct EngineCounters {
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage
   Gauge resets;
+  // Events of each Convention, and a thousand times the last one's value.
+  std::array<Gauge, kConventionCount> conventions, convention_milli;
   // main
   Gauge unpublished;  // messages of HEALTH that found no room
   // out

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/navigator/outputs.h"
+#include "daemon/convention_text.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
@@ -146,6 +147,7 @@ void HealthMonitor::judge(double now_s) {
   judge_solution(now_s);
   if (expects_imu_) judge_stream(counters.accepted_imu.get(), now_s, &imu_);
   judge_stream(counters.accepted_epochs.get(), now_s, &gnss_);
+  judge_conventions();
   const std::uint64_t waits =
       engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
   judge_count(counters.misses.get(), "deadline missed", &last_misses_);
@@ -154,6 +156,17 @@ void HealthMonitor::judge(double now_s) {
   judge_count(counters.keyframes_skipped.get(), "keyframes skipped", &last_keyframes_skipped_);
   judge_count(sum(counters.lost), "inputs lost before they got here", &last_lost_);
   judge_count(static_cast<std::int64_t>(waits), "a queue was full", &last_waits_);
+}
+
+// A mistake in the configuration or in what feeds the daemon: it stays until somebody has put it
+// right and started anew.
+void HealthMonitor::judge_conventions() {
+  EngineCounters& counters = engine_->counters();
+  for (std::size_t i = 0; i < kConventionCount; ++i) {
+    if (counters.conventions[i].get() == 0) continue;
+    const double value = static_cast<double>(counters.convention_milli[i].get()) * 1e-3;
+    worsen("DEGRADED", convention_text(static_cast<Convention>(i), value));
+  }
 }
 
 // Degraded where it has grown since the last look.

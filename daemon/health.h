@@ -35,6 +35,7 @@ class HealthMonitor {
   void judge(double now_s);
   void judge_solution(double now_s);
   void judge_stream(std::int64_t number, double now_s, Stream* stream);
+  void judge_conventions();
   void judge_count(std::int64_t count, const char* reason, std::int64_t* last);
   void worsen(const char* status, const std::string& reason);
 

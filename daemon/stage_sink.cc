@@ -1,6 +1,7 @@
 #include "daemon/stage_sink.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace leonav {
 
@@ -47,6 +48,10 @@ void StageSink::on_epoch(const EpochReport& report) {
 
 void StageSink::on_event(const Event& event) {
   if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
+  if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
+    counters_->convention_milli[event.code].set(std::llround(event.value * 1e3));
+    counters_->conventions[event.code].add(1);
+  }
   encoder_.on_event(event);
 }
 

@@ -28,6 +28,12 @@ EkfConfig filter_config(EkfConfig config, bool keep_process) {
   return config;
 }
 
+bool is_good(const PointSolution& point) {
+  return point.status == PointStatus::kOk && point.satellites >= kMinSatellites &&
+         point.pdop <= kMaxPdop && point.residual_rms_m <= kMaxResidualRms_m &&
+         point.p_e.allFinite() && point.covariance_p_e.allFinite();
+}
+
 EventKind event_of(OrbitChange change) {
   switch (change) {
     case OrbitChange::kNone:
@@ -107,6 +113,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
     align(work);
   }
   watch_motion(work);
+  check_conventions(work);
   report_solution(work);
   motion_aid_.set_satellites(report_->satellites_used);
   deliver(work);
@@ -154,15 +161,27 @@ void GnssStage::use_measurements(const EpochWork& work) {
   }
 }
 
+// Looks at the measurements alone, before any filter: it changes nothing of what follows.
+void GnssStage::check_conventions(const EpochWork& work) {
+  if (!inertial_) return;
+  for (const ImuSample& sample : work.block) convention_check_.add(sample);
+  if (work.empty || !convention_check_.is_due(work.time)) return;
+  const PointSolution point =
+      solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
+                  Eigen::Vector3d::Zero(), check_measurements_.get());
+  const auto finding = convention_check_.end_second(work.time, is_good(point) ? &point : nullptr);
+  if (finding)
+    events_.emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(finding.convention),
+                 finding.value, work.time);
+}
+
 // A point solution good enough to start from; its measurements stay in measurements_.
 bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e,
                       PointSolution* point) {
   *point = solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
                        approximate_p_e, measurements_.get(), &band_biases_);
   measurements_->index = work.index;
-  return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
-         point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&
-         point->p_e.allFinite() && point->covariance_p_e.allFinite();
+  return is_good(*point);
 }
 
 bool GnssStage::start_filter(const EpochWork& work) {
@@ -269,6 +288,7 @@ void GnssStage::process_command(const Command& command) {
   alignment_.reset();
   forget_judgements();
   last_gnss_time_ = last_reset_time_ = last_lock_out_ = GpsTime();
+  convention_check_.clear();
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(command.cause), 0.0,
                last_epoch_time_);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/conventions/convention_check.h"
 #include "core/ekf/consistency_watch.h"
 #include "core/ekf/ekf.h"
 #include "core/gnss/antenna_catalog.h"
@@ -80,6 +81,7 @@ class GnssStage {
   void push_keyframe(const EpochWork& work);
   void publish(const EpochWork& work);
   void watch_orbits();
+  void check_conventions(const EpochWork& work);
 
   NavigatorConfig config_;
   TimedMailbox<EkfUpdate>* mailbox_;
@@ -121,6 +123,7 @@ class GnssStage {
   Eigen::Vector3d mean_off_e_ = Eigen::Vector3d::Zero();
   GpsTime last_epoch_time_;
   KeyframeMaker keyframe_maker_;
+  ConventionCheck convention_check_;
   std::uint64_t next_decision_ = 1;
 };
 

@@ -58,6 +58,8 @@ std::string_view to_string(EventKind kind) {
       return "source_change";
     case EventKind::kConstraintsLeftOut:
       return "constraints_left_out";
+    case EventKind::kConventionSuspect:
+      return "convention_suspect";
     case EventKind::kOutageOver:
       return "outage_over";
     case EventKind::kReconverged:

@@ -121,6 +121,7 @@ enum class EventKind : std::uint8_t {
   kSmootherFailed = 16,  // its window starts over; code: SmootherStatus, value: epoch
   kSourceChange = 17,    // of the answer's anchor; code: Source it now comes from, value: epoch
   kConstraintsLeftOut = 18,  // on the motion contradict the filter; value: share of the instants
+  kConventionSuspect = 19,   // an input does not follow leonav's; code: Convention, value: by it
   // Satellites are back after 5 s or more; value: seconds without; code: by how many tenths of its
   // 3D sigma the filter's position stepped.
   kOutageOver = 20,

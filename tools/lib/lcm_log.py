@@ -20,3 +20,11 @@ def messages(path):
             if len(data) < data_length:
                 return
             yield stamp_us * 1e-6, channel, data
+
+
+def write(path, messages):
+    """A log of (wall time in s, channel, payload)."""
+    with open(path, "wb") as log:
+        for number, (wall_s, channel, data) in enumerate(messages):
+            name = channel.encode()
+            log.write(HEADER.pack(0xEDA1DA01, number, round(wall_s * 1e6), len(name), len(data)) + name + data)

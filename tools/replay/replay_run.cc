@@ -26,6 +26,7 @@ void ReplayRun::run() {
   std::int64_t next_progress = log.size_bytes() / 10;
   while (log.next(&event)) {
     const auto channel = channel_from_name(event.channel, prefix_);
+    if (channel && is_input(*channel)) note_time(*channel, event.timestamp_us);
     if (channel && is_input(*channel)) dispatch_.dispatch(*channel, event.data);
     if (log.position_bytes() >= next_progress) {
       std::cerr << "leonav-replay: " << 100 * log.position_bytes() / log.size_bytes() << " %\n";
@@ -34,6 +35,12 @@ void ReplayRun::run() {
   }
   files_.close();
   if (verifier_ != nullptr) verifier_->finish(scan_.stopped_cleanly);
+}
+
+void ReplayRun::note_time(Channel channel, std::int64_t stamp_us) {
+  const bool measurement = channel == Channel::kImu || channel == Channel::kGnssEpoch;
+  if (measurement && !first_measurement_us_) first_measurement_us_ = stamp_us;
+  if (first_measurement_us_) log_s_ = static_cast<double>(stamp_us - *first_measurement_us_) * 1e-6;
 }
 
 void ReplayRun::on_solution(const Solution& solution) {
@@ -49,7 +56,7 @@ void ReplayRun::on_epoch(const EpochReport& report) {
 }
 
 void ReplayRun::on_event(const Event& event) {
-  statistics_.add(event);
+  statistics_.add(event, log_s_);
   encoder_.on_event(event);
 }
 

@@ -41,6 +41,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   const Verifier* verifier() const { return verifier_.get(); }
 
  private:
+  void note_time(Channel channel, std::int64_t stamp_us);
   void on_solution(const Solution& solution) override;
   void on_epoch(const EpochReport& report) override;
   void on_event(const Event& event) override;
@@ -49,6 +50,8 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   void take(Channel channel, ByteSpan bytes) override;
 
   std::string prefix_;
+  double log_s_ = 0.0;  // by the log's own stamps, since its first measurement
+  std::optional<std::int64_t> first_measurement_us_;
   Options options_;
   JournalScan scan_;
   ResultFiles files_;

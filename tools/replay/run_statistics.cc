@@ -36,10 +36,14 @@ void RunStatistics::add(const EpochReport& report) {
   }
 }
 
-void RunStatistics::add(const Event& event) {
+void RunStatistics::add(const Event& event, double after_s) {
   std::string name(to_string(event.kind));
   if (event.kind == EventKind::kRejectedInput) {
     name += " " + std::string(to_string(static_cast<InputFault>(event.code)));
+  }
+  if (event.kind == EventKind::kConventionSuspect) {
+    name += " " + std::string(to_string(static_cast<Convention>(event.code)));
+    suspicions_.push_back({static_cast<Convention>(event.code), event.value, after_s});
   }
   ++events_[name];
   if (event.kind == EventKind::kOutageOver) outage_steps_.push_back(0.1 * event.code);

@@ -7,20 +7,27 @@
 #include <string>
 #include <vector>
 
+#include "core/conventions/convention.h"
 #include "core/navigator/outputs.h"
 
 namespace leonav {
 
 class RunStatistics {
  public:
+  // An event kConventionSuspect.
+  struct Suspicion {
+    Convention convention = Convention::kNone;
+    double value = 0.0, after_s = 0.0;
+  };
   void add(const Solution& solution);
   void add(const EpochReport& report);
-  void add(const Event& event);
+  void add(const Event& event, double after_s);  // of the log, since its first measurement
   void add(const Decision& decision);
   void add(const SmootherReport& report);
 
   // "key: value" lines.
   void print(std::ostream& out) const;
+  const std::vector<Suspicion>& suspicions() const { return suspicions_; }
   std::uint64_t solutions() const { return solutions_; }
   std::uint64_t epochs() const { return epochs_; }
   std::uint64_t epochs_without_position() const { return epochs_without_position_; }
@@ -29,6 +36,7 @@ class RunStatistics {
   }
 
  private:
+  std::vector<Suspicion> suspicions_;
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
                 commits_ = 0, misses_ = 0, carrier_arcs_ = 0, smoother_commits_ = 0,
                 smoother_misses_ = 0, keyframes_skipped_ = 0, smoother_iterations_ = 0;

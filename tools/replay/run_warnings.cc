@@ -1,7 +1,10 @@
 #include "run_warnings.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
+
+#include "daemon/convention_text.h"
 
 namespace leonav {
 namespace {
@@ -56,6 +59,12 @@ std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
     warnings.push_back(share(statistics.epochs_without_position(), statistics.epochs()) +
                        " epochs gave no position; satellites: " +
                        most_frequent_first(Counts(reasons.begin(), reasons.end())));
+  }
+  for (const RunStatistics::Suspicion& suspicion : statistics.suspicions()) {
+    char after[48];
+    std::snprintf(after, sizeof after, "after %.0f s: ", suspicion.after_s);
+    warnings.push_back("convention_suspect " + std::string(to_string(suspicion.convention)) + " " +
+                       after + convention_text(suspicion.convention, suspicion.value));
   }
   return warnings;
 }

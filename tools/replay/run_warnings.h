@@ -10,7 +10,8 @@
 namespace leonav {
 
 // One line each where more than half of a stream's messages were not used, or more than half of the
-// epochs gave no position; with the reasons and their counts, most frequent first.
+// epochs gave no position; with the reasons and their counts, most frequent first. Then one for
+// each input that does not follow a convention, with the remedy.
 std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
                                       const Sequencer::Counters& accepted,
                                       const RunStatistics& statistics);
