@@ -111,6 +111,11 @@ std::string_view pattern(Convention convention, double value) {
     case Convention::kCodesExchanged:
       return "the second code is delayed by # m more than the first per unit of slant, where the "
              "ionosphere delays the lower frequency: pseudoranges of the two bands are exchanged";
+    case Convention::kGyroRange:
+      return "samples are refused: the gyros measure # rad/s, more than any IMU does, while "
+             "gravity is "
+             "right: degrees handed in as radians (multiply by pi/180), or rates as increments "
+             "(multiply by the interval)";
   }
   return "an input does not follow leonav's conventions (#)";
 }

@@ -58,6 +58,8 @@ std::string_view to_string(Convention convention) {
       return "signals_exchanged";
     case Convention::kCodesExchanged:
       return "codes_exchanged";
+    case Convention::kGyroRange:
+      return "gyro_range";
   }
   return "unknown";
 }

@@ -39,8 +39,9 @@ enum class Convention : std::uint8_t {
   kDopplerUnit = 24,       // likewise
   kSignalsExchanged = 25,  // likewise: two bands' signals have each other's names
   kCodesExchanged = 26,  // value: m, by which the second code is delayed more, per unit of mapping
+  kGyroRange = 27,       // rates that no IMU measures; value: rad/s
 };
-inline constexpr std::size_t kConventionCount = 27;
+inline constexpr std::size_t kConventionCount = 28;
 std::string_view to_string(Convention convention);  // "force_in_g", ...
 
 // What a check has found.

@@ -1,7 +1,9 @@
 // Does what is handed in follow leonav's conventions? Asks it of the first minutes of motion.
 #pragma once
 #include "core/conventions/convention.h"
+#include "core/conventions/force_check.h"
 #include "core/conventions/motion_record.h"
+#include "core/conventions/turn_check.h"
 
 namespace leonav {
 
@@ -20,6 +22,7 @@ class ConventionCheck {
 
  private:
   ConventionFinding judge() const;
+  ConventionFinding check_axes(const MeanForce& force, const TurnFit& turns) const;
 
   MotionRecord record_;
   bool told_ = false;

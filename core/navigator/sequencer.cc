@@ -51,6 +51,7 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
 void Sequencer::on_imu(const ImuSample& sample) {
   const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxImuIntervalNs};
   const InputFault fault = check(sample, limits);
+  if (inertial_) watch_conventions(sample, fault);
   if (fault != InputFault::kNone) return reject(fault);
   if (const auto leapt = std::exchange(leapt_imu_, std::nullopt)) {
     if (sample.time > leapt->time)
@@ -62,6 +63,16 @@ void Sequencer::on_imu(const ImuSample& sample) {
     leapt_imu_ = sample;
   else
     accept_imu(sample);
+}
+
+void Sequencer::watch_conventions(const ImuSample& sample, InputFault fault) {
+  if (fault == InputFault::kNone) {
+    refused_imu_.add_accepted();
+    stamp_offset_.add_imu(sample.time);
+  } else if (fault == InputFault::kOutOfRange && is_plausible(sample.time) &&
+             sample.interval_ns > 0 && sample.interval_ns <= kMaxImuIntervalNs) {
+    tell(refused_imu_.add_refused(sample));
+  }
 }
 
 // A hole in the stream, or one wild stamp: the next sample tells.
@@ -147,6 +158,7 @@ GpsTime Sequencer::cut_of_full_block() const {
 
 void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
   if (!is_plausible(epoch.time)) return reject(InputFault::kOutOfRange);
+  if (inertial_) tell(stamp_offset_.add_epoch(epoch.time));
   if (is_held_) judge_held(epoch.time);
   if (!hold(epoch)) place_epoch(epoch);
 }
@@ -361,6 +373,11 @@ void Sequencer::reject(InputFault fault) {
   if (worth_an_event(++counters_.rejected[index])) {
     emit(EventKind::kRejectedInput, static_cast<std::uint8_t>(fault), 0.0);
   }
+}
+
+void Sequencer::tell(const ConventionFinding& finding) {
+  if (!finding) return;
+  emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(finding.convention), finding.value);
 }
 
 GpsTime Sequencer::newest_epoch_time() const {

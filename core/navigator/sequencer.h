@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "core/conventions/refused_imu.h"
+#include "core/conventions/stamp_offset.h"
 #include "core/navigator/event_source.h"
 #include "core/navigator/imu_stamps.h"
 #include "core/navigator/navigator_config.h"
@@ -96,6 +98,7 @@ class Sequencer {
   GpsTime imu_time() const { return imu_time_; }  // end of the last accepted sample; may be unset
 
  private:
+  void watch_conventions(const ImuSample& sample, InputFault fault);
   bool leaps(const ImuSample& sample) const;
   void accept_imu(const ImuSample& received);
   InputFault place_imu(ImuSample* sample);
@@ -117,6 +120,7 @@ class Sequencer {
   GpsTime time_of_due_empty_epoch() const;  // unset: none is due
   void issue(const RawEpoch* raw, GpsTime time);
   void reject(InputFault fault);
+  void tell(const ConventionFinding& finding);
   void emit(EventKind kind, std::uint8_t code, double value);
   GpsTime newest_epoch_time() const;
 
@@ -136,6 +140,8 @@ class Sequencer {
   EventNumbering events_{Stage::kSequencer};
   ImuStamps imu_stamps_;
   TimeBaseWatch imu_watch_, epoch_watch_;
+  RefusedImuWatch refused_imu_;
+  StampOffsetWatch stamp_offset_;
   std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1>
       pending_;  // the first pending_count_, by time
   std::size_t pending_count_ = 0;

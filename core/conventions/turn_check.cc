@@ -1,0 +1,116 @@
+#include "core/conventions/turn_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/conventions/stamp_offset.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kTurning = 0.05;      // rad/s; below, a lane change or noise
+constexpr double kEnoughTurned = 1.0;  // rad
+constexpr double kMuchTurned = 2.0;    // rad, for what only a lack of agreement tells
+constexpr double kFollows = 0.8, kDoesNotFollow = 0.3;  // correlation squared
+constexpr int kMinSeconds = 10;
+constexpr double kLowest = 0.7, kHighest = 1.4;
+constexpr double kDegreesPerRadian = 57.29577951;
+constexpr int kLongestLag_s = 45;
+
+// Sums of a straight line's fit, with the means out.
+class Line {
+ public:
+  void add(double x, double y) {
+    ++n_;
+    x_ += x;
+    y_ += y;
+    xx_ += x * x;
+    xy_ += x * y;
+    yy_ += y * y;
+  }
+  int count() const { return n_; }
+  double slope() const { return sxx() > 0.0 ? sxy() / sxx() : 0.0; }
+  double correlation() const {
+    const double both = sxx() * (yy_ - y_ * y_ / n_);
+    return both > 0.0 ? sxy() * sxy() / both : 0.0;
+  }
+
+ private:
+  double sxx() const { return xx_ - x_ * x_ / n_; }
+  double sxy() const { return xy_ - x_ * y_ / n_; }
+  int n_ = 0;
+  double x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
+};
+
+bool is_later_by(const MotionSecond& later, const MotionSecond& earlier, int lag_s) {
+  return std::abs(seconds_between(later.time, earlier.time) - lag_s) < 0.5;
+}
+
+ConventionFinding other_axis(const MotionRecord& record) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const TurnFit fit = fit_turns(record, Eigen::Vector3d::Unit(axis));
+    const double size = std::abs(fit.slope);
+    if (fit.follows() && size > kLowest && size < kHighest)
+      return {Convention::kGyroAxes, axis + 1.0};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool TurnFit::follows() const {
+  return seconds >= kMinSeconds && turned >= kEnoughTurned && correlation >= kFollows;
+}
+
+bool TurnFit::contradicts() const {
+  return seconds >= kMinSeconds && turned >= kMuchTurned && correlation <= kDoesNotFollow;
+}
+
+TurnFit fit_turns(const MotionRecord& record, const Eigen::Vector3d& axis_b, int lag_s) {
+  TurnFit fit;
+  Line line;
+  const auto& seconds = record.seconds();
+  const int count = static_cast<int>(seconds.size());
+  for (int i = std::max(0, -lag_s); i < count && i + lag_s < count; ++i) {
+    const MotionSecond& course = seconds[static_cast<std::size_t>(i)];
+    const MotionSecond& gyros = seconds[static_cast<std::size_t>(i + lag_s)];
+    if (!course.has_course || !gyros.has_imu || !is_later_by(gyros, course, lag_s)) continue;
+    line.add(course.course_rate, axis_b.dot(gyros.rate_b));
+    const double turn = std::abs(course.course_rate);
+    if (turn > kTurning) fit.turned += turn * course.seconds;
+  }
+  fit.seconds = line.count();
+  if (fit.seconds == 0) return fit;
+  fit.slope = line.slope();
+  fit.correlation = line.correlation();
+  return fit;
+}
+
+ConventionFinding check_turn_size(const TurnFit& fit, double imu_interval_s) {
+  const double size = std::abs(fit.slope);
+  if (!fit.follows() || (size > kLowest && size < kHighest)) return {};
+  if (size > 0.7 * kDegreesPerRadian && size < 1.4 * kDegreesPerRadian)
+    return {Convention::kGyrosInDegrees, fit.slope};
+  if (std::abs(size - imu_interval_s) < 0.2 * imu_interval_s)
+    return {Convention::kIncrementsTimesInterval, fit.slope};
+  return {Convention::kGyroUnit, fit.slope};
+}
+
+ConventionFinding check_turn_elsewhere(const MotionRecord& record, const MeanForce& force) {
+  const Eigen::Vector3d down_b = -force.mean_b.normalized();
+  if (!fit_turns(record, down_b).contradicts()) return {};
+  if (const auto finding = other_axis(record)) return finding;
+  TurnFit best;
+  int best_lag_s = 0;
+  for (int lag_s = -kLongestLag_s; lag_s <= kLongestLag_s; ++lag_s) {
+    const TurnFit fit = fit_turns(record, down_b, lag_s);
+    const double size = std::abs(fit.slope);
+    if (!fit.follows() || fit.turned < kMuchTurned || size < kLowest || size > kHighest) continue;
+    if (fit.correlation <= best.correlation) continue;
+    best = fit;
+    best_lag_s = lag_s;
+  }
+  return std::abs(best_lag_s) >= 2 ? stamp_finding(best_lag_s) : ConventionFinding();
+}
+
+}  // namespace leonav
