@@ -1,7 +1,5 @@
 #include "core/conventions/convention_check.h"
 
-#include "core/conventions/force_check.h"
-
 #include "core/conventions/track_check.h"
 
 namespace leonav {
@@ -10,57 +8,86 @@ namespace {
 constexpr double kDegree = EIGEN_PI / 180.0;
 constexpr double kUpright = 45.0 * kDegree;  // of the third axis
 constexpr int kLongStraight = 60;            // seconds with a course
+constexpr int kLongestStart = 180;           // seconds in which all that can be told is told
+constexpr int kLongest = 3600;               // seconds
 
 }  // namespace
 
+ConventionCheck::ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
+                                 const Eigen::Vector3d& lever_arm_b)
+    : point_(gnss, robust), lever_arm_(lever_arm_b) {}
+
 void ConventionCheck::clear() {
   record_.clear();
-  told_ = false;
+  point_.clear();
+  range_rates_.clear();
+  code_order_.clear();
+  lever_arm_.clear();
+  rests_ = false;
+  seconds_ = 0;
 }
 
 void ConventionCheck::add(const ImuSample& sample) {
-  if (!told_) record_.add(sample);
+  if (rests_) return;
+  record_.add(sample);
+  lever_arm_.add(sample);
 }
 
-bool ConventionCheck::is_due(GpsTime time) const { return !told_ && record_.is_due(time); }
-
-ConventionFinding ConventionCheck::end_second(GpsTime time, const PointSolution* point) {
-  if (record_.end_second(time, point) == nullptr) return {};
+ConventionFinding ConventionCheck::end_second(const RawEpoch& raw, const SatelliteCatalog& catalog,
+                                              const Eigen::Quaterniond* q_eb) {
+  range_rates_.add(raw);
+  const PointSolution* point = point_.solve(raw, catalog);
+  if (point != nullptr) code_order_.add(raw, point_.measurements(), catalog);
+  record_.end_second(raw.time, point);
+  lever_arm_.end_second(raw.time, point, q_eb);
   const ConventionFinding finding = judge();
-  told_ = static_cast<bool>(finding);
+  if (finding || ++seconds_ >= kLongest) rests_ = true;
   return finding;
 }
 
-ConventionFinding ConventionCheck::judge() const {
+// In the order in which one mistake makes others seem: first what the receiver measures, then the
+// IMU's units, then its axes by the course.
+ConventionFinding ConventionCheck::judge() {
+  if (const auto finding = point_.judge()) return finding;
+  if (const auto finding = range_rates_.judge()) return finding;
   const MeanForce force = mean_force(record_);
-  const double interval_s = record_.imu_interval_s();
-  if (const auto finding = check_force_size(force, interval_s)) return finding;
+  if (const auto finding = check_force_size(force, record_.imu_interval_s())) return finding;
+  if (!range_rates_.is_right()) return {};  // without Dopplers there is no course
+  if (const auto finding = judge_course(force)) return finding;
+  return code_order_.judge();
+}
+
+ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
   if (!force.known() || !(force.mean_b.norm() > 0.0)) return {};
   const TurnFit turns = fit_turns(record_, -force.mean_b.normalized());
-  if (const auto finding = check_turn_size(turns, interval_s)) return finding;
+  if (const auto finding = check_turn_size(turns, record_.imu_interval_s())) return finding;
   if (const auto finding = check_turn_elsewhere(record_, force)) return finding;
-  return check_axes(force, turns);
+  return judge_axes(force, turns);
 }
 
 // Up and down by the accelerometers, then by the gyros, then forward by braking and bends.
-ConventionFinding ConventionCheck::check_axes(const MeanForce& force, const TurnFit& turns) const {
+ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const TurnFit& turns) {
   const double tilt = force.tilt(), tilt_deg = tilt / kDegree;
   const bool down = tilt<kUpright, up = tilt> EIGEN_PI - kUpright;
-  if (!turns.follows()) {
-    // It may never turn; then which of the mistakes it is nobody can tell.
-    if (down || turns.seconds < kLongStraight) return {};
-    return {up ? Convention::kThirdAxisUp : Convention::kTilted, tilt_deg};
+  const bool long_enough = turns.seconds >= kLongStraight;
+  const ConventionFinding not_down{up ? Convention::kThirdAxisUp : Convention::kTilted, tilt_deg};
+  // It may never turn; then which of the mistakes it is nobody can tell.
+  if (!turns.follows()) return down || !long_enough ? ConventionFinding() : not_down;
+  if (!down && !up) return not_down;
+  if (turns.slope < 0.0) {  // about where down is the gyros contradict the accelerometers
+    if (down) return {Convention::kGyroSign, turns.slope};
+    return {Convention::kForceSign, -turns.slope};
   }
-  const bool agree = turns.slope > 0.0;  // on where down is
-  if (!down && !up) return {Convention::kTilted, tilt_deg};
-  if (!agree)
-    return {down ? Convention::kGyroSign : Convention::kForceSign,
-            down ? turns.slope : -turns.slope};
   const TrackFit track = fit_track(record_);
-  if (down) return check_track_upright(track);
-  if (const auto finding = check_track_upside_down(track, force)) return finding;
-  if (turns.seconds < kLongStraight) return {};
-  return {Convention::kThirdAxisUp, tilt_deg};
+  if (up) {
+    const auto finding = check_track_upside_down(track, force);
+    return finding || !long_enough ? finding : not_down;
+  }
+  if (const auto finding = check_track_upright(track)) return finding;
+  if (!track.is_right()) return {};
+  const auto finding = lever_arm_.judge();
+  rests_ = lever_arm_.is_known() && seconds_ >= kLongestStart;
+  return finding;
 }
 
 }  // namespace leonav

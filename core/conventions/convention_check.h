@@ -1,31 +1,44 @@
 // Does what is handed in follow leonav's conventions? Asks it of the first minutes of motion.
 #pragma once
+#include "core/conventions/code_order_check.h"
 #include "core/conventions/convention.h"
 #include "core/conventions/force_check.h"
+#include "core/conventions/lever_arm_check.h"
+#include "core/conventions/lone_point.h"
 #include "core/conventions/motion_record.h"
+#include "core/conventions/range_rate_check.h"
 #include "core/conventions/turn_check.h"
 
 namespace leonav {
 
 // Compares what the IMU feels with what the receiver alone says of the motion, second by second.
-// Nothing here reads or changes the filter. It tells the first mistake that it is sure of, once:
-// what else is odd then may follow from that one.
+// Of the filter it reads the attitude, for the lever arm alone; it changes nothing. It tells the
+// first mistake that it is sure of, once: what else is odd then may follow from that one. Where all
+// turns out to be right, or after an hour, it rests.
 class ConventionCheck {
  public:
-  void clear();  // everything starts anew, with another mistake to tell
+  ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
+                  const Eigen::Vector3d& lever_arm_b);
+  void clear();  // everything starts anew
   void add(const ImuSample& sample);
-  // Whether end_second() wants a point solution of this epoch.
-  bool is_due(GpsTime time) const;
-  // To be called at each epoch that is due, with the solution of its codes and Dopplers alone;
-  // nullptr: there was none.
-  ConventionFinding end_second(GpsTime time, const PointSolution* point);
+  // Whether end_second() wants an epoch of this time.
+  bool is_due(GpsTime time) const { return !rests_ && record_.is_due(time); }
+  // To be called with each epoch that is due. `q_eb`: the filter's attitude then; nullptr: none.
+  ConventionFinding end_second(const RawEpoch& raw, const SatelliteCatalog& catalog,
+                               const Eigen::Quaterniond* q_eb);
 
  private:
-  ConventionFinding judge() const;
-  ConventionFinding check_axes(const MeanForce& force, const TurnFit& turns) const;
+  ConventionFinding judge();
+  ConventionFinding judge_course(const MeanForce& force);
+  ConventionFinding judge_axes(const MeanForce& force, const TurnFit& turns);
 
   MotionRecord record_;
-  bool told_ = false;
+  LonePoint point_;
+  RangeRateCheck range_rates_;
+  CodeOrderCheck code_order_;
+  LeverArmCheck lever_arm_;
+  bool rests_ = false;
+  int seconds_ = 0;
 };
 
 }  // namespace leonav

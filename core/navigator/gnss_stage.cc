@@ -28,12 +28,6 @@ EkfConfig filter_config(EkfConfig config, bool keep_process) {
   return config;
 }
 
-bool is_good(const PointSolution& point) {
-  return point.status == PointStatus::kOk && point.satellites >= kMinSatellites &&
-         point.pdop <= kMaxPdop && point.residual_rms_m <= kMaxResidualRms_m &&
-         point.p_e.allFinite() && point.covariance_p_e.allFinite();
-}
-
 EventKind event_of(OrbitChange change) {
   switch (change) {
     case OrbitChange::kNone:
@@ -67,7 +61,8 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()),
-      keyframe_maker_(config.smoother.keyframe_interval_s) {
+      keyframe_maker_(config.smoother.keyframe_interval_s),
+      convention_check_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b) {
   const AlignmentConfig& alignment = config_.alignment;
   if (alignment.initial_heading)
     given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});
@@ -161,15 +156,13 @@ void GnssStage::use_measurements(const EpochWork& work) {
   }
 }
 
-// Looks at the measurements alone, before any filter: it changes nothing of what follows.
+// Looks at the measurements before any filter, and changes nothing of what follows.
 void GnssStage::check_conventions(const EpochWork& work) {
-  if (!inertial_) return;
   for (const ImuSample& sample : work.block) convention_check_.add(sample);
   if (work.empty || !convention_check_.is_due(work.time)) return;
-  const PointSolution point =
-      solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
-                  Eigen::Vector3d::Zero(), check_measurements_.get());
-  const auto finding = convention_check_.end_second(work.time, is_good(point) ? &point : nullptr);
+  const bool attitude = ekf_.has_attitude() && ekf_.state().time == work.time;
+  const auto finding =
+      convention_check_.end_second(work.raw, catalog_, attitude ? &ekf_.state().q_eb : nullptr);
   if (finding)
     events_.emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(finding.convention),
                  finding.value, work.time);
@@ -181,7 +174,9 @@ bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_
   *point = solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
                        approximate_p_e, measurements_.get(), &band_biases_);
   measurements_->index = work.index;
-  return is_good(*point);
+  return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
+         point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&
+         point->p_e.allFinite() && point->covariance_p_e.allFinite();
 }
 
 bool GnssStage::start_filter(const EpochWork& work) {

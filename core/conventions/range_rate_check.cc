@@ -1,0 +1,110 @@
+#include "core/conventions/range_rate_check.h"
+
+#include <cmath>
+#include <tuple>
+
+namespace leonav {
+namespace {
+
+constexpr double kLongestInterval_s = 3.0;  // beyond, a rate is not steady enough
+constexpr double kMinSquares = 1e5;         // (m/s)^2 of the Dopplers, about their mean
+constexpr int kMinEpochs = 8;
+constexpr int kMinSatellites = 3;
+constexpr double kMinCorrelation = 0.9;  // squared
+constexpr double kRightWithin = 0.1, kBandWithin = 0.03;
+
+std::size_t band_of(SignalCode code) {
+  return code.band >= '0' && code.band <= '9' ? static_cast<std::size_t>(code.band - '0') : 0;
+}
+
+bool is_near(double value, double expected, double share) {
+  return std::abs(value - expected) < share * std::abs(expected);
+}
+
+}  // namespace
+
+void RangeRateCheck::Sums::add(const Sums& epoch) {
+  if (epoch.n < kMinSatellites) return;
+  xx += epoch.xx - epoch.x * epoch.x / epoch.n;
+  xy += epoch.xy - epoch.x * epoch.y / epoch.n;
+  yy += epoch.yy - epoch.y * epoch.y / epoch.n;
+  ++epochs;
+}
+
+bool RangeRateCheck::Sums::known() const {
+  return epochs >= kMinEpochs && xx > kMinSquares && xy * xy > kMinCorrelation * xx * yy;
+}
+
+void RangeRateCheck::add(const RawEpoch& epoch) {
+  const double dt = last_time_.is_set() ? seconds_between(epoch.time, last_time_) : 0.0;
+  if (dt > 0.0 && dt <= kLongestInterval_s) compare(epoch, dt);
+  last_time_ = epoch.time;
+  last_.clear();
+  for (const SignalObservation& now : epoch.observations)
+    last_.push_back({now.satellite, now.code, now.pseudorange_m, now.doppler_hz});
+}
+
+// Both are sorted alike. Dopplers are instantaneous, so their mean is over the ends.
+void RangeRateCheck::compare(const RawEpoch& epoch, double dt) {
+  Table table{};
+  auto before = last_.begin();
+  for (const SignalObservation& now : epoch.observations) {
+    const auto key = std::tie(now.satellite, now.code);
+    while (before != last_.end() && std::tie(before->satellite, before->code) < key) ++before;
+    if (before == last_.end() || std::tie(before->satellite, before->code) != key) continue;
+    const double wavelength = wavelength_m(now.satellite.system, now.code.band);
+    const double x = -0.5 * wavelength * (now.doppler_hz + before->doppler_hz);
+    const double y = (now.pseudorange_m - before->pseudorange_m) / dt;
+    if (!std::isfinite(x + y)) continue;
+    Sums& sums = table[index_of(now.satellite.system)][band_of(now.code)];
+    sums.n += 1.0;
+    sums.x += x;
+    sums.y += y;
+    sums.xx += x * x;
+    sums.xy += x * y;
+    sums.yy += y * y;
+  }
+  for (std::size_t system = 0; system < kSystemCount; ++system)
+    for (std::size_t band = 0; band < kBands; ++band) sums_[system][band].add(table[system][band]);
+}
+
+RangeRateCheck::Sums RangeRateCheck::all() const {
+  Sums all;
+  for (const auto& system : sums_) {
+    for (const Sums& sums : system) {
+      all.xx += sums.xx;
+      all.xy += sums.xy;
+      all.yy += sums.yy;
+      all.epochs = std::max(all.epochs, sums.epochs);
+    }
+  }
+  return all;
+}
+
+bool RangeRateCheck::is_right() const {
+  const Sums sums = all();
+  return sums.known() && is_near(sums.factor(), 1.0, kRightWithin);
+}
+
+ConventionFinding RangeRateCheck::judge() const {
+  for (const System system : kSystems) {
+    const auto& bands = sums_[index_of(system)];
+    for (std::size_t i = 1; i < kBands; ++i) {
+      for (std::size_t j = 1; j < kBands; ++j) {
+        if (i == j || !bands[i].known() || !bands[j].known()) continue;
+        const double ratio = frequency_hz(system, static_cast<char>('0' + i)) /
+                             frequency_hz(system, static_cast<char>('0' + j));
+        if (is_near(bands[i].factor(), ratio, kBandWithin) &&
+            is_near(bands[j].factor(), 1.0 / ratio, kBandWithin) &&
+            !is_near(ratio, 1.0, 2.0 * kBandWithin))
+          return {Convention::kSignalsExchanged, bands[i].factor()};
+      }
+    }
+  }
+  const Sums sums = all();
+  if (!sums.known() || is_near(sums.factor(), 1.0, kRightWithin)) return {};
+  if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
+  return {Convention::kDopplerUnit, sums.factor()};
+}
+
+}  // namespace leonav
