@@ -109,8 +109,9 @@ std::string_view pattern(Convention convention, double value) {
              "signals of two bands have each other's names; name each by its own band (1C, 2W, "
              "...)";
     case Convention::kCodesExchanged:
-      return "the second code is delayed by # m more than the first per unit of slant, where the "
-             "ionosphere delays the lower frequency: pseudoranges of the two bands are exchanged";
+      return "exchanged, the pseudoranges of the two bands would show the ionosphere (# m at the "
+             "zenith); as they are they show it upside down: the codes of two bands are exchanged; "
+             "hand in each under its own signal";
     case Convention::kGyroRange:
       return "samples are refused: the gyros measure # rad/s, more than any IMU does, while "
              "gravity is "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/gnss/group_delay.h"
 
@@ -12,7 +11,7 @@ namespace {
 constexpr double kShellShare = 0.94;    // of the Earth's radius to that of a shell at 400 km
 constexpr double kMinElevation = 0.17;  // rad
 constexpr float kMinEpochs = 20.0F;
-constexpr int kMinSatellites = 8, kMinOfSystem = 3;
+constexpr int kMinSatellites = 8, kMinOfSystem = 3, kMinFree = 3;
 constexpr double kClear = 5.0;  // sigmas
 constexpr double kMin_m = 0.5;  // at zenith, on L1: the quietest night has about that
 
@@ -22,70 +21,88 @@ double slant_of(double elevation) {
   return 1.0 / std::sqrt(1.0 - sine * sine);
 }
 
-double corrected_m(const SignalObservation& observation, const Ephemeris* elements) {
-  if (elements == nullptr) return observation.pseudorange_m;
-  return observation.pseudorange_m - group_delay(*elements, observation.code).delay_m;
+double group_delay_m(SignalCode code, const Ephemeris* elements) {
+  return elements == nullptr ? 0.0 : group_delay(*elements, code).delay_m;
 }
 
-// The delay on L1 that two codes tell.
-std::optional<double> delay_m(const SignalObservation& first, const SignalObservation& second,
-                              const Ephemeris* elements) {
+// What two codes of one satellite tell.
+struct Pair {
+  double difference_m = 0.0;        // second less first
+  double group_difference_m = 0.0;  // likewise of what the satellite delays them by
+  double share = 0.0;               // of the ionosphere's delay on L1 in it
+
+  double delay_m(bool exchanged) const {
+    return ((exchanged ? -difference_m : difference_m) - group_difference_m) / share;
+  }
+  bool usable() const {
+    // Bands too near to each other tell noise.
+    return std::abs(share) > 0.2 && std::isfinite(difference_m) && std::abs(difference_m) < 200.0;
+  }
+};
+
+Pair pair_of(const SignalObservation& first, const SignalObservation& second,
+             const Ephemeris* elements) {
+  Pair pair;
   const System system = first.satellite.system;
   const double f1 = frequency_hz(system, first.code.band);
   const double f2 = frequency_hz(system, second.code.band);
   const double fl1 = frequency_hz(System::kGps, '1');
-  if (!(f1 > 0.0) || !(f2 > 0.0)) return std::nullopt;
-  const double share = fl1 * fl1 * (1.0 / (f2 * f2) - 1.0 / (f1 * f1));
-  // Too near to each other, they tell noise.
-  if (!(std::abs(share) > 0.2)) return std::nullopt;
-  const double delay = (corrected_m(second, elements) - corrected_m(first, elements)) / share;
-  return std::isfinite(delay) && std::abs(delay) < 200.0 ? std::optional(delay) : std::nullopt;
+  if (!(f1 > 0.0) || !(f2 > 0.0)) return pair;
+  pair.share = fl1 * fl1 * (1.0 / (f2 * f2) - 1.0 / (f1 * f1));
+  pair.difference_m = second.pseudorange_m - first.pseudorange_m;
+  pair.group_difference_m =
+      group_delay_m(second.code, elements) - group_delay_m(first.code, elements);
+  return pair;
 }
 
-// A straight line through the satellites' means, each system with a constant of its own.
-struct Line {
-  int satellites = 0, systems = 0;
-  double xx = 0.0, xy = 0.0, yy = 0.0;
+// The first signal of a satellite and the first on another band; nullptr: there is none.
+struct Signals {
+  const SignalObservation *first = nullptr, *second = nullptr;
 };
+Signals signals_of(SatelliteId satellite, const RawEpoch& epoch) {
+  Signals signals;
+  for (const SignalObservation& observation : epoch.observations) {
+    if (observation.satellite != satellite) continue;
+    if (!std::isfinite(observation.pseudorange_m)) continue;
+    if (signals.first == nullptr) signals.first = &observation;
+    if (observation.code.band == signals.first->code.band) continue;
+    signals.second = &observation;
+    break;
+  }
+  return signals;
+}
 
 }  // namespace
 
 void CodeOrderCheck::add(const RawEpoch& epoch, const MeasurementEpoch& seen,
                          const SatelliteCatalog& catalog) {
-  const auto& all = epoch.observations;
-  for (const SatelliteInView& satellite : seen.satellites) {
-    if (!is_valid(satellite.satellite) || !(satellite.elevation > kMinElevation)) continue;
-    const SignalObservation *first = nullptr, *second = nullptr;
-    for (const SignalObservation& observation : all) {
-      if (observation.satellite != satellite.satellite) continue;
-      if (!std::isfinite(observation.pseudorange_m)) continue;
-      if (first == nullptr) first = &observation;
-      if (observation.code.band == first->code.band) continue;
-      second = &observation;
-      break;
-    }
-    if (second == nullptr) continue;
-    const Ephemeris* elements = satellite.satellite.system == System::kLeo
-                                    ? nullptr
-                                    : catalog.ephemeris_at(satellite.satellite, epoch.time);
-    const auto delay = delay_m(*first, *second, elements);
-    if (!delay) continue;
-    Mean& mean = satellites_[place_of(satellite.satellite)];
+  for (const SatelliteInView& seen_one : seen.satellites) {
+    const SatelliteId satellite = seen_one.satellite;
+    if (!is_valid(satellite) || !(seen_one.elevation > kMinElevation)) continue;
+    const Signals signals = signals_of(satellite, epoch);
+    if (signals.second == nullptr) continue;
+    const bool told = satellite.system != System::kLeo;
+    const Ephemeris* elements = told ? catalog.ephemeris_at(satellite, epoch.time) : nullptr;
+    const Pair pair = pair_of(*signals.first, *signals.second, elements);
+    if (!pair.usable()) continue;
+    Mean& mean = satellites_[place_of(satellite)];
     mean.n += 1.0F;
-    mean.slant += static_cast<float>(slant_of(satellite.elevation));
-    mean.delay_m += static_cast<float>(*delay);
+    mean.slant += static_cast<float>(slant_of(seen_one.elevation));
+    mean.delay_m[0] += static_cast<float>(pair.delay_m(false));
+    mean.delay_m[1] += static_cast<float>(pair.delay_m(true));
   }
 }
 
-ConventionFinding CodeOrderCheck::judge() const {
-  Line line;
+CodeOrderCheck::Line CodeOrderCheck::line(std::size_t exchanged) const {
+  int satellites = 0, systems = 0;
+  double sxx = 0.0, sxy = 0.0, syy = 0.0;
   std::size_t place = 0;
   for (const std::uint16_t highest : kHighestNumber) {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     for (std::size_t i = place; i < place + highest; ++i) {
       const Mean& mean = satellites_[i];
       if (mean.n < kMinEpochs) continue;
-      const double slant = mean.slant / mean.n, delay = mean.delay_m / mean.n;
+      const double slant = mean.slant / mean.n, delay = mean.delay_m[exchanged] / mean.n;
       n += 1.0;
       x += slant;
       y += delay;
@@ -95,18 +112,28 @@ ConventionFinding CodeOrderCheck::judge() const {
     }
     place += highest;
     if (n < kMinOfSystem) continue;
-    line.satellites += static_cast<int>(n);
-    ++line.systems;
-    line.xx += xx - x * x / n;
-    line.xy += xy - x * y / n;
-    line.yy += yy - y * y / n;
+    satellites += static_cast<int>(n);
+    ++systems;
+    sxx += xx - x * x / n;
+    sxy += xy - x * y / n;
+    syy += yy - y * y / n;
   }
-  const int free = line.satellites - line.systems - 1;
-  if (line.satellites < kMinSatellites || free < 3 || !(line.xx > 0.0)) return {};
-  const double slope = line.xy / line.xx;
-  const double variance = std::max(0.0, line.yy - slope * line.xy) / free / line.xx;
-  const bool exchanged = slope < -kMin_m && slope < -kClear * std::sqrt(variance);
-  return exchanged ? ConventionFinding{Convention::kCodesExchanged, slope} : ConventionFinding();
+  const int free = satellites - systems - 1;
+  Line line;
+  line.known = satellites >= kMinSatellites && free >= kMinFree && sxx > 0.0;
+  if (!line.known) return line;
+  line.slope = sxy / sxx;
+  line.sigma = std::sqrt(std::max(0.0, syy - line.slope * sxy) / free / sxx);
+  return line;
+}
+
+ConventionFinding CodeOrderCheck::judge() const {
+  const Line as_told = line(0), exchanged = line(1);
+  if (!as_told.known || !exchanged.known) return {};
+  const bool clear =
+      exchanged.slope > kMin_m && exchanged.slope > kClear * exchanged.sigma && as_told.slope < 0.0;
+  if (!clear) return {};
+  return {Convention::kCodesExchanged, exchanged.slope};
 }
 
 }  // namespace leonav

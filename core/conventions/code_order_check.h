@@ -11,7 +11,8 @@
 namespace leonav {
 
 // Each satellite's two codes tell its slant delay, but for delays within the receiver, which are
-// alike for all of a system. So the delay must grow towards the horizon, as the slant does.
+// alike for all of a system. So the delay must grow towards the horizon, as the slant does. The
+// satellites' group delays fit one order only, so both orders are tried.
 class CodeOrderCheck {
  public:
   void clear() { *this = CodeOrderCheck(); }
@@ -21,8 +22,16 @@ class CodeOrderCheck {
 
  private:
   struct Mean {
-    float n = 0.0F, slant = 0.0F, delay_m = 0.0F;  // sums
+    float n = 0.0F, slant = 0.0F;    // sums
+    std::array<float, 2> delay_m{};  // likewise: codes as they came, codes exchanged
   };
+  // Of the delay on L1 over the slant, with a constant for each system.
+  struct Line {
+    bool known = false;
+    double slope = 0.0, sigma = 0.0;  // m at the zenith
+  };
+  Line line(std::size_t exchanged) const;
+
   std::array<Mean, kMaxEphemerisSatellites> satellites_{};
 };
 

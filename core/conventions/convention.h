@@ -38,8 +38,8 @@ enum class Convention : std::uint8_t {
   kDopplerSign = 23,       // value: the codes' rate over the Dopplers'
   kDopplerUnit = 24,       // likewise
   kSignalsExchanged = 25,  // likewise: two bands' signals have each other's names
-  kCodesExchanged = 26,  // value: m, by which the second code is delayed more, per unit of mapping
-  kGyroRange = 27,       // rates that no IMU measures; value: rad/s
+  kCodesExchanged = 26,    // value: m at the zenith, what the ionosphere delays L1 by if they are
+  kGyroRange = 27,         // rates that no IMU measures; value: rad/s
 };
 inline constexpr std::size_t kConventionCount = 28;
 std::string_view to_string(Convention convention);  // "force_in_g", ...
