@@ -1,12 +1,7 @@
-#!/usr/bin/python3
-"""mistaken-log MISTAKE IN OUT: a log with the inputs changed as a mistake of a first run changes them.
-mistaken-log --list: the mistakes, a line each. `none` changes nothing."""
+"""Mistakes of a first run, made in an LCM log."""
 import math
-import os
 import struct
-import sys
 
-sys.dont_write_bytecode = True
 import lcm_log
 
 IMU = struct.Struct(">8sqqiq6d")  # fingerprint, time, sequence, schema, interval, increments of angle and velocity
@@ -87,20 +82,12 @@ def changed(mistake, messages):
         yield wall, channel, data
 
 
-def main():
-    if sys.argv[1:] == ["--list"]:
-        print("\n".join(["none", *IMU_MISTAKES, *STAMP_MISTAKES, *GNSS_MISTAKES]))
-        return 0
-    if len(sys.argv) != 4 or sys.argv[1] not in ("none", *IMU_MISTAKES, *GNSS_MISTAKES, *STAMP_MISTAKES):
-        print(__doc__, file=sys.stderr)
-        return 2
-    mistake, source, target = sys.argv[1:]
+MISTAKES = (*IMU_MISTAKES, *STAMP_MISTAKES, *GNSS_MISTAKES)
+
+
+def write_mistaken(mistake, source, target):
+    """The log `source` as a mistake changes its inputs."""
     messages = list(changed(mistake, lcm_log.messages(source)))
     if mistake in STAMP_MISTAKES:
         messages.sort(key=lambda m: m[0])
     lcm_log.write(target, messages)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
