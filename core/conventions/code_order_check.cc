@@ -13,6 +13,7 @@ constexpr double kMinElevation = 0.17;  // rad
 constexpr float kMinEpochs = 20.0F;
 constexpr int kMinSatellites = 8, kMinOfSystem = 3, kMinFree = 3;
 constexpr double kClear = 5.0;  // sigmas
+constexpr double kMuchLess = 0.5;
 constexpr double kMin_m = 0.5;  // at zenith, on L1: the quietest night has about that
 
 // At the zenith 1, near the horizon some 2.5: slant of the path through a thin shell.
@@ -130,8 +131,10 @@ CodeOrderCheck::Line CodeOrderCheck::line(std::size_t exchanged) const {
 ConventionFinding CodeOrderCheck::judge() const {
   const Line as_told = line(0), exchanged = line(1);
   if (!as_told.known || !exchanged.known) return {};
+  // The group delays fit one order only: in the other they count twice and scatter.
+  const bool fits_better = exchanged.sigma < kMuchLess * as_told.sigma || as_told.slope < 0.0;
   const bool clear =
-      exchanged.slope > kMin_m && exchanged.slope > kClear * exchanged.sigma && as_told.slope < 0.0;
+      exchanged.slope > kMin_m && exchanged.slope > kClear * exchanged.sigma && fits_better;
   if (!clear) return {};
   return {Convention::kCodesExchanged, exchanged.slope};
 }

@@ -19,7 +19,7 @@ constexpr double kPrior =
     0.01;  // rad^2/s^2 of the normal equations: where no turn tells of an axis
 constexpr int kMinSeconds = 20;
 constexpr double kKnownSigma_m = 0.12;
-constexpr double kMinOff_m = 0.6, kClear = 6.0;
+constexpr double kMinOff_m = 0.6, kClear = 8.0;
 constexpr double kSignShare = 0.4;  // nearer than this share to the arm with another sign
 
 }  // namespace
@@ -94,8 +94,7 @@ ConventionFinding LeverArmCheck::judge() const {
   const Fit found = fit();
   const Eigen::Vector2d told = lever_arm_b_.head<2>(), measured = found.arm_b.head<2>();
   const double off_m = (measured - told).norm();
-  const bool clear =
-      found.sigma < kKnownSigma_m && off_m > kMinOff_m && off_m > kClear * found.sigma;
+  const bool clear = off_m > kMinOff_m && off_m > kClear * found.sigma;
   if (!clear) return {};
   for (const Eigen::Vector2d& signs :
        {Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(-1.0, 1.0), Eigen::Vector2d(1.0, -1.0)}) {

@@ -1,14 +1,16 @@
 #include "core/conventions/track_check.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace leonav {
 namespace {
 
 constexpr double kDegree = EIGEN_PI / 180.0;
-constexpr double kMinSpeed_m_s = 4.0;  // nobody reverses that fast for long
-constexpr double kMinSquares = 12.0;   // (m/s2)^2 s, each of forward and right: a bend, a stop
+constexpr double kMinSpeed_m_s = 3.0;  // nobody reverses that fast for long
+constexpr double kMinSquares = 2.0;    // (m/s2)^2 s, each of forward and right: a bend, a stop
+constexpr double kMaxSigma = 0.1;      // of the map
 constexpr double kMinExplained = 0.6;  // share of the forces' squares
 constexpr double kLowest = 0.6, kHighest = 1.5;
 constexpr double kPure = 0.4;  // the other part is below this share
@@ -58,7 +60,9 @@ TrackFit fit_track(const MotionRecord& record) {
   if (!(sums.aa.determinant() > 0.3 * sums.aa(0, 0) * sums.aa(1, 1))) return fit;
   const Eigen::Matrix2d map = sums.fa * sums.aa.inverse();
   const double explained = (map * sums.fa.transpose()).trace();
-  fit.known = explained > kMinExplained * sums.ff.trace();
+  const double left = std::max(0.0, sums.ff.trace() - explained) / (2.0 * sums.n);
+  const double sigma = std::sqrt(left / std::min(sums.aa(0, 0), sums.aa(1, 1)));
+  fit.known = explained > kMinExplained * sums.ff.trace() && sigma < kMaxSigma;
   const Eigen::Vector2d turned(map(0, 0) + map(1, 1), map(1, 0) - map(0, 1));
   const Eigen::Vector2d mirrored(map(0, 0) - map(1, 1), map(1, 0) + map(0, 1));
   fit.turn = std::atan2(turned.y(), turned.x());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTurning = 0.05;      // rad/s; below, a lane change or noise
 constexpr double kEnoughTurned = 1.0;  // rad
-constexpr double kMuchTurned = 2.0;    // rad, for what only a lack of agreement tells
+constexpr double kMuchTurned = 1.6;    // rad, for what only a lack of agreement tells
 constexpr double kFollows = 0.8, kDoesNotFollow = 0.3;  // correlation squared
 constexpr int kMinSeconds = 10;
 constexpr double kLowest = 0.7, kHighest = 1.4;
