@@ -60,8 +60,9 @@ ConventionFinding ConventionCheck::judge() {
 ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
   if (!force.known() || !(force.mean_b.norm() > 0.0)) return {};
   const TurnFit turns = fit_turns(record_, -force.mean_b.normalized());
+  if (const auto finding = check_turn_axis(record_, turns)) return finding;
   if (const auto finding = check_turn_size(turns, record_.imu_interval_s())) return finding;
-  if (const auto finding = check_turn_elsewhere(record_, force)) return finding;
+  if (const auto finding = check_turn_time(record_, force)) return finding;
   return judge_axes(force, turns);
 }
 

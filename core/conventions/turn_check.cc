@@ -13,9 +13,10 @@ constexpr double kEnoughTurned = 1.0;  // rad
 constexpr double kMuchTurned = 1.6;    // rad, for what only a lack of agreement tells
 constexpr double kFollows = 0.8, kDoesNotFollow = 0.3;  // correlation squared
 constexpr int kMinSeconds = 10;
-constexpr double kLowest = 0.7, kHighest = 1.4;
+constexpr double kLowest = 0.7, kHighest = 1.4, kHardly = 0.3;  // of the turn
 constexpr double kDegreesPerRadian = 57.29577951;
 constexpr int kLongestLag_s = 45;
+constexpr double kClearlyBetter = 0.03;  // of the correlation
 
 // Sums of a straight line's fit, with the means out.
 class Line {
@@ -44,16 +45,6 @@ class Line {
 
 bool is_later_by(const MotionSecond& later, const MotionSecond& earlier, int lag_s) {
   return std::abs(seconds_between(later.time, earlier.time) - lag_s) < 0.5;
-}
-
-ConventionFinding other_axis(const MotionRecord& record) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const TurnFit fit = fit_turns(record, Eigen::Vector3d::Unit(axis));
-    const double size = std::abs(fit.slope);
-    if (fit.follows() && size > kLowest && size < kHighest)
-      return {Convention::kGyroAxes, axis + 1.0};
-  }
-  return {};
 }
 
 }  // namespace
@@ -96,17 +87,30 @@ ConventionFinding check_turn_size(const TurnFit& fit, double imu_interval_s) {
   return {Convention::kGyroUnit, fit.slope};
 }
 
-ConventionFinding check_turn_elsewhere(const MotionRecord& record, const MeanForce& force) {
+ConventionFinding check_turn_axis(const MotionRecord& record, const TurnFit& about_vertical) {
+  const bool turned = about_vertical.turned >= kMuchTurned;
+  if (!turned || !(std::abs(about_vertical.slope) < kHardly)) return {};
+  for (int axis = 0; axis < 3; ++axis) {
+    const TurnFit fit = fit_turns(record, Eigen::Vector3d::Unit(axis));
+    const double size = std::abs(fit.slope);
+    if (fit.follows() && size > kLowest && size < kHighest)
+      return {Convention::kGyroAxes, axis + 1.0};
+  }
+  return {};
+}
+
+ConventionFinding check_turn_time(const MotionRecord& record, const MeanForce& force) {
   const Eigen::Vector3d down_b = -force.mean_b.normalized();
   if (!fit_turns(record, down_b).contradicts()) return {};
-  if (const auto finding = other_axis(record)) return finding;
   TurnFit best;
   int best_lag_s = 0;
-  for (int lag_s = -kLongestLag_s; lag_s <= kLongestLag_s; ++lag_s) {
+  // From the shortest on: a way that repeats itself fits at several.
+  for (int step = 1; step <= 2 * kLongestLag_s; ++step) {
+    const int lag_s = step % 2 == 1 ? -(step + 1) / 2 : step / 2;
     const TurnFit fit = fit_turns(record, down_b, lag_s);
     const double size = std::abs(fit.slope);
     if (!fit.follows() || fit.turned < kMuchTurned || size < kLowest || size > kHighest) continue;
-    if (fit.correlation <= best.correlation) continue;
+    if (fit.correlation < best.correlation + kClearlyBetter) continue;
     best = fit;
     best_lag_s = lag_s;
   }

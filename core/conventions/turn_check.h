@@ -25,8 +25,11 @@ TurnFit fit_turns(const MotionRecord& record, const Eigen::Vector3d& axis_b, int
 // 30 % (whatever its sign), or not known.
 ConventionFinding check_turn_size(const TurnFit& about_vertical, double imu_interval_s);
 
-// Where the gyros do not follow the course: whether those of another axis do, or the same ones at
-// another time.
-ConventionFinding check_turn_elsewhere(const MotionRecord& record, const MeanForce& force);
+// Where hardly anything turns about the vertical: whether the gyro of another axis does as the
+// course.
+ConventionFinding check_turn_axis(const MotionRecord& record, const TurnFit& about_vertical);
+
+// Where the gyros do not follow the course: whether they do at another time.
+ConventionFinding check_turn_time(const MotionRecord& record, const MeanForce& force);
 
 }  // namespace leonav

@@ -1,0 +1,81 @@
+// Codes against Dopplers: sign, unit, band.
+#include "core/conventions/range_rate_check.h"
+
+#include <cmath>
+
+#include "support/catch.h"
+
+namespace {
+
+using namespace leonav;
+
+constexpr double kInterval_s = 1.0;
+
+// Six GPS satellites on L1 and L2, ranges of constant rates; a clock that drifts and steps.
+RawEpoch epoch_at(int n) {
+  RawEpoch epoch;
+  epoch.time = GpsTime::from_nanoseconds(1'300'000'000'000'000'000).plus_seconds(n * kInterval_s);
+  const double clock_m = 50.0 * n - (n / 5) * 3e5;
+  for (int i = 0; i < 6; ++i) {
+    const double rate = -600.0 + 230.0 * i;
+    for (const SignalCode code : {SignalCode{'1', 'C'}, SignalCode{'2', 'W'}}) {
+      SignalObservation observation;
+      observation.satellite = {System::kGps, static_cast<std::uint16_t>(i + 1)};
+      observation.code = code;
+      observation.pseudorange_m = 2.2e7 + rate * n + clock_m + std::sin(7.0 * n + i);
+      observation.doppler_hz = -(rate + 50.0) / wavelength_m(System::kGps, code.band);
+      epoch.observations.push_back(observation);
+    }
+  }
+  return epoch;
+}
+
+template <typename Change>
+RangeRateCheck after(int epochs, Change change) {
+  RangeRateCheck check;
+  for (int n = 0; n < epochs; ++n) {
+    RawEpoch epoch = epoch_at(n);
+    for (SignalObservation& observation : epoch.observations) change(&observation);
+    check.add(epoch);
+  }
+  return check;
+}
+
+TEST_CASE("right Dopplers, whatever the clock does", "[conventions]") {
+  const RangeRateCheck check = after(30, [](SignalObservation*) {});
+  CHECK(check.is_right());
+  CHECK(!check.judge());
+}
+
+TEST_CASE("a few epochs say nothing of Dopplers", "[conventions]") {
+  const RangeRateCheck check = after(5, [](SignalObservation* o) { o->doppler_hz *= -1.0; });
+  CHECK(!check.is_right());
+  CHECK(!check.judge());
+}
+
+TEST_CASE("Dopplers of the wrong sign or unit", "[conventions]") {
+  const auto negative = after(30, [](SignalObservation* o) { o->doppler_hz *= -1.0; });
+  CHECK(negative.judge().convention == Convention::kDopplerSign);
+  CHECK(!negative.is_right());
+  const auto in_m_s = after(
+      30, [](SignalObservation* o) { o->doppler_hz *= -wavelength_m(System::kGps, o->code.band); });
+  CHECK(in_m_s.judge().convention == Convention::kDopplerUnit);
+}
+
+TEST_CASE("signals that have each other's names", "[conventions]") {
+  const auto check = after(30, [](SignalObservation* o) {
+    // What is called L1 has the Doppler of L2, and the other way round.
+    const double f1 = frequency_hz(System::kGps, '1'), f2 = frequency_hz(System::kGps, '2');
+    o->doppler_hz *= o->code.band == '1' ? f2 / f1 : f1 / f2;
+  });
+  CHECK(check.judge().convention == Convention::kSignalsExchanged);
+  CHECK(std::abs(check.judge().value - 1.28) < 0.02);
+}
+
+TEST_CASE("nothing measured, nothing said", "[conventions]") {
+  const auto check = after(30, [](SignalObservation* o) { o->doppler_hz = kNotMeasured; });
+  CHECK(!check.is_right());
+  CHECK(!check.judge());
+}
+
+}  // namespace
