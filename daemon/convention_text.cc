@@ -75,7 +75,7 @@ std::string_view pattern(Convention convention, double value) {
              "the wrong sign; axes must be forward, right, down";
     case Convention::kBackwards:
       return "the IMU's first axis points # degrees away from where the vehicle goes: it is "
-             "mounted backwards; set vehicle.mounting_rpy_deg: [0, 0, 180]";
+             "mounted backwards, or driven in reverse; set vehicle.mounting_rpy_deg: [0, 0, 180]";
     case Convention::kTurned:
       return "the IMU is turned by # degrees about the vertical against where the vehicle goes; "
              "add "

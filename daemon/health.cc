@@ -162,11 +162,14 @@ void HealthMonitor::judge(double now_s) {
 // right and started anew.
 void HealthMonitor::judge_conventions() {
   EngineCounters& counters = engine_->counters();
+  suspicions_.clear();
   for (std::size_t i = 0; i < kConventionCount; ++i) {
     if (counters.conventions[i].get() == 0) continue;
     const double value = static_cast<double>(counters.convention_milli[i].get()) * 1e-3;
-    worsen("DEGRADED", convention_text(static_cast<Convention>(i), value));
+    const std::string text = convention_text(static_cast<Convention>(i), value);
+    suspicions_ += (suspicions_.empty() ? "" : "; ") + text;
   }
+  if (!suspicions_.empty()) worsen("DEGRADED", suspicions_);
 }
 
 // Degraded where it has grown since the last look.

@@ -21,6 +21,8 @@ class HealthMonitor {
   // "OK", "DEGRADED" or "FAULT", and why: of the last call.
   const std::string& status() const { return status_; }
   const std::string& why() const { return why_; }
+  // What does not follow leonav's conventions, with the remedies; part of why(). Empty: nothing.
+  const std::string& suspicions() const { return suspicions_; }
 
  private:
   // Something that should go on, by a number that changes when it does.
@@ -46,7 +48,7 @@ class HealthMonitor {
   std::uint64_t sequence_ = 0;
   std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_smoother_failures_ = 0,
                last_keyframes_skipped_ = 0, last_lost_ = 0, last_waits_ = 0;
-  std::string status_ = "OK", why_;
+  std::string status_ = "OK", why_, suspicions_;
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -101,7 +101,9 @@ ConventionFinding LeverArmCheck::judge() const {
     if ((measured - signs.cwiseProduct(told)).norm() < kSignShare * off_m)
       return {Convention::kLeverArmSign, off_m};
   }
-  return {Convention::kLeverArm, off_m};
+  // Which of the signs it is may still show.
+  return found.sigma < kKnownSigma_m ? ConventionFinding{Convention::kLeverArm, off_m}
+                                     : ConventionFinding();
 }
 
 }  // namespace leonav

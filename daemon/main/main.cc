@@ -41,7 +41,7 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
   ThreadWatch watch(engine);
-  std::string last, last_hanging;
+  std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
       spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
@@ -51,6 +51,9 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
     const std::string now = health->status() + (health->why().empty() ? "" : ": " + health->why());
     if (now != last) spdlog::info("{}", now);
     last = now;
+    if (health->suspicions() != last_suspicions)
+      spdlog::warn("not as it should be: {}", health->suspicions());
+    last_suspicions = health->suspicions();
     const std::string hanging = watch.hanging();
     if (hanging.empty()) manager.feed_watchdog();
     if (!hanging.empty() && hanging != last_hanging) spdlog::error("thread hangs: {}", hanging);

@@ -147,3 +147,24 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
     CHECK(watched.at(60.0) + watched.message().source == "OK: ekf");
   }
 }
+
+TEST_CASE("an input that does not follow a convention stays a reason, with the remedy") {
+  Watched watched(MotionModel::kInertial);
+  Decoder decoder;
+  Encoder encoder;
+  const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
+  test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
+    ImuSample sample;
+    if (channel != Channel::kImu) return watched.receive(channel, bytes);
+    const DecodeResult result = decoder.decode(bytes, &sample);
+    REQUIRE(result.fault == InputFault::kNone);
+    sample.delta_velocity_b /= 9.80665;
+    watched.receive(channel, encoder.encode(sample, result.sequence));
+  });
+  for (const double now_s : {60.0, 60.5}) {
+    const std::string said = watched.at(now_s);
+    CAPTURE(said);
+    CHECK(said.find("DEGRADED: ") == 0);
+    CHECK(said.find("accelerations in g; multiply them by 9.80665") != std::string::npos);
+  }
+}
