@@ -21,7 +21,7 @@ struct TrackFit {
 };
 TrackFit fit_track(const MotionRecord& record);
 
-// `down`: the third axis points down, as it should, and the gyros turn as the course does.
+// The third axis points down, as it should, and the gyros turn as the course does.
 ConventionFinding check_track_upright(const TrackFit& fit);
 // The third axis points up, and the gyros agree with that: what the first two are.
 ConventionFinding check_track_upside_down(const TrackFit& fit, const MeanForce& force);
