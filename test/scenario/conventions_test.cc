@@ -94,9 +94,8 @@ TEST_CASE("mistakes of a first run are told with their remedies, a correct run p
 }
 
 TEST_CASE("recorded and semi-real runs are not accused of anything") {
-  if (!programs()) return;
   if (!have_shared_data("walk/dataset.yaml") || !have_shared_data("drive/truth.csv")) return;
-  if (!have_programs("leonav-imu-from-truth")) return;
+  if (!have_programs("leonav-import", "leonav-imu-from-truth", "leonav-replay")) return;
   const auto quiet = [](const TemporaryFile& place, const std::string& log,
                         const std::string& configuration) {
     const ProgramRun run = run_program(
