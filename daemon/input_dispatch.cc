@@ -51,6 +51,12 @@ void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result
       *result = decoder_.decode(bytes, epoch_.get());
       if (good()) sequencer_->on_raw_epoch(*epoch_);
       break;
+    case Channel::kOdometer: {
+      OdometerIncrement increment;
+      *result = decoder_.decode(bytes, &increment);
+      if (good()) sequencer_->on_odometer(increment);
+      break;
+    }
     case Channel::kEphemeris: {
       Ephemeris ephemeris;
       *result = decoder_.decode(bytes, &ephemeris);

@@ -62,15 +62,39 @@ void Ekf::reset() {
   initialized_ = false;
 }
 
+double Ekf::start_variance(int constant) const {
+  return square(config_.vehicle.sigma[static_cast<std::size_t>(constant)]);
+}
+
 // What is known of the vehicle outlives the filter that found it; its correlations do not.
 void Ekf::start_vehicle(const VehicleConstants& before, const VehicleConstants& variances) {
-  for (int i = 0; i < config_.vehicle.count; ++i) {
+  const int count = std::max(config_.vehicle.count, static_cast<int>(before.size()));
+  covariance_.setZero(kSize + count, kSize + count);
+  for (int i = 0; i < count; ++i) {
     const auto place = static_cast<std::size_t>(i);
     const bool known = place < before.size();
     now_.vehicle.push_back(known ? before[place] : 0.0);
-    covariance_(kSize + i, kSize + i) =
-        known ? variances[place] : square(config_.vehicle.sigma[place]);
+    covariance_(kSize + i, kSize + i) = known ? variances[place] : start_variance(i);
   }
+}
+
+// Makes room before the ambiguities.
+void Ekf::estimate_constant(int constant) {
+  const int known = static_cast<int>(now_.vehicle.size());
+  if (!initialized_ || constant < known) return;
+  const Eigen::Index before = kSize + known, more = constant + 1 - known;
+  const Eigen::Index after = covariance_.rows() - before;
+  EkfCovariance P = EkfCovariance::Zero(before + more + after, before + more + after);
+  P.topLeftCorner(before, before) = covariance_.topLeftCorner(before, before);
+  P.topRightCorner(before, after) = covariance_.topRightCorner(before, after);
+  P.bottomLeftCorner(after, before) = covariance_.bottomLeftCorner(after, before);
+  P.bottomRightCorner(after, after) = covariance_.bottomRightCorner(after, after);
+  for (int i = known; i <= constant; ++i) {
+    now_.vehicle.push_back(0.0);
+    P(kSize + i, kSize + i) = start_variance(i);
+  }
+  covariance_ = P;
+  process_.continuous = false;
 }
 
 VehicleConstants Ekf::vehicle_variances() const {
@@ -89,7 +113,6 @@ void Ekf::initialize(GpsTime time, const PointSolution& point) {
   const bool moves = !config_.static_point;
   now_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   known_ = ClockFlags{};
-  covariance_.setZero(kSize + config_.vehicle.count, kSize + config_.vehicle.count);
   start_vehicle(vehicle, variances);
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
@@ -196,7 +219,7 @@ void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& 
   agreed_ = GpsTime();
 }
 
-void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
+void Ekf::predict(std::span<const ImuSample> block, GpsTime time, SpeedHistory* speeds) {
   if (!initialized_) {
     if (!block.empty() && block.back().interval_ns > 0) {
       last_sample_ = block.back();
@@ -217,6 +240,7 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
     else
       measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
     last_sample_ = sample;
+    if (speeds != nullptr && has_attitude_) speeds->add(now_, measured_rate_b_);
   }
   if (time > now_.nav.time) predict_hole(time, ImuSample{});
   if (has_attitude_) finish_sub_block();
@@ -231,7 +255,7 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time) {
   for (EkfCovariance* covariance : with_noise()) {
     propagate_clocks(config_.clock, known_, dt, covariance);
     propagate_ambiguities(now_.ambiguities, dt, covariance);
-    for (int i = 0; i < config_.vehicle.count; ++i)
+    for (int i = 0; i < static_cast<int>(now_.vehicle.size()); ++i)
       (*covariance)(kSize + i, kSize + i) +=
           square(config_.vehicle.wander[static_cast<std::size_t>(i)]) * dt;
     if (config_.wet_delay_sigma_m > 0.0)

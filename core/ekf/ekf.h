@@ -17,6 +17,7 @@
 #include "core/ekf/measurement_model.h"
 #include "core/ekf/motion_constraint.h"
 #include "core/ekf/robust_update.h"
+#include "core/ekf/speed_history.h"
 #include "core/gnss/common_step.h"
 #include "core/gnss/measurement.h"
 #include "core/gnss/point_solution.h"
@@ -97,7 +98,13 @@ class Ekf {
 
   // Predicts over `block` to `time`. Short holes are bridged (core/ins/bridge.h), also across
   // blocks; over longer ones the motion goes on at constant velocity with grown uncertainty.
-  void predict(std::span<const ImuSample> block, GpsTime time);
+  // `speeds`, if given: is told of the state after every sample.
+  void predict(std::span<const ImuSample> block, GpsTime time, SpeedHistory* speeds = nullptr);
+
+  // From now on a constant of the vehicle is estimated that was not (place in ekf_index), with
+  // those before it; nothing where it is already. For an estimator that looks back the filter has
+  // started over.
+  void estimate_constant(int constant);
 
   // Takes what constraints tell of the state as it is now, linearized there. Each component is
   // tested against the prediction; one that is further away than `gate` sigmas is left out. Returns
@@ -140,6 +147,7 @@ class Ekf {
   // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.
   enum class Hold { kNone, kNew, kHeld };
 
+  double start_variance(int constant) const;
   void start_vehicle(const VehicleConstants& before, const VehicleConstants& variances);
   VehicleConstants vehicle_variances() const;
   void predict_sample(const ImuSample& sample);

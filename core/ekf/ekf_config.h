@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "core/ekf/ekf_state.h"
 #include "core/gnss/igg3.h"
 #include "core/ins/imu_error_model.h"
 
@@ -24,9 +25,10 @@ struct ClockModel {
 // The vehicle's constants that the filter estimates, in the order of ekf_index. Without an IMU's
 // attitude nothing is known of them.
 struct VehicleConstantsConfig {
-  int count = 0;                   // the first so many; each starts from zero
-  std::array<double, 2> sigma{};   // at the start
-  std::array<double, 2> wander{};  // random walk, per sqrt(s)
+  // The first so many; each starts from zero. Others join when something tells of them.
+  int count = 0;
+  std::array<double, ekf_index::kMaxVehicle> sigma{};   // at the start
+  std::array<double, ekf_index::kMaxVehicle> wander{};  // random walk, per sqrt(s)
 };
 
 struct EkfConfig {

@@ -27,8 +27,8 @@ inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9,
                      kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // what comes and goes follows
 inline constexpr int kInsSize = 21;
 // The vehicle's constants, from kSize on, as many as are estimated: the direction of travel in body
-// axes (yaw and pitch, rad).
-inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kMaxVehicle = 2;
+// axes (yaw and pitch, rad), by which part an odometer shows more than it should.
+inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kMaxVehicle = 3;
 inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 

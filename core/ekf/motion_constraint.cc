@@ -53,9 +53,36 @@ TravelAxes travel_axes(const VehicleConstants& vehicle) {
   return travel_axes(vehicle[kTravelYaw], vehicle[kTravelPitch]);
 }
 
+double forward_speed(const FilterState& state, const Vector3d& measured_rate_b,
+                     const Vector3d& point_b) {
+  const AntennaMotion point = antenna_motion(state.nav, measured_rate_b, point_b, true);
+  return travel_axes(state.vehicle).C_bv.col(0).dot(state.nav.q_eb.conjugate() * point.v_e);
+}
+
 namespace {
 
 double square(double x) { return x * x; }
+
+// Along the direction of travel.
+MotionMeasurement odometer_measurement(const MotionConstraintConfig& config,
+                                       const OdometerSpeed& odometer, const FilterState& whole,
+                                       const Vector3d& measured_rate_b) {
+  const BodyVelocity velocity = body_velocity(whole.nav, measured_rate_b, config.odometer_point_b);
+  const TravelAxes axes = travel_axes(whole.vehicle);
+  const double speed = axes.C_bv.col(0).dot(velocity.v_b);
+  const double mean = speed - odometer.change_m_s;
+  const double scale = whole.vehicle.size() > kOdometerScale ? whole.vehicle[kOdometerScale] : 0.0;
+  MotionMeasurement measurement;
+  measurement.component = static_cast<int>(MotionComponent::kOdometer);
+  measurement.residual = odometer.mean_m_s - (1.0 + scale) * mean;
+  measurement.variance = square(config.odometer_sigma) + odometer.variance;
+  auto& row = measurement.row;
+  row.head<kSize>() = (1.0 + scale) * (velocity.columns * axes.C_bv.col(0));
+  row(kSize + kTravelYaw) = (1.0 + scale) * axes.d_yaw.col(0).dot(velocity.v_b);
+  row(kSize + kTravelPitch) = (1.0 + scale) * axes.d_pitch.col(0).dot(velocity.v_b);
+  row(kSize + kOdometerScale) = mean;
+  return measurement;
+}
 
 }  // namespace
 
@@ -81,6 +108,8 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
     }
     return;
   }
+  if (instant.odometer.known)
+    measurements->push_back(odometer_measurement(config, instant.odometer, whole, measured_rate_b));
   if (!config.non_holonomic) return;
   const TravelAxes axes = travel_axes(whole.vehicle);
   const Vector3d v = axes.C_bv.transpose() * velocity.v_b;  // forward, side, down

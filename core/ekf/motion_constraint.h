@@ -15,8 +15,9 @@ enum class MotionComponent : std::uint8_t {
   kVertical = 1,     // likewise
   kVelocity = 2,     // three, m/s
   kAngularRate = 5,  // three, rad/s
+  kOdometer = 8,     // m/s, along the direction of travel
 };
-using MotionComponents = std::uint8_t;
+using MotionComponents = std::uint16_t;
 
 // Of the states before the ambiguities, with all of the vehicle's constants.
 using ConstraintVector = Eigen::Matrix<double, ekf_index::kSize + ekf_index::kMaxVehicle, 1>;
@@ -52,6 +53,10 @@ TravelAxes travel_axes(double yaw, double pitch);
 // Of the vehicle's constants; the body's own axes where these are not estimated.
 TravelAxes travel_axes(const VehicleConstants& vehicle);
 
+// Of a point along the direction of travel, m/s; `point_b` from the IMU, m.
+double forward_speed(const FilterState& state, const Eigen::Vector3d& measured_rate_b,
+                     const Eigen::Vector3d& point_b);
+
 // What gyros at rest show less what they should: their bias and the Earth's rate (rad/s).
 struct RestingRate {
   Eigen::Vector3d residual_b = Eigen::Vector3d::Zero();
@@ -72,6 +77,19 @@ struct MotionConstraintConfig {
   double standing_velocity_sigma = 0.02;          // m/s
   double standing_rate_sigma = 2e-4;              // rad/s
   double gate = 4.0;  // sigmas; what is further from the prediction is left out
+  // An odometer, used as far as its messages come.
+  bool odometer = false;
+  Eigen::Vector3d odometer_point_b = Eigen::Vector3d::Zero();  // m from the IMU: what it counts for
+  double odometer_sigma = 0.05;       // m/s, 1 sigma at one instant, alike from one to the next
+  double odometer_resolution = 0.02;  // m, of one pulse
+};
+
+// An odometer's word at one instant: a mean speed, and what has changed since by the IMU.
+struct OdometerSpeed {
+  bool known = false;
+  double mean_m_s = 0.0;    // by the odometer, over the intervals since the instant before
+  double change_m_s = 0.0;  // speed at the instant less the true mean over those intervals
+  double variance = 0.0;    // of the mean, of counting whole pulses, (m/s)^2
 };
 
 // What is known of the motion at one instant.
@@ -79,7 +97,8 @@ struct ConstraintInstant {
   GpsTime time;
   bool standing = false;
   Eigen::Vector3d standing_rate_b = Eigen::Vector3d::Zero();  // measured mean, rad/s
-  MotionComponents used = 0;                                  // by the filter
+  OdometerSpeed odometer;
+  MotionComponents used = 0;  // by the filter
   // Beyond the constraints' own variances, (m/s)^2: where speed and direction are both badly known,
   // their product, which no Jacobian sees, is what the vehicle seems to slide by.
   double side_doubt = 0.0, vertical_doubt = 0.0;
@@ -88,7 +107,9 @@ struct ConstraintInstant {
 using ConstraintInstants =
     boost::container::static_vector<ConstraintInstant, kMaxConstraintInstants>;
 
-// The components that hold at the instant, with the state as it is then.
+// The components that hold at the instant, with the state as it is then. An odometer shows its mean
+// speed times 1 + VehicleConstants[kOdometerScale]; the change since is taken as certain, for what
+// it depends on (tilt, accelerometer bias) moves it by a tenth of a second's worth.
 void motion_measurements(const MotionConstraintConfig& config, const ConstraintInstant& instant,
                          const FilterState& state, const Eigen::Vector3d& measured_rate_b,
                          MotionMeasurements* measurements);

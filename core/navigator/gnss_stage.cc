@@ -92,7 +92,8 @@ void GnssStage::process_epoch(const EpochWork& work) {
   if (inertial_ && !ekf_.has_attitude()) {
     for (const ImuSample& sample : work.block) alignment_.add(sample);
   }
-  motion_aid_.predict({work.block.data(), work.block.size()}, work.time, &ekf_);
+  motion_aid_.predict({work.block.data(), work.block.size()},
+                      {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
   if (const auto share = motion_aid_.contradiction())
     events_.emit(EventKind::kConstraintsLeftOut, 0, *share, work.time);
   for (const ConstraintInstant& instant : motion_aid_.instants())

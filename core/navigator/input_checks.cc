@@ -27,6 +27,17 @@ InputFault check(const ImuSample& sample, const ImuLimits& limits) {
   return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 
+InputFault check(const OdometerIncrement& increment, double speed, std::int64_t interval_ns) {
+  if (!std::isfinite(increment.distance_m)) return InputFault::kNotFinite;
+  if (!is_plausible(increment.time) || increment.interval_ns <= 0 ||
+      increment.interval_ns > interval_ns ||
+      (!increment.sign_known && increment.distance_m < 0.0)) {
+    return InputFault::kOutOfRange;
+  }
+  const bool in_range = std::abs(increment.distance_m) <= speed * increment.interval_s();
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
 InputFault check(const PreciseState& state) {
   const bool clock_only = state.is_clock_only() && std::isfinite(state.clock_s);
   if (!(state.p_e.allFinite() || clock_only) || std::isinf(state.clock_s)) {

@@ -14,6 +14,8 @@ struct ImuLimits {
   std::int64_t interval_ns = 0;
 };
 InputFault check(const ImuSample& sample, const ImuLimits& limits);
+// `speed`: m/s, of a wheel.
+InputFault check(const OdometerIncrement& increment, double speed, std::int64_t interval_ns);
 InputFault check(const PreciseState& state);
 // Of what was measured: kNotFinite for infinity, kNotSane for what no signal from a satellite gives
 // (code 1e9 m, carrier 1e11 cycles, Doppler 1e6 Hz, C/N0 outside 0 to 100 dB-Hz).

@@ -86,9 +86,11 @@ std::optional<double> MotionAid::contradiction() {
   return share;
 }
 
-void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf) {
+void MotionAid::predict(std::span<const ImuSample> block,
+                        std::span<const OdometerIncrement> odometer, GpsTime time, Ekf* ekf) {
+  if (config_.constraints.odometer) odometer_.add(odometer);
   std::size_t begin = 0;
-  for (std::size_t i = 0; i < block.size() && config_.enabled(); ++i) {
+  for (std::size_t i = 0; i < block.size() && enabled(); ++i) {
     const ImuSample& sample = block[i];
     if (sample.interval_ns <= 0 || sample.time > time) continue;
     detector_.add(sample);
@@ -97,27 +99,32 @@ void MotionAid::predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf
       next_ = next_instant(sample.time, interval_s);
     if (sample.time < next_) continue;
     next_ = next_instant(sample.time, interval_s);
-    ekf->predict(block.subspan(begin, i + 1 - begin), sample.time);
+    ekf->predict(block.subspan(begin, i + 1 - begin), sample.time, odometer_.follow(*ekf));
     begin = i + 1;
     constrain(ekf);
   }
-  ekf->predict(block.subspan(begin), time);
+  ekf->predict(block.subspan(begin), time, odometer_.follow(*ekf));
 }
 
 void MotionAid::constrain(Ekf* ekf) {
-  if (!ekf->initialized() || !ekf->has_attitude()) return;
+  if (!ekf->initialized() || !ekf->has_attitude()) {
+    odometer_.take(ekf->state().time, 0.0);  // nobody to tell
+    return;
+  }
   const NavState& state = ekf->state();
   const MotionConstraintConfig& constraints = config_.constraints;
   const ForwardMotion forward =
       constraints.non_holonomic ? forward_motion(*ekf, constraints.point_b) : any_motion(*ekf);
   ConstraintInstant instant;
   instant.time = state.time;
+  instant.odometer = odometer_.take(state.time, forward.sigma);
+  if (instant.odometer.known) ekf->estimate_constant(ekf_index::kOdometerScale);
   instant.standing_rate_b = detector_.rate_b();
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
   const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
-  standing_ = config_.constraints.zero_velocity &&
+  standing_ = config_.constraints.zero_velocity && !odometer_.moved(state.time) &&
               detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
   instant.standing = standing_;
   // What is off stays off for long: so many instants together tell no more than one.

@@ -7,6 +7,7 @@
 #include "core/capacity.h"
 #include "core/ekf/ekf.h"
 #include "core/ins/standstill_detector.h"
+#include "core/navigator/odometer_aid.h"
 
 namespace leonav {
 
@@ -21,10 +22,11 @@ struct MotionAidConfig {
 class MotionAid {
  public:
   explicit MotionAid(const MotionAidConfig& config)
-      : config_(config), detector_(config.standstill) {}
+      : config_(config), detector_(config.standstill), odometer_(config.constraints) {}
 
-  // As Ekf::predict.
-  void predict(std::span<const ImuSample> block, GpsTime time, Ekf* ekf);
+  // As Ekf::predict. `odometer`: the increments that came with the block, in order of time.
+  void predict(std::span<const ImuSample> block, std::span<const OdometerIncrement> odometer,
+               GpsTime time, Ekf* ekf);
   // How many satellites the last epoch used. With few, nobody outvotes a reflection, and the
   // filter's velocity is worse than its sigma: a stop that begins must show the more.
   void set_satellites(int used) { few_satellites_ = used < kEnoughSatellites; }
@@ -39,11 +41,13 @@ class MotionAid {
 
  private:
   static constexpr int kEnoughSatellites = 5;
+  bool enabled() const { return config_.enabled() || odometer_.heard(); }
   void constrain(Ekf* ekf);
   void count(MotionComponents used);
 
   MotionAidConfig config_;
   StandstillDetector detector_;
+  OdometerAid odometer_;
   ConstraintInstants instants_;
   MotionMeasurements measurements_;
   GpsTime next_;

@@ -11,6 +11,7 @@
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/imu.h"
+#include "core/ins/odometer.h"
 #include "core/navigator/outputs.h"
 #include "core/smoother/keyframe.h"
 #include "core/smoother/smoother_status.h"
@@ -41,6 +42,7 @@ struct EpochWork {
   bool empty = false;  // no GNSS came in time: predict only
   RawEpoch raw;
   ImuBlock block;
+  OdometerBlock odometer;  // that came since the epoch before and end by this one
 };
 
 enum class CommandKind : std::uint8_t { kRestart = 0, kSetHeading = 1 };

@@ -15,6 +15,9 @@ constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 constexpr double kMillisecond = 1e-3;
 // A bracket that settles: a tenth of a degree in an hour.
 constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
+constexpr double kPercent = 0.01;
+// Tyres that get warm: a tenth of a percent in an hour.
+constexpr double kOdometerScaleWander = 0.1 * kPercent / kRootHour;  // 1/sqrt(s)
 
 // Correlation times from a second to a month.
 constexpr Bounds kCorrelationTime = {1.0, 2.6e6};
@@ -38,12 +41,27 @@ void read_travel_direction(ConfigReader& group, const MotionConstraintConfig& mo
   double sigma = 2.0 * kDegree;
   group.boolean("estimate_travel_direction", &estimated);
   group.number("travel_direction_sigma_deg", {0.01, 20.0}, &sigma, kDegree);
-  if (!estimated || !motion.non_holonomic) return;
-  config->count = ekf_index::kTravelPitch + 1;
+  if (!estimated || !(motion.non_holonomic || motion.odometer)) return;
+  if (motion.non_holonomic) config->count = ekf_index::kTravelPitch + 1;
   for (const auto i : {ekf_index::kTravelYaw, ekf_index::kTravelPitch}) {
     config->sigma[static_cast<std::size_t>(i)] = sigma;
     config->wander[static_cast<std::size_t>(i)] = kTravelDirectionWander;
   }
+}
+
+// Its scale factor is estimated from its first message on.
+void read_odometer(ConfigReader& group, bool wheeled, MotionConstraintConfig* motion,
+                   VehicleConstantsConfig* constants) {
+  double scale_sigma = 3.0 * kPercent;
+  read_switch(group, "odometer", wheeled, &motion->odometer);
+  motion->odometer_point_b = motion->point_b;
+  group.vector("odometer_point_b_m", {-100.0, 100.0}, &motion->odometer_point_b);
+  group.number("odometer_sigma_m_s", {1e-4, 100.0}, &motion->odometer_sigma);
+  group.number("odometer_scale_sigma_percent", {0.0, 50.0}, &scale_sigma, kPercent);
+  group.number("odometer_resolution_m", {0.0, 10.0}, &motion->odometer_resolution);
+  if (!motion->odometer) return;
+  constants->sigma[ekf_index::kOdometerScale] = scale_sigma;
+  if (scale_sigma > 0.0) constants->wander[ekf_index::kOdometerScale] = kOdometerScaleWander;
 }
 
 }  // namespace
@@ -71,6 +89,7 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
   group.number("standing_velocity_sigma_m_s", {1e-4, 100.0}, &motion.standing_velocity_sigma);
   group.number("standing_rate_sigma_deg_s", {1e-6, 100.0}, &motion.standing_rate_sigma, kDegree);
   group.number("constraint_gate", {1.0, 100.0}, &motion.gate);
+  read_odometer(group, wheeled, &motion, &navigator->ekf.vehicle);
   read_travel_direction(group, motion, &navigator->ekf.vehicle);
 }
 

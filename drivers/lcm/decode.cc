@@ -9,6 +9,7 @@
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
+#include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
 
@@ -113,6 +114,22 @@ DecodeResult Decoder::decode(ByteSpan bytes, ImuSample* sample) {
       sample->delta_theta_b[i] = message.delta_theta_b[i];
       sample->delta_velocity_b[i] = message.delta_velocity_b[i];
     }
+  }
+  return result_of(message, fault);
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, OdometerIncrement* increment) {
+  odometer_t message{};
+  InputFault fault = read(bytes, &message);
+  if (fault != InputFault::kNone) return result_of(message, fault);
+  if (!is_time(message.time_ns) || message.interval_ns <= 0 ||
+      message.interval_ns >= message.time_ns || message.sign_known < 0 || message.sign_known > 1) {
+    fault = InputFault::kOutOfRange;
+  } else if (!std::isfinite(message.distance_m)) {
+    fault = InputFault::kNotFinite;
+  } else {
+    *increment = {GpsTime::from_nanoseconds(message.time_ns), message.interval_ns,
+                  message.distance_m, message.sign_known == 1};
   }
   return result_of(message, fault);
 }

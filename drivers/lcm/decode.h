@@ -36,6 +36,7 @@ class Decoder {
   // Observations come out sorted; copies of one satellite and code are all dropped (kDuplicate), as
   // none can be trusted.
   DecodeResult decode(ByteSpan bytes, RawEpoch* epoch);
+  DecodeResult decode(ByteSpan bytes, OdometerIncrement* increment);
   DecodeResult decode(ByteSpan bytes, Ephemeris* ephemeris);
   DecodeResult decode(ByteSpan bytes, KlobucharModel* model);
   DecodeResult decode(ByteSpan bytes, PreciseStates* states);

@@ -11,6 +11,7 @@
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
+#include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
 
@@ -142,6 +143,15 @@ ByteSpan Encoder::encode(const ImuSample& sample, std::uint64_t sequence) {
   message.interval_ns = sample.interval_ns;
   copy(sample.delta_theta_b, message.delta_theta_b);
   copy(sample.delta_velocity_b, message.delta_velocity_b);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const OdometerIncrement& increment, std::uint64_t sequence) {
+  odometer_t message;
+  set_header(increment.time, sequence, &message);
+  message.interval_ns = increment.interval_ns;
+  message.distance_m = increment.distance_m;
+  message.sign_known = increment.sign_known ? 1 : 0;
   return storage_->write(message);
 }
 

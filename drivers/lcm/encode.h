@@ -28,6 +28,7 @@ class Encoder {
   // Inputs. `sequence` counts the messages of a channel from 1.
   ByteSpan encode(const ImuSample& sample, std::uint64_t sequence);
   ByteSpan encode(const RawEpoch& epoch, std::uint64_t sequence);
+  ByteSpan encode(const OdometerIncrement& increment, std::uint64_t sequence);
   ByteSpan encode(const Ephemeris& ephemeris, std::uint64_t sequence);
   // All of one time; the time on the wire is the first one's. At most kMaxEphemerisSatellites.
   ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
