@@ -40,6 +40,7 @@ std::string to_string(const ImportReport& report) {
   }
   if (!report.satellites.empty()) out << ')';
   out << "\n" << report.imu_samples << " IMU samples\n";
+  if (report.odometer_increments > 0) out << report.odometer_increments << " odometer increments\n";
   out << report.ephemerides << " ephemerides, " << report.ionosphere_models
       << " ionosphere models, " << report.orbit_epochs << " precise orbit epochs, "
       << report.clock_epochs << " precise clock epochs\n";

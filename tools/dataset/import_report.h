@@ -19,6 +19,7 @@ struct ImportReport {
 
   long epochs = 0, imu_samples = 0, ephemerides = 0, orbit_epochs = 0, clock_epochs = 0,
        ionosphere_models = 0;
+  long odometer_increments = 0;
   long satellite_antennas = 0;
   std::string receiver_antenna;       // whose model is used; empty: none
   std::map<System, long> satellites;  // different ones observed

@@ -64,6 +64,12 @@ void LogOutput::write(GpsTime arrival, const ImuSample& sample) {
   ++report_->imu_samples;
 }
 
+void LogOutput::write(GpsTime arrival, const OdometerIncrement& increment) {
+  put(arrival, Channel::kOdometer, encoder_.encode(increment, next_sequence(Channel::kOdometer)));
+  extend_span(increment.time);
+  ++report_->odometer_increments;
+}
+
 void LogOutput::write(GpsTime arrival, const RawEpoch& epoch) {
   put(arrival, Channel::kGnssEpoch, encoder_.encode(epoch, next_sequence(Channel::kGnssEpoch)));
   extend_span(epoch.time);

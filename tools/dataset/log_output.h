@@ -27,6 +27,7 @@ class LogOutput {
   ~LogOutput();  // removes the part file unless commit() was called
 
   void write(GpsTime arrival, const ImuSample& sample);
+  void write(GpsTime arrival, const OdometerIncrement& increment);
   void write(GpsTime arrival, const RawEpoch& epoch);
   void write(GpsTime arrival, const Ephemeris& ephemeris);
   void write(GpsTime arrival, const KlobucharModel& model);

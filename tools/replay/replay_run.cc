@@ -1,5 +1,6 @@
 #include "replay_run.h"
 
+#include <cmath>
 #include <iostream>
 
 #include "drivers/lcm/event_log.h"
@@ -93,11 +94,22 @@ void ReplayRun::print_summary(std::ostream& out) {
     out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << rejected[i] << "\n";
   }
   statistics_.print(out);
+  print_odometer(out);
   out << "solution.csv rows: " << files_.solution_rows() << "\n";
   for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
     out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
   }
   out << "output hash: " << digest_.hex_digest() << "\n";
+}
+
+// What the filter has found of it in the end.
+void ReplayRun::print_odometer(std::ostream& out) {
+  using ekf_index::kOdometerScale, ekf_index::kSize;
+  const Ekf& ekf = pipeline_.gnss().ekf();
+  if (ekf.vehicle().size() <= kOdometerScale) return;
+  const double sigma = std::sqrt(ekf.covariance()(kSize + kOdometerScale, kSize + kOdometerScale));
+  out << "odometer scale: " << 100.0 * ekf.vehicle()[kOdometerScale] << " % (1 sigma "
+      << 100.0 * sigma << ")\n";
 }
 
 std::vector<std::string> ReplayRun::warnings() const {

@@ -14,6 +14,10 @@ void Outbox::post(GpsTime arrival, const ImuSample& sample) {
   put(Stream::kImu, sample.time, arrival, sample);
 }
 
+void Outbox::post(GpsTime arrival, const OdometerIncrement& increment) {
+  put(Stream::kOdometer, increment.time, arrival, increment);
+}
+
 void Outbox::post(GpsTime arrival, RawEpoch epoch) {
   const GpsTime time = epoch.time;
   put(Stream::kGnss, time, arrival, std::make_shared<const RawEpoch>(std::move(epoch)));
@@ -39,6 +43,8 @@ void Outbox::put(Stream stream, GpsTime of, GpsTime arrival, Message message) {
 void Outbox::write(GpsTime arrival, const Message& message) {
   if (const auto* sample = std::get_if<ImuSample>(&message)) {
     log_.write(arrival, *sample);
+  } else if (const auto* increment = std::get_if<OdometerIncrement>(&message)) {
+    log_.write(arrival, *increment);
   } else if (const auto* epoch = std::get_if<std::shared_ptr<const RawEpoch>>(&message)) {
     log_.write(arrival, **epoch);
   } else if (const auto* ephemeris = std::get_if<Ephemeris>(&message)) {

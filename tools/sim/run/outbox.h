@@ -16,8 +16,10 @@ class Outbox {
   Outbox(const FaultScript* faults, GpsTime start, LogOutput* log)
       : faults_(*faults), start_(start), log_(*log) {}
 
-  // The script of faults knows samples and epochs by their own time, products by their arrival.
+  // The script of faults knows samples, increments and epochs by their own time, products by their
+  // arrival.
   void post(GpsTime arrival, const ImuSample& sample);
+  void post(GpsTime arrival, const OdometerIncrement& increment);
   void post(GpsTime arrival, RawEpoch epoch);
   void post(GpsTime arrival, std::vector<PreciseState> states);
   void post(GpsTime arrival, const Ephemeris& ephemeris);  // a product too
@@ -29,7 +31,7 @@ class Outbox {
 
  private:
   using Message = std::variant<ImuSample, std::shared_ptr<const RawEpoch>,
-                               std::vector<PreciseState>, Ephemeris>;
+                               std::vector<PreciseState>, Ephemeris, OdometerIncrement>;
   void put(Stream stream, GpsTime of, GpsTime arrival, Message message);
   void write(GpsTime arrival, const Message& message);
 

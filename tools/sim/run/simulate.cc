@@ -13,6 +13,7 @@
 #include "tools/sim/route/drive.h"
 #include "tools/sim/run/antennas.h"
 #include "tools/sim/run/outbox.h"
+#include "tools/sim/run/pulse_counter.h"
 #include "tools/sim/run/told_products.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/signals/receiver.h"
@@ -50,6 +51,7 @@ class Run {
         receiver_(scenario, motion_, sky_, faults_),
         sensor_(scenario.imu.errors, scenario.imu.imperfections, scenario.imu.rate_hz,
                 scenario.seed, random_stream(scenario.seed, "sensor")),
+        wheel_(scenario.odometer, motion_),
         outbox_(&faults_, scenario.start, log),
         end_s_(motion_.duration_s() - kEndMargin_s),
         next_tag_s_(scenario.receiver.interval_s) {
@@ -79,6 +81,7 @@ class Run {
       const GpsTime next = now.plus_nanoseconds(interval_ns);
       post_products(next);
       post_epochs(next);
+      post_odometer(next);
       if (scenario_.imu.enabled) post_imu(now, interval_ns);
       outbox_.deliver(next);
       progress->show(seconds_between(next, scenario_.start) / end_s_);
@@ -130,6 +133,13 @@ class Run {
     }
   }
 
+  void post_odometer(GpsTime until) {
+    const double latency_s = scenario_.odometer.latency_s;
+    OdometerIncrement increment;
+    while (wheel_.next(seconds_between(until, scenario_.start) - latency_s, &increment))
+      outbox_.post(increment.time.plus_seconds(latency_s), increment);
+  }
+
   void post_imu(GpsTime start, std::int64_t interval_ns) {
     const ImuSample ideal = ideal_sample(motion_, start, interval_ns);
     // Drawn also in gaps, so that the noise after them stays the same.
@@ -154,6 +164,7 @@ class Run {
   std::optional<Export> export_;
   Receiver receiver_;
   InertialSensor sensor_;
+  PulseCounter wheel_;
   Outbox outbox_;
   double end_s_, next_tag_s_;
   std::size_t next_product_ = 0, next_ephemeris_ = 0, epochs_ = 0, observations_ = 0;

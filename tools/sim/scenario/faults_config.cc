@@ -51,10 +51,12 @@ void read_sizes(ConfigReader& group, Fault* fault) {
       group.number("delay_s", {0.0, 1e4}, &fault->delay_s);
       [[fallthrough]];
     case FaultKind::kDuplicate:
-      group.choice<Stream>(
-          "stream",
-          {{"imu", Stream::kImu}, {"gnss", Stream::kGnss}, {"products", Stream::kProducts}},
-          &fault->stream);
+      group.choice<Stream>("stream",
+                           {{"imu", Stream::kImu},
+                            {"gnss", Stream::kGnss},
+                            {"products", Stream::kProducts},
+                            {"odometer", Stream::kOdometer}},
+                           &fault->stream);
       break;
     case FaultKind::kOutage:
       if (!group.is_scalar("below_elevation_deg")) break;

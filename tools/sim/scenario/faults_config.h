@@ -20,7 +20,7 @@ enum class FaultKind {
   kDuplicate,       // messages of `stream` arrive twice
   kReceiverReset,   // the receiver is off, then starts anew
 };
-enum class Stream { kImu, kGnss, kProducts };
+enum class Stream { kImu, kGnss, kProducts, kOdometer };
 
 struct Fault {
   FaultKind kind = FaultKind::kOutage;

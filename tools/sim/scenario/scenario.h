@@ -10,6 +10,7 @@
 #include "tools/sim/scenario/constellation_config.h"
 #include "tools/sim/scenario/faults_config.h"
 #include "tools/sim/scenario/imu_config.h"
+#include "tools/sim/scenario/odometer_config.h"
 #include "tools/sim/scenario/places_config.h"
 #include "tools/sim/scenario/receiver_config.h"
 #include "tools/sim/scenario/route_config.h"
@@ -24,6 +25,7 @@ struct Scenario {
   double truth_interval_s = 0.0;  // of truth.csv; 0: the receiver's
   RouteConfig route;
   ImuConfig imu;
+  OdometerConfig odometer;
   std::array<ConstellationConfig, kSystemCount> constellations;  // by System
   ReceiverConfig receiver;
   AtmosphereConfig atmosphere;

@@ -52,6 +52,7 @@ void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario
   const auto& track = scenario->route.track;
   if (!track.empty() && !week && !tow_s) scenario->start = track.front().time;
   root.group("imu", [&](ConfigReader& r) { read_sensor(r, &scenario->imu); });
+  root.group("odometer", [&](ConfigReader& r) { read_odometer(r, &scenario->odometer); });
   double advance_s = 0.0;
   root.group("satellites", [&](ConfigReader& satellites) {
     satellites.number("advance_s", {0.0, 1e6}, &advance_s);
