@@ -44,6 +44,8 @@ struct EngineCounters {
   Gauge io_rounds;  // looks for messages, found or not
   std::array<Gauge, kInputChannels.size()> received, lost;
   std::array<Gauge, 16> rejected;  // by InputFault
+  Gauge odometer_age_ms;           // -1: none came
+  Gauge accepted_odometer, late_odometer;
   Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps, imu_smoothed,
       epochs_without_imu;
   // ins, or gnss where that publishes

@@ -20,6 +20,12 @@ constexpr std::size_t kInertialOutBytes = 4 << 20;  // 50 s of SOLUTION at 200 H
 constexpr std::size_t kGnssOutBytes = 1 << 20;
 constexpr std::size_t kMainOutBytes = 128 << 10;
 
+std::int64_t odometer_age_ms(const Sequencer& sequencer) {
+  const GpsTime last = sequencer.odometer_time(), now = sequencer.imu_time();
+  if (!last.is_set() || !now.is_set()) return -1;
+  return std::max<std::int64_t>(0, (now.nanoseconds() - last.nanoseconds()) / 1'000'000);
+}
+
 }  // namespace
 
 Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks)
@@ -46,6 +52,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
   }
   for (Gauge& age : counters_.ephemeris_age_ms) age.set(-1);
   for (Gauge& age : counters_.age_by_source_ms) age.set(-1);
+  counters_.odometer_age_ms.set(-1);
 }
 
 Engine::~Engine() { finish(); }
@@ -275,6 +282,10 @@ void Engine::update_io_counters() {
   }
   counters_.accepted_imu.set(static_cast<std::int64_t>(sequencer.imu));
   counters_.accepted_epochs.set(static_cast<std::int64_t>(sequencer.epochs));
+  counters_.accepted_odometer.set(
+      static_cast<std::int64_t>(sequencer.odometer - sequencer.late_odometer));
+  counters_.late_odometer.set(static_cast<std::int64_t>(sequencer.late_odometer));
+  counters_.odometer_age_ms.set(odometer_age_ms(sequencer_));
   counters_.empty_epochs.set(static_cast<std::int64_t>(sequencer.empty_epochs));
   counters_.late_epochs.set(static_cast<std::int64_t>(sequencer.late_epochs));
   counters_.epochs_without_imu.set(static_cast<std::int64_t>(sequencer.epochs_without_imu));

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 constexpr double kImuSilence_s = 0.9;           // next() comes once a second
+constexpr double kOdometerSilence_s = 2.5;      // an increment lasts a second at most
 constexpr double kIntervalsTolerated = 2.5;     // as until the answer counts as INS only
 constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
 // As the longest hole over which the inertial answer is carried.
@@ -70,6 +71,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("empty epochs", counters->empty_epochs.get(), message);
   add_count("late epochs", counters->late_epochs.get(), message);
   add_count("epochs without imu", counters->epochs_without_imu.get(), message);
+  add_count("late odometer increments", counters->late_odometer.get(), message);
   add_count("imu gaps", counters->imu_gaps.get(), message);
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
@@ -92,8 +94,10 @@ void add_counts(EngineCounters* counters, health_t* message) {
 HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
     : engine_(engine),
       expects_imu_(config.motion == MotionModel::kInertial),
+      uses_odometer_(expects_imu_ && config.vehicle.motion.constraints.odometer),
       imu_{"usable IMU", kImuSilence_s, kNever_s},
       gnss_{"usable GNSS", kIntervalsTolerated * config.realtime.epoch_interval_s, kNever_s},
+      odometer_{"usable odometer", kOdometerSilence_s, kNever_s},
       solution_{
           "solution",
           std::max(kShortestSolutionGap_s, kIntervalsTolerated * solution_interval(config)),
@@ -131,6 +135,7 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s) {
         static_cast<std::int32_t>(counters.satellites_by_source[i].get());
     message.age_by_source_s[i] = age_s(counters.age_by_source_ms[i]);
   }
+  message.odometer_age_s = age_s(counters.odometer_age_ms);
   message.memory_mb = resident_megabytes();
   message.uptime_s = now_s;
   add_counts(&counters, &message);
@@ -148,6 +153,8 @@ void HealthMonitor::judge(double now_s) {
   if (expects_imu_) judge_stream(counters.accepted_imu.get(), now_s, &imu_);
   judge_stream(counters.accepted_epochs.get(), now_s, &gnss_);
   judge_conventions();
+  if (uses_odometer_ && counters.accepted_odometer.get() > 0)
+    judge_stream(counters.accepted_odometer.get(), now_s, &odometer_);
   const std::uint64_t waits =
       engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
   judge_count(counters.misses.get(), "deadline missed", &last_misses_);

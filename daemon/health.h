@@ -42,8 +42,8 @@ class HealthMonitor {
   void worsen(const char* status, const std::string& reason);
 
   Engine* engine_;
-  bool expects_imu_;
-  Stream imu_, gnss_, solution_;
+  bool expects_imu_, uses_odometer_;
+  Stream imu_, gnss_, odometer_, solution_;
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
   std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_smoother_failures_ = 0,

@@ -42,10 +42,9 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
           static_cast<std::int64_t>(std::llround(config.realtime.gnss_latency_allowance_s * 1e9)))),
       imu_watch_(kImuRunToRestart, kMaxImuStepNs),
       epoch_watch_(kEpochRunToRestart, interval_in_nanoseconds(kMaxEpochStepS)),
-      odometer_watch_(kOdometerRunToRestart, kMaxOdometerIntervalNs),
       held_(std::make_unique<RawEpoch>()),
       tail_(kMaxImuBlock),
-      odometer_tail_(kMaxOdometerBlock),
+      odometer_(inertial_ && config.vehicle.motion.constraints.odometer),
       work_(std::make_unique<GnssWork>()) {
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
 }
@@ -141,9 +140,7 @@ void Sequencer::change_time_base(double jump_s) {
   tail_.clear();
   imu_watch_.clear();
   epoch_watch_.clear();
-  odometer_tail_.clear();
-  odometer_watch_.clear();
-  last_odometer_time_ = GpsTime();
+  odometer_.clear();
   push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
 }
 
@@ -156,41 +153,10 @@ void Sequencer::extend_tail(const ImuSample& sample) {
 }
 
 void Sequencer::on_odometer(const OdometerIncrement& increment) {
-  InputFault fault = check(increment, kMaxWheelSpeed, kMaxOdometerIntervalNs);
-  if (fault == InputFault::kNone) fault = place_odometer(increment);
+  const InputFault fault = odometer_.add(increment, imu_time_, last_epoch_time_);
   if (fault != InputFault::kNone) return reject(fault);
   ++counters_.odometer;
-}
-
-InputFault Sequencer::place_odometer(const OdometerIncrement& increment) {
-  const GpsTime time = increment.time;
-  if (time == last_odometer_time_) return InputFault::kDuplicate;
-  if (imu_time_.is_set() && nanoseconds_between(time, imu_time_) > kMaxOdometerAheadNs)
-    return InputFault::kTooFarAhead;
-  if (time < last_odometer_time_) {
-    if (!odometer_watch_.reject(time)) return InputFault::kTimeBackwards;
-    odometer_tail_.clear();
-  }
-  odometer_watch_.clear();
-  if (!inertial_ || !config_.vehicle.motion.constraints.odometer) {
-    last_odometer_time_ = time;
-    return InputFault::kNone;
-  }
-  if (last_epoch_time_.is_set() &&
-      nanoseconds_between(last_epoch_time_, time) > kMaxOdometerLatencyNs) {
-    ++counters_.late_odometer;
-  } else if (odometer_tail_.full()) {
-    return InputFault::kTooMany;
-  } else {
-    odometer_tail_.push_back(increment);
-  }
-  last_odometer_time_ = time;
-  return InputFault::kNone;
-}
-
-void Sequencer::hand_over_odometer(GpsTime time, OdometerBlock* block) {
-  for (; !odometer_tail_.empty() && odometer_tail_.front().time <= time; odometer_tail_.pop_front())
-    block->push_back(odometer_tail_.front());
+  counters_.late_odometer = odometer_.late();
 }
 
 // Leaves room for an epoch under way, as far as a quarter of the block makes room enough.
@@ -342,7 +308,7 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
     work.block.push_back(tail_.front());
     tail_.pop_front();
   }
-  hand_over_odometer(time, &work.odometer);
+  odometer_.hand_over(time, &work.odometer);
   last_epoch_time_ = time;
   last_epoch_is_empty_ = work.empty;
   if (!work.empty) last_raw_epoch_time_ = time;

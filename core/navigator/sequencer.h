@@ -11,6 +11,7 @@
 #include "core/navigator/event_source.h"
 #include "core/navigator/imu_stamps.h"
 #include "core/navigator/navigator_config.h"
+#include "core/navigator/odometer_queue.h"
 #include "core/navigator/stage_work.h"
 #include "core/navigator/time_base_watch.h"
 
@@ -57,11 +58,7 @@ enum class SequencerCapacity : std::uint8_t {
 // - where GNSS alone keeps time (no IMU, or none yet) an outage cannot be told from a wild stamp by
 //   itself. Such an epoch is held until the next one, which tells by being later or earlier than
 //   it. So an outage of any length, or an interval other than configured, costs no epoch;
-// - odometer increments must be finite, in range and increasing, and not more than
-// kMaxOdometerAheadNs
-//   ahead of the IMU; a run of consistent ones behind is a counter that was started anew. Those
-//   that end by an epoch go with it, also when they come up to kMaxOdometerLatencyNs after it: then
-//   with the next one. What comes later still is counted and dropped;
+// - odometer increments go with the epoch that they end by: OdometerQueue;
 // - GNSS does not change the time while IMU samples keep arriving in the old one.
 class Sequencer {
  public:
@@ -76,11 +73,6 @@ class Sequencer {
   static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxImuIntervalNs = 100'000'000;
-  static constexpr std::int64_t kMaxOdometerIntervalNs = 1'000'000'000;
-  static constexpr std::int64_t kMaxOdometerLatencyNs = 400'000'000;
-  static constexpr std::int64_t kMaxOdometerAheadNs = 2'000'000'000;
-  static constexpr double kMaxWheelSpeed = 150.0;  // m/s
-  static constexpr int kOdometerRunToRestart = 5;
   static constexpr int kImuRunToRestart = 20;
   static constexpr int kEpochRunToRestart = 5;
 
@@ -102,21 +94,19 @@ class Sequencer {
     std::uint64_t imu = 0, epochs = 0, ephemerides = 0, empty_epochs = 0, late_epochs = 0,
                   imu_gaps = 0;
     std::uint64_t epochs_without_imu = 0;           // issued before their IMU came
-    std::uint64_t odometer = 0, late_odometer = 0;  // accepted; of them not used, see above
+    std::uint64_t odometer = 0, late_odometer = 0;  // accepted; of them not used
     std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter, see ImuStamps
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
   };
   const Counters& counters() const { return counters_; }
   GpsTime imu_time() const { return imu_time_; }  // end of the last accepted sample; may be unset
-  GpsTime odometer_time() const { return last_odometer_time_; }  // likewise
+  GpsTime odometer_time() const { return odometer_.last_time(); }  // likewise
 
  private:
   void watch_conventions(const ImuSample& sample, InputFault fault);
   bool leaps(const ImuSample& sample) const;
   void accept_imu(const ImuSample& received);
   InputFault place_imu(ImuSample* sample);
-  InputFault place_odometer(const OdometerIncrement& increment);
-  void hand_over_odometer(GpsTime time, OdometerBlock* block);
   void change_time_base(double jump_s);
   void push_command(const Command& command);
   void extend_tail(const ImuSample& sample);
@@ -154,7 +144,7 @@ class Sequencer {
   std::uint64_t next_index_ = 1;
   EventNumbering events_{Stage::kSequencer};
   ImuStamps imu_stamps_;
-  TimeBaseWatch imu_watch_, epoch_watch_, odometer_watch_;
+  TimeBaseWatch imu_watch_, epoch_watch_;
   RefusedImuWatch refused_imu_;
   StampOffsetWatch stamp_offset_;
   std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1>
@@ -162,10 +152,9 @@ class Sequencer {
   std::size_t pending_count_ = 0;
   std::unique_ptr<RawEpoch> held_;  // see above; meaningful while is_held_
   bool is_held_ = false;
-  std::optional<ImuSample> leapt_imu_;                       // likewise a sample
-  boost::circular_buffer<ImuSample> tail_;                   // IMU since the last issued epoch
-  boost::circular_buffer<OdometerIncrement> odometer_tail_;  // likewise
-  GpsTime last_odometer_time_;
+  std::optional<ImuSample> leapt_imu_;      // likewise a sample
+  boost::circular_buffer<ImuSample> tail_;  // IMU since the last issued epoch
+  OdometerQueue odometer_;
   std::unique_ptr<GnssWork> work_;  // too large for a thread's stack
 };
 

@@ -109,6 +109,26 @@ TEST_CASE("data-sheet units become SI") {
   CHECK(imu.gyro_scale.sigma == Approx(1e-3));
 }
 
+TEST_CASE("an odometer is for wheels, at the point that does not slide, unless said otherwise") {
+  const auto motion_of = [](const std::string& vehicle) {
+    return load_config_text("vehicle: {" + vehicle + "}\n", "x")
+        .navigator.vehicle.motion.constraints;
+  };
+  CHECK(motion_of("kind: car").odometer);
+  CHECK(motion_of("kind: rail").odometer);
+  CHECK_FALSE(motion_of("kind: handheld").odometer);
+  CHECK_FALSE(motion_of("kind: car, odometer: false").odometer);
+  CHECK(motion_of("kind: boat, odometer: true").odometer);
+  const auto at = motion_of("kind: car, constraint_point_b_m: [-1, 0, 0.5]");
+  CHECK(at.odometer_point_b == at.point_b);
+  CHECK(motion_of("constraint_point_b_m: [-1, 0, 0], odometer_point_b_m: [2, 0, 0]")
+            .odometer_point_b.x() == 2.0);
+  const auto ekf = load_config_text("vehicle: {kind: car, odometer_scale_sigma_percent: 2}\n", "x")
+                       .navigator.ekf.vehicle;
+  CHECK(ekf.count == 2);  // it joins with its first message
+  CHECK(ekf.sigma[leonav::ekf_index::kOdometerScale] == Approx(0.02));
+}
+
 TEST_CASE("the shipped configurations are complete") {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(LEONAV_SOURCE_DIR "/config")) {

@@ -1,6 +1,7 @@
 // What HEALTH says when an input falls silent, whatever came before it.
 #include "daemon/health.h"
 
+#include <cmath>
 #include <leonav/health_t.hpp>
 #include <thread>
 
@@ -18,8 +19,9 @@ struct Discard final : MessageTarget {
 // An engine and its health, fed in step.
 class Watched {
  public:
-  explicit Watched(MotionModel motion) {
+  explicit Watched(MotionModel motion, bool odometer = false) {
     DaemonConfig config = test::drive_config();
+    config.navigator.vehicle.motion.constraints.odometer = odometer;
     config.navigator.motion = motion;
     REQUIRE(config.navigator.realtime.epoch_interval_s == 1.0);
     engine_ = std::make_unique<Engine>(config, &target_);
@@ -121,6 +123,25 @@ TEST_CASE("GNSS that dies beside an IMU is told, by its own name; the answer goe
   CHECK(at_34_s == "DEGRADED: INS only; no usable GNSS for 3 s");
   CHECK(at_59_s == "DEGRADED: INS only; no usable GNSS for 28 s");
   CHECK(watched.message().source == "ins");
+}
+
+TEST_CASE("an odometer that falls silent is told, one that never spoke is not missed") {
+  Watched watched(MotionModel::kInertial, true);
+  CHECK(watched.at(1.0).find("odometer") == std::string::npos);
+  CHECK(std::isnan(watched.message().odometer_age_s));
+  Encoder encoder;
+  std::uint64_t samples = 0, increments = 0;
+  watched.feed([&](Channel channel) {
+    if (channel != Channel::kImu || ++samples > 6000 || samples % 20 != 0) return true;
+    const GpsTime end = test::kSkyEpoch.plus_seconds(static_cast<double>(samples) / 200.0);
+    watched.receive(Channel::kOdometer,
+                    encoder.encode(OdometerIncrement{end, 100'000'000, 0.0}, ++increments));
+    if (samples == 6000) watched.at(30.0);
+    return true;
+  });
+  CHECK(watched.at(32.0).find("odometer") == std::string::npos);
+  CHECK(watched.at(34.0).find("no usable odometer for 4 s") != std::string::npos);
+  CHECK(watched.message().odometer_age_s == Approx(30.0).margin(0.02));
 }
 
 TEST_CASE("a restart takes the source with it, until there is an answer again") {

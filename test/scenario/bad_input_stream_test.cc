@@ -39,6 +39,9 @@ struct Run final : OutputSink {
   void send(const Ephemeris& e) {
     dispatch.dispatch(Channel::kEphemeris, encoder.encode(e, ++count));
   }
+  void send(const OdometerIncrement& o) {
+    dispatch.dispatch(Channel::kOdometer, encoder.encode(o, ++count));
+  }
   std::uint64_t rejected(InputFault fault) const {
     return pipeline.sequencer().counters().rejected[static_cast<std::size_t>(fault)];
   }
@@ -138,6 +141,49 @@ TEST_CASE("messages cut short or of another kind are counted as undecodable and 
       [&](const RawEpoch& r) { run.send(r); });
   CHECK(run.rejected(InputFault::kUndecodable) == static_cast<std::uint64_t>(cut));
   CHECK(worst_error(run, drive, 40.0, 80.0) < 0.1);
+}
+
+TEST_CASE("an odometer that sends nonsense is counted by its reasons and costs nothing") {
+  Drive drive = make_drive();
+  MotionConstraintConfig& motion = drive.config.vehicle.motion.constraints;
+  motion.non_holonomic = motion.zero_velocity = motion.odometer = true;
+  drive.config.ekf.vehicle = {2, {0.03, 0.03, 0.03}, {3e-5, 3e-5, 2e-5}};
+  Run run(drive.config);
+  Encoder other;
+  const SyntheticPath path(drive.data.options);
+  unsigned sent = 0, samples = 0;
+  feed_changed(
+      drive, &run,
+      [&](const ImuSample& s) {
+        run.send(s);
+        if (++samples % 20 != 0) return;
+        const double way = 0.1 * path.state(seconds(s.time) - 0.05).v_e.norm();
+        const OdometerIncrement good{s.time, 100'000'000, way, true};
+        run.send(good);
+        run.send(good);
+        OdometerIncrement bad = good;
+        bad.time = s.time.plus_nanoseconds(1'000'000);
+        bad.distance_m = kNan;
+        run.send(bad);
+        bad.distance_m = 1e6;
+        run.send(bad);
+        bad = good;
+        bad.time = s.time.plus_seconds(-30.0 - (++sent % 2 == 0 ? 5.0 : 0.0));
+        run.send(bad);
+        const ByteSpan bytes = other.encode(good, 1);
+        run.dispatch.dispatch(Channel::kOdometer, bytes.first(bytes.size() - 1));
+        run.dispatch.dispatch(Channel::kImu, bytes);
+      },
+      [&](const RawEpoch& r) { run.send(r); });
+  const auto& counters = run.pipeline.sequencer().counters();
+  CHECK(counters.odometer == sent);
+  CHECK(counters.imu == samples);
+  CHECK(run.rejected(InputFault::kDuplicate) == sent);
+  CHECK(run.rejected(InputFault::kNotFinite) == sent);
+  CHECK(run.rejected(InputFault::kOutOfRange) == sent);
+  CHECK(run.rejected(InputFault::kTimeBackwards) == sent);
+  CHECK(run.rejected(InputFault::kUndecodable) == 2 * sent);
+  CHECK(worst_error(run, drive, 40.0, 80.0) < 0.2);
 }
 
 TEST_CASE("an IMU gap of three seconds is reported, and some seconds later all is well again") {

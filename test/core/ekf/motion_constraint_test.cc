@@ -83,20 +83,24 @@ TEST_CASE("the axes of travel are orthonormal, and their slopes the numerical de
   CHECK((by_pitch - axes.d_pitch).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("the rows of the non-holonomic constraint are the slopes of what it predicts") {
+TEST_CASE("the rows of wheels and of an odometer are the slopes of what they predict") {
   FilterState state;
   state.nav = turning_state();
-  state.vehicle = {0.05, -0.03};
+  state.vehicle = {0.05, -0.03, 0.02};
   MotionConstraintConfig config;
   config.non_holonomic = true;
   config.point_b = kPoint_b;
+  config.odometer_point_b = {0.4, -0.7, 0.3};
+  ConstraintInstant instant;
+  instant.odometer = {true, 12.0, 0.3, 1e-3};
   const auto measure = [&](const FilterState& at) {
     MotionMeasurements measurements;
-    motion_measurements(config, ConstraintInstant(), at, kRate_b, &measurements);
+    motion_measurements(config, instant, at, kRate_b, &measurements);
     return measurements;
   };
   const MotionMeasurements here = measure(state);
-  REQUIRE(here.size() == 2);
+  REQUIRE(here.size() == 3);
+  CHECK(here[0].component == static_cast<int>(MotionComponent::kOdometer));
   constexpr double kStep = 1e-4;
   for (int i = 0; i < state.first_ambiguity(); ++i) {
     EkfCorrection error = EkfCorrection::Zero(state.first_ambiguity());
@@ -110,6 +114,61 @@ TEST_CASE("the rows of the non-holonomic constraint are the slopes of what it pr
       CHECK(std::abs(slope - here[m].row(i)) < 1e-6);
     }
   }
+}
+
+TEST_CASE("an odometer's residual is nothing where it shows the scaled mean before the change") {
+  FilterState state;
+  state.nav = turning_state();
+  state.vehicle = {0.05, -0.03, 0.02};
+  MotionConstraintConfig config;
+  config.odometer_point_b = kPoint_b;
+  config.odometer_sigma = 0.1;
+  const double speed = forward_speed(state, kRate_b, kPoint_b);
+  ConstraintInstant instant;
+  instant.odometer = {true, 1.02 * (speed - 0.3), 0.3, 0.03};
+  MotionMeasurements measurements;
+  motion_measurements(config, instant, state, kRate_b, &measurements);
+  REQUIRE(measurements.size() == 1);
+  CHECK(std::abs(measurements[0].residual) < 1e-12);
+  CHECK(measurements[0].variance == Approx(0.04));
+}
+
+TEST_CASE("a constant that joins later takes a place of its own and leaves all else as it is") {
+  EkfConfig config;
+  config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
+  const auto filter = [&] {
+    Ekf ekf(config, synthetic::mems(), Vector3d::Zero());
+    FilterState state;
+    state.nav = turning_state();
+    state.nav.time = synthetic::kStart;
+    state.vehicle = {0.01, 0.02};
+    state.ambiguities.resize(3);
+    for (std::size_t i = 0; i < 3; ++i) state.ambiguities[i].value_m = 10.0 + double(i);
+    ekf.place(state, true, ImuSample());
+    MotionMeasurements known(1);  // so that ambiguities are correlated with what is before them
+    known[0].variance = 1.0;
+    known[0].row.setOnes();
+    ekf.predict({}, synthetic::kStart.plus_seconds(1.0));
+    ekf.constrain(known, 1e9);
+    return ekf;
+  };
+  Ekf ekf = filter();
+  const Ekf before = filter();
+  ekf.estimate_constant(kOdometerScale);
+  const auto& P = ekf.covariance();
+  const auto& Q = before.covariance();
+  constexpr int kNew = kSize + kOdometerScale;
+  REQUIRE(P.rows() == Q.rows() + 1);
+  REQUIRE(ekf.vehicle().size() == 3);
+  CHECK(P(kNew, kNew) == Approx(0.03 * 0.03));
+  CHECK(P.row(kNew).cwiseAbs().sum() == P(kNew, kNew));
+  CHECK(P.topLeftCorner(kNew, kNew) == Q.topLeftCorner(kNew, kNew));
+  CHECK(P.bottomLeftCorner(3, kNew) == Q.bottomLeftCorner(3, kNew));
+  CHECK(P.bottomRightCorner(3, 3) == Q.bottomRightCorner(3, 3));
+  CHECK(ekf.ambiguities()[2].value_m == before.ambiguities()[2].value_m);
+  CHECK_FALSE(ekf.process().continuous);
+  ekf.estimate_constant(kOdometerScale);  // is there
+  CHECK(P.rows() == Q.rows() + 1);
 }
 
 TEST_CASE("a body's point moves as the body turns about it") {

@@ -14,6 +14,7 @@ struct RecordingStages : StageInputs {
     bool empty = false;
     std::size_t observations = 0;
     std::vector<ImuSample> samples;
+    std::vector<OdometerIncrement> odometer;
   };
   std::vector<std::uint64_t> opened;
   std::vector<ImuSample> samples;
@@ -43,7 +44,8 @@ struct RecordingStages : StageInputs {
                       epoch->time,
                       epoch->empty,
                       epoch->raw.observations.size(),
-                      {epoch->block.begin(), epoch->block.end()}});
+                      {epoch->block.begin(), epoch->block.end()},
+                      {epoch->odometer.begin(), epoch->odometer.end()}});
   }
   void event(const Event& event) override { events.push_back(event); }
 

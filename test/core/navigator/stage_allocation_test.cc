@@ -101,16 +101,21 @@ TEST_CASE(
   CAPTURE(static_cast<int>(motion), static_cast<int>(estimator));
   NavigatorConfig config = full_config(motion);
   config.estimator = estimator;
+  config.vehicle.motion.constraints.odometer = true;
+  config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
   CountingSink sink;
   Pipeline pipeline(config, &sink);
   std::size_t next_state = 0, seen = 0;
   start_counting_allocations();
-  feed(drive, &pipeline, [&](const RawEpoch&, Sequencer* sequencer) {
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
     PreciseStates message;
     for (int i = 0; i < 40 && next_state < states.size(); ++i) {
       message.push_back(states[next_state++]);
     }
     sequencer->on_precise_states(message);
+    for (int i = 1; i <= 10; ++i)
+      sequencer->on_odometer(
+          {raw.time.plus_nanoseconds((i - 10) * 100'000'000LL), 100'000'000, 0.8, i % 2 == 0});
     AntennaPattern antenna;
     antenna.satellite = {System::kGps, static_cast<std::uint16_t>(1 + seen % 30)};
     antenna.band = '1';

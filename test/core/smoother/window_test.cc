@@ -92,12 +92,14 @@ const Course kCourses[] = {
      500.0},
     {"constraints on the motion between keyframes",
      [](DriveOptions* options) { options->constrained = true; }},
+    {"constraints and an odometer between keyframes",
+     [](DriveOptions* options) { options->constrained = options->odometer = true; }},
 };
 
 }  // namespace
 
 TEST_CASE("a window is the filter, whatever happens, as long as all is linear") {
-  const Course& course = kCourses[GENERATE(range(0, 10))];
+  const Course& course = kCourses[GENERATE(range(0, 11))];
   const int capacity = GENERATE(5, 60);
   DriveOptions options;
   options.noise = 1e-4;
@@ -113,7 +115,7 @@ TEST_CASE("a window is the filter, whatever happens, as long as all is linear") 
 
 // What leaves is linearized for good: what that costs goes with the square of the noise.
 TEST_CASE("what has left the window is not lost: a short window is a long one") {
-  const Course& course = kCourses[GENERATE(range(0, 10))];
+  const Course& course = kCourses[GENERATE(range(0, 11))];
   DriveOptions options;
   options.noise = GENERATE(1.0, 0.01);
   if (options.noise < 1.0) options.carrier_sigma = 0.05;

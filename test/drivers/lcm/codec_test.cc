@@ -62,6 +62,14 @@ TEST_CASE("inputs survive the wire") {
   CHECK(sample.delta_theta_b == imu_sample().delta_theta_b);
   CHECK(sample.delta_velocity_b == imu_sample().delta_velocity_b);
 
+  const OdometerIncrement sent{sample.time, 100'000'000, -0.75, true};
+  OdometerIncrement increment;
+  REQUIRE(decoder.decode(encoder.encode(sent, 8), &increment).fault == InputFault::kNone);
+  CHECK(increment.time == sent.time);
+  CHECK(increment.interval_ns == sent.interval_ns);
+  CHECK(increment.distance_m == sent.distance_m);
+  CHECK(increment.sign_known);
+
   RawEpoch epoch;
   REQUIRE(decoder.decode(encoder.encode(raw_epoch(20), 1), &epoch).fault == InputFault::kNone);
   REQUIRE(epoch.observations.size() == 40);
@@ -132,6 +140,16 @@ TEST_CASE("wrong values are named") {
   bytes[27] = 9;
   CHECK(decoder.decode(bytes, &out).fault == InputFault::kUnknownSchema);
   CHECK(decoder.decode(Bytes(wire::kMaxMessageBytes + 1, 0), &out).fault == InputFault::kTooMany);
+  OdometerIncrement increment{sample.time, 0, 1.0, true};
+  CHECK(decoder.decode(encoder.encode(increment, 1), &increment).fault == InputFault::kOutOfRange);
+  increment = {sample.time, 100, std::numeric_limits<double>::infinity(), true};
+  CHECK(decoder.decode(encoder.encode(increment, 1), &increment).fault == InputFault::kNotFinite);
+  increment.distance_m = 1.0;
+  bytes = copy(encoder.encode(increment, 1));
+  bytes.back() = 2;  // neither known nor unknown
+  CHECK(decoder.decode(bytes, &increment).fault == InputFault::kOutOfRange);
+  bytes[27] = 9;
+  CHECK(decoder.decode(bytes, &increment).fault == InputFault::kUnknownSchema);
   Ephemeris ephemeris;  // all zero: not an orbit
   ephemeris.satellite = {System::kGps, 3};
   ephemeris.toe = ephemeris.toc = imu_sample().time;

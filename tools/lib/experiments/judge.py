@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 
 import numpy as np
@@ -87,9 +88,17 @@ def judge(row, folder, out):
         "below_four": float(np.mean(satellites[judged] < 4)) if judged.any() else None,
         "pdop": float(np.mean(pdop[good])) if good.any() else None,
     }
+    result["odometer_scale_percent"] = odometer_scale_of(os.path.join(out, "summary.txt"))
     if row.is_set():
         result["after_convergence"] = after_convergence(t, error, result["convergence_s"])
     return result
+
+
+def odometer_scale_of(path):
+    """As found in the end, and 1 sigma of it, %; None: there was no odometer."""
+    with open(path) as file:
+        found = re.search(r"^odometer scale: (\S+) % \(1 sigma (\S+)\)$", file.read(), re.MULTILINE)
+    return [float(found[1]), float(found[2])] if found else None
 
 
 def after_convergence(t, error, convergence_s):

@@ -1,0 +1,52 @@
+#include "core/navigator/odometer_queue.h"
+
+#include "core/navigator/input_checks.h"
+
+namespace leonav {
+namespace {
+
+std::int64_t nanoseconds_between(GpsTime a, GpsTime b) { return a.nanoseconds() - b.nanoseconds(); }
+
+}  // namespace
+
+InputFault OdometerQueue::add(const OdometerIncrement& increment, GpsTime imu_time,
+                              GpsTime last_epoch) {
+  const InputFault fault = check(increment, kMaxSpeed, kMaxIntervalNs);
+  if (fault != InputFault::kNone) return fault;
+  const GpsTime time = increment.time;
+  if (time == last_) return InputFault::kDuplicate;
+  if (imu_time.is_set() && nanoseconds_between(time, imu_time) > kMaxAheadNs)
+    return InputFault::kTooFarAhead;
+  if (time < last_) {
+    if (!watch_.reject(time)) return InputFault::kTimeBackwards;
+    waiting_.clear();
+  }
+  watch_.clear();
+  if (const InputFault full = place(increment, last_epoch); full != InputFault::kNone) return full;
+  last_ = time;
+  return InputFault::kNone;
+}
+
+InputFault OdometerQueue::place(const OdometerIncrement& increment, GpsTime last_epoch) {
+  if (!used_) return InputFault::kNone;
+  if (last_epoch.is_set() && nanoseconds_between(last_epoch, increment.time) > kMaxLatencyNs) {
+    ++late_;
+    return InputFault::kNone;
+  }
+  if (waiting_.full()) return InputFault::kTooMany;
+  waiting_.push_back(increment);
+  return InputFault::kNone;
+}
+
+void OdometerQueue::hand_over(GpsTime time, OdometerBlock* block) {
+  for (; !waiting_.empty() && waiting_.front().time <= time; waiting_.pop_front())
+    block->push_back(waiting_.front());
+}
+
+void OdometerQueue::clear() {
+  waiting_.clear();
+  watch_.clear();
+  last_ = GpsTime();
+}
+
+}  // namespace leonav
