@@ -20,7 +20,7 @@ SyntheticDriveOptions noisy_drive() {
   options.doppler_sigma_m_s = 0.05;
   options.carrier_sigma_m = 0.003;
   options.angle_random_walk = 1e-4;
-  options.velocity_random_walk = 1e-3;
+  options.velocity_random_walk = 1e-2;
   options.gyro_bias_b = {2e-4, -3e-4, 4e-4};
   options.accel_bias_b = {0.05, -0.08, 0.02};
   return options;
@@ -30,6 +30,7 @@ NavigatorConfig config_of(const SyntheticDriveOptions& options, Estimator estima
   NavigatorConfig config = drive_navigator_config(options);
   config.estimator = estimator;
   config.ekf.use_carrier = true;
+  config.imu.velocity_random_walk = 1e-2;
   config.imu.gyro_bias.sigma = 5e-4;
   config.imu.accel_bias.sigma = 0.08;
   MotionConstraintConfig& motion = config.vehicle.motion.constraints;
@@ -98,7 +99,7 @@ TEST_CASE("an odometer carries both estimators through a minute's tunnel, its sc
         "%.2f m; scale %.3f %%, sigma %.3f\n",
         estimator == Estimator::kEkf ? "filter" : "smoother", wheel.rate_hz, wheel.phase_s,
         wheel.sign_known, with_m, without_m, 100.0 * with.scale, 100.0 * with.sigma);
-    CHECK(with_m < 0.6 * without_m);
+    CHECK(with_m < 0.8 * without_m);
     CHECK(std::abs(with.scale - wheel.scale_error) < 3.0 * with.sigma);
     CHECK(with.sigma < 0.003);
     CHECK(with.counters.late_odometer == 0);
@@ -158,7 +159,7 @@ TEST_CASE("a wheel that turns forbids standing") {
   const double turning = spread_at_55_s(wheel);
   std::printf("velocity sigma after 55 s: %.4f m/s standing, %.4f with a wheel that turns\n",
               standing, turning);
-  CHECK(standing < 0.5 * turning);
+  CHECK(standing < 0.85 * turning);  // Dopplers hold it too
 }
 
 }  // namespace leonav::test

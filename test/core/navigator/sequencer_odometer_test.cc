@@ -94,8 +94,8 @@ TEST_CASE("more increments than have a place are refused, and the next epoch mak
 
 TEST_CASE("a wild stamp ahead blocks nothing for longer than a run of consistent ones") {
   SequencerRig rig(with_odometer());
-  rig.imu(0, 2000);
-  rig.sequencer.on_odometer(increment(3900));
+  rig.imu(0, 1100);
+  rig.sequencer.on_odometer(increment(3000));
   for (std::int64_t ms = 100; ms <= 1000; ms += 100) rig.sequencer.on_odometer(increment(ms));
   CHECK(rig.rejected(InputFault::kTimeBackwards) == 4);
   rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));

@@ -13,7 +13,10 @@ constexpr double kStep_s = 0.01;
 }  // namespace
 
 PulseCounter::PulseCounter(const OdometerConfig& config, const SplineMotion& motion)
-    : config_(config), motion_(motion), speed_m_s_(forward_speed(0.0)) {}
+    : config_(config),
+      motion_(motion),
+      speed_m_s_(forward_speed(0.0)),
+      rolled_m_(0.5 * config.resolution_m) {}
 
 double PulseCounter::forward_speed(double t) const {
   const MotionInstant now = motion_.at(t);

@@ -22,7 +22,7 @@ class PulseCounter {
   const SplineMotion& motion_;
   long increments_ = 0;
   double now_s_ = 0.0, speed_m_s_;
-  double rolled_m_ = 0.0;   // by the wheel's rim, as the counter takes it
+  double rolled_m_;  // by the wheel's rim, as the counter takes it; starts between two pulses
   double counted_m_ = 0.0;  // whole pulses of it
 };
 
