@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
@@ -32,10 +33,27 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
   return quaternion_from_rotation_vector(std::atan2(sine, cosine) / sine * cross);
 }
 
+constexpr double kPi = std::numbers::pi;
+constexpr double kContradiction = 4.0;  // sigmas
+
+VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu) {
+  VelocityMatching::Config matching;
+  matching.window_s = config.matching_window_s;
+  matching.lever_arm_b = config.lever_arm_b;
+  matching.accel_bias_sigma = imu.accel_bias.sigma;
+  matching.accel_scale_sigma = imu.accel_scale.sigma;
+  return matching;
+}
+
 }  // namespace
 
 Alignment::Alignment(const AlignmentConfig& config, const ImuErrorModel& imu)
-    : config_(config), imu_(imu), unconfirmed_(imu), standing_(imu), here_(imu) {}
+    : config_(config),
+      imu_(imu),
+      unconfirmed_(imu),
+      standing_(imu),
+      here_(imu),
+      matching_(matching_config(config, imu)) {}
 
 void Alignment::reset() { *this = Alignment(config_, imu_); }
 
@@ -53,6 +71,11 @@ void Alignment::add(const ImuSample& sample) {
 void Alignment::follow(const ImuSample& sample) {
   const Eigen::Vector3d turn = sample.delta_theta_b - standing_.rate_b() * sample.interval_s();
   q_lb_ = (q_lb_ * quaternion_from_rotation_vector(turn)).normalized();
+  if (config_.velocity_matching) {
+    ImuSample unbiased = sample;
+    unbiased.delta_theta_b = turn;
+    matching_.add(unbiased);
+  }
   if (levelled()) {
     level_on(sample);
   } else {
@@ -143,7 +166,11 @@ void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double 
   const auto last = last_heading_;
   last_heading_ = Heading{levelled_for_s_, relative_yaw};
   const double speed = std::hypot(v_n.x(), v_n.y());
-  if (!(speed >= config_.min_course_speed_m_s) || !std::isfinite(sigma_v)) return courses_.clear();
+  if (!(speed >= config_.min_course_speed_m_s) || !std::isfinite(sigma_v)) {
+    gear_ = Gear::kUnknown;
+    return courses_.clear();
+  }
+  if (!(speed < config_.max_reverse_speed_m_s + 3.0 * sigma_v)) gear_ = Gear::kForward;
   if (!last || !(levelled_for_s_ > last->time_s)) return;
   // An antenna at an arm r from the axis the body turns about moves sideways by r * rate: swung on
   // a circle it goes at right angles to where it points, consistently.
@@ -154,6 +181,36 @@ void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double 
                 std::hypot(across, config_.course_against_heading)});
 }
 
+// Forward or in reverse, as the course and, where the velocity has changed, the matching have it:
+// two headings are carried until one has won. Where neither agrees with the matching the vehicle
+// slides, or the velocities are wrong: nothing is known then.
+std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_yaw) {
+  using Known = VelocityMatching::Heading;
+  std::optional<Known> course;
+  if (const auto agreement = courses_.agreement())
+    course = Known{wrap_to_pi(relative_yaw + agreement->yaw_offset), agreement->sigma};
+  if (course && !(course->sigma < config_.max_course_sigma)) course.reset();
+  if (config_.max_reverse_speed_m_s <= 0.0) gear_ = Gear::kForward;
+
+  const double rate_sigma = standing_.sigma();
+  auto match = config_.velocity_matching ? matching_.match(rate_sigma) : std::nullopt;
+  if (course && match) {
+    const double off = std::abs(wrap_to_pi(match->heading.heading - course->heading));
+    const double limit = kContradiction * std::hypot(match->heading.sigma, course->sigma);
+    if (std::min(off, kPi - off) > limit) return std::nullopt;
+    const Gear found = off < 0.5 * kPi ? Gear::kForward : Gear::kReverse;
+    if (found != Gear::kForward && gear_ == Gear::kForward) return std::nullopt;
+    gear_ = found;
+  }
+  if (course && gear_ == Gear::kUnknown) course.reset();
+  if (course && gear_ == Gear::kReverse) course->heading = wrap_to_pi(course->heading + kPi);
+  if (course && config_.velocity_matching) match = matching_.match(rate_sigma, course);
+  if (match && match->heading.sigma < config_.max_matching_sigma)
+    return InMotion{match->heading.heading, match->heading.sigma, match};
+  if (course) return InMotion{course->heading, course->sigma, std::nullopt};
+  return std::nullopt;
+}
+
 std::optional<AlignedAttitude> Alignment::attitude(
     const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e, double sigma_v,
     const std::optional<GivenHeading::Heading>& given) {
@@ -162,32 +219,36 @@ std::optional<AlignedAttitude> Alignment::attitude(
   confirm_standstill(v_n.norm(), sigma_v);
   if (!levelled()) return std::nullopt;
 
+  if (config_.velocity_matching) matching_.add_velocity(v_n.head<2>(), sigma_v, q_lb_);
   EulerAngles angles = euler_from_rotation(q_lb_.toRotationMatrix());
   watch_course(v_n, sigma_v, angles.yaw);
-  double turn_l = 0.0, heading_sigma = 0.0;
+  double turn_l = 0.0, heading_sigma = 0.0, level_sigma = config_.levelling_sigma;
   bool by_north = false;
   if (given) {
     turn_l = given->heading - angles.yaw;
     heading_sigma = given->sigma;
-  } else {
-    const auto agreement = courses_.agreement();
-    if (agreement && agreement->sigma < config_.max_course_sigma) {
-      turn_l = agreement->yaw_offset;
-      heading_sigma = agreement->sigma;
-    } else if (const auto north = gyrocompass(to_geodetic(p_e).latitude)) {
-      turn_l = north->turn_l;
-      heading_sigma = north->sigma;
-      by_north = true;
-    } else {
-      return std::nullopt;
+  } else if (const auto moving = heading_in_motion(angles.yaw)) {
+    turn_l = moving->heading - angles.yaw;
+    heading_sigma = moving->sigma;
+    if (moving->match && moving->match->level_sigma < level_sigma) {
+      level_sigma = moving->match->level_sigma;
+      const double yaw = angles.yaw;
+      angles = euler_from_rotation(moving->match->q_lb.toRotationMatrix());
+      angles.yaw = yaw;
     }
+  } else if (const auto north = gyrocompass(to_geodetic(p_e).latitude)) {
+    turn_l = north->turn_l;
+    heading_sigma = north->sigma;
+    by_north = true;
+  } else {
+    return std::nullopt;
   }
 
   angles.yaw = wrap_to_pi(angles.yaw + turn_l);
   const Eigen::Quaterniond q_en(Eigen::Matrix3d(C_ne.transpose()));
   AlignedAttitude aligned;
   aligned.q_eb = (q_en * Eigen::Quaterniond(rotation_from_euler(angles))).normalized();
-  aligned.sigma_rpy << config_.levelling_sigma, config_.levelling_sigma, heading_sigma;
+  aligned.sigma_rpy << level_sigma, level_sigma, heading_sigma;
   aligned.gyro_bias_sigma = by_north ? imu_.gyro_bias.sigma : standing_.sigma();
   // What has told north cannot tell the bias too.
   if (standing_.known() && !by_north) {

@@ -10,6 +10,7 @@
 #include "core/ins/imu_error_model.h"
 #include "core/ins/nav_state.h"
 #include "core/ins/standing_rate.h"
+#include "core/ins/velocity_matching.h"
 
 namespace leonav {
 
@@ -29,6 +30,14 @@ struct AlignmentConfig {
   // rad; good gyros find north while standing, once its 1 sigma is below this; 0: never.
   double max_gyrocompass_sigma = 0.087;
   double static_accel_m_s2 = 0.3;  // spread of the specific force below this while standing
+  bool velocity_matching = false;  // see VelocityMatching
+  double matching_window_s = 15.0;
+  double max_matching_sigma = 0.087;  // rad; the heading's uncertainty must be below
+  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  // m, for the matching
+  // m/s; up to this speed the vehicle may be going in reverse, which a course cannot tell: then it
+  // needs the matching's word. 0: it never does.
+  double max_reverse_speed_m_s = 0.0;
+  bool heading_watch = false;  // see HeadingWatch; for who drives the alignment
 };
 
 struct AlignedAttitude {
@@ -43,8 +52,10 @@ struct AlignedAttitude {
 // Follows the attitude with the heading unknown: the gyros turn it, the specific force levels it.
 // When a given heading is there, or courses over ground that agreed with the gyros for
 // `course_window_s` without a stop, it gives the whole attitude. Assumes that the body x axis
-// points where the vehicle goes, within `course_against_heading`: a steady start in reverse or
-// sideways cannot be told from one forward and aligns wrongly by the angle between.
+// points where the vehicle goes, within `course_against_heading`, or where it comes from: up to
+// `max_reverse_speed_m_s` both are carried until velocity matching tells one from the other. A start
+// that is steadily sideways, or in reverse where that is not reckoned with, aligns wrongly by the
+// angle between, unless there has been velocity matching to contradict it.
 class Alignment {
  public:
   Alignment(const AlignmentConfig& config, const ImuErrorModel& imu);
@@ -81,6 +92,11 @@ class Alignment {
   };
   std::optional<North> gyrocompass(double latitude) const;
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
+  struct InMotion {
+    double heading, sigma;
+    std::optional<VelocityMatching::Match> match;  // if that tells roll and pitch too
+  };
+  std::optional<InMotion> heading_in_motion(double relative_yaw);
 
   AlignmentConfig config_;
   ImuErrorModel imu_;
@@ -101,6 +117,9 @@ class Alignment {
     double time_s, relative_yaw;
   };
   std::optional<Heading> last_heading_;  // at the last epoch
+  enum class Gear : unsigned char { kUnknown, kForward, kReverse };
+  Gear gear_ = Gear::kUnknown;  // since it last stopped
+  VelocityMatching matching_;
 };
 
 }  // namespace leonav

@@ -22,6 +22,8 @@ class GivenHeading {
   std::optional<Heading> get() const;
   // It has given an attitude.
   void use();
+  // It has proved wrong.
+  void forget() { heading_.reset(); }
 
   // To be told of all motion after that. A mean rate over a second above `still_rate` (rad/s) is a
   // turn; a speed beyond standing, or one so uncertain that it cannot vouch for standing, is a

@@ -58,6 +58,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       ekf_(filter_config(config.ekf, keyframes != nullptr), config.imu, config.vehicle.lever_arm_b),
       motion_aid_(config.vehicle.motion),
       alignment_(config.alignment, config.imu),
+      heading_watch_(config.alignment, config.imu),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()),
@@ -104,6 +105,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
     watch_usable();
   }
   drop_broken_filter(work.time);
+  watch_heading(work);
   if (gnss_used_) {
     last_gnss_time_ = work.time;
     align(work);
@@ -171,9 +173,9 @@ void GnssStage::check_conventions(const EpochWork& work) {
 
 // A point solution good enough to start from; its measurements stay in measurements_.
 bool GnssStage::solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e,
-                      PointSolution* point) {
+                      BandBiases* biases, PointSolution* point) {
   *point = solve_point(work.raw, catalog_, config_.gnss, robust_start(config_.ekf.robust),
-                       approximate_p_e, measurements_.get(), &band_biases_);
+                       approximate_p_e, measurements_.get(), biases);
   measurements_->index = work.index;
   return point->status == PointStatus::kOk && point->satellites >= kMinSatellites &&
          point->pdop <= kMaxPdop && point->residual_rms_m <= kMaxResidualRms_m &&

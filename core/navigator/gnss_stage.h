@@ -15,6 +15,7 @@
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
 #include "core/navigator/event_source.h"
+#include "core/navigator/heading_watch.h"
 #include "core/navigator/keyframe_maker.h"
 #include "core/navigator/lock_out_watch.h"
 #include "core/navigator/motion_aid.h"
@@ -70,10 +71,17 @@ class GnssStage {
   void watch_usable();
   bool contradicts(const PointSolution& point, GpsTime time, bool motion) const;
   bool has_moved_as(const PointSolution& point, GpsTime time) const;
-  bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point);
+  bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, PointSolution* point) {
+    return solve(work, approximate_p_e, &band_biases_, point);
+  }
+  bool solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e, BandBiases* biases,
+             PointSolution* point);
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
   void watch_motion(const EpochWork& work);
   double velocity_sigma() const;
+  double gyro_bias_sigma() const;
+  void start_heading_watch();
+  void watch_heading(const EpochWork& work);
   void align(const EpochWork& work);
   void set_heading(double heading, double sigma);
   void report_solution(const EpochWork& work);
@@ -99,6 +107,7 @@ class GnssStage {
   MotionAid motion_aid_;
   Alignment alignment_;
   GivenHeading given_heading_;
+  HeadingWatch heading_watch_;
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<MeasurementEpoch> check_measurements_;  // of a point solution beside the filter
   std::unique_ptr<EpochReport> report_;

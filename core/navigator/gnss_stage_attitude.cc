@@ -1,5 +1,6 @@
 // How GnssStage comes by an attitude: aligned, or told its heading.
 #include <cmath>
+#include <utility>
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
@@ -34,7 +35,53 @@ void GnssStage::align(const EpochWork& work) {
   given_heading_.use();
   ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
                     aligned->gyro_bias_sigma);
+  if (config_.alignment.heading_watch) start_heading_watch();
   events_.emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(),
+               work.time);
+}
+
+double GnssStage::gyro_bias_sigma() const {
+  return std::sqrt(
+      ekf_.covariance().diagonal().segment<3>(ekf_index::kGyroBias).maxCoeff());
+}
+
+void GnssStage::start_heading_watch() {
+  heading_watch_.start(ekf_.state().errors.gyro_bias_b, gyro_bias_sigma());
+}
+
+// A heading that was wrong from the start, or has become so, is not dragged along: nothing of what
+// the filter has learned with it is of use.
+void GnssStage::watch_heading(const EpochWork& work) {
+  if (!heading_watch_.started()) return;
+  if (!ekf_.has_attitude()) return heading_watch_.stop();
+  heading_watch_.add({work.block.data(), work.block.size()});
+  const bool fresh = !work.block.empty() && work.block.back().time == work.time;
+  if (work.empty || !fresh || !updated_) return;
+  PointSolution point;
+  std::swap(measurements_, check_measurements_);
+  const bool solved = solve(work, ekf_.antenna_position_e(), nullptr, &point);
+  std::swap(measurements_, check_measurements_);
+  if (!solved || !point.has_velocity) return;
+
+  const NavState& state = ekf_.state();
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(state.p_e));
+  report_state(ekf_, report_.get());
+  const HeadingWatch::Filter filter = {
+      Eigen::Quaterniond(Eigen::Matrix3d(C_ne * state.q_eb.toRotationMatrix())),
+      report_->solution.sigma_rpy.z(), state.errors.gyro_bias_b,
+      gyro_bias_sigma()};
+  const double sigma_v = norm_of_sigmas(point.covariance_v_e) / std::sqrt(3.0);
+  const auto off = heading_watch_.add_velocity((C_ne * point.v_e).head<2>(), sigma_v, filter);
+  if (!off) return;
+  heading_watch_.stop();
+  given_heading_.forget();
+  ekf_.initialize(work.time, point);
+  carriers_.forget_position();
+  alignment_.reset();
+  forget_judgements();
+  gnss_used_ = true;
+  last_reset_time_ = work.time;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kHeading), *off,
                work.time);
 }
 
@@ -55,6 +102,7 @@ void GnssStage::set_heading(double heading, double sigma) {
   euler.yaw = wrap_to_pi(heading);
   const Eigen::Matrix3d C_eb = C_ne.transpose() * rotation_from_euler(euler);
   ekf_.turn_attitude(Eigen::Quaterniond(C_eb).normalized(), sigma_rpy);
+  if (config_.alignment.heading_watch) start_heading_watch();
   events_.emit(EventKind::kAligned, 1, sigma, state.time);
 }
 

@@ -144,7 +144,8 @@ enum class ResetCause : std::uint8_t {
   kPrediction = 2,
   kOutage = 3,
   kNotFinite = 4,
-  kLockedOut = 5  // value: m, the new sigma or, where it starts anew, what it was off by
+  kLockedOut = 5,  // value: m, the new sigma or, where it starts anew, what it was off by
+  kHeading = 6     // value: rad, what the heading was off by; it is aligned anew
 };
 
 // Why an input message was not used. On the wire: append only.

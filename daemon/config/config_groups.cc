@@ -64,6 +64,11 @@ void read_odometer(ConfigReader& group, bool wheeled, MotionConstraintConfig* mo
   if (scale_sigma > 0.0) constants->wander[ekf_index::kOdometerScale] = kOdometerScaleWander;
 }
 
+// A train has a cab at either end.
+double reverse_speed(VehicleKind kind) {
+  return kind == VehicleKind::kCar ? 5.0 : kind == VehicleKind::kRail ? 1000.0 : 0.0;
+}
+
 }  // namespace
 
 void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
@@ -108,7 +113,16 @@ void read_imu(ConfigReader& group, ImuErrorModel* config) {
   group.number("accel_scale_time_s", kCorrelationTime, &config->accel_scale.correlation_time_s);
 }
 
-void read_alignment(ConfigReader& group, AlignmentConfig* config) {
+void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config) {
+  const bool handheld = vehicle.kind == VehicleKind::kHandheld;
+  read_switch(group, "velocity_matching", !handheld, &config->velocity_matching);
+  group.number("matching_window_s", {5.0, 120.0}, &config->matching_window_s);
+  group.number("max_matching_sigma_deg", {0.1, 20.0}, &config->max_matching_sigma, kDegree);
+  config->lever_arm_b = vehicle.lever_arm_b;
+  read_switch(group, "heading_watch", !handheld, &config->heading_watch);
+  std::optional<double> reverse;
+  group.number("max_reverse_speed_m_s", {0.0, 1000.0}, &reverse);
+  config->max_reverse_speed_m_s = reverse.value_or(reverse_speed(vehicle.kind));
   group.number("levelling_window_s", {0.05, 60.0}, &config->levelling_window_s);
   group.number("levelling_sigma_deg", {0.01, 45.0}, &config->levelling_sigma, kDegree);
   group.number("min_course_speed_m_s", {0.05, 100.0}, &config->min_course_speed_m_s);

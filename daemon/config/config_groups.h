@@ -7,7 +7,8 @@ namespace leonav {
 
 void read_vehicle(ConfigReader& group, NavigatorConfig* navigator);
 void read_imu(ConfigReader& group, ImuErrorModel* config);
-void read_alignment(ConfigReader& group, AlignmentConfig* config);
+// After read_vehicle(): some defaults are those of its kind.
+void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);
 // The keys of gnss that tell how the ground moves. Reads the file of ocean loading.
 void read_ground(ConfigReader& group, GnssConfig* config);

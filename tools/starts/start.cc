@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "tools/evaluation/errors.h"
 
@@ -13,9 +14,12 @@ namespace {
 constexpr double kJudged_s = 10.0;       // of the way
 constexpr double kStandingSpeed = 0.02;  // m/s, at most
 constexpr double kDrivingSpeed = 3.0;    // at least
+constexpr double kReverseSpeed = 0.5;    // likewise
 constexpr double kStraightTurn = 3.0 * std::numbers::pi / 180.0;
 constexpr double kCurveTurn = 20.0 * std::numbers::pi / 180.0;
 constexpr double kLater_s = 30.0;
+constexpr double kWalkingSpeed = 1.5;  // m/s
+constexpr double kLeastDrive_s = 8.0;  // a course's six seconds, and the ends
 
 }  // namespace
 
@@ -27,49 +31,99 @@ std::string_view to_string(Way way) {
       return "straight on";
     case Way::kCurve:
       return "in a curve";
+    case Way::kReverse:
+      return "in reverse";
     case Way::kOther:
       return "other";
   }
   return "unknown";
 }
 
+bool cannot_align(const StartResult& result) {
+  return !result.gyros_find_north && result.driven_30_s < kLeastDrive_s;
+}
+
 std::optional<TrueMotion> motion_at(const Track& truth, GpsTime time) {
   const auto point = truth_at(truth, time, ErrorOptions{}.max_truth_gap_s);
   if (!point || !point->rpy[2] || !point->v_n) return std::nullopt;
-  return TrueMotion{*point->rpy[2], point->v_n->head<2>().norm()};
+  const double yaw = *point->rpy[2];
+  const Eigen::Vector2d v = point->v_n->head<2>();
+  return TrueMotion{yaw, v.norm(), v.dot(Eigen::Vector2d(std::cos(yaw), std::sin(yaw)))};
 }
 
 Way way_at(const Track& truth, GpsTime start) {
-  double slowest = 1e9, fastest = 0.0, turned = 0.0, last_yaw = 0.0;
+  double slowest = 1e9, fastest = 0.0, turned = 0.0, last_yaw = 0.0, forward = 0.0;
   for (int i = 0; i <= static_cast<int>(kJudged_s); ++i) {
     const auto motion = motion_at(truth, start.plus_seconds(i));
     if (!motion) return Way::kOther;
     slowest = std::min(slowest, motion->speed);
     fastest = std::max(fastest, motion->speed);
+    forward = std::min(forward, motion->forward);
     if (i > 0) turned += std::abs(wrap_to_pi(motion->yaw - last_yaw));
     last_yaw = motion->yaw;
   }
   if (fastest < kStandingSpeed) return Way::kStanding;
+  if (forward < -kReverseSpeed) return Way::kReverse;
   if (slowest < kDrivingSpeed) return Way::kOther;
   if (turned < kStraightTurn) return Way::kStraight;
   return turned > kCurveTurn ? Way::kCurve : Way::kOther;
 }
 
+namespace {
+
+NavigatorConfig told(NavigatorConfig config, const Track& truth, GpsTime start,
+                     std::optional<double> off) {
+  const auto motion = motion_at(truth, start);
+  if (off && motion) config.alignment.initial_heading = wrap_to_pi(motion->yaw + *off);
+  return config;
+}
+
+bool find_north(const NavigatorConfig& config, const Track& truth, GpsTime start) {
+  const auto point = truth_at(truth, start, ErrorOptions{}.max_truth_gap_s);
+  if (!point) return false;
+  const double rate = kEarthRotationRate * std::cos(point->position.latitude);
+  return config.imu.gyro_bias.sigma < config.alignment.max_gyrocompass_sigma * rate;
+}
+
+}  // namespace
+
 Start::Start(const NavigatorConfig& config, const Track& truth, GpsTime start,
-             std::span<const Product> products)
-    : truth_(truth), pipeline_(config, this), dispatch_(&pipeline_.sequencer()) {
+             std::span<const Product> products, std::optional<double> told_off)
+    : truth_(truth),
+      pipeline_(told(config, truth, start, told_off), this),
+      dispatch_(&pipeline_.sequencer()) {
   result_.start = start;
   result_.way = way_at(truth, start);
+  result_.told_off = told_off;
+  result_.gyros_find_north = find_north(config, truth, start);
   for (const Product& product : products) dispatch_.dispatch(product.channel, product.data);
 }
 
+void Start::on_event(const Event& event) {
+  if (event.kind != EventKind::kFilterReset ||
+      event.code != static_cast<std::uint8_t>(ResetCause::kHeading))
+    return;
+  if (result_.restarts++ > 0) return;
+  result_.noticed_after_s = seconds_between(event.time, result_.start);
+  result_.noticed_driven_s = result_.driven_s;
+}
+
 void Start::on_epoch(const EpochReport& report) {
-  if (!report.solution.has_attitude) return;
   const auto motion = motion_at(truth_, report.time);
   if (!motion) return;
   const double after_s = seconds_between(report.time, result_.start);
+  if (motion->speed > kWalkingSpeed && last_.is_set()) {
+    const double driven_s = seconds_between(report.time, last_);
+    result_.driven_s += driven_s;
+    if (after_s <= kLater_s) result_.driven_30_s += driven_s;
+  }
+  last_ = report.time;
+  result_.error_at_end.reset();
+  if (!report.solution.has_attitude) return;
   const double error = wrap_to_pi(report.solution.yaw - motion->yaw);
   const double sigma = report.solution.sigma_rpy.z();
+  result_.error_at_end = error;
+  result_.sigma_at_end = sigma;
   if (result_.aligned_after_s < 0.0) {
     result_.aligned_after_s = after_s;
     result_.error_when_aligned = error;
