@@ -56,6 +56,7 @@ struct EngineCounters {
   // Likewise by where the orbit comes from: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
   Gauge orbit_fallbacks, orbit_returns;
+  Gauge alignment_need;  // packed(), alignment_text.h
   Gauge worst_epoch_ns;
   Gauge keyframes_skipped;
   // smoother

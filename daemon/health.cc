@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/navigator/outputs.h"
+#include "daemon/alignment_text.h"
 #include "daemon/convention_text.h"
 #include "drivers/lcm/wire.h"
 
@@ -93,6 +94,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
 // An input that ends is a fault by its consequence only: without GNSS the inertial answer goes on.
 HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
     : engine_(engine),
+      alignment_(config.alignment),
       expects_imu_(config.motion == MotionModel::kInertial),
       uses_odometer_(expects_imu_ && config.vehicle.motion.constraints.odometer),
       imu_{"usable IMU", kImuSilence_s, kNever_s},
@@ -194,7 +196,11 @@ void HealthMonitor::judge_solution(double now_s) {
   }
   judge_stream(counters.solution_time_ns.get(), now_s, &solution_);
   if (solution_.dead) return;  // then the last source says nothing
-  if (source == Source::kAligning) worsen("DEGRADED", "aligning");
+  if (source == Source::kAligning) {
+    // Between an attitude and the first answer with it nothing lacks any more.
+    const std::string lacks = to_text(unpacked(counters.alignment_need.get()), alignment_);
+    worsen("DEGRADED", lacks.empty() ? "aligning" : "aligning: " + lacks);
+  }
   if (source == Source::kInsOnly) {
     worsen("DEGRADED", expects_imu_ ? "INS only" : "prediction without GNSS");
   }

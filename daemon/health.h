@@ -42,6 +42,7 @@ class HealthMonitor {
   void worsen(const char* status, const std::string& reason);
 
   Engine* engine_;
+  AlignmentConfig alignment_;
   bool expects_imu_, uses_odometer_;
   Stream imu_, gnss_, odometer_, solution_;
   Stopwatch uptime_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/alignment_text.h"
+
 namespace leonav {
 
 std::int64_t wall_clock_us() {
@@ -43,6 +45,7 @@ void StageSink::on_epoch(const EpochReport& report) {
     counters_->satellites_used[i].set(used[i]);
     counters_->ephemeris_age_ms[i].set(age[i]);
   }
+  counters_->alignment_need.set(packed(report.alignment));
   encoder_.on_epoch(report);
 }
 

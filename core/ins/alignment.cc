@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/earth/ellipsoid.h"
@@ -35,6 +36,7 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kContradiction = 4.0;  // sigmas
+constexpr double kGiveUpNorth = 3.0;    // times what the data sheet asks for
 
 VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu) {
   VelocityMatching::Config matching;
@@ -90,8 +92,8 @@ void Alignment::level_at_first(const ImuSample& sample) {
   first_s_ += sample.interval_s();
   if (first_s_ < config_.levelling_window_s) return;
   const Eigen::Vector3d force_l = first_velocity_l_ / first_s_;
-  const bool plausible = std::abs(force_l.norm() - kGravity) < 0.3 * kGravity;
-  if (plausible) {
+  implausible_ = !(std::abs(force_l.norm() - kGravity) < 0.3 * kGravity);
+  if (!implausible_) {
     q_lb_ = (rotation_between(-force_l, kDown) * q_lb_).normalized();
     levelled_for_s_ = first_s_;
   }
@@ -160,6 +162,35 @@ std::optional<Alignment::North> Alignment::gyrocompass(double latitude) const {
   if (std::abs(rate_l.head<2>().norm() - north) > kLikely * sigma) return std::nullopt;
   if (std::abs(rate_l.z() - down) > kLikely * sigma) return std::nullopt;
   return North{std::atan2(-rate_l.y(), rate_l.x()), heading_sigma};
+}
+
+// Of standing, until gyros that are as their data sheet says have found north; infinite: never.
+double Alignment::seconds_to_north(double latitude) const {
+  const double enough =
+      config_.max_gyrocompass_sigma * kEarthRotationRate * std::max(std::cos(latitude), 1e-3);
+  const double left = enough * enough - imu_.gyro_bias.sigma * imu_.gyro_bias.sigma;
+  if (!(left > 0.0)) return std::numeric_limits<double>::infinity();
+  return imu_.angle_random_walk * imu_.angle_random_walk / left;
+}
+
+AlignmentNeed Alignment::need(double latitude) const {
+  if (!levelled()) {
+    if (implausible_) return {Lacking::kGravity};
+    return {Lacking::kLevelling, config_.levelling_window_s - first_s_};
+  }
+  if (const double driven_s = courses_.seconds(); driven_s > 0.0) {
+    const double more_s = config_.course_window_s - driven_s;
+    if (more_s > 0.0) return {Lacking::kCourse, more_s};
+    const auto agreement = courses_.agreement();
+    const bool agrees = agreement && agreement->sigma < config_.max_course_sigma;
+    return {agrees && gear_ == Gear::kUnknown ? Lacking::kGear : Lacking::kAgreement};
+  }
+  const double north_s = seconds_to_north(latitude);
+  // A window of standing, at least; once there has been time enough they have found none.
+  const double stood_s = std::max(here_.seconds(), still_ ? kStandstillWindow_s : 0.0);
+  if (std::isfinite(north_s) && stood_s > 0.0 && stood_s < kGiveUpNorth * north_s + 5.0)
+    return {Lacking::kNorth, std::max(1.0, north_s - stood_s)};
+  return {Lacking::kDriving};
 }
 
 void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/ins/alignment_need.h"
 #include "core/ins/course_window.h"
 #include "core/ins/given_heading.h"
 #include "core/ins/imu.h"
@@ -53,9 +54,9 @@ struct AlignedAttitude {
 // When a given heading is there, or courses over ground that agreed with the gyros for
 // `course_window_s` without a stop, it gives the whole attitude. Assumes that the body x axis
 // points where the vehicle goes, within `course_against_heading`, or where it comes from: up to
-// `max_reverse_speed_m_s` both are carried until velocity matching tells one from the other. A start
-// that is steadily sideways, or in reverse where that is not reckoned with, aligns wrongly by the
-// angle between, unless there has been velocity matching to contradict it.
+// `max_reverse_speed_m_s` both are carried until velocity matching tells one from the other. A
+// start that is steadily sideways, or in reverse where that is not reckoned with, aligns wrongly by
+// the angle between, unless there has been velocity matching to contradict it.
 class Alignment {
  public:
   Alignment(const AlignmentConfig& config, const ImuErrorModel& imu);
@@ -74,6 +75,9 @@ class Alignment {
       const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e, double sigma_v,
       const std::optional<GivenHeading::Heading>& given = std::nullopt);
 
+  // What has kept the last call of attitude() from one; `latitude` in rad.
+  AlignmentNeed need(double latitude) const;
+
  private:
   // Sums over a stretch of time, from which mean and spread follow.
   struct Sums {
@@ -91,6 +95,7 @@ class Alignment {
     double turn_l = 0.0, sigma = 0.0;  // rad; from l to north
   };
   std::optional<North> gyrocompass(double latitude) const;
+  double seconds_to_north(double latitude) const;
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
   struct InMotion {
     double heading, sigma;
@@ -104,6 +109,7 @@ class Alignment {
   // Body to local level, heading arbitrary.
   Eigen::Quaterniond q_lb_ = Eigen::Quaterniond::Identity();
   double levelled_for_s_ = 0.0;
+  bool implausible_ = false;  // the last try to level found no gravity
   Eigen::Vector3d first_velocity_l_ = Eigen::Vector3d::Zero();  // before levelling: sum of C dv
   double first_s_ = 0.0;
   Sums window_;               // the current second

@@ -21,6 +21,10 @@ class CourseWindow {
   };
   void add(const Course& course);
   void clear() { entries_.clear(); }
+  // How much of the window's length there is; 0: nothing.
+  double seconds() const {
+    return entries_.empty() ? 0.0 : entries_.back().time_s - entries_.front().time_s;
+  }
 
   struct Agreement {
     double yaw_offset = 0.0;  // rad: heading = relative yaw + this

@@ -10,7 +10,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kGravity = 9.81;      // m/s^2; tilts need no better
+constexpr double kGravity = 9.81;  // m/s^2; tilts need no better
 constexpr std::size_t kMinEntries = 6;
 constexpr double kMaxSigma = 0.35;     // rad; beyond, the angle of c is not normal any more
 constexpr double kFloor = 0.01;        // rad: vehicle and IMU are not one rigid body
@@ -38,9 +38,9 @@ struct VelocityMatching::Solution {
   double turn_variance = 0.0;  // of c, per component
   double misfit = 0.0;         // 1 when all is well
   double seconds = 0.0;
-  Eigen::Quaterniond q_last;      // body to l, not levelled by the solution
-  Complex off_level;              // what that shows at rest, m/s^2
-  double level_variance = 0.0;    // of it, per component
+  Eigen::Quaterniond q_last;    // body to l, not levelled by the solution
+  Complex off_level;            // what that shows at rest, m/s^2
+  double level_variance = 0.0;  // of it, per component
 };
 
 void VelocityMatching::reset() {
@@ -74,8 +74,8 @@ void VelocityMatching::add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
     length_s -= entries_.size() > 1 ? entries_[1].since.seconds : length_s;
     entries_.erase(entries_.begin());
   }
-  entries_.push_back({current_, q_lb, rate_b_.cross(config_.lever_arm_b),
-                      Complex(v_n.x(), v_n.y()), std::hypot(sigma_v, config_.velocity_sigma)});
+  entries_.push_back({current_, q_lb, rate_b_.cross(config_.lever_arm_b), Complex(v_n.x(), v_n.y()),
+                      std::hypot(sigma_v, config_.velocity_sigma)});
   current_ = Increment();
 }
 
@@ -86,10 +86,9 @@ VelocityMatching::Solution VelocityMatching::solve(const Eigen::Quaterniond& fir
   using Row = Eigen::Matrix<Complex, kUnknowns, 1>;
   using Normal = Eigen::Matrix<Complex, kUnknowns, kUnknowns>;
   Normal information = Normal::Zero();
-  const double prior[] = {
-      0.0, 0.0, 1.0 / square(config_.level_sigma * kGravity),
-      1.0 / square(std::max(config_.accel_bias_sigma, 1e-4)),
-      1.0 / square(std::hypot(rate_sigma, kEarthRotationRate) * kGravity)};
+  const double prior[] = {0.0, 0.0, 1.0 / square(config_.level_sigma * kGravity),
+                          1.0 / square(std::max(config_.accel_bias_sigma, 1e-4)),
+                          1.0 / square(std::hypot(rate_sigma, kEarthRotationRate) * kGravity)};
   for (int i = 0; i < kUnknowns; ++i) information(i, i) = prior[i];
   Row right = Row::Zero();
   double observed = 0.0;
@@ -161,8 +160,8 @@ std::optional<VelocityMatching::Match> VelocityMatching::match(
   Match match;
   match.heading.sigma = std::hypot(std::hypot(sigma_c / scale, drift), kFloor);
   if (!(match.heading.sigma < kMaxSigma)) return std::nullopt;
-  match.heading.heading = wrap_to_pi(std::arg(direction(solution.q_last)) +
-                                     std::arg(solution.x[kTurn]));
+  match.heading.heading =
+      wrap_to_pi(std::arg(direction(solution.q_last)) + std::arg(solution.x[kTurn]));
   match.q_lb = level_again(solution.off_level) * solution.q_last;
   match.level_sigma = std::hypot(std::sqrt(solution.level_variance * excess) / kGravity, kFloor);
   match.misfit = solution.misfit;

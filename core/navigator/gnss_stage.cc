@@ -317,6 +317,7 @@ void GnssStage::deliver(const EpochWork& work) {
 
 void GnssStage::publish(const EpochWork& work) {
   report_->solution.source = source();
+  report_->alignment = alignment_need();
   report_->solution.anchor_epoch = work.index;
   report_->sequence = next_report_++;
   if (!inertial_ && keyframes_ == nullptr && ekf_.initialized()) {

@@ -79,6 +79,7 @@ class GnssStage {
   void restart_from(const PointSolution& point, const EpochWork& work, ResetCause cause);
   void watch_motion(const EpochWork& work);
   double velocity_sigma() const;
+  AlignmentNeed alignment_need() const;
   double gyro_bias_sigma() const;
   void start_heading_watch();
   void watch_heading(const EpochWork& work);

@@ -41,8 +41,7 @@ void GnssStage::align(const EpochWork& work) {
 }
 
 double GnssStage::gyro_bias_sigma() const {
-  return std::sqrt(
-      ekf_.covariance().diagonal().segment<3>(ekf_index::kGyroBias).maxCoeff());
+  return std::sqrt(ekf_.covariance().diagonal().segment<3>(ekf_index::kGyroBias).maxCoeff());
 }
 
 void GnssStage::start_heading_watch() {
@@ -68,8 +67,7 @@ void GnssStage::watch_heading(const EpochWork& work) {
   report_state(ekf_, report_.get());
   const HeadingWatch::Filter filter = {
       Eigen::Quaterniond(Eigen::Matrix3d(C_ne * state.q_eb.toRotationMatrix())),
-      report_->solution.sigma_rpy.z(), state.errors.gyro_bias_b,
-      gyro_bias_sigma()};
+      report_->solution.sigma_rpy.z(), state.errors.gyro_bias_b, gyro_bias_sigma()};
   const double sigma_v = norm_of_sigmas(point.covariance_v_e) / std::sqrt(3.0);
   const auto off = heading_watch_.add_velocity((C_ne * point.v_e).head<2>(), sigma_v, filter);
   if (!off) return;
@@ -83,6 +81,12 @@ void GnssStage::watch_heading(const EpochWork& work) {
   last_reset_time_ = work.time;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kHeading), *off,
                work.time);
+}
+
+AlignmentNeed GnssStage::alignment_need() const {
+  if (!inertial_ || ekf_.has_attitude()) return {};
+  if (!ekf_.initialized()) return {Lacking::kPosition};
+  return alignment_.need(report_->solution.latitude);
 }
 
 // Before alignment: good for it. Afterwards: turns the filter's attitude about the vertical;

@@ -16,10 +16,10 @@ constexpr int kInARow = 3;
 // Reflected Dopplers agree with each other for some seconds: a filter is not overthrown by courses
 // that a start would be content with.
 constexpr double kCourseWindow_s = 10.0;
-constexpr double kMinCourseSpeed = 3.0;                    // m/s
-constexpr double kMaxCourseSigma = 5.0 * kPi / 180.0;      // rad
-constexpr double kConfirming = 3.0 * kPi / 180.0;          // rad, sigma of a matching that confirms
-constexpr double kConfirmed = 2.0;                         // sigmas
+constexpr double kMinCourseSpeed = 3.0;                // m/s
+constexpr double kMaxCourseSigma = 5.0 * kPi / 180.0;  // rad
+constexpr double kConfirming = 3.0 * kPi / 180.0;      // rad, sigma of a matching that confirms
+constexpr double kConfirmed = 2.0;                     // sigmas
 constexpr double kMaxMisfit = 2.0;
 
 VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu) {
@@ -31,9 +31,7 @@ VelocityMatching::Config matching_config(const AlignmentConfig& config, const Im
   return matching;
 }
 
-double yaw_of(const Eigen::Quaterniond& q) {
-  return euler_from_rotation(q.toRotationMatrix()).yaw;
-}
+double yaw_of(const Eigen::Quaterniond& q) { return euler_from_rotation(q.toRotationMatrix()).yaw; }
 
 }  // namespace
 

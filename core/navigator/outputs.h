@@ -9,6 +9,7 @@
 #include "core/capacity.h"
 #include "core/ekf/motion_constraint.h"
 #include "core/gnss/measurement.h"
+#include "core/ins/alignment_need.h"
 #include "core/ins/nav_state.h"
 #include "core/smoother/smoother_status.h"
 
@@ -80,6 +81,7 @@ struct EpochReport {
   double pdop = 0.0, hdop = 0.0, vdop = 0.0;
   std::array<double, kMaxTimeBases> clock_m{};  // NaN where not estimated
   std::array<double, kMaxTimeBases> clock_drift_m_s{};
+  AlignmentNeed alignment;  // nothing: there is an attitude, or never will be; not on the wire
   double wet_delay_m = 0.0, wet_delay_sigma_m = 0.0;  // at zenith, beyond the model's; NaN: none
   double nis = 0.0;  // normalized innovation squared over all used measurements
   int nis_degrees = 0;

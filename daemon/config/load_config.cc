@@ -39,7 +39,8 @@ DaemonConfig read_root(ConfigReader& root) {
                          &navigator.estimator);
   root.group("vehicle", [&](ConfigReader& r) { read_vehicle(r, &navigator); });
   root.group("imu", [&](ConfigReader& r) { read_imu(r, &navigator.imu); });
-  root.group("alignment", [&](ConfigReader& r) { read_alignment(r, navigator.vehicle, &navigator.alignment); });
+  root.group("alignment",
+             [&](ConfigReader& r) { read_alignment(r, navigator.vehicle, &navigator.alignment); });
   root.group("gnss", [&](ConfigReader& r) { read_gnss(r, &navigator.gnss); });
   root.group("ekf", [&](ConfigReader& r) { read_ekf(r, &navigator); });
   root.group("smoother", [&](ConfigReader& r) { read_smoother(r, &navigator.smoother); });

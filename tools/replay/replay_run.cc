@@ -10,6 +10,7 @@ namespace leonav {
 
 ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const JournalScan& scan)
     : prefix_(config.lcm.prefix),
+      alignment_(config.navigator.alignment),
       options_(options),
       scan_(scan),
       files_(options.out_folder, options.rate_hz),
@@ -113,7 +114,8 @@ void ReplayRun::print_odometer(std::ostream& out) {
 }
 
 std::vector<std::string> ReplayRun::warnings() const {
-  return run_warnings(dispatch_.counters(), pipeline_.sequencer().counters(), statistics_);
+  return run_warnings(dispatch_.counters(), pipeline_.sequencer().counters(), statistics_,
+                      alignment_);
 }
 
 }  // namespace leonav

@@ -53,6 +53,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   std::string prefix_;
   double log_s_ = 0.0;  // by the log's own stamps, since its first measurement
   std::optional<std::int64_t> first_measurement_us_;
+  AlignmentConfig alignment_;
   Options options_;
   JournalScan scan_;
   ResultFiles files_;

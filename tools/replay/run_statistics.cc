@@ -21,6 +21,7 @@ void RunStatistics::add(const Solution& solution) {
 void RunStatistics::add(const EpochReport& report) {
   ++epochs_;
   if (report.empty) ++empty_epochs_;
+  alignment_ = report.alignment;
   if (report.solution.source == Source::kNone) ++epochs_without_position_;
   used_sum_ += report.satellites_used;
   for (const SatelliteReport& satellite : report.satellites) {

@@ -31,6 +31,8 @@ class RunStatistics {
   std::uint64_t solutions() const { return solutions_; }
   std::uint64_t epochs() const { return epochs_; }
   std::uint64_t epochs_without_position() const { return epochs_without_position_; }
+  // Of the last epoch: what an alignment under way lacks.
+  const AlignmentNeed& alignment() const { return alignment_; }
   const std::map<std::string, std::uint64_t>& satellites_by_reason() const {
     return satellites_by_reason_;
   }
@@ -46,6 +48,7 @@ class RunStatistics {
   // Of outages of 5 s and more: what the filter's position stepped by at their ends, over its
   // sigma, and the seconds until that was as before.
   std::vector<double> outage_steps_, reconverged_s_;
+  AlignmentNeed alignment_;
   // Ordered maps: they are printed in order.
   std::map<std::string, std::uint64_t> smoother_statuses_, solutions_by_source_, events_,
       satellites_by_reason_, arc_ends_, measurements_by_reason_;

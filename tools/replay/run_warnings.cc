@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "daemon/alignment_text.h"
 #include "daemon/convention_text.h"
 
 namespace leonav {
@@ -42,7 +43,8 @@ bool is_most(std::uint64_t part, std::uint64_t whole) { return 2 * part > whole;
 
 std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
                                       const Sequencer::Counters& accepted,
-                                      const RunStatistics& statistics) {
+                                      const RunStatistics& statistics,
+                                      const AlignmentConfig& alignment) {
   std::vector<std::string> warnings;
   const auto compare = [&](Channel channel, std::uint64_t used) {
     const std::uint64_t count = received.received[index_of(channel)];
@@ -66,6 +68,8 @@ std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
     warnings.push_back("convention_suspect " + std::string(to_string(suspicion.convention)) + " " +
                        after + convention_text(suspicion.convention, suspicion.value));
   }
+  const std::string lacks = to_text(statistics.alignment(), alignment);
+  if (!lacks.empty()) warnings.push_back("the run ends while aligning: " + lacks);
   return warnings;
 }
 

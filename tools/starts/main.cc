@@ -31,7 +31,8 @@ Arguments declare() {
       "Starts the navigator at random instants of a recorded run, each time knowing "
       "nothing but its\nconfiguration and the satellites' orbits, and prints how soon "
       "and how well it finds its heading:\nstanding, straight on, in a curve and (at some time) "
-      "in reverse, by the first ten seconds. Exit codes: 0 no false alignment;\n1 a file cannot be used, "
+      "in reverse, by the first ten seconds. Exit codes: 0 no false alignment;\n1 a file cannot be "
+      "used, "
       "or alignments were false (beyond 5 degrees and five of their sigmas);\n2 command "
       "line.");
   arguments.option("--config", "FILE", "configuration, as for leonavd")
@@ -126,7 +127,8 @@ std::vector<double> draw_told(const std::string& range, std::size_t number, std:
   double low = 0.0, high = 0.0;
   char colon = 0;
   std::istringstream in(range);
-  if (!(in >> low >> colon >> high) || colon != ':' || !(low >= 0.0 && low <= high && high <= 180.0))
+  if (!(in >> low >> colon >> high) || colon != ':' ||
+      !(low >= 0.0 && low <= high && high <= 180.0))
     throw UsageError("--told-off: expected LOW:HIGH, degrees from 0 to 180");
   std::mt19937_64 bits(seed + 1);
   while (told.size() < number) {

@@ -35,14 +35,14 @@ struct StartResult {
   double error_when_aligned = 0.0, sigma_when_aligned = 0.0;
   std::optional<double> error_at_30_s;
   double sigma_at_30_s = 0.0;
-  double driven_30_s = 0.0;  // s of the first thirty at more than a walking pace
+  double driven_30_s = 0.0;       // s of the first thirty at more than a walking pace
   bool gyros_find_north = false;  // by their data sheet, here
   // The heading found wrong and aligned anew: how often, and at the first time, how long after the
   // start and after so many seconds driven; -1: never.
   int restarts = 0;
   double noticed_after_s = -1.0, noticed_driven_s = -1.0;
-  double driven_s = 0.0;                             // in all
-  std::optional<double> error_at_end, told_off;      // rad; what it was told, less the truth
+  double driven_s = 0.0;                         // in all
+  std::optional<double> error_at_end, told_off;  // rad; what it was told, less the truth
   double sigma_at_end = 0.0;
 };
 
@@ -58,7 +58,8 @@ struct Product {
 class Start final : private OutputSink {
  public:
   // Begins with what was told of the satellites before.
-  // `told_off`: it is told the true heading (+- alignment.initial_heading_sigma_deg) plus this, rad.
+  // `told_off`: it is told the true heading (+- alignment.initial_heading_sigma_deg) plus this,
+  // rad.
   Start(const NavigatorConfig& config, const Track& truth, GpsTime start,
         std::span<const Product> products, std::optional<double> told_off = std::nullopt);
   void dispatch(Channel channel, ByteSpan data) { dispatch_.dispatch(channel, data); }

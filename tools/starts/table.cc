@@ -111,11 +111,12 @@ int print_told_table(std::span<const StartResult> results, std::ostream& out) {
     if (number == 0) continue;
     wrong_in_all += wrong;
     char line[256];
-    std::snprintf(line, sizeof line,
-                  "%6.0f to %5.0f  %6d  %9.0f %%  %21.1f %7.1f  %15.0f %%  %18d  %12d  %21.2f %7.2f\n",
-                  kBounds[i], kBounds[i + 1], number, 100.0 * noticed / number,
-                  percentile(after, 0.5), distribution_of(after).worst, 100.0 * unaided / number,
-                  without, wrong, distribution_of(end).rmse, distribution_of(end).worst);
+    std::snprintf(
+        line, sizeof line,
+        "%6.0f to %5.0f  %6d  %9.0f %%  %21.1f %7.1f  %15.0f %%  %18d  %12d  %21.2f %7.2f\n",
+        kBounds[i], kBounds[i + 1], number, 100.0 * noticed / number, percentile(after, 0.5),
+        distribution_of(after).worst, 100.0 * unaided / number, without, wrong,
+        distribution_of(end).rmse, distribution_of(end).worst);
     out << line;
   }
   return wrong_in_all;

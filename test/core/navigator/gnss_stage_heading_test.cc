@@ -84,5 +84,39 @@ TEST_CASE("a configured heading aligns once, and again only while the vehicle st
   CHECK(worst_error(sink, drive, 72.0, 90.0) < 1.0);
 }
 
+double error_at_end(const RecordingSink& sink, const SyntheticDrive& drive) {
+  const EpochReport& last = sink.epochs.back();
+  REQUIRE(last.solution.has_attitude);
+  return wrap_to_pi(last.solution.yaw - heading_at(drive, seconds(last.time)));
+}
+
+TEST_CASE(
+    "a heading that was told wrongly is noticed once the vehicle drives, a right one is not") {
+  SyntheticDriveOptions options;
+  options.duration_s = 70.0;
+  options.doppler_sigma_m_s = 0.03;
+  options.code_sigma_m = 0.5;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(drive.options);
+  config.alignment.velocity_matching = config.alignment.heading_watch = true;
+  config.alignment.max_reverse_speed_m_s = 5.0;
+  config.alignment.lever_arm_b = options.lever_arm_b;
+  for (const double off_deg : {0.0, 3.0, -40.0, 90.0, -135.0, 180.0}) {
+    CAPTURE(off_deg);
+    const double off = off_deg * 3.14159265358979 / 180.0;
+    config.alignment.initial_heading = wrap_to_pi(heading_at(drive, 0.0) + off);
+    const RecordingSink sink = run(drive, config);
+    int found = 0;
+    for (const Event& event : sink.events) {
+      if (event.kind != EventKind::kFilterReset) continue;
+      CHECK(event.code == static_cast<std::uint8_t>(ResetCause::kHeading));
+      CHECK(seconds(event.time) - options.standstill_s < 15.0);
+      ++found;
+    }
+    CHECK(found == (std::abs(off_deg) > 10.0 ? 1 : 0));
+    CHECK(std::abs(error_at_end(sink, drive)) < 0.03);
+  }
+}
+
 }  // namespace
 }  // namespace leonav::test
