@@ -213,8 +213,8 @@ void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double 
 }
 
 // Forward or in reverse, as the course and, where the velocity has changed, the matching have it:
-// two headings are carried until one has won. Where neither agrees with the matching the vehicle
-// slides, or the velocities are wrong: nothing is known then.
+// two headings are carried until one has won. Where neither agrees with the matching, wheels slide
+// or the velocities are wrong: nothing is known then.
 std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_yaw) {
   using Known = VelocityMatching::Heading;
   std::optional<Known> course;
@@ -228,10 +228,16 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
   if (course && match) {
     const double off = std::abs(wrap_to_pi(match->heading.heading - course->heading));
     const double limit = kContradiction * std::hypot(match->heading.sigma, course->sigma);
-    if (std::min(off, kPi - off) > limit) return std::nullopt;
     const Gear found = off < 0.5 * kPi ? Gear::kForward : Gear::kReverse;
-    if (found != Gear::kForward && gear_ == Gear::kForward) return std::nullopt;
-    gear_ = found;
+    const bool agree =
+        std::min(off, kPi - off) < limit && (found == Gear::kForward || gear_ != Gear::kForward);
+    if (agree) {
+      gear_ = found;
+    } else if (config_.max_reverse_speed_m_s > 0.0) {
+      return std::nullopt;
+    } else {
+      course.reset();  // what floats or flies goes sideways too
+    }
   }
   if (course && gear_ == Gear::kUnknown) course.reset();
   if (course && gear_ == Gear::kReverse) course->heading = wrap_to_pi(course->heading + kPi);

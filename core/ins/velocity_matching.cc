@@ -156,7 +156,8 @@ std::optional<VelocityMatching::Match> VelocityMatching::match(
       kScaleMargin + kScaleSigmas * std::hypot(sigma_c, config_.accel_scale_sigma);
   if (!(solution.misfit < kMaxMisfit) || !(std::abs(scale - 1.0) < scale_limit))
     return std::nullopt;
-  const double drift = 0.5 * rate_sigma * solution.seconds;
+  // What tells may all have happened at the window's beginning.
+  const double drift = rate_sigma * solution.seconds;
   Match match;
   match.heading.sigma = std::hypot(std::hypot(sigma_c / scale, drift), kFloor);
   if (!(match.heading.sigma < kMaxSigma)) return std::nullopt;

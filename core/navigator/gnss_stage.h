@@ -50,6 +50,7 @@ class GnssStage {
   void process_epoch(const EpochWork& work);
   void process_command(const Command& command);
   void use_measurements(const EpochWork& work);
+  bool solve_beyond_doubt(const EpochWork& work, PointSolution* point);
   bool start_filter(const EpochWork& work);
   void update_filter(const EpochWork& work);
   void judge(const EpochWork& work, const EkfUpdateResult& result);

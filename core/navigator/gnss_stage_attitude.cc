@@ -57,10 +57,7 @@ void GnssStage::watch_heading(const EpochWork& work) {
   const bool fresh = !work.block.empty() && work.block.back().time == work.time;
   if (work.empty || !fresh || !updated_) return;
   PointSolution point;
-  std::swap(measurements_, check_measurements_);
-  const bool solved = solve(work, ekf_.antenna_position_e(), nullptr, &point);
-  std::swap(measurements_, check_measurements_);
-  if (!solved || !point.has_velocity) return;
+  if (!solve_beyond_doubt(work, &point)) return;
 
   const NavState& state = ekf_.state();
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(state.p_e));

@@ -14,6 +14,7 @@ namespace leonav {
 namespace {
 
 constexpr int kMinToJudge = 4;             // codes or Dopplers
+constexpr int kBeyondDoubt = 3;            // times those thrown out
 constexpr int kMinResetRedundancy = 2;     // of a point solution that overthrows a running filter
 constexpr double kUselessSigma_m = 500.0;  // beyond, the filter adds nothing to a point solution
 constexpr double kLostSigma_m = 1e5;       // likewise, with carrier arcs
@@ -64,6 +65,13 @@ bool all_codes_agree(const MeasurementEpoch& epoch) {
   return 4 * doubted <= offered;
 }
 
+int thrown_out(const MeasurementEpoch& epoch, Observable observable) {
+  return static_cast<int>(std::count_if(
+      epoch.measurements.begin(), epoch.measurements.end(), [&](const Measurement& m) {
+        return m.observable == observable && m.reason == Reason::kOutlier;
+      }));
+}
+
 Eigen::Matrix3d widened(const EkfCovariance& covariance, int first, double sigma) {
   return covariance.block<3, 3>(first, first) + sigma * sigma * Eigen::Matrix3d::Identity();
 }
@@ -83,6 +91,17 @@ void GnssStage::drop_filter(GpsTime time, ResetCause cause, double value) {
   forget_judgements();
   last_reset_time_ = time;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
+}
+
+// A velocity to judge the filter's heading by: more satellites of one opinion than it needs, and
+// many more than there are of another. Leaves no trace.
+bool GnssStage::solve_beyond_doubt(const EpochWork& work, PointSolution* point) {
+  std::swap(measurements_, check_measurements_);
+  const bool solved = solve(work, ekf_.antenna_position_e(), nullptr, point) && point->has_velocity;
+  const int out = std::max(thrown_out(*measurements_, Observable::kCode),
+                           thrown_out(*measurements_, Observable::kDoppler));
+  std::swap(measurements_, check_measurements_);
+  return solved && redundancy(*point) >= std::max(kMinResetRedundancy, kBeyondDoubt * out);
 }
 
 bool GnssStage::prediction_is_useless() const {

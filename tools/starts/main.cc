@@ -142,7 +142,8 @@ std::vector<double> draw_told(const std::string& range, std::size_t number, std:
 void write_list(const std::string& path, const std::vector<StartResult>& results) {
   std::ofstream file(path);
   file << "gps_tow_s,way,aligned_after_s,heading_error_deg,heading_sigma_deg,error_at_30_s_deg,"
-          "sigma_at_30_s_deg,false,told_off_deg,restarts,noticed_after_s,driven_s,error_at_end_deg,"
+          "sigma_at_30_s_deg,false,told_off_deg,restarts,noticed_after_s,error_when_noticed_deg,"
+          "driven_s,error_at_end_deg,"
           "sigma_at_end_deg\n";
   constexpr double kDegree = std::numbers::pi / 180.0;
   for (const StartResult& r : results) {
@@ -154,7 +155,8 @@ void write_list(const std::string& path, const std::vector<StartResult>& results
     else
       file << ',';
     file << ',' << (is_false(r) ? 1 : 0) << ',' << r.told_off.value_or(0.0) / kDegree << ','
-         << r.restarts << ',' << r.noticed_after_s << ',' << r.driven_s << ',';
+         << r.restarts << ',' << r.noticed_after_s << ',' << r.error_when_noticed / kDegree << ','
+         << r.driven_s << ',';
     if (r.error_at_end) file << *r.error_at_end / kDegree;
     file << ',' << r.sigma_at_end / kDegree << '\n';
   }

@@ -106,6 +106,8 @@ void Start::on_event(const Event& event) {
   if (result_.restarts++ > 0) return;
   result_.noticed_after_s = seconds_between(event.time, result_.start);
   result_.noticed_driven_s = result_.driven_s;
+  result_.error_when_noticed = result_.error_at_end.value_or(0.0);
+  result_.sigma_when_noticed = result_.sigma_at_end;
 }
 
 void Start::on_epoch(const EpochReport& report) {

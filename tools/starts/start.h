@@ -41,7 +41,8 @@ struct StartResult {
   // start and after so many seconds driven; -1: never.
   int restarts = 0;
   double noticed_after_s = -1.0, noticed_driven_s = -1.0;
-  double driven_s = 0.0;                         // in all
+  double error_when_noticed = 0.0, sigma_when_noticed = 0.0;  // rad, of the epoch before
+  double driven_s = 0.0;                                      // in all
   std::optional<double> error_at_end, told_off;  // rad; what it was told, less the truth
   double sigma_at_end = 0.0;
 };
