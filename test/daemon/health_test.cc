@@ -164,9 +164,11 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
     CHECK(before == "OK: ekf");
     CHECK(after == "FAULT: no solution yetnone");
     const bool inertial = motion == MotionModel::kInertial;
-    CHECK(later == (inertial
-                        ? "DEGRADED: aligning: no level yet: 1 s more of specific forcealigning"
-                        : "OK: ekf"));
+    CHECK(later ==
+          (inertial
+               ? "DEGRADED: aligning: no heading: drive faster than 1 m/s for 3 s, or set_heading"
+                 "aligning"
+               : "OK: ekf"));
     CHECK(watched.at(60.0) + watched.message().source == "OK: ekf");
   }
 }
