@@ -18,9 +18,10 @@ using namespace ekf_index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSubBlock = 0.0245;       // s; the covariance moves once per so much IMU data
-constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
-constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
+constexpr double kSubBlock = 0.0245;        // s; the covariance moves once per so much IMU data
+constexpr double kAccelerationTime = 0.05;  // s, of its fading mean
+constexpr double kUnknownVelocity = 50.0;   // m/s, 1 sigma where the point solution has none
+constexpr double kUnknownDrift = 300.0;     // m/s, 1 sigma: an oscillator off by 1 ppm
 
 double square(double x) { return x * x; }
 
@@ -45,6 +46,10 @@ EkfCovariance to_antenna(const AntennaMotion& arm, double direction, Eigen::Inde
   T.block<3, 3>(kVelocity, kAttitude) = direction * arm.d_v_d_attitude;
   T.block<3, 3>(kVelocity, kGyroBias) = direction * arm.d_v_d_gyro_bias;
   T.block<3, 3>(kVelocity, kGyroScale) = direction * arm.d_v_d_gyro_scale;
+  if (arm.estimated) {
+    T.block<3, kAntennaConstants>(kPosition, kSize + kLeverArm) = direction * arm.d_p_d_constants;
+    T.block<3, kAntennaConstants>(kVelocity, kSize + kLeverArm) = direction * arm.d_v_d_constants;
+  }
   return T;
 }
 
@@ -58,6 +63,7 @@ void Ekf::reset() {
   initialize(GpsTime(), PointSolution());
   last_sample_ = ImuSample();
   measured_rate_b_.setZero();
+  acceleration_e_.setZero();
   known_ = ClockFlags{};
   initialized_ = false;
 }
@@ -203,9 +209,15 @@ void Ekf::place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& 
   now_.nav.q_eb = q_eb.normalized();
   now_.nav.p_e.setZero();
   now_.nav.v_e.setZero();
-  const AntennaMotion arm = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, true);
+  AntennaMotion arm =
+      antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, true, now_.vehicle, acceleration_e_);
   now_.nav.p_e = before.p_e - arm.p_e;
   now_.nav.v_e = before.v_e - arm.v_e;
+  if (arm.estimated) {
+    // The arm alone stood still; the antenna goes on while the IMU is late.
+    now_.nav.p_e += arm.time_offset_s * before.v_e;
+    arm.d_p_d_constants.rightCols<1>() = -before.v_e;
+  }
 
   EkfCovariance P = of_antenna;
   const Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(before.p_e)).transpose();
@@ -275,14 +287,23 @@ void Ekf::predict_sample(const ImuSample& sample) {
 
 void Ekf::advance(const ImuSample& sample) {
   const Matrix3d C_before = now_.nav.q_eb.toRotationMatrix();
+  const Vector3d v_before_e = now_.nav.v_e;
   mechanization_.advance(sample);
   now_.nav = mechanization_.state();
+  follow_acceleration(v_before_e, sample.interval_s());
   measured_rate_b_ = sample.delta_theta_b / sample.interval_s();
   transition_.add({.C_eb = 0.5 * (C_before + now_.nav.q_eb.toRotationMatrix()),
                    .f_b = mechanization_.specific_force_b(),
                    .omega_ib_b = mechanization_.omega_ib_b(),
                    .interval_s = sample.interval_s()});
   if (transition_.duration_s() >= kSubBlock) finish_sub_block();
+}
+
+// A mean, for an engine's shaking is not how the vehicle moves.
+void Ekf::follow_acceleration(const Vector3d& v_before_e, double interval_s) {
+  if (!config_.vehicle.moves_antenna()) return;
+  const double share = std::min(1.0, interval_s / kAccelerationTime);
+  acceleration_e_ += share * ((now_.nav.v_e - v_before_e) / interval_s - acceleration_e_);
 }
 
 void Ekf::finish_sub_block() {
@@ -319,6 +340,7 @@ void Ekf::coast(GpsTime time) {
     agreed_ = GpsTime();
     finish_sub_block();
   }
+  acceleration_e_.setZero();
   const double dt = seconds_between(time, now_.nav.time);
   if (config_.static_point) {
     now_.nav.time = time;
@@ -340,9 +362,41 @@ void Ekf::coast(GpsTime time) {
 }
 
 AntennaMotion Ekf::antenna() const {
-  AntennaMotion motion = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, has_attitude_);
+  AntennaMotion motion = antenna_motion(now_.nav, measured_rate_b_, lever_arm_b_, has_attitude_,
+                                        now_.vehicle, acceleration_e_);
   motion.p_e += mast_e();
   return motion;
+}
+
+// As long as measurements are used, position and velocity in the error state are those of the
+// antenna's as far as lever arm and time offset move it: rows then need no columns for these. Any
+// variance that the update adds to position or velocity is the same in both. `direction`: 1 before,
+// -1 after.
+void Ekf::lend_constants(const AntennaMotion& antenna, double direction) {
+  if (!antenna.estimated) return;
+  Eigen::Matrix<double, 6, kAntennaConstants> slopes;
+  slopes << antenna.d_p_d_constants, antenna.d_v_d_constants;
+  slopes *= direction;
+  constexpr int kFirst = kSize + kLeverArm;
+  EkfCovariance& P = covariance_;
+  P.middleRows<6>(kPosition).noalias() +=
+      slopes.lazyProduct(P.middleRows<kAntennaConstants>(kFirst));
+  P.middleCols<6>(kPosition).noalias() +=
+      P.middleCols<kAntennaConstants>(kFirst).lazyProduct(slopes.transpose());
+}
+
+Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
+  Matrix3d covariance = covariance_.block<3, 3>(kVelocity, kVelocity);
+  const AntennaMotion motion = antenna();
+  if (!motion.estimated) return covariance;
+  constexpr int kFirst = kSize + kLeverArm;
+  const Matrix3d cross =
+      motion.d_v_d_constants * covariance_.block<kAntennaConstants, 3>(kFirst, kVelocity);
+  covariance += cross + cross.transpose();
+  covariance += motion.d_v_d_constants *
+                covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
+                motion.d_v_d_constants.transpose();
+  return covariance;
 }
 
 Vector3d Ekf::mast_e() const {

@@ -140,8 +140,13 @@ class Ekf {
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
+  // Of the antenna, with what is unknown of its lever arm and of the IMU's time.
+  Eigen::Matrix3d antenna_velocity_covariance_e() const;
   // Of the last IMU sample, errors not removed, rad/s: for the lever arm.
   const Eigen::Vector3d& measured_rate_b() const { return measured_rate_b_; }
+  // Of the IMU over the last twentieth of a second, m/s^2: for the time offset, and zero where that
+  // is not estimated.
+  const Eigen::Vector3d& acceleration_e() const { return acceleration_e_; }
 
  private:
   // Whether carriers keep the position from epoch to epoch: they do not, too new to tell, they do.
@@ -152,7 +157,9 @@ class Ekf {
   VehicleConstants vehicle_variances() const;
   void predict_sample(const ImuSample& sample);
   void finish_sub_block();
+  void follow_acceleration(const Eigen::Vector3d& v_before_e, double interval_s);
   AntennaMotion antenna() const;
+  void lend_constants(const AntennaMotion& antenna, double direction);
   Eigen::Vector3d vertical_arm_e(const Eigen::Vector3d& p_e) const;
   void place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna);
@@ -208,6 +215,7 @@ class Ekf {
   ImuSample last_sample_;  // that was measured, not filled in; interval 0: none yet
   // Of the last sample, errors not removed: for the lever arm.
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_e_ = Eigen::Vector3d::Zero();
   GpsTime last_update_;
   struct Skipped {
     std::size_t index = 0;  // into MeasurementEpoch::measurements

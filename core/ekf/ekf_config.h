@@ -27,8 +27,11 @@ struct ClockModel {
 struct VehicleConstantsConfig {
   // The first so many; each starts from zero. Others join when something tells of them.
   int count = 0;
-  std::array<double, ekf_index::kMaxVehicle> sigma{};   // at the start
+  std::array<double, ekf_index::kMaxVehicle> sigma{};   // at the start; 0: not estimated
   std::array<double, ekf_index::kMaxVehicle> wander{};  // random walk, per sqrt(s)
+
+  // Whether any of those that move the antenna is among them.
+  bool moves_antenna() const { return count > ekf_index::kLeverArm; }
 };
 
 struct EkfConfig {

@@ -27,8 +27,14 @@ inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9,
                      kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // what comes and goes follows
 inline constexpr int kInsSize = 21;
 // The vehicle's constants, from kSize on, as many as are estimated: the direction of travel in body
-// axes (yaw and pitch, rad), by which part an odometer shows more than it should.
-inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kMaxVehicle = 3;
+// axes (yaw and pitch, rad), by which part an odometer shows more than
+// it should, the antenna's lever arm in body axes beyond the
+// configured one (3, m), and how much later than stamped, as configured, the IMU has measured (s).
+// One that is not estimated, before others that are, has no variance and takes no correction.
+inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kLeverArm = 3,
+                     kTimeOffset = 6, kMaxVehicle = 7;
+// The last four of them move the antenna.
+inline constexpr int kAntennaConstants = kMaxVehicle - kLeverArm;
 inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 

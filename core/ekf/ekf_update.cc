@@ -25,6 +25,16 @@ const ClockFreeTable& of(const std::array<ClockFreeTable, kObservables>& tables,
   return tables[static_cast<std::size_t>(observable)];
 }
 
+// From a correction of the antenna's position and velocity to one of the state's own.
+EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& antenna) {
+  EkfCorrection correction = of_antenna;
+  if (!antenna.estimated) return correction;
+  const AntennaVector constants = of_antenna.segment<kAntennaConstants>(kSize + kLeverArm);
+  correction.segment<3>(kPosition) -= antenna.d_p_d_constants * constants;
+  correction.segment<3>(kVelocity) -= antenna.d_v_d_constants * constants;
+  return correction;
+}
+
 }  // namespace
 
 template <typename Which>
@@ -173,6 +183,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   make_room(epoch);
   disturb_ambiguities(epoch);
   forget_locked_out_bases();
+  const AntennaMotion motion = antenna();
+  lend_constants(motion, 1.0);
   gather(epoch);
   if (start_clocks(epoch, &result)) gather(epoch);
   result.arcs_without_place = arcs_without_place_;
@@ -187,9 +199,11 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   }
 
   const RobustUpdateResult update = robust_update_(config_.robust, &measurements_, &covariance_);
-  if (process_.continuous) process_.transition.rightCols<1>() -= update.correction;
+  const EkfCorrection correction = of_state(update.correction, motion);
+  lend_constants(motion, -1.0);
+  if (process_.continuous) process_.transition.rightCols<1>() -= correction;
   relaxed_ = update.relaxed;
-  add(update.correction, has_attitude_, &now_);
+  add(correction, has_attitude_, &now_);
   close(update, epoch, &result);
   if (!measurements_.empty()) last_update_ = epoch.time;
   return result;

@@ -8,6 +8,7 @@ namespace leonav {
 
 using namespace ekf_index;
 using Eigen::Matrix3d;
+using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rate_b,
@@ -34,6 +35,54 @@ AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rat
   return antenna;
 }
 
+Vector3d lever_arm_correction(const VehicleConstants& vehicle) {
+  if (vehicle.size() <= kLeverArm) return Vector3d::Zero();
+  return {vehicle[kLeverArm], vehicle[kLeverArm + 1], vehicle[kLeverArm + 2]};
+}
+
+double time_offset_of(const VehicleConstants& vehicle) {
+  return vehicle.size() <= kTimeOffset ? 0.0 : vehicle[kTimeOffset];
+}
+
+AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rate_b,
+                             const Vector3d& configured_lever_arm_b, bool has_attitude,
+                             const VehicleConstants& vehicle, const Vector3d& acceleration_e) {
+  const bool estimated = has_attitude && vehicle.size() > kLeverArm;
+  if (!estimated)
+    return antenna_motion(state, measured_rate_b, configured_lever_arm_b, has_attitude);
+  AntennaMotion antenna = antenna_motion(
+      state, measured_rate_b, configured_lever_arm_b + lever_arm_correction(vehicle), has_attitude);
+  const Matrix3d C_eb = state.q_eb.toRotationMatrix();
+  const Vector3d gain = (1.0 + state.errors.gyro_scale.array()).inverse();
+  const Vector3d omega_ib_b = (measured_rate_b - state.errors.gyro_bias_b).cwiseProduct(gain);
+  antenna.estimated = true;
+  antenna.d_p_d_constants << C_eb, -antenna.v_e;
+  antenna.d_v_d_constants << C_eb * skew(omega_ib_b) -
+                                 skew(Vector3d(0.0, 0.0, kEarthRotationRate)) * C_eb,
+      -acceleration_e;
+  const double dt = antenna.time_offset_s = time_offset_of(vehicle);
+  antenna.p_e += -dt * antenna.v_e + 0.5 * dt * dt * acceleration_e;
+  antenna.v_e -= dt * acceleration_e;
+  return antenna;
+}
+
+namespace {
+
+// What the antenna's motion tells: the slopes by its position and velocity, and by way of them.
+void add_by_antenna(const RowVector3d& by_p, const RowVector3d& by_v, const AntennaMotion& antenna,
+                    MeasurementPrediction* prediction) {
+  // A position of another time follows the velocity.
+  const RowVector3d later = -antenna.time_offset_s * by_p;
+  EkfVector& row = prediction->row;
+  row.segment<3>(kVelocity) += later;
+  row.segment<3>(kAttitude) += later * antenna.d_v_d_attitude;
+  row.segment<3>(kGyroBias) += later * antenna.d_v_d_gyro_bias;
+  row.segment<3>(kGyroScale) += later * antenna.d_v_d_gyro_scale;
+  prediction->constants = by_p * antenna.d_p_d_constants + (by_v + later) * antenna.d_v_d_constants;
+}
+
+}  // namespace
+
 MeasurementPrediction predict_measurement(const Measurement& measurement,
                                           const SatelliteInView& satellite,
                                           const AntennaMotion& antenna, const ClockState& clocks,
@@ -48,6 +97,8 @@ MeasurementPrediction predict_measurement(const Measurement& measurement,
     row.segment<3>(kAttitude) = range.d_range_d_p * antenna.d_p_d_attitude;
     row(kClock + base) = 1.0;
     row(kWetDelay) = satellite.wet_mapping;
+    if (antenna.estimated)
+      add_by_antenna(range.d_range_d_p, RowVector3d::Zero(), antenna, &prediction);
     if (measurement.observable == Observable::kCarrier) {
       prediction.value += carrier_clock_m;
       row(kCarrierClock) = 1.0;
@@ -61,6 +112,7 @@ MeasurementPrediction predict_measurement(const Measurement& measurement,
         rate.d_rate_d_p * antenna.d_p_d_attitude + rate.d_rate_d_v * antenna.d_v_d_attitude;
     row.segment<3>(kGyroBias) = rate.d_rate_d_v * antenna.d_v_d_gyro_bias;
     row.segment<3>(kGyroScale) = rate.d_rate_d_v * antenna.d_v_d_gyro_scale;
+    if (antenna.estimated) add_by_antenna(rate.d_rate_d_p, rate.d_rate_d_v, antenna, &prediction);
     row(kClockDrift + base) = 1.0;
   }
   return prediction;

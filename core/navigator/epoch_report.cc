@@ -127,7 +127,8 @@ void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vecto
 void report_state(const Ekf& ekf, EpochReport* report) {
   if (!ekf.initialized()) return;
   const PvaCovariance covariance = ekf.covariance().topLeftCorner<9, 9>();
-  fill_solution(ekf.state(), covariance, ekf.has_attitude(), &report->solution);
+  const double offset_s = ekf.has_attitude() ? time_offset_of(ekf.vehicle()) : 0.0;
+  fill_solution(at_stamp(ekf.state(), offset_s), covariance, ekf.has_attitude(), &report->solution);
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     const auto i = static_cast<Eigen::Index>(base);
     if (ekf.clocks_known().offset[base]) report->clock_m[base] = ekf.clocks().offset_m(i);

@@ -216,8 +216,7 @@ RangeChangePrior GnssStage::change_prior(bool predicted) const {
   if (!predicted || !carriers_.last_time().is_set()) return prior;
   const double dt = seconds_between(ekf_.state().time, carriers_.last_time());
   prior.change_is_free = false;
-  prior.change_covariance =
-      dt * dt * ekf_.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  prior.change_covariance = dt * dt * ekf_.antenna_velocity_covariance_e();
   if (ekf_.has_attitude()) {
     const double rate_variance =
         ekf_.covariance().diagonal().segment<3>(ekf_index::kGyroBias).sum() / 3.0;
@@ -311,6 +310,7 @@ void GnssStage::deliver(const EpochWork& work) {
     update.state = ekf_.state();
     update.covariance = ekf_.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
     update.gnss_used = gnss_used_;
+    update.time_offset_s = ekf_.has_attitude() ? time_offset_of(ekf_.vehicle()) : 0.0;
   }
   mailbox_->deliver(work.index, update);
 }

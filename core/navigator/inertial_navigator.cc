@@ -261,7 +261,7 @@ void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
 }
 
 NavState InertialNavigator::current(GpsTime now) const {
-  if (anchor_.has_attitude) return mechanization_.state();
+  if (anchor_.has_attitude) return at_stamp(mechanization_.state(), anchor_.time_offset_s);
   NavState state = anchor_.state;
   state.p_e += seconds_between(now, anchor_.state.time) * state.v_e;
   state.time = now;

@@ -37,6 +37,7 @@ struct NavigatorConfig {
   VehicleConfig vehicle;
   MotionModel motion = MotionModel::kInertial;
   ImuErrorModel imu;
+  double imu_time_offset_s = 0.0;  // to be added to the IMU's stamps
   AlignmentConfig alignment;
   GnssConfig gnss;
   EkfConfig ekf;

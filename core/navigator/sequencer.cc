@@ -33,6 +33,7 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
           rotation_from_euler({config.vehicle.mounting_rpy.x(), config.vehicle.mounting_rpy.y(),
                                config.vehicle.mounting_rpy.z()})),
       mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
+      imu_offset_ns_(static_cast<std::int64_t>(std::llround(config.imu_time_offset_s * 1e9))),
       epoch_interval_ns_(interval_in_nanoseconds(config.realtime.epoch_interval_s)),
       max_epoch_ahead_ns_(
           std::max(kMaxAheadNs,
@@ -49,8 +50,10 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
 }
 
-void Sequencer::on_imu(const ImuSample& sample) {
+void Sequencer::on_imu(const ImuSample& received) {
   const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxImuIntervalNs};
+  ImuSample sample = received;
+  sample.time = received.time.plus_nanoseconds(imu_offset_ns_);
   const InputFault fault = check(sample, limits);
   if (inertial_) watch_conventions(sample, fault);
   if (fault != InputFault::kNone) return reject(fault);

@@ -47,6 +47,7 @@ enum class SequencerCapacity : std::uint8_t {
 //   that a steady latency costs one epoch and not all;
 // - an epoch not later than the last issued one is late: counted, dropped, reported; one that is
 //   merely out of order takes its place among those waiting;
+// - IMU stamps are moved by the configured time offset before anything looks at them;
 // - IMU samples must be finite, in range and increasing (kTimeBackwards). Their stamps may jitter:
 //   ImuStamps lays them end to end; increments stay, intervals change. A gap is reported and left
 //   as a hole; where it is longer than kImuLeapNs its first sample is held until the next one,
@@ -134,6 +135,7 @@ class Sequencer {
   bool inertial_;
   Eigen::Matrix3d C_b_imu_;  // IMU axes to body
   bool mounting_is_identity_;
+  std::int64_t imu_offset_ns_;  // to be added to the IMU's stamps
   std::int64_t epoch_interval_ns_, max_epoch_ahead_ns_;
   std::int64_t gnss_wait_ns_;  // for an epoch after its time
   Counters counters_;

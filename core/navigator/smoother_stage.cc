@@ -7,8 +7,8 @@ namespace {
 
 Solution solution_of(const EkfUpdate& anchor, Source source) {
   Solution solution;
-  fill_solution(anchor.state, anchor.covariance.topLeftCorner<9, 9>(), anchor.has_attitude,
-                &solution);
+  fill_solution(at_stamp(anchor.state, anchor.time_offset_s),
+                anchor.covariance.topLeftCorner<9, 9>(), anchor.has_attitude, &solution);
   solution.source = source;
   solution.anchor_epoch = anchor.index;
   return solution;
@@ -49,6 +49,7 @@ SmootherUpdate SmootherStage::answer(const KeyframeInput& input,
   update.anchor.has_attitude = result.has_attitude;
   update.anchor.state = result.state;
   update.anchor.covariance = result.covariance;
+  update.anchor.time_offset_s = result.time_offset_s;
   update.anchor.gnss_used = result.used > 0;
   update.anchor.valid = is_finite(solution_of(update.anchor, Source::kSmoother));
   return update;

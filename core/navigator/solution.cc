@@ -56,6 +56,12 @@ bool is_finite(const Solution& solution) {
          errors.accel_scale.allFinite();
 }
 
+NavState at_stamp(const NavState& state, double time_offset_s) {
+  NavState then = state;
+  if (time_offset_s != 0.0) then.p_e -= time_offset_s * state.v_e;
+  return then;
+}
+
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution) {
   const Geodetic geodetic = to_geodetic(state.p_e);

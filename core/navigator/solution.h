@@ -13,6 +13,10 @@ using PvaCovariance = Eigen::Matrix<double, 9, 9>;
 // Fills time, position, velocity, attitude, their sigmas and the IMU errors; leaves the rest of
 // `solution` (sequence, source, anchor, jump) to the caller. Without attitude the angles and their
 // sigmas are zero.
+// The position at the stamp of a state that is of `time_offset_s` later; what else changes in these
+// milliseconds is left as it is.
+NavState at_stamp(const NavState& state, double time_offset_s);
+
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution);
 

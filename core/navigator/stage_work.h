@@ -70,6 +70,8 @@ struct EkfUpdate {
   Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
       Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
   bool gnss_used = false;  // at least one measurement counted in this epoch
+  // Estimated: the state is of so much later than its stamp.
+  double time_offset_s = 0.0;
 };
 
 // SmootherStage -> InertialNavigator, likewise. Of an epoch that is no keyframe GnssStage has one

@@ -39,6 +39,7 @@ struct KeyframeInput {
   FilterState state;      // the filter's, after its update
   EkfCovariance covariance;
   Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();  // rad/s, for the lever arm
+  Eigen::Vector3d acceleration_e = Eigen::Vector3d::Zero();   // m/s^2, for the time offset
   Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();  // m, antenna beyond what the attitude tells
   KeyframeSatellites satellites;
   KeyframeMeasurements measurements;
@@ -80,6 +81,7 @@ struct Keyframe {
   FilterState state;  // the estimate
   KeyframeLink link;  // of all but the window's first
   Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_e = Eigen::Vector3d::Zero();
   Eigen::Vector3d mast_e = Eigen::Vector3d::Zero();
   KeyframeSatellites satellites;
   KeyframeMeasurements measurements;

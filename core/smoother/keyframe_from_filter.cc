@@ -49,6 +49,7 @@ void keyframe_from_filter(std::uint64_t index, GpsTime time, const MeasurementEp
   input->state = filter->whole_state();
   input->covariance = filter->covariance();
   input->measured_rate_b = filter->measured_rate_b();
+  input->acceleration_e = filter->acceleration_e();
   input->mast_e = filter->mast_e();
   if (input->linked) {
     input->from = *from;

@@ -13,12 +13,14 @@ double weight_of(const KeyframeMeasurement& measurement) {
 }  // namespace
 
 double row_of(const LinearMeasurement& linear, int state) {
-  return state < kSize ? linear.row(state) : 0.0;
+  if (state < kSize) return linear.row(state);
+  return state < kSize + kLeverArm ? 0.0 : linear.constants(state - kSize - kLeverArm);
 }
 
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b) {
-  AntennaMotion antenna = antenna_motion(keyframe.state.nav, keyframe.measured_rate_b, lever_arm_b,
-                                         keyframe.has_attitude);
+  AntennaMotion antenna =
+      antenna_motion(keyframe.state.nav, keyframe.measured_rate_b, lever_arm_b,
+                     keyframe.has_attitude, keyframe.state.vehicle, keyframe.acceleration_e);
   antenna.p_e += keyframe.mast_e;
   return antenna;
 }
@@ -35,6 +37,7 @@ LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyfra
   if (measurement.ambiguity >= 0)
     linear.residual -= state.ambiguities[static_cast<std::size_t>(measurement.ambiguity)].value_m;
   linear.row = prediction.row;
+  linear.constants = prediction.constants;
   return linear;
 }
 

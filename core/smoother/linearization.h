@@ -11,9 +11,11 @@ namespace leonav {
 struct LinearMeasurement {
   double residual = 0.0;  // measured less predicted, m or m/s
   EkfVector row = EkfVector::Zero();
+  AntennaVector constants = AntennaVector::Zero();  // by lever arm and time offset
 };
 
-// Its slope by a state before the ambiguities; the vehicle's constants move no range.
+// Its slope by a state before the ambiguities. Of the vehicle's constants lever arm and time offset
+// move ranges, the others none.
 double row_of(const LinearMeasurement& linear, int state);
 
 // The antenna of a keyframe, as its state and the lever arm have it.

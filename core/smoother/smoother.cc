@@ -128,6 +128,7 @@ void Smoother::finish(SmootherResult* result) {
   const Keyframe& newest = window_.newest();
   result->has_attitude = newest.has_attitude;
   result->state = newest.state.nav;
+  result->time_offset_s = newest.has_attitude ? time_offset_of(newest.state.vehicle) : 0.0;
   EkfCovariance covariance;
   chain_.newest_covariance(&covariance);
   const ActiveStates& active = newest.active;

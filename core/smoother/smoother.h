@@ -29,7 +29,8 @@ struct SmootherResult {
   NavState state;  // at the newest keyframe
   Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
       Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
-  int used = 0;  // measurements of the newest keyframe with a factor above zero
+  int used = 0;                // measurements of the newest keyframe with a factor above zero
+  double time_offset_s = 0.0;  // estimated: the state is of so much later than its stamp
 };
 
 // For every keyframe: add(), solve(), and settle() once it is known whether the result was taken.

@@ -60,6 +60,7 @@ void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
   keyframe->has_attitude = input.has_attitude;
   keyframe->active = active_states(input);
   keyframe->measured_rate_b = input.measured_rate_b;
+  keyframe->acceleration_e = input.acceleration_e;
   keyframe->mast_e = input.mast_e;
   keyframe->judged = false;
 }

@@ -18,6 +18,10 @@ constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqr
 constexpr double kPercent = 0.01;
 // Tyres that get warm: a tenth of a percent in an hour.
 constexpr double kOdometerScaleWander = 0.1 * kPercent / kRootHour;  // 1/sqrt(s)
+// They do not move; so much, a centimetre and a tenth of a millisecond in an hour, that what was
+// found early is found again.
+constexpr double kLeverArmWander = 0.01 / kRootHour;                  // m/sqrt(s)
+constexpr double kTimeOffsetWander = 0.1 * kMillisecond / kRootHour;  // s/sqrt(s)
 
 // Correlation times from a second to a month.
 constexpr Bounds kCorrelationTime = {1.0, 2.6e6};
@@ -69,6 +73,25 @@ double reverse_speed(VehicleKind kind) {
   return kind == VehicleKind::kCar ? 5.0 : kind == VehicleKind::kRail ? 1000.0 : 0.0;
 }
 
+// Lever arm and time offset: beyond what is configured of them.
+void read_antenna_constants(ConfigReader& group, VehicleConstantsConfig* config) {
+  bool lever_arm = false, time_offset = false;
+  double lever_arm_sigma = 0.1, time_offset_sigma = 10.0 * kMillisecond;
+  group.boolean("estimate_lever_arm", &lever_arm);
+  group.number("lever_arm_sigma_m", {1e-3, 100.0}, &lever_arm_sigma);
+  group.boolean("estimate_time_offset", &time_offset);
+  group.number("time_offset_sigma_ms", {1e-3, 1e3}, &time_offset_sigma, kMillisecond);
+  if (!lever_arm && !time_offset) return;
+  config->count = ekf_index::kMaxVehicle;
+  for (std::size_t axis = 0; axis < 3 && lever_arm; ++axis) {
+    config->sigma[ekf_index::kLeverArm + axis] = lever_arm_sigma;
+    config->wander[ekf_index::kLeverArm + axis] = kLeverArmWander;
+  }
+  if (!time_offset) return;
+  config->sigma[ekf_index::kTimeOffset] = time_offset_sigma;
+  config->wander[ekf_index::kTimeOffset] = kTimeOffsetWander;
+}
+
 }  // namespace
 
 void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
@@ -96,6 +119,11 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
   group.number("constraint_gate", {1.0, 100.0}, &motion.gate);
   read_odometer(group, wheeled, &motion, &navigator->ekf.vehicle);
   read_travel_direction(group, motion, &navigator->ekf.vehicle);
+  read_antenna_constants(group, &navigator->ekf.vehicle);
+}
+
+void read_imu_stamps(ConfigReader& group, double* time_offset_s) {
+  group.number("time_offset_ms", {-1e3, 1e3}, time_offset_s, kMillisecond);
 }
 
 void read_imu(ConfigReader& group, ImuErrorModel* config) {

@@ -7,6 +7,8 @@ namespace leonav {
 
 void read_vehicle(ConfigReader& group, NavigatorConfig* navigator);
 void read_imu(ConfigReader& group, ImuErrorModel* config);
+// The key of imu that is not about its errors.
+void read_imu_stamps(ConfigReader& group, double* time_offset_s);
 // After read_vehicle(): some defaults are those of its kind.
 void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);

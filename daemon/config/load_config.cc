@@ -38,7 +38,10 @@ DaemonConfig read_root(ConfigReader& root) {
                          {{"ekf", Estimator::kEkf}, {"smoother", Estimator::kSmoother}},
                          &navigator.estimator);
   root.group("vehicle", [&](ConfigReader& r) { read_vehicle(r, &navigator); });
-  root.group("imu", [&](ConfigReader& r) { read_imu(r, &navigator.imu); });
+  root.group("imu", [&](ConfigReader& r) {
+    read_imu_stamps(r, &navigator.imu_time_offset_s);
+    read_imu(r, &navigator.imu);
+  });
   root.group("alignment",
              [&](ConfigReader& r) { read_alignment(r, navigator.vehicle, &navigator.alignment); });
   root.group("gnss", [&](ConfigReader& r) { read_gnss(r, &navigator.gnss); });

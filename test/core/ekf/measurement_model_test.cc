@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/ekf/filter_state.h"
 #include "support/catch.h"
 #include "synthetic.h"
 
@@ -108,6 +109,71 @@ TEST_CASE("every column of the measurement Jacobian is the numerical derivative"
       }
     }
   }
+}
+
+TEST_CASE("lever arm and time offset: every column is the numerical derivative") {
+  const Situation s = situation();
+  const Vector3d acceleration_e = synthetic::C_en_at(s.state.p_e) * Vector3d{1.5, -2.0, 0.3};
+  FilterState whole;
+  whole.nav = s.state;
+  whole.vehicle = {0.0, 0.0, 0.0, 0.3, -0.4, 0.5, 0.04};
+  SatelliteInView leo = synthetic::satellite_at(System::kLeo, 120, 1.0, 0.7);
+  leo.p_e = s.state.p_e + 1.2e6 * (leo.p_e - s.state.p_e).normalized();
+  leo.v_e *= 7500.0 / leo.v_e.norm();
+  const auto predict = [&](const FilterState& at, Observable observable) {
+    Measurement measurement;
+    measurement.observable = observable;
+    return predict_measurement(
+        measurement, leo,
+        antenna_motion(at.nav, s.rate_b, s.lever_b, true, at.vehicle, acceleration_e), s.clocks,
+        0.1, 0.0);
+  };
+  for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
+    const MeasurementPrediction here = predict(whole, observable);
+    for (int state = 0; state < whole.first_ambiguity(); ++state) {
+      const bool of_position = state < kVelocity;
+      const bool of_attitude = state >= kAttitude && state < kGyroBias;
+      const bool of_constants = state >= kSize;
+      if (!of_position && !of_attitude && !of_constants && state >= kAccelBias) continue;
+      const double step = of_position ? 20.0 : of_attitude || state >= kGyroBias ? 1e-3 : 1.0;
+      EkfCorrection error = EkfCorrection::Zero(whole.first_ambiguity());
+      error(state) = step;
+      FilterState after = whole, before = whole;
+      add(error, true, &after);
+      add(-error, true, &before);
+      const double slope =
+          (predict(after, observable).value - predict(before, observable).value) / (2.0 * step);
+      const int constant = state - kSize - kLeverArm;
+      const double row = state < kSize  ? here.row(state)
+                         : constant < 0 ? 0.0
+                                        : here.constants(constant);
+      INFO("state " << state << " observable " << static_cast<int>(observable));
+      CHECK(row == Approx(slope).epsilon(2e-4).margin(1e-5));
+    }
+  }
+}
+
+TEST_CASE("an IMU that is late has the antenna where it was") {
+  Situation s = situation();
+  const Vector3d acceleration_e = synthetic::C_en_at(s.state.p_e) * Vector3d{1.5, -2.0, 0.3};
+  constexpr double kOffset_s = 0.04;
+  const VehicleConstants constants = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kOffset_s};
+  const AntennaMotion now =
+      antenna_motion(s.state, s.rate_b, s.lever_b, true, constants, acceleration_e);
+  // The same body 40 ms before, by its equations of motion.
+  const Vector3d omega_b = (s.rate_b - s.state.errors.gyro_bias_b)
+                               .cwiseQuotient(Vector3d::Ones() + s.state.errors.gyro_scale);
+  NavState before = s.state;
+  before.p_e += -kOffset_s * s.state.v_e + 0.5 * kOffset_s * kOffset_s * acceleration_e;
+  before.v_e -= kOffset_s * acceleration_e;
+  const Vector3d omega_ie{0.0, 0.0, kEarthRotationRate};
+  before.q_eb = quaternion_from_rotation_vector(kOffset_s * omega_ie) * s.state.q_eb *
+                quaternion_from_rotation_vector(-kOffset_s * omega_b);
+  const AntennaMotion then = antenna_motion(before, s.rate_b, s.lever_b, true);
+  // What is left out is the antenna's acceleration about the IMU: half of w^2 l dt^2, and w^2 l dt.
+  const double about = omega_b.squaredNorm() * s.lever_b.norm();
+  CHECK((now.p_e - then.p_e).norm() < 0.5 * kOffset_s * kOffset_s * about);
+  CHECK((now.v_e - then.v_e).norm() < kOffset_s * about);
 }
 
 TEST_CASE("the antenna's velocity is the derivative of its position") {

@@ -26,6 +26,7 @@ struct DriveOptions {
   double code_sigma = 3.0, doppler_sigma = 0.2, carrier_sigma = 0.005;
   bool constrained = false;                     // it neither slides nor flies
   bool odometer = false;                        // and has one, where it is constrained
+  bool calibrating = false;                     // lever arm and time offset are estimated
   double wander = 0.0;                          // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, at the start
@@ -104,9 +105,14 @@ class Drive {
     config.keep_process = true;
     config.use_carrier = options.carriers;
     config.robust.enabled = options.robust;
-    if (!options.constrained) return config;
-    config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
-    if (options.odometer) config.vehicle.count = 3;
+    if (options.constrained) {
+      config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
+      if (options.odometer) config.vehicle.count = 3;
+    }
+    if (options.calibrating)
+      config.vehicle = {ekf_index::kMaxVehicle,
+                        {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.01},
+                        {0.0, 0.0, 0.0, 2e-4, 2e-4, 2e-4, 2e-6}};
     return config;
   }
 

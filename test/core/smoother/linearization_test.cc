@@ -94,6 +94,36 @@ TEST_CASE("the rows of code, carrier and Doppler are the slopes of their residua
   }
 }
 
+TEST_CASE("the rows by lever arm and time offset are the slopes of residuals") {
+  DriveOptions options;
+  options.calibrating = true;
+  options.lever_b = {5.0, 3.0, -12.0};
+  Drive drive(options);
+  Window window(3);
+  for (int i = 0; i < 3; ++i) feed(drive.step(), drive.lever_b(), &window);
+  Keyframe& keyframe = window.newest();
+  keyframe.state.vehicle = {0.0, 0.0, 0.0, 0.3, -0.2, 0.4, 0.02};
+  keyframe.acceleration_e = {1.0, -2.0, 0.5};
+  CHECK(keyframe.active.core_size() >= kAntennaConstants);
+  CHECK(keyframe.active.core.back() == kSize + kTimeOffset);
+  for (const KeyframeMeasurement& measurement : keyframe.measurements) {
+    const LinearMeasurement linear =
+        linearize(measurement, keyframe, antenna_of(keyframe, drive.lever_b()));
+    const auto residual = [&](std::size_t constant, double by) {
+      auto there = std::make_unique<Keyframe>(keyframe);
+      there->state.vehicle[constant] += by;
+      return linearize(measurement, *there, antenna_of(*there, drive.lever_b())).residual;
+    };
+    for (std::size_t i = 0; i < keyframe.state.vehicle.size(); ++i) {
+      const double step = i == kTimeOffset ? 0.01 : 1.0;
+      const double slope = (residual(i, -step) - residual(i, step)) / (2.0 * step);
+      CAPTURE(i, static_cast<int>(measurement.measurement.observable));
+      CHECK(row_of(linear, kSize + static_cast<int>(i)) ==
+            Approx(slope).epsilon(1e-5).margin(1e-5));
+    }
+  }
+}
+
 TEST_CASE("a link's Jacobians are the slopes of its error, far from where it was linearized") {
   Eigen::Vector3d lever_b;
   const bool inertial = GENERATE(true, false);

@@ -94,12 +94,14 @@ const Course kCourses[] = {
      [](DriveOptions* options) { options->constrained = true; }},
     {"constraints and an odometer between keyframes",
      [](DriveOptions* options) { options->constrained = options->odometer = true; }},
+    {"lever arm and time offset are estimated",
+     [](DriveOptions* options) { options->calibrating = true; }},
 };
 
 }  // namespace
 
 TEST_CASE("a window is the filter, whatever happens, as long as all is linear") {
-  const Course& course = kCourses[GENERATE(range(0, 11))];
+  const Course& course = kCourses[GENERATE(range(0, 12))];
   const int capacity = GENERATE(5, 60);
   DriveOptions options;
   options.noise = 1e-4;
@@ -115,7 +117,7 @@ TEST_CASE("a window is the filter, whatever happens, as long as all is linear") 
 
 // What leaves is linearized for good: what that costs goes with the square of the noise.
 TEST_CASE("what has left the window is not lost: a short window is a long one") {
-  const Course& course = kCourses[GENERATE(range(0, 11))];
+  const Course& course = kCourses[GENERATE(range(0, 12))];
   DriveOptions options;
   options.noise = GENERATE(1.0, 0.01);
   if (options.noise < 1.0) options.carrier_sigma = 0.05;
