@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/earth/rotation.h"
 #include "drivers/csv/truth_csv.h"
 #include "tools/common/format.h"
 #include "tools/dataset/log_output.h"
@@ -141,7 +142,7 @@ class Run {
   }
 
   void post_imu(GpsTime start, std::int64_t interval_ns) {
-    const ImuSample ideal = ideal_sample(motion_, start, interval_ns);
+    const ImuSample ideal = in_imu_axes(ideal_sample(motion_, start, interval_ns));
     // Drawn also in gaps, so that the noise after them stays the same.
     const double speed = sensor_.needs_speed()
                              ? motion_.at(seconds_between(start, scenario_.start)).v_e.norm()
@@ -149,9 +150,19 @@ class Run {
     const ImuSample sample = scenario_.imu.ideal ? ideal : sensor_.measure(ideal, speed);
     const double t = seconds_between(sample.time, scenario_.start);
     if (faults_.is_imu_missing(t)) return;
-    const ImuSample measured = faults_.saturated(sample, t);
+    ImuSample measured = faults_.saturated(sample, t);
+    measured.time = sample.time.plus_seconds(-scenario_.imu.time_offset_s);
     if (export_) export_->write(measured);
-    outbox_.post(measured.time, measured);
+    outbox_.post(sample.time, measured);
+  }
+
+  ImuSample in_imu_axes(ImuSample sample) const {
+    const Eigen::Vector3d& rpy = scenario_.imu.mounting_rpy;
+    if (rpy.isZero(0.0)) return sample;
+    const Eigen::Matrix3d C_imu_b = rotation_from_euler({rpy.x(), rpy.y(), rpy.z()}).transpose();
+    sample.delta_theta_b = C_imu_b * sample.delta_theta_b;
+    sample.delta_velocity_b = C_imu_b * sample.delta_velocity_b;
+    return sample;
   }
 
   const Scenario& scenario_;

@@ -60,6 +60,8 @@ void read_sensor(ConfigReader& group, ImuConfig* imu) {
   group.boolean("enabled", &imu->enabled);
   group.boolean("ideal", &imu->ideal);
   group.number("rate_hz", {10.0, 1000.0}, &imu->rate_hz);
+  group.vector("mounting_rpy_deg", {-360.0, 360.0}, &imu->mounting_rpy, kDegree);
+  group.number("time_offset_ms", {-500.0, 500.0}, &imu->time_offset_s, 1e-3);
   ImuGrade grade = ImuGrade::kTactical;
   group.choice<ImuGrade>(
       "grade",

@@ -13,6 +13,10 @@ struct ImuConfig {
   bool enabled = true;
   bool ideal = false;  // without any error
   double rate_hz = 200.0;
+  // As built in and read out: its axes turn into the body's by so much (rad), and it has measured
+  // so much later than stamped.
+  Eigen::Vector3d mounting_rpy = Eigen::Vector3d::Zero();
+  double time_offset_s = 0.0;
   ImuErrorModel errors;
   ImuImperfections imperfections;
 };
