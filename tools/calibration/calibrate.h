@@ -1,0 +1,32 @@
+// From a log to how the IMU is built in: runs of the filter, each with what the one before has
+// found.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "daemon/config/daemon_config.h"
+#include "tools/calibration/calibration_run.h"
+
+namespace leonav {
+
+struct Calibration {
+  Installation configured, found;
+  Finding last;  // its change is what is left, its sigma what is known
+  int passes = 0;
+  bool settled = false;  // the last pass has changed nothing that counts
+  double straight_s = 0.0;
+  bool wheeled = false;
+};
+
+struct CalibrateOptions {
+  InstallationPrior prior;
+  int max_passes = 6;
+  std::function<void(double)> progress = [](double) {};  // share of the passes allowed
+};
+
+// Throws EventLogError, and std::runtime_error where the log gives no attitude or the configuration
+// has no IMU.
+Calibration calibrate(const DaemonConfig& config, const std::string& log,
+                      const CalibrateOptions& options);
+
+}  // namespace leonav
