@@ -18,10 +18,9 @@ using namespace ekf_index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSubBlock = 0.0245;        // s; the covariance moves once per so much IMU data
-constexpr double kAccelerationTime = 0.05;  // s, of its fading mean
-constexpr double kUnknownVelocity = 50.0;   // m/s, 1 sigma where the point solution has none
-constexpr double kUnknownDrift = 300.0;     // m/s, 1 sigma: an oscillator off by 1 ppm
+constexpr double kSubBlock = 0.0245;       // s; the covariance moves once per so much IMU data
+constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
+constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
 
 double square(double x) { return x * x; }
 
@@ -64,50 +63,9 @@ void Ekf::reset() {
   last_sample_ = ImuSample();
   measured_rate_b_.setZero();
   acceleration_e_.setZero();
+  start_tilt_sigma_ = start_heading_sigma_ = std::numeric_limits<double>::infinity();
   known_ = ClockFlags{};
   initialized_ = false;
-}
-
-double Ekf::start_variance(int constant) const {
-  return square(config_.vehicle.sigma[static_cast<std::size_t>(constant)]);
-}
-
-// What is known of the vehicle outlives the filter that found it; its correlations do not.
-void Ekf::start_vehicle(const VehicleConstants& before, const VehicleConstants& variances) {
-  const int count = std::max(config_.vehicle.count, static_cast<int>(before.size()));
-  covariance_.setZero(kSize + count, kSize + count);
-  for (int i = 0; i < count; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    const bool known = place < before.size();
-    now_.vehicle.push_back(known ? before[place] : 0.0);
-    covariance_(kSize + i, kSize + i) = known ? variances[place] : start_variance(i);
-  }
-}
-
-// Makes room before the ambiguities.
-void Ekf::estimate_constant(int constant) {
-  const int known = static_cast<int>(now_.vehicle.size());
-  if (!initialized_ || constant < known) return;
-  const Eigen::Index before = kSize + known, more = constant + 1 - known;
-  const Eigen::Index after = covariance_.rows() - before;
-  EkfCovariance P = EkfCovariance::Zero(before + more + after, before + more + after);
-  P.topLeftCorner(before, before) = covariance_.topLeftCorner(before, before);
-  P.topRightCorner(before, after) = covariance_.topRightCorner(before, after);
-  P.bottomLeftCorner(after, before) = covariance_.bottomLeftCorner(after, before);
-  P.bottomRightCorner(after, after) = covariance_.bottomRightCorner(after, after);
-  for (int i = known; i <= constant; ++i) {
-    now_.vehicle.push_back(0.0);
-    P(kSize + i, kSize + i) = start_variance(i);
-  }
-  covariance_ = P;
-  process_.continuous = false;
-}
-
-VehicleConstants Ekf::vehicle_variances() const {
-  VehicleConstants variances;
-  for (int i = 0; i < static_cast<int>(now_.vehicle.size()); ++i)
-    variances.push_back(covariance_(kSize + i, kSize + i));
-  return variances;
 }
 
 void Ekf::initialize(GpsTime time, const PointSolution& point) {
@@ -299,13 +257,6 @@ void Ekf::advance(const ImuSample& sample) {
   if (transition_.duration_s() >= kSubBlock) finish_sub_block();
 }
 
-// A mean, for an engine's shaking is not how the vehicle moves.
-void Ekf::follow_acceleration(const Vector3d& v_before_e, double interval_s) {
-  if (!config_.vehicle.moves_antenna()) return;
-  const double share = std::min(1.0, interval_s / kAccelerationTime);
-  acceleration_e_ += share * ((now_.nav.v_e - v_before_e) / interval_s - acceleration_e_);
-}
-
 void Ekf::finish_sub_block() {
   for (EkfCovariance* covariance : with_noise()) transition_.propagate(covariance);
   if (process_.continuous) transition_.advance(&process_.transition);
@@ -366,37 +317,6 @@ AntennaMotion Ekf::antenna() const {
                                         now_.vehicle, acceleration_e_);
   motion.p_e += mast_e();
   return motion;
-}
-
-// As long as measurements are used, position and velocity in the error state are those of the
-// antenna's as far as lever arm and time offset move it: rows then need no columns for these. Any
-// variance that the update adds to position or velocity is the same in both. `direction`: 1 before,
-// -1 after.
-void Ekf::lend_constants(const AntennaMotion& antenna, double direction) {
-  if (!antenna.estimated) return;
-  Eigen::Matrix<double, 6, kAntennaConstants> slopes;
-  slopes << antenna.d_p_d_constants, antenna.d_v_d_constants;
-  slopes *= direction;
-  constexpr int kFirst = kSize + kLeverArm;
-  EkfCovariance& P = covariance_;
-  P.middleRows<6>(kPosition).noalias() +=
-      slopes.lazyProduct(P.middleRows<kAntennaConstants>(kFirst));
-  P.middleCols<6>(kPosition).noalias() +=
-      P.middleCols<kAntennaConstants>(kFirst).lazyProduct(slopes.transpose());
-}
-
-Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
-  Matrix3d covariance = covariance_.block<3, 3>(kVelocity, kVelocity);
-  const AntennaMotion motion = antenna();
-  if (!motion.estimated) return covariance;
-  constexpr int kFirst = kSize + kLeverArm;
-  const Matrix3d cross =
-      motion.d_v_d_constants * covariance_.block<kAntennaConstants, 3>(kFirst, kVelocity);
-  covariance += cross + cross.transpose();
-  covariance += motion.d_v_d_constants *
-                covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
-                motion.d_v_d_constants.transpose();
-  return covariance;
 }
 
 Vector3d Ekf::mast_e() const {

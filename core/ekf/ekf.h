@@ -159,6 +159,8 @@ class Ekf {
   void finish_sub_block();
   void follow_acceleration(const Eigen::Vector3d& v_before_e, double interval_s);
   AntennaMotion antenna() const;
+  bool attitude_has_settled();
+  void widen_constants();
   void lend_constants(const AntennaMotion& antenna, double direction);
   Eigen::Vector3d vertical_arm_e(const Eigen::Vector3d& p_e) const;
   void place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
@@ -216,6 +218,9 @@ class Ekf {
   // Of the last sample, errors not removed: for the lever arm.
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_e_ = Eigen::Vector3d::Zero();
+  // Of the attitude at the start of the vehicle's constants, rad; infinite: none yet.
+  double start_tilt_sigma_ = std::numeric_limits<double>::infinity();
+  double start_heading_sigma_ = std::numeric_limits<double>::infinity();
   GpsTime last_update_;
   struct Skipped {
     std::size_t index = 0;  // into MeasurementEpoch::measurements

@@ -30,6 +30,11 @@ struct VehicleConstantsConfig {
   std::array<double, ekf_index::kMaxVehicle> sigma{};   // at the start; 0: not estimated
   std::array<double, ekf_index::kMaxVehicle> wander{};  // random walk, per sqrt(s)
 
+  // Known no more, but where they are, whenever the attitude's sigma (tilt or heading) has fallen
+  // to this share of what it was at their start: an attitude that is corrected looks like a body
+  // that tilts, and so tells of a lever arm what is not so. 0: never.
+  double restart_share = 0.0;
+
   // Whether any of those that move the antenna is among them.
   bool moves_antenna() const { return count > ekf_index::kLeverArm; }
 };

@@ -65,6 +65,24 @@ TEST_CASE("how LEO satellites stand is read by name") {
   CHECK(error.find("orbit_normal, yaw_steering") != std::string::npos);
 }
 
+TEST_CASE("lever arm and time offset are estimated where that is asked for") {
+  using namespace leonav::ekf_index;
+  const auto load = [](const std::string& text) { return load_config_text(text, "x").navigator; };
+  CHECK_FALSE(load("vehicle: {kind: car}\n").ekf.vehicle.moves_antenna());
+  CHECK(load("imu: {time_offset_ms: -12.5}\n").imu_time_offset_s == Approx(-0.0125));
+  const auto arm =
+      load("vehicle: {estimate_lever_arm: true, lever_arm_sigma_m: 0.3}\n").ekf.vehicle;
+  CHECK(arm.count == kMaxVehicle);
+  CHECK(arm.sigma[kLeverArm + 2] == 0.3);
+  CHECK(arm.sigma[kTimeOffset] == 0.0);
+  CHECK(arm.sigma[kTravelYaw] == 0.0);  // handheld: nothing tells of it
+  const auto offset = load("vehicle: {kind: car, estimate_time_offset: true}\n").ekf.vehicle;
+  CHECK(offset.count == kMaxVehicle);
+  CHECK(offset.sigma[kTimeOffset] == Approx(0.01));
+  CHECK(offset.sigma[kLeverArm] == 0.0);
+  CHECK(offset.sigma[kTravelYaw] > 0.0);
+}
+
 TEST_CASE("overrides are judged like the file") {
   const std::string text = "gnss:\n  elevation_mask_deg: 10\n";
   const auto config = load_config_text(

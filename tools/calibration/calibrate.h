@@ -11,7 +11,9 @@ namespace leonav {
 
 struct Calibration {
   Installation configured, found;
-  Finding last;  // its change is what is left, its sigma what is known
+  // Its change is what was left in the last pass, its sigma what is known: the filter's, or what
+  // the log's two halves tell apart, where that is more.
+  Finding last;
   int passes = 0;
   bool settled = false;  // the last pass has changed nothing that counts
   double straight_s = 0.0;

@@ -11,6 +11,13 @@ namespace {
 
 using namespace ekf_index;
 
+constexpr double kRestartShare = 0.6;
+// A car that brakes dips, and does not go where its body points: what is alike for seconds must not
+// look like hundreds of measurements. There are enough of them.
+constexpr double kLeastSlide_m_s = 0.5;
+// The arm's height shows by tilting alone, and attitudes that the filter corrects look like tilts:
+// on simulated drives it was wrong by so many of the filter's sigmas.
+constexpr double kHeightDoubt = 3.0;
 constexpr double kDriving_m_s = 3.0;
 constexpr double kStraight_rad_s = 0.01;
 constexpr double kShortest_s = 60.0;      // of driving straight on
@@ -29,10 +36,14 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   VehicleConstantsConfig& constants = config.ekf.vehicle;
   constants = VehicleConstantsConfig{};
   constants.count = kMaxVehicle;
+  constants.restart_share = kRestartShare;
   for (std::size_t axis = 0; axis < 3; ++axis)
     constants.sigma[place(kLeverArm, axis)] = prior.lever_arm_m;
   constants.sigma[kTimeOffset] = prior.time_offset_s;
   if (!config.vehicle.motion.constraints.non_holonomic) return config;
+  MotionConstraintConfig& motion = config.vehicle.motion.constraints;
+  motion.side_sigma = std::max(motion.side_sigma, kLeastSlide_m_s);
+  motion.vertical_sigma = std::max(motion.vertical_sigma, kLeastSlide_m_s);
   constants.sigma[kTravelYaw] = constants.sigma[kTravelPitch] = prior.travel_rad;
   // The first heading is the course, from which the body's axes may be off.
   double& off = config.alignment.course_against_heading;
@@ -89,15 +100,17 @@ Finding CalibrationRun::finding() const {
   Finding finding;
   const Ekf& ekf = pipeline_.gnss().ekf();
   const VehicleConstants& found = ekf.vehicle();
-  const auto take = [&](Quantity quantity, int state, double prior) {
+  if (!aligned_ || found.size() < kMaxVehicle) return finding;
+  const auto take = [&](Quantity quantity, int state, double prior, double doubt = 1.0) {
     const auto i = static_cast<std::size_t>(quantity);
     const Eigen::Index row = kSize + state;
     finding.change[i] = found[place(state)];
-    finding.sigma[i] = std::sqrt(std::max(0.0, ekf.covariance()(row, row)));
-    finding.observed[i] = aligned_ && finding.sigma[i] < prior_.observed_share * prior;
+    finding.sigma[i] = doubt * std::sqrt(std::max(0.0, ekf.covariance()(row, row)));
+    finding.observed[i] = finding.sigma[i] < prior_.observed_share * prior;
   };
   for (int axis = 0; axis < 3; ++axis)
-    take(static_cast<Quantity>(axis), kLeverArm + axis, prior_.lever_arm_m);
+    take(static_cast<Quantity>(axis), kLeverArm + axis, prior_.lever_arm_m,
+         axis == 2 ? kHeightDoubt : 1.0);
   take(Quantity::kTimeOffset, kTimeOffset, prior_.time_offset_s);
   if (!wheeled_) return finding;
   take(Quantity::kYaw, kTravelYaw, prior_.travel_rad);
