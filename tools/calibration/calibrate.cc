@@ -56,6 +56,21 @@ void compare(const Finding& first, const Finding& second, Finding* whole) {
   }
 }
 
+// What turns out not to be known after all stays as it was configured.
+void withdraw(const InstallationPrior& prior, Calibration* calibration) {
+  Finding& last = calibration->last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (last.sigma[i] < prior.observed_share * prior.lever_arm_m) continue;
+    last.observed[i] = false;
+    calibration->found.lever_arm_b(axis) = calibration->configured.lever_arm_b(axis);
+  }
+  constexpr auto kOffset = static_cast<std::size_t>(Quantity::kTimeOffset);
+  if (last.sigma[kOffset] < prior.observed_share * prior.time_offset_s) return;
+  last.observed[kOffset] = false;
+  calibration->found.time_offset_s = calibration->configured.time_offset_s;
+}
+
 }  // namespace
 
 Calibration calibrate(const DaemonConfig& config, const std::string& log,
@@ -95,6 +110,7 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     halves[half] = run.finding();
   }
   compare(halves[0], halves[1], &calibration.last);
+  withdraw(options.prior, &calibration);
   calibration.settled = calibration.settled || is_settled(calibration.last);
   return calibration;
 }
