@@ -21,8 +21,8 @@ Arguments declare() {
       "direction of travel, roll as the vehicle's\nmean lean: half a degree), and how much later "
       "than stamped the IMU measures (it takes changes of\nspeed). What the log does not tell is "
       "said. Runs the filter over the log again and again, each time\nwith what it has found, "
-      "until nothing changes. Good for mounting errors of up to 15 degrees, time\noffsets of up "
-      "to 0.2 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, or\n"
+      "until nothing changes. Good for mounting errors of up to 10 degrees, time\noffsets of up "
+      "to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, or\n"
       "the passes did not settle; 2 command line.");
   arguments.option("--config", "FILE", "configuration, as for leonavd")
       .option("--passes", "N", "over the log, at most", "6")

@@ -17,7 +17,11 @@ constexpr double kRestartShare = 0.6;
 constexpr double kLeastSlide_m_s = 0.5;
 // The arm's height shows by tilting alone, and attitudes that the filter corrects look like tilts:
 // on simulated drives it was wrong by so many of the filter's sigmas.
-constexpr double kHeightDoubt = 3.0;
+constexpr double kHeightDoubt = 2.0;
+// Scale factors act along the sensor's axes, not along the body's that the filter knows, and axes
+// are askew by as much: (m/s)/sqrt(s) of noise per unit of scale, which takes the weight of what
+// looks like millimetres of arm per m/s^2.
+constexpr double kNoisePerScale = 3.0;
 constexpr double kDriving_m_s = 3.0;
 constexpr double kStraight_rad_s = 0.01;
 constexpr double kShortest_s = 60.0;      // of driving straight on
@@ -37,6 +41,8 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   constants = VehicleConstantsConfig{};
   constants.count = kMaxVehicle;
   constants.restart_share = kRestartShare;
+  config.imu.velocity_random_walk =
+      std::hypot(config.imu.velocity_random_walk, kNoisePerScale * config.imu.accel_scale.sigma);
   for (std::size_t axis = 0; axis < 3; ++axis)
     constants.sigma[place(kLeverArm, axis)] = prior.lever_arm_m;
   constants.sigma[kTimeOffset] = prior.time_offset_s;
