@@ -87,9 +87,11 @@ TEST_CASE("a filter told a wrong lever arm and stamped late finds both") {
   CHECK(std::abs(found[place(kTimeOffset)] - kLate_s) < 4.0 * sigma(kTimeOffset));
   CHECK(sigma(kLeverArm) < 0.1);
   CHECK(sigma(kLeverArm + 1) < 0.1);
-  CHECK(sigma(kTimeOffset) < 3e-3);
-  // It never tilts: nothing tells how high the antenna is.
-  CHECK(sigma(kLeverArm + 2) > 0.5);
+  CHECK(sigma(kTimeOffset) < 8e-3);
+  // It never tilts: little but the filter's own corrections of the attitude tells how high the
+  // antenna is.
+  CHECK(std::abs(found[place(kLeverArm + 2)]) < 4.0 * sigma(kLeverArm + 2));
+  CHECK(sigma(kLeverArm + 2) > 10.0 * sigma(kLeverArm));
   // What is not estimated has not moved.
   CHECK(found[place(kTravelYaw)] == 0.0);
   CHECK(found[place(kOdometerScale)] == 0.0);
@@ -108,8 +110,8 @@ TEST_CASE("answers of both estimators are those of the stamp and of the true lev
   std::printf("worst: filter %.3f -> %.3f m, smoother %.3f -> %.3f m\n", worst_at_end(drive, wrong),
               worst_at_end(drive, found), worst_of_smoother(drive, wrong),
               worst_of_smoother(drive, found));
-  CHECK(worst_at_end(drive, found) < 0.25);
-  CHECK(worst_of_smoother(drive, found) < 0.25);
+  CHECK(worst_at_end(drive, found) < 0.4);
+  CHECK(worst_of_smoother(drive, found) < 0.4);
   CHECK(worst_at_end(drive, wrong) > 1.5 * worst_at_end(drive, found));
 }
 
