@@ -38,7 +38,7 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   config.estimator = Estimator::kEkf;
   config.solution_rate_hz = 1.0;
   VehicleConstantsConfig& constants = config.ekf.vehicle;
-  constants = VehicleConstantsConfig{};
+  constants.wander.fill(0.0);  // nothing moves within a log
   constants.count = kMaxVehicle;
   constants.restart_share = kRestartShare;
   config.imu.velocity_random_walk =
