@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kWatched_s = 10.0;
 constexpr double kAlike_s = 10.0;
-constexpr double kFewSatellites = 3.0;  // times the sigma
+constexpr double kSatellitesSpeed = 0.3;  // m/s, 1 sigma: with satellites, whose errors change soon
+constexpr double kFewSatellites = 3.0;    // times the sigma
 constexpr double kContradicted = 0.5, kAgain = 0.25;
 
 // The next multiple of the interval after `time`.
@@ -128,7 +129,8 @@ void MotionAid::constrain(Ekf* ekf) {
               detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
   instant.standing = standing_;
   // What is off stays off for long: so many instants together tell no more than one.
-  const double alike = kAlike_s / constraints.interval_s * forward.sigma * forward.sigma;
+  const double adrift = std::max(0.0, forward.sigma - kSatellitesSpeed);
+  const double alike = kAlike_s / constraints.interval_s * adrift * adrift;
   instant.side_doubt = alike * forward.side_variance;
   instant.vertical_doubt = alike * forward.down_variance;
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),

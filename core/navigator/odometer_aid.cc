@@ -1,7 +1,6 @@
 #include "core/navigator/odometer_aid.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace leonav {
 namespace {
