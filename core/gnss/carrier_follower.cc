@@ -106,7 +106,8 @@ bool CarrierFollower::is_comparable(const SatelliteInView& satellite, const Meas
 
 void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
                                           const RangeChangePrior& prior, MeasurementEpoch* epoch) {
-  boost::container::static_vector<RangeChangeRow, kMaxSatellites> rows;
+  change_rows_.clear();
+  predicted_p_e_ = predicted_p_e;
   boost::container::static_vector<Measurement*, kMaxSatellites> carriers;
   // Statuses stand in the order of the offers, and so do the carriers, but some may be missing.
   std::size_t status = 0;
@@ -127,10 +128,11 @@ void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
       const SatelliteInView& satellite = epoch->satellites[carriers[i]->satellite_index];
       const Memory* before = memory_of(satellite.satellite);
       if (!is_comparable(satellite, *carriers[i], before)) continue;
-      rows.push_back(row_of(satellite, *carriers[i], *before, predicted_p_e));
+      change_rows_.push_back(row_of(satellite, *carriers[i], *before, predicted_p_e));
       of_row.push_back(row_status[i]);
     }
-    const RangeChangeResult result = range_change({rows.data(), rows.size()}, prior, config_);
+    const RangeChangeResult result =
+        range_change({change_rows_.data(), change_rows_.size()}, prior, config_);
     for (std::size_t i = 0; i < of_row.size(); ++i) verdicts[of_row[i]] = result.rows[i];
   }
   arcs_.settle({verdicts.data(), verdicts.size()}, &arc_epoch_);
@@ -142,6 +144,14 @@ void CarrierFollower::check_range_changes(const Eigen::Vector3d& predicted_p_e,
     satellite.arc_causes = now.causes;
   }
   disturb(epoch);
+}
+
+std::optional<AntennaChange> CarrierFollower::antenna_change(RangeChangePrior prior) const {
+  prior.change_is_free = true;
+  const RangeChangeResult result =
+      range_change({change_rows_.data(), change_rows_.size()}, prior, config_);
+  if (result.redundancy < 1) return std::nullopt;
+  return AntennaChange{last_time_, time_, predicted_p_e_ - last_p_e_ + result.change_m};
 }
 
 // What other antenna patterns add to the carrier's correction. Where the source of the orbit is
@@ -208,6 +218,7 @@ void CarrierFollower::remember(const MeasurementEpoch& epoch, const Eigen::Vecto
     memory->antenna_m = satellite.antenna_m;
   }
   last_time_ = epoch.time;
+  last_p_e_ = antenna_p_e;
   memory_.erase(std::remove_if(memory_.begin(), memory_.end(),
                                [&](const Memory& m) {
                                  return seconds_between(epoch.time, m.seen) > kForget_s;

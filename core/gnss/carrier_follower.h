@@ -4,12 +4,19 @@
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 
 #include "core/gnss/carrier_arcs.h"
 #include "core/gnss/carrier_signals.h"
 #include "core/gnss/measurement.h"
 
 namespace leonav {
+
+// Of the antenna between two epochs, as carriers alone tell it.
+struct AntennaChange {
+  GpsTime from, to;
+  Eigen::Vector3d change_e = Eigen::Vector3d::Zero();  // m
+};
 
 // In this order, once per epoch; the observations offered must live until the end of it:
 //   begin, wind_up and offer (each satellite), follow, append to the epoch;
@@ -38,6 +45,9 @@ class CarrierFollower {
   // orbit or antenna pattern, and by how much the position.
   void check_range_changes(const Eigen::Vector3d& predicted_p_e, const RangeChangePrior& prior,
                            MeasurementEpoch* epoch);
+  // Between the last call and remember(): since the last epoch with carriers, whatever the filter
+  // has predicted. `prior`: as there. nullopt: no satellite more than it takes.
+  std::optional<AntennaChange> antenna_change(RangeChangePrior prior) const;
   // `antenna_p_e`: as estimated with this epoch.
   void remember(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e);
   // The estimator has found that the arc of one of the epoch's satellites slipped: another begins
@@ -81,6 +91,10 @@ class CarrierFollower {
   ArcEpoch arc_epoch_;
   boost::container::static_vector<CarrierInput, kMaxSatellites> inputs_;
   boost::container::static_vector<Memory, kMaxSatellites> memory_;
+  // Of the last check: its rows, and where the antenna was predicted; where it was estimated
+  // before.
+  boost::container::static_vector<RangeChangeRow, kMaxSatellites> change_rows_;
+  Eigen::Vector3d predicted_p_e_ = Eigen::Vector3d::Zero(), last_p_e_ = Eigen::Vector3d::Zero();
   GpsTime time_, last_time_;
 };
 

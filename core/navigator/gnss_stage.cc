@@ -56,7 +56,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       catalog_(config.gnss.catalog),
       carriers_(config.gnss.cycle_slips),
       ekf_(filter_config(config.ekf, keyframes != nullptr), config.imu, config.vehicle.lever_arm_b),
-      motion_aid_(config.vehicle.motion),
+      motion_aid_(config.vehicle.motion, config.imu.accel_bias, config.ekf.use_carrier),
       alignment_(config.alignment, config.imu),
       heading_watch_(config.alignment, config.imu),
       measurements_(std::make_unique<MeasurementEpoch>()),
@@ -144,6 +144,7 @@ void GnssStage::push_keyframe(const EpochWork& work) {
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
+  motion_aid_.set_carrier_speed(std::nullopt);
   if (!ekf_.initialized()) {
     start_filter(work);
   } else if (prediction_is_useless()) {
@@ -244,7 +245,12 @@ void GnssStage::update_filter(const EpochWork& work) {
   measurements_->index = work.index;
   if (config_.ekf.use_carrier) {
     const bool predicted = approximate_p_e == ekf_.antenna_position_e();
-    carriers_.check_range_changes(approximate_p_e, change_prior(predicted), measurements_.get());
+    const RangeChangePrior prior = change_prior(predicted);
+    carriers_.check_range_changes(approximate_p_e, prior, measurements_.get());
+    if (motion_aid_.asks_carriers()) {
+      carrier_speed_.add(carriers_.antenna_change(prior));
+      motion_aid_.set_carrier_speed(carrier_speed_.horizontal(approximate_p_e));
+    }
   }
   const OutageWatch::Position before = antenna_position();
   const EkfUpdateResult result = ekf_.update(*measurements_);

@@ -14,6 +14,7 @@
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
+#include "core/navigator/carrier_speed.h"
 #include "core/navigator/event_source.h"
 #include "core/navigator/heading_watch.h"
 #include "core/navigator/keyframe_maker.h"
@@ -107,6 +108,7 @@ class GnssStage {
   Eigen::Matrix3d last_position_covariance_ = Eigen::Matrix3d::Zero();  // after the last update
   Ekf ekf_;
   MotionAid motion_aid_;
+  CarrierSpeed carrier_speed_;
   Alignment alignment_;
   GivenHeading given_heading_;
   HeadingWatch heading_watch_;

@@ -12,6 +12,10 @@ constexpr double kWatched_s = 10.0;
 constexpr double kAlike_s = 10.0;
 constexpr double kSatellitesSpeed = 0.3;  // m/s, 1 sigma: with satellites, whose errors change soon
 constexpr double kFewSatellites = 3.0;    // times the sigma
+// The IMU's bias may change by so much, 1 sigma, within the seconds that the detector compares,
+// before one who creeps is hidden by it; m/s^2.
+constexpr double kMaxWander = 0.005, kCompared_s = 4.0;
+constexpr double kMaxCarrierSpeed = 0.02;  // m/s, mean of a few seconds
 constexpr double kContradicted = 0.5, kAgain = 0.25;
 
 // The next multiple of the interval after `time`.
@@ -63,6 +67,18 @@ ForwardMotion any_motion(const Ekf& ekf) {
 }
 
 }  // namespace
+
+MotionAid::MotionAid(const MotionAidConfig& config, const GaussMarkov& accel_bias, bool carriers)
+    : config_(config), detector_(config.standstill), odometer_(config.constraints) {
+  const double wander =
+      accel_bias.sigma * std::sqrt(2.0 * kCompared_s / accel_bias.correlation_time_s);
+  asks_carriers_ = carriers && config.constraints.zero_velocity && wander > kMaxWander;
+}
+
+// Whether the carriers let it stand.
+bool MotionAid::carriers_agree() const {
+  return !asks_carriers_ || (carrier_speed_ && *carrier_speed_ < kMaxCarrierSpeed);
+}
 
 void MotionAid::forget() {
   instants_.clear();
@@ -125,7 +141,8 @@ void MotionAid::constrain(Ekf* ekf) {
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
   const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
-  standing_ = config_.constraints.zero_velocity && !odometer_.moved(state.time) &&
+  standing_ = config_.constraints.zero_velocity && carriers_agree() &&
+              !odometer_.moved(state.time) &&
               detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
   instant.standing = standing_;
   // What is off stays off for long: so many instants together tell no more than one.

@@ -6,6 +6,7 @@
 
 #include "core/capacity.h"
 #include "core/ekf/ekf.h"
+#include "core/ins/imu_error_model.h"
 #include "core/ins/standstill_detector.h"
 #include "core/navigator/odometer_aid.h"
 
@@ -21,8 +22,8 @@ struct MotionAidConfig {
 // replay meets the same ones.
 class MotionAid {
  public:
-  explicit MotionAid(const MotionAidConfig& config)
-      : config_(config), detector_(config.standstill), odometer_(config.constraints) {}
+  // `accel_bias`: of the IMU, m/s^2; `carriers`: whether the filter follows the satellites'.
+  MotionAid(const MotionAidConfig& config, const GaussMarkov& accel_bias, bool carriers);
 
   // As Ekf::predict. `odometer`: the increments that came with the block, in order of time.
   void predict(std::span<const ImuSample> block, std::span<const OdometerIncrement> odometer,
@@ -30,6 +31,11 @@ class MotionAid {
   // How many satellites the last epoch used. With few, nobody outvotes a reflection, and the
   // filter's velocity is worse than its sigma: a stop that begins must show the more.
   void set_satellites(int used) { few_satellites_ = used < kEnoughSatellites; }
+  // An IMU whose bias wanders as fast as one who creeps gathers speed cannot tell that one from one
+  // who stands: then the carriers must agree.
+  bool asks_carriers() const { return asks_carriers_; }
+  // Horizontal, m/s, of the last epoch with satellites; nullopt: not known.
+  void set_carrier_speed(std::optional<double> speed) { carrier_speed_ = speed; }
   // Since the last call of forget(); as many as have a place.
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
@@ -42,6 +48,7 @@ class MotionAid {
  private:
   static constexpr int kEnoughSatellites = 5;
   bool enabled() const { return config_.enabled() || odometer_.heard(); }
+  bool carriers_agree() const;
   void constrain(Ekf* ekf);
   void count(MotionComponents used);
 
@@ -53,6 +60,8 @@ class MotionAid {
   GpsTime next_;
   double offered_ = 0.0, left_out_ = 0.0;  // fading
   bool contradicted_ = false;
+  bool asks_carriers_ = false;
+  std::optional<double> carrier_speed_;
   bool standing_ = false, few_satellites_ = true, whole_ = true;
 };
 

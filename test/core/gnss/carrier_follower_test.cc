@@ -1,8 +1,10 @@
 // What the estimator finds of an arc reaches the arcs and the report.
 #include "core/gnss/carrier_follower.h"
 
+#include <cmath>
 #include <vector>
 
+#include "core/gnss/range_model.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -10,13 +12,13 @@ namespace {
 
 const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
 
-// Three satellites on L1 at rest; fills `epoch` as the preparation of measurements does.
-void follow(CarrierFollower* follower, double t, std::vector<SignalObservation>* signals,
-            MeasurementEpoch* epoch) {
+// Satellites on L1 at rest; fills `epoch` as the preparation of measurements does.
+void offer(CarrierFollower* follower, double t, std::vector<SignalObservation>* signals,
+           MeasurementEpoch* epoch, std::uint16_t satellites) {
   signals->clear();
   *epoch = {};
   epoch->time = kStart.plus_seconds(t);
-  for (std::uint16_t n = 1; n <= 3; ++n) {
+  for (std::uint16_t n = 1; n <= satellites; ++n) {
     SignalObservation o;
     o.satellite = {System::kGps, n};
     o.code = {'1', 'C'};
@@ -39,7 +41,35 @@ void follow(CarrierFollower* follower, double t, std::vector<SignalObservation>*
     epoch->satellites.push_back(view);
     epoch->measurements.push_back(carrier);
   }
+}
+
+void follow(CarrierFollower* follower, double t, std::vector<SignalObservation>* signals,
+            MeasurementEpoch* epoch) {
+  offer(follower, t, signals, epoch, 3);
   follower->check_range_changes(Eigen::Vector3d(6.4e6, 0.0, 0.0), RangeChangePrior(), epoch);
+}
+
+// Eight satellites on L1, seen from the place where an antenna truly is.
+void follow_from(const Eigen::Vector3d& antenna_p_e, const Eigen::Vector3d& predicted_p_e, double t,
+                 CarrierFollower* follower, std::vector<SignalObservation>* signals,
+                 MeasurementEpoch* epoch) {
+  offer(follower, t, signals, epoch, 8);
+  for (Measurement& carrier : epoch->measurements) {
+    SatelliteInView& view = epoch->satellites[carrier.satellite_index];
+    const double n = carrier.satellite_index;
+    view.p_e =
+        2.6e7 *
+        Eigen::Vector3d(1.5, std::cos(2.4 * n), std::sin(2.4 * n) * (0.3 + 0.1 * n)).normalized();
+    view.elevation = 0.8;
+    carrier.code = {'1', 'C'};
+    carrier.sigma = 0.003;
+    follower->set_wind_up(view.satellite, 0.0);
+    carrier.value = predict_range(view, antenna_p_e).range_m + 5.0 * n + 100.0 * t;
+  }
+  RangeChangePrior prior;
+  prior.change_is_free = false;
+  prior.change_covariance.diagonal().fill(1e-6);  // one who is sure to stand
+  follower->check_range_changes(predicted_p_e, prior, epoch);
 }
 
 }  // namespace
@@ -66,6 +96,25 @@ TEST_CASE("an arc that the filter ends is another from that epoch on, and says w
 
   follower.end_arc({System::kGps, 9}, &epoch);  // not seen: nothing happens
   for (const SatelliteInView& view : epoch.satellites) CHECK_FALSE(view.arc_started);
+}
+
+TEST_CASE("carriers tell how the antenna has moved, whatever the filter is sure of") {
+  CarrierFollower follower{CycleSlipConfig()};
+  std::vector<SignalObservation> signals;
+  MeasurementEpoch epoch;
+  const Eigen::Vector3d start_e(6.4e6, 1.0e5, 2.0e5), step_e(0.02, -0.05, 0.03);
+  follow_from(start_e, start_e, 0.0, &follower, &signals, &epoch);
+  CHECK_FALSE(follower.antenna_change(RangeChangePrior()));
+  follower.remember(epoch, start_e);
+  for (int t = 1; t < 4; ++t) {
+    follow_from(start_e + t * step_e, start_e, t, &follower, &signals, &epoch);
+    const auto change = follower.antenna_change(RangeChangePrior());
+    REQUIRE(change);
+    CHECK(change->from == kStart.plus_seconds(t - 1));
+    CHECK(change->to == epoch.time);
+    CHECK((change->change_e - step_e).norm() < 1e-3);
+    follower.remember(epoch, start_e + t * step_e);
+  }
 }
 
 }  // namespace leonav

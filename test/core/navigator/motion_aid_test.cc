@@ -82,4 +82,29 @@ TEST_CASE("constraints that do not hold are left out, and that is told") {
   CHECK(events_of(config) >= 1);
 }
 
+TEST_CASE("an IMU that cannot feel a gentle start needs the carriers to stand") {
+  SyntheticDriveOptions options = noisy_drive();
+  options.duration_s = 90.0;
+  options.standstill_s = 60.0;
+  options.acceleration_s = 900.0;  // 0.01 m/s^2
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = config_of(options, true, Estimator::kEkf);
+  config.alignment.initial_heading = 0.0;
+  config.imu.accel_bias = {0.2, 1000.0};
+  int standing = 0, moving = 0;
+  double fastest = 0.0;
+  for (const EpochReport& report : run(drive, config).epochs) {
+    for (const ConstraintInstant& instant : report.constraints) {
+      if (!instant.standing) continue;
+      const double speed = SyntheticPath(options).state(seconds(instant.time)).v_e.norm();
+      speed < 0.01 ? ++standing : ++moving;
+      fastest = std::max(fastest, speed);
+    }
+  }
+  std::printf("taken to stand: %d instants below 1 cm/s, %d above, fastest %.3f m/s\n", standing,
+              moving, fastest);
+  CHECK(standing > 100);
+  CHECK(fastest < 0.06);
+}
+
 }  // namespace leonav::test
