@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxArcs = 64;
 
 // Odometer increments between two epochs: 100 Hz, 3 s.
 inline constexpr std::size_t kMaxOdometerBlock = 320;
-inline constexpr std::size_t kMaxSpeedHistory = 768;  // speeds kept: 500 Hz, 1.5 s
+inline constexpr std::size_t kMaxSpeedHistory = 2048;  // speeds kept: 500 Hz, 4 s
 
 // Instants between two keyframes at which constraints on the motion act: 3 s, ten times a second.
 inline constexpr std::size_t kMaxConstraintInstants = 32;

@@ -52,7 +52,8 @@ void StageSink::on_epoch(const EpochReport& report) {
 void StageSink::on_event(const Event& event) {
   if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
-    counters_->convention_milli[event.code].set(std::llround(event.value * 1e3));
+    counters_->convention_milli[event.code].set(
+        std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
     counters_->conventions[event.code].add(1);
   }
   encoder_.on_event(event);

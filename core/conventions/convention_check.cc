@@ -1,5 +1,7 @@
 #include "core/conventions/convention_check.h"
 
+#include <algorithm>
+
 #include "core/conventions/track_check.h"
 
 namespace leonav {
@@ -10,12 +12,16 @@ constexpr double kUpright = 45.0 * kDegree;  // of the third axis
 constexpr int kLongStraight = 60;            // seconds with a course
 constexpr int kLongestStart = 180;           // seconds in which all that can be told is told
 constexpr int kLongest = 3600;               // seconds
+constexpr double kTrackSpeed_m_s = 3.0;      // too slow and a course says little
+constexpr double kFastReverse_m_s = 30.0;    // beyond: in reverse as fast as forward
 
 }  // namespace
 
 ConventionCheck::ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
-                                 const Eigen::Vector3d& lever_arm_b)
-    : point_(gnss, robust), lever_arm_(lever_arm_b) {}
+                                 const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s)
+    : point_(gnss, robust),
+      lever_arm_(lever_arm_b),
+      max_reverse_speed_m_s_(max_reverse_speed_m_s) {}
 
 void ConventionCheck::clear() {
   record_.clear();
@@ -79,16 +85,19 @@ ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const Turn
     if (down) return {Convention::kGyroSign, turns.slope};
     return {Convention::kForceSign, -turns.slope};
   }
-  const TrackFit track = fit_track(record_);
+  const bool either_way = max_reverse_speed_m_s_ > kFastReverse_m_s;
+  const TrackFit track = fit_track(
+      record_, either_way ? kTrackSpeed_m_s : std::max(kTrackSpeed_m_s, max_reverse_speed_m_s_));
   if (up) {
     const auto finding = check_track_upside_down(track, force);
     return finding || !long_enough ? finding : not_down;
   }
-  if (const auto finding = check_track_upright(track)) return finding;
+  const ConventionFinding finding = check_track_upright(track);
+  if (finding && !(either_way && finding.convention == Convention::kBackwards)) return finding;
   if (!track.is_right()) return {};
-  const auto finding = lever_arm_.judge();
+  const ConventionFinding arm = lever_arm_.judge();
   rests_ = lever_arm_.is_known() && seconds_ >= kLongestStart;
-  return finding;
+  return arm;
 }
 
 }  // namespace leonav

@@ -17,8 +17,10 @@ namespace leonav {
 // turns out to be right, or after an hour, it rests.
 class ConventionCheck {
  public:
+  // Up to `max_reverse_speed_m_s` the vehicle may be going in reverse; where that is as fast as any
+  // (a train has a cab at either end) backwards is as right as forwards.
   ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
-                  const Eigen::Vector3d& lever_arm_b);
+                  const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s);
   void clear();  // everything starts anew
   void add(const ImuSample& sample);
   // Whether end_second() wants an epoch of this time.
@@ -37,6 +39,7 @@ class ConventionCheck {
   RangeRateCheck range_rates_;
   CodeOrderCheck code_order_;
   LeverArmCheck lever_arm_;
+  double max_reverse_speed_m_s_;
   bool rests_ = false;
   int seconds_ = 0;
 };

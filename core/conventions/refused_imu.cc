@@ -31,7 +31,7 @@ ConventionFinding RefusedImuWatch::add_refused(const ImuSample& sample) {
 
 ConventionFinding RefusedImuWatch::judge() const {
   const double ratio = speed_ / seconds_ / kGravity;
-  if (!std::isfinite(ratio)) return {};
+  if (!std::isfinite(ratio) || !std::isfinite(angle_)) return {};
   if (is_about(ratio * interval_s_, 1.0)) return {Convention::kRatesAsIncrements, ratio};
   if (is_about(ratio, 1.0)) return {Convention::kGyroRange, angle_ / seconds_};
   return {Convention::kForceUnit, ratio};

@@ -8,7 +8,6 @@ namespace leonav {
 namespace {
 
 constexpr double kDegree = EIGEN_PI / 180.0;
-constexpr double kMinSpeed_m_s = 3.0;  // nobody reverses that fast for long
 constexpr double kMinSquares = 2.0;    // (m/s2)^2 s, each of forward and right: a bend, a stop
 constexpr double kMaxSigma = 0.1;      // of the map
 constexpr double kMinExplained = 0.6;  // share of the forces' squares
@@ -49,11 +48,11 @@ bool TrackFit::is_turn() const { return known && is_dominant(turn_size, mirrored
 bool TrackFit::is_mirrored() const { return known && is_dominant(mirrored_size, turn_size); }
 bool TrackFit::is_right() const { return is_turn() && std::abs(turn) < kRightWithin; }
 
-TrackFit fit_track(const MotionRecord& record) {
+TrackFit fit_track(const MotionRecord& record, double min_speed) {
   TrackFit fit;
   Sums sums;
   for (const MotionSecond& second : record.seconds())
-    if (second.has_imu && second.has_course && second.speed >= kMinSpeed_m_s) sums.add(second);
+    if (second.has_imu && second.has_course && second.speed >= min_speed) sums.add(second);
   if (!(sums.n > 0.0)) return fit;
   sums.remove_means();
   if (!(sums.aa(0, 0) > kMinSquares && sums.aa(1, 1) > kMinSquares)) return fit;

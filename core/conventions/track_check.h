@@ -19,7 +19,8 @@ struct TrackFit {
   bool is_mirrored() const;
   bool is_right() const;
 };
-TrackFit fit_track(const MotionRecord& record);
+// Of seconds at `min_speed` (m/s) and above.
+TrackFit fit_track(const MotionRecord& record, double min_speed);
 
 // The third axis points down, as it should, and the gyros turn as the course does.
 ConventionFinding check_track_upright(const TrackFit& fit);

@@ -140,7 +140,8 @@ class Ekf {
   const EkfCovariance& covariance() const { return covariance_; }
   Eigen::Vector3d antenna_position_e() const;
   Eigen::Vector3d antenna_velocity_e() const;
-  // Of the antenna, with what is unknown of its lever arm and of the IMU's time.
+  // Of the antenna, with what is unknown of its lever arm and of the IMU's time; m^2, (m/s)^2.
+  Eigen::Matrix3d antenna_position_covariance_e() const;
   Eigen::Matrix3d antenna_velocity_covariance_e() const;
   // Of the last IMU sample, errors not removed, rad/s: for the lever arm.
   const Eigen::Vector3d& measured_rate_b() const { return measured_rate_b_; }
@@ -161,6 +162,8 @@ class Ekf {
   AntennaMotion antenna() const;
   bool attitude_has_settled();
   void widen_constants();
+  Eigen::Matrix3d antenna_covariance_e(
+      int first, const Eigen::Matrix<double, 3, ekf_index::kAntennaConstants>& slopes) const;
   void lend_constants(const AntennaMotion& antenna, double direction);
   Eigen::Vector3d vertical_arm_e(const Eigen::Vector3d& p_e) const;
   void place_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,

@@ -88,18 +88,24 @@ void Ekf::lend_constants(const AntennaMotion& antenna, double direction) {
       P.middleCols<kAntennaConstants>(kFirst).lazyProduct(slopes.transpose());
 }
 
-Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
-  Matrix3d covariance = covariance_.block<3, 3>(kVelocity, kVelocity);
-  const AntennaMotion motion = antenna();
-  if (!motion.estimated) return covariance;
+Eigen::Matrix3d Ekf::antenna_covariance_e(
+    int first, const Eigen::Matrix<double, 3, kAntennaConstants>& slopes) const {
+  Matrix3d covariance = covariance_.block<3, 3>(first, first);
+  if (!antenna().estimated) return covariance;
   constexpr int kFirst = kSize + kLeverArm;
-  const Matrix3d cross =
-      motion.d_v_d_constants * covariance_.block<kAntennaConstants, 3>(kFirst, kVelocity);
+  const Matrix3d cross = slopes * covariance_.block<kAntennaConstants, 3>(kFirst, first);
   covariance += cross + cross.transpose();
-  covariance += motion.d_v_d_constants *
-                covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
-                motion.d_v_d_constants.transpose();
+  covariance += slopes * covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
+                slopes.transpose();
   return covariance;
+}
+
+Eigen::Matrix3d Ekf::antenna_position_covariance_e() const {
+  return antenna_covariance_e(kPosition, antenna().d_p_d_constants);
+}
+
+Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
+  return antenna_covariance_e(kVelocity, antenna().d_v_d_constants);
 }
 
 // True where tilt or heading have become better known by the configured share.

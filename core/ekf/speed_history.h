@@ -1,4 +1,4 @@
-// The speed of the last second and a half as the filter sees it, for an odometer, which tells of
+// The speed of the last seconds as the filter sees it, for an odometer, which tells of
 // intervals.
 #pragma once
 #include <Eigen/Core>

@@ -217,16 +217,15 @@ void Alignment::watch_course(const Eigen::Vector3d& v_n, double sigma_v, double 
 // or the velocities are wrong: nothing is known then.
 std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_yaw) {
   using Known = VelocityMatching::Heading;
-  std::optional<Known> course;
-  if (const auto agreement = courses_.agreement())
-    course = Known{wrap_to_pi(relative_yaw + agreement->yaw_offset), agreement->sigma};
+  auto course = courses_.agreement();
   if (course && !(course->sigma < config_.max_course_sigma)) course.reset();
   if (config_.max_reverse_speed_m_s <= 0.0) gear_ = Gear::kForward;
 
   const double rate_sigma = standing_.sigma();
   auto match = config_.velocity_matching ? matching_.match(rate_sigma) : std::nullopt;
   if (course && match) {
-    const double off = std::abs(wrap_to_pi(match->heading.heading - course->heading));
+    const double off =
+        std::abs(wrap_to_pi(match->heading.heading - relative_yaw - course->yaw_offset));
     const double limit = kContradiction * std::hypot(match->heading.sigma, course->sigma);
     const Gear found = off < 0.5 * kPi ? Gear::kForward : Gear::kReverse;
     const bool agree =
@@ -240,11 +239,13 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
     }
   }
   if (course && gear_ == Gear::kUnknown) course.reset();
-  if (course && gear_ == Gear::kReverse) course->heading = wrap_to_pi(course->heading + kPi);
-  if (course && config_.velocity_matching) match = matching_.match(rate_sigma, course);
+  if (course && gear_ == Gear::kReverse) course->yaw_offset = wrap_to_pi(course->yaw_offset + kPi);
+  if (course && config_.velocity_matching)
+    match = matching_.match(rate_sigma,
+                            Known{wrap_to_pi(relative_yaw + course->yaw_offset), course->sigma});
   if (match && match->heading.sigma < config_.max_matching_sigma)
-    return InMotion{match->heading.heading, match->heading.sigma, match};
-  if (course) return InMotion{course->heading, course->sigma, std::nullopt};
+    return InMotion{match->heading.heading - relative_yaw, match->heading.sigma, match};
+  if (course) return InMotion{course->yaw_offset, course->sigma, std::nullopt};
   return std::nullopt;
 }
 
@@ -265,7 +266,7 @@ std::optional<AlignedAttitude> Alignment::attitude(
     turn_l = given->heading - angles.yaw;
     heading_sigma = given->sigma;
   } else if (const auto moving = heading_in_motion(angles.yaw)) {
-    turn_l = moving->heading - angles.yaw;
+    turn_l = moving->turn_l;
     heading_sigma = moving->sigma;
     if (moving->match && moving->match->level_sigma < level_sigma) {
       level_sigma = moving->match->level_sigma;

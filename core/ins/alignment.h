@@ -98,7 +98,7 @@ class Alignment {
   double seconds_to_north(double latitude) const;
   void watch_course(const Eigen::Vector3d& v_n, double sigma_v, double relative_yaw);
   struct InMotion {
-    double heading, sigma;
+    double turn_l, sigma;                          // rad; from l to north
     std::optional<VelocityMatching::Match> match;  // if that tells roll and pitch too
   };
   std::optional<InMotion> heading_in_motion(double relative_yaw);

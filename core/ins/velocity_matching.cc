@@ -38,7 +38,7 @@ struct VelocityMatching::Solution {
   double turn_variance = 0.0;  // of c, per component
   double misfit = 0.0;         // 1 when all is well
   double seconds = 0.0;
-  Eigen::Quaterniond q_last;    // body to l, not levelled by the solution
+  Eigen::Quaterniond q_last;    // now: body to l, not levelled by the solution
   Complex off_level;            // what that shows at rest, m/s^2
   double level_variance = 0.0;  // of it, per component
 };
@@ -62,12 +62,12 @@ void VelocityMatching::add(const ImuSample& sample) {
   rate_b_ = sample.delta_theta_b / dt;
 }
 
-void VelocityMatching::add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
+bool VelocityMatching::add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                     const Eigen::Quaterniond& q_lb) {
-  if (!v_n.allFinite() || !std::isfinite(sigma_v)) return;
+  if (!v_n.allFinite() || !std::isfinite(sigma_v)) return false;
   // Fast receivers: the window's velocities are thinned out to what it holds.
   const double least_s = config_.window_s / static_cast<double>(kCapacity - 4);
-  if (!entries_.empty() && current_.seconds < least_s) return;
+  if (!entries_.empty() && current_.seconds < least_s) return false;
   double length_s = current_.seconds;
   for (std::size_t i = entries_.size(); i-- > 1;) length_s += entries_[i].since.seconds;
   while (!entries_.empty() && (length_s > config_.window_s || entries_.size() == kCapacity)) {
@@ -77,6 +77,7 @@ void VelocityMatching::add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
   entries_.push_back({current_, q_lb, rate_b_.cross(config_.lever_arm_b), Complex(v_n.x(), v_n.y()),
                       std::hypot(sigma_v, config_.velocity_sigma)});
   current_ = Increment();
+  return true;
 }
 
 // Along the window from its first attitude on, by the gyros alone.
@@ -113,6 +114,7 @@ VelocityMatching::Solution VelocityMatching::solve(const Eigen::Quaterniond& fir
     right += weight * row * entry.v_n;
     observed += weight * std::norm(entry.v_n);
   }
+  q = (q * current_.q).normalized();  // since the last entry
   if (known) {
     const double weight = 1.0 / square(known->sigma);
     const Complex turn = std::polar(1.0, known->heading) / direction(q);

@@ -39,10 +39,11 @@ class VelocityMatching {
   void add(const ImuSample& sample);
   // The antenna's velocity at the last sample: north, east, m/s, with its sigma per component.
   // `q_lb`: the levelled attitude then, its heading arbitrary but of one zero with those before.
-  void add_velocity(const Eigen::Vector2d& v_n, double sigma_v, const Eigen::Quaterniond& q_lb);
+  // False: left out, as one of more than the window holds (40), or not finite.
+  bool add_velocity(const Eigen::Vector2d& v_n, double sigma_v, const Eigen::Quaterniond& q_lb);
 
   struct Heading {
-    double heading = 0.0;  // rad, of the body's x axis at the last velocity
+    double heading = 0.0;  // rad, of the body's x axis at the last sample
     double sigma = 0.0;    // rad
   };
   struct Match {
@@ -52,8 +53,8 @@ class VelocityMatching {
     double misfit = 0.0;  // squared residuals over their variance: 1 when all is well
   };
   // `rate_sigma`: of the gyros' bias as far as it has not been taken out, rad/s per axis. `known`:
-  // what else tells the heading; it takes part. nullopt: the window holds too little for a heading
-  // within 20 degrees, or does not fit.
+  // what else tells the heading then; it takes part. nullopt: the window holds too little for a
+  // heading within 20 degrees, or does not fit.
   std::optional<Match> match(double rate_sigma,
                              const std::optional<Heading>& known = std::nullopt) const;
 

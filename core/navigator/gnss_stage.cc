@@ -43,6 +43,18 @@ EventKind event_of(OrbitChange change) {
   return EventKind::kOrbitFallback;
 }
 
+// As the event has them: side 1, vertical 2, standing's velocity 4 and rate 8, odometer 16.
+std::uint8_t constraint_groups(MotionComponents components) {
+  const auto bits = [&](MotionComponent first, unsigned count) {
+    return (components >> static_cast<unsigned>(first)) & ((1u << count) - 1u);
+  };
+  return static_cast<std::uint8_t>((bits(MotionComponent::kSide, 1) != 0 ? 1 : 0) |
+                                   (bits(MotionComponent::kVertical, 1) != 0 ? 2 : 0) |
+                                   (bits(MotionComponent::kVelocity, 3) != 0 ? 4 : 0) |
+                                   (bits(MotionComponent::kAngularRate, 3) != 0 ? 8 : 0) |
+                                   (bits(MotionComponent::kOdometer, 1) != 0 ? 16 : 0));
+}
+
 }  // namespace
 
 GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf_mailbox,
@@ -63,7 +75,8 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()),
       keyframe_maker_(config.smoother.keyframe_interval_s),
-      convention_check_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b) {
+      convention_check_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b,
+                        config.alignment.max_reverse_speed_m_s) {
   const AlignmentConfig& alignment = config_.alignment;
   if (alignment.initial_heading)
     given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});
@@ -95,8 +108,9 @@ void GnssStage::process_epoch(const EpochWork& work) {
   }
   motion_aid_.predict({work.block.data(), work.block.size()},
                       {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
-  if (const auto share = motion_aid_.contradiction())
-    events_.emit(EventKind::kConstraintsLeftOut, 0, *share, work.time);
+  if (const auto found = motion_aid_.contradiction())
+    events_.emit(EventKind::kConstraintsLeftOut, constraint_groups(found->left_out), found->share,
+                 work.time);
   for (const ConstraintInstant& instant : motion_aid_.instants())
     if (!before.is_set() || instant.time > before) report_->constraints.push_back(instant);
   drop_broken_filter(work.time);
@@ -150,7 +164,9 @@ void GnssStage::use_measurements(const EpochWork& work) {
   } else if (prediction_is_useless()) {
     PointSolution point;
     if (solve(work, Eigen::Vector3d::Zero(), &point)) {
+      const OutageWatch::Position before = antenna_position();
       restart_from(point, work, ResetCause::kOutage);
+      watch_outage(before, work.time);
       report_point(*measurements_, true, point.p_e, report_.get());
     } else {
       report_point(*measurements_, false, Eigen::Vector3d::Zero(), report_.get());
@@ -271,8 +287,7 @@ void GnssStage::update_filter(const EpochWork& work) {
 }
 
 OutageWatch::Position GnssStage::antenna_position() const {
-  return {ekf_.antenna_position_e(),
-          ekf_.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition)};
+  return {ekf_.antenna_position_e(), ekf_.antenna_position_covariance_e()};
 }
 
 void GnssStage::watch_outage(const OutageWatch::Position& before, GpsTime time) {
@@ -289,7 +304,9 @@ void GnssStage::process_command(const Command& command) {
   ekf_.reset();
   carriers_.reset();
   alignment_.reset();
+  motion_aid_.reset();
   forget_judgements();
+  outage_watch_.reset();
   last_gnss_time_ = last_reset_time_ = last_lock_out_ = GpsTime();
   convention_check_.clear();
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(command.cause), 0.0,

@@ -89,6 +89,7 @@ void GnssStage::drop_filter(GpsTime time, ResetCause cause, double value) {
   alignment_.reset();
   gnss_used_ = false;
   forget_judgements();
+  outage_watch_.reset();
   last_reset_time_ = time;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
 }
@@ -302,6 +303,8 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   sigma_rpy.head<2>() = sigma_rpy.head<2>().cwiseMax(config_.alignment.levelling_sigma);
   sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
 
+  // What a wrong attitude has taught of the vehicle's constants goes with it.
+  if (relapse) ekf_.reset();
   ekf_.initialize(work.time, point);
   carriers_.forget_position();
   if (keep_attitude) {
@@ -319,7 +322,6 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
 void GnssStage::forget_judgements() {
   suspect_epochs_ = 0;
   lock_out_watch_.reset();
-  outage_watch_.reset();
   elsewhere_ = 0.0;
   mean_off_e_.setZero();
 }

@@ -102,7 +102,7 @@ std::optional<double> HeadingWatch::course_off(double heading) const {
 std::optional<double> HeadingWatch::add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                                  const Filter& filter) {
   if (!started_ || !v_n.allFinite() || !std::isfinite(sigma_v)) return std::nullopt;
-  matching_.add_velocity(v_n, sigma_v, filter.q_nb);
+  if (!matching_.add_velocity(v_n, sigma_v, filter.q_nb)) return std::nullopt;
   const double heading = yaw_of(filter.q_nb);
   double off = 0.0;
   const auto judge = [&](double angle, double sigma) {

@@ -35,7 +35,8 @@ class HeadingWatch {
   };
   // At the last sample: the antenna's velocity by a point solution, north and east, with its sigma
   // per component (m/s), and what the filter says. Returns by how much its heading is off (rad),
-  // when that has been beyond chance for three velocities in a row.
+  // when that has been beyond chance for three velocities in a row, of those that the matching's
+  // window takes.
   std::optional<double> add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                      const Filter& filter);
 

@@ -80,6 +80,17 @@ bool MotionAid::carriers_agree() const {
   return !asks_carriers_ || (carrier_speed_ && *carrier_speed_ < kMaxCarrierSpeed);
 }
 
+void MotionAid::reset() {
+  detector_.reset();
+  odometer_.reset();
+  next_ = GpsTime();
+  offered_ = left_out_ = 0.0;
+  contradicted_ = standing_ = false;
+  few_satellites_ = true;
+  carrier_speed_.reset();
+  forget();
+}
+
 void MotionAid::forget() {
   instants_.clear();
   whole_ = true;
@@ -92,15 +103,16 @@ void MotionAid::count(MotionComponents used) {
   left_out &= ~static_cast<unsigned>(used);
   offered_ = keep * offered_ + 1.0;
   left_out_ = keep * left_out_ + (left_out != 0 ? 1.0 : 0.0);
+  if (left_out != 0) last_left_out_ = static_cast<MotionComponents>(left_out);
 }
 
-std::optional<double> MotionAid::contradiction() {
+std::optional<MotionAid::Contradiction> MotionAid::contradiction() {
   const double enough = 0.5 * kWatched_s / config_.constraints.interval_s;
   const double share = offered_ > enough ? left_out_ / offered_ : 0.0;
   if (share < kAgain) contradicted_ = false;
   if (contradicted_ || share < kContradicted) return std::nullopt;
   contradicted_ = true;
-  return share;
+  return Contradiction{share, last_left_out_};
 }
 
 void MotionAid::predict(std::span<const ImuSample> block,

@@ -25,6 +25,8 @@ class MotionAid {
   // `accel_bias`: of the IMU, m/s^2; `carriers`: whether the filter follows the satellites'.
   MotionAid(const MotionAidConfig& config, const GaussMarkov& accel_bias, bool carriers);
 
+  // The filter starts over, and time may begin anew.
+  void reset();
   // As Ekf::predict. `odometer`: the increments that came with the block, in order of time.
   void predict(std::span<const ImuSample> block, std::span<const OdometerIncrement> odometer,
                GpsTime time, Ekf* ekf);
@@ -40,10 +42,14 @@ class MotionAid {
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
   void forget();
-  // The share of the last ten seconds' instants at which the gate has left something out, when it
-  // has risen above a half: the vehicle slides, or is not what the configuration says. Told once;
-  // again after it was below a quarter.
-  std::optional<double> contradiction();
+  // When the gate has left something out at more than half of the last ten seconds' instants: the
+  // vehicle slides, or is not what the configuration says. Told once; again after it was below a
+  // quarter.
+  struct Contradiction {
+    double share = 0.0;             // of the instants
+    MotionComponents left_out = 0;  // at the last of them that left something out
+  };
+  std::optional<Contradiction> contradiction();
 
  private:
   static constexpr int kEnoughSatellites = 5;
@@ -59,6 +65,7 @@ class MotionAid {
   MotionMeasurements measurements_;
   GpsTime next_;
   double offered_ = 0.0, left_out_ = 0.0;  // fading
+  MotionComponents last_left_out_ = 0;
   bool contradicted_ = false;
   bool asks_carriers_ = false;
   std::optional<double> carrier_speed_;

@@ -33,6 +33,12 @@ void OdometerAid::add(std::span<const OdometerIncrement> increments) {
   heard_ = heard_ || !increments.empty();
 }
 
+void OdometerAid::reset() {
+  speeds_.clear();
+  waiting_.clear();
+  last_moved_ = GpsTime();
+}
+
 SpeedHistory* OdometerAid::follow(const Ekf& ekf) {
   if (!heard_) return nullptr;
   if (!ekf.initialized() || !ekf.has_attitude()) {

@@ -15,6 +15,8 @@ class OdometerAid {
 
   // In order of time. Without room the oldest go.
   void add(std::span<const OdometerIncrement> increments);
+  // Of what came before nothing is left but that there is an odometer: time may begin anew.
+  void reset();
   bool heard() const { return heard_; }  // of an increment, ever
   // Where the filter's prediction leaves its speeds, from the filter as it is on; nullptr: nobody
   // asks for them.

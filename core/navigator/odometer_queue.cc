@@ -21,6 +21,10 @@ InputFault OdometerQueue::add(const OdometerIncrement& increment, GpsTime imu_ti
     if (!watch_.reject(time)) return InputFault::kTimeBackwards;
     waiting_.clear();
   }
+  // One sum over a sliding interval after the other would count the same way many times.
+  const bool overlaps =
+      last_.is_set() && nanoseconds_between(last_, increment.start()) > increment.interval_ns / 4;
+  if (overlaps && time > last_) return InputFault::kOverlap;
   watch_.clear();
   if (const InputFault full = place(increment, last_epoch); full != InputFault::kNone) return full;
   last_ = time;

@@ -90,6 +90,8 @@ std::string_view to_string(InputFault fault) {
       return "not_sane";
     case InputFault::kTooFarAhead:
       return "too_far_ahead";
+    case InputFault::kOverlap:
+      return "overlap";
   }
   return "unknown";
 }

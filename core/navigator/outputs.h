@@ -122,8 +122,10 @@ enum class EventKind : std::uint8_t {
   kClockReturn = 15,     // a clock file's serves again, or for the first time; likewise
   kSmootherFailed = 16,  // its window starts over; code: SmootherStatus, value: epoch
   kSourceChange = 17,    // of the answer's anchor; code: Source it now comes from, value: epoch
-  kConstraintsLeftOut = 18,  // on the motion contradict the filter; value: share of the instants
-  kConventionSuspect = 19,   // an input does not follow leonav's; code: Convention, value: by it
+  // On the motion, they contradict the filter; value: share of the instants; code, a sum of those
+  // left out: side 1, vertical 2, standing's velocity 4 and rate 8, odometer 16.
+  kConstraintsLeftOut = 18,
+  kConventionSuspect = 19,  // an input does not follow leonav's; code: Convention, value: by it
   // Satellites are back after 5 s or more; value: seconds without; code: by how many tenths of its
   // 3D sigma the filter's position stepped.
   kOutageOver = 20,
@@ -162,6 +164,7 @@ enum class InputFault : std::uint8_t {
   kTooMany = 7,
   kNotSane = 8,
   kTooFarAhead = 9,
+  kOverlap = 10,  // of an interval with the one before
 };
 std::string_view to_string(InputFault fault);
 

@@ -10,13 +10,13 @@ namespace leonav {
 // Covariance of position, velocity and attitude errors in ECEF, in the order of ekf_index.
 using PvaCovariance = Eigen::Matrix<double, 9, 9>;
 
-// Fills time, position, velocity, attitude, their sigmas and the IMU errors; leaves the rest of
-// `solution` (sequence, source, anchor, jump) to the caller. Without attitude the angles and their
-// sigmas are zero.
 // The position at the stamp of a state that is of `time_offset_s` later; what else changes in these
 // milliseconds is left as it is.
 NavState at_stamp(const NavState& state, double time_offset_s);
 
+// Fills time, position, velocity, attitude, their sigmas and the IMU errors; leaves the rest of
+// `solution` (sequence, source, anchor, jump) to the caller. Without attitude the angles and their
+// sigmas are zero.
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution);
 

@@ -109,7 +109,7 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
   const bool wheeled = config->kind == VehicleKind::kCar || config->kind == VehicleKind::kRail;
   read_switch(group, "non_holonomic", wheeled, &motion.non_holonomic);
   read_switch(group, "zero_velocity", wheeled, &motion.zero_velocity);
-  group.number("constraint_interval_s", {0.1, 10.0}, &motion.interval_s);
+  group.number("constraint_interval_s", {0.1, 1.0}, &motion.interval_s);
   group.vector("constraint_point_b_m", {-100.0, 100.0}, &motion.point_b);
   group.number("side_velocity_sigma_m_s", {1e-4, 100.0}, &motion.side_sigma);
   group.number("vertical_velocity_sigma_m_s", {1e-4, 100.0}, &motion.vertical_sigma);

@@ -33,16 +33,16 @@ const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX(), kRight = Eigen::Vecto
                       kDown = Eigen::Vector3d::UnitZ();
 
 ConventionFinding upright(const Eigen::Matrix3d& axes) {
-  return check_track_upright(fit_track(seen_by(axes)));
+  return check_track_upright(fit_track(seen_by(axes), 3.0));
 }
 
 ConventionFinding upside_down(const Eigen::Matrix3d& axes) {
   const MotionRecord record = seen_by(axes);
-  return check_track_upside_down(fit_track(record), mean_force(record));
+  return check_track_upside_down(fit_track(record, 3.0), mean_force(record));
 }
 
 TEST_CASE("forward, right, down is right", "[conventions]") {
-  const TrackFit fit = fit_track(seen_by(rows(kForward, kRight, kDown)));
+  const TrackFit fit = fit_track(seen_by(rows(kForward, kRight, kDown)), 3.0);
   CHECK(fit.is_right());
   CHECK(fit.turn_size == Approx(1.0).margin(0.05));
   CHECK(!check_track_upright(fit));
@@ -53,7 +53,7 @@ TEST_CASE("a sloping or crooked mounting of some degrees is right", "[convention
 }
 
 TEST_CASE("without a bend nothing is known of right and left", "[conventions]") {
-  CHECK(!fit_track(seen_by(rows(kForward, kRight, kDown), 20)).known);
+  CHECK(!fit_track(seen_by(rows(kForward, kRight, kDown), 20), 3.0).known);
 }
 
 TEST_CASE("horizontal axes that are others are named", "[conventions]") {

@@ -30,7 +30,7 @@ struct Outcome {
 };
 
 Outcome run(const ImuErrorModel& imu, const Way& way, double speed, std::uint64_t seed,
-            double wrong_velocity = 0.0) {
+            double wrong_velocity = 0.0, int samples_per_velocity = 100) {
   SyntheticVehicle vehicle(imu, 0.1 * static_cast<double>(seed), seed);
   for (int i = 0; i < 1000; ++i) (void)vehicle.step(speed / 10.0, 0.0);
   VelocityMatching::Config config;
@@ -38,13 +38,13 @@ Outcome run(const ImuErrorModel& imu, const Way& way, double speed, std::uint64_
   VelocityMatching matching(config);
   // Levelled to two degrees, its heading of another zero.
   Eigen::Quaterniond q_lb(rotation_from_euler({0.02, -0.03, vehicle.yaw() + 1.0}));
-  for (int t = 0; t < 14; ++t) {
+  for (int i = 1; i <= 1430; ++i) {
+    const int t = (i - 1) / 100;
     const Eigen::Vector2d a = way(t);
-    for (int i = 0; i < 100; ++i) {
-      const ImuSample sample = vehicle.step(a.x(), a.y());
-      matching.add(sample);
-      q_lb = q_lb * quaternion_from_rotation_vector(sample.delta_theta_b);
-    }
+    const ImuSample sample = vehicle.step(a.x(), a.y());
+    matching.add(sample);
+    q_lb = q_lb * quaternion_from_rotation_vector(sample.delta_theta_b);
+    if (i % samples_per_velocity != 0) continue;
     const Eigen::Vector2d off(t % 4 < 2 ? wrong_velocity : -wrong_velocity, wrong_velocity);
     matching.add_velocity(vehicle.v_n(kSigma) + off, kSigma, q_lb);
   }
@@ -69,6 +69,21 @@ TEST_CASE("velocity matching finds the heading in curves, speeding up and in rev
       CHECK(squares / kRuns < 1.3);
       CHECK(worst_ratio < 4.0);
     }
+  }
+}
+
+// Between the velocities that its window takes the vehicle turns on: by ten degrees here.
+TEST_CASE("velocity matching tells the heading at the last sample, however fast velocities come") {
+  const Way bend = [](int) { return Eigen::Vector2d(0.0, 0.08); };
+  for (const int samples : {10, 20, 50, 100}) {
+    CAPTURE(samples);
+    double worst_ratio = 0.0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const Outcome outcome = run(test::tactical_imu(), bend, 6.0, seed, 0.0, samples);
+      REQUIRE(outcome.match);
+      worst_ratio = std::max(worst_ratio, std::abs(outcome.error) / outcome.match->heading.sigma);
+    }
+    CHECK(worst_ratio < 4.0);
   }
 }
 

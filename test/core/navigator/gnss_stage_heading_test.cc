@@ -94,8 +94,10 @@ TEST_CASE(
     "a heading that was told wrongly is noticed once the vehicle drives, a right one is not") {
   SyntheticDriveOptions options;
   options.duration_s = 70.0;
+  options.epoch_interval_s = GENERATE(1.0, 0.2);
   options.doppler_sigma_m_s = 0.03;
   options.code_sigma_m = 0.5;
+  CAPTURE(options.epoch_interval_s);
   const SyntheticDrive drive = synthetic_drive(options);
   NavigatorConfig config = drive_navigator_config(drive.options);
   config.alignment.velocity_matching = config.alignment.heading_watch = true;

@@ -2,6 +2,7 @@
 // not be taken for standing.
 #include "core/navigator/motion_aid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -80,6 +81,24 @@ TEST_CASE("constraints that do not hold are left out, and that is told") {
   config.vehicle.motion.constraints.point_b = {40.0, 0.0, 0.0};
   config.vehicle.motion.constraints.slip_per_acceleration = 0.0;
   CHECK(events_of(config) >= 1);
+}
+
+TEST_CASE("after both streams have gone back in time the constraints are there again") {
+  const SyntheticDriveOptions options = noisy_drive();
+  const SyntheticDrive drive = synthetic_drive(options);
+  RecordingSink sink;
+  Pipeline pipeline(config_of(options, true, Estimator::kEkf), &sink);
+  feed(drive, &pipeline);
+  const auto constrained = [&] {
+    return std::count_if(sink.epochs.begin(), sink.epochs.end(),
+                         [](const EpochReport& report) { return !report.constraints.empty(); });
+  };
+  const auto once = constrained();
+  feed(drive, &pipeline);
+  std::printf("epochs with constraints: %td, and %td the second time\n", once,
+              constrained() - once);
+  CHECK(once > 150);
+  CHECK(constrained() - once > once - 15);
 }
 
 TEST_CASE("an IMU that cannot feel a gentle start needs the carriers to stand") {

@@ -77,12 +77,25 @@ TEST_CASE("hostile increments are counted by their reason and dropped") {
   CHECK(rig.sequencer.counters().odometer == 2);
 }
 
+TEST_CASE("a way that is told twice is refused: sums over a sliding interval") {
+  SequencerRig rig(with_odometer());
+  rig.imu(0, 1000);
+  rig.sequencer.on_odometer(increment(300));
+  rig.sequencer.on_odometer(increment(380));  // stamps that jitter
+  rig.sequencer.on_odometer(increment(430));
+  CHECK(rig.rejected(InputFault::kOverlap) == 1);
+  rig.sequencer.on_odometer(increment(480));
+  CHECK(rig.sequencer.counters().odometer == 3);
+}
+
 TEST_CASE("more increments than have a place are refused, and the next epoch makes room") {
   SequencerRig rig(with_odometer());
   rig.imu(0, 1000);
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(kMaxOdometerBlock) + 7; ++i) {
     OdometerIncrement one = increment(100);
     one.time = one.time.plus_nanoseconds(i * kMs);
+    one.interval_ns = kMs;
+    one.distance_m = 0.01;
     rig.sequencer.on_odometer(one);
   }
   CHECK(rig.rejected(InputFault::kTooMany) == 7);

@@ -56,6 +56,19 @@ NavigatorConfig full_config(MotionModel motion) {
   return config;
 }
 
+// Everything that a car has, and an IMU that asks the carriers whether it stands.
+void make_a_car(NavigatorConfig* config) {
+  MotionConstraintConfig& constraints = config->vehicle.motion.constraints;
+  constraints.non_holonomic = constraints.zero_velocity = true;
+  config->imu.accel_bias = {0.2, 1000.0};
+  AlignmentConfig& alignment = config->alignment;
+  alignment.velocity_matching = alignment.heading_watch = true;
+  alignment.max_reverse_speed_m_s = 5.0;
+  alignment.lever_arm_b = config->vehicle.lever_arm_b;
+  config->ekf.vehicle.count = ekf_index::kMaxVehicle;
+  config->ekf.vehicle.sigma.fill(0.02);
+}
+
 // Nodes of every GPS satellite, 300 s apart, more than are kept.
 std::vector<PreciseState> precise_states(const SimulatedSky& sky) {
   std::vector<PreciseState> states;
@@ -101,6 +114,7 @@ TEST_CASE(
   CAPTURE(static_cast<int>(motion), static_cast<int>(estimator));
   NavigatorConfig config = full_config(motion);
   config.estimator = estimator;
+  if (GENERATE(false, true)) make_a_car(&config);
   config.vehicle.motion.constraints.odometer = true;
   config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
   CountingSink sink;

