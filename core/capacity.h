@@ -29,6 +29,8 @@ inline constexpr std::size_t kMaxSpeedHistory = 2048;  // speeds kept: 500 Hz, 4
 
 // Instants between two keyframes at which constraints on the motion act: 3 s, ten times a second.
 inline constexpr std::size_t kMaxConstraintInstants = 32;
+// Their components.
+inline constexpr std::size_t kMaxConstraintReports = 8 * kMaxConstraintInstants;
 
 inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
 

@@ -22,6 +22,8 @@ class EncodingSink : public OutputSink {
   }
   void on_epoch(const EpochReport& report) override {
     target_->take(Channel::kEpoch, encoder_.encode(report));
+    if (!report.constraint_reports.empty())
+      target_->take(Channel::kConstraints, encoder_.encode_constraints(report));
   }
   void on_event(const Event& event) override {
     target_->take(Channel::kEvent, encoder_.encode(event));

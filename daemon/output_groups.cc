@@ -15,6 +15,7 @@ std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes) {
     case Channel::kSmoother:
       return 7;
     case Channel::kEpoch:
+    case Channel::kConstraints:  // of one epoch, behind it
       return 2;
     case Channel::kEvent: {
       // A damaged one is compared with the sequencer's: it differs from any that is regenerated.

@@ -58,12 +58,11 @@ Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& leve
     : config_(config), imu_(imu), lever_arm_b_(lever_arm_b) {}
 
 void Ekf::reset() {
-  now_.vehicle.clear();
+  forget_constants();
   initialize(GpsTime(), PointSolution());
   last_sample_ = ImuSample();
   measured_rate_b_.setZero();
   acceleration_e_.setZero();
-  start_tilt_sigma_ = start_heading_sigma_ = std::numeric_limits<double>::infinity();
   known_ = ClockFlags{};
   initialized_ = false;
 }

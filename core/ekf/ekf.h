@@ -101,6 +101,9 @@ class Ekf {
   // `speeds`, if given: is told of the state after every sample.
   void predict(std::span<const ImuSample> block, GpsTime time, SpeedHistory* speeds = nullptr);
 
+  // Just before initialize(): what is known of the vehicle's constants does not outlive this
+  // filter.
+  void forget_constants();
   // From now on a constant of the vehicle is estimated that was not (place in ekf_index), with
   // those before it; nothing where it is already. For an estimator that looks back the filter has
   // started over.
@@ -108,8 +111,8 @@ class Ekf {
 
   // Takes what constraints tell of the state as it is now, linearized there. Each component is
   // tested against the prediction; one that is further away than `gate` sigmas is left out. Returns
-  // which were used. Nothing without an attitude.
-  MotionComponents constrain(const MotionMeasurements& measurements, double gate);
+  // which were used, and says of each how it was met. Nothing without an attitude.
+  MotionComponents constrain(MotionMeasurements* measurements, double gate);
 
   // Uses the code, carrier and Doppler of epoch.measurements whose reason is kUsed, against the
   // state as predicted to the epoch, linearized at epoch.approximate_p_e if that is given. IGG-III

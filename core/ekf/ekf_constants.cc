@@ -1,6 +1,7 @@
 // The vehicle's constants, in Ekf.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
@@ -36,6 +37,11 @@ void Ekf::start_vehicle(const VehicleConstants& before, const VehicleConstants& 
     now_.vehicle.push_back(known ? before[place] : 0.0);
     covariance_(kSize + i, kSize + i) = known ? variances[place] : start_variance(i);
   }
+}
+
+void Ekf::forget_constants() {
+  now_.vehicle.clear();
+  start_tilt_sigma_ = start_heading_sigma_ = std::numeric_limits<double>::infinity();
 }
 
 // Makes room before the ambiguities.

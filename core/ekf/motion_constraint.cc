@@ -74,6 +74,7 @@ MotionMeasurement odometer_measurement(const MotionConstraintConfig& config,
   const double scale = whole.vehicle.size() > kOdometerScale ? whole.vehicle[kOdometerScale] : 0.0;
   MotionMeasurement measurement;
   measurement.component = static_cast<int>(MotionComponent::kOdometer);
+  measurement.observation = odometer.mean_m_s;
   measurement.residual = odometer.mean_m_s - (1.0 + scale) * mean;
   measurement.variance = square(config.odometer_sigma) + odometer.variance;
   auto& row = measurement.row;
@@ -94,9 +95,12 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
   const BodyVelocity velocity = body_velocity(state, measured_rate_b, config.point_b);
   const auto add = [&](MotionComponent first, int axis, double residual, double variance,
                        const EkfVector& row) -> MotionMeasurement& {
-    measurements->push_back({static_cast<int>(first) + axis, residual, variance});
-    measurements->back().row.head<kSize>() = row;
-    return measurements->back();
+    MotionMeasurement& measurement = measurements->emplace_back();
+    measurement.component = static_cast<int>(first) + axis;
+    measurement.residual = residual;
+    measurement.variance = variance;
+    measurement.row.head<kSize>() = row;
+    return measurement;
   };
   if (instant.standing && config.zero_velocity) {
     const RestingRate rate = resting_rate(state, instant.standing_rate_b);
@@ -104,7 +108,8 @@ void motion_measurements(const MotionConstraintConfig& config, const ConstraintI
       add(MotionComponent::kVelocity, axis, -velocity.v_b(axis),
           square(config.standing_velocity_sigma), velocity.columns.col(axis));
       add(MotionComponent::kAngularRate, axis, rate.residual_b(axis),
-          square(config.standing_rate_sigma), rate.columns.col(axis));
+          square(config.standing_rate_sigma), rate.columns.col(axis))
+          .observation = instant.standing_rate_b(axis);
     }
     return;
   }

@@ -24,10 +24,14 @@ using ConstraintVector = Eigen::Matrix<double, ekf_index::kSize + ekf_index::kMa
 
 // One component of one constraint.
 struct MotionMeasurement {
-  int component = 0;      // its bit in MotionComponents
-  double residual = 0.0;  // measured less predicted: m/s, of a rate rad/s
+  int component = 0;         // its bit in MotionComponents
+  double observation = 0.0;  // m/s, of a rate rad/s
+  double residual = 0.0;     // that less what is predicted
   double variance = 0.0;
   ConstraintVector row = ConstraintVector::Zero();
+  // By Ekf::constrain: with what the components before it have told, and what all have left of it.
+  double innovation = 0.0, innovation_variance = 0.0, left = 0.0;
+  bool used = false;
 };
 // The components of all constraints at one instant.
 using MotionMeasurements = boost::container::static_vector<MotionMeasurement, 8>;

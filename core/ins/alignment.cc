@@ -38,6 +38,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kContradiction = 4.0;  // sigmas
 constexpr double kGiveUpNorth = 3.0;    // times what the data sheet asks for
 
+}  // namespace
+
 VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu) {
   VelocityMatching::Config matching;
   matching.window_s = config.matching_window_s;
@@ -46,8 +48,6 @@ VelocityMatching::Config matching_config(const AlignmentConfig& config, const Im
   matching.accel_scale_sigma = imu.accel_scale.sigma;
   return matching;
 }
-
-}  // namespace
 
 Alignment::Alignment(const AlignmentConfig& config, const ImuErrorModel& imu)
     : config_(config),

@@ -41,6 +41,9 @@ struct AlignmentConfig {
   bool heading_watch = false;  // see HeadingWatch; for who drives the alignment
 };
 
+// Of the velocity matching that goes with it.
+VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu);
+
 struct AlignedAttitude {
   Eigen::Quaterniond q_eb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d sigma_rpy = Eigen::Vector3d::Zero();  // rad: roll, pitch, yaw

@@ -89,6 +89,7 @@ void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* re
   report->satellites.clear();
   report->aiding.clear();
   report->constraints.clear();
+  report->constraint_reports.clear();
 }
 
 void report_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,

@@ -113,6 +113,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
                  work.time);
   for (const ConstraintInstant& instant : motion_aid_.instants())
     if (!before.is_set() || instant.time > before) report_->constraints.push_back(instant);
+  report_->constraint_reports = motion_aid_.reports();
   drop_broken_filter(work.time);
   if (!work.empty) {
     use_measurements(work);

@@ -70,7 +70,7 @@ void GnssStage::watch_heading(const EpochWork& work) {
   if (!off) return;
   heading_watch_.stop();
   given_heading_.forget();
-  ekf_.reset();  // with the vehicle's constants
+  ekf_.forget_constants();
   ekf_.initialize(work.time, point);
   carriers_.forget_position();
   alignment_.reset();

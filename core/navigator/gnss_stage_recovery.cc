@@ -304,7 +304,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   sigma_rpy.z() = std::max(2.0 * sigma_rpy.z(), kMinResetHeadingSigma);
 
   // What a wrong attitude has taught of the vehicle's constants goes with it.
-  if (relapse) ekf_.reset();
+  if (relapse) ekf_.forget_constants();
   ekf_.initialize(work.time, point);
   carriers_.forget_position();
   if (keep_attitude) {

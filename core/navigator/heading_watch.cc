@@ -22,15 +22,6 @@ constexpr double kConfirming = 3.0 * kPi / 180.0;      // rad, sigma of a matchi
 constexpr double kConfirmed = 2.0;                     // sigmas
 constexpr double kMaxMisfit = 2.0;
 
-VelocityMatching::Config matching_config(const AlignmentConfig& config, const ImuErrorModel& imu) {
-  VelocityMatching::Config matching;
-  matching.window_s = config.matching_window_s;
-  matching.lever_arm_b = config.lever_arm_b;
-  matching.accel_bias_sigma = imu.accel_bias.sigma;
-  matching.accel_scale_sigma = imu.accel_scale.sigma;
-  return matching;
-}
-
 double yaw_of(const Eigen::Quaterniond& q) { return euler_from_rotation(q.toRotationMatrix()).yaw; }
 
 }  // namespace

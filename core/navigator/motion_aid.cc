@@ -106,6 +106,15 @@ void MotionAid::count(MotionComponents used) {
   if (left_out != 0) last_left_out_ = static_cast<MotionComponents>(left_out);
 }
 
+void MotionAid::report(GpsTime time) {
+  for (const MotionMeasurement& m : measurements_) {
+    if (reports_.size() == reports_.capacity()) return;
+    const double sigma = std::sqrt(m.innovation_variance);
+    reports_.push_back({time, m.component, m.observation, m.innovation, m.innovation_variance,
+                        sigma > 0.0 ? std::abs(m.innovation) / sigma : 0.0, m.used, m.left});
+  }
+}
+
 std::optional<MotionAid::Contradiction> MotionAid::contradiction() {
   const double enough = 0.5 * kWatched_s / config_.constraints.interval_s;
   const double share = offered_ > enough ? left_out_ / offered_ : 0.0;
@@ -117,6 +126,7 @@ std::optional<MotionAid::Contradiction> MotionAid::contradiction() {
 
 void MotionAid::predict(std::span<const ImuSample> block,
                         std::span<const OdometerIncrement> odometer, GpsTime time, Ekf* ekf) {
+  reports_.clear();
   if (config_.constraints.odometer) odometer_.add(odometer);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < block.size() && enabled(); ++i) {
@@ -164,7 +174,8 @@ void MotionAid::constrain(Ekf* ekf) {
   instant.vertical_doubt = alike * forward.down_variance;
   motion_measurements(config_.constraints, instant, ekf->whole_state(), ekf->measured_rate_b(),
                       &measurements_);
-  instant.used = ekf->constrain(measurements_, config_.constraints.gate);
+  instant.used = ekf->constrain(&measurements_, config_.constraints.gate);
+  report(instant.time);
   count(instant.used);
   if (instants_.size() == instants_.capacity()) {
     whole_ = false;

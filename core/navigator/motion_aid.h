@@ -9,6 +9,7 @@
 #include "core/ins/imu_error_model.h"
 #include "core/ins/standstill_detector.h"
 #include "core/navigator/odometer_aid.h"
+#include "core/navigator/outputs.h"
 
 namespace leonav {
 
@@ -38,6 +39,8 @@ class MotionAid {
   bool asks_carriers() const { return asks_carriers_; }
   // Horizontal, m/s, of the last epoch with satellites; nullopt: not known.
   void set_carrier_speed(std::optional<double> speed) { carrier_speed_ = speed; }
+  // Of the last call of predict().
+  const ConstraintReports& reports() const { return reports_; }
   // Since the last call of forget(); as many as have a place.
   const ConstraintInstants& instants() const { return instants_; }
   bool whole() const { return whole_; }  // none was left out for want of a place
@@ -57,12 +60,14 @@ class MotionAid {
   bool carriers_agree() const;
   void constrain(Ekf* ekf);
   void count(MotionComponents used);
+  void report(GpsTime time);
 
   MotionAidConfig config_;
   StandstillDetector detector_;
   OdometerAid odometer_;
   ConstraintInstants instants_;
   MotionMeasurements measurements_;
+  ConstraintReports reports_;
   GpsTime next_;
   double offered_ = 0.0, left_out_ = 0.0;  // fading
   MotionComponents last_left_out_ = 0;

@@ -57,6 +57,19 @@ struct AidingReport {
   Reason reason = Reason::kUsed;
 };
 
+// One component of a constraint on the motion, likewise; in m/s, angular rates in rad/s.
+struct ConstraintReport {
+  GpsTime time;
+  int component = 0;  // as in MotionComponent
+  double observation = 0.0;
+  double innovation = 0.0;
+  double innovation_variance = 0.0;
+  double test_ratio = 0.0;
+  bool used = false;
+  double residual = 0.0;
+};
+using ConstraintReports = boost::container::static_vector<ConstraintReport, kMaxConstraintReports>;
+
 struct SatelliteReport {
   SatelliteId satellite;
   Reason reason = Reason::kUsed;          // kUsed if any of its measurements counted
@@ -88,6 +101,7 @@ struct EpochReport {
   boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
   ConstraintInstants constraints;  // since the last epoch; not on the wire
+  ConstraintReports constraint_reports;
 };
 
 // The smoother's answer at a keyframe, if it was in time.

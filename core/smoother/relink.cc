@@ -65,7 +65,7 @@ void Relinker::propagate(const Keyframe& before, const Keyframe& keyframe) {
     };
     measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), unused),
                         measurements_.end());
-    propagator_->constrain(measurements_, std::numeric_limits<double>::infinity());
+    propagator_->constrain(&measurements_, std::numeric_limits<double>::infinity());
   }
   propagator_->predict(block, keyframe.time);
 }

@@ -24,6 +24,7 @@ enum class Channel : std::uint8_t {
   // outputs
   kSolution,
   kEpoch,
+  kConstraints,
   kEvent,
   kDecision,
   kSmoother,
@@ -31,7 +32,7 @@ enum class Channel : std::uint8_t {
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 16;
+inline constexpr std::size_t kChannelCount = 17;
 inline constexpr std::array<Channel, 8> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris, Channel::kOrbitClock,
     Channel::kIonosphere, Channel::kAntenna,   Channel::kCommand,   Channel::kOdometer};

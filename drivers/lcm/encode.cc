@@ -4,6 +4,7 @@
 #include <array>
 #include <leonav/antenna_t.hpp>
 #include <leonav/command_t.hpp>
+#include <leonav/constraints_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/epoch_t.hpp>
@@ -108,6 +109,17 @@ void fill(const AidingReport& from, aiding_t* to) {
   to->residual = from.residual;
 }
 
+void fill(const ConstraintReport& from, constraint_t* to) {
+  to->time_ns = from.time.nanoseconds();
+  to->component = static_cast<std::int8_t>(from.component);
+  to->observation = from.observation;
+  to->innovation = from.innovation;
+  to->innovation_variance = from.innovation_variance;
+  to->test_ratio = static_cast<float>(from.test_ratio);
+  to->used = from.used ? 1 : 0;
+  to->residual = from.residual;
+}
+
 }  // namespace
 
 struct Encoder::Storage {
@@ -116,6 +128,7 @@ struct Encoder::Storage {
   orbit_clock_t orbit_clock;
   antenna_t antenna;
   epoch_t epoch;
+  constraints_t constraints;
   std::array<std::uint8_t, wire::kMaxMessageBytes> buffer;
 
   template <typename T>
@@ -132,6 +145,7 @@ Encoder::Encoder() : storage_(std::make_unique<Storage>()) {
   storage_->antenna.values_m.reserve(kMaxAntennaValues);
   storage_->epoch.satellites.reserve(kMaxSatellites);
   storage_->epoch.aiding.reserve(kMaxMeasurements);
+  storage_->constraints.components.reserve(kMaxConstraintReports);
 }
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
@@ -282,6 +296,17 @@ ByteSpan Encoder::encode(const EpochReport& from) {
   }
   to.aiding.resize(from.aiding.size());
   for (std::size_t i = 0; i < from.aiding.size(); ++i) fill(from.aiding[i], &to.aiding[i]);
+  return storage_->write(to);
+}
+
+ByteSpan Encoder::encode_constraints(const EpochReport& from) {
+  constraints_t& to = storage_->constraints;
+  set_header(from.time, from.sequence, &to);
+  to.index = static_cast<std::int64_t>(from.index);
+  to.n = static_cast<std::int32_t>(from.constraint_reports.size());
+  to.components.resize(from.constraint_reports.size());
+  for (std::size_t i = 0; i < from.constraint_reports.size(); ++i)
+    fill(from.constraint_reports[i], &to.components[i]);
   return storage_->write(to);
 }
 

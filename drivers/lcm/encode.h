@@ -39,6 +39,7 @@ class Encoder {
   // Outputs.
   ByteSpan encode(const Solution& solution);
   ByteSpan encode(const EpochReport& report);
+  ByteSpan encode_constraints(const EpochReport& report);
   ByteSpan encode(const Event& event);
   ByteSpan encode(const Decision& decision);
   ByteSpan encode(const SmootherReport& report);

@@ -1,5 +1,6 @@
 #include "result_files.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,13 @@ constexpr std::string_view kEpochsHeader =
 constexpr std::string_view kSatellitesHeader =
     "gps_week,gps_tow_s,satellite,reason,used,elevation_deg,azimuth_deg,cn0_dbhz,ephemeris_age_s,"
     "orbit,arc,arc_started,arc_causes";
+constexpr std::string_view kConstraintsHeader =
+    "gps_week,gps_tow_s,constraint,observation,innovation,innovation_sigma,test_ratio,used,"
+    "residual";
+constexpr std::array<std::string_view, 9> kConstraintNames = {
+    "side",       "vertical",        "standing_x",      "standing_y",
+    "standing_z", "standing_rate_x", "standing_rate_y", "standing_rate_z",
+    "odometer"};
 constexpr std::string_view kMeasurementsHeader =
     "gps_week,gps_tow_s,satellite,observable,signals,observation,innovation,innovation_sigma,"
     "test_ratio,weight_factor,reason,residual,elevation_deg";
@@ -70,7 +78,8 @@ ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_h
     : solution_(folder + "/solution.csv"),
       epochs_(folder + "/epochs.csv", kEpochsHeader),
       satellites_file_(folder + "/satellites.csv", kSatellitesHeader),
-      measurements_(folder + "/measurements.csv", kMeasurementsHeader) {
+      measurements_(folder + "/measurements.csv", kMeasurementsHeader),
+      folder_(folder) {
   if (rate_hz) interval_ns_ = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
 }
 
@@ -107,6 +116,7 @@ void ResultFiles::add(const EpochReport& report) {
       .end_row();
   write_satellites(report);
   write_measurements(report);
+  write_constraints(report);
 }
 
 void ResultFiles::add(const SmootherReport& report) {
@@ -157,12 +167,29 @@ void ResultFiles::write_measurements(const EpochReport& report) {
   }
 }
 
+void ResultFiles::write_constraints(const EpochReport& report) {
+  if (report.constraint_reports.empty()) return;
+  if (!constraints_) constraints_.emplace(folder_ + "/constraints.csv", kConstraintsHeader);
+  for (const ConstraintReport& one : report.constraint_reports) {
+    constraints_->time(one.time)
+        .text(kConstraintNames.at(static_cast<std::size_t>(one.component)))
+        .number(one.observation, 6)
+        .number(one.innovation, 6)
+        .number(std::sqrt(one.innovation_variance), 6)
+        .number(one.test_ratio, 3)
+        .number(one.used ? 1.0 : 0.0, 0)
+        .number(one.residual, 6)
+        .end_row();
+  }
+}
+
 void ResultFiles::close() {
   write_row();
   solution_.close();
   epochs_.close();
   satellites_file_.close();
   measurements_.close();
+  if (constraints_) constraints_->close();
 }
 
 }  // namespace leonav

@@ -1,4 +1,5 @@
-// The tables a replay leaves behind: solution.csv, epochs.csv, satellites.csv, measurements.csv.
+// The tables a replay leaves behind: solution.csv, epochs.csv, satellites.csv, measurements.csv
+// and, where the motion is constrained, constraints.csv.
 #pragma once
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ class ResultFiles {
   void write_row();
   void write_satellites(const EpochReport& report);
   void write_measurements(const EpochReport& report);
+  void write_constraints(const EpochReport& report);
 
   std::optional<std::int64_t> interval_ns_;
   GpsTime next_row_;
@@ -35,6 +37,8 @@ class ResultFiles {
   std::uint64_t row_epoch_ = 0;
   SolutionCsvWriter solution_;
   CsvWriter epochs_, satellites_file_, measurements_;
+  std::string folder_;
+  std::optional<CsvWriter> constraints_;  // once there is one
 };
 
 }  // namespace leonav

@@ -133,6 +133,32 @@ TEST_CASE("an odometer's residual is nothing where it shows the scaled mean befo
   CHECK(measurements[0].variance == Approx(0.04));
 }
 
+TEST_CASE("how a component was met: innovation and variance by the prediction, what is left") {
+  EkfConfig config;
+  Ekf ekf(config, synthetic::mems(), Vector3d::Zero());
+  FilterState state;
+  state.nav = turning_state();
+  state.nav.time = synthetic::kStart;
+  ekf.place(state, true, ImuSample());
+  ekf.predict({}, synthetic::kStart.plus_seconds(1.0));
+  const auto& P = ekf.covariance();
+  MotionMeasurements two(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    two[i].component = static_cast<int>(i);
+    two[i].residual = i == 0 ? 0.1 : 1e3;  // the second far beyond the gate
+    two[i].variance = 0.01;
+    two[i].row(kVelocity + static_cast<int>(i)) = 1.0;
+  }
+  const double prior = P(kVelocity, kVelocity), variance = prior + 0.01;
+  CHECK(ekf.constrain(&two, 4.0) == 1);
+  CHECK(two[0].used);
+  CHECK(two[0].innovation == 0.1);
+  CHECK(two[0].innovation_variance == Approx(variance));
+  CHECK(two[0].left == Approx(0.1 * 0.01 / variance));
+  CHECK_FALSE(two[1].used);
+  CHECK(two[1].innovation == Approx(1e3));
+}
+
 TEST_CASE("a constant that joins later takes a place of its own and leaves all else as it is") {
   EkfConfig config;
   config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
@@ -149,7 +175,7 @@ TEST_CASE("a constant that joins later takes a place of its own and leaves all e
     known[0].variance = 1.0;
     known[0].row.setOnes();
     ekf.predict({}, synthetic::kStart.plus_seconds(1.0));
-    ekf.constrain(known, 1e9);
+    ekf.constrain(&known, 1e9);
     return ekf;
   };
   Ekf ekf = filter();

@@ -76,6 +76,20 @@ TEST_CASE("constraints that do not hold are left out, and that is told") {
     return told;
   };
   CHECK(events_of(config) == 0);
+  // Each component of each instant is reported; the gate's word is the report's.
+  int reported = 0, instants = 0;
+  for (const EpochReport& report : run(drive, config).epochs) {
+    instants += static_cast<int>(report.constraints.size());
+    for (const ConstraintReport& one : report.constraint_reports) {
+      ++reported;
+      CHECK(one.used == (one.test_ratio < config.vehicle.motion.constraints.gate));
+      CHECK(one.test_ratio ==
+            Approx(std::abs(one.innovation) / std::sqrt(one.innovation_variance)));
+      if (one.component <= 1) CHECK(one.observation == 0.0);
+    }
+  }
+  CHECK(instants > 500);
+  CHECK(reported >= 2 * instants);
   // A point forty metres ahead sways with every turn.
   config.ekf.vehicle = {};
   config.vehicle.motion.constraints.point_b = {40.0, 0.0, 0.0};

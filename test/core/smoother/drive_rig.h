@@ -127,7 +127,7 @@ class Drive {
       MotionMeasurements measurements;
       motion_measurements(motion(), instant, filter_.whole_state(), filter_.measured_rate_b(),
                           &measurements);
-      instant.used = filter_.constrain(measurements, motion().gate);
+      instant.used = filter_.constrain(&measurements, motion().gate);
       input_->instants.push_back(instant);
     }
     filter_.predict(block, measured_.time);

@@ -1,4 +1,5 @@
 // The longest messages that core/capacity.h allows fit into the buffers and come back whole.
+#include <leonav/constraints_t.hpp>
 #include <leonav/epoch_t.hpp>
 #include <memory>
 
@@ -26,6 +27,37 @@ TEST_CASE("an epoch at full capacity is encoded whole") {
   CHECK(message.n_satellites == static_cast<int>(kMaxSatellites));
   CHECK(message.n_aiding == static_cast<int>(kMaxMeasurements));
   CHECK(message.aiding.back().observation == 42.0);
+}
+
+TEST_CASE("constraints at full capacity are encoded whole, one component as it was met") {
+  const auto report = std::make_unique<EpochReport>();
+  report->time = GpsTime::from_week_and_tow(2300, 1000.0);
+  report->sequence = 7;
+  report->index = 5;
+  report->constraint_reports.resize(kMaxConstraintReports);
+  report->constraint_reports.back() = {
+      report->time.plus_seconds(-0.2), 8, 9.5, 0.3, 0.04, 1.5, true, 0.1};
+  Encoder encoder;
+  const ByteSpan bytes = encoder.encode_constraints(*report);
+  CHECK(bytes.size() <= wire::kMaxMessageBytes);
+  constraints_t message;
+  const int size = static_cast<int>(bytes.size());
+  REQUIRE(message.decode(bytes.data(), 0, size) == size);
+  CHECK(message.time_ns == report->time.nanoseconds());
+  CHECK(message.sequence == 7);
+  CHECK(message.schema == 1);
+  CHECK(message.index == 5);
+  REQUIRE(message.n == static_cast<int>(kMaxConstraintReports));
+  const constraint_t& last = message.components.back();
+  CHECK(last.time_ns == report->constraint_reports.back().time.nanoseconds());
+  CHECK(last.component == 8);
+  CHECK(last.observation == 9.5);
+  CHECK(last.innovation == 0.3);
+  CHECK(last.innovation_variance == 0.04);
+  CHECK(last.test_ratio == 1.5F);
+  CHECK(last.used == 1);
+  CHECK(last.residual == 0.1);
+  CHECK(message.components.front().used == 0);
 }
 
 TEST_CASE("precise states of every satellite that has a name come back") {
