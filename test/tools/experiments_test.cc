@@ -299,8 +299,11 @@ lines([series(0.5), series(0.5, (2040, 2060), 5)])
   CHECK(has(said, "1.20 m | 1 m: MISSED in 1 of 2 |"));
   CHECK(has(said, "2 m: MISSED in 1 of 2 |"));
   CHECK(has(said, "0.50 ± 0.00 (1 of 2)"));
-  CHECK(has(said, "4 to 4 satellites used at an epoch of these minutes.\n"));
-  CHECK(has(said, "4 to 5 satellites used at an epoch of these minutes: MORE THAN FOUR.\n"));
+  CHECK(has(said,
+            "4 to 4 satellites used at an epoch of these minutes, 4.0 on the mean, none at 0.0 %"));
+  CHECK(has(said,
+            "4 to 5 satellites used at an epoch of these minutes, 4.5 on the mean, none at 0.0 % "
+            "of the epochs: MORE THAN FOUR."));
 }
 
 TEST_CASE("Rows of mismatched drives are those of the matched ones, of other logs", "[tools]") {
