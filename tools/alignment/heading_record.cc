@@ -69,8 +69,12 @@ bool is_false(const HeadingRecord& record) {
   return std::ranges::any_of(record.judged(), is_false_alignment);
 }
 
-bool is_carried_away(const HeadingRecord& record) {
-  return !is_false(record) && std::ranges::any_of(record.judged(), is_off);
+bool is_carried_away(const HeadingRecord& record) { return !is_false(record) && first_off(record); }
+
+std::optional<HeadingSample> first_off(const HeadingRecord& record) {
+  const std::vector<HeadingSample> judged = record.judged();
+  const auto off = std::ranges::find_if(judged, is_off);
+  return off == judged.end() ? std::nullopt : std::optional(*off);
 }
 
 }  // namespace leonav

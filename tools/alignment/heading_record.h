@@ -42,5 +42,7 @@ class HeadingRecord {
 bool is_false(const HeadingRecord& record);
 // Aligned rightly, and off later.
 bool is_carried_away(const HeadingRecord& record);
+// The first of the judged instants at which it was off; nullopt: at none.
+std::optional<HeadingSample> first_off(const HeadingRecord& record);
 
 }  // namespace leonav

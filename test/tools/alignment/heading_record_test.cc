@@ -66,6 +66,9 @@ TEST_CASE("right for twenty seconds and wrong later is carried away") {
   epochs(&at_end, 50, 60, 30.0, 0.5);
   CHECK_FALSE(is_false(at_end));
   CHECK(is_carried_away(at_end));
+  REQUIRE(first_off(at_end));
+  CHECK(first_off(at_end)->after_s == 59.0);
+  CHECK_FALSE(first_off(one(8, 1.0, 1.0)));
   HeadingRecord at_30_s;
   epochs(&at_30_s, 5, 28, 0.5, 0.5);
   epochs(&at_30_s, 28, 32, 30.0, 0.5);
