@@ -50,7 +50,14 @@ std::string warned(const TemporaryFile& place, const std::string& log,
   const ProgramRun run =
       run_program("leonav-replay", config("urban") + " --set 'vehicle.lever_arm_b_m=" + arm +
                                        "' --out " + place.beside("result") + " " + log);
+  CAPTURE(run.err);
   const std::size_t at = run.err.find("convention_suspect");
+  // With some mistakes there is no position: an error too, but told of. No other is expected.
+  if (run.exit_code != 0) {
+    CHECK(run.exit_code == 1);
+    CHECK(at != std::string::npos);
+    CHECK(run.err.find("no position was found") != std::string::npos);
+  }
   return at == std::string::npos ? "" : run.err.substr(at);
 }
 

@@ -1,10 +1,12 @@
 // leonav-calibrate: its geometry, and a short simulated drive from end to end.
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "core/earth/rotation.h"
 #include "support/catch.h"
 #include "support/program_run.h"
+#include "tools/calibration/halves.h"
 #include "tools/calibration/print_calibration.h"
 
 namespace leonav::test {
@@ -54,6 +56,58 @@ TEST_CASE("what a filter finds beyond an installation makes it the true one") {
   CHECK(unchanged.time_offset_s == 0.0);
 }
 
+TEST_CASE("halves that disagree withdraw a mounting angle as they do an arm") {
+  const InstallationPrior prior;
+  Installation configured, found;
+  configured.lever_arm_b = {0.4, -0.2, -1.0};
+  configured.mounting_rpy = Vector3d(0.0, 1.0, 90.0) * kDegree;
+  Finding turns;  // of the body's axes
+  turns.change = {0.1, 0.2, 0.3, 1.0 * kDegree, -4.0 * kDegree, 5.0 * kDegree, 0.04};
+  turns.observed.fill(true);
+  found = improved(configured, turns);
+  for (std::size_t i = 0; i < kQuantities; ++i) {
+    Finding whole = turns, first = turns, second = turns;
+    whole.sigma.fill(1e-3);
+    const double prior_sigma = i < 3 ? prior.lever_arm_m : i < 6 ? prior.travel_rad : 0.1;
+    first.change[i] += 0.5 * prior_sigma;
+    CHECK(compare_halves(first, second, &whole)[i]);
+    CHECK(whole.sigma[i] == Approx(0.25 * prior_sigma));
+    Installation left = found;
+    withdraw_unknown(prior, configured, &whole, &left);
+    for (std::size_t k = 0; k < kQuantities; ++k) CHECK(whole.observed[k] == (k != i));
+    // As if it had never been found.
+    Finding others = turns;
+    others.observed[i] = false;
+    const Installation without = improved(configured, others);
+    CHECK((rotation_of(left.mounting_rpy) - rotation_of(without.mounting_rpy)).norm() < 1e-12);
+    CHECK(left.time_offset_s == Approx(without.time_offset_s).margin(1e-15));
+    if (i >= 3 && i < 6) CHECK((left.lever_arm_b - without.lever_arm_b).norm() < 1e-12);
+    if (i < 3)
+      CHECK(left.lever_arm_b(static_cast<int>(i)) == configured.lever_arm_b(static_cast<int>(i)));
+  }
+}
+
+TEST_CASE("what only one half has observed is not compared, and the table says so") {
+  Finding whole, half;
+  whole.observed.fill(true);
+  whole.sigma.fill(1e-3);
+  half = whole;
+  Finding other = whole;
+  other.observed[0] = false;
+  half.change[0] = 1.0;
+  Calibration calibration;
+  calibration.last = whole;
+  calibration.compared = compare_halves(half, other, &calibration.last);
+  CHECK_FALSE(calibration.compared[0]);
+  CHECK(calibration.compared[1]);
+  CHECK(calibration.last.sigma[0] == 1e-3);
+  std::ostringstream out;
+  print_calibration(calibration, out);
+  CAPTURE(out.str());
+  CHECK(out.str().find("could not be compared, the sigma is the filter's alone: "
+                       "lever_arm_forward_m\n") != std::string::npos);
+}
+
 TEST_CASE("a simulated drive tells how the IMU is built in, and a hand does not") {
   if (!have_programs("leonav-sim", "leonav-calibrate")) return;
   const TemporaryFile place("unused", "");
@@ -84,6 +138,25 @@ TEST_CASE("a simulated drive tells how the IMU is built in, and a hand does not"
       run_program("leonav-calibrate", config + "--passes 1 --set vehicle.kind=handheld " + log);
   CHECK(hand.exit_code == 1);  // one pass does not settle
   CHECK(hand.out.find("mounting_yaw_deg: nothing tells how the vehicle goes") != std::string::npos);
+}
+
+TEST_CASE("a log that tells nothing of the installation is an error") {
+  if (!have_programs("leonav-sim", "leonav-calibrate")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  const ProgramRun sim =
+      run_program("leonav-sim", LEONAV_SOURCE_DIR
+                                    "/config/scenario/open_sky.yaml --set duration_s=100 --set "
+                                    "route.standing_s=100 -o " +
+                                    log);
+  CAPTURE(sim.err);
+  REQUIRE(sim.exit_code == 0);
+  const ProgramRun stands =
+      run_program("leonav-calibrate",
+                  "--config " LEONAV_SOURCE_DIR "/config/urban.yaml --set vehicle.kind=car " + log);
+  CAPTURE(stands.out);
+  CHECK(stands.exit_code == 1);
+  CHECK(stands.err.find("tells nothing of how the IMU is built in") != std::string::npos);
 }
 
 TEST_CASE("leonav-calibrate refuses what it cannot use") {

@@ -270,6 +270,42 @@ print(report.gain_lines(pair, {pair[0].name: {1: result(2.0), 2: result(9.0)}, p
   CHECK(has(said, "| 50 % / 50 % / 50 % / 50 % | 1 of 1 | "));
 }
 
+TEST_CASE("Rows of constraints are judged seed by seed, and not where epochs lack an answer",
+          "[tools]") {
+  const std::string said = python(R"(import matrix, motion, numpy as np, plots
+row = {row.name: row for row in matrix.all_rows(1100, 120, 150)}["motion-tactical-car-ekf"]
+def series(error, without=None, few=4):
+    epochs = np.arange(3003.0)
+    used = np.full(3003, 8.0)
+    used[2501:2801] = few
+    t = epochs if without is None else epochs[(epochs <= without[0]) | (epochs > without[1])]
+    return {"t": t, "t_epoch": epochs, "satellites": used, "error": np.array([0.6 * np.ones(len(t)), 0.8 * np.ones(len(t)), np.ones(len(t))]) * error}
+print("whole", [round(v, 3) for v in motion.numbers_of(row, series(0.5))])
+print("holes", [round(v, 3) for v in motion.numbers_of(row, series(0.5, (2040, 2060)))])
+def lines(every):
+    plots.all_series = lambda row, results, runner: every
+    out = []
+    results = {row.name: {s + 1: {} for s in range(len(every))}}
+    motion.table([row], results, None, out)
+    print("\n".join(out + motion.verdict_lines([row], results, None)))
+lines([series(0.5), series(0.7)])
+lines([series(0.5), series(1.2)])
+lines([series(0.5), series(0.5, (2040, 2060), 5)])
+)");
+  INFO(said);
+  CHECK(has(said, "whole [0.3, 0.4, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5]"));
+  CHECK(has(said, "holes [0.3, 0.4, 0.5, 0.5, 0.5, 0.5, nan, nan, 0.5, 0.5]"));
+  CHECK(has(said, "0.70 m | 1 m: met | 0.60 ± 0.14 | 0.70 m | 2 m: met |"));
+  CHECK(has(said, "1.20 m | 1 m: MISSED in 1 of 2 |"));
+  CHECK(has(said, "2 m: MISSED in 1 of 2 |"));
+  CHECK(has(said, "0.50 ± 0.00 (1 of 2)"));
+  CHECK(has(said,
+            "4 to 4 satellites used at an epoch of these minutes, 4.0 on the mean, none at 0.0 %"));
+  CHECK(has(said,
+            "4 to 5 satellites used at an epoch of these minutes, 4.5 on the mean, none at 0.0 % "
+            "of the epochs: MORE THAN FOUR."));
+}
+
 TEST_CASE("Rows of mismatched drives are those of the matched ones, of other logs", "[tools]") {
   const std::string said = python(R"(import matrix, report
 rows = {row.name: row for row in matrix.all_rows(1100, 120, 150)}

@@ -22,20 +22,14 @@ Arguments declare() {
       "than stamped the IMU measures (it takes changes of\nspeed). What the log does not tell is "
       "said. Runs the filter over the log again and again, each time\nwith what it has found, "
       "until nothing changes. Good for mounting errors of up to 10 degrees, time\noffsets of up "
-      "to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, or\n"
-      "the passes did not settle; 2 command line.");
+      "to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, "
+      "nothing\n"
+      "was observed, or the passes did not settle; 2 command line.");
   arguments.option("--config", "FILE", "configuration, as for leonavd")
       .option("--passes", "N", "over the log, at most", "6")
       .option("--json", "FILE", "what was found, for programs")
       .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
   return arguments;
-}
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
 int run(int argc, char** argv) {
@@ -47,6 +41,12 @@ int run(int argc, char** argv) {
   const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
   CalibrateOptions options;
   options.max_passes = static_cast<int>(passes);
+  // Before the work, so that a folder that is not there does not cost it.
+  std::ofstream json;
+  if (arguments.has("--json")) {
+    json.open(arguments.get("--json"));
+    if (!json) throw std::runtime_error(arguments.get("--json") + ": cannot be written");
+  }
   Calibration found;
   {
     ProgressBar progress(&std::cerr, "leonav-calibrate", is_stderr_terminal());
@@ -54,7 +54,11 @@ int run(int argc, char** argv) {
     found = calibrate(config, arguments.positional().front(), options);
   }
   print_calibration(found, std::cout);
-  if (arguments.has("--json")) write(arguments.get("--json"), json_of(found));
+  if (json.is_open()) {
+    json << json_of(found);
+    json.close();
+    if (!json) throw std::runtime_error(arguments.get("--json") + ": cannot be written");
+  }
   if (!found.settled)
     throw std::runtime_error("the passes did not settle: what was found is not to be relied on");
   return 0;

@@ -7,6 +7,7 @@
 
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
+#include "tools/calibration/halves.h"
 
 namespace leonav {
 namespace {
@@ -47,28 +48,8 @@ void feed(const std::string& path, const std::string& prefix, const Part& part,
   }
 }
 
-// What the two halves of a log tell apart is half of their difference away from their mean: where
-// that is more than the filter believes, it has errors that the filter does not know.
-void compare(const Finding& first, const Finding& second, Finding* whole) {
-  for (std::size_t i = 0; i < kQuantities; ++i) {
-    const double apart = 0.5 * std::abs(first.change[i] - second.change[i]);
-    if (first.observed[i] && second.observed[i]) whole->sigma[i] = std::max(whole->sigma[i], apart);
-  }
-}
-
-// What turns out not to be known after all stays as it was configured.
-void withdraw(const InstallationPrior& prior, Calibration* calibration) {
-  Finding& last = calibration->last;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    if (last.sigma[i] < prior.observed_share * prior.lever_arm_m) continue;
-    last.observed[i] = false;
-    calibration->found.lever_arm_b(axis) = calibration->configured.lever_arm_b(axis);
-  }
-  constexpr auto kOffset = static_cast<std::size_t>(Quantity::kTimeOffset);
-  if (last.sigma[kOffset] < prior.observed_share * prior.time_offset_s) return;
-  last.observed[kOffset] = false;
-  calibration->found.time_offset_s = calibration->configured.time_offset_s;
+bool observes_any(const Finding& finding) {
+  return std::ranges::any_of(finding.observed, [](bool observed) { return observed; });
 }
 
 }  // namespace
@@ -109,9 +90,17 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     feed(log, config.lcm.prefix, {from, from + 0.5}, progress, &run);
     halves[half] = run.finding();
   }
-  compare(halves[0], halves[1], &calibration.last);
-  withdraw(options.prior, &calibration);
-  calibration.settled = calibration.settled || is_settled(calibration.last);
+  // Whether the passes settled is for the filter's own sigmas to tell: the halves' would excuse
+  // changes. What is withdrawn has no part in it.
+  Finding by_filter = calibration.last;
+  calibration.compared = compare_halves(halves[0], halves[1], &calibration.last);
+  withdraw_unknown(options.prior, calibration.configured, &calibration.last, &calibration.found);
+  if (!observes_any(calibration.last))
+    throw std::runtime_error(log +
+                             ": tells nothing of how the IMU is built in; it takes turns and "
+                             "changes of speed, with carriers or good Dopplers");
+  by_filter.observed = calibration.last.observed;
+  calibration.settled = is_settled(by_filter);
   return calibration;
 }
 

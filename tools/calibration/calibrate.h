@@ -15,7 +15,8 @@ struct Calibration {
   // the log's two halves tell apart, where that is more.
   Finding last;
   int passes = 0;
-  bool settled = false;  // the last pass has changed nothing that counts
+  bool settled = false;  // the last pass has changed nothing that counts by the filter's sigmas
+  std::array<bool, kQuantities> compared{};  // what both halves have observed
   double straight_s = 0.0;
   bool wheeled = false;
 };
@@ -26,8 +27,8 @@ struct CalibrateOptions {
   std::function<void(double)> progress = [](double) {};  // share of the passes allowed
 };
 
-// Throws EventLogError, and std::runtime_error where the log gives no attitude or the configuration
-// has no IMU.
+// Throws EventLogError, and std::runtime_error where the log gives no attitude, nothing of it is
+// observed, or the configuration has no IMU.
 Calibration calibrate(const DaemonConfig& config, const std::string& log,
                       const CalibrateOptions& options);
 

@@ -71,6 +71,25 @@ Installation improved(const Installation& installation, const Finding& finding) 
   return result;
 }
 
+Installation turned_by_known(const Installation& configured, const Installation& found,
+                             const std::array<bool, 3>& known) {
+  if (known[0] && known[1] && known[2]) return found;
+  // The columns are the axes found, then those that stay, in the configured ones.
+  const Matrix3d turned =
+      rotation_of(configured.mounting_rpy) * rotation_of(found.mounting_rpy).transpose();
+  const EulerAngles turn = euler_from_rotation(turned);
+  const Matrix3d kept = rotation_of(
+      {known[0] ? turn.roll : 0.0, known[1] ? turn.pitch : 0.0, known[2] ? turn.yaw : 0.0});
+  const EulerAngles angles =
+      euler_from_rotation(kept.transpose() * rotation_of(configured.mounting_rpy));
+  Installation result = found;
+  result.mounting_rpy = {angles.roll, angles.pitch, angles.yaw};
+  if (!known[0] && !known[1] && !known[2])  // to the last bit
+    result.mounting_rpy = configured.mounting_rpy;
+  result.lever_arm_b = kept.transpose() * turned * found.lever_arm_b;
+  return result;
+}
+
 std::array<double, kQuantities> values_of(const Installation& installation) {
   std::array<double, kQuantities> values{};
   for (int axis = 0; axis < 3; ++axis) {

@@ -32,6 +32,11 @@ struct Finding {
 // The installation with what was observed of its change. The lever arm turns with the body's axes.
 Installation improved(const Installation& installation, const Finding& finding);
 
+// `found` without those turns of the body's axes, beyond `configured`, that are not known (roll,
+// pitch, yaw). The lever arm turns back with them.
+Installation turned_by_known(const Installation& configured, const Installation& found,
+                             const std::array<bool, 3>& known);
+
 // One number per quantity, in SI units: lever arm, roll, pitch, yaw of the mounting, time offset.
 std::array<double, kQuantities> values_of(const Installation& installation);
 

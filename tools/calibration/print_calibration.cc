@@ -30,8 +30,9 @@ const char* reason_of(Quantity quantity, const Calibration& calibration) {
       [[fallthrough]];
     case Quantity::kPitch:
     case Quantity::kYaw:
-      return calibration.wheeled ? "the direction of travel is too vague: it takes driving at speed"
-                                 : "nothing tells how the vehicle goes (vehicle.non_holonomic off)";
+      return calibration.wheeled
+                 ? "too vague, or the log's halves disagree: it takes driving at speed"
+                 : "nothing tells how the vehicle goes (vehicle.non_holonomic off)";
     case Quantity::kArmDown:
       return "it takes tilting: steep ways, rolling in bends";
     case Quantity::kArmForward:
@@ -64,7 +65,7 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
   out << format("%d passes, %s; %.0f s straight on\n\n", calibration.passes,
                 calibration.settled ? "settled" : "NOT SETTLED", calibration.straight_s)
       << "                        configured      found    1 sigma     change  in sigmas\n";
-  std::string unknown;
+  std::string unknown, alone;
   for (std::size_t i = 0; i < kQuantities; ++i) {
     const Row row = row_of(calibration, i);
     const std::string name(name_of(row.quantity));
@@ -76,7 +77,11 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
     const double change = row.found - row.configured;
     out << format("%-22s  %10.3f %10.3f %10.3f %10.3f %10.1f\n", name.c_str(), row.configured,
                   row.found, row.sigma, change, std::abs(change) / row.sigma);
+    if (!calibration.compared[i]) alone += (alone.empty() ? "" : ", ") + name;
   }
+  if (!alone.empty())
+    out << "\nThe log's halves could not be compared, the sigma is the filter's alone: " << alone
+        << "\n";
   if (!unknown.empty()) out << "\nWhat this log does not tell:\n" << unknown;
   const Installation& found = calibration.found;
   const double degree = unit_of(Quantity::kRoll);
@@ -97,7 +102,8 @@ std::string json_of(const Calibration& calibration) {
             ": {\"configured\": " + json_number(row.configured, 5) +
             ", \"found\": " + json_number(row.found, 5) +
             ", \"sigma\": " + json_number(row.sigma, 5) +
-            ", \"observed\": " + (row.observed ? "true}" : "false}");
+            ", \"observed\": " + (row.observed ? "true" : "false") +
+            ", \"compared\": " + (calibration.compared[i] ? "true}" : "false}");
   }
   return text + "}\n";
 }

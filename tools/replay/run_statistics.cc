@@ -5,6 +5,9 @@
 namespace leonav {
 namespace {
 
+// The event's code is tenths of a sigma in a byte.
+constexpr double kLargestStepTold = 25.5;
+
 void print_map(std::ostream& out, const std::string& title,
                const std::map<std::string, std::uint64_t>& counts) {
   for (const auto& [name, count] : counts) out << title << " " << name << ": " << count << "\n";
@@ -47,7 +50,7 @@ void RunStatistics::add(const Event& event, double after_s) {
     suspicions_.push_back({static_cast<Convention>(event.code), event.value, after_s});
   }
   ++events_[name];
-  if (event.kind == EventKind::kOutageOver) outage_steps_.push_back(0.1 * event.code);
+  if (event.kind == EventKind::kOutageOver) outage_steps_.push_back(event.code / 10.0);
   if (event.kind == EventKind::kReconverged) reconverged_s_.push_back(event.value);
 }
 
@@ -83,17 +86,25 @@ void RunStatistics::print(std::ostream& out) const {
             << "\n";
   }
   out << "largest jump m: " << largest_jump_m_ << "\n";
-  if (!outage_steps_.empty())
-    out << "outages: " << outage_steps_.size() << "\nlargest step after one, in its sigmas: "
-        << *std::max_element(outage_steps_.begin(), outage_steps_.end()) << "\n";
-  if (!reconverged_s_.empty())
-    out << "longest time to the sigma of before s: "
-        << *std::max_element(reconverged_s_.begin(), reconverged_s_.end()) << "\n";
+  print_outages(out);
   print_map(out, "satellites", satellites_by_reason_);
   print_map(out, "measurements", measurements_by_reason_);
   out << "carrier arcs: " << carrier_arcs_ << "\n";
   print_map(out, "carrier arcs ended by", arc_ends_);
   print_map(out, "events", events_);
+}
+
+void RunStatistics::print_outages(std::ostream& out) const {
+  if (!outage_steps_.empty()) {
+    const double largest = *std::max_element(outage_steps_.begin(), outage_steps_.end());
+    out << "outages: " << outage_steps_.size()
+        << "\nlargest step after one, in its sigmas: " << (largest >= kLargestStepTold ? ">= " : "")
+        << largest << "\nreconverged: " << reconverged_s_.size() << " of " << outage_steps_.size()
+        << "\n";
+  }
+  if (!reconverged_s_.empty())
+    out << "longest time to the sigma of before s: "
+        << *std::max_element(reconverged_s_.begin(), reconverged_s_.end()) << "\n";
 }
 
 }  // namespace leonav

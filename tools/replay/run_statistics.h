@@ -38,6 +38,8 @@ class RunStatistics {
   }
 
  private:
+  void print_outages(std::ostream& out) const;
+
   std::vector<Suspicion> suspicions_;
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
                 commits_ = 0, misses_ = 0, carrier_arcs_ = 0, smoother_commits_ = 0,

@@ -200,7 +200,7 @@ def write(out, rows, results, runner, seeds_of):
              "over all epochs after the first 1,000. The papers drove a real car through Beijing: their errors hold what their "
              "receiver and their streets did, ours what the simulator knows of it; compare the improvements before the metres.",
              ""]
-    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results)
+    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results) + motion.verdict_lines(rows, results, runner)
     for group, title in TITLES.items():
         chosen = [row for row in rows if row.group == group]
         if not chosen:

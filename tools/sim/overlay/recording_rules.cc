@@ -16,7 +16,7 @@ bool names_only_low(const Fault& fault) {
 }
 
 // A key itself, or a group with all below it.
-constexpr std::array<std::string_view, 30> kRecorded = {"start_gps_week",
+constexpr std::array<std::string_view, 32> kRecorded = {"start_gps_week",
                                                         "start_gps_tow_s",
                                                         "duration_s",
                                                         "route.file",
@@ -31,6 +31,8 @@ constexpr std::array<std::string_view, 30> kRecorded = {"start_gps_week",
                                                         "route.max_braking_m_s2",
                                                         "route.max_lateral_m_s2",
                                                         "imu",
+                                                        "odometer",
+                                                        "truth_interval_s",
                                                         "satellites.gps",
                                                         "satellites.galileo",
                                                         "satellites.beidou",

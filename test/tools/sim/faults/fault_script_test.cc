@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "core/gnss/signal.h"
 #include "support/catch.h"
 #include "support/simulated_receiver.h"
+#include "tools/sim/scenario/scenario_yaml.h"
 
 using namespace leonav;
 using namespace leonav::test;
@@ -75,6 +77,27 @@ TEST_CASE("Outage: nothing of those it meets, everything of the others", "[sim][
         ++after;
       });
   REQUIRE(after > 300);
+}
+
+TEST_CASE("An outage below an elevation leaves the satellites above it", "[sim][faults]") {
+  sim::Fault fault;
+  fault.kind = sim::FaultKind::kOutage;
+  fault.from_s = 20.0;
+  fault.to_s = 30.0;
+  fault.systems = {System::kGps};
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const SatelliteId gps{System::kGps, 5}, other{System::kGalileo, 5};
+  CHECK(sim::FaultScript({fault}).is_out(gps, 89.0 * kDegree, 25.0));  // none is above, unless told
+  fault.below_elevation = 50.0 * kDegree;
+  const sim::FaultScript script({fault});
+  CHECK(script.is_out(gps, 49.9 * kDegree, 25.0));
+  CHECK(script.is_out(gps, -5.0 * kDegree, 25.0));
+  CHECK_FALSE(script.is_out(gps, 50.1 * kDegree, 25.0));
+  CHECK_FALSE(script.is_out(gps, 49.9 * kDegree, 31.0));
+  CHECK_FALSE(script.is_out(other, 49.9 * kDegree, 25.0));
+  const auto read = sim::load_scenario_text(
+      "faults: [{kind: outage, systems: [gps], below_elevation_deg: 50}]\n", "test.yaml");
+  CHECK(read.faults.at(0).below_elevation == Approx(50.0 * kDegree));
 }
 
 TEST_CASE("A satellite's clock that jumps and drifts is in all it sends", "[sim][faults]") {

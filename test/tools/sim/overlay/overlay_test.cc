@@ -215,6 +215,8 @@ TEST_CASE("What an overlay cannot do it says: faults, keys, names of channels", 
     REQUIRE_THROWS_WITH(runs.lay("[{kind: " + kind + "}]", "laid"),
                         Catch::Contains("test.yaml:7: faults[0].kind: has no effect"));
   }
+  REQUIRE_THROWS_WITH(runs.lay("[{kind: outage, below_elevation_deg: 40}]", "laid"),
+                      Catch::Contains("below_elevation_deg has no effect with --overlay"));
   for (const std::string kind : {"satellite_clock", "bad_orbit", "spoofing"}) {
     INFO(kind);
     REQUIRE_THROWS_WITH(runs.lay("[{kind: " + kind + ", satellites: [L03, G05]}]", "laid"),
@@ -222,13 +224,15 @@ TEST_CASE("What an overlay cannot do it says: faults, keys, names of channels", 
     REQUIRE(runs.lay("[{kind: " + kind + ", systems: [leo]}]", "laid").added > 0);
     REQUIRE(runs.lay("[{kind: " + kind + "}]", "laid").added > 0);
   }
-  const std::string told = to_string(
-      runs.lay("[]", "laid", {"satellites.gps.along_error_m=3", "receiver.noise.gps.code_m=1"}));
+  const std::string told =
+      to_string(runs.lay("[]", "laid",
+                         {"satellites.gps.along_error_m=3", "receiver.noise.gps.code_m=1",
+                          "odometer.rate_hz=10", "truth_interval_s=0.1"}));
   INFO(told);
   REQUIRE_THAT(told, Catch::Contains("not used, as the recording says it: "));
-  for (const char* key :
-       {"duration_s", "route.standing_s", "imu.rate_hz", "receiver.interval_s",
-        "receiver.clock.drift_ppb", "satellites.gps.along_error_m", "receiver.noise.gps.code_m"}) {
+  for (const char* key : {"duration_s", "route.standing_s", "imu.rate_hz", "receiver.interval_s",
+                          "receiver.clock.drift_ppb", "satellites.gps.along_error_m",
+                          "receiver.noise.gps.code_m", "odometer.rate_hz", "truth_interval_s"}) {
     REQUIRE_THAT(told, Catch::Contains(key));
   }
   for (const char* key : {"lever_arm", "atmosphere", "advance_s", "faults", "ideal"}) {

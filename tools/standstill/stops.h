@@ -28,9 +28,13 @@ struct TrueStop {
 
 struct StopsResult {
   std::size_t asked = 0, standing = 0, creeping = 0;  // instants, with truth
-  std::vector<std::pair<GpsTime, double>> wrong;      // when, and how fast it really went, m/s
-  double fastest_m_s = 0.0;                           // at an instant declared to stand
+  std::size_t without_truth = 0;                      // further ones, judged by nothing
+  // Of `asked`: it moved, but slower than still_m_s. To declare that a stop is not called false.
+  std::size_t slow = 0, slow_standing = 0;
+  std::vector<std::pair<GpsTime, double>> wrong;  // when, and how fast it really went, m/s
+  double fastest_m_s = 0.0;                       // at an instant declared to stand
   std::vector<TrueStop> stops;
+  std::size_t stops_not_asked = 0;  // further ones, for all of which the detector was not asked
 };
 
 // Takes what the filter was told at its instants.

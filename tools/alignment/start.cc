@@ -1,4 +1,4 @@
-#include "start.h"
+#include "tools/alignment/start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +106,7 @@ void Start::on_event(const Event& event) {
   if (result_.restarts++ > 0) return;
   result_.noticed_after_s = seconds_between(event.time, result_.start);
   result_.noticed_driven_s = result_.driven_s;
-  result_.error_when_noticed = result_.error_at_end.value_or(0.0);
-  result_.sigma_when_noticed = result_.sigma_at_end;
+  result_.when_noticed = result_.heading.last();
 }
 
 void Start::on_epoch(const EpochReport& report) {
@@ -120,20 +119,12 @@ void Start::on_epoch(const EpochReport& report) {
     if (after_s <= kLater_s) result_.driven_30_s += driven_s;
   }
   last_ = report.time;
-  result_.error_at_end.reset();
-  if (!report.solution.has_attitude) return;
-  const double error = wrap_to_pi(report.solution.yaw - motion->yaw);
-  const double sigma = report.solution.sigma_rpy.z();
-  result_.error_at_end = error;
-  result_.sigma_at_end = sigma;
-  if (result_.aligned_after_s < 0.0) {
-    result_.aligned_after_s = after_s;
-    result_.error_when_aligned = error;
-    result_.sigma_when_aligned = sigma;
+  if (!report.solution.has_attitude) {
+    result_.heading.add_without(after_s);
+    return;
   }
-  if (after_s > kLater_s + 0.5) return;
-  result_.error_at_30_s = error;
-  result_.sigma_at_30_s = sigma;
+  result_.heading.add(after_s, wrap_to_pi(report.solution.yaw - motion->yaw),
+                      report.solution.sigma_rpy.z());
 }
 
 }  // namespace leonav

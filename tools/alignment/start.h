@@ -8,6 +8,7 @@
 
 #include "core/navigator/pipeline.h"
 #include "daemon/input_dispatch.h"
+#include "tools/alignment/heading_record.h"
 #include "tools/evaluation/track.h"
 
 namespace leonav {
@@ -29,22 +30,16 @@ Way way_at(const Track& truth, GpsTime start);
 struct StartResult {
   GpsTime start;
   Way way = Way::kOther;
-  double aligned_after_s = -1.0;  // -1: not
-  // Of the heading, rad: when it was aligned, and thirty seconds after the start; with the sigmas
-  // that the answer told.
-  double error_when_aligned = 0.0, sigma_when_aligned = 0.0;
-  std::optional<double> error_at_30_s;
-  double sigma_at_30_s = 0.0;
+  HeadingRecord heading;
   double driven_30_s = 0.0;       // s of the first thirty at more than a walking pace
   bool gyros_find_north = false;  // by their data sheet, here
   // The heading found wrong and aligned anew: how often, and at the first time, how long after the
   // start and after so many seconds driven; -1: never.
   int restarts = 0;
   double noticed_after_s = -1.0, noticed_driven_s = -1.0;
-  double error_when_noticed = 0.0, sigma_when_noticed = 0.0;  // rad, of the epoch before
-  double driven_s = 0.0;                                      // in all
-  std::optional<double> error_at_end, told_off;  // rad; what it was told, less the truth
-  double sigma_at_end = 0.0;
+  std::optional<HeadingSample> when_noticed;  // of the epoch before
+  double driven_s = 0.0;                      // in all
+  std::optional<double> told_off;             // rad; what it was told, less the truth
 };
 
 // Nobody could: it stood for nearly all of the thirty seconds, and its gyros cannot find north.
