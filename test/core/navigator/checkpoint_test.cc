@@ -119,14 +119,17 @@ TEST_CASE("a checkpoint of elsewhere, of another time or of a moving vehicle is 
 }
 
 TEST_CASE("a vehicle that moves or turns before its first position does not take the heading") {
-  // Drives off at once, faster than a checkpoint's place is left.
+  const auto without_satellites_until = [](double t, SyntheticDrive* drive) {
+    std::erase_if(drive->epochs, [&](const RawEpoch& raw) { return seconds(raw.time) < t; });
+  };
+  // Drives off at once, and is still near the place at its first position.
   SyntheticDrive drive = parked_drive(15.0, 0.0);
-  NavigatorConfig config = drive_navigator_config(drive.options);
-  Checkpoint checkpoint = parked_at(drive);
-  CHECK(use_in(begin_from(checkpoint, drive, config)) == CheckpointUse::kMoves);
+  without_satellites_until(4.5, &drive);
+  const NavigatorConfig config = drive_navigator_config(drive.options);
+  CHECK(use_in(begin_from(parked_at(drive), drive, config)) == CheckpointUse::kMoves);
   // On a turntable while there are no satellites yet: a right angle in nine seconds.
   drive = parked_drive(20.0);
-  std::erase_if(drive.epochs, [](const RawEpoch& raw) { return seconds(raw.time) < 12.0; });
+  without_satellites_until(12.0, &drive);
   for (ImuSample& sample : drive.imu) {
     const double t = seconds(sample.time);
     if (t > 2.0 && t < 11.0) sample.delta_theta_b.z() += 10.0 * kRad * sample.interval_s();
