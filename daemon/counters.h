@@ -59,6 +59,9 @@ struct EngineCounters {
   Gauge alignment_need;  // packed(), alignment_text.h
   Gauge worst_epoch_ns;
   Gauge keyframes_skipped;
+  Gauge checkpoints_used, checkpoints_ignored;
+  // Of the last one: 1 + CheckpointUse (0: none), and a thousand times the value.
+  Gauge checkpoint_use, checkpoint_milli;
   // smoother
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage

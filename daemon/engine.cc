@@ -34,9 +34,10 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
       hooks_(std::move(hooks)),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
       gnss_ring_(kGnssRing, &gnss_wakeup_),
+      checkpoint_keeper_(config.checkpoint),
       io_sink_(kInputRingBytes, &out_wakeup_, &counters_),
       inertial_sink_(kInertialOutBytes, &out_wakeup_, &counters_),
-      gnss_sink_(kGnssOutBytes, &out_wakeup_, &counters_),
+      gnss_sink_(kGnssOutBytes, &out_wakeup_, &counters_, checkpoint_keeper_.latest()),
       main_ring_(kMainOutBytes, &out_wakeup_),
       smoother_(config.navigator.estimator == Estimator::kSmoother
                     ? std::make_unique<SmootherWorker>(config.navigator, &out_wakeup_, &counters_,
@@ -69,6 +70,7 @@ std::vector<std::string> Engine::start() {
     refused.push_back(std::string("memory is not locked: ") + std::strerror(errno));
   }
   started_ = true;
+  checkpoint_keeper_.start();
   refused.push_back(out_thread_.start("out", threads.out, [this] { run_out(); }));
   if (smoother_ != nullptr) refused.push_back(smoother_->start(threads.smoother));
   refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));
@@ -110,6 +112,7 @@ bool Engine::finish() {
     inertial_thread_.join();
     gnss_thread_.join();
     if (smoother_ != nullptr) smoother_->finish();
+    checkpoint_keeper_.finish();
     no_more_outputs_.store(true, std::memory_order_release);
     out_wakeup_.notify();
     out_thread_.join();

@@ -11,6 +11,7 @@
 #include "core/navigator/gnss_stage.h"
 #include "core/navigator/inertial_navigator.h"
 #include "core/navigator/sequencer.h"
+#include "daemon/checkpoint_keeper.h"
 #include "daemon/config/daemon_config.h"
 #include "daemon/counters.h"
 #include "daemon/input_dispatch.h"
@@ -29,8 +30,9 @@ struct EngineHooks {
 };
 
 // Threads: the caller of receive() is `io`; `ins`, `gnss`, `smoother` (if it gives the answer) and
-// `out` are the engine's own. Rings: io -> ins, io -> gnss, gnss -> smoother, and from io, ins,
-// gnss, smoother and the caller of publish() (`main`) to out.
+// `out` are the engine's own, and so is `file`, which writes the checkpoint. Rings: io -> ins, io
+// -> gnss, gnss -> smoother, and from io, ins, gnss, smoother and the caller of publish() (`main`)
+// to out.
 class Engine final : private StageInputs {
  public:
   // `target` gets every output, in the `out` thread.
@@ -72,6 +74,8 @@ class Engine final : private StageInputs {
   const std::string& journal_path() const { return config_.journal.path; }
   // Valid once counters().journal_failed is set.
   const std::string& journal_error() const { return journal_error_; }
+  // What keeps the checkpoint's file from being written; empty: nothing.
+  std::string checkpoint_error() const { return checkpoint_keeper_.error(); }
 
  private:
   void open_epoch(std::uint64_t index) override;
@@ -101,6 +105,7 @@ class Engine final : private StageInputs {
   Wakeup inertial_wakeup_, gnss_wakeup_, out_wakeup_;
   WorkRing<InertialWork> inertial_ring_;
   WorkRing<GnssWork> gnss_ring_;
+  CheckpointKeeper checkpoint_keeper_;
   StageSink io_sink_, inertial_sink_, gnss_sink_;
   MessageRing main_ring_;
   TimedMailbox<EkfUpdate> ekf_mailbox_;

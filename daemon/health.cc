@@ -78,6 +78,8 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("filter resets", counters->resets.get(), message);
+  add_count("checkpoints used", counters->checkpoints_used.get(), message);
+  add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);
   add_count("commits", counters->commits.get(), message);
   add_count("smoother commits", counters->smoother_commits.get(), message);
   add_count("smoother failures", counters->smoother_failures.get(), message);

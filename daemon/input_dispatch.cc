@@ -83,6 +83,12 @@ void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result
       if (good()) sequencer_->on_command(command);
       break;
     }
+    case Channel::kCheckpoint: {
+      Checkpoint checkpoint;
+      *result = decoder_.decode(bytes, &checkpoint);
+      if (good()) sequencer_->on_checkpoint(checkpoint);
+      break;
+    }
     default:
       break;  // outputs are not ours to consume
   }

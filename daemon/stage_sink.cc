@@ -46,6 +46,7 @@ void StageSink::on_epoch(const EpochReport& report) {
     counters_->ephemeris_age_ms[i].set(age[i]);
   }
   counters_->alignment_need.set(packed(report.alignment));
+  if (checkpoints_ != nullptr && report.checkpoint) checkpoints_->set(*report.checkpoint);
   encoder_.on_epoch(report);
 }
 
@@ -55,6 +56,12 @@ void StageSink::on_event(const Event& event) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
     counters_->conventions[event.code].add(1);
+  }
+  if (event.kind == EventKind::kCheckpoint) {
+    counters_->checkpoint_milli.set(std::llround(std::clamp(event.value, -1e12, 1e12) * 1e3));
+    counters_->checkpoint_use.set(event.code + 1);
+    const bool used = event.code == static_cast<std::uint8_t>(CheckpointUse::kUsed);
+    (used ? counters_->checkpoints_used : counters_->checkpoints_ignored).add(1);
   }
   encoder_.on_event(event);
 }

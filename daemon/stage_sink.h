@@ -3,14 +3,17 @@
 #include "core/navigator/orbit_watch.h"
 #include "daemon/counters.h"
 #include "daemon/encoding_sink.h"
+#include "daemon/latest_value.h"
 #include "daemon/message_ring.h"
 
 namespace leonav {
 
 class StageSink final : public OutputSink, private MessageTarget {
  public:
-  StageSink(std::size_t ring_bytes, Wakeup* out, EngineCounters* counters)
-      : ring_(ring_bytes, out), encoder_(this), counters_(counters) {}
+  // `checkpoints`: where each epoch's goes; nullptr: nowhere.
+  StageSink(std::size_t ring_bytes, Wakeup* out, EngineCounters* counters,
+            LatestValue<Checkpoint>* checkpoints = nullptr)
+      : ring_(ring_bytes, out), encoder_(this), counters_(counters), checkpoints_(checkpoints) {}
 
   void on_solution(const Solution& solution) override;
   void on_epoch(const EpochReport& report) override;
@@ -27,6 +30,7 @@ class StageSink final : public OutputSink, private MessageTarget {
   MessageRing ring_;
   EncodingSink encoder_;
   EngineCounters* counters_;
+  LatestValue<Checkpoint>* checkpoints_;
   OrbitWatch orbit_watch_;
 };
 

@@ -71,6 +71,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       motion_aid_(config.vehicle.motion, config.imu.accel_bias, config.ekf.use_carrier),
       alignment_(config.alignment, config.imu),
       heading_watch_(config.alignment, config.imu),
+      checkpoint_judge_(config.alignment, config.checkpoint_max_age_s),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()),
@@ -95,6 +96,8 @@ void GnssStage::process(const GnssWork& work) {
     antennas_.add(*antenna);
   } else if (const auto* command = std::get_if<Command>(&work)) {
     process_command(*command);
+  } else if (const auto* checkpoint = std::get_if<Checkpoint>(&work)) {
+    take_checkpoint(*checkpoint);
   }
 }
 
@@ -104,7 +107,10 @@ void GnssStage::process_epoch(const EpochWork& work) {
   last_epoch_time_ = work.time;
   gnss_used_ = updated_ = false;
   if (inertial_ && !ekf_.has_attitude()) {
-    for (const ImuSample& sample : work.block) alignment_.add(sample);
+    for (const ImuSample& sample : work.block) {
+      alignment_.add(sample);
+      checkpoint_judge_.watch(sample);
+    }
   }
   motion_aid_.predict({work.block.data(), work.block.size()},
                       {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
@@ -342,6 +348,7 @@ void GnssStage::deliver(const EpochWork& work) {
 void GnssStage::publish(const EpochWork& work) {
   report_->solution.source = source();
   report_->alignment = alignment_need();
+  report_->checkpoint = checkpoint(work);
   report_->solution.anchor_epoch = work.index;
   report_->sequence = next_report_++;
   if (!inertial_ && keyframes_ == nullptr && ekf_.initialized()) {

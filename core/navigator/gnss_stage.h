@@ -15,6 +15,7 @@
 #include "core/ins/alignment.h"
 #include "core/ins/given_heading.h"
 #include "core/navigator/carrier_speed.h"
+#include "core/navigator/checkpoint_judge.h"
 #include "core/navigator/event_source.h"
 #include "core/navigator/heading_watch.h"
 #include "core/navigator/keyframe_maker.h"
@@ -87,6 +88,10 @@ class GnssStage {
   void watch_heading(const EpochWork& work);
   void align(const EpochWork& work);
   void set_heading(double heading, double sigma);
+  void take_checkpoint(const Checkpoint& checkpoint);
+  void judge_checkpoint(GpsTime time);
+  void tell(const CheckpointJudge::Verdict& verdict, GpsTime time);
+  std::optional<Checkpoint> checkpoint(const EpochWork& work) const;
   void report_solution(const EpochWork& work);
   void deliver(const EpochWork& work);
   void push_keyframe(const EpochWork& work);
@@ -112,6 +117,7 @@ class GnssStage {
   Alignment alignment_;
   GivenHeading given_heading_;
   HeadingWatch heading_watch_;
+  CheckpointJudge checkpoint_judge_;
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<MeasurementEpoch> check_measurements_;  // of a point solution beside the filter
   std::unique_ptr<EpochReport> report_;

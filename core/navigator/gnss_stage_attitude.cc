@@ -28,6 +28,7 @@ double GnssStage::velocity_sigma() const {
 void GnssStage::align(const EpochWork& work) {
   const bool fresh = !work.block.empty() && work.block.back().time == work.time;
   if (!inertial_ || ekf_.has_attitude() || !fresh) return;
+  judge_checkpoint(work.time);
   const auto given = given_heading_.get();
   const auto aligned = alignment_.attitude(ekf_.antenna_position_e(), ekf_.antenna_velocity_e(),
                                            velocity_sigma(), given);
@@ -38,6 +39,7 @@ void GnssStage::align(const EpochWork& work) {
   if (config_.alignment.heading_watch) start_heading_watch();
   events_.emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(),
                work.time);
+  if (checkpoint_judge_.pending()) tell(checkpoint_judge_.not_needed(), work.time);
 }
 
 double GnssStage::gyro_bias_sigma() const {

@@ -95,6 +95,26 @@ InputFault check(const Command& command) {
   return InputFault::kNone;
 }
 
+InputFault check(const Checkpoint& checkpoint) {
+  const bool finite =
+      checkpoint.antenna_p_e.allFinite() && checkpoint.gyro_bias_b.allFinite() &&
+      std::isfinite(checkpoint.antenna_sigma) && std::isfinite(checkpoint.heading) &&
+      std::isfinite(checkpoint.heading_sigma) && std::isfinite(checkpoint.gyro_bias_sigma);
+  if (!finite) return InputFault::kNotFinite;
+  // From the poles' radius less the deepest valley to the equator's and the highest flight.
+  constexpr double kMinRadius_m = 6.35e6, kMaxRadius_m = 6.43e6, kMaxSigma_m = 1e5;
+  constexpr double kMaxHeading = 6.3, kMaxBias = 1.0;  // rad, rad/s
+  const double radius_m = checkpoint.antenna_p_e.norm();
+  const bool in_range =
+      is_plausible(checkpoint.time) && radius_m > kMinRadius_m && radius_m < kMaxRadius_m &&
+      checkpoint.antenna_sigma > 0.0 && checkpoint.antenna_sigma < kMaxSigma_m &&
+      std::abs(checkpoint.heading) <= kMaxHeading && checkpoint.heading_sigma > 0.0 &&
+      checkpoint.heading_sigma <= kMaxCheckpointHeadingSigma &&
+      checkpoint.gyro_bias_b.cwiseAbs().maxCoeff() <= kMaxBias &&
+      checkpoint.gyro_bias_sigma > 0.0 && checkpoint.gyro_bias_sigma <= kMaxBias;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
 std::size_t copy_sane(const RawEpoch& from, RawEpoch* to) {
   to->time = from.time;
   to->observations.clear();

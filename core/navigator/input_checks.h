@@ -23,6 +23,8 @@ InputFault check(const SignalObservation& observation);
 InputFault check(const KlobucharModel& model);
 InputFault check(const AntennaPattern& pattern);
 InputFault check(const Command& command);
+// Of a place on the Earth, a heading within a turn, sigmas that can be of them.
+InputFault check(const Checkpoint& checkpoint);
 
 // Copies `from`, without the observations no receiver can have made (invalid satellite, same
 // satellite and signal again), sorted as RawEpoch promises. Returns how many were left out.

@@ -43,7 +43,8 @@ struct NavigatorConfig {
   EkfConfig ekf;
   SmootherConfig smoother;
   RealtimeConfig realtime;
-  double solution_rate_hz = 200.0;  // published at most this often
+  double solution_rate_hz = 200.0;               // published at most this often
+  double checkpoint_max_age_s = 30.0 * 86400.0;  // data time; an older one is not begun from
 };
 
 }  // namespace leonav

@@ -64,6 +64,8 @@ std::string_view to_string(EventKind kind) {
       return "outage_over";
     case EventKind::kReconverged:
       return "reconverged";
+    case EventKind::kCheckpoint:
+      return "checkpoint";
   }
   return "unknown";
 }

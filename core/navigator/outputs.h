@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "core/capacity.h"
@@ -11,6 +12,7 @@
 #include "core/gnss/measurement.h"
 #include "core/ins/alignment_need.h"
 #include "core/ins/nav_state.h"
+#include "core/navigator/checkpoint.h"
 #include "core/smoother/smoother_status.h"
 
 namespace leonav {
@@ -102,6 +104,9 @@ struct EpochReport {
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
   ConstraintInstants constraints;  // since the last epoch; not on the wire
   ConstraintReports constraint_reports;
+  // For the next run; nullopt: there is no filter. Not on the wire, and its heading's sigma is pi
+  // where there is none.
+  std::optional<Checkpoint> checkpoint;
 };
 
 // The smoother's answer at a keyframe, if it was in time.
@@ -144,6 +149,7 @@ enum class EventKind : std::uint8_t {
   // 3D sigma the filter's position stepped.
   kOutageOver = 20,
   kReconverged = 21,  // its sigma is again at most 1.5 times that of before; value: seconds since
+  kCheckpoint = 22,   // an earlier run's has been judged; code: CheckpointUse, value: by it
 };
 std::string_view to_string(EventKind kind);
 

@@ -197,6 +197,12 @@ void Sequencer::on_command(const Command& command) {
   push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});
 }
 
+void Sequencer::on_checkpoint(const Checkpoint& checkpoint) {
+  if (const InputFault fault = check(checkpoint); fault != InputFault::kNone) return reject(fault);
+  *work_ = checkpoint;
+  stages_->push_gnss(*work_);
+}
+
 // A restart lies between the same two epochs in the work of both stages.
 void Sequencer::push_command(const Command& command) {
   if (inertial_ && command.kind == CommandKind::kRestart) {

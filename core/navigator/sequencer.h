@@ -88,6 +88,7 @@ class Sequencer {
   void on_klobuchar(const KlobucharModel& model);
   void on_antenna(const AntennaPattern& pattern);
   void on_command(const Command& command);
+  void on_checkpoint(const Checkpoint& checkpoint);
   // A message that could not be decoded or failed validation before it got here.
   void on_rejected(InputFault fault);
 

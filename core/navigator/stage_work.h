@@ -12,6 +12,7 @@
 #include "core/gnss/satellite_catalog.h"
 #include "core/ins/imu.h"
 #include "core/ins/odometer.h"
+#include "core/navigator/checkpoint.h"
 #include "core/navigator/outputs.h"
 #include "core/smoother/keyframe.h"
 #include "core/smoother/smoother_status.h"
@@ -58,8 +59,8 @@ using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemeri
 
 // Sequencer -> GnssStage, in order. A message is one piece of work, however much it tells: the
 // stage may be an epoch's time behind.
-using GnssWork =
-    std::variant<Ephemeris, PreciseStates, KlobucharModel, AntennaPattern, Command, EpochWork>;
+using GnssWork = std::variant<Ephemeris, PreciseStates, KlobucharModel, AntennaPattern, Command,
+                              Checkpoint, EpochWork>;
 
 // GnssStage -> InertialNavigator, through the mailbox: the anchor to go on from.
 struct EkfUpdate {

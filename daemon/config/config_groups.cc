@@ -256,4 +256,10 @@ void read_journal(ConfigReader& group, JournalConfig* config) {
   group.number("flush_interval_s", {0.01, 3600.0}, &config->flush_interval_s);
 }
 
+void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator) {
+  group.text("path", &config->path);
+  group.number("interval_s", {1.0, 3600.0}, &config->interval_s);
+  group.number("max_age_s", {1.0, 1e9}, &navigator->checkpoint_max_age_s);
+}
+
 }  // namespace leonav

@@ -22,5 +22,7 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
 void read_drill(ConfigReader& group, DrillConfig* config);
 void read_lcm(ConfigReader& group, LcmConfig* config);
 void read_journal(ConfigReader& group, JournalConfig* config);
+// How old one may be is the navigator's to judge.
+void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator);
 
 }  // namespace leonav

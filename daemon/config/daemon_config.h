@@ -25,6 +25,11 @@ struct JournalConfig {
   double flush_interval_s = 1.0;
 };
 
+struct CheckpointConfig {
+  std::string path;  // empty: none is read or written
+  double interval_s = 10.0;
+};
+
 struct ThreadConfig {
   int priority = 0;  // SCHED_FIFO priority 1-99; 0: the ordinary scheduler
   int cpu = -1;      // pinned to this processor; -1: any
@@ -48,6 +53,7 @@ struct DaemonConfig {
   NavigatorConfig navigator;
   LcmConfig lcm;
   JournalConfig journal;
+  CheckpointConfig checkpoint;
   ThreadsConfig threads;
   DrillConfig drill;
   ConfigText source;

@@ -55,6 +55,8 @@ DaemonConfig read_root(ConfigReader& root) {
     check_prefix(r, config.lcm.prefix);
   });
   root.group("journal", [&](ConfigReader& r) { read_journal(r, &config.journal); });
+  root.group("checkpoint",
+             [&](ConfigReader& r) { read_checkpoint(r, &config.checkpoint, &navigator); });
   return config;
 }
 

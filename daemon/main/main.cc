@@ -11,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "daemon/checkpoint_file.h"
+#include "daemon/checkpoint_text.h"
 #include "daemon/config/load_config.h"
 #include "daemon/engine.h"
 #include "daemon/health.h"
@@ -34,6 +36,43 @@ sigset_t stop_signals() {
   return set;
 }
 
+// As an input, before any other: so it is in the journal, and a replay needs no file.
+void begin_from_checkpoint(const std::string& path, Engine* engine) {
+  if (path.empty()) return;
+  try {
+    const auto checkpoint = load_checkpoint(path);
+    if (!checkpoint) return spdlog::info("no checkpoint {} to begin from", path);
+    Encoder encoder;
+    engine->receive(Channel::kCheckpoint, encoder.encode(*checkpoint, 1), wall_clock_us());
+    spdlog::info("checkpoint {} read", path);
+  } catch (const ConfigError& error) {
+    spdlog::warn("checkpoint ignored: {}", error.what());
+  }
+}
+
+// Each once: what became of the checkpoint that was read, and why the next one cannot be written.
+class CheckpointLog {
+ public:
+  void look(Engine* engine) {
+    const std::int64_t use = engine->counters().checkpoint_use.get();
+    if (use != 0 && use != last_use_) {
+      const auto what = static_cast<CheckpointUse>(use - 1);
+      const double value = static_cast<double>(engine->counters().checkpoint_milli.get()) * 1e-3;
+      const bool ignored = what != CheckpointUse::kUsed && what != CheckpointUse::kNotNeeded;
+      spdlog::log(ignored ? spdlog::level::warn : spdlog::level::info, "{}",
+                  checkpoint_text(what, value));
+    }
+    last_use_ = use;
+    const std::string error = engine->checkpoint_error();
+    if (!error.empty() && error != last_error_) spdlog::warn("no checkpoint: {}", error);
+    last_error_ = error;
+  }
+
+ private:
+  std::int64_t last_use_ = 0;
+  std::string last_error_;
+};
+
 // Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
 // feeds the watchdog unless a thread hangs.
 void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
@@ -41,6 +80,7 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
   ThreadWatch watch(engine);
+  CheckpointLog checkpoint_log;
   std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
@@ -54,6 +94,7 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
     if (health->suspicions() != last_suspicions)
       spdlog::warn("not as it should be: {}", health->suspicions());
     last_suspicions = health->suspicions();
+    checkpoint_log.look(engine);
     const std::string hanging = watch.hanging();
     if (hanging.empty()) manager.feed_watchdog();
     if (!hanging.empty() && hanging != last_hanging) spdlog::error("thread hangs: {}", hanging);
@@ -85,6 +126,8 @@ int run(const DaemonConfig& config) {
   Engine engine(config, &publisher, drill_hooks(config.drill));
   LcmReceiver receiver(config.lcm, &engine);
   for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
+
+  begin_from_checkpoint(config.checkpoint.path, &engine);
 
   std::atomic<bool> stop{false}, io_failed{false};
   RealtimeThread io;

@@ -21,6 +21,7 @@ enum class Channel : std::uint8_t {
   kAntenna,
   kCommand,
   kOdometer,
+  kCheckpoint,
   // outputs
   kSolution,
   kEpoch,
@@ -32,13 +33,14 @@ enum class Channel : std::uint8_t {
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 17;
-inline constexpr std::array<Channel, 8> kInputChannels = {
-    Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris, Channel::kOrbitClock,
-    Channel::kIonosphere, Channel::kAntenna,   Channel::kCommand,   Channel::kOdometer};
+inline constexpr std::size_t kChannelCount = 18;
+inline constexpr std::array<Channel, 9> kInputChannels = {
+    Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
+    Channel::kOrbitClock, Channel::kIonosphere, Channel::kAntenna,
+    Channel::kCommand,    Channel::kOdometer,   Channel::kCheckpoint};
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
-constexpr bool is_input(Channel channel) { return channel <= Channel::kOdometer; }
+constexpr bool is_input(Channel channel) { return channel <= Channel::kCheckpoint; }
 // What is told again and again whatever the vehicle does: orbits, clocks, ionosphere, antennas.
 constexpr bool is_product(Channel channel) {
   return channel >= Channel::kEphemeris && channel <= Channel::kAntenna;

@@ -147,4 +147,20 @@ InputFault convert(const antenna_t& from, AntennaPattern* to) {
   return is_storable(*to) ? InputFault::kNone : InputFault::kNotSane;
 }
 
+InputFault convert(const checkpoint_t& from, Checkpoint* to) {
+  if (!is_time(from.time_ns) || from.standing < 0 || from.standing > 1)
+    return InputFault::kOutOfRange;
+  to->time = GpsTime::from_nanoseconds(from.time_ns);
+  to->standing = from.standing == 1;
+  to->antenna_sigma = from.antenna_sigma_m;
+  to->heading = from.heading_rad;
+  to->heading_sigma = from.heading_sigma_rad;
+  to->gyro_bias_sigma = from.gyro_bias_sigma;
+  for (int i = 0; i < 3; ++i) {
+    to->antenna_p_e[i] = from.antenna_p_e[i];
+    to->gyro_bias_b[i] = from.gyro_bias_b[i];
+  }
+  return check(*to);
+}
+
 }  // namespace leonav::wire

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <leonav/antenna_t.hpp>
+#include <leonav/checkpoint_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
 #include <leonav/precise_state_t.hpp>
@@ -12,6 +13,7 @@
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_catalog.h"
+#include "core/navigator/checkpoint.h"
 #include "core/navigator/outputs.h"
 #include "drivers/lcm/wire.h"
 
@@ -30,5 +32,6 @@ InputFault convert(const gnss_observation_t& from, SignalObservation* to);
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);
 InputFault convert(const antenna_t& from, AntennaPattern* to);
+InputFault convert(const checkpoint_t& from, Checkpoint* to);
 
 }  // namespace leonav::wire

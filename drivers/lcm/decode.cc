@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <leonav/antenna_t.hpp>
+#include <leonav/checkpoint_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/gnss_epoch_t.hpp>
@@ -230,6 +231,13 @@ DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {
   } else {
     *command = {static_cast<CommandKind>(message.kind), message.value, message.sigma};
   }
+  return result_of(message, fault);
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, Checkpoint* checkpoint) {
+  checkpoint_t message{};
+  InputFault fault = read(bytes, &message);
+  if (fault == InputFault::kNone) fault = convert(message, checkpoint);
   return result_of(message, fault);
 }
 

@@ -42,6 +42,7 @@ class Decoder {
   DecodeResult decode(ByteSpan bytes, PreciseStates* states);
   DecodeResult decode(ByteSpan bytes, AntennaPattern* pattern);
   DecodeResult decode(ByteSpan bytes, Command* command);
+  DecodeResult decode(ByteSpan bytes, Checkpoint* checkpoint);
   DecodeResult decode(ByteSpan bytes, Decision* decision);
   // Which epoch it is of, and the iterations that were made; nothing else is read.
   DecodeResult decode(ByteSpan bytes, SmootherReport* report);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <leonav/antenna_t.hpp>
+#include <leonav/checkpoint_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/constraints_t.hpp>
 #include <leonav/decision_t.hpp>
@@ -263,6 +264,19 @@ ByteSpan Encoder::encode(const Command& command, GpsTime time, std::uint64_t seq
   message.kind = static_cast<std::int8_t>(command.kind);
   message.value = command.value;
   message.sigma = command.sigma;
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(const Checkpoint& checkpoint, std::uint64_t sequence) {
+  checkpoint_t message;
+  set_header(checkpoint.time, sequence, &message);
+  message.standing = checkpoint.standing ? 1 : 0;
+  copy(checkpoint.antenna_p_e, message.antenna_p_e);
+  message.antenna_sigma_m = checkpoint.antenna_sigma;
+  message.heading_rad = checkpoint.heading;
+  message.heading_sigma_rad = checkpoint.heading_sigma;
+  copy(checkpoint.gyro_bias_b, message.gyro_bias_b);
+  message.gyro_bias_sigma = checkpoint.gyro_bias_sigma;
   return storage_->write(message);
 }
 

@@ -35,6 +35,7 @@ class Encoder {
   ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const Command& command, GpsTime time, std::uint64_t sequence);
+  ByteSpan encode(const Checkpoint& checkpoint, std::uint64_t sequence);
 
   // Outputs.
   ByteSpan encode(const Solution& solution);

@@ -24,6 +24,7 @@ struct RecordingStages : StageInputs {
   std::vector<Restart> restarts;
   std::vector<std::size_t> restarts_at_command;  // how many there were at each command
   std::vector<PreciseStates> precise;
+  std::vector<Checkpoint> checkpoints;
   std::vector<Event> events;
 
   void open_epoch(std::uint64_t index) override { opened.push_back(index); }
@@ -38,6 +39,7 @@ struct RecordingStages : StageInputs {
       restarts_at_command.push_back(restarts.size());
     }
     if (const auto* states = std::get_if<PreciseStates>(&work)) precise.push_back(*states);
+    if (const auto* one = std::get_if<Checkpoint>(&work)) checkpoints.push_back(*one);
     const auto* epoch = std::get_if<EpochWork>(&work);
     if (epoch == nullptr) return;
     blocks.push_back({epoch->index,

@@ -11,7 +11,7 @@ namespace {
 
 struct CountingSink : OutputSink {
   std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
-              carriers = 0, epochs_of_30 = 0, solved = 0;
+              carriers = 0, epochs_of_30 = 0, solved = 0, checkpoints = 0;
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
     ++epochs;
@@ -34,6 +34,7 @@ struct CountingSink : OutputSink {
   }
   void on_event(const Event& event) override {
     if (event.kind == EventKind::kFilterReset) ++resets;
+    if (event.kind == EventKind::kCheckpoint) ++checkpoints;
   }
   void on_decision(const Decision&) override {}
   void on_smoother(const SmootherReport& report) override {
@@ -119,6 +120,8 @@ TEST_CASE(
   config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
   CountingSink sink;
   Pipeline pipeline(config, &sink);
+  const Checkpoint checkpoint{kSkyEpoch, true, to_ecef(options.start),  1.0,
+                              0.5,       0.05, Eigen::Vector3d::Zero(), 1e-4};
   std::size_t next_state = 0, seen = 0;
   start_counting_allocations();
   feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
@@ -135,6 +138,7 @@ TEST_CASE(
     antenna.band = '1';
     sequencer->on_antenna(antenna);
     if (++seen == 75) sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+    if (seen == 1 || seen == 77) sequencer->on_checkpoint(checkpoint);
     if (seen == 80) sequencer->on_command({CommandKind::kSetHeading, 0.5, 0.1});
   });
   // Time itself leaps, in both streams.
@@ -149,6 +153,7 @@ TEST_CASE(
   CHECK(sink.full_epochs > 80);
   CHECK(sink.precise > 100);
   CHECK(sink.resets >= 2);
+  CHECK(sink.checkpoints == (motion == MotionModel::kInertial ? 2 : 0));
   CHECK(sink.solutions > 80);
   CHECK(sink.carriers > 1000);
   CHECK(sink.arcs > 60);

@@ -1,0 +1,91 @@
+#include "core/navigator/checkpoint_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+constexpr double kRad = std::numbers::pi / 180.0;
+constexpr double kWindow_s = 1.0;       // noise and vibration average out over so long
+constexpr double kGoodPosition_m = 10;  // 1 sigma; a vaguer one could be anywhere
+// Beyond the sigmas: what reflected codes are off by.
+constexpr double kSamePlace_m = 10.0;
+constexpr double kSigmas = 3.0;
+// Parked means: on a slope, by a jack, with people getting in. And sigmas of old may flatter.
+constexpr double kLeastSigma = 2.0 * kRad;
+// Clocks of receivers start a little off.
+constexpr double kFutureTolerated_s = 1.0;
+
+}  // namespace
+
+std::string_view to_string(CheckpointUse use) {
+  switch (use) {
+    case CheckpointUse::kUsed:
+      return "used";
+    case CheckpointUse::kElsewhere:
+      return "elsewhere";
+    case CheckpointUse::kOld:
+      return "old";
+    case CheckpointUse::kFuture:
+      return "future";
+    case CheckpointUse::kTakenMoving:
+      return "taken_moving";
+    case CheckpointUse::kMoves:
+      return "moves";
+    case CheckpointUse::kNotNeeded:
+      return "not_needed";
+  }
+  return "unknown";
+}
+
+void CheckpointJudge::take(const Checkpoint& checkpoint) {
+  checkpoint_ = checkpoint;
+  turned_ = false;
+  window_s_ = 0.0;
+  window_turn_.setZero();
+}
+
+void CheckpointJudge::watch(const ImuSample& sample) {
+  if (!checkpoint_) return;
+  window_s_ += sample.interval_s();
+  window_turn_ += sample.delta_theta_b;
+  if (window_s_ < kWindow_s) return;
+  turned_ = turned_ || !(window_turn_.norm() < config_.static_gyro_rad_s * window_s_);
+  window_s_ = 0.0;
+  window_turn_.setZero();
+}
+
+std::optional<CheckpointJudge::Verdict> CheckpointJudge::judge(const Filter& filter) {
+  if (!checkpoint_) return std::nullopt;
+  const auto result = verdict(filter);
+  if (result) checkpoint_.reset();
+  return result;
+}
+
+std::optional<CheckpointJudge::Verdict> CheckpointJudge::verdict(const Filter& filter) const {
+  const double age_s = seconds_between(filter.time, checkpoint_->time);
+  if (age_s > max_age_s_) return Verdict{CheckpointUse::kOld, age_s, {}};
+  if (age_s < -kFutureTolerated_s) return Verdict{CheckpointUse::kFuture, -age_s, {}};
+  if (!checkpoint_->standing) return Verdict{CheckpointUse::kTakenMoving, 0.0, {}};
+  // One velocity of many may lie outside two of its sigmas; none outside four.
+  const bool moves = !may_stand(filter.speed, 2.0 * filter.sigma_v, config_.min_course_speed_m_s);
+  if (turned_ || moves) return Verdict{CheckpointUse::kMoves, filter.speed, {}};
+  const bool stands = may_stand(filter.speed, filter.sigma_v, config_.min_course_speed_m_s) &&
+                      filter.sigma_v < config_.min_course_speed_m_s;
+  if (!stands || !(filter.sigma_p < kGoodPosition_m)) return std::nullopt;
+
+  const double distance_m = (filter.p_e - checkpoint_->antenna_p_e).norm();
+  const double limit_m =
+      kSamePlace_m + kSigmas * std::hypot(filter.sigma_p, checkpoint_->antenna_sigma);
+  if (!(distance_m <= limit_m)) return Verdict{CheckpointUse::kElsewhere, distance_m, {}};
+  const double sigma = std::max(checkpoint_->heading_sigma, kLeastSigma);
+  return Verdict{CheckpointUse::kUsed, distance_m, {checkpoint_->heading, sigma}};
+}
+
+CheckpointJudge::Verdict CheckpointJudge::not_needed() {
+  checkpoint_.reset();
+  return {CheckpointUse::kNotNeeded, 0.0, {}};
+}
+
+}  // namespace leonav

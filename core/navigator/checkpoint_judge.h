@@ -1,0 +1,56 @@
+// Whether the heading of an earlier run's checkpoint still holds.
+#pragma once
+#include <optional>
+
+#include "core/ins/alignment.h"
+#include "core/navigator/checkpoint.h"
+
+namespace leonav {
+
+// A parked vehicle keeps its heading. That it is parked still, nobody has watched: it must be where
+// it was, as far as the first good position can tell, and must not have moved since the start.
+// Turned in place meanwhile (a turntable, a tow) it passes; HeadingWatch finds that.
+class CheckpointJudge {
+ public:
+  // `max_age_s`: of data time.
+  CheckpointJudge(const AlignmentConfig& config, double max_age_s)
+      : config_(config), max_age_s_(max_age_s) {}
+
+  // Replaces one that has not been judged yet.
+  void take(const Checkpoint& checkpoint);
+  bool pending() const { return checkpoint_.has_value(); }
+
+  // All samples from then on, in order.
+  void watch(const ImuSample& sample);
+
+  // Of the antenna, by a filter that has no attitude yet.
+  struct Filter {
+    GpsTime time;
+    Eigen::Vector3d p_e;
+    double sigma_p = 0.0;  // m, 3D
+    double speed = 0.0;    // m/s, 3D
+    double sigma_v = 0.0;  // m/s, per component
+  };
+  struct Verdict {
+    CheckpointUse use;
+    double value;
+    GivenHeading::Heading heading;  // if kUsed
+  };
+  // nullopt: nothing pending, or position and speed cannot tell yet. After a verdict nothing is
+  // pending any more.
+  std::optional<Verdict> judge(const Filter& filter);
+  // There is a heading from elsewhere.
+  Verdict not_needed();
+
+ private:
+  std::optional<Verdict> verdict(const Filter& filter) const;
+
+  AlignmentConfig config_;
+  double max_age_s_;
+  std::optional<Checkpoint> checkpoint_;
+  bool turned_ = false;
+  double window_s_ = 0.0;
+  Eigen::Vector3d window_turn_ = Eigen::Vector3d::Zero();  // rad
+};
+
+}  // namespace leonav
