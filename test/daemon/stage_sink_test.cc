@@ -33,3 +33,31 @@ TEST_CASE("satellites that lose their precise orbits and get them back are count
   CHECK(counters.orbit_fallbacks.get() == 2);
   CHECK(counters.orbit_returns.get() == 2);
 }
+
+TEST_CASE("what became of checkpoints is counted, and each epoch's goes to who keeps it") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  LatestValue<Checkpoint> checkpoints;
+  StageSink sink(1 << 20, &wakeup, &counters, &checkpoints);
+  Event event;
+  event.kind = EventKind::kCheckpoint;
+  event.code = static_cast<std::uint8_t>(CheckpointUse::kElsewhere);
+  event.value = 100.25;
+  sink.on_event(event);
+  CHECK(counters.checkpoints_ignored.get() == 1);
+  CHECK(counters.checkpoint_use.get() == 1 + event.code);
+  CHECK(counters.checkpoint_milli.get() == 100'250);
+  event.code = static_cast<std::uint8_t>(CheckpointUse::kUsed);
+  sink.on_event(event);
+  CHECK(counters.checkpoints_used.get() == 1);
+
+  const auto report = std::make_unique<EpochReport>();
+  Checkpoint taken;
+  sink.on_epoch(*report);
+  CHECK_FALSE(checkpoints.take(&taken));
+  report->checkpoint = Checkpoint();
+  report->checkpoint->heading = 1.5;
+  sink.on_epoch(*report);
+  REQUIRE(checkpoints.take(&taken));
+  CHECK(taken.heading == 1.5);
+}
