@@ -16,25 +16,14 @@
 #include "daemon/checkpoint_keeper.h"
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
+#include "support/parked_checkpoint.h"
 #include "support/program_run.h"
 #include "support/temporary_file.h"
 
 namespace {
 
 using namespace leonav;
-
-Checkpoint parked() {
-  Checkpoint checkpoint;
-  checkpoint.time = GpsTime::from_week_and_tow(2300, 345678.25);
-  checkpoint.standing = true;
-  checkpoint.antenna_p_e = to_ecef({0.69, 0.14, 300.0});
-  checkpoint.antenna_sigma = 2.5;
-  checkpoint.heading = -1.25;
-  checkpoint.heading_sigma = 0.02;
-  checkpoint.gyro_bias_b = {1e-4, -2e-4, 3e-4};
-  checkpoint.gyro_bias_sigma = 5e-5;
-  return checkpoint;
-}
+using test::parked;
 
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;

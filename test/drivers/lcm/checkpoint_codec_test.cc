@@ -9,25 +9,10 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
-
-namespace {
+#include "support/parked_checkpoint.h"
 
 using namespace leonav;
-
-Checkpoint parked() {
-  Checkpoint checkpoint;
-  checkpoint.time = GpsTime::from_week_and_tow(2300, 1000.5);
-  checkpoint.standing = true;
-  checkpoint.antenna_p_e = to_ecef({0.69, 0.14, 300.0});
-  checkpoint.antenna_sigma = 2.5;
-  checkpoint.heading = -1.25;
-  checkpoint.heading_sigma = 0.02;
-  checkpoint.gyro_bias_b = {1e-4, -2e-4, 3e-4};
-  checkpoint.gyro_bias_sigma = 5e-5;
-  return checkpoint;
-}
-
-}  // namespace
+using test::parked;
 
 TEST_CASE("a checkpoint survives the wire") {
   Encoder encoder;
