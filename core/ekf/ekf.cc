@@ -148,10 +148,6 @@ void Ekf::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy
   P.block<12, 12>(kGyroBias, kGyroBias) = covariance;
   now_.nav.errors = errors;
   place_attitude(before, q_eb, sigma_rpy, P);
-  if (!config_.settle_heading) return;
-  unsettled_heading_sigma_ = sigma_rpy.z();
-  unsettled_variances_ = vehicle_variances();
-  settled_at_ = GpsTime();
 }
 
 void Ekf::turn_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy) {

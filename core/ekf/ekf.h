@@ -163,7 +163,6 @@ class Ekf {
   void finish_sub_block();
   void follow_acceleration(const Eigen::Vector3d& v_before_e, double interval_s);
   AntennaMotion antenna() const;
-  void settle_heading();
   bool attitude_has_settled();
   void widen_constants();
   Eigen::Matrix3d antenna_covariance_e(
@@ -226,10 +225,6 @@ class Ekf {
   Eigen::Vector3d measured_rate_b_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_e_ = Eigen::Vector3d::Zero();
   // Of the attitude at the start of the vehicle's constants, rad; infinite: none yet.
-  // As at the start, rad; 0: the level has settled since.
-  double unsettled_heading_sigma_ = 0.0;
-  VehicleConstants unsettled_variances_;
-  GpsTime settled_at_;
   double start_tilt_sigma_ = std::numeric_limits<double>::infinity();
   double start_heading_sigma_ = std::numeric_limits<double>::infinity();
   GpsTime last_update_;

@@ -69,9 +69,6 @@ struct EkfConfig {
   // (1 + r) / (1 - r), r = exp(-dt / this), which gives a long mean the variance it really has.
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
-  // Once the level has settled after a start, what has been learned of the heading meanwhile is
-  // forgotten: as long as the level is off, gravity makes a heading's error seem an acceleration.
-  bool settle_heading = false;
   // Median standardized innovation of code, carrier or Doppler, clocks taken out (0.67 when all is
   // well), from which on the prediction is taken to be wrong, not the measurements, if these agree:
   // the filter widens its covariance (for ranges, or Dopplers alone against an IMU, at the second

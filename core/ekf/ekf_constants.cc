@@ -16,10 +16,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kAccelerationTime = 0.05;  // s, of its fading mean
-constexpr double kGravity = 9.81;           // m/s^2; tilts need no better
-constexpr double kLevelSettled = 5e-4;      // rad, 1 sigma
-constexpr double kSettling_s = 5.0;
-constexpr double kBiasTilts = 1.5;  // what accelerometer biases tilt it by, likewise
 // An attitude known so well, rad, needs no further start of the constants.
 constexpr double kSettledTilt = 1e-3, kSettledHeading = 4e-3;
 
@@ -116,35 +112,6 @@ Eigen::Matrix3d Ekf::antenna_position_covariance_e() const {
 
 Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
   return antenna_covariance_e(kVelocity, antenna().d_v_d_constants);
-}
-
-// From when the level is as well known as the accelerometers let it be until it has had the time to
-// be so: the heading is as unsure as at the start, and so is the direction of travel, which is told
-// from it by nothing else.
-void Ekf::settle_heading() {
-  if (!has_attitude_) return;
-  // As gravity has it: the Earth's centre is not quite below.
-  const Vector3d up = rotation_ecef_to_ned(to_geodetic(now_.nav.p_e)).row(2);
-  const Matrix3d across = Matrix3d::Identity() - up * up.transpose();
-  const auto attitude = covariance_.block<3, 3>(kAttitude, kAttitude);
-  const double tilt = std::sqrt(std::max(0.0, 0.5 * (across * attitude * across).trace()));
-  if (!settled_at_.is_set()) {
-    if (tilt > std::max(kLevelSettled, kBiasTilts * imu_.accel_bias.sigma / kGravity)) return;
-    settled_at_ = now_.nav.time.plus_seconds(kSettling_s);
-  }
-  covariance_.middleRows<3>(kAttitude) = (across * covariance_.middleRows<3>(kAttitude)).eval();
-  covariance_.middleCols<3>(kAttitude) = (covariance_.middleCols<3>(kAttitude) * across).eval();
-  covariance_.block<3, 3>(kAttitude, kAttitude) +=
-      square(unsettled_heading_sigma_) * up * up.transpose();
-  for (std::size_t i = 0; i <= kTravelPitch && i < now_.vehicle.size(); ++i) {
-    const auto place = kSize + static_cast<Eigen::Index>(i);
-    const double variance = std::max(unsettled_variances_[i], covariance_(place, place));
-    covariance_.row(place).setZero();
-    covariance_.col(place).setZero();
-    covariance_(place, place) = variance;
-  }
-  process_.continuous = false;
-  if (now_.nav.time >= settled_at_) unsettled_heading_sigma_ = 0.0;
 }
 
 // True where tilt or heading have become better known by the configured share.

@@ -206,7 +206,6 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   add(correction, has_attitude_, &now_);
   close(update, epoch, &result);
   if (!measurements_.empty()) last_update_ = epoch.time;
-  if (unsettled_heading_sigma_ > 0.0) settle_heading();
   if (config_.vehicle.restart_share > 0.0 && attitude_has_settled()) widen_constants();
   return result;
 }

@@ -180,8 +180,6 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
                &ekf.acceleration_noise_vertical);
   ekf.static_point = config->motion == MotionModel::kStatic;
   ekf.vertical_arm = config->motion != MotionModel::kInertial;
-  ekf.settle_heading =
-      config->vehicle.kind == VehicleKind::kCar || config->vehicle.kind == VehicleKind::kRail;
   group.boolean("carrier", &ekf.use_carrier);
   group.number("carrier_clock_noise_m_per_sqrt_s", {0.0, 1e6}, &ekf.carrier_clock_noise);
   group.number("max_arc_gap_s", {0.1, 600.0}, &ekf.max_arc_gap_s);

@@ -84,59 +84,6 @@ TEST_CASE("a configured heading aligns once, and again only while the vehicle st
   CHECK(worst_error(sink, drive, 72.0, 90.0) < 1.0);
 }
 
-struct HeadingAt {
-  double error = 0.0, sigma = 0.0;  // rad
-};
-
-HeadingAt heading_of(const RecordingSink& sink, const SyntheticDrive& drive, double t) {
-  for (const EpochReport& report : sink.epochs) {
-    if (std::abs(seconds(report.time) - t) > 0.5) continue;
-    REQUIRE(report.solution.has_attitude);
-    return {wrap_to_pi(report.solution.yaw - heading_at(drive, seconds(report.time))),
-            report.solution.sigma_rpy.z()};
-  }
-  FAIL("no epoch at " << t);
-  return {};
-}
-
-// Nothing but the Earth's rate tells a standing vehicle's heading, and within seconds not much of
-// it: what else the filter finds is gravity, seen through a level that is still off.
-TEST_CASE("a standing vehicle's heading stays as unsure as it was while the level settles") {
-  constexpr double kSigma = 0.087;
-  double settled = 0.0, unsettled = 0.0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    CAPTURE(seed);
-    SyntheticDriveOptions options;
-    options.seed = seed;
-    options.duration_s = 20.0;
-    options.standstill_s = 20.0;
-    options.doppler_sigma_m_s = 0.1;
-    options.code_sigma_m = 1.0;
-    options.carrier_sigma_m = 0.003;
-    options.angle_random_walk = 1.5e-5;
-    options.velocity_random_walk = 1.7e-3;
-    const SyntheticDrive drive = synthetic_drive(options);
-    NavigatorConfig config = drive_navigator_config(options);
-    config.ekf.use_carrier = true;
-    config.imu = {1.5e-5, 1.7e-3, {2.4e-6, 3600.0}, {2.5e-4, 3600.0}, {}, {}};
-    const double off = kSigma * (seed % 2 == 0 ? 0.8 : -0.8);
-    config.alignment.initial_heading = wrap_to_pi(heading_at(drive, 0.0) + off);
-    config.alignment.initial_heading_sigma = kSigma;
-    config.ekf.settle_heading = true;
-    const HeadingAt with = heading_of(run(drive, config), drive, 15.0);
-    config.ekf.settle_heading = false;
-    const HeadingAt without = heading_of(run(drive, config), drive, 15.0);
-    settled += std::pow((with.error - off) / kSigma, 2) / 10.0;
-    unsettled += std::pow((without.error - off) / kSigma, 2) / 10.0;
-    CHECK(with.sigma > 0.8 * kSigma);
-    CHECK(std::abs(with.error) < 3.0 * with.sigma);
-  }
-  INFO("moved by, of the first sigma, rms: " << std::sqrt(settled) << ", without settling "
-                                             << std::sqrt(unsettled));
-  CHECK(std::sqrt(settled) < 0.7);
-  CHECK(settled < unsettled);
-}
-
 double error_at_end(const RecordingSink& sink, const SyntheticDrive& drive) {
   const EpochReport& last = sink.epochs.back();
   REQUIRE(last.solution.has_attitude);
