@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "core/earth/rotation.h"
+#include "core/ins/bridge.h"
 
 namespace leonav {
 namespace {
@@ -12,6 +16,7 @@ constexpr double kGoodPosition_m = 10;  // 1 sigma; a vaguer one could be anywhe
 // Beyond the sigmas: what reflected codes are off by.
 constexpr double kSamePlace_m = 10.0;
 constexpr double kSigmas = 3.0;
+constexpr double kTurned = 5.0 * kRad;  // in all, beyond the gyros' bias
 // Parked means: on a slope, by a jack, with people getting in. And sigmas of old may flatter.
 constexpr double kLeastSigma = 2.0 * kRad;
 // Clocks of receivers start a little off.
@@ -39,19 +44,21 @@ std::string_view to_string(CheckpointUse use) {
   return "unknown";
 }
 
-void CheckpointJudge::take(const Checkpoint& checkpoint) {
-  checkpoint_ = checkpoint;
-  turned_ = false;
-  window_s_ = 0.0;
-  window_turn_.setZero();
-}
+void CheckpointJudge::take(const Checkpoint& checkpoint) { checkpoint_ = checkpoint; }
 
 void CheckpointJudge::watch(const ImuSample& sample) {
-  if (!checkpoint_) return;
+  // What happened in a hole too long to be bridged nobody knows.
+  if (last_.is_set() && seconds_between(sample.start(), last_) > kLongestBridge_s) turned_ = true;
+  last_ = sample.time;
   window_s_ += sample.interval_s();
+  all_s_ += sample.interval_s();
+  all_turn_ = (all_turn_ * quaternion_from_rotation_vector(sample.delta_theta_b)).normalized();
   window_turn_ += sample.delta_theta_b;
   if (window_s_ < kWindow_s) return;
   turned_ = turned_ || !(window_turn_.norm() < config_.static_gyro_rad_s * window_s_);
+  // Slowly, too: beyond what the gyros' bias makes of standing.
+  const double drifted = kSigmas * rate_sigma_ * all_s_;
+  turned_ = turned_ || 2.0 * std::acos(std::min(1.0, std::abs(all_turn_.w()))) > kTurned + drifted;
   window_s_ = 0.0;
   window_turn_.setZero();
 }

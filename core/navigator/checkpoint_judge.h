@@ -12,15 +12,15 @@ namespace leonav {
 // Turned in place meanwhile (a turntable, a tow) it passes; HeadingWatch finds that.
 class CheckpointJudge {
  public:
-  // `max_age_s`: of data time.
-  CheckpointJudge(const AlignmentConfig& config, double max_age_s)
-      : config_(config), max_age_s_(max_age_s) {}
+  // `rate_sigma`: of what gyros at rest show, rad/s; `max_age_s`: of data time.
+  CheckpointJudge(const AlignmentConfig& config, double rate_sigma, double max_age_s)
+      : config_(config), rate_sigma_(rate_sigma), max_age_s_(max_age_s) {}
 
   // Replaces one that has not been judged yet.
   void take(const Checkpoint& checkpoint);
   bool pending() const { return checkpoint_.has_value(); }
 
-  // All samples from then on, in order.
+  // All samples of the run, in order: what has turned once stands no more where it stood.
   void watch(const ImuSample& sample);
 
   // Of the antenna, by a filter that has no attitude yet.
@@ -46,9 +46,12 @@ class CheckpointJudge {
   std::optional<Verdict> verdict(const Filter& filter) const;
 
   AlignmentConfig config_;
-  double max_age_s_;
+  double rate_sigma_, max_age_s_;
   std::optional<Checkpoint> checkpoint_;
   bool turned_ = false;
+  GpsTime last_;
+  double all_s_ = 0.0;  // of samples
+  Eigen::Quaterniond all_turn_ = Eigen::Quaterniond::Identity();
   double window_s_ = 0.0;
   Eigen::Vector3d window_turn_ = Eigen::Vector3d::Zero();  // rad
 };

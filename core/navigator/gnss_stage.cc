@@ -71,7 +71,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       motion_aid_(config.vehicle.motion, config.imu.accel_bias, config.ekf.use_carrier),
       alignment_(config.alignment, config.imu),
       heading_watch_(config.alignment, config.imu),
-      checkpoint_judge_(config.alignment, config.checkpoint_max_age_s),
+      checkpoint_judge_(config.alignment, config.imu.gyro_bias.sigma, config.checkpoint_max_age_s),
       measurements_(std::make_unique<MeasurementEpoch>()),
       check_measurements_(std::make_unique<MeasurementEpoch>()),
       report_(std::make_unique<EpochReport>()),
@@ -114,6 +114,7 @@ void GnssStage::process_epoch(const EpochWork& work) {
   }
   motion_aid_.predict({work.block.data(), work.block.size()},
                       {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
+  motion_aid_.set_carrier_speed(std::nullopt);  // of no use to the next epoch unless told anew
   if (const auto found = motion_aid_.contradiction())
     events_.emit(EventKind::kConstraintsLeftOut, constraint_groups(found->left_out), found->share,
                  work.time);
@@ -165,7 +166,6 @@ void GnssStage::push_keyframe(const EpochWork& work) {
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
-  motion_aid_.set_carrier_speed(std::nullopt);
   if (!ekf_.initialized()) {
     start_filter(work);
   } else if (prediction_is_useless()) {

@@ -8,6 +8,11 @@
 #include "core/navigator/solution.h"
 
 namespace leonav {
+namespace {
+
+constexpr double kSureToStand = 0.1;  // m/s, 1 sigma; a vaguer velocity may hide that it rolls
+
+}  // namespace
 
 void GnssStage::take_checkpoint(const Checkpoint& checkpoint) {
   if (!inertial_) return;
@@ -44,6 +49,7 @@ std::optional<Checkpoint> GnssStage::checkpoint(const EpochWork& work) const {
   checkpoint.time = work.time;
   checkpoint.standing = may_stand(ekf_.antenna_velocity_e().norm(), velocity_sigma(),
                                   config_.alignment.min_course_speed_m_s) &&
+                        velocity_sigma() < kSureToStand &&
                         turn.norm() < config_.alignment.static_gyro_rad_s * turn_s;
   checkpoint.antenna_p_e = ekf_.antenna_position_e();
   checkpoint.antenna_sigma = position_sigma();
