@@ -1,6 +1,7 @@
 // A run that begins from the checkpoint of an earlier one.
 #include "core/navigator/checkpoint.h"
 
+#include <functional>
 #include <limits>
 
 #include "core/earth/ellipsoid.h"
@@ -137,6 +138,40 @@ TEST_CASE("a vehicle that moves or turns before its first position does not take
   const RecordingSink turned = begin_from(parked_at(drive), drive, config);
   CHECK(use_in(turned) == CheckpointUse::kMoves);
   CHECK(aligned_after(turned) > 20.0);
+  // Told once more, it is as wrong as before.
+  RecordingSink sink;
+  Pipeline pipeline(config, &sink);
+  pipeline.sequencer().on_checkpoint(parked_at(drive));
+  bool again = false;
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    if (seconds(raw.time) > 15.5 && !std::exchange(again, true))
+      sequencer->on_checkpoint(parked_at(drive));
+  });
+  CHECK(sink.count(EventKind::kCheckpoint) == 2);
+  CHECK(aligned_after(sink) > 20.0);
+}
+
+TEST_CASE("nor does one that turns slowly, or while its IMU is silent") {
+  const auto begins = [](const std::function<void(SyntheticDrive*)>& change) {
+    SyntheticDrive drive = parked_drive(20.0);
+    std::erase_if(drive.epochs, [](const RawEpoch& raw) { return seconds(raw.time) < 12.0; });
+    change(&drive);
+    NavigatorConfig config = drive_navigator_config(drive.options);
+    config.imu.gyro_bias.sigma = 1e-4;
+    return use_in(begin_from(parked_at(drive), drive, config));
+  };
+  const auto between = [](const ImuSample& sample, double from, double to) {
+    return seconds(sample.time) > from && seconds(sample.time) < to;
+  };
+  CHECK(begins([](SyntheticDrive*) {}) == CheckpointUse::kUsed);
+  CHECK(begins([&](SyntheticDrive* drive) {
+          for (ImuSample& sample : drive->imu)  // 18 degrees in all
+            if (between(sample, 2.0, 11.0))
+              sample.delta_theta_b.z() += 2.0 * kRad * sample.interval_s();
+        }) == CheckpointUse::kMoves);
+  CHECK(begins([&](SyntheticDrive* drive) {
+          std::erase_if(drive->imu, [&](const ImuSample& s) { return between(s, 4.0, 6.0); });
+        }) == CheckpointUse::kMoves);
 }
 
 TEST_CASE("who has told a heading knows better than a checkpoint, whenever it comes") {
