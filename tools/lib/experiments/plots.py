@@ -10,6 +10,8 @@ import numpy as np
 
 import spread
 
+WIDE_M = 20.0
+
 
 def save(figure, runner, name):
     figure.tight_layout()
@@ -60,7 +62,11 @@ def distributions(group, rows, results, runner):
                 top = max(top, float(np.quantile(values, 0.98)))
     for axis, name in zip(axes, ("north", "east", "up", "3D")):
         axis.set_xlabel(f"{name} error, m")
-        axis.set_xlim(0.0, top or 1.0)
+        if top > WIDE_M:  # rows of decimetres beside rows of kilometres
+            axis.set_xscale("log")
+            axis.set_xlim(0.01, top)
+        else:
+            axis.set_xlim(0.0, top or 1.0)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("epochs, %")
     axes[3].legend(fontsize=7)
