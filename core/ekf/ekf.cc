@@ -199,7 +199,7 @@ void Ekf::predict(std::span<const ImuSample> block, GpsTime time, SpeedHistory* 
   const GpsTime start = now_.nav.time;
   if (has_attitude_) {
     mechanization_.restate(now_.nav);
-    transition_.begin(imu_, now_.nav.errors, gravity_gradient_e(now_.nav.p_e));
+    begin_sub_block();
   }
   for (const ImuSample& sample : block) {
     if (sample.interval_ns <= 0 || sample.time > time) continue;
@@ -256,10 +256,21 @@ void Ekf::advance(const ImuSample& sample) {
   if (transition_.duration_s() >= kSubBlock) finish_sub_block();
 }
 
+void Ekf::let_attitude_wander(double noise, double seconds) {
+  now_.wander = {noise, now_.nav.time.plus_seconds(seconds)};
+}
+
+void Ekf::begin_sub_block() {
+  ImuErrorModel imu = imu_;
+  if (now_.wander.noise > 0.0 && now_.nav.time < now_.wander.until)
+    imu.angle_random_walk = std::hypot(imu.angle_random_walk, now_.wander.noise);
+  transition_.begin(imu, now_.nav.errors, gravity_gradient_e(now_.nav.p_e));
+}
+
 void Ekf::finish_sub_block() {
   for (EkfCovariance* covariance : with_noise()) transition_.propagate(covariance);
   if (process_.continuous) transition_.advance(&process_.transition);
-  transition_.begin(imu_, now_.nav.errors, gravity_gradient_e(now_.nav.p_e));
+  begin_sub_block();
 }
 
 // A short hole is a sample that was not measured and is less certain for it.

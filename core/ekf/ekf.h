@@ -89,6 +89,9 @@ class Ekf {
   // Corrects an attitude from outside: only its own variances and correlations change, and the
   // antenna stays where it is. Nothing without an attitude.
   void turn_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
+  // For so long from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside that
+  // of the gyros (AttitudeWander).
+  void let_attitude_wander(double noise, double seconds);
   // The clocks' offsets start anew from the next epoch's codes, all arcs with them.
   void forget_clocks();
   bool initialized() const { return initialized_; }
@@ -160,6 +163,7 @@ class Ekf {
   void start_vehicle(const VehicleConstants& before, const VehicleConstants& variances);
   VehicleConstants vehicle_variances() const;
   void predict_sample(const ImuSample& sample);
+  void begin_sub_block();
   void finish_sub_block();
   void follow_acceleration(const Eigen::Vector3d& v_before_e, double interval_s);
   AntennaMotion antenna() const;

@@ -5,6 +5,13 @@
 
 namespace leonav {
 
+// Beside the gyros' noise, until then: an attitude found in motion is wrong in ways that its
+// variances do not tell of.
+struct AttitudeWander {
+  double noise = 0.0;  // rad/sqrt(s)
+  GpsTime until;
+};
+
 struct FilterState {
   NavState nav;
   ClockState clocks;
@@ -12,6 +19,7 @@ struct FilterState {
   double carrier_clock_m = 0.0;  // of the carriers against the codes
   VehicleConstants vehicle;
   Ambiguities ambiguities;
+  AttitudeWander wander;  // of its process; nothing that is estimated
 
   // Place in the error state.
   int first_ambiguity() const { return ekf_index::kSize + static_cast<int>(vehicle.size()); }

@@ -165,15 +165,24 @@ void RobustUpdate::throw_out_worst_first(const RobustConfig& config,
 }
 
 // Weighs; where measurements contradict each other, once more with the variance they then have.
+// Without carriers that had outvoted them, others may be found to contradict each other.
 void RobustUpdate::weigh_relaxed(const RobustConfig& config, FactorLimits* limits,
                                  FilterMeasurements* measurements, RobustUpdateResult* result) {
   settled_ = false;
   weigh(config, limits, measurements, result);
-  const auto scale = result->scale;
+  auto scale = result->scale;
   if (!relax(scale, measurements)) return;
   settled_ = false;
   weigh(config, limits, measurements, result);
-  if (leave_out_few_carriers(*measurements, limits)) weigh(config, limits, measurements, result);
+  if (leave_out_few_carriers(*measurements, limits)) {
+    weigh(config, limits, measurements, result);
+    auto more = result->scale;
+    for (std::size_t kind = 0; kind < kObservables; ++kind) {
+      const bool found = scale[kind] <= kMaxScale && more[kind] > kMaxScale;
+      (found ? scale[kind] : more[kind]) = found ? more[kind] : 1.0;
+    }
+    if (relax(more, measurements)) weigh(config, limits, measurements, result);
+  }
   result->scale = scale;
 }
 

@@ -178,6 +178,9 @@ AlignmentNeed Alignment::need(double latitude) const {
     if (implausible_) return {Lacking::kGravity};
     return {Lacking::kLevelling, config_.levelling_window_s - first_s_};
   }
+  if (candidate_)
+    return {Lacking::kCourse,
+            std::max(1.0, config_.confirming_s - (levelled_for_s_ - candidate_->since_s))};
   if (const double driven_s = courses_.seconds(); driven_s > 0.0) {
     const double more_s = config_.course_window_s - driven_s;
     if (more_s > 0.0) return {Lacking::kCourse, more_s};
@@ -249,6 +252,18 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
   return std::nullopt;
 }
 
+// Velocities by way of walls tell a heading too, but another one a moment later.
+std::optional<Alignment::InMotion> Alignment::confirmed(std::optional<InMotion> found) {
+  if (!found) {
+    candidate_.reset();
+    return std::nullopt;
+  }
+  if (!candidate_ || std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) > found->sigma)
+    candidate_ = Candidate{levelled_for_s_, found->turn_l};
+  if (levelled_for_s_ - candidate_->since_s < config_.confirming_s) return std::nullopt;
+  return found;
+}
+
 std::optional<AlignedAttitude> Alignment::attitude(
     const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e, double sigma_v,
     const std::optional<GivenHeading::Heading>& given) {
@@ -265,7 +280,7 @@ std::optional<AlignedAttitude> Alignment::attitude(
   if (given) {
     turn_l = given->heading - angles.yaw;
     heading_sigma = given->sigma;
-  } else if (const auto moving = heading_in_motion(angles.yaw)) {
+  } else if (const auto moving = confirmed(heading_in_motion(angles.yaw))) {
     turn_l = moving->turn_l;
     heading_sigma = moving->sigma;
     if (moving->match && moving->match->level_sigma < level_sigma) {

@@ -29,8 +29,10 @@ struct AlignmentConfig {
   double levelling_sigma = 0.035;        // rad, roll and pitch after levelling
   double static_gyro_rad_s = 0.05;       // mean rate below this while standing
   // rad; good gyros find north while standing, once its 1 sigma is below this; 0: never.
-  double max_gyrocompass_sigma = 0.087;
+  double max_gyrocompass_sigma = 0.0785;
   double static_accel_m_s2 = 0.3;  // spread of the specific force below this while standing
+  // A heading found in motion must stay within its sigma for this long before it is taken.
+  double confirming_s = 0.0;
   bool velocity_matching = false;  // see VelocityMatching
   double matching_window_s = 15.0;
   double max_matching_sigma = 0.087;  // rad; the heading's uncertainty must be below
@@ -38,6 +40,11 @@ struct AlignmentConfig {
   // m/s; up to this speed the vehicle may be going in reverse, which a course cannot tell: then it
   // needs the matching's word. 0: it never does.
   double max_reverse_speed_m_s = 0.0;
+  // An attitude that was found, not told, wanders by so much, rad/sqrt(s), for so long: velocities
+  // by way of walls have put the level off, and gravity makes of that a heading. For who drives the
+  // alignment.
+  double settling_wander = 0.0;
+  double settling_s = 20.0;
   bool heading_watch = false;  // see HeadingWatch; for who drives the alignment
 };
 
@@ -105,6 +112,7 @@ class Alignment {
     std::optional<VelocityMatching::Match> match;  // if that tells roll and pitch too
   };
   std::optional<InMotion> heading_in_motion(double relative_yaw);
+  std::optional<InMotion> confirmed(std::optional<InMotion> found);
 
   AlignmentConfig config_;
   ImuErrorModel imu_;
@@ -128,6 +136,10 @@ class Alignment {
   std::optional<Heading> last_heading_;  // at the last epoch
   enum class Gear : unsigned char { kUnknown, kForward, kReverse };
   Gear gear_ = Gear::kUnknown;  // since it last stopped
+  struct Candidate {
+    double since_s, turn_l;
+  };
+  std::optional<Candidate> candidate_;  // found in motion and not contradicted since
   VelocityMatching matching_;
 };
 

@@ -36,6 +36,8 @@ void GnssStage::align(const EpochWork& work) {
   given_heading_.use();
   ekf_.set_attitude(aligned->q_eb, aligned->sigma_rpy, aligned->gyro_bias_b,
                     aligned->gyro_bias_sigma);
+  if (!given)
+    ekf_.let_attitude_wander(config_.alignment.settling_wander, config_.alignment.settling_s);
   if (config_.alignment.heading_watch) start_heading_watch();
   events_.emit(EventKind::kAligned, aligned->gyro_bias_known ? 1 : 0, aligned->sigma_rpy.z(),
                work.time);

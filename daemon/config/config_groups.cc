@@ -15,6 +15,8 @@ constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 constexpr double kMillisecond = 1e-3;
 // A bracket that settles: a tenth of a degree in an hour.
 constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
+constexpr double kConfirming_s = 2.0;
+constexpr double kSettlingWander = 0.4 * kDegree;  // rad/sqrt(s)
 constexpr double kPercent = 0.01;
 // Tyres that get warm: a tenth of a percent in an hour.
 constexpr double kOdometerScaleWander = 0.1 * kPercent / kRootHour;  // 1/sqrt(s)
@@ -148,9 +150,14 @@ void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, Alignment
   group.number("max_matching_sigma_deg", {0.1, 20.0}, &config->max_matching_sigma, kDegree);
   config->lever_arm_b = vehicle.lever_arm_b;
   read_switch(group, "heading_watch", !handheld, &config->heading_watch);
-  std::optional<double> reverse;
+  std::optional<double> reverse, wander, confirming;
   group.number("max_reverse_speed_m_s", {0.0, 1000.0}, &reverse);
   config->max_reverse_speed_m_s = reverse.value_or(reverse_speed(vehicle.kind));
+  group.number("confirming_s", {0.0, 60.0}, &confirming);
+  config->confirming_s = confirming.value_or(handheld ? 0.0 : kConfirming_s);
+  group.number("settling_wander_deg_per_sqrt_s", {0.0, 10.0}, &wander, kDegree);
+  config->settling_wander = wander.value_or(handheld ? 0.0 : kSettlingWander);
+  group.number("settling_s", {0.0, 600.0}, &config->settling_s);
   group.number("levelling_window_s", {0.05, 60.0}, &config->levelling_window_s);
   group.number("levelling_sigma_deg", {0.01, 45.0}, &config->levelling_sigma, kDegree);
   group.number("min_course_speed_m_s", {0.05, 100.0}, &config->min_course_speed_m_s);

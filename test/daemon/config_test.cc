@@ -127,6 +127,24 @@ TEST_CASE("data-sheet units become SI") {
   CHECK(imu.gyro_scale.sigma == Approx(1e-3));
 }
 
+TEST_CASE("a found attitude wanders while it settles, but for who walks, unless said otherwise") {
+  const auto degrees = [](const std::string& text) {
+    return load_config_text(text, "x").navigator.alignment.settling_wander * 180.0 /
+           3.14159265358979;
+  };
+  CHECK(degrees("vehicle: {kind: car}\n") == Approx(0.4));
+  CHECK(degrees("vehicle: {kind: uav}\n") == Approx(0.4));
+  CHECK(degrees("vehicle: {kind: handheld}\n") == 0.0);
+  CHECK(degrees("vehicle: {kind: car}\nalignment: {settling_wander_deg_per_sqrt_s: 0}\n") == 0.0);
+  CHECK(degrees("alignment: {settling_wander_deg_per_sqrt_s: 1}\n") == Approx(1.0));
+  const auto confirming = [](const std::string& text) {
+    return load_config_text(text, "x").navigator.alignment.confirming_s;
+  };
+  CHECK(confirming("vehicle: {kind: rail}\n") == 2.0);
+  CHECK(confirming("vehicle: {kind: handheld}\n") == 0.0);
+  CHECK(confirming("alignment: {confirming_s: 5}\n") == 5.0);
+}
+
 TEST_CASE("an odometer is for wheels, at the point that does not slide, unless said otherwise") {
   const auto motion_of = [](const std::string& vehicle) {
     return load_config_text("vehicle: {" + vehicle + "}\n", "x")

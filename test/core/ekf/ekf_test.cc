@@ -229,6 +229,38 @@ TEST_CASE("corrections between blocks do not interrupt coning and sculling") {
   CHECK(difference < 1e-9);
 }
 
+TEST_CASE("an attitude that wanders is as much less certain, for as long as it was told to") {
+  constexpr double kNoise = 0.01;  // rad/sqrt(s)
+  EkfConfig config;
+  config.keep_process = true;
+  Drive drive(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
+  Drive plain(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
+  drive.filter().let_attitude_wander(kNoise, 3.0);
+  for (Drive* one : {&drive, &plain}) one->filter().begin_process();
+  for (int second = 1; second <= 5; ++second) {
+    for (Drive* one : {&drive, &plain}) one->predict(slalom(second));
+    const auto more = [&](const auto& of) {
+      const Eigen::Matrix3d apart = of(drive.filter()) - of(plain.filter());
+      return Vector3d(apart.diagonal());
+    };
+    const Vector3d variance = more([](Ekf& filter) -> Eigen::Matrix3d {
+      return filter.covariance().block<3, 3>(kAttitude, kAttitude);
+    });
+    // What the smoother is told of it.
+    const Vector3d noise = more([](Ekf& filter) -> Eigen::Matrix3d {
+      return filter.process().noise.block<3, 3>(kAttitude, kAttitude);
+    });
+    const double expected = kNoise * kNoise * std::min(second, 3);
+    CHECK((variance - Vector3d::Constant(expected)).cwiseAbs().maxCoeff() < 0.01 * expected);
+    CHECK((noise - Vector3d::Constant(expected)).cwiseAbs().maxCoeff() < 0.01 * expected);
+  }
+  CHECK(drive.filter().state().p_e == plain.filter().state().p_e);
+  // It goes with the state for whoever integrates the same samples again, and ends with the filter.
+  CHECK(drive.filter().whole_state().wander.noise == kNoise);
+  drive.filter().initialize(drive.state().time, PointSolution());
+  CHECK(drive.filter().whole_state().wander.noise == 0.0);
+}
+
 TEST_CASE("a hole in the IMU data widens the covariance and the filter comes back") {
   Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 4);
   for (int second = 0; second < 20; ++second) {

@@ -249,4 +249,51 @@ TEST_CASE("carriers that contradict each other do not decide beside codes") {
   CHECK(std::sqrt(P(kPosition, kPosition)) > 0.3);
 }
 
+// Codes that contradict each other, two of five carriers that agree with half of the Dopplers, and
+// Dopplers that contradict each other once those carriers are out.
+TEST_CASE("what carriers had outvoted is found to contradict itself once they are left out") {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    synthetic::Generator noise(seed);
+    FilterMeasurements measurements = around(6, &noise);
+    EkfCovariance P = position_and_clock(1.0);
+    // A second's way of an uncertain velocity.
+    const auto move = [&](int place, int rate, double sigma) {
+      P(rate, rate) = sigma * sigma;
+      P(place, rate) = P(rate, place) = 0.5 * sigma * sigma;
+      P(place, place) += 0.25 * sigma * sigma;
+    };
+    for (int axis = 0; axis < 3; ++axis) move(kPosition + axis, kVelocity + axis, 0.5);
+    move(kClock, kClockDrift, 0.5);
+    const FilterMeasurements codes = measurements;
+    for (FilterMeasurement& code : measurements) code.innovation *= 12.0;
+    for (const FilterMeasurement& code : codes) {
+      FilterMeasurement doppler = scalar(noise.normal(), 0.05, EkfVector::Zero());
+      doppler.row.segment<3>(kVelocity) = code.row.segment<3>(kPosition);
+      doppler.row(kClockDrift) = 1.0;
+      doppler.observable = Observable::kDoppler;
+      FilterMeasurement carrier = scalar(0.5 * doppler.innovation, 0.01, code.row);
+      if (measurements.size() > 7) carrier.innovation = noise.normal();
+      carrier.observable = Observable::kCarrier;
+      measurements.push_back(doppler);
+      measurements.push_back(carrier);
+    }
+    const RobustUpdateResult result = RobustUpdate{}(RobustConfig{}, &measurements, &P);
+    double weight = 0.0, carriers = 0.0, far = 0.0;
+    for (const FilterMeasurement& m : measurements) {
+      if (m.observable == Observable::kCarrier) carriers += m.factor;
+      if (m.observable != Observable::kDoppler) continue;
+      const double residual = m.innovation - m.row.dot(result.correction.head<kSize>());
+      weight += m.factor;
+      far += m.factor * residual * residual / m.variance;
+    }
+    if (carriers > 0.0 || weight == 0.0) continue;
+    ++found;
+    // Six Dopplers with two to spare: as large as they are weighed, not twelve sigmas each.
+    CHECK(far < 6.0 * 9.0);
+  }
+  CHECK(found > 20);
+}
+
 }  // namespace leonav

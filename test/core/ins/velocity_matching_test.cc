@@ -136,6 +136,44 @@ TEST_CASE("a car that backs out of its space is not aligned the wrong way round"
   CHECK(worst < 20.0 * kDegree);
 }
 
+TEST_CASE(
+    "a heading that another one follows is not taken, and one that stays is, a little later") {
+  const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
+  const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
+  struct Aligned {
+    int after_s = 0;
+    double error = 0.0;
+  };
+  // By courses; those of the first seconds came by way of a wall.
+  const auto align = [&](double confirming_s, int bent_s) {
+    AlignmentConfig config;
+    config.course_window_s = 4.0;
+    config.max_gyrocompass_sigma = 0.0;
+    config.confirming_s = confirming_s;
+    Alignment alignment(config, test::tactical_imu());
+    SyntheticVehicle vehicle(test::tactical_imu(), 0.5, 3);
+    for (int t = 1; t <= 40; ++t) {
+      for (int i = 0; i < 100; ++i) alignment.add(vehicle.step(0.0, 0.0));
+      const double course = vehicle.yaw() + (t <= bent_s ? 25.0 * kDegree : 0.0);
+      const Eigen::Vector3d v_n(8.0 * std::cos(course), 8.0 * std::sin(course), 0.0);
+      const auto aligned = alignment.attitude(to_ecef(where), C_en * v_n, 0.05);
+      if (!aligned) {
+        if (t > 2) CHECK(alignment.need(where.latitude).seconds > 0.0);
+        continue;
+      }
+      const Eigen::Matrix3d C_nb = C_en.transpose() * aligned->q_eb.toRotationMatrix();
+      return Aligned{t, std::abs(wrap_to_pi(euler_from_rotation(C_nb).yaw - vehicle.yaw()))};
+    }
+    return Aligned{};
+  };
+  const Aligned at_once = align(0.0, 0), confirmed = align(2.0, 0);
+  CHECK(confirmed.after_s == at_once.after_s + 2);
+  CHECK(align(0.0, at_once.after_s).error > 20.0 * kDegree);
+  const Aligned bent = align(2.0, at_once.after_s);
+  CHECK(bent.after_s > confirmed.after_s);
+  CHECK(bent.error < 3.0 * kDegree);
+}
+
 TEST_CASE("an alignment says what it lacks") {
   const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
   const auto lacking_after = [&](const ImuErrorModel& imu, int stands_s, int drives_s,

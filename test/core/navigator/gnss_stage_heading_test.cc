@@ -84,6 +84,40 @@ TEST_CASE("a configured heading aligns once, and again only while the vehicle st
   CHECK(worst_error(sink, drive, 72.0, 90.0) < 1.0);
 }
 
+TEST_CASE("a heading that was found is less certain for a while, one that was told is not") {
+  SyntheticDriveOptions options;
+  options.duration_s = 120.0;
+  options.doppler_sigma_m_s = 0.03;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(options);
+  const auto sigma = [&](double since_s) {
+    const RecordingSink sink = run(drive, config);
+    const EpochReport* aligned = nullptr;
+    for (const EpochReport& report : sink.epochs) {
+      if (aligned == nullptr && report.solution.has_attitude) aligned = &report;
+      if (aligned != nullptr && seconds(report.time) >= seconds(aligned->time) + since_s)
+        return report.solution.sigma_rpy.z();
+    }
+    FAIL("not that long");
+    return 0.0;
+  };
+  config.alignment.settling_s = 20.0;
+  for (const bool told : {false, true}) {
+    CAPTURE(told);
+    config.alignment.initial_heading.reset();
+    if (told) config.alignment.initial_heading = heading_at(drive, 0.0);
+    config.alignment.settling_wander = 0.0;
+    const double plain = sigma(15.0), plain_later = sigma(60.0);
+    config.alignment.settling_wander = 0.01;
+    if (told) {
+      CHECK(sigma(15.0) == plain);
+    } else {
+      CHECK(sigma(15.0) > 2.0 * plain);
+      CHECK(sigma(60.0) < 1.5 * plain_later);
+    }
+  }
+}
+
 double error_at_end(const RecordingSink& sink, const SyntheticDrive& drive) {
   const EpochReport& last = sink.epochs.back();
   REQUIRE(last.solution.has_attitude);
