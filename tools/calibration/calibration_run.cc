@@ -41,6 +41,8 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   constants.wander.fill(0.0);  // nothing moves within a log
   constants.count = kMaxVehicle;
   constants.restart_share = kRestartShare;
+  // An attitude that wanders at first settles late, and the constants start anew with it.
+  config.alignment.settling_wander = 0.0;
   config.imu.velocity_random_walk =
       std::hypot(config.imu.velocity_random_walk, kNoisePerScale * config.imu.accel_scale.sigma);
   for (std::size_t axis = 0; axis < 3; ++axis)
