@@ -252,15 +252,19 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
   return std::nullopt;
 }
 
-// Velocities by way of walls tell a heading too, but another one a moment later.
+// Velocities by way of walls tell a heading too, but another one a moment later: further off than
+// either says it may be.
 std::optional<Alignment::InMotion> Alignment::confirmed(std::optional<InMotion> found) {
+  constexpr double kRounding_s = 1e-6;  // of the sum of many intervals
   if (!found) {
     candidate_.reset();
     return std::nullopt;
   }
-  if (!candidate_ || std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) > found->sigma)
-    candidate_ = Candidate{levelled_for_s_, found->turn_l};
-  if (levelled_for_s_ - candidate_->since_s < config_.confirming_s) return std::nullopt;
+  if (!candidate_ || std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) >
+                         std::min(found->sigma, candidate_->sigma))
+    candidate_ = Candidate{levelled_for_s_, found->turn_l, found->sigma};
+  if (levelled_for_s_ - candidate_->since_s < config_.confirming_s - kRounding_s)
+    return std::nullopt;
   return found;
 }
 

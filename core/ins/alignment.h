@@ -137,7 +137,7 @@ class Alignment {
   enum class Gear : unsigned char { kUnknown, kForward, kReverse };
   Gear gear_ = Gear::kUnknown;  // since it last stopped
   struct Candidate {
-    double since_s, turn_l;
+    double since_s, turn_l, sigma;
   };
   std::optional<Candidate> candidate_;  // found in motion and not contradicted since
   VelocityMatching matching_;

@@ -142,7 +142,7 @@ TEST_CASE(
   const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
   struct Aligned {
     int after_s = 0;
-    double error = 0.0;
+    double sigmas = 0.0;
   };
   // By courses; those of the first seconds came by way of a wall.
   const auto align = [&](double confirming_s, int bent_s) {
@@ -162,16 +162,17 @@ TEST_CASE(
         continue;
       }
       const Eigen::Matrix3d C_nb = C_en.transpose() * aligned->q_eb.toRotationMatrix();
-      return Aligned{t, std::abs(wrap_to_pi(euler_from_rotation(C_nb).yaw - vehicle.yaw()))};
+      const double error = wrap_to_pi(euler_from_rotation(C_nb).yaw - vehicle.yaw());
+      return Aligned{t, std::abs(error) / aligned->sigma_rpy.z()};
     }
     return Aligned{};
   };
   const Aligned at_once = align(0.0, 0), confirmed = align(2.0, 0);
   CHECK(confirmed.after_s == at_once.after_s + 2);
-  CHECK(align(0.0, at_once.after_s).error > 20.0 * kDegree);
+  CHECK(align(0.0, at_once.after_s).sigmas > 10.0);
   const Aligned bent = align(2.0, at_once.after_s);
   CHECK(bent.after_s > confirmed.after_s);
-  CHECK(bent.error < 3.0 * kDegree);
+  CHECK(bent.sigmas < 2.0);
 }
 
 TEST_CASE("an alignment says what it lacks") {
