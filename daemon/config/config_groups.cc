@@ -15,7 +15,7 @@ constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 constexpr double kMillisecond = 1e-3;
 // A bracket that settles: a tenth of a degree in an hour.
 constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
-constexpr double kConfirming_s = 2.0;
+constexpr double kConfirming_s = 3.0;
 constexpr double kSettlingWander = 0.4 * kDegree;  // rad/sqrt(s)
 constexpr double kPercent = 0.01;
 // Tyres that get warm: a tenth of a percent in an hour.

@@ -140,7 +140,7 @@ TEST_CASE("a found attitude wanders while it settles, but for who walks, unless 
   const auto confirming = [](const std::string& text) {
     return load_config_text(text, "x").navigator.alignment.confirming_s;
   };
-  CHECK(confirming("vehicle: {kind: rail}\n") == 2.0);
+  CHECK(confirming("vehicle: {kind: rail}\n") == 3.0);
   CHECK(confirming("vehicle: {kind: handheld}\n") == 0.0);
   CHECK(confirming("alignment: {confirming_s: 5}\n") == 5.0);
 }
