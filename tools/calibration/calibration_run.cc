@@ -43,6 +43,9 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   constants.restart_share = kRestartShare;
   // An attitude that wanders at first settles late, and the constants start anew with it.
   config.alignment.settling_wander = 0.0;
+  // Standing with a coarse heading and an unknown arm, a filter that is linear learns both from
+  // nothing (as in simultaneous localization and mapping: Huang et al. 2010): it starts in motion.
+  config.alignment.max_gyrocompass_sigma = 0.0;
   config.imu.velocity_random_walk =
       std::hypot(config.imu.velocity_random_walk, kNoisePerScale * config.imu.accel_scale.sigma);
   for (std::size_t axis = 0; axis < 3; ++axis)
