@@ -17,7 +17,7 @@ constexpr double kRestartShare = 0.6;
 constexpr double kLeastSlide_m_s = 0.5;
 // The arm's height shows by tilting alone, and attitudes that the filter corrects look like tilts:
 // on simulated drives it was wrong by so many of the filter's sigmas.
-constexpr double kHeightDoubt = 2.0;
+constexpr double kHeightDoubt = 3.0;
 // Scale factors act along the sensor's axes, not along the body's that the filter knows, and axes
 // are askew by as much: (m/s)/sqrt(s) of noise per unit of scale, which takes the weight of what
 // looks like millimetres of arm per m/s^2.
