@@ -36,7 +36,7 @@ std::string to_text(const AlignmentNeed& need, const AlignmentConfig& config) {
       return "standing: the gyros need " + more + " to find north";
     case Lacking::kDriving:
       return "no heading: drive faster than " + number(config.min_course_speed_m_s) + " m/s for " +
-             whole(config.course_window_s) + " s, or set_heading";
+             whole(config.course_window_s + config.confirming_s) + " s, or set_heading";
     case Lacking::kCourse:
       return "no heading yet: drive on for " + more;
     case Lacking::kGear:

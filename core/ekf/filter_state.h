@@ -5,8 +5,8 @@
 
 namespace leonav {
 
-// Beside the gyros' noise, until then: an attitude found in motion is wrong in ways that its
-// variances do not tell of.
+// Beside the gyros' noise, until then: an attitude that was found, not told, is wrong in ways that
+// its variances do not tell of.
 struct AttitudeWander {
   double noise = 0.0;  // rad/sqrt(s)
   GpsTime until;

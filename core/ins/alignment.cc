@@ -178,12 +178,14 @@ AlignmentNeed Alignment::need(double latitude) const {
     if (implausible_) return {Lacking::kGravity};
     return {Lacking::kLevelling, config_.levelling_window_s - first_s_};
   }
-  if (candidate_)
+  if (candidate_) {
+    if (candidate_->another) return {Lacking::kAgreement};
     return {Lacking::kCourse,
             std::max(1.0, config_.confirming_s - (levelled_for_s_ - candidate_->since_s))};
+  }
   if (const double driven_s = courses_.seconds(); driven_s > 0.0) {
     const double more_s = config_.course_window_s - driven_s;
-    if (more_s > 0.0) return {Lacking::kCourse, more_s};
+    if (more_s > 0.0) return {Lacking::kCourse, more_s + config_.confirming_s};
     const auto agreement = courses_.agreement();
     const bool agrees = agreement && agreement->sigma < config_.max_course_sigma;
     return {agrees && gear_ == Gear::kUnknown ? Lacking::kGear : Lacking::kAgreement};
@@ -253,16 +255,22 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
 }
 
 // Velocities by way of walls tell a heading too, but another one a moment later: further off than
-// either says it may be.
+// the surer of the two says, and than gyros of an unknown bias have drifted since.
 std::optional<Alignment::InMotion> Alignment::confirmed(std::optional<InMotion> found) {
-  constexpr double kRounding_s = 1e-6;  // of the sum of many intervals
+  constexpr double kRounding_s = 1e-3;  // epochs stand on a grid up to that
+  constexpr double kLikelyDrift = 2.0;  // sigmas
   if (!found) {
     candidate_.reset();
     return std::nullopt;
   }
-  if (!candidate_ || std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) >
-                         std::min(found->sigma, candidate_->sigma))
-    candidate_ = Candidate{levelled_for_s_, found->turn_l, found->sigma};
+  const double for_s = candidate_ ? levelled_for_s_ - candidate_->since_s : 0.0;
+  const double limit = candidate_ ? std::min(found->sigma, candidate_->sigma) +
+                                        kLikelyDrift * standing_.sigma() * for_s
+                                  : 0.0;
+  const bool another =
+      candidate_ && std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) > limit;
+  if (!candidate_ || another)
+    candidate_ = Candidate{levelled_for_s_, found->turn_l, found->sigma, another};
   if (levelled_for_s_ - candidate_->since_s < config_.confirming_s - kRounding_s)
     return std::nullopt;
   return found;

@@ -138,6 +138,7 @@ class Alignment {
   Gear gear_ = Gear::kUnknown;  // since it last stopped
   struct Candidate {
     double since_s, turn_l, sigma;
+    bool another;  // than the one before, which it contradicts
   };
   std::optional<Candidate> candidate_;  // found in motion and not contradicted since
   VelocityMatching matching_;

@@ -1,8 +1,32 @@
 #include "core/navigator/covariance_growth.h"
 
+#include <algorithm>
+
 #include "core/earth/rotation.h"
 
 namespace leonav {
+namespace {
+
+using namespace ekf_index;
+
+// White noise of the attitude's rate for the `t` seconds that end now, density in rad/sqrt(s), with
+// what the specific force makes of it: velocity' = F attitude, position' = velocity.
+void add_attitude_wander(double noise, double t, const Eigen::Matrix3d& F, PvaCovariance* P) {
+  const double density = noise * noise, t2 = t * t, t3 = t2 * t;
+  const Eigen::Matrix3d FF = F * F.transpose();
+  const auto add = [&](int row, int column, const Eigen::Matrix3d& block) {
+    P->block<3, 3>(row, column) += density * block;
+    if (row != column) P->block<3, 3>(column, row) += density * block.transpose();
+  };
+  add(kAttitude, kAttitude, t * Eigen::Matrix3d::Identity());
+  add(kVelocity, kAttitude, t2 / 2.0 * F);
+  add(kVelocity, kVelocity, t3 / 3.0 * FF);
+  add(kPosition, kAttitude, t3 / 6.0 * F);
+  add(kPosition, kVelocity, t3 * t / 8.0 * FF);
+  add(kPosition, kPosition, t3 * t2 / 20.0 * FF);
+}
+
+}  // namespace
 
 using namespace ekf_index;
 
@@ -30,6 +54,10 @@ PvaCovariance inertial_covariance(const EkfUpdate& anchor, const ImuErrorModel& 
   add_acceleration_noise(imu.velocity_random_walk, t, &covariance);
   const double angle_variance = imu.angle_random_walk * imu.angle_random_walk * t;
   covariance.block<3, 3>(kAttitude, kAttitude) += angle_variance * I;
+  if (anchor.wander.noise > 0.0) {
+    const double left_s = seconds_between(anchor.wander.until, anchor.state.time);
+    add_attitude_wander(anchor.wander.noise, std::clamp(left_s, 0.0, t), F, &covariance);
+  }
   return covariance;
 }
 

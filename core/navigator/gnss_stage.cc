@@ -340,6 +340,7 @@ void GnssStage::deliver(const EpochWork& work) {
     update.state = ekf_.state();
     update.covariance = ekf_.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
     update.gnss_used = gnss_used_;
+    update.wander = ekf_.whole_state().wander;
     update.time_offset_s = ekf_.has_attitude() ? time_offset_of(ekf_.vehicle()) : 0.0;
   }
   mailbox_->deliver(work.index, update);

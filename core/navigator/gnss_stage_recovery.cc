@@ -297,6 +297,7 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   const ImuErrors errors = ekf_.state().errors;
   const ImuErrorCovariance error_covariance =
       ekf_.covariance().block<12, 12>(ekf_index::kGyroBias, ekf_index::kGyroBias);
+  const AttitudeWander wander = ekf_.whole_state().wander;
   EpochReport* report = report_.get();
   report_state(ekf_, report);
   Eigen::Vector3d sigma_rpy = report->solution.sigma_rpy;
@@ -309,6 +310,8 @@ void GnssStage::restart_from(const PointSolution& point, const EpochWork& work, 
   carriers_.forget_position();
   if (keep_attitude) {
     ekf_.set_attitude(q_eb, sigma_rpy, errors, error_covariance);
+    if (wander.noise > 0.0)  // it goes on settling
+      ekf_.let_attitude_wander(wander.noise, seconds_between(wander.until, work.time));
   } else {
     alignment_.reset();
   }

@@ -50,6 +50,7 @@ SmootherUpdate SmootherStage::answer(const KeyframeInput& input,
   update.anchor.state = result.state;
   update.anchor.covariance = result.covariance;
   update.anchor.time_offset_s = result.time_offset_s;
+  update.anchor.wander = input.state.wander;
   update.anchor.gnss_used = result.used > 0;
   update.anchor.valid = is_finite(solution_of(update.anchor, Source::kSmoother));
   return update;

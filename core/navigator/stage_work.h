@@ -73,6 +73,7 @@ struct EkfUpdate {
   bool gnss_used = false;  // at least one measurement counted in this epoch
   // Estimated: the state is of so much later than its stamp.
   double time_offset_s = 0.0;
+  AttitudeWander wander;  // of the filter's process from here on
 };
 
 // SmootherStage -> InertialNavigator, likewise. Of an epoch that is no keyframe GnssStage has one

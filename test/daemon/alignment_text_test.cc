@@ -18,6 +18,9 @@ TEST_CASE("what an alignment lacks, in words") {
         "standing: the gyros need 12 s more to find north");
   CHECK(to_text({Lacking::kDriving}, config) ==
         "no heading: drive faster than 2 m/s for 6 s, or set_heading");
+  config.confirming_s = 3.0;
+  CHECK(to_text({Lacking::kDriving}, config) ==
+        "no heading: drive faster than 2 m/s for 9 s, or set_heading");
   CHECK(to_text({Lacking::kCourse, 3.0}, config) == "no heading yet: drive on for 3 s more");
   CHECK(to_text({Lacking::kGear}, config) ==
         "no heading: forward or in reverse? speed up, turn, or drive faster than 5 m/s");

@@ -43,6 +43,8 @@ void feed(const std::string& path, const std::string& prefix, const Part& part,
     progress(share);
     const auto channel = channel_from_name(event.channel, prefix);
     if (!channel || !is_input(*channel)) continue;
+    // A heading that was told would let it start standing (calibrating()).
+    if (*channel == Channel::kCommand || *channel == Channel::kCheckpoint) continue;
     const bool inside = share >= part.from && share <= part.to;
     if (inside || is_product(*channel)) run->dispatch(*channel, event.data);
   }

@@ -46,6 +46,7 @@ NavigatorConfig calibrating(NavigatorConfig config, const InstallationPrior& pri
   // Standing with a coarse heading and an unknown arm, a filter that is linear learns both from
   // nothing (as in simultaneous localization and mapping: Huang et al. 2010): it starts in motion.
   config.alignment.max_gyrocompass_sigma = 0.0;
+  config.alignment.initial_heading.reset();
   config.imu.velocity_random_walk =
       std::hypot(config.imu.velocity_random_walk, kNoisePerScale * config.imu.accel_scale.sigma);
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -145,7 +145,9 @@ TEST_CASE(
     double sigmas = 0.0;
   };
   // By courses; those of the first seconds came by way of a wall.
+  bool contradicted = false;
   const auto align = [&](double confirming_s, int bent_s) {
+    contradicted = false;
     AlignmentConfig config;
     config.course_window_s = 4.0;
     config.max_gyrocompass_sigma = 0.0;
@@ -158,7 +160,8 @@ TEST_CASE(
       const Eigen::Vector3d v_n(8.0 * std::cos(course), 8.0 * std::sin(course), 0.0);
       const auto aligned = alignment.attitude(to_ecef(where), C_en * v_n, 0.05);
       if (!aligned) {
-        if (t > 2) CHECK(alignment.need(where.latitude).seconds > 0.0);
+        if (const auto need = alignment.need(where.latitude); need.lacking == Lacking::kAgreement)
+          contradicted = true;
         continue;
       }
       const Eigen::Matrix3d C_nb = C_en.transpose() * aligned->q_eb.toRotationMatrix();
@@ -171,8 +174,73 @@ TEST_CASE(
   CHECK(confirmed.after_s == at_once.after_s + 2);
   CHECK(align(0.0, at_once.after_s).sigmas > 10.0);
   const Aligned bent = align(2.0, at_once.after_s);
+  CHECK(contradicted);  // and it says so
   CHECK(bent.after_s > confirmed.after_s);
   CHECK(bent.sigmas < 2.0);
+}
+
+// Gyros that have not stood still carry a heading on by their bias: that contradicts nothing.
+TEST_CASE("gyros of an unknown bias are confirmed too, whatever the epochs") {
+  const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
+  const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
+  for (const int epoch_s : {1, 10}) {
+    CAPTURE(epoch_s);
+    int aligned = 0;
+    double squares = 0.0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      ImuErrorModel imu = test::mems_imu();
+      imu.gyro_bias.sigma = 1800.0 * kDegree / 3600.0;
+      AlignmentConfig config;
+      config.velocity_matching = true;
+      config.max_reverse_speed_m_s = 5.0;
+      config.confirming_s = 3.0;
+      Alignment alignment(config, imu);
+      SyntheticVehicle vehicle(imu, 0.2 * static_cast<double>(seed), seed);
+      for (int i = 0; i < 100; ++i) (void)vehicle.step(15.0, 0.0);
+      for (int t = 1; t <= 120; ++t) {
+        for (int i = 0; i < 100; ++i) alignment.add(vehicle.step(0.0, 0.0));
+        if (t % epoch_s != 0) continue;
+        const Eigen::Vector2d v_n = vehicle.v_n(kSigma);
+        const auto found = alignment.attitude(
+            to_ecef(where), C_en * Eigen::Vector3d(v_n.x(), v_n.y(), 0.0), kSigma);
+        if (!found) continue;
+        const Eigen::Matrix3d C_nb = C_en.transpose() * found->q_eb.toRotationMatrix();
+        const double error = wrap_to_pi(euler_from_rotation(C_nb).yaw - vehicle.yaw());
+        squares += std::pow(error / found->sigma_rpy.z(), 2);
+        ++aligned;
+        break;
+      }
+    }
+    CHECK(aligned >= 39);
+    CHECK(squares < 2.0 * aligned);
+  }
+}
+
+TEST_CASE("the seconds of driving that a heading still takes count down to none") {
+  const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
+  const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
+  AlignmentConfig config;
+  config.course_window_s = 4.0;
+  config.max_gyrocompass_sigma = 0.0;
+  config.confirming_s = 3.0;
+  Alignment alignment(config, test::tactical_imu());
+  SyntheticVehicle vehicle(test::tactical_imu(), 0.5, 3);
+  double before = 100.0;
+  for (int t = 1; t <= 40; ++t) {
+    for (int i = 0; i < 100; ++i) alignment.add(vehicle.step(0.0, 0.0));
+    const Eigen::Vector3d v_n(8.0 * std::cos(vehicle.yaw()), 8.0 * std::sin(vehicle.yaw()), 0.0);
+    if (alignment.attitude(to_ecef(where), C_en * v_n, 0.05)) {
+      CHECK(before == Approx(1.0).margin(0.01));
+      return;
+    }
+    if (t < 3) continue;
+    const AlignmentNeed need = alignment.need(where.latitude);
+    CAPTURE(t);
+    CHECK(need.lacking == Lacking::kCourse);
+    CHECK(need.seconds < before - 0.5);
+    before = need.seconds;
+  }
+  FAIL("never aligned");
 }
 
 TEST_CASE("an alignment says what it lacks") {

@@ -77,6 +77,33 @@ TEST_CASE("noise grows as the integrals of white noise do, in one step or in man
   CHECK(once(0, 0) == Approx(0.09 * 8.0 / 3.0));
 }
 
+TEST_CASE("an attitude's wander grows into velocity and position as many small steps have it") {
+  const Eigen::Vector3d f_e(3.0, -8.0, 5.0);
+  const auto grown = [&](double noise, double wanders_s, double elapsed_s) {
+    EkfUpdate anchor;
+    anchor.state.time = GpsTime::from_week_and_tow(2000, 100.0);
+    anchor.wander = {noise, anchor.state.time.plus_seconds(wanders_s)};
+    return inertial_covariance(anchor, ImuErrorModel(), f_e, Eigen::Matrix3d::Identity(),
+                               elapsed_s);
+  };
+  constexpr double kNoise = 0.01, kSeconds = 4.0;
+  constexpr int kSteps = 4000;
+  Eigen::Matrix<double, 9, 9> step = Eigen::Matrix<double, 9, 9>::Identity();
+  const double dt = kSeconds / kSteps;
+  step.block<3, 3>(0, 3) = dt * Eigen::Matrix3d::Identity();
+  for (int axis = 0; axis < 3; ++axis)  // velocity' = attitude x f
+    step.block<3, 1>(3, 6 + axis) = dt * Eigen::Vector3d::Unit(axis).cross(f_e);
+  PvaCovariance P = PvaCovariance::Zero();
+  for (int i = 0; i < kSteps; ++i) {
+    P = step * P * step.transpose();
+    P.block<3, 3>(6, 6) += kNoise * kNoise * dt * Eigen::Matrix3d::Identity();
+  }
+  const PvaCovariance none = grown(0.0, 10.0, kSeconds);
+  CHECK((grown(kNoise, 10.0, kSeconds) - none - P).norm() < 3e-3 * P.norm());
+  CHECK((grown(kNoise, 0.0, kSeconds) - none).norm() == 0.0);
+  CHECK((grown(kNoise, 1.0, kSeconds) - none)(8, 8) == Approx(kNoise * kNoise));
+}
+
 TEST_CASE("constant velocity: position takes the velocity's uncertainty") {
   EkfUpdate anchor;
   anchor.covariance(0, 0) = 4.0;

@@ -27,6 +27,23 @@ TEST_CASE("a wrong prediction restarts the filter, which keeps its attitude the 
   CHECK(jumped);
 }
 
+TEST_CASE("an attitude that still settles goes on settling in the filter that is started anew") {
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const auto sigma_at_85 = [&](double wander, double settling_s) {
+    config.alignment.settling_wander = wander;
+    config.alignment.settling_s = settling_s;
+    const RecordingSink sink = run(drive, config);
+    CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+    for (const EpochReport& report : sink.epochs)
+      if (seconds(report.time) >= 85.0) return report.solution.sigma_rpy.z();
+    return 0.0;
+  };
+  const double settled_before = sigma_at_85(0.01, 30.0);
+  CHECK(sigma_at_85(0.01, 100.0) > 1.5 * settled_before);
+}
+
 TEST_CASE("a second wrong prediction within a minute gives up the attitude too") {
   SyntheticDrive drive = carried_away(120.0, 50.0, 3'000.0);
   const SyntheticDrive there = drive_of(120.0, 6'000.0);
