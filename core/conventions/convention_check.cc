@@ -9,19 +9,30 @@ namespace {
 
 constexpr double kDegree = EIGEN_PI / 180.0;
 constexpr double kUpright = 45.0 * kDegree;  // of the third axis
-constexpr int kLongStraight = 60;            // seconds with a course
+constexpr double kLongStraight_s = 60.0;     // from the first second with a course to the last
+constexpr int kLongStanding = 100;           // seconds of accelerometers
 constexpr int kLongestStart = 180;           // seconds in which all that can be told is told
 constexpr int kLongest = 3600;               // seconds
 constexpr double kTrackSpeed_m_s = 3.0;      // too slow and a course says little
 constexpr double kFastReverse_m_s = 30.0;    // beyond: in reverse as fast as forward
 
+bool is_down(const MeanForce& force) { return force.tilt() < kUpright; }
+bool is_up(const MeanForce& force) { return force.tilt() > EIGEN_PI - kUpright; }
+
+ConventionFinding not_down(const MeanForce& force) {
+  return {is_up(force) ? Convention::kThirdAxisUp : Convention::kTilted, force.tilt() / kDegree};
+}
+
 }  // namespace
 
 ConventionCheck::ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
-                                 const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s)
-    : point_(gnss, robust),
+                                 const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s,
+                                 bool stays_upright)
+    : record_(stays_upright ? kInVehicle : kOnFoot),
+      point_(gnss, robust),
       lever_arm_(lever_arm_b),
-      max_reverse_speed_m_s_(max_reverse_speed_m_s) {}
+      max_reverse_speed_m_s_(max_reverse_speed_m_s),
+      stays_upright_(stays_upright) {}
 
 void ConventionCheck::clear() {
   record_.clear();
@@ -58,9 +69,13 @@ ConventionFinding ConventionCheck::judge() {
   if (const auto finding = range_rates_.judge()) return finding;
   const MeanForce force = mean_force(record_);
   if (const auto finding = check_force_size(force, record_.imu_interval_s())) return finding;
-  if (!range_rates_.is_right()) return {};  // without Dopplers there is no course
-  if (const auto finding = judge_course(force)) return finding;
-  return code_order_.judge();
+  if (range_rates_.is_right()) {  // without Dopplers there is no course
+    if (const auto finding = judge_course(force)) return finding;
+    if (const auto finding = code_order_.judge()) return finding;
+  }
+  // It may stand for long; then which of the mistakes it is nobody can tell.
+  const bool stood_long = stays_upright_ && force.seconds >= kLongStanding;
+  return stood_long && !is_down(force) ? not_down(force) : ConventionFinding();
 }
 
 ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
@@ -74,13 +89,11 @@ ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
 
 // Up and down by the accelerometers, then by the gyros, then forward by braking and bends.
 ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const TurnFit& turns) {
-  const double tilt = force.tilt(), tilt_deg = tilt / kDegree;
-  const bool down = tilt<kUpright, up = tilt> EIGEN_PI - kUpright;
-  const bool long_enough = turns.seconds >= kLongStraight;
-  const ConventionFinding not_down{up ? Convention::kThirdAxisUp : Convention::kTilted, tilt_deg};
-  // It may never turn; then which of the mistakes it is nobody can tell.
-  if (!turns.follows()) return down || !long_enough ? ConventionFinding() : not_down;
-  if (!down && !up) return not_down;
+  const bool down = is_down(force), up = is_up(force);
+  const bool long_enough = turns.span_s >= kLongStraight_s;
+  // It may never turn, as it may stand for long.
+  if (!turns.follows()) return down || !long_enough ? ConventionFinding() : not_down(force);
+  if (!down && !up) return not_down(force);
   if (turns.slope < 0.0) {  // about where down is the gyros contradict the accelerometers
     if (down) return {Convention::kGyroSign, turns.slope};
     return {Convention::kForceSign, -turns.slope};
@@ -90,7 +103,7 @@ ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const Turn
       record_, either_way ? kTrackSpeed_m_s : std::max(kTrackSpeed_m_s, max_reverse_speed_m_s_));
   if (up) {
     const auto finding = check_track_upside_down(track, force);
-    return finding || !long_enough ? finding : not_down;
+    return finding || !long_enough ? finding : not_down(force);
   }
   const ConventionFinding finding = check_track_upright(track);
   if (finding && !(either_way && finding.convention == Convention::kBackwards)) return finding;

@@ -18,9 +18,11 @@ namespace leonav {
 class ConventionCheck {
  public:
   // Up to `max_reverse_speed_m_s` the vehicle may be going in reverse; where that is as fast as any
-  // (a train has a cab at either end) backwards is as right as forwards.
+  // (a train has a cab at either end) backwards is as right as forwards. What `stays_upright` shows
+  // where down is even while it stands; what a hand holds may lie on its side.
   ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
-                  const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s);
+                  const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s,
+                  bool stays_upright);
   void clear();  // everything starts anew
   void add(const ImuSample& sample);
   // Whether end_second() wants an epoch of this time.
@@ -40,6 +42,7 @@ class ConventionCheck {
   CodeOrderCheck code_order_;
   LeverArmCheck lever_arm_;
   double max_reverse_speed_m_s_;
+  bool stays_upright_;
   bool rests_ = false;
   int seconds_ = 0;
 };

@@ -9,10 +9,8 @@
 namespace leonav {
 namespace {
 
-constexpr double kLongest_s = 3.0;       // beyond, a mean says little of what went on
-constexpr double kMinImuShare = 0.8;     // of the time
-constexpr double kMinSpeed_m_s = 2.0;    // below, a person or a reflected signal turns anyhow
-constexpr double kMaxCourseSigma = 0.1;  // rad
+constexpr double kLongest_s = 3.0;    // beyond, a mean says little of what went on
+constexpr double kMinImuShare = 0.8;  // of the time
 
 }  // namespace
 
@@ -68,7 +66,8 @@ void MotionRecord::put_course(const Velocity& from, const Velocity& to,
   const Eigen::Vector2d mean = 0.5 * (from.north_east + to.north_east);
   second->speed = std::min(from.north_east.norm(), to.north_east.norm());
   const double sigma = std::max(from.sigma, to.sigma);
-  if (!(second->speed >= kMinSpeed_m_s) || !(sigma < kMaxCourseSigma * second->speed)) return;
+  if (!(second->speed >= limits_.min_speed_m_s) || !(sigma < limits_.max_sigma * second->speed))
+    return;
   // Who turns by more than this in a second does not move where it points.
   if (!(mean.norm() > 0.5 * second->speed)) return;
   const Eigen::Vector2d forward = mean.normalized(), right(-forward.y(), forward.x());

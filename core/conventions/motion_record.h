@@ -23,12 +23,20 @@ struct MotionSecond {
   double along = 0.0, across = 0.0;  // horizontal acceleration: forward, to the right, m/s^2
 };
 
+// From where on a velocity's direction says how the body turns.
+struct CourseLimits {
+  double min_speed_m_s, max_sigma;  // of the direction, rad
+};
+// At less, who is in a vehicle stands, or a reflected signal turns.
+inline constexpr CourseLimits kInVehicle{2.0, 0.1};
+inline constexpr CourseLimits kOnFoot{0.7, 0.2};
+
 class MotionRecord {
  public:
   static constexpr std::size_t kCapacity = 256;
   static constexpr double kShortest_s = 0.9;  // of a second in the record
 
-  MotionRecord() : seconds_(kCapacity) {}
+  explicit MotionRecord(CourseLimits limits = kInVehicle) : limits_(limits), seconds_(kCapacity) {}
   void clear();
   void add(const ImuSample& sample);  // as the navigator uses it: body axes
   // Whether a velocity at `time` would end a second.
@@ -47,6 +55,7 @@ class MotionRecord {
   };
   void put_course(const Velocity& from, const Velocity& to, MotionSecond* second) const;
 
+  CourseLimits limits_;
   boost::circular_buffer<MotionSecond> seconds_;
   GpsTime last_time_;  // where the current second began
   std::optional<Velocity> last_velocity_;

@@ -21,6 +21,18 @@ bool is_near(double value, double expected, double share) {
   return std::abs(value - expected) < share * std::abs(expected);
 }
 
+// Of two bands' frequencies, and so of their wavelengths the other way round; NaN: not both are the
+// system's.
+double ratio_of(System system, std::size_t a, std::size_t b) {
+  return frequency_hz(system, static_cast<char>('0' + a)) /
+         frequency_hz(system, static_cast<char>('0' + b));
+}
+
+// What a factor of 1 becomes by the other band's name, where the two differ enough to tell.
+bool is_of_another_band(double factor, double ratio) {
+  return is_near(factor, ratio, kBandWithin) && !is_near(ratio, 1.0, 2.0 * kBandWithin);
+}
+
 }  // namespace
 
 void RangeRateCheck::Sums::add(const Sums& epoch) {
@@ -86,23 +98,47 @@ bool RangeRateCheck::is_right() const {
   return sums.known() && is_near(sums.factor(), 1.0, kRightWithin);
 }
 
-ConventionFinding RangeRateCheck::judge() const {
-  for (const System system : kSystems) {
-    const auto& bands = sums_[index_of(system)];
-    for (std::size_t i = 1; i < kBands; ++i) {
-      for (std::size_t j = 1; j < kBands; ++j) {
-        if (i == j || !bands[i].known() || !bands[j].known()) continue;
-        const double ratio = frequency_hz(system, static_cast<char>('0' + i)) /
-                             frequency_hz(system, static_cast<char>('0' + j));
-        if (is_near(bands[i].factor(), ratio, kBandWithin) &&
-            is_near(bands[j].factor(), 1.0 / ratio, kBandWithin) &&
-            !is_near(ratio, 1.0, 2.0 * kBandWithin))
-          return {Convention::kSignalsExchanged, bands[i].factor()};
-      }
+// Whether two bands of the system, both known, have each other's factor.
+bool RangeRateCheck::exchanges_two(System system) const {
+  const auto& bands = sums_[index_of(system)];
+  for (std::size_t i = 1; i < kBands; ++i) {
+    for (std::size_t j = i + 1; j < kBands; ++j) {
+      if (!bands[i].known() || !bands[j].known()) continue;
+      const double ratio = ratio_of(system, i, j);
+      if (is_of_another_band(bands[i].factor(), ratio) &&
+          is_of_another_band(bands[j].factor(), 1.0 / ratio))
+        return true;
     }
   }
+  return false;
+}
+
+// Of the other band there may be too few satellites: a phone measures L1 of all and L5 of few.
+bool RangeRateCheck::is_named_as_another(System system, std::size_t band) const {
+  const double factor = sums_[index_of(system)][band].factor();
+  for (std::size_t other = 1; other < kBands; ++other)
+    if (other != band && is_of_another_band(factor, ratio_of(system, band, other))) return true;
+  return false;
+}
+
+ConventionFinding RangeRateCheck::judge() const {
+  double first = 0.0;                    // factor of the first band known
+  int known = 0, right = 0, others = 0;  // bands; of another one's factor
+  for (const System system : kSystems) {
+    const auto& bands = sums_[index_of(system)];
+    for (std::size_t band = 1; band < kBands; ++band) {
+      if (!bands[band].known()) continue;
+      if (known++ == 0) first = bands[band].factor();
+      right += is_near(bands[band].factor(), 1.0, kRightWithin);
+      others += is_named_as_another(system, band);
+    }
+    if (exchanges_two(system)) return {Convention::kSignalsExchanged, first};
+  }
+  if (known > 0 && others == known) return {Convention::kSignalsExchanged, first};
+  // Where bands contradict each other it is neither the sign nor the unit.
+  if (known == 0 || right > 0 || others > 0) return {};
   const Sums sums = all();
-  if (!sums.known() || is_near(sums.factor(), 1.0, kRightWithin)) return {};
+  if (!sums.known()) return {};
   if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
   return {Convention::kDopplerUnit, sums.factor()};
 }

@@ -37,6 +37,8 @@ class RangeRateCheck {
 
   void compare(const RawEpoch& epoch, double dt);
   Sums all() const;
+  bool exchanges_two(System system) const;
+  bool is_named_as_another(System system, std::size_t band) const;
 
   Table sums_{};
   boost::container::static_vector<Last, kMaxObservations> last_;

@@ -12,7 +12,7 @@ constexpr double kTurning = 0.05;      // rad/s; below, a lane change or noise
 constexpr double kEnoughTurned = 1.0;  // rad
 constexpr double kMuchTurned = 1.6;    // rad, for what only a lack of agreement tells
 constexpr double kFollows = 0.8, kDoesNotFollow = 0.3;  // correlation squared
-constexpr int kMinSeconds = 10;
+constexpr int kMinSeconds = 20;
 constexpr double kLowest = 0.7, kHighest = 1.4, kHardly = 0.3;  // of the turn
 constexpr double kDegreesPerRadian = 57.29577951;
 constexpr int kLongestLag_s = 45;
@@ -60,12 +60,15 @@ bool TurnFit::contradicts() const {
 TurnFit fit_turns(const MotionRecord& record, const Eigen::Vector3d& axis_b, int lag_s) {
   TurnFit fit;
   Line line;
+  GpsTime first;
   const auto& seconds = record.seconds();
   const int count = static_cast<int>(seconds.size());
   for (int i = std::max(0, -lag_s); i < count && i + lag_s < count; ++i) {
     const MotionSecond& course = seconds[static_cast<std::size_t>(i)];
     const MotionSecond& gyros = seconds[static_cast<std::size_t>(i + lag_s)];
     if (!course.has_course || !gyros.has_imu || !is_later_by(gyros, course, lag_s)) continue;
+    if (!first.is_set()) first = course.time;
+    fit.span_s = seconds_between(course.time, first);
     line.add(course.course_rate, axis_b.dot(gyros.rate_b));
     const double turn = std::abs(course.course_rate);
     if (turn > kTurning) fit.turned += turn * course.seconds;

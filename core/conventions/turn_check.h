@@ -11,6 +11,7 @@ namespace leonav {
 // The rate about an axis as a multiple of the course's, fitted over all seconds with both.
 struct TurnFit {
   int seconds = 0;
+  double span_s = 0.0;  // from the first of them to the last
   double turned = 0.0;  // rad, of the course, both ways added up
   double slope = 0.0;
   double correlation = 0.0;  // squared

@@ -95,7 +95,7 @@ VelocityMatching::Solution VelocityMatching::solve(const Eigen::Quaterniond& fir
   double observed = 0.0;
   Solution solution;
   Eigen::Quaterniond q = first_q_lb;
-  Complex velocity, bias_path, rate_path, tilt_path;
+  Complex velocity, bias_path, tilt_path;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     if (i > 0) {

@@ -77,7 +77,8 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       report_(std::make_unique<EpochReport>()),
       keyframe_maker_(config.smoother.keyframe_interval_s),
       convention_check_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b,
-                        config.alignment.max_reverse_speed_m_s) {
+                        config.alignment.max_reverse_speed_m_s,
+                        config.vehicle.kind != VehicleKind::kHandheld) {
   const AlignmentConfig& alignment = config_.alignment;
   if (alignment.initial_heading)
     given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});

@@ -66,6 +66,11 @@ def epoch_changed(change, data):
     return head + b"".join(OBSERVATION.pack(*o) for o in change(observations))
 
 
+def stamp_s(data):
+    """Of a message of the IMU or an epoch."""
+    return struct.unpack_from(">q", data, 8)[0] * 1e-9
+
+
 def stamped(seconds, data):
     return data[:8] + struct.pack(">q", struct.unpack_from(">q", data, 8)[0] + seconds * 10**9) + data[16:]
 

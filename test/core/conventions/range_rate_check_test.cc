@@ -72,6 +72,30 @@ TEST_CASE("signals that have each other's names", "[conventions]") {
   CHECK(std::abs(check.judge().value - 1.28) < 0.02);
 }
 
+TEST_CASE("one band is enough to see that its name is another's", "[conventions]") {
+  // A phone measures L1 of all satellites, L5 of too few; here L1 is called L5.
+  const auto exchanged = [](bool misnamed) {
+    return [misnamed](SignalObservation* o) {
+      const bool few = o->code.band == '2';
+      if (few)
+        o->doppler_hz = kNotMeasured;
+      else if (misnamed)
+        o->code = {'5', 'X'};
+    };
+  };
+  CHECK(!after(30, exchanged(false)).judge());
+  const ConventionFinding finding = after(30, exchanged(true)).judge();
+  CHECK(finding.convention == Convention::kSignalsExchanged);
+  CHECK(finding.value == Approx(0.747).margin(0.005));
+}
+
+TEST_CASE("bands that contradict each other tell neither sign nor unit", "[conventions]") {
+  const auto check = after(30, [](SignalObservation* o) {
+    if (o->code.band == '2') o->doppler_hz *= -1.0;
+  });
+  CHECK(!check.judge());
+}
+
 TEST_CASE("nothing measured, nothing said", "[conventions]") {
   const auto check = after(30, [](SignalObservation* o) { o->doppler_hz = kNotMeasured; });
   CHECK(!check.is_right());

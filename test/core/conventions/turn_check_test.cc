@@ -39,6 +39,24 @@ TEST_CASE("before the first turn nothing is known", "[conventions]") {
   CHECK(!check_turn_size(fit, 0.01));
 }
 
+TEST_CASE("who walks turns too, in a vehicle that is no course", "[conventions]") {
+  for (const CourseLimits limits : {kOnFoot, kInVehicle}) {
+    MotionRecord record(limits);
+    test::LevelDrive drive;
+    for (int i = 0; i < 100; ++i) {
+      test::feed_second(&drive, &record, test::nothing);
+      PointSolution point = drive.point();
+      point.v_e *= 0.15;  // 1.4 m/s at most
+      record.end_second(drive.time(), &point);
+    }
+    const TurnFit fit = fit_turns(record, kDown);
+    const bool on_foot = limits.min_speed_m_s < 1.0;
+    CHECK(fit.follows() == on_foot);
+    CHECK((fit.seconds > 0) == on_foot);
+    if (on_foot) CHECK(fit.slope == Approx(1.0).margin(0.05));
+  }
+}
+
 TEST_CASE("gyros of another unit are told by their slope", "[conventions]") {
   const auto scaled = [](double factor) {
     const MotionRecord record =

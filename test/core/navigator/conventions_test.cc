@@ -1,5 +1,7 @@
 // Events of inputs that do not follow a convention, through the whole pipeline. Each mistake by
 // itself is tested with core/conventions.
+#include <utility>
+
 #include "stage_drive.h"
 #include "support/catch.h"
 
@@ -10,8 +12,9 @@ namespace {
 struct Mistaken {
   SyntheticDrive drive;
   NavigatorConfig config;
-  explicit Mistaken(double duration_s = 90.0)
-      : drive(drive_of(duration_s)), config(drive_navigator_config(drive.options)) {}
+  explicit Mistaken(double duration_s = 90.0) : Mistaken(drive_of(duration_s)) {}
+  explicit Mistaken(SyntheticDrive of)
+      : drive(std::move(of)), config(drive_navigator_config(drive.options)) {}
 
   template <typename Change>
   void imu(Change change) {
@@ -60,6 +63,21 @@ TEST_CASE("an IMU of other axes, units or stamps is told as one event") {
   Mistaken mounted;
   mounted.imu([](ImuSample* sample) { sample->delta_theta_b.z() *= -1.0; });
   CHECK(mounted.told() == Convention::kGyroSign);
+}
+
+TEST_CASE("of a parked car axes that point up are told too, of what a hand holds they are not") {
+  SyntheticDriveOptions options;
+  options.duration_s = options.standstill_s = 130.0;
+  Mistaken parked(synthetic_drive(options));
+  parked.config.vehicle.kind = VehicleKind::kCar;
+  CHECK(parked.told() == Convention::kNone);
+  parked.imu([](ImuSample* sample) {
+    sample->delta_theta_b.tail<2>() *= -1.0;
+    sample->delta_velocity_b.tail<2>() *= -1.0;
+  });
+  CHECK(parked.told() == Convention::kThirdAxisUp);
+  parked.config.vehicle.kind = VehicleKind::kHandheld;
+  CHECK(parked.told() == Convention::kNone);
 }
 
 TEST_CASE("epochs and samples in UTC: the codes agree 18 s later") {
