@@ -40,6 +40,7 @@ std::string_view to_string(Way way) {
 }
 
 bool cannot_align(const StartResult& result) {
+  if (result.heard_30_s < kLeastDrive_s) return true;
   return !result.gyros_find_north && result.driven_30_s < kLeastDrive_s;
 }
 
@@ -113,11 +114,11 @@ void Start::on_epoch(const EpochReport& report) {
   const auto motion = motion_at(truth_, report.time);
   if (!motion) return;
   const double after_s = seconds_between(report.time, result_.start);
-  if (motion->speed > kWalkingSpeed && last_.is_set()) {
-    const double driven_s = seconds_between(report.time, last_);
-    result_.driven_s += driven_s;
-    if (after_s <= kLater_s) result_.driven_30_s += driven_s;
-  }
+  const double since_s = last_.is_set() ? seconds_between(report.time, last_) : 0.0;
+  const bool early = after_s <= kLater_s && !report.empty, drives = motion->speed > kWalkingSpeed;
+  if (early) result_.heard_30_s += since_s;
+  if (early && drives) result_.driven_30_s += since_s;
+  if (drives) result_.driven_s += since_s;
   last_ = report.time;
   if (!report.solution.has_attitude) {
     result_.heading.add_without(after_s);

@@ -31,7 +31,8 @@ struct StartResult {
   GpsTime start;
   Way way = Way::kOther;
   HeadingRecord heading;
-  double driven_30_s = 0.0;       // s of the first thirty at more than a walking pace
+  double heard_30_s = 0.0;        // s of the first thirty with GNSS
+  double driven_30_s = 0.0;       // s of those at more than a walking pace
   bool gyros_find_north = false;  // by their data sheet, here
   // The heading found wrong and aligned anew: how often, and at the first time, how long after the
   // start and after so many seconds driven; -1: never.
@@ -42,7 +43,8 @@ struct StartResult {
   std::optional<double> told_off;             // rad; what it was told, less the truth
 };
 
-// Nobody could: it stood for nearly all of the thirty seconds, and its gyros cannot find north.
+// Nobody could: for nearly all of the thirty seconds it heard nothing, or it stood, and its gyros
+// cannot find north.
 bool cannot_align(const StartResult& result);
 
 // A message of the log that a receiver would repeat: orbits, clocks, ionosphere, antennas.

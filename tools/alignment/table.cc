@@ -77,9 +77,8 @@ int print_table(std::span<const StartResult> results, std::ostream& out) {
          "  at 30 s (rms, worst, over sigma)  restarted  of right  false  carried away\n";
   for (const Way way : {Way::kStanding, Way::kStraight, Way::kCurve, Way::kReverse})
     print_row(way, results, out);
-  out << "cannot: stands for nearly all of the 30 s, and the gyros cannot find north; the able: "
-         "all "
-         "others; of right: restarts of a heading that was in order\n"
+  out << "cannot: no GNSS for nearly all of the 30 s, or it stands and the gyros cannot find\n"
+         "north; the able: all others; of right: restarts of a heading that was in order\n"
          "false: off when aligned or within 20 s of it; carried away: aligned rightly, off at 30 s "
          "or at the end. Off: beyond 5 degrees and 5 sigmas, which excuse at most 15 degrees "
          "(within 10 s of an alignment: 45)\n";

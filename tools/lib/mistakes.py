@@ -54,6 +54,15 @@ STAMP_MISTAKES = {
 }
 
 
+def turned(rpy_deg, v):
+    """A vector of the body in the axes of an IMU that is mounted by roll, pitch, yaw."""
+    roll, pitch, yaw = (math.radians(x) for x in rpy_deg)
+    x, y, z = v
+    x, y = math.cos(yaw) * x + math.sin(yaw) * y, math.cos(yaw) * y - math.sin(yaw) * x
+    x, z = math.cos(pitch) * x - math.sin(pitch) * z, math.cos(pitch) * z + math.sin(pitch) * x
+    return x, math.cos(roll) * y + math.sin(roll) * z, math.cos(roll) * z - math.sin(roll) * y
+
+
 def imu_changed(change, data):
     head, time, sequence, schema, interval, *x = IMU.unpack(data)
     angle, velocity = change(tuple(x[:3]), tuple(x[3:]), interval * 1e-9)
@@ -72,7 +81,7 @@ def stamp_s(data):
 
 
 def stamped(seconds, data):
-    return data[:8] + struct.pack(">q", struct.unpack_from(">q", data, 8)[0] + seconds * 10**9) + data[16:]
+    return data[:8] + struct.pack(">q", struct.unpack_from(">q", data, 8)[0] + round(seconds * 1e9)) + data[16:]
 
 
 def changed(mistake, messages):
@@ -88,6 +97,17 @@ def changed(mistake, messages):
 
 
 MISTAKES = (*IMU_MISTAKES, *STAMP_MISTAKES, *GNSS_MISTAKES)
+
+
+def write_misplaced(rpy_deg, late_s, source, target):
+    """The log `source` with an IMU mounted by `rpy_deg` that measures `late_s` later than it stamps."""
+    messages = []
+    for wall, channel, data in lcm_log.messages(source):
+        if channel == "LEONAV_IMU":
+            data = imu_changed(lambda a, v, dt: (turned(rpy_deg, a), turned(rpy_deg, v)), stamped(-late_s, data))
+            wall -= late_s
+        messages.append((wall, channel, data))
+    lcm_log.write(target, sorted(messages, key=lambda m: m[0]))
 
 
 def write_mistaken(mistake, source, target):

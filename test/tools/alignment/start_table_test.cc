@@ -17,6 +17,7 @@ StartResult start(Way way, double aligned_s, double error, double error_at_end) 
   StartResult result;
   result.start = GpsTime::from_week_and_tow(2136, 345'600.0);
   result.way = way;
+  result.heard_30_s = 30.0;
   result.driven_30_s = way == Way::kStanding ? 0.0 : 30.0;
   for (double s = aligned_s; s < 60.0; ++s)
     result.heading.add(s, (s < 45.0 ? error : error_at_end) * kDegree, 0.01);
@@ -69,6 +70,8 @@ TEST_CASE("whoever cannot align is in the share of all, not in that of the able"
   CHECK(words[5] == "-");  // a share of nobody
   waits.gyros_find_north = true;
   CHECK_FALSE(cannot_align(waits));
+  waits.heard_30_s = 5.0;
+  CHECK(cannot_align(waits));
 }
 
 TEST_CASE("the list has a field for each of its names") {
