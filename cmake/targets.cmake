@@ -113,7 +113,11 @@ function(leonav_test target folder)
     LEONAV_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
   add_test(NAME ${target} COMMAND ${target})
-  set_tests_properties(${target} PROPERTIES TIMEOUT 900)
+  set(limit_s 900)
+  if(LEONAV_SANITIZE)
+    set(limit_s 3600)
+  endif()
+  set_tests_properties(${target} PROPERTIES TIMEOUT ${limit_s})
 endfunction()
 
 # leonav_script_test(name script argument...): a test that is a script of the source tree.
