@@ -98,8 +98,8 @@ bool RangeRateCheck::is_right() const {
   return sums.known() && is_near(sums.factor(), 1.0, kRightWithin);
 }
 
-// Whether two bands of the system, both known, have each other's factor.
-bool RangeRateCheck::exchanges_two(System system) const {
+// The factor of the first of two bands of the system that have each other's, both known; else 0.
+double RangeRateCheck::exchanged_factor(System system) const {
   const auto& bands = sums_[index_of(system)];
   for (std::size_t i = 1; i < kBands; ++i) {
     for (std::size_t j = i + 1; j < kBands; ++j) {
@@ -107,10 +107,10 @@ bool RangeRateCheck::exchanges_two(System system) const {
       const double ratio = ratio_of(system, i, j);
       if (is_of_another_band(bands[i].factor(), ratio) &&
           is_of_another_band(bands[j].factor(), 1.0 / ratio))
-        return true;
+        return bands[i].factor();
     }
   }
-  return false;
+  return 0.0;
 }
 
 // Of the other band there may be too few satellites: a phone measures L1 of all and L5 of few.
@@ -132,7 +132,8 @@ ConventionFinding RangeRateCheck::judge() const {
       right += is_near(bands[band].factor(), 1.0, kRightWithin);
       others += is_named_as_another(system, band);
     }
-    if (exchanges_two(system)) return {Convention::kSignalsExchanged, first};
+    const double exchanged = exchanged_factor(system);
+    if (exchanged != 0.0) return {Convention::kSignalsExchanged, exchanged};
   }
   if (known > 0 && others == known) return {Convention::kSignalsExchanged, first};
   // Where bands contradict each other it is neither the sign nor the unit.

@@ -37,7 +37,7 @@ class RangeRateCheck {
 
   void compare(const RawEpoch& epoch, double dt);
   Sums all() const;
-  bool exchanges_two(System system) const;
+  double exchanged_factor(System system) const;
   bool is_named_as_another(System system, std::size_t band) const;
 
   Table sums_{};

@@ -89,6 +89,24 @@ TEST_CASE("one band is enough to see that its name is another's", "[conventions]
   CHECK(finding.value == Approx(0.747).margin(0.005));
 }
 
+TEST_CASE("beside a system in order the exchanged one is told, with its own factor",
+          "[conventions]") {
+  RangeRateCheck check;
+  for (int n = 0; n < 30; ++n) {
+    RawEpoch epoch = epoch_at(n);
+    const RawEpoch right = epoch;
+    for (SignalObservation o : right.observations) {
+      o.satellite.system = System::kLeo;
+      const double f1 = frequency_hz(System::kLeo, '1'), f2 = frequency_hz(System::kLeo, '2');
+      o.doppler_hz *= o.code.band == '1' ? f2 / f1 : f1 / f2;
+      epoch.observations.push_back(o);
+    }
+    check.add(epoch);
+  }
+  CHECK(check.judge().convention == Convention::kSignalsExchanged);
+  CHECK(check.judge().value == Approx(1.283).margin(0.01));
+}
+
 TEST_CASE("bands that contradict each other tell neither sign nor unit", "[conventions]") {
   const auto check = after(30, [](SignalObservation* o) {
     if (o->code.band == '2') o->doppler_hz *= -1.0;
