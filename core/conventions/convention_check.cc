@@ -10,7 +10,8 @@ namespace {
 constexpr double kDegree = EIGEN_PI / 180.0;
 constexpr double kUpright = 45.0 * kDegree;  // of the third axis
 constexpr double kLongStraight_s = 60.0;     // from the first second with a course to the last
-constexpr int kLongStanding = 100;           // seconds of accelerometers
+constexpr int kMinMoving = 20;               // seconds with a course among them
+constexpr int kLongUpright = 100;            // seconds of accelerometers
 constexpr int kLongestStart = 180;           // seconds in which all that can be told is told
 constexpr int kLongest = 3600;               // seconds
 constexpr double kTrackSpeed_m_s = 3.0;      // too slow and a course says little
@@ -27,12 +28,12 @@ ConventionFinding not_down(const MeanForce& force) {
 
 ConventionCheck::ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
                                  const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s,
-                                 bool stays_upright)
-    : record_(stays_upright ? kInVehicle : kOnFoot),
+                                 Posture posture)
+    : record_(posture == Posture::kInHand ? kOnFoot : kInVehicle),
       point_(gnss, robust),
       lever_arm_(lever_arm_b),
       max_reverse_speed_m_s_(max_reverse_speed_m_s),
-      stays_upright_(stays_upright) {}
+      posture_(posture) {}
 
 void ConventionCheck::clear() {
   record_.clear();
@@ -74,8 +75,8 @@ ConventionFinding ConventionCheck::judge() {
     if (const auto finding = code_order_.judge()) return finding;
   }
   // It may stand for long; then which of the mistakes it is nobody can tell.
-  const bool stood_long = stays_upright_ && force.seconds >= kLongStanding;
-  return stood_long && !is_down(force) ? not_down(force) : ConventionFinding();
+  const bool long_known = posture_ == Posture::kUpright && force.seconds >= kLongUpright;
+  return long_known && !is_down(force) ? not_down(force) : ConventionFinding();
 }
 
 ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
@@ -91,8 +92,12 @@ ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
 ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const TurnFit& turns) {
   const bool down = is_down(force), up = is_up(force);
   const bool long_enough = turns.span_s >= kLongStraight_s;
-  // It may never turn, as it may stand for long.
-  if (!turns.follows()) return down || !long_enough ? ConventionFinding() : not_down(force);
+  if (!turns.follows()) {  // it may never turn, as it may stand for long
+    const MeanForce moving = mean_force(record_, MotionSeconds::kWithCourse);
+    return moving.seconds < kMinMoving || is_down(moving) || down || !long_enough
+               ? ConventionFinding()
+               : not_down(moving);
+  }
   if (!down && !up) return not_down(force);
   if (turns.slope < 0.0) {  // about where down is the gyros contradict the accelerometers
     if (down) return {Convention::kGyroSign, turns.slope};

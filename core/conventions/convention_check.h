@@ -11,6 +11,8 @@
 
 namespace leonav {
 
+enum class Posture : unsigned char { kUpright, kInFlight, kInHand };
+
 // Compares what the IMU feels with what the receiver alone says of the motion, second by second.
 // Of the filter it reads the attitude, for the lever arm alone; it changes nothing. It tells the
 // first mistake that it is sure of, once: what else is odd then may follow from that one. Where all
@@ -18,11 +20,12 @@ namespace leonav {
 class ConventionCheck {
  public:
   // Up to `max_reverse_speed_m_s` the vehicle may be going in reverse; where that is as fast as any
-  // (a train has a cab at either end) backwards is as right as forwards. What `stays_upright` shows
-  // where down is even while it stands; what a hand holds may lie on its side.
+  // (a train has a cab at either end) backwards is as right as forwards. `posture`: what stays
+  // upright shows where down is at any time, what a hand holds may lie on its side, what flies may
+  // hover so.
   ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
                   const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s,
-                  bool stays_upright);
+                  Posture posture);
   void clear();  // everything starts anew
   void add(const ImuSample& sample);
   // Whether end_second() wants an epoch of this time.
@@ -42,7 +45,7 @@ class ConventionCheck {
   CodeOrderCheck code_order_;
   LeverArmCheck lever_arm_;
   double max_reverse_speed_m_s_;
-  bool stays_upright_;
+  Posture posture_;
   bool rests_ = false;
   int seconds_ = 0;
 };

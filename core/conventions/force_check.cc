@@ -24,11 +24,11 @@ double MeanForce::tilt() const { return std::atan2(mean_b.head<2>().norm(), -mea
 
 bool MeanForce::known() const { return seconds >= kMinSeconds; }
 
-MeanForce mean_force(const MotionRecord& record) {
+MeanForce mean_force(const MotionRecord& record, MotionSeconds which) {
   MeanForce force;
   boost::container::static_vector<double, MotionRecord::kCapacity> sizes;
   for (const MotionSecond& second : record.seconds()) {
-    if (!second.has_imu) continue;
+    if (!second.has_imu || (which == MotionSeconds::kWithCourse && !second.has_course)) continue;
     sizes.push_back(second.force_b.norm());
     force.mean_b += second.force_b;
   }

@@ -16,7 +16,8 @@ struct MeanForce {
   double tilt() const;                               // rad, between body down and minus this
   bool known() const;                                // enough of it
 };
-MeanForce mean_force(const MotionRecord& record);
+enum class MotionSeconds : unsigned char { kAll, kWithCourse };
+MeanForce mean_force(const MotionRecord& record, MotionSeconds which = MotionSeconds::kAll);
 
 // What its size says. kNone while it is not known, or is right within 30 %.
 ConventionFinding check_force_size(const MeanForce& force, double imu_interval_s);

@@ -1,5 +1,6 @@
 #include "core/conventions/range_rate_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -12,6 +13,7 @@ constexpr int kMinEpochs = 8;
 constexpr int kMinSatellites = 3;
 constexpr double kMinCorrelation = 0.9;  // squared
 constexpr double kRightWithin = 0.1, kBandWithin = 0.03;
+constexpr double kSurely = 5.0;  // sigmas
 
 std::size_t band_of(SignalCode code) {
   return code.band >= '0' && code.band <= '9' ? static_cast<std::size_t>(code.band - '0') : 0;
@@ -45,6 +47,13 @@ void RangeRateCheck::Sums::add(const Sums& epoch) {
 
 bool RangeRateCheck::Sums::known() const {
   return epochs >= kMinEpochs && xx > kMinSquares && xy * xy > kMinCorrelation * xx * yy;
+}
+
+// By what the codes scatter about the line, of at least three satellites less their mean.
+bool RangeRateCheck::Sums::surely_wrong() const {
+  const double scatter = std::max(0.0, yy - xy * factor()) / ((kMinSatellites - 1) * epochs);
+  return known() && !is_near(factor(), 1.0, kRightWithin) &&
+         std::abs(factor() - 1.0) > kSurely * std::sqrt(scatter / xx);
 }
 
 void RangeRateCheck::add(const RawEpoch& epoch) {
@@ -129,17 +138,20 @@ ConventionFinding RangeRateCheck::judge() const {
     for (std::size_t band = 1; band < kBands; ++band) {
       if (!bands[band].known()) continue;
       if (known++ == 0) first = bands[band].factor();
-      right += is_near(bands[band].factor(), 1.0, kRightWithin);
-      others += is_named_as_another(system, band);
+      // Of bands that lie close together a right one's factor is another's too.
+      if (is_near(bands[band].factor(), 1.0, kRightWithin))
+        ++right;
+      else if (is_named_as_another(system, band))
+        ++others;
     }
     const double exchanged = exchanged_factor(system);
     if (exchanged != 0.0) return {Convention::kSignalsExchanged, exchanged};
   }
-  if (known > 0 && others == known) return {Convention::kSignalsExchanged, first};
-  // Where bands contradict each other it is neither the sign nor the unit.
-  if (known == 0 || right > 0 || others > 0) return {};
   const Sums sums = all();
-  if (!sums.known()) return {};
+  if (known == 0 || !sums.surely_wrong()) return {};
+  if (others == known) return {Convention::kSignalsExchanged, first};
+  // Where bands contradict each other it is neither the sign nor the unit.
+  if (right > 0 || others > 0) return {};
   if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
   return {Convention::kDopplerUnit, sums.factor()};
 }

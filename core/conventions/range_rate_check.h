@@ -25,6 +25,7 @@ class RangeRateCheck {
     int epochs = 0;
     void add(const Sums& epoch);  // without its means: those are the receiver's clock
     bool known() const;
+    bool surely_wrong() const;
     double factor() const { return xy / xx; }
   };
   struct Last {

@@ -257,12 +257,14 @@ std::optional<Alignment::InMotion> Alignment::heading_in_motion(double relative_
 // Velocities by way of walls tell a heading too, but another one a moment later: further off than
 // the surer of the two says, and than gyros of an unknown bias have drifted since.
 std::optional<Alignment::InMotion> Alignment::confirmed(std::optional<InMotion> found) {
-  constexpr double kRounding_s = 1e-3;  // epochs stand on a grid up to that
-  constexpr double kLikelyDrift = 2.0;  // sigmas
+  constexpr double kRounding_s = 1e-3;   // epochs stand on a grid up to that
+  constexpr double kLikelyDrift = 2.0;   // sigmas
+  constexpr double kForgotten_s = 15.0;  // in a tunnel unknown gyros drift to anything
   if (!found) {
     candidate_.reset();
     return std::nullopt;
   }
+  if (candidate_ && levelled_for_s_ - candidate_->seen_s > kForgotten_s) candidate_.reset();
   const double for_s = candidate_ ? levelled_for_s_ - candidate_->since_s : 0.0;
   const double limit = candidate_ ? std::min(found->sigma, candidate_->sigma) +
                                         kLikelyDrift * standing_.sigma() * for_s
@@ -270,7 +272,8 @@ std::optional<Alignment::InMotion> Alignment::confirmed(std::optional<InMotion> 
   const bool another =
       candidate_ && std::abs(wrap_to_pi(found->turn_l - candidate_->turn_l)) > limit;
   if (!candidate_ || another)
-    candidate_ = Candidate{levelled_for_s_, found->turn_l, found->sigma, another};
+    candidate_ = Candidate{levelled_for_s_, levelled_for_s_, found->turn_l, found->sigma, another};
+  candidate_->seen_s = levelled_for_s_;
   if (levelled_for_s_ - candidate_->since_s < config_.confirming_s - kRounding_s)
     return std::nullopt;
   return found;

@@ -31,7 +31,8 @@ struct AlignmentConfig {
   // rad; good gyros find north while standing, once its 1 sigma is below this; 0: never.
   double max_gyrocompass_sigma = 0.0785;
   double static_accel_m_s2 = 0.3;  // spread of the specific force below this while standing
-  // A heading found in motion must stay within its sigma for this long before it is taken.
+  // A heading found in motion must stay within its sigma, and what gyros of an unknown bias drift,
+  // for this long before it is taken.
   double confirming_s = 0.0;
   bool velocity_matching = false;  // see VelocityMatching
   double matching_window_s = 15.0;
@@ -137,7 +138,7 @@ class Alignment {
   enum class Gear : unsigned char { kUnknown, kForward, kReverse };
   Gear gear_ = Gear::kUnknown;  // since it last stopped
   struct Candidate {
-    double since_s, turn_l, sigma;
+    double since_s, seen_s, turn_l, sigma;
     bool another;  // than the one before, which it contradicts
   };
   std::optional<Candidate> candidate_;  // found in motion and not contradicted since

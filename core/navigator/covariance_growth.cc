@@ -1,6 +1,7 @@
 #include "core/navigator/covariance_growth.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/earth/rotation.h"
 
@@ -9,21 +10,24 @@ namespace {
 
 using namespace ekf_index;
 
-// White noise of the attitude's rate for the `t` seconds that end now, density in rad/sqrt(s), with
-// what the specific force makes of it: velocity' = F attitude, position' = velocity.
-void add_attitude_wander(double noise, double t, const Eigen::Matrix3d& F, PvaCovariance* P) {
-  const double density = noise * noise, t2 = t * t, t3 = t2 * t;
+// White noise of the attitude's rate in the first `wanders` of the `t` seconds that end now,
+// density in rad/sqrt(s), with what the specific force makes of it: velocity' = F attitude,
+// position' = velocity. Integrals over its age, from t - wanders to t.
+void add_attitude_wander(double noise, double wanders, double t, const Eigen::Matrix3d& F,
+                         PvaCovariance* P) {
+  const double density = noise * noise, from = t - wanders;
   const Eigen::Matrix3d FF = F * F.transpose();
+  const auto integral = [&](int power) { return std::pow(t, power) - std::pow(from, power); };
   const auto add = [&](int row, int column, const Eigen::Matrix3d& block) {
     P->block<3, 3>(row, column) += density * block;
     if (row != column) P->block<3, 3>(column, row) += density * block.transpose();
   };
-  add(kAttitude, kAttitude, t * Eigen::Matrix3d::Identity());
-  add(kVelocity, kAttitude, t2 / 2.0 * F);
-  add(kVelocity, kVelocity, t3 / 3.0 * FF);
-  add(kPosition, kAttitude, t3 / 6.0 * F);
-  add(kPosition, kVelocity, t3 * t / 8.0 * FF);
-  add(kPosition, kPosition, t3 * t2 / 20.0 * FF);
+  add(kAttitude, kAttitude, wanders * Eigen::Matrix3d::Identity());
+  add(kVelocity, kAttitude, integral(2) / 2.0 * F);
+  add(kVelocity, kVelocity, integral(3) / 3.0 * FF);
+  add(kPosition, kAttitude, integral(3) / 6.0 * F);
+  add(kPosition, kVelocity, integral(4) / 8.0 * FF);
+  add(kPosition, kPosition, integral(5) / 20.0 * FF);
 }
 
 }  // namespace
@@ -56,7 +60,7 @@ PvaCovariance inertial_covariance(const EkfUpdate& anchor, const ImuErrorModel& 
   covariance.block<3, 3>(kAttitude, kAttitude) += angle_variance * I;
   if (anchor.wander.noise > 0.0) {
     const double left_s = seconds_between(anchor.wander.until, anchor.state.time);
-    add_attitude_wander(anchor.wander.noise, std::clamp(left_s, 0.0, t), F, &covariance);
+    add_attitude_wander(anchor.wander.noise, std::clamp(left_s, 0.0, t), t, F, &covariance);
   }
   return covariance;
 }

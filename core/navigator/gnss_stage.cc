@@ -43,6 +43,11 @@ EventKind event_of(OrbitChange change) {
   return EventKind::kOrbitFallback;
 }
 
+Posture posture_of(VehicleKind kind) {
+  if (kind == VehicleKind::kHandheld) return Posture::kInHand;
+  return kind == VehicleKind::kUav ? Posture::kInFlight : Posture::kUpright;
+}
+
 // As the event has them: side 1, vertical 2, standing's velocity 4 and rate 8, odometer 16.
 std::uint8_t constraint_groups(MotionComponents components) {
   const auto bits = [&](MotionComponent first, unsigned count) {
@@ -77,8 +82,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<EkfUpdate>* ekf
       report_(std::make_unique<EpochReport>()),
       keyframe_maker_(config.smoother.keyframe_interval_s),
       convention_check_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b,
-                        config.alignment.max_reverse_speed_m_s,
-                        config.vehicle.kind != VehicleKind::kHandheld) {
+                        config.alignment.max_reverse_speed_m_s, posture_of(config.vehicle.kind)) {
   const AlignmentConfig& alignment = config_.alignment;
   if (alignment.initial_heading)
     given_heading_.tell({*alignment.initial_heading, alignment.initial_heading_sigma});

@@ -1,6 +1,9 @@
 // What the size of the mean specific force says of its unit.
 #include "core/conventions/force_check.h"
 
+#include <utility>
+
+#include "level_drive.h"
 #include "support/catch.h"
 
 namespace {
@@ -24,6 +27,25 @@ TEST_CASE("a few seconds say nothing of the unit", "[conventions]") {
   MeanForce force = of_ratio(0.102);
   force.seconds = 9;
   CHECK(!check_force_size(force, 0.005));
+}
+
+TEST_CASE("what lay on its side shows only in the seconds without a course", "[conventions]") {
+  MotionRecord record;
+  test::LevelDrive drive;
+  PointSolution point;
+  for (int i = 0; i < 100; ++i) {
+    const bool lies = i < 60;
+    test::feed_second(&drive, &record, [lies](ImuSample* sample) {
+      if (lies) std::swap(sample->delta_velocity_b.y(), sample->delta_velocity_b.z());
+    });
+    point = drive.point();
+    record.end_second(drive.time(), lies ? nullptr : &point);
+  }
+  CHECK(mean_force(record).tilt() > 0.8);
+  const MeanForce moving = mean_force(record, MotionSeconds::kWithCourse);
+  CHECK(moving.seconds > 20);
+  CHECK(moving.seconds < 40);
+  CHECK(moving.tilt() < 0.1);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Codes against Dopplers: sign, unit, band.
 #include "core/conventions/range_rate_check.h"
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "support/catch.h"
 
@@ -105,6 +107,52 @@ TEST_CASE("beside a system in order the exchanged one is told, with its own fact
   }
   CHECK(check.judge().convention == Convention::kSignalsExchanged);
   CHECK(check.judge().value == Approx(1.283).margin(0.01));
+}
+
+TEST_CASE("a right band whose codes wander is not taken for a wrong one", "[conventions]") {
+  // Of one band alone, reflected codes: after a few epochs the factor is anywhere near one.
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> step_m(0.0, 85.0);
+  int told = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    RangeRateCheck check;
+    std::array<double, 5> wander_m{};
+    for (int n = 0; n < 30; ++n) {
+      const RawEpoch whole = epoch_at(n);
+      RawEpoch epoch;
+      epoch.time = whole.time;
+      for (SignalObservation o : whole.observations) {
+        if (o.code.band == '2' || o.satellite.number > 4) continue;
+        double& wander = wander_m[o.satellite.number];
+        o.pseudorange_m += wander += step_m(random);
+        epoch.observations.push_back(o);
+      }
+      check.add(epoch);
+      told += static_cast<bool>(check.judge());
+    }
+  }
+  CHECK(told == 0);
+}
+
+TEST_CASE("bands that lie close together: a right one has not the name of another",
+          "[conventions]") {
+  // Galileo's E5a called so, its codes 7 % slow: within what counts as right, and near E6's ratio.
+  RangeRateCheck check;
+  for (int n = 0; n < 30; ++n) {
+    RawEpoch epoch = epoch_at(n);
+    for (SignalObservation& o : epoch.observations) {
+      const double rate = -wavelength_m(System::kGps, o.code.band) * o.doppler_hz;
+      o.satellite.system = System::kGalileo;
+      if (o.code.band == '2') o.doppler_hz = kNotMeasured;
+      o.code = {'5', 'Q'};
+      o.doppler_hz = std::isfinite(o.doppler_hz)
+                         ? -1.08 * rate / wavelength_m(System::kGalileo, '5')
+                         : kNotMeasured;
+    }
+    check.add(epoch);
+  }
+  CHECK(check.is_right());
+  CHECK(!check.judge());
 }
 
 TEST_CASE("bands that contradict each other tell neither sign nor unit", "[conventions]") {

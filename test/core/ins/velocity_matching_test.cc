@@ -216,6 +216,43 @@ TEST_CASE("gyros of an unknown bias are confirmed too, whatever the epochs") {
   }
 }
 
+TEST_CASE("what unknown gyros drift in a tunnel confirms nothing") {
+  const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
+  const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
+  AlignmentConfig config;
+  config.max_gyrocompass_sigma = 0.0;
+  config.confirming_s = 3.0;
+  int aligned = 0;
+  double worst = 0.0, squares = 0.0;
+  ImuErrorModel imu = test::mems_imu();
+  imu.gyro_bias.sigma = 1800.0 * kDegree / 3600.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Alignment alignment(config, imu);
+    SyntheticVehicle vehicle(imu, 0.2 * static_cast<double>(seed), seed);
+    for (int i = 0; i < 100; ++i) (void)vehicle.step(8.0, 0.0);
+    bool in_tunnel = false;
+    for (int t = 1, hidden_s = 0; t <= 120; ++t) {
+      for (int i = 0; i < 100; ++i) alignment.add(vehicle.step(0.0, 0.0));
+      const AlignmentNeed need = alignment.need(where.latitude);
+      if (need.lacking == Lacking::kCourse && need.seconds <= config.confirming_s) in_tunnel = true;
+      if (in_tunnel && hidden_s++ < 60) continue;
+      const Eigen::Vector2d v_n = vehicle.v_n(kSigma);
+      const auto found =
+          alignment.attitude(to_ecef(where), C_en * Eigen::Vector3d(v_n.x(), v_n.y(), 0.0), kSigma);
+      if (!found) continue;
+      const Eigen::Matrix3d C_nb = C_en.transpose() * found->q_eb.toRotationMatrix();
+      const double error = wrap_to_pi(euler_from_rotation(C_nb).yaw - vehicle.yaw());
+      worst = std::max(worst, std::abs(error));
+      squares += std::pow(error / found->sigma_rpy.z(), 2);
+      ++aligned;
+      break;
+    }
+  }
+  CHECK(aligned >= 39);
+  CHECK(squares < 2.0 * aligned);
+  CHECK(worst < 5.0 * kDegree);
+}
+
 TEST_CASE("the seconds of driving that a heading still takes count down to none") {
   const Geodetic where{SyntheticVehicle::kLatitude, 0.3, 100.0};
   const Eigen::Matrix3d C_en = rotation_ecef_to_ned(where).transpose();
