@@ -131,13 +131,14 @@ bool RangeRateCheck::is_named_as_another(System system, std::size_t band) const 
 }
 
 ConventionFinding RangeRateCheck::judge() const {
-  double first = 0.0;                    // factor of the first band known
-  int known = 0, right = 0, others = 0;  // bands; of another one's factor
+  double first = 0.0;                              // factor of the first band known
+  int known = 0, right = 0, others = 0, sure = 0;  // bands; of another one's factor; not right
   for (const System system : kSystems) {
     const auto& bands = sums_[index_of(system)];
     for (std::size_t band = 1; band < kBands; ++band) {
       if (!bands[band].known()) continue;
       if (known++ == 0) first = bands[band].factor();
+      sure += bands[band].surely_wrong();
       // Of bands that lie close together a right one's factor is another's too.
       if (is_near(bands[band].factor(), 1.0, kRightWithin))
         ++right;
@@ -147,11 +148,14 @@ ConventionFinding RangeRateCheck::judge() const {
     const double exchanged = exchanged_factor(system);
     if (exchanged != 0.0) return {Convention::kSignalsExchanged, exchanged};
   }
-  const Sums sums = all();
-  if (known == 0 || !sums.surely_wrong()) return {};
-  if (others == known) return {Convention::kSignalsExchanged, first};
+  if (known == 0) return {};
+  if (others == known)
+    return sure == known ? ConventionFinding{Convention::kSignalsExchanged, first}
+                         : ConventionFinding();
   // Where bands contradict each other it is neither the sign nor the unit.
   if (right > 0 || others > 0) return {};
+  const Sums sums = all();
+  if (!sums.surely_wrong()) return {};
   if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
   return {Convention::kDopplerUnit, sums.factor()};
 }

@@ -25,15 +25,15 @@ IMU_MISTAKES = {
 
 
 def exchanged(observations, whole):
-    """Of each satellite's two signals: the names (whole), or the pseudoranges alone."""
+    """Of each satellite's first two signals: the names (whole), or the pseudoranges alone."""
     changed = [list(o) for o in observations]
     of = {}
     for o in changed:
         of.setdefault((o[0], o[1]), []).append(o)
     for signals in of.values():
-        if len(signals) != 2:
+        if len(signals) < 2:
             continue
-        a, b = signals
+        a, b = signals[:2]
         columns = (2, 3) if whole else (4,)
         for i in columns:
             a[i], b[i] = b[i], a[i]
