@@ -75,8 +75,8 @@ ConventionFinding ConventionCheck::judge() {
     if (const auto finding = code_order_.judge()) return finding;
   }
   // It may stand for long; then which of the mistakes it is nobody can tell.
-  const bool long_known = posture_ == Posture::kUpright && force.seconds >= kLongUpright;
-  return long_known && !is_down(force) ? not_down(force) : ConventionFinding();
+  const bool shown_long = posture_ == Posture::kUpright && force.seconds >= kLongUpright;
+  return shown_long && !is_down(force) ? not_down(force) : ConventionFinding();
 }
 
 ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
@@ -88,16 +88,18 @@ ConventionFinding ConventionCheck::judge_course(const MeanForce& force) {
   return judge_axes(force, turns);
 }
 
+// It may never turn, as it may stand for long. What stood may have lain on its side, what moves
+// does not: both must show the same.
+ConventionFinding ConventionCheck::judge_straight(const MeanForce& force, const TurnFit& turns) {
+  if (turns.span_s < kLongStraight_s || turns.seconds < kMinMoving || is_down(force)) return {};
+  const MeanForce moving = mean_force(record_, MotionSeconds::kWithCourse);
+  return is_down(moving) ? ConventionFinding() : not_down(moving);
+}
+
 // Up and down by the accelerometers, then by the gyros, then forward by braking and bends.
 ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const TurnFit& turns) {
   const bool down = is_down(force), up = is_up(force);
-  const bool long_enough = turns.span_s >= kLongStraight_s;
-  if (!turns.follows()) {  // it may never turn, as it may stand for long
-    const MeanForce moving = mean_force(record_, MotionSeconds::kWithCourse);
-    return moving.seconds < kMinMoving || is_down(moving) || down || !long_enough
-               ? ConventionFinding()
-               : not_down(moving);
-  }
+  if (!turns.follows()) return judge_straight(force, turns);
   if (!down && !up) return not_down(force);
   if (turns.slope < 0.0) {  // about where down is the gyros contradict the accelerometers
     if (down) return {Convention::kGyroSign, turns.slope};
@@ -108,7 +110,7 @@ ConventionFinding ConventionCheck::judge_axes(const MeanForce& force, const Turn
       record_, either_way ? kTrackSpeed_m_s : std::max(kTrackSpeed_m_s, max_reverse_speed_m_s_));
   if (up) {
     const auto finding = check_track_upside_down(track, force);
-    return finding || !long_enough ? finding : not_down(force);
+    return finding || turns.span_s < kLongStraight_s ? finding : not_down(force);
   }
   const ConventionFinding finding = check_track_upright(track);
   if (finding && !(either_way && finding.convention == Convention::kBackwards)) return finding;

@@ -22,7 +22,7 @@ class ConventionCheck {
   // Up to `max_reverse_speed_m_s` the vehicle may be going in reverse; where that is as fast as any
   // (a train has a cab at either end) backwards is as right as forwards. `posture`: what stays
   // upright shows where down is at any time, what a hand holds may lie on its side, what flies may
-  // hover so.
+  // hover on its tail.
   ConventionCheck(const GnssConfig& gnss, const RobustConfig& robust,
                   const Eigen::Vector3d& lever_arm_b, double max_reverse_speed_m_s,
                   Posture posture);
@@ -37,6 +37,7 @@ class ConventionCheck {
  private:
   ConventionFinding judge();
   ConventionFinding judge_course(const MeanForce& force);
+  ConventionFinding judge_straight(const MeanForce& force, const TurnFit& turns);
   ConventionFinding judge_axes(const MeanForce& force, const TurnFit& turns);
 
   MotionRecord record_;

@@ -50,10 +50,10 @@ bool RangeRateCheck::Sums::known() const {
 }
 
 // By what the codes scatter about the line, of at least three satellites less their mean.
-bool RangeRateCheck::Sums::surely_wrong() const {
+bool RangeRateCheck::Sums::surely_not_one() const {
+  if (!known()) return false;
   const double scatter = std::max(0.0, yy - xy * factor()) / ((kMinSatellites - 1) * epochs);
-  return known() && !is_near(factor(), 1.0, kRightWithin) &&
-         std::abs(factor() - 1.0) > kSurely * std::sqrt(scatter / xx);
+  return std::abs(factor() - 1.0) > kSurely * std::sqrt(scatter / xx);
 }
 
 void RangeRateCheck::add(const RawEpoch& epoch) {
@@ -107,12 +107,12 @@ bool RangeRateCheck::is_right() const {
   return sums.known() && is_near(sums.factor(), 1.0, kRightWithin);
 }
 
-// The factor of the first of two bands of the system that have each other's, both known; else 0.
+// The factor of the first of two bands of the system that have each other's, both surely; else 0.
 double RangeRateCheck::exchanged_factor(System system) const {
   const auto& bands = sums_[index_of(system)];
   for (std::size_t i = 1; i < kBands; ++i) {
     for (std::size_t j = i + 1; j < kBands; ++j) {
-      if (!bands[i].known() || !bands[j].known()) continue;
+      if (!bands[i].surely_not_one() || !bands[j].surely_not_one()) continue;
       const double ratio = ratio_of(system, i, j);
       if (is_of_another_band(bands[i].factor(), ratio) &&
           is_of_another_band(bands[j].factor(), 1.0 / ratio))
@@ -131,31 +131,27 @@ bool RangeRateCheck::is_named_as_another(System system, std::size_t band) const 
 }
 
 ConventionFinding RangeRateCheck::judge() const {
-  double first = 0.0;                              // factor of the first band known
-  int known = 0, right = 0, others = 0, sure = 0;  // bands; of another one's factor; not right
+  double first = 0.0;  // factor of the first band known
+  // Bands; of them those in order, of another one's factor, and with a factor that is not 1.
+  int known = 0, right = 0, others = 0, not_one = 0;
   for (const System system : kSystems) {
     const auto& bands = sums_[index_of(system)];
     for (std::size_t band = 1; band < kBands; ++band) {
       if (!bands[band].known()) continue;
       if (known++ == 0) first = bands[band].factor();
-      sure += bands[band].surely_wrong();
-      // Of bands that lie close together a right one's factor is another's too.
-      if (is_near(bands[band].factor(), 1.0, kRightWithin))
-        ++right;
-      else if (is_named_as_another(system, band))
-        ++others;
+      right += is_near(bands[band].factor(), 1.0, kRightWithin);
+      others += is_named_as_another(system, band);
+      not_one += bands[band].surely_not_one();
     }
     const double exchanged = exchanged_factor(system);
     if (exchanged != 0.0) return {Convention::kSignalsExchanged, exchanged};
   }
-  if (known == 0) return {};
-  if (others == known)
-    return sure == known ? ConventionFinding{Convention::kSignalsExchanged, first}
-                         : ConventionFinding();
+  // Of bands that lie close together a right one's factor is another's too.
+  if (known == 0 || right > 0) return {};
+  if (others == known && not_one == known) return {Convention::kSignalsExchanged, first};
   // Where bands contradict each other it is neither the sign nor the unit.
-  if (right > 0 || others > 0) return {};
   const Sums sums = all();
-  if (!sums.surely_wrong()) return {};
+  if (others > 0 || !sums.surely_not_one()) return {};
   if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
   return {Convention::kDopplerUnit, sums.factor()};
 }

@@ -25,7 +25,7 @@ class RangeRateCheck {
     int epochs = 0;
     void add(const Sums& epoch);  // without its means: those are the receiver's clock
     bool known() const;
-    bool surely_wrong() const;
+    bool surely_not_one() const;  // its factor
     double factor() const { return xy / xx; }
   };
   struct Last {
