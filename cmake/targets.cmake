@@ -1,12 +1,25 @@
 # One target per folder. A folder's headers are reachable only through its target: each target's
-# include path holds a link to its own folder and nothing else, so that a forbidden include does
-# not compile.
+# include path holds links to the headers of its own folder and nothing else, so that a forbidden
+# include does not compile. Headers in a folder's internal/ are for that folder and its tests alone,
+# which test/structure/purity checks.
 
-function(leonav_expose target folder)
+# A link that an earlier layout left there could lead into the sources, and be written through.
+file(REMOVE_RECURSE ${CMAKE_BINARY_DIR}/include)
+
+# leonav_expose(target path): a header, or the headers of a folder and of its internal/.
+function(leonav_expose target path)
   set(root ${CMAKE_BINARY_DIR}/include/${target})
-  cmake_path(GET folder PARENT_PATH parent)
-  file(MAKE_DIRECTORY ${root}/${parent})
-  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
+  if(IS_DIRECTORY ${CMAKE_SOURCE_DIR}/${path})
+    file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}
+         ${CMAKE_SOURCE_DIR}/${path}/*.h ${CMAKE_SOURCE_DIR}/${path}/internal/*.h)
+  else()
+    set(headers ${path})
+  endif()
+  foreach(header ${headers})
+    cmake_path(GET header PARENT_PATH parent)
+    file(MAKE_DIRECTORY ${root}/${parent})
+    file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${header} ${root}/${header} SYMBOLIC)
+  endforeach()
   get_target_property(type ${target} TYPE)
   if(type STREQUAL INTERFACE_LIBRARY)
     target_include_directories(${target} INTERFACE ${root})
@@ -15,10 +28,13 @@ function(leonav_expose target folder)
   endif()
 endfunction()
 
-# leonav_library(target folder [DEPENDS public...] [PRIVATE private...])
+# leonav_library(target folder [DEPENDS public...] [PRIVATE private...]): every source of the folder
+# and of its internal/ but main.cc.
 function(leonav_library target folder)
   cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc
+       ${CMAKE_SOURCE_DIR}/${folder}/internal/*.cc)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cc$")
   if(NOT sources)  # headers only
     add_library(${target} INTERFACE)
     target_link_libraries(${target} INTERFACE ${ARG_DEPENDS})
@@ -29,15 +45,18 @@ function(leonav_library target folder)
   leonav_expose(${target} ${folder})
 endfunction()
 
-# leonav_program(target folder [DEPENDS ...]); skipped while the folder has no source.
+# leonav_chapter(target DEPENDS ...): the libraries of a folder's folders under one name.
+function(leonav_chapter target)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  add_library(${target} INTERFACE)
+  target_link_libraries(${target} INTERFACE ${ARG_DEPENDS})
+endfunction()
+
+# leonav_program(target folder [DEPENDS ...]): the folder's main.cc.
 function(leonav_program target folder)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
-  if(sources)
-    add_executable(${target} ${sources})
-    target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/${folder})
-    target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} ${ARG_PRIVATE})
-  endif()
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  add_executable(${target} ${CMAKE_SOURCE_DIR}/${folder}/main.cc)
+  target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
 endfunction()
 
 # leonav_scripts(folder name...): interpreted tools, linked beside the programs.
@@ -74,6 +93,21 @@ function(leonav_lcm_types target)
   target_link_libraries(${target} INTERFACE lcm)
 endfunction()
 
+# leonav_embed_configuration(target): the presets and the reference of config/ as a source of target.
+function(leonav_embed_configuration target)
+  file(GLOB presets CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/presets/*.yaml)
+  set(reference ${CMAKE_SOURCE_DIR}/config/reference.yaml)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/embed_configuration.cmake)
+  set(out ${CMAKE_BINARY_DIR}/generated/embedded_configuration.cc)
+  add_custom_command(
+    OUTPUT ${out}
+    COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DREFERENCE=${reference} "-DPRESETS=${presets}" -P ${script}
+    DEPENDS ${presets} ${reference} ${script}
+    COMMENT "presets"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${out})
+endfunction()
+
 # Catch2 with its main(), compiled once for all test programs.
 function(leonav_catch2)
   if(TARGET catch2_with_main)
@@ -105,7 +139,8 @@ function(leonav_test target folder)
   endif()
   leonav_catch2()
   add_executable(${target} ${sources})
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test)
+  # Helpers of one chapter's tests lie at the top of its folder.
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test ${CMAKE_SOURCE_DIR}/${folder})
   target_link_libraries(${target} PRIVATE catch2_with_main)
   target_compile_definitions(${target} PRIVATE
     LEONAV_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data"

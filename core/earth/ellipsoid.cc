@@ -15,9 +15,10 @@ double meridian_radius(double latitude) {
   return kEarthSemiMajorAxis * (1.0 - kEarthEccentricitySquared) / (d * std::sqrt(d));
 }
 
-// Bowring's formula (Survey Review 23, 1976) on the sine and cosine of the reduced latitude. One
-// step is a Newton step on the footpoint equation (Fukushima, J. Geodesy 79, 2006), so repeating
-// it until it stands still makes it exact; near the Earth two steps do.
+// The conversion is Bowring's formula (Survey Review 23, 1976) on the sine and cosine of the
+// reduced latitude. One step is a Newton step on the footpoint equation (Fukushima, J. Geodesy 79,
+// 2006), so repeating the step until nothing changes makes the result exact; near the Earth two
+// steps suffice.
 Geodetic to_geodetic(const Eigen::Vector3d& p_e) {
   constexpr double a = kEarthSemiMajorAxis, e2 = kEarthEccentricitySquared;
   constexpr double b = a * (1.0 - kEarthFlattening);
@@ -46,7 +47,7 @@ Geodetic to_geodetic(const Eigen::Vector3d& p_e) {
     c /= norm;
     if (std::abs(s * old_c - c * old_s) < 1e-15) break;
   }
-  // Exact to second order in what is left of the latitude's error.
+  // The height is exact to second order in the remaining error of the latitude.
   const double height =
       p * cos_latitude + z * sin_latitude - a * std::sqrt(1.0 - e2 * sin_latitude * sin_latitude);
   const double longitude = p > 0.0 ? std::atan2(p_e.y(), p_e.x()) : 0.0;

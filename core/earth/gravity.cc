@@ -12,11 +12,11 @@ constexpr double kA = kEarthSemiMajorAxis;
 constexpr double kB = kA * (1.0 - kEarthFlattening);
 constexpr double kFocal2 = kA * kA * kEarthEccentricitySquared;  // linear eccentricity squared
 constexpr double kOmega2 = kEarthRotationRate * kEarthRotationRate;
-// Inside this radius the normal field has its focal disc and means nothing.
+// Inside this radius (m) the normal field contains its focal disc and has no physical meaning.
 constexpr double kInnerRadius = 1.0e6;
 
-// q and q' of Physical Geodesy, eqs. (2-113) and (2-133), as series in t = E/u. The closed forms
-// lose five digits to cancellation at the Earth's surface, where t is 0.08.
+// q and q' are those of Physical Geodesy, eqs. (2-113) and (2-133), as series in t = E/u. The
+// closed forms lose five digits to cancellation at the Earth's surface, where t is 0.08.
 struct QFunctions {
   double q, q_prime;
 };
@@ -60,7 +60,8 @@ Eigen::Vector3d gravity_e(const Eigen::Vector3d& p_e) {
   const double focal = std::sqrt(kFocal2);
   const QFunctions f = q_functions(focal / u);
 
-  // Components along u and beta (2-132), without the centrifugal part, which is exact in ECEF.
+  // The components along u and beta (2-132) are taken without the centrifugal part, which is added
+  // exactly in ECEF.
   const double rotation = kOmega2 * kA * kA;
   const double g_u =
       -(kGm + rotation * focal * f.q_prime / kQ0 * (0.5 * sb * sb - 1.0 / 6.0)) / (v2 * w);

@@ -16,7 +16,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 Eigen::Quaterniond quaternion_from_rotation_vector(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   const double half = 0.5 * angle;
-  // sin(x/2)/x; the series' next term is below 1e-17 of the first where it is used.
+  // The factor is sin(x/2)/x; where the series is used, its next term is below 1e-17 of the first.
   const double sine_ratio = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(half) / angle;
   const Eigen::Vector3d vector = sine_ratio * rotation_vector;
   return {std::cos(half), vector.x(), vector.y(), vector.z()};
@@ -24,7 +24,8 @@ Eigen::Quaterniond quaternion_from_rotation_vector(const Eigen::Vector3d& rotati
 
 Eigen::Vector3d rotation_vector_from_quaternion(const Eigen::Quaterniond& q) {
   const double sine = q.vec().norm();
-  const double sign = q.w() < 0.0 ? -1.0 : 1.0;  // q and -q are one rotation: take the short way
+  // q and -q are the same rotation: the shorter way is taken
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   if (sine < 1e-9) return 2.0 * sign * q.vec();
   return (2.0 * std::atan2(sine, std::abs(q.w())) * sign / sine) * q.vec();
 }
@@ -48,7 +49,7 @@ EulerAngles euler_from_rotation(const Eigen::Matrix3d& C_nb) {
     angles.roll = std::atan2(C_nb(2, 1), C_nb(2, 2));
     angles.yaw = wrap_to_pi(std::atan2(C_nb(1, 0), C_nb(0, 0)));
   } else {
-    // Nose straight up or down: only yaw -/+ roll is defined; all of it is given to yaw.
+    // The nose points straight up or down: only yaw -/+ roll is defined, and it is assigned to yaw.
     angles.yaw = wrap_to_pi(std::atan2(-C_nb(0, 1), C_nb(1, 1)));
   }
   return angles;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 
 namespace leonav {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kSecondsPerDay = 86400.0;
 constexpr double kTtMinusGps = 51.184;   // s: TT = TAI + 32.184, TAI = GPS + 19
 constexpr double kDaysToJ2000 = 7300.5;  // from 1980-01-06 0h to 2000-01-01 12h
 
-// Angles modulo a turn keep their digits when multiplied.
+// Reducing an angle modulo a turn first keeps its digits when it is multiplied.
 double degrees(double value) { return std::fmod(value, 360.0) * kDegree; }
 
 double seconds_since_gps_epoch(GpsTime time) { return seconds_between(time, GpsTime{}); }
@@ -35,8 +35,9 @@ Arguments arguments_at(double t) {
           1.0 - t * (0.002516 + t * 0.0000074)};
 }
 
-// Multiples of D, M, M', F; sine coefficient of the longitude in 1e-6 degrees; cosine coefficient
-// of the distance in m. Meeus table 47.A down to 1e-6 x 2000 degrees.
+// Each term has the multiples of D, M, M', F, the sine coefficient of the longitude in 1e-6
+// degrees, and the cosine coefficient of the distance in m. They are the terms of Meeus, table
+// 47.A, down to 2000 units of 1e-6 degrees.
 struct LongitudeTerm {
   int d, m, m_moon, f;
   double longitude, distance;
@@ -62,7 +63,8 @@ constexpr std::array<LongitudeTerm, 36> kLongitude = {{
     {2, -2, -1, 0, 2048, -4950},      {2, 0, 1, -2, -1773, 4130},
 }};
 
-// The same for the sine coefficient of the latitude: Meeus table 47.B.
+// Each term has the same multiples and the sine coefficient of the latitude in 1e-6 degrees: Meeus
+// table 47.B.
 struct LatitudeTerm {
   int d, m, m_moon, f;
   double latitude;
@@ -87,8 +89,8 @@ struct Ecliptic {
 
 Ecliptic moon_at(double t) {
   const Arguments a = arguments_at(t);
-  const double a1 = degrees(119.75 + 131.849 * t);    // Venus
-  const double a2 = degrees(53.09 + 479264.290 * t);  // Jupiter
+  const double a1 = degrees(119.75 + 131.849 * t);    // term of Venus
+  const double a2 = degrees(53.09 + 479264.290 * t);  // term of Jupiter
   const double a3 = degrees(313.45 + 481266.484 * t);
   double longitude = 3958.0 * std::sin(a1) + 1962.0 * std::sin(a.l - a.f) + 318.0 * std::sin(a2);
   double latitude = -2235.0 * std::sin(a.l) + 382.0 * std::sin(a3);
@@ -106,8 +108,9 @@ Ecliptic moon_at(double t) {
   return {a.l + longitude * 1e-6 * kDegree, latitude * 1e-6 * kDegree, distance};
 }
 
-// Meeus 25.2-25.5: Kepler motion with the mean elements of date; the Moon's pull on the Earth
-// (6.4", 4671 km) added, since it is the largest of what is left.
+// The Sun's position follows Meeus 25.2-25.5: Kepler motion with the mean elements of date. The
+// Moon's pull on the Earth (6.4", 4671 km) is added, since it is the largest of the remaining
+// terms.
 Ecliptic sun_at(double t) {
   const double mean_longitude = degrees(280.46646 + t * (36000.76983 + t * 0.0003032));
   const double m = degrees(357.52911 + t * (35999.05029 - t * 0.0001537));
@@ -141,7 +144,7 @@ SunMoon sun_moon_positions(GpsTime time) {
   const double seconds = seconds_since_gps_epoch(time);
   const double t = ((seconds + kTtMinusGps) / kSecondsPerDay - kDaysToJ2000) / 36525.0;
 
-  // Nutation, chapter 22: the terms above 0.2".
+  // Nutation (Meeus, chapter 22) is limited to the terms above 0.2".
   const double node = degrees(125.04452 - 1934.136261 * t);
   const double sun2 = 2.0 * degrees(280.4665 + 36000.7698 * t);
   const double moon2 = 2.0 * degrees(218.3165 + 481267.8813 * t);
@@ -151,7 +154,7 @@ SunMoon sun_moon_positions(GpsTime time) {
       kDegree * (23.4392911 - 0.0130042 * t) +
       kArcsecond * (9.20 * std::cos(node) + 0.57 * std::cos(sun2) + 0.10 * std::cos(moon2));
 
-  // Sidereal time, eq. 12.4, with UT1 = UTC; the whole turns of a day are taken out beforehand.
+  // Sidereal time is Meeus eq. 12.4 with UT1 = UTC; whole turns of a day are removed beforehand.
   const double utc = seconds - leap_seconds(time);
   const double days = utc / kSecondsPerDay - kDaysToJ2000;
   const double tu = days / 36525.0;

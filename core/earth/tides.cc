@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
-#include "core/time/calendar.h"
 
 namespace leonav {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kLowestRadius = 6.0e6;  // m: nothing that stands on the Earth is below
+constexpr double kLowestRadius = 6.0e6;  // m: nothing on the Earth's surface lies below
 // IERS Conventions (2010), table 1.1 and section 7.1.1.
 constexpr double kTideEarthRadius = 6'378'136.6;
 constexpr double kSunMassRatio = 332'946.0482;
@@ -20,7 +20,7 @@ constexpr double kMoonMassRatio = 0.0123000371;
 constexpr double kH3 = 0.292;
 constexpr double kL3 = 0.015;
 
-// Geocentric directions at the point: the Conventions' angles are geocentric, not geodetic.
+// Geocentric directions at the point, since the Conventions' angles are geocentric, not geodetic.
 struct Place {
   double sin_latitude, cos_latitude, sin_longitude, cos_longitude, longitude;
   Eigen::Vector3d up, north, east;
@@ -42,7 +42,7 @@ struct Place {
   double cos2() const { return cos_latitude * cos_latitude - sin_latitude * sin_latitude; }
 };
 
-// What one body does, everything but step 2: eqs. 7.5, 7.6, 7.8 to 7.11.
+// Returns the displacement by one body without step 2: eqs. 7.5, 7.6, 7.8 to 7.11.
 Eigen::Vector3d step_1(const Place& at, const Eigen::Vector3d& body, double mass_ratio) {
   const double distance = body.norm();
   if (!(distance > 10.0 * kTideEarthRadius)) return Eigen::Vector3d::Zero();
@@ -63,8 +63,8 @@ Eigen::Vector3d step_1(const Place& at, const Eigen::Vector3d& body, double mass
            (2.5 * (kH3 - 3.0 * kL3) * cosine * cosine * cosine + 1.5 * (kL3 - kH3) * cosine) *
                at.up);
 
-  // The body's direction seen from the point's meridian: towards it and east of it, of the diurnal
-  // (z x, z y) and of the semi-diurnal band (x^2 - y^2, 2 x y).
+  // The body's direction is seen from the point's meridian. Its components towards the meridian and
+  // to the east make the diurnal (z x, z y) and the semi-diurnal band (x^2 - y^2, 2 x y).
   const double along = b.x() * at.cos_longitude + b.y() * at.sin_longitude;
   const double across = b.y() * at.cos_longitude - b.x() * at.sin_longitude;
   const double diurnal_in = b.z() * along, diurnal_out = -b.z() * across;
@@ -85,8 +85,9 @@ Eigen::Vector3d step_1(const Place& at, const Eigen::Vector3d& body, double mass
   return d + degree_2 * at.ecef(up, north, east);
 }
 
-// Step 2: multiples of tau's six arguments and amplitudes in mm of radial and transverse
-// displacement, in and out of phase: IERS Conventions (2010), tables 7.3a and 7.3b.
+// Each term of step 2 has the multiples of tau's six arguments and the amplitudes in mm of the
+// radial and transverse displacement, in and out of phase: IERS Conventions (2010), tables 7.3a and
+// 7.3b.
 struct Step2Term {
   int s, h, p, n, ps;
   double radial_in, radial_out, transverse_in, transverse_out;
@@ -120,7 +121,8 @@ Eigen::Vector3d step_2(const Place& at, GpsTime time) {
   const double t = (gps_days + 51.184 / 86400.0 - 7300.5) / 36525.0;  // TT from J2000, centuries
   const double utc_days = gps_days - leap_seconds(time) / 86400.0;
   const double hour_angle = 360.0 * (utc_days - std::floor(utc_days));
-  // Mean longitudes of date: Moon, Sun, lunar perigee, minus the lunar node, solar perigee.
+  // Mean longitudes of date, in degrees: Moon, Sun, lunar perigee, minus the lunar node, solar
+  // perigee.
   const double precession = 1.396971278 * t;
   const double s_mean = 218.31664563 + t * (481267.88194 - t * 0.0014663889);
   const double tau =
@@ -163,8 +165,8 @@ Eigen::Vector3d solid_earth_tide(const Eigen::Vector3d& p_e, GpsTime time, const
 
 Eigen::Vector3d ocean_loading_displacement(const Eigen::Vector3d& p_e, GpsTime time,
                                            const OceanLoading& loading) {
-  // Frequency in rad/s and multiples of the Sun's, the Moon's and the perigee's mean longitude and
-  // of a turn, in the order of OceanLoading::Constituent.
+  // Each wave has its frequency in rad/s and the multiples of the mean longitudes of the Sun, the
+  // Moon and the Moon's perigee and of a turn, in the order of OceanLoading::Constituent.
   struct Wave {
     double frequency, h, s, p, turns;
   };
@@ -212,7 +214,7 @@ Eigen::Vector3d pole_tide(const Eigen::Vector3d& p_e, GpsTime time, const PolarM
   const Place at(p_e);
   const double along = m1 * at.cos_longitude + m2 * at.sin_longitude;
   const double across = m1 * at.sin_longitude - m2 * at.cos_longitude;
-  // The Conventions count colatitude southwards: their cos 2 theta is minus our cos 2 latitude.
+  // The Conventions count colatitude southwards, so their cos 2 theta is minus cos 2 latitude.
   return 1e-3 * at.ecef(-33.0 * at.sin2() * along, -9.0 * at.cos2() * along,
                         9.0 * at.sin_latitude * across);
 }

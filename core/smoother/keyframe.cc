@@ -12,7 +12,7 @@ EkfCorrection active_part(const ActiveStates& active, const EkfCorrection& error
   return part;
 }
 
-EkfCorrection whole_error(const ActiveStates& active, const EkfCorrection& part) {
+EkfCorrection full_error(const ActiveStates& active, const EkfCorrection& part) {
   EkfCorrection error = EkfCorrection::Zero(active.before_ambiguities + active.ambiguities);
   for (Index i = 0; i < active.core_size(); ++i)
     error(active.core[static_cast<std::size_t>(i)]) = part(i);

@@ -3,30 +3,30 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/square.h"
+
 namespace leonav {
 namespace {
 
-constexpr int kNoPlace = -1;
-
-double square(double x) { return x * x; }
+constexpr int kNoIndex = -1;
 
 // What the filter has used, with the variances that it gave: codes and Dopplers that contradicted
 // each other weigh less.
 void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, KeyframeInput* input) {
-  std::array<int, kMaxSatellites> place;
-  place.fill(kNoPlace);
+  std::array<int, kMaxSatellites> slot;
+  slot.fill(kNoIndex);
   for (const FilterMeasurement& used : filter.measurements()) {
     KeyframeMeasurement measurement;
     measurement.measurement = epoch.measurements[used.index];
     std::uint16_t& satellite = measurement.measurement.satellite_index;
-    if (place[satellite] == kNoPlace) {
-      place[satellite] = static_cast<int>(input->satellites.size());
+    if (slot[satellite] == kNoIndex) {
+      slot[satellite] = static_cast<int>(input->satellites.size());
       input->satellites.push_back(epoch.satellites[satellite]);
     }
-    satellite = static_cast<std::uint16_t>(place[satellite]);
+    satellite = static_cast<std::uint16_t>(slot[satellite]);
     if (used.ambiguity >= 0)
       measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
-    const double relaxed = square(filter.relaxed_by(used.observable));
+    const double relaxed = square(filter.sigma_inflation(used.observable));
     measurement.variance = used.variance * relaxed;
     measurement.gain_variance = used.gain_variance * relaxed;
     measurement.factor = std::min(1.0, used.factor * relaxed);
@@ -43,15 +43,15 @@ void keyframe_from_filter(std::uint64_t index, GpsTime time, const MeasurementEp
   input->satellites.clear();
   input->measurements.clear();
   input->valid = filter->initialized() && filter->is_finite();
-  input->linked = input->valid && filter->process().continuous;
+  input->follows_previous = input->valid && filter->process().continuous;
   if (!input->valid) return;
   input->has_attitude = filter->has_attitude();
-  input->state = filter->whole_state();
+  input->state = filter->filter_state();
   input->covariance = filter->covariance();
   input->measured_rate_b = filter->measured_rate_b();
   input->acceleration_e = filter->acceleration_e();
-  input->mast_e = filter->mast_e();
-  if (input->linked) {
+  input->vertical_antenna_offset_e = filter->vertical_antenna_offset_e();
+  if (input->follows_previous) {
     input->from = *from;
     // Where the process alone would have led, without the filter's updates.
     input->prior = input->state;

@@ -1,6 +1,6 @@
 // From the filter after an epoch to the smoother's keyframe.
 #pragma once
-#include "core/ekf/ekf.h"
+#include "core/filter/ekf.h"
 #include "core/smoother/keyframe.h"
 
 namespace leonav {

@@ -21,7 +21,7 @@ AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_
   AntennaMotion antenna =
       antenna_motion(keyframe.state.nav, keyframe.measured_rate_b, lever_arm_b,
                      keyframe.has_attitude, keyframe.state.vehicle, keyframe.acceleration_e);
-  antenna.p_e += keyframe.mast_e;
+  antenna.p_e += keyframe.vertical_antenna_offset_e;
   return antenna;
 }
 
@@ -41,8 +41,8 @@ LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyfra
   return linear;
 }
 
-void gather_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b,
-                        MeasurementInformation* sum) {
+void accumulate_information(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b,
+                            MeasurementInformation* sum) {
   const ActiveStates& active = keyframe.active;
   const Index core = active.core_size();
   sum->information.setZero(active.size(), active.size());

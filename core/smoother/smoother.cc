@@ -12,19 +12,19 @@ using namespace ekf_index;
 using Eigen::Index;
 
 constexpr std::size_t kEnoughSatellites = 4;
-constexpr double kSettledWeights = 1e-2;  // factors that change less have converged
-// A window this far from the filter, in sigmas of both, has gone astray.
+constexpr double kSettledWeights = 1e-2;  // weights have converged when no factor changes more
+// The window has diverged if it is this far from the filter, in sigmas of both and in metres.
 constexpr double kAstraySigmas = 30.0;
 constexpr double kAstray_m = 100.0;
-// Where the position itself is known worse, a reflected code does not stand out: a few satellites
-// would outvote the others.
+// Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
+// then, and a few satellites would outvote the others.
 constexpr double kVague_m = 5.0;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
 }
 
-// Whether the window's measurements are of satellites enough to tell a position.
+// Returns whether the window has measurements of enough satellites to determine a position.
 bool has_enough_satellites(const Window& window) {
   boost::container::static_vector<SatelliteId, kEnoughSatellites> seen;
   for (int i = window.size() - 1; i >= 0; --i) {
@@ -45,36 +45,36 @@ bool has_enough_satellites(const Window& window) {
 }  // namespace
 
 Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
-                   const Eigen::Vector3d& lever_arm_b, const RelinkConfig& relink)
+                   const Eigen::Vector3d& lever_arm_b, const RepropagationConfig& repropagation)
     : config_(config),
       robust_(robust),
       lever_arm_b_(lever_arm_b),
       window_(config.window),
       weights_(robust, config.code_alike_s),
-      chain_(window_.capacity()),
-      relinker_(relink),
+      rts_solver_(window_.capacity()),
+      repropagator_(repropagation),
       saved_(std::make_unique<Saved[]>(static_cast<std::size_t>(window_.capacity()))),
       next_prior_(std::make_unique<WindowPrior>()) {}
 
 void Smoother::add(const KeyframeInput& input) {
-  if (solved_) settle(false);
+  if (solved_) commit_or_roll_back(false);
   if (!input.valid) return window_.clear();
   filter_state_ = input.state.nav;
   filter_sigma_m_ = position_sigma(input.covariance);
-  if (failed_ || !input.linked) window_.clear();
+  if (failed_ || !input.follows_previous) window_.clear();
   failed_ = false;
   const bool follows = window_.size() > 0;
-  if (window_.full()) leave_oldest();
-  linked_ = window_.size() > 0 && window_.append(input);
-  lost_ = follows && !linked_;
-  if (!linked_) return (void)window_.start(input);
+  if (window_.full()) marginalize_and_drop_oldest();
+  newest_follows_ = window_.size() > 0 && window_.append(input);
+  window_lost_ = follows && !newest_follows_;
+  if (!newest_follows_) return (void)window_.start(input);
   if (config_.window > 1) return;
-  leave_oldest();  // a window of one keyframe: what was before it is its prior
-  linked_ = window_.size() > 0;
-  lost_ = !linked_;
+  marginalize_and_drop_oldest();  // a window of one keyframe has all earlier ones in its prior
+  newest_follows_ = window_.size() > 0;
+  window_lost_ = !newest_follows_;
 }
 
-void Smoother::leave_oldest() {
+void Smoother::marginalize_and_drop_oldest() {
   if (marginalize_oldest(window_, lever_arm_b_, next_prior_.get()))
     window_.drop_oldest(*next_prior_);
   else
@@ -86,13 +86,13 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   if (window_.size() == 0) return result;
   save();
   solved_ = true;
-  result.status = linked_ ? SmootherStatus::kOk
-                  : lost_ ? SmootherStatus::kSingular
-                          : SmootherStatus::kStarted;
+  result.status = newest_follows_ ? SmootherStatus::kOk
+                  : window_lost_  ? SmootherStatus::kSingular
+                                  : SmootherStatus::kStarted;
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
     double moved_sigmas = 0.0, reweighed = 0.0;
-    // The one that fails counts: a replay has to make it as well.
+    // The iteration that fails counts: a replay has to make it too.
     if (!iterate(result.iterations++, &moved_sigmas, &reweighed)) {
       result.status = SmootherStatus::kSingular;
       failed_ = true;
@@ -106,16 +106,16 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   return result;
 }
 
-// Weights, a step, and how far it went.
+// Does one iteration: weights, one step, and the length of that step in sigmas.
 bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
   if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
-    *reweighed = weights_.decide(iteration == 0, lever_arm_b_, &window_);
-  if (!chain_.solve(window_, lever_arm_b_, &corrections_)) return false;
+    *reweighed = weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
+  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;
   double moved_m = 0.0;
   for (int i = 0; i < window_.size(); ++i) {
     Keyframe& keyframe = window_.at(i);
     const EkfCorrection error =
-        whole_error(keyframe.active, corrections_[static_cast<std::size_t>(i)]);
+        full_error(keyframe.active, corrections_[static_cast<std::size_t>(i)]);
     moved_m = std::max(moved_m, error.segment<3>(kPosition).norm());
     leonav::add(error, keyframe.has_attitude, &keyframe.state);
     if (!is_finite(keyframe.state)) return false;
@@ -130,7 +130,7 @@ void Smoother::finish(SmootherResult* result) {
   result->state = newest.state.nav;
   result->time_offset_s = newest.has_attitude ? time_offset_of(newest.state.vehicle) : 0.0;
   EkfCovariance covariance;
-  chain_.newest_covariance(&covariance);
+  rts_solver_.newest_covariance(&covariance);
   const ActiveStates& active = newest.active;
   for (Index i = 0; i < active.core_size(); ++i) {
     const int row = active.core[static_cast<std::size_t>(i)];
@@ -139,7 +139,8 @@ void Smoother::finish(SmootherResult* result) {
       if (row < kInsSize && column < kInsSize) result->covariance(row, column) = covariance(i, j);
     }
   }
-  if (linked_ && !has_enough_satellites(window_)) result->status = SmootherStatus::kFewSatellites;
+  if (newest_follows_ && !has_enough_satellites(window_))
+    result->status = SmootherStatus::kFewSatellites;
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
   const double apart_m = (result->state.p_e - filter_state_.p_e).norm();
@@ -152,7 +153,7 @@ void Smoother::finish(SmootherResult* result) {
   }
 }
 
-void Smoother::settle(bool taken) {
+void Smoother::commit_or_roll_back(bool taken) {
   if (!solved_) return;
   solved_ = false;
   if (!taken) {
@@ -161,7 +162,7 @@ void Smoother::settle(bool taken) {
     return;
   }
   if (failed_) return;
-  for (int i = 1; i < window_.size(); ++i) relinker_(window_.at(i - 1), &window_.at(i));
+  for (int i = 1; i < window_.size(); ++i) repropagator_(window_.at(i - 1), &window_.at(i));
 }
 
 void Smoother::save() {
@@ -169,7 +170,7 @@ void Smoother::save() {
     const Keyframe& keyframe = window_.at(i);
     Saved& saved = saved_[static_cast<std::size_t>(i)];
     saved.state = keyframe.state;
-    saved.judged = keyframe.judged;
+    saved.weights_decided = keyframe.weights_decided;
     saved.factors.clear();
     for (const KeyframeMeasurement& measurement : keyframe.measurements)
       saved.factors.push_back(measurement.factor);
@@ -181,7 +182,7 @@ void Smoother::restore() {
     Keyframe& keyframe = window_.at(i);
     const Saved& saved = saved_[static_cast<std::size_t>(i)];
     keyframe.state = saved.state;
-    keyframe.judged = saved.judged;
+    keyframe.weights_decided = saved.weights_decided;
     for (std::size_t m = 0; m < saved.factors.size(); ++m)
       keyframe.measurements[m].factor = saved.factors[m];
   }

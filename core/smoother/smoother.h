@@ -1,26 +1,32 @@
-// The sliding-window smoother: keyframes in, the newest one's state out.
+// Smoother estimates the last keyframes together and returns the state of the newest one.
+//
+// It minimizes the cost of core/smoother/window_solver.h over a sliding window: a factor graph of
+// prior, process factors and measurements (Dellaert and Kaess, Factor Graphs for Robot Perception,
+// 2017), with the oldest keyframe marginalized. Position and velocity in ECEF, SI units.
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <memory>
 
-#include "core/smoother/chain_solver.h"
-#include "core/smoother/relink.h"
+#include "core/smoother/internal/rts_solver.h"
+#include "core/smoother/internal/window_weights.h"
+#include "core/smoother/repropagation.h"
 #include "core/smoother/smoother_config.h"
 #include "core/smoother/smoother_status.h"
 #include "core/smoother/window.h"
-#include "core/smoother/window_weights.h"
 
 namespace leonav {
 
-// Asked before every iteration but the first of a solve.
+// SolveBudget decides before every iteration but the first whether a solve may continue.
 class SolveBudget {
  public:
   virtual ~SolveBudget() = default;
+  // Returns whether another iteration may begin after `iterations_done`.
   virtual bool may_iterate(int iterations_done) = 0;
 };
 
+// Result of one solve.
 struct SmootherResult {
   SmootherStatus status = SmootherStatus::kNoFilter;
   int iterations = 0;
@@ -30,38 +36,42 @@ struct SmootherResult {
   Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
       Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
   int used = 0;                // measurements of the newest keyframe with a factor above zero
-  double time_offset_s = 0.0;  // estimated: the state is of so much later than its stamp
+  double time_offset_s = 0.0;  // estimated: the state is this much later than its stamp
 };
 
-// For every keyframe: add(), solve(), and settle() once it is known whether the result was taken.
-// Allocates when constructed, not after; never throws.
+// Smoother works keyframe by keyframe: add(), solve(), then commit_or_roll_back().
+//
+// The last call states whether the result was in time. Allocates when constructed, not after; never
+// throws.
 class Smoother {
  public:
+  // `lever_arm_b`: m, from the IMU to the antenna, body axes.
   Smoother(const SmootherConfig& config, const RobustConfig& robust,
-           const Eigen::Vector3d& lever_arm_b, const RelinkConfig& relink);
+           const Eigen::Vector3d& lever_arm_b, const RepropagationConfig& repropagation);
 
-  // A keyframe that does not follow the newest one starts a window of its own.
+  // Adds a keyframe; one that does not follow the newest one starts a new window.
   void add(const KeyframeInput& input);
-  // Iterates from where the last solve that was taken has left the window; the weights of all its
-  // measurements are decided anew at every iteration.
+  // Iterates from the state that the last committed solve left; the weights of all measurements are
+  // decided anew at every iteration.
   SmootherResult solve(SolveBudget* budget);
-  // Not taken: the window is as it was before solve(), so that what follows does not depend on how
-  // far that came.
-  void settle(bool taken);
+  // Commits the last solve if its result was taken. Otherwise the window returns to its state
+  // before solve(), so that later results do not depend on how many iterations were done.
+  void commit_or_roll_back(bool taken);
 
   const Window& window() const { return window_; }
-  std::uint64_t relinked() const { return relinker_.relinked(); }  // links, so far
+  // Returns how many process factors have been repropagated so far.
+  std::uint64_t repropagations() const { return repropagator_.repropagations(); }
 
  private:
-  // What a solve changes of a keyframe.
+  // The part of a keyframe that a solve changes.
   struct Saved {
     FilterState state;
     boost::container::static_vector<double, kMaxMeasurements> factors;
-    bool judged = false;
+    bool weights_decided = false;
   };
   void save();
   void restore();
-  void leave_oldest();
+  void marginalize_and_drop_oldest();
   bool iterate(int iteration, double* moved_sigmas, double* reweighed);
   void finish(SmootherResult* result);
 
@@ -70,17 +80,17 @@ class Smoother {
   Eigen::Vector3d lever_arm_b_;
   Window window_;
   WindowWeights weights_;
-  ChainSolver chain_;
-  Relinker relinker_;
+  RtsSolver rts_solver_;
+  Repropagator repropagator_;
   WindowCorrections corrections_;
   std::unique_ptr<Saved[]> saved_;
   std::unique_ptr<WindowPrior> next_prior_;
   NavState filter_state_;  // at the newest keyframe
   double filter_sigma_m_ = 0.0;
-  bool solved_ = false;  // and not settled
-  bool failed_ = false;  // it starts over with the next keyframe
-  bool linked_ = false;  // the newest keyframe follows the one before
-  bool lost_ = false;    // the window before the newest keyframe could not be kept
+  bool solved_ = false;          // and neither committed nor rolled back
+  bool failed_ = false;          // the window starts over with the next keyframe
+  bool newest_follows_ = false;  // the newest keyframe follows the one before it
+  bool window_lost_ = false;     // the window before the newest keyframe could not be kept
 };
 
 }  // namespace leonav

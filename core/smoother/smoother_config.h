@@ -1,21 +1,25 @@
-// Tuning of the sliding-window smoother. SI units.
+// SmootherConfig holds the settings of the sliding-window smoother, in SI units.
 #pragma once
 
 namespace leonav {
 
+// Settings of the smoother; the names of the configuration keys are those of group `smoother`.
 struct SmootherConfig {
   int window = 20;                    // keyframes, 1 to kMaxWindow
-  double keyframe_interval_s = 0.95;  // epochs nearer to the last keyframe are not one
+  double keyframe_interval_s = 0.95;  // an epoch closer to the last keyframe is not a keyframe
   int max_iterations = 4;             // linearizations of one solve
-  bool reweigh = true;  // at every iteration, over the whole window; false: the filter's weights
-  // Errors of a satellite's code nearer to each other than this count as one where the mean of its
-  // residuals over the window is judged; 0: each code by itself.
+  bool reweigh = true;  // decide weights anew at every iteration; false: the filter's weights
+  // Errors of a satellite's code less than this apart count as one when the mean of its residuals
+  // over the window is tested; 0: each code is tested by itself only.
   double code_alike_s = 5.0;
-  // Of one solve: after so long no further iteration begins. Only in the service; how many
-  // iterations came of it is in the journal. 0: until the deadline.
+  // Time after which no further iteration of a solve begins; 0: until the deadline. It acts in the
+  // service only: the journal records the number of iterations that resulted.
   double time_limit_s = 0.25;
-  // Largest correction of a position, in sigmas of the filter's, that ends a solve.
+  // A solve ends when the largest correction of a position, in sigmas of the filter's position, is
+  // below this.
   double converged_sigmas = 0.01;
+
+  bool operator==(const SmootherConfig&) const = default;
 };
 
 }  // namespace leonav

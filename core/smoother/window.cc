@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/smoother/definite_inverse.h"
+#include "core/smoother/internal/definite_inverse.h"
 
 namespace leonav {
 namespace {
@@ -24,34 +24,35 @@ Index whole_index(const ActiveStates& active, Index i) {
 }
 
 bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
-  KeyframeLink& link = keyframe->link;
+  ProcessFactor& process_factor = keyframe->process_factor;
   const ActiveStates& rows = keyframe->active;
   const ActiveStates& columns = before.active;
   if (input.process.transition.cols() != columns.before_ambiguities + columns.ambiguities + 1)
     return false;
-  link.F.resize(rows.size(), columns.size());
-  EkfCovariance& noise = link.noise;
+  process_factor.F.resize(rows.size(), columns.size());
+  EkfCovariance& noise = process_factor.noise;
   noise.resize(rows.size(), rows.size());
   for (Index i = 0; i < rows.size(); ++i) {
     const Index row = whole_index(rows, i);
     for (Index j = 0; j < columns.size(); ++j)
-      link.F(i, j) = input.process.transition(row, whole_index(columns, j));
+      process_factor.F(i, j) = input.process.transition(row, whole_index(columns, j));
     for (Index j = 0; j < rows.size(); ++j)
       noise(i, j) = input.process.noise(row, whole_index(rows, j));
   }
-  link.informed = input.process.informed;
-  if (link.informed) {
-    link.information.resize(columns.size(), columns.size());
-    link.gradient.resize(columns.size());
+  process_factor.has_information = input.process.has_information;
+  if (process_factor.has_information) {
+    process_factor.information.resize(columns.size(), columns.size());
+    process_factor.gradient.resize(columns.size());
     for (Index i = 0; i < columns.size(); ++i) {
       const Index row = whole_index(columns, i);
-      link.gradient(i) = input.process.gradient(row);
+      process_factor.gradient(i) = input.process.gradient(row);
       for (Index j = 0; j < columns.size(); ++j)
-        link.information(i, j) = input.process.information(row, whole_index(columns, j));
+        process_factor.information(i, j) = input.process.information(row, whole_index(columns, j));
     }
-    if (!link.information.allFinite() || !link.gradient.allFinite()) return false;
+    if (!process_factor.information.allFinite() || !process_factor.gradient.allFinite())
+      return false;
   }
-  return link.F.allFinite() && noise.allFinite();
+  return process_factor.F.allFinite() && noise.allFinite();
 }
 
 void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
@@ -61,8 +62,8 @@ void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
   keyframe->active = active_states(input);
   keyframe->measured_rate_b = input.measured_rate_b;
   keyframe->acceleration_e = input.acceleration_e;
-  keyframe->mast_e = input.mast_e;
-  keyframe->judged = false;
+  keyframe->vertical_antenna_offset_e = input.vertical_antenna_offset_e;
+  keyframe->weights_decided = false;
 }
 
 }  // namespace
@@ -100,11 +101,11 @@ bool Window::append(const KeyframeInput& input) {
   keyframe.satellites = input.satellites;
   keyframe.measurements = input.measurements;
   keyframe.block = input.block;
-  keyframe.block_whole = input.block_whole;
-  keyframe.before_block = input.before_block;
+  keyframe.block_complete = input.block_complete;
+  keyframe.sample_before_block = input.sample_before_block;
   keyframe.instants = input.instants;
-  keyframe.link.from = input.from;
-  keyframe.link.to = input.prior;
+  keyframe.process_factor.from = input.from;
+  keyframe.process_factor.to = input.prior;
   if (!make_link(input, before, &keyframe)) return false;
   keyframe.state = predicted_state(before, keyframe);
   ++size_;
@@ -119,16 +120,19 @@ void Window::drop_oldest(const WindowPrior& prior) {
 
 FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe) {
   const EkfCorrection moved =
-      active_part(before.active, difference(before.state, keyframe.link.from));
-  FilterState state = keyframe.link.to;
-  add(whole_error(keyframe.active, keyframe.link.F * moved), keyframe.has_attitude, &state);
+      active_part(before.active, difference(before.state, keyframe.process_factor.from));
+  FilterState state = keyframe.process_factor.to;
+  add(full_error(keyframe.active, keyframe.process_factor.F * moved), keyframe.has_attitude,
+      &state);
   return state;
 }
 
-EkfCorrection link_error(const Keyframe& before, const Keyframe& keyframe) {
-  EkfCorrection error = active_part(keyframe.active, difference(keyframe.state, keyframe.link.to));
+EkfCorrection process_error(const Keyframe& before, const Keyframe& keyframe) {
+  EkfCorrection error =
+      active_part(keyframe.active, difference(keyframe.state, keyframe.process_factor.to));
   error.noalias() -=
-      keyframe.link.F * active_part(before.active, difference(before.state, keyframe.link.from));
+      keyframe.process_factor.F *
+      active_part(before.active, difference(before.state, keyframe.process_factor.from));
   return error;
 }
 

@@ -1,4 +1,5 @@
-// The keyframes of the smoother, their links, and what is left of those that have gone.
+// Window holds the keyframes of the smoother, their process factors, and the prior from those that
+// were marginalized.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -7,16 +8,18 @@
 
 namespace leonav {
 
-// What all that has left the window says of its first keyframe: 0.5 (x - at)^T information (x - at)
-// - gradient^T (x - at), in active states. Linearized once, where that keyframe was when the one
-// before it left (first-estimate Jacobians).
+// The information from all marginalized keyframes about the window's first one.
+//
+// Its cost is 0.5 (x - at)^T information (x - at) - gradient^T (x - at), in active states. It was
+// linearized once, at that keyframe's estimate when the keyframe before it was marginalized
+// (first-estimate Jacobians).
 struct WindowPrior {
   FilterState at;
   EkfCovariance information;
   EkfCorrection gradient;
 };
 
-// Allocates when constructed, not after.
+// Window is a ring of keyframes in time order. Allocates when constructed, not after.
 class Window {
  public:
   // `capacity`: keyframes.
@@ -32,13 +35,13 @@ class Window {
   const Keyframe& newest() const { return at(size_ - 1); }
   const WindowPrior& prior() const { return prior_; }
 
-  // The only keyframe: the filter's state and covariance, which hold its measurements. False: the
-  // covariance is none.
+  // Starts a new window with the filter's state and covariance, which contain the input's
+  // measurements. Returns false if the covariance is not positive definite.
   bool start(const KeyframeInput& input);
-  // One more, at the state that the newest one predicts. Not when full. False: its process
-  // does not begin there or is not finite.
+  // Appends a keyframe at the state that the newest one predicts. Returns false if its process does
+  // not begin at the newest keyframe or is not finite. Precondition: not full().
   bool append(const KeyframeInput& input);
-  // The oldest leaves; `prior` is what it leaves behind.
+  // Removes the oldest keyframe; `prior` is the information it leaves about the next.
   void drop_oldest(const WindowPrior& prior);
 
  private:
@@ -53,9 +56,9 @@ class Window {
   WindowPrior prior_;
 };
 
-// Where the keyframe before predicts this one to be.
+// Returns the state of `keyframe` that the process factor predicts from `before`.
 FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe);
-// (x - to) - F (x_before - from), in active states.
-EkfCorrection link_error(const Keyframe& before, const Keyframe& keyframe);
+// Returns (x - to) - F (x_before - from), in active states.
+EkfCorrection process_error(const Keyframe& before, const Keyframe& keyframe);
 
 }  // namespace leonav

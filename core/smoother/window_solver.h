@@ -1,4 +1,4 @@
-// The window's cost and who minimizes it.
+// WindowSolver is the interface of the solvers that minimize the window's cost.
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -10,14 +10,17 @@ namespace leonav {
 // One error per keyframe, in active states.
 using WindowCorrections = boost::container::static_vector<EkfCorrection, kMaxWindow>;
 
-// The cost is half the sum of the prior's, every link's (link_error, weighed by N^-1) and every
-// measurement's (residual^2 factor / gain_variance), in the factors as they are.
+// The cost is half the sum of three kinds of terms:
+//   prior            (x_0 - at)^T information (x_0 - at) - 2 gradient^T (x_0 - at)
+//   process factors  e_k^T N_k^-1 e_k, with e_k = (x_k - to_k) - F_k (x_(k-1) - from_k)
+//   measurements     residual^2 factor / gain_variance, at the present factors
+// Motion constraints between two keyframes add a quadratic term on the first (see ProcessFactor).
 class WindowSolver {
  public:
   virtual ~WindowSolver() = default;
 
-  // Corrections that lead from the keyframes' states to, or towards, the least cost. False: the
-  // window has no unique solution, or not a finite one.
+  // Computes corrections that lead from the keyframes' states to, or towards, the minimum. Returns
+  // false if the window has no unique solution, or not a finite one.
   virtual bool solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
                      WindowCorrections* corrections) = 0;
 };

@@ -18,24 +18,6 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
-// Built anew, so that errors name --set and not the line of the text given with it. An anchor may
-// stand within itself: deeper than any configuration it is left as it is.
-YAML::Node without_places(const YAML::Node& given, int depth) {
-  constexpr int kDeepest = 16;
-  if (depth > kDeepest) return given;
-  if (given.IsScalar()) return YAML::Node(given.Scalar());
-  YAML::Node copy(given.Type());
-  if (given.IsSequence()) {
-    for (const YAML::Node& element : given) copy.push_back(without_places(element, depth + 1));
-  } else if (given.IsMap()) {
-    for (const auto& entry : given) {  // doubled keys too, which are an error later
-      copy.force_insert(without_places(entry.first, depth + 1),
-                        without_places(entry.second, depth + 1));
-    }
-  }
-  return copy;
-}
-
 void apply_override(const std::string& text, YAML::Node root) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
@@ -63,7 +45,7 @@ void apply_override(const std::string& text, YAML::Node root) {
   if (!value.IsSequence() && !value.IsScalar() && !value.IsNull()) {
     throw ConfigError("--set " + path + ": set one key at a time");
   }
-  node[keys.back()] = without_places(value, 0);
+  node[keys.back()] = value;
 }
 
 }  // namespace
@@ -76,16 +58,14 @@ std::string read_config_file(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
     throw ConfigError(path + ": cannot be opened: " + std::strerror(errno) +
-                      "; config/ has an example for each kind of vehicle");
+                      "; a configuration may be one line, \"preset: car\"");
   }
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
-void read_yaml(const std::string& text, const std::vector<std::string>& overrides,
-               ConfigSource* source, const std::function<void(ConfigReader&)>& read) {
-  const std::string& name = source->name;
+ConfigLayer text_layer(const std::string& text, const std::string& name) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) {
@@ -93,16 +73,37 @@ void read_yaml(const std::string& text, const std::vector<std::string>& override
           name + ":" + std::to_string(documents[1].Mark().line + 1) +
           ": a second document begins here ('---'), which would not be read; keep one");
     }
-    YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
-    if (root.IsNull()) throw ConfigError(name + ": is empty; config/ has examples");
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
+    if (root.IsNull()) throw ConfigError(name + ": is empty");
     if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
-    for (const std::string& text_of_one : overrides) apply_override(text_of_one, root);
-    ConfigReader reader(source, root, "");
-    read(reader);
-    reader.finish();
+    return {name, root};
   } catch (const YAML::Exception& error) {
     throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
   }
+}
+
+ConfigLayer override_layer(const std::vector<std::string>& overrides) {
+  const YAML::Node root(YAML::NodeType::Map);
+  for (const std::string& one : overrides) apply_override(one, root);
+  return {"--set", root, true};
+}
+
+void read_layers(const std::vector<ConfigLayer>& layers, ConfigSource* source,
+                 const std::function<void(ConfigReader&)>& read) {
+  std::vector<ConfigNode> roots;
+  for (const ConfigLayer& layer : layers) roots.push_back({&layer, layer.root});
+  try {
+    ConfigReader reader(source, roots, "");
+    read(reader);
+    reader.finish();
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(source->name + ": " + error.msg);
+  }
+}
+
+void read_yaml(const std::string& text, const std::vector<std::string>& overrides,
+               ConfigSource* source, const std::function<void(ConfigReader&)>& read) {
+  read_layers({text_layer(text, source->name), override_layer(overrides)}, source, read);
 }
 
 }  // namespace leonav

@@ -2,7 +2,8 @@
 
 #include <numbers>
 
-#include "core/capacity.h"
+#include "core/base/capacity.h"
+#include "core/navigator/interface/vehicle_defaults.h"
 
 namespace leonav {
 namespace {
@@ -13,17 +14,8 @@ constexpr double kPpm = 1e-6;
 constexpr double kHour = 3600.0;
 constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 constexpr double kMillisecond = 1e-3;
-// A bracket that settles: a tenth of a degree in an hour.
-constexpr double kTravelDirectionWander = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
-constexpr double kConfirming_s = 3.0;
-constexpr double kSettlingWander = 0.4 * kDegree;  // rad/sqrt(s)
 constexpr double kPercent = 0.01;
-// Tyres that get warm: a tenth of a percent in an hour.
-constexpr double kOdometerScaleWander = 0.1 * kPercent / kRootHour;  // 1/sqrt(s)
-// They do not move; so much, a centimetre and a tenth of a millisecond in an hour, that what was
-// found early is found again.
-constexpr double kLeverArmWander = 0.01 / kRootHour;                  // m/sqrt(s)
-constexpr double kTimeOffsetWander = 0.1 * kMillisecond / kRootHour;  // s/sqrt(s)
+constexpr const char* kKind = "vehicle.kind";
 
 // Correlation times from a second to a month.
 constexpr Bounds kCorrelationTime = {1.0, 2.6e6};
@@ -33,49 +25,30 @@ void read_thread(ConfigReader& group, ThreadConfig* config) {
   group.integer("cpu", -1, 1023, &config->cpu);
 }
 
-// On, off, or as the kind of vehicle has it.
-void read_switch(ConfigReader& group, const char* key, bool by_kind, bool* value) {
-  int choice = -1;
-  group.choice<int>(key, {{"by_kind", -1}, {"true", 1}, {"false", 0}}, &choice);
-  *value = choice < 0 ? by_kind : choice == 1;
-}
-
-// The direction of travel, where something tells of it.
+// The direction of travel is estimated where a constraint or an odometer measures it.
 void read_travel_direction(ConfigReader& group, const MotionConstraintConfig& motion,
                            VehicleConstantsConfig* config) {
   bool estimated = true;
-  double sigma = 2.0 * kDegree;
+  double sigma = kDefaultTravelDirectionSigma;
   group.boolean("estimate_travel_direction", &estimated);
   group.number("travel_direction_sigma_deg", {0.01, 20.0}, &sigma, kDegree);
-  if (!estimated || !(motion.non_holonomic || motion.odometer)) return;
-  if (motion.non_holonomic) config->count = ekf_index::kTravelPitch + 1;
-  for (const auto i : {ekf_index::kTravelYaw, ekf_index::kTravelPitch}) {
-    config->sigma[static_cast<std::size_t>(i)] = sigma;
-    config->wander[static_cast<std::size_t>(i)] = kTravelDirectionWander;
-  }
+  if (estimated) estimate_travel_direction(motion, sigma, config);
 }
 
 // Its scale factor is estimated from its first message on.
-void read_odometer(ConfigReader& group, bool wheeled, MotionConstraintConfig* motion,
-                   VehicleConstantsConfig* constants) {
-  double scale_sigma = 3.0 * kPercent;
-  read_switch(group, "odometer", wheeled, &motion->odometer);
-  motion->odometer_point_b = motion->point_b;
-  group.vector("odometer_point_b_m", {-100.0, 100.0}, &motion->odometer_point_b);
+void read_odometer(ConfigReader& group, const VehicleDefaults& defaults,
+                   MotionConstraintConfig* motion, VehicleConstantsConfig* constants) {
+  double scale_sigma = kDefaultOdometerScaleSigma;
+  group.switch_or("odometer", defaults.odometer, kKind, &motion->odometer);
+  group.vector_or("odometer_point_b_m", {-100.0, 100.0}, motion->point_b,
+                  "vehicle.constraint_point_b_m", &motion->odometer_point_b);
   group.number("odometer_sigma_m_s", {1e-4, 100.0}, &motion->odometer_sigma);
   group.number("odometer_scale_sigma_percent", {0.0, 50.0}, &scale_sigma, kPercent);
   group.number("odometer_resolution_m", {0.0, 10.0}, &motion->odometer_resolution);
-  if (!motion->odometer) return;
-  constants->sigma[ekf_index::kOdometerScale] = scale_sigma;
-  if (scale_sigma > 0.0) constants->wander[ekf_index::kOdometerScale] = kOdometerScaleWander;
+  if (motion->odometer) estimate_odometer_scale(scale_sigma, constants);
 }
 
-// A train has a cab at either end.
-double reverse_speed(VehicleKind kind) {
-  return kind == VehicleKind::kCar ? 5.0 : kind == VehicleKind::kRail ? 1000.0 : 0.0;
-}
-
-// Lever arm and time offset: beyond what is configured of them.
+// Corrections of the configured lever arm and time offset.
 void read_antenna_constants(ConfigReader& group, VehicleConstantsConfig* config) {
   bool lever_arm = false, time_offset = false;
   double lever_arm_sigma = 0.1, time_offset_sigma = 10.0 * kMillisecond;
@@ -83,15 +56,8 @@ void read_antenna_constants(ConfigReader& group, VehicleConstantsConfig* config)
   group.number("lever_arm_sigma_m", {1e-3, 100.0}, &lever_arm_sigma);
   group.boolean("estimate_time_offset", &time_offset);
   group.number("time_offset_sigma_ms", {1e-3, 1e3}, &time_offset_sigma, kMillisecond);
-  if (!lever_arm && !time_offset) return;
-  config->count = ekf_index::kMaxVehicle;
-  for (std::size_t axis = 0; axis < 3 && lever_arm; ++axis) {
-    config->sigma[ekf_index::kLeverArm + axis] = lever_arm_sigma;
-    config->wander[ekf_index::kLeverArm + axis] = kLeverArmWander;
-  }
-  if (!time_offset) return;
-  config->sigma[ekf_index::kTimeOffset] = time_offset_sigma;
-  config->wander[ekf_index::kTimeOffset] = kTimeOffsetWander;
+  if (lever_arm) estimate_lever_arm(lever_arm_sigma, config);
+  if (time_offset) estimate_time_offset(time_offset_sigma, config);
 }
 
 }  // namespace
@@ -108,9 +74,9 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
                              {"handheld", VehicleKind::kHandheld}},
                             &config->kind);
   MotionConstraintConfig& motion = config->motion.constraints;
-  const bool wheeled = config->kind == VehicleKind::kCar || config->kind == VehicleKind::kRail;
-  read_switch(group, "non_holonomic", wheeled, &motion.non_holonomic);
-  read_switch(group, "zero_velocity", wheeled, &motion.zero_velocity);
+  const VehicleDefaults defaults = defaults_of(config->kind);
+  group.switch_or("non_holonomic", defaults.non_holonomic, kKind, &motion.non_holonomic);
+  group.switch_or("zero_velocity", defaults.zero_velocity, kKind, &motion.zero_velocity);
   group.number("constraint_interval_s", {0.1, 1.0}, &motion.interval_s);
   group.vector("constraint_point_b_m", {-100.0, 100.0}, &motion.point_b);
   group.number("side_velocity_sigma_m_s", {1e-4, 100.0}, &motion.side_sigma);
@@ -119,7 +85,7 @@ void read_vehicle(ConfigReader& group, NavigatorConfig* navigator) {
   group.number("standing_velocity_sigma_m_s", {1e-4, 100.0}, &motion.standing_velocity_sigma);
   group.number("standing_rate_sigma_deg_s", {1e-6, 100.0}, &motion.standing_rate_sigma, kDegree);
   group.number("constraint_gate", {1.0, 100.0}, &motion.gate);
-  read_odometer(group, wheeled, &motion, &navigator->ekf.vehicle);
+  read_odometer(group, defaults, &motion, &navigator->ekf.vehicle);
   read_travel_direction(group, motion, &navigator->ekf.vehicle);
   read_antenna_constants(group, &navigator->ekf.vehicle);
 }
@@ -144,33 +110,31 @@ void read_imu(ConfigReader& group, ImuErrorModel* config) {
 }
 
 void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config) {
-  const bool handheld = vehicle.kind == VehicleKind::kHandheld;
-  read_switch(group, "velocity_matching", !handheld, &config->velocity_matching);
-  group.number("matching_window_s", {5.0, 120.0}, &config->matching_window_s);
-  group.number("max_matching_sigma_deg", {0.1, 20.0}, &config->max_matching_sigma, kDegree);
+  const VehicleDefaults defaults = defaults_of(vehicle.kind);
   config->lever_arm_b = vehicle.lever_arm_b;
-  read_switch(group, "heading_watch", !handheld, &config->heading_watch);
-  std::optional<double> reverse, wander, confirming;
-  group.number("max_reverse_speed_m_s", {0.0, 1000.0}, &reverse);
-  config->max_reverse_speed_m_s = reverse.value_or(reverse_speed(vehicle.kind));
-  group.number("confirming_s", {0.0, 60.0}, &confirming);
-  config->confirming_s = confirming.value_or(handheld ? 0.0 : kConfirming_s);
-  group.number("settling_wander_deg_per_sqrt_s", {0.0, 10.0}, &wander, kDegree);
-  config->settling_wander = wander.value_or(handheld ? 0.0 : kSettlingWander);
-  group.number("settling_s", {0.0, 600.0}, &config->settling_s);
   group.number("levelling_window_s", {0.05, 60.0}, &config->levelling_window_s);
   group.number("levelling_sigma_deg", {0.01, 45.0}, &config->levelling_sigma, kDegree);
+  group.number("static_gyro_deg_per_s", {0.0, 100.0}, &config->static_gyro_rad_s, kDegree);
+  group.number("static_accel_m_s2", {0.0, 10.0}, &config->static_accel_m_s2);
+  group.number("max_gyrocompass_sigma_deg", {0.0, 45.0}, &config->max_gyrocompass_sigma, kDegree);
+  group.number("initial_heading_deg", {-360.0, 360.0}, &config->initial_heading, kDegree);
+  group.number("initial_heading_sigma_deg", {0.01, 180.0}, &config->initial_heading_sigma, kDegree);
   group.number("min_course_speed_m_s", {0.05, 100.0}, &config->min_course_speed_m_s);
   group.number("max_course_sigma_deg", {0.1, 90.0}, &config->max_course_sigma, kDegree);
   group.number("course_window_s", {0.1, 60.0}, &config->course_window_s);
-  group.number("course_against_heading_deg", {0.01, 90.0}, &config->course_against_heading,
-               kDegree);
+  group.number("course_against_heading_deg", {0.01, 90.0}, &config->course_heading_sigma, kDegree);
   group.number("turning_arm_m", {0.0, 100.0}, &config->turning_arm_m);
-  group.number("initial_heading_deg", {-360.0, 360.0}, &config->initial_heading, kDegree);
-  group.number("initial_heading_sigma_deg", {0.01, 180.0}, &config->initial_heading_sigma, kDegree);
-  group.number("static_gyro_deg_per_s", {0.0, 100.0}, &config->static_gyro_rad_s, kDegree);
-  group.number("max_gyrocompass_sigma_deg", {0.0, 45.0}, &config->max_gyrocompass_sigma, kDegree);
-  group.number("static_accel_m_s2", {0.0, 10.0}, &config->static_accel_m_s2);
+  group.number_or("max_reverse_speed_m_s", {0.0, 1000.0}, defaults.max_reverse_speed_m_s, kKind,
+                  &config->max_reverse_speed_m_s);
+  group.switch_or("velocity_matching", defaults.velocity_matching, kKind,
+                  &config->velocity_matching);
+  group.number("matching_window_s", {5.0, 120.0}, &config->matching_window_s);
+  group.number("max_matching_sigma_deg", {0.1, 20.0}, &config->max_matching_sigma, kDegree);
+  group.number_or("confirming_s", {0.0, 60.0}, defaults.confirming_s, kKind, &config->confirming_s);
+  group.number_or("settling_wander_deg_per_sqrt_s", {0.0, 10.0}, defaults.settling_random_walk,
+                  kKind, &config->settling_random_walk, kDegree);
+  group.number("settling_s", {0.0, 600.0}, &config->settling_s);
+  group.switch_or("heading_watch", defaults.heading_watch, kKind, &config->heading_watch);
 }
 
 void read_ekf(ConfigReader& group, NavigatorConfig* config) {
@@ -199,7 +163,7 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
                &ekf.clock.inter_system_drift_noise);
   group.number("code_correlation_time_s", {0.0, 1e4}, &ekf.code_correlation_time_s);
   group.number("doppler_correlation_time_s", {0.0, 1e4}, &ekf.doppler_correlation_time_s);
-  group.number("hole_attitude_noise_rad_per_sqrt_s", {0.0, 10.0}, &ekf.hole_attitude_noise);
+  group.number("hole_attitude_noise_rad_per_sqrt_s", {0.0, 10.0}, &ekf.gap_attitude_noise);
   group.number("prediction_suspect_ratio", {1.0, 100.0}, &ekf.prediction_suspect_ratio);
   group.number("reset_ratio", {0.1, 1.0}, &ekf.reset_ratio);
   group.integer("reset_epochs", 1, 1000, &ekf.reset_epochs);

@@ -1,5 +1,6 @@
 // Reads one group of a YAML configuration into typed fields. Each key is named once, where it is
 // read: that one line gives its type, unit, bounds and, by what the field held before, its default.
+// Every key that is read is recorded with all of these.
 #pragma once
 #include <yaml-cpp/yaml.h>
 
@@ -12,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/config/config_key.h"
+
 namespace leonav {
 
 // Bounds in the unit of the file, both allowed.
@@ -20,19 +23,32 @@ struct Bounds {
   double max = std::numeric_limits<double>::infinity();
 };
 
-// What all groups of one file share.
+// One source of values: a preset, a file, or the command line. Of several a later one takes
+// precedence, key by key.
+struct ConfigLayer {
+  std::string name;           // for errors: of the file, or "preset NAME"
+  YAML::Node root;            // a map, or null where nothing is given
+  bool command_line = false;  // its values have no line
+};
+
+// A layer's value of one key, or its part of one group.
+struct ConfigNode {
+  const ConfigLayer* layer = nullptr;
+  YAML::Node node;
+};
+
+// What all groups of one configuration share.
 struct ConfigSource {
-  std::string name;                 // for errors
-  std::vector<std::string> absent;  // known keys that were left at their defaults
-  // Overrides that say in full what was read from files: with them the configuration reads none.
-  std::vector<std::string> resolved;
+  std::string name;                     // for errors where no layer has the key
   std::vector<std::string> given = {};  // keys and groups that are there
+  std::vector<ConfigKey> keys = {};     // every key that was read, in that order
 };
 
 class ConfigReader {
  public:
-  // `node` must be a map or absent; `path` is "" at the root, else e.g. "gnss.gps".
-  ConfigReader(ConfigSource* source, YAML::Node node, std::string path);
+  // `nodes`: the layers' parts of the group, later ones taking precedence; each must be a map or
+  // null. `path` is "" at the root, else e.g. "gnss.gps".
+  ConfigReader(ConfigSource* source, std::vector<ConfigNode> nodes, std::string path);
 
   // `*value` is set to the file's number times `unit`, or left alone if the key is absent.
   void number(const char* key, Bounds bounds, double* value, double unit = 1.0);
@@ -42,29 +58,40 @@ class ConfigReader {
   void numbers(const char* key, Bounds bounds, std::vector<double>* values);
   void integer(const char* key, int min, int max, int* value);
   void boolean(const char* key, bool* value);
-  void text(const char* key, std::string* value);
+  // `allowed`: its values in words.
+  void text(const char* key, std::string* value, const std::string& allowed = "text");
+  // "~" stands for none.
+  void text(const char* key, std::optional<std::string>* value, const std::string& allowed);
   // Whether the key is there with a single value; it is not counted as asked for.
   bool is_scalar(const char* key) const;
-  // A list of scalars; false if absent.
-  bool list(const char* key, std::vector<std::string>* values);
+  // A list of scalars; left alone, and false, if absent.
+  bool list(const char* key, std::vector<std::string>* values, const std::string& allowed = "list");
   void group(const char* key, const std::function<void(ConfigReader&)>& read);
   // A list of groups; false if absent.
   bool groups(const char* key, const std::function<void(ConfigReader&)>& read);
+
+  // Keys whose default depends on another key, `from`: absent, or given as "~" (a switch:
+  // "by_kind"), they have the value `fallback`.
+  void number_or(const char* key, Bounds bounds, double fallback, const char* from, double* value,
+                 double unit = 1.0);
+  void vector_or(const char* key, Bounds bounds, const Eigen::Vector3d& fallback, const char* from,
+                 Eigen::Vector3d* value);
+  void switch_or(const char* key, bool fallback, const char* from, bool* value);
 
   template <typename Enum>
   void choice(const char* key, const std::vector<std::pair<std::string, Enum>>& choices,
               Enum* value) {
     std::vector<std::string> names;
-    for (const auto& [name, meaning] : choices) names.push_back(name);
-    if (const auto index = choice_index(key, names)) *value = choices[*index].second;
+    std::string built_in;
+    for (const auto& [name, meaning] : choices) {
+      names.push_back(name);
+      if (meaning == *value) built_in = name;
+    }
+    if (const auto index = choice_index(key, names, built_in)) *value = choices[*index].second;
   }
-  // Which of `names` the key's value is; throws, listing them, if it is none.
-  std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names);
 
-  // `key` stands for what a file said: `value` is its value in YAML.
-  void resolve(const char* key, const std::string& value) {
-    source_->resolved.push_back(path_of(key) + "=" + value);
-  }
+  // `key` was replaced by what a file contains that the key `origin` names: `value`, in YAML.
+  void resolve(const char* key, const std::string& value, const char* origin);
 
   // Where `key` stands, for errors that show later: "FILE:LINE: group.key", or "--set group.key".
   std::string where(const char* key) const;
@@ -76,16 +103,25 @@ class ConfigReader {
   void finish() const;
 
  private:
-  YAML::Node find(const char* key);
-  std::string scalar(const char* key, const YAML::Node& node, const char* expected) const;
-  double parse_number(const char* key, const YAML::Node& node, Bounds bounds) const;
-  [[noreturn]] void fail_at(const YAML::Node& node, const std::string& key,
+  using Found = std::optional<ConfigNode>;
+  // Which of `names` the key's value is; throws, listing them, if it is none.
+  std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names,
+                                          const std::string& built_in);
+  Found look_up(const char* key) const;
+  Found find(const char* key);
+  ConfigKey& record(const char* key, const Found& found, std::string allowed, std::string built_in);
+  // The default that follows from the key `from` holds.
+  static void fall_back(ConfigKey* key, const char* from, std::string value);
+  Eigen::Vector3d parse_vector(const char* key, const ConfigNode& found, Bounds bounds) const;
+  std::string scalar(const char* key, const ConfigNode& found, const char* expected) const;
+  double parse_number(const char* key, const ConfigNode& found, Bounds bounds) const;
+  [[noreturn]] void fail_at(const ConfigNode& at, const std::string& key,
                             const std::string& message) const;
-  std::string where_is(const YAML::Node& node, const std::string& key) const;
+  std::string where_is(const ConfigNode& at, const std::string& key) const;
   std::string path_of(const std::string& key) const;
 
   ConfigSource* source_;
-  YAML::Node node_;
+  std::vector<ConfigNode> nodes_;
   std::string path_;
   std::vector<std::string> known_;
 };

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/navigator/navigator_config.h"
+#include "core/navigator/interface/navigator_config.h"
+#include "daemon/config/config_key.h"
 
 namespace leonav {
 
@@ -11,6 +12,8 @@ namespace leonav {
 struct DrillConfig {
   int late_solve_every = 0;  // epochs; 0: never
   double late_solve_s = 0.8;
+
+  bool operator==(const DrillConfig&) const = default;
 };
 
 struct LcmConfig {
@@ -18,35 +21,42 @@ struct LcmConfig {
   std::string url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
   std::string prefix = "LEONAV_";
   int receive_queue = 4096;  // messages per channel that liblcm keeps while `io` is busy
+
+  bool operator==(const LcmConfig&) const = default;
 };
 
 struct JournalConfig {
   std::string path;  // empty: no journal
   double flush_interval_s = 1.0;
+
+  bool operator==(const JournalConfig&) const = default;
 };
 
 struct CheckpointConfig {
   std::string path;  // empty: none is read or written
   double interval_s = 10.0;
+
+  bool operator==(const CheckpointConfig&) const = default;
 };
 
 struct ThreadConfig {
   int priority = 0;  // SCHED_FIFO priority 1-99; 0: the ordinary scheduler
   int cpu = -1;      // pinned to this processor; -1: any
+
+  bool operator==(const ThreadConfig&) const = default;
 };
 
 struct ThreadsConfig {
   bool lock_memory = true;  // mlockall
   ThreadConfig io, ins, gnss, smoother, out;
+
+  bool operator==(const ThreadsConfig&) const = default;
 };
 
-// Where the configuration came from, for the journal.
-struct ConfigText {
-  std::string name;  // the file
-  std::string text;  // its content; empty: not from a file
-  // group.key=value, of the command line and then of what the files said that the text names: text
-  // and overrides give the same configuration where those files are not, or have changed.
-  std::vector<std::string> overrides;
+// Where the configuration came from, and what it is in full.
+struct ConfigOrigin {
+  std::string name;             // the file, or "preset NAME"
+  std::vector<ConfigKey> keys;  // every key, in the order of the reference; empty: not from a file
 };
 
 struct DaemonConfig {
@@ -56,7 +66,7 @@ struct DaemonConfig {
   CheckpointConfig checkpoint;
   ThreadsConfig threads;
   DrillConfig drill;
-  ConfigText source;
+  ConfigOrigin source;
 };
 
 }  // namespace leonav

@@ -1,7 +1,7 @@
-#include <charconv>
 #include <numbers>
 
 #include "daemon/config/config_groups.h"
+#include "daemon/config/internal/yaml_text.h"
 #include "daemon/config/load_config.h"
 #include "drivers/blq/blq_reader.h"
 #include "drivers/text/parse.h"
@@ -19,9 +19,7 @@ std::string list_of(const BlqRows& rows) {
   std::string text;
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     for (Eigen::Index column = 0; column < rows.cols(); ++column) {
-      char digits[32];
-      const auto end = std::to_chars(digits, digits + sizeof digits, rows(row, column)).ptr;
-      text += (text.empty() ? "" : ", ") + std::string(digits, end);
+      text += (text.empty() ? "" : ", ") + number_text(rows(row, column));
     }
   }
   return "[" + text + "]";
@@ -59,8 +57,9 @@ void read_ocean_loading(ConfigReader& group, GnssConfig* config) {
     try {
       const BlqRows rows = read_blq(file, station).rows;
       config->ocean_loading = ocean_loading(rows);
-      group.resolve(kFile, "\"\"");
-      group.resolve(kCoefficients, list_of(rows));
+      group.resolve(kCoefficients, list_of(rows), kFile);
+      group.resolve(kFile, "\"\"", kFile);
+      group.resolve(kStation, "\"\"", kFile);
     } catch (const FileError& error) {
       group.fail(kFile, error.what());
     }

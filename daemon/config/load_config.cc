@@ -1,24 +1,16 @@
 #include "daemon/config/load_config.h"
 
+#include <optional>
+#include <utility>
+
 #include "daemon/config/config_file.h"
 #include "daemon/config/config_groups.h"
 #include "daemon/config/config_reader.h"
+#include "daemon/config/internal/yaml_text.h"
+#include "daemon/config/presets.h"
 
 namespace leonav {
 namespace {
-
-// A consumer MEMS sensor: to take too poor an IMU is slow, to take too good a one is wrong.
-ImuErrorModel default_imu() {
-  constexpr double kDegree = 0.017453292519943295;
-  ImuErrorModel imu;
-  imu.angle_random_walk = 0.3 * kDegree / 60.0;
-  imu.velocity_random_walk = 0.1 / 60.0;
-  imu.gyro_bias = {1000.0 * kDegree / 3600.0, 1000.0};
-  imu.accel_bias = {20000.0e-5, 1000.0};
-  imu.gyro_scale = {5000.0e-6, 10000.0};
-  imu.accel_scale = {5000.0e-6, 10000.0};
-  return imu;
-}
 
 // liblcm subscribes by regular expressions, in which other characters have meanings of their own.
 void check_prefix(const ConfigReader& group, const std::string& prefix) {
@@ -33,7 +25,9 @@ DaemonConfig read_root(ConfigReader& root) {
   DaemonConfig config;
   NavigatorConfig& navigator = config.navigator;
   navigator.gnss = default_gnss_config();
-  navigator.imu = default_imu();
+  navigator.imu = consumer_mems_errors();
+  std::optional<std::string> preset;  // its layers are among those that are read
+  root.text("preset", &preset, "~ or one of " + preset_names());
   root.choice<Estimator>("estimator",
                          {{"ekf", Estimator::kEkf}, {"smoother", Estimator::kSmoother}},
                          &navigator.estimator);
@@ -60,39 +54,36 @@ DaemonConfig read_root(ConfigReader& root) {
   return config;
 }
 
-}  // namespace
-
-DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides,
-                         std::vector<std::string>* absent) {
-  return load_config_text(read_config_file(path), path, overrides, absent);
+DaemonConfig load_layers(ConfigLayer file, const std::vector<std::string>& overrides) {
+  const std::string name = file.name;
+  std::vector<ConfigLayer> own = {std::move(file), override_layer(overrides)};
+  std::vector<ConfigLayer> layers = preset_layers(own);
+  layers.insert(layers.end(), own.begin(), own.end());
+  ConfigSource source{name};
+  DaemonConfig config;
+  read_layers(layers, &source, [&](ConfigReader& root) { config = read_root(root); });
+  config.source = {name, std::move(source.keys)};
+  return config;
 }
 
-std::string text_override(const std::string& key, const std::string& value) {
-  static constexpr std::string_view kHex = "0123456789abcdef";
-  std::string text = key + "=\"";
-  for (const char c : value) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
-      text += {'\\', 'x', kHex[byte >> 4], kHex[byte & 0xf]};
-    } else {
-      if (c == '"' || c == '\\') text += '\\';
-      text += c;
-    }
-  }
-  return text + "\"";
+}  // namespace
+
+DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides) {
+  return load_config_text(read_config_file(path), path, overrides);
 }
 
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides,
-                              std::vector<std::string>* absent) {
-  ConfigSource source{name, {}, {}};
-  DaemonConfig config;
-  read_yaml(text, overrides, &source, [&](ConfigReader& root) { config = read_root(root); });
-  config.source = {name, text, overrides};
-  auto& recorded = config.source.overrides;
-  recorded.insert(recorded.end(), source.resolved.begin(), source.resolved.end());
-  if (absent != nullptr) *absent = source.absent;
-  return config;
+                              const std::vector<std::string>& overrides) {
+  return load_layers(text_layer(text, name), overrides);
+}
+
+DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides) {
+  find_preset(name, "--preset");
+  return load_layers(text_layer("preset: " + name, "preset " + name), overrides);
+}
+
+std::string text_override(const std::string& key, const std::string& value) {
+  return key + "=" + quoted_text(value);
 }
 
 }  // namespace leonav

@@ -1,4 +1,7 @@
-// The YAML configuration file -> DaemonConfig.
+// The YAML configuration -> DaemonConfig.
+//
+// Built-in defaults are overridden by a preset (the key `preset`), the preset by the keys of the
+// file, and these by the overrides of the command line, key by key.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -15,20 +18,19 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Keys that are absent keep their defaults; a key that is unknown, repeated, of the wrong type or
-// out of range throws ConfigError. Each override is "group.key=value", value in YAML, applied to
-// the tree before anything is judged, so that it is judged like the file. `absent` (if given)
-// receives every known key that the file left at its default. Files that the configuration names
-// are read here and once; `source.overrides` of the result holds what they said.
-DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {},
-                         std::vector<std::string>* absent = nullptr);
-
-// The override that sets `key` to exactly `value`, which YAML would otherwise read in its own way.
-std::string text_override(const std::string& key, const std::string& value);
+// A key that is unknown, repeated, of the wrong type or out of range throws ConfigError. Each
+// override is "group.key=value", value in YAML, and is judged like the file. Files that the
+// configuration names are read here and once; `source` of the result has their contents.
+DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {});
 
 // The same from text; `name` stands for the file in errors.
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides = {},
-                              std::vector<std::string>* absent = nullptr);
+                              const std::vector<std::string>& overrides = {});
+
+// The configuration of a preset alone.
+DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides = {});
+
+// The override that sets `key` to exactly `value`, which YAML would otherwise read in its own way.
+std::string text_override(const std::string& key, const std::string& value);
 
 }  // namespace leonav

@@ -8,18 +8,22 @@
 #include <csignal>
 #include <ctime>
 #include <exception>
+#include <iostream>
 #include <thread>
 #include <utility>
 
-#include "daemon/checkpoint_file.h"
-#include "daemon/checkpoint_text.h"
+#include "daemon/checkpoint/checkpoint_file.h"
+#include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
-#include "daemon/engine.h"
-#include "daemon/health.h"
-#include "daemon/lcm_link.h"
-#include "daemon/service_manager.h"
-#include "daemon/thread_watch.h"
-#include "tools/common/arguments.h"
+#include "daemon/config/presets.h"
+#include "daemon/engine/engine.h"
+#include "daemon/health/health_monitor.h"
+#include "daemon/health/thread_monitor.h"
+#include "daemon/service/lcm_link.h"
+#include "daemon/service/service_manager.h"
+#include "daemon/text/checkpoint_text.h"
+#include "daemon/threads/wall_clock.h"
+#include "tools/common/configuration_options.h"
 
 namespace {
 
@@ -79,7 +83,7 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
                const std::atomic<bool>& io_failed) {
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
-  ThreadWatch watch(engine);
+  ThreadMonitor watch(engine);
   CheckpointLog checkpoint_log;
   std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
@@ -95,10 +99,11 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
       spdlog::warn("not as it should be: {}", health->suspicions());
     last_suspicions = health->suspicions();
     checkpoint_log.look(engine);
-    const std::string hanging = watch.hanging();
-    if (hanging.empty()) manager.feed_watchdog();
-    if (!hanging.empty() && hanging != last_hanging) spdlog::error("thread hangs: {}", hanging);
-    last_hanging = hanging;
+    const std::string stalled_threads = watch.stalled_threads();
+    if (stalled_threads.empty()) manager.feed_watchdog();
+    if (!stalled_threads.empty() && stalled_threads != last_hanging)
+      spdlog::error("thread hangs: {}", stalled_threads);
+    last_hanging = stalled_threads;
   }
 }
 
@@ -174,37 +179,58 @@ int run(const DaemonConfig& config) {
   return 0;
 }
 
-// The configuration file with everything the command line changes in it, so that a journal holds it
+// The configuration with everything the command line changes in it, so that a journal holds it
 // all.
 DaemonConfig configuration(const Arguments& arguments) {
-  std::vector<std::string> overrides = arguments.all("--set");
+  std::vector<std::string> overrides;
   if (arguments.has("--lcm-url")) {
     overrides.push_back(text_override("lcm.url", arguments.get("--lcm-url")));
   }
   if (arguments.has("--journal")) {
     overrides.push_back(text_override("journal.path", arguments.get("--journal")));
   }
-  return load_config(arguments.required("--config"), overrides);
+  return load_configuration(arguments, overrides);
+}
+
+// Throws ConfigError where the configuration is wrong.
+int check(const Arguments& arguments) {
+  const DaemonConfig config = configuration(arguments);
+  const bool changes = arguments.has("--changes");
+  std::cout << effective_text(config.source, changes ? Extent::kChanges : Extent::kAllKeys);
+  spdlog::info("{}: good", config.source.name);
+  return 0;
 }
 
 int daemon_main(int argc, char** argv) {
-  Arguments arguments("leonavd", "--config FILE [options]",
-                      "The navigation daemon: takes IMU and GNSS from LCM, publishes position, "
-                      "velocity and attitude.\nSIGTERM and SIGINT end it cleanly, with the journal "
-                      "complete; a second one at once.\nExit codes: 0 stopped cleanly, 1 failure "
-                      "while running, 2 command line, 3 configuration, 4 LCM, 5 journal.");
-  arguments.option("--config", "FILE", "configuration; config/ has commented examples")
-      .option("--lcm-url", "URL", "instead of lcm.url")
+  Arguments arguments(
+      "leonavd", "--config FILE [options]\n       leonavd --check [--config] FILE [options]",
+      "The navigation daemon: takes IMU and GNSS from LCM, publishes position, velocity and "
+      "attitude.\nSIGTERM and SIGINT end it cleanly, with the journal complete; a second one at "
+      "once.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
+      "configuration, 4 LCM, 5 journal.");
+  add_configuration_options(&arguments);
+  arguments.option("--lcm-url", "URL", "instead of lcm.url")
       .option("--journal", "FILE",
               "instead of journal.path; an LCM log that replays bit for bit; a file "
               "that exists is kept, and FILE.1, FILE.2, ... written")
-      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+      .flag("--check",
+            "run nothing: print the effective value of every key and where it is from, or what is "
+            "wrong")
+      .flag("--changes", "with --check: print only the keys that differ from the defaults")
+      .flag("--reference", "print every key with its default, its range and its meaning");
   if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.has("--reference")) {
+    std::cout << reference_text();
+    return 0;
+  }
+  const bool checks = arguments.has("--check");
+  if (checks && arguments.positional().size() == 1) arguments.take_positional_as("--config");
   if (!arguments.positional().empty()) {
     throw UsageError("unexpected argument '" + arguments.positional().front() +
                      "' (leonavd --help)");
   }
-  return run(configuration(arguments));
+  if (arguments.has("--changes") && !checks) throw UsageError("--changes goes with --check");
+  return checks ? check(arguments) : run(configuration(arguments));
 }
 
 int guarded_main(int argc, char** argv) {

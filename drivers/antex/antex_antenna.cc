@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/gnss/signal.h"
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
+#include "core/gnss/signals/signal.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
@@ -27,7 +27,7 @@ bool is_other_satellite(std::string_view name) {
          is_digit(name[1]) && is_digit(name[2]);
 }
 
-// The system of a band's letter; LEO satellites of all four letters have one set of bands.
+// Returns the system of a band's letter; LEO satellites of all four letters share one set of bands.
 std::optional<System> system_of(char letter) {
   switch (letter) {
     case 'G':
@@ -46,7 +46,7 @@ std::optional<System> system_of(char letter) {
   }
 }
 
-// Number of points from `first` to `last` in steps, or 0 where that is no whole number of steps.
+// Returns the number of points from `first` to `last`, or 0 where the steps do not fit.
 int points(double first, double last, double step) {
   if (!(step > 0.0) || !(last >= first)) return 0;
   const double count = (last - first) / step;
@@ -58,7 +58,8 @@ int points(double first, double last, double step) {
 
 AntexAntenna::Problem AntexAntenna::line(std::string_view text) {
   const std::string_view label = trim(columns(text, 60, 20));
-  // Rows of values go far beyond column 60; within a band nothing else begins with a number there.
+  // Rows of values extend far beyond column 60; within a band no other line begins with a number
+  // there.
   const std::string_view head = trim(columns(text, 0, 8));
   if (in_frequency_ && label != "NORTH / EAST / UP" && label != "END OF FREQUENCY" &&
       label != "COMMENT" && (head == "NOAZI" || parse_double(head))) {
@@ -86,7 +87,7 @@ AntexAntenna::Problem AntexAntenna::line(std::string_view text) {
   if (label == "START OF FREQUENCY") return start_frequency(text);
   if (label == "END OF FREQUENCY") return end_frequency();
   if (label == "NORTH / EAST / UP") return offset_line(text);
-  return {};  // METH / BY, # OF FREQUENCIES, SINEX CODE and what later versions add
+  return {};  // METH / BY, # OF FREQUENCIES, SINEX CODE and additions of later versions
 }
 
 AntexAntenna::Problem AntexAntenna::type_line(std::string_view text) {
@@ -124,7 +125,8 @@ AntexAntenna::Problem AntexAntenna::time_line(std::string_view text, GpsTime* ti
     return "time of validity is unreadable";
   }
   const GpsTime read = from_calendar({*year, *month, *day, *hour, *minute, *second});
-  // Satellites older than GPS time begin with it: unset would mean the same.
+  // An instant before the beginning of GPS time stays unset, which means the same for a start of
+  // validity.
   if (read.nanoseconds() > 0) *time = read;
   return {};
 }
@@ -206,7 +208,7 @@ AntexAntenna::Problem AntexAntenna::end_frequency() {
   return {};
 }
 
-// By azimuth where the model keeps that: at receivers, and as fine as there is room for.
+// The grid keeps the azimuths where the model does: for receivers, as fine as the capacity allows.
 void AntexAntenna::fill_grid(AntennaGrid* grid) {
   const bool whole = !is_satellite_ && !by_azimuth_.empty();
   const bool fits = by_azimuth_.size() <= kMaxAntennaValues;

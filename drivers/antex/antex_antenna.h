@@ -1,16 +1,16 @@
-// One antenna of an ANTEX file, line by line.
+// This unit parses one antenna of an ANTEX file, line by line.
 #pragma once
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/gnss/antenna_model.h"
+#include "core/gnss/propagation/antenna_model.h"
 
 namespace leonav {
 
-// Takes the lines between START OF ANTENNA and END OF ANTENNA. Each function returns what is wrong,
-// if anything is; the antenna is then not to be used.
+// The parser takes the lines between START OF ANTENNA and END OF ANTENNA. Each function returns the
+// error, if there is one; the antenna must then not be used.
 class AntexAntenna {
  public:
   using Problem = std::optional<std::string>;
@@ -18,15 +18,17 @@ class AntexAntenna {
   Problem line(std::string_view text);
   Problem finish();  // after the last line
 
-  // What the antenna is, known after its line TYPE / SERIAL NO.
+  // Identity of the antenna, valid after its line TYPE / SERIAL NO.
   bool is_satellite() const { return is_satellite_; }
-  const std::optional<SatelliteId>& satellite() const { return satellite_; }  // of a system in use
-  const std::string& type() const { return type_; }                           // twenty characters
-  const std::string& serial() const { return serial_; }  // of a single receiver antenna; else empty
+  // Unset for a system not used.
+  const std::optional<SatelliteId>& satellite() const { return satellite_; }
+  const std::string& type() const { return type_; }  // twenty characters
+  // The serial number of an individually calibrated receiver antenna; else empty.
+  const std::string& serial() const { return serial_; }
   GpsTime valid_from() const { return valid_from_; }
   GpsTime valid_until() const { return valid_until_; }
 
-  // After finish().
+  // Results, valid after finish().
   const std::vector<AntennaPattern>& patterns() const { return patterns_; }
   int other_system_bands() const { return other_system_bands_; }
   int unknown_bands() const { return unknown_bands_; }
@@ -51,7 +53,7 @@ class AntexAntenna {
 
   bool in_frequency_ = false, in_rms_ = false, use_frequency_ = false, has_offset_ = false;
   AntennaPattern pattern_;
-  std::vector<float> mean_, by_azimuth_;  // of the band under way, m
+  std::vector<float> mean_, by_azimuth_;  // of the current band, m
 
   std::vector<AntennaPattern> patterns_;
   int other_system_bands_ = 0, unknown_bands_ = 0, coarsened_ = 0;

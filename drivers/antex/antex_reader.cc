@@ -10,12 +10,13 @@ namespace leonav {
 namespace {
 
 constexpr std::size_t kMaxProblems = 20;
-constexpr std::size_t kTypeWidth = 16;  // of the name's twenty characters; then the radome
+// Width of the type in the name's twenty characters; the radome follows.
+constexpr std::size_t kTypeWidth = 16;
 
 std::string_view type_of(std::string_view name) { return trim(name.substr(0, kTypeWidth)); }
 std::string_view radome_of(std::string_view name) { return trim(name.substr(kTypeWidth)); }
 
-// Reads one file; its members are what the lines so far have said.
+// The reader takes one file; its members hold the contents of the lines read so far.
 class Reader {
  public:
   Reader(const std::string& path, const AntexSelection& selection)
@@ -82,7 +83,7 @@ class Reader {
     }
   }
 
-  // A damaged antenna costs only itself, and counts once.
+  // A damaged antenna excludes only itself and counts once.
   void damaged(const std::string& what) {
     if (is_damaged_) return;
     is_damaged_ = true;
@@ -116,7 +117,8 @@ class Reader {
                             antenna.patterns().end());
   }
 
-  // The same radome before NONE; the type's mean before a single antenna's calibration; first come.
+  // Takes the same radome before NONE, the type's mean before a single antenna's calibration, and
+  // of equals the first one.
   void take_receiver(const AntexAntenna& antenna) {
     if (wanted_.empty() || type_of(antenna.type()) != type_of(wanted_)) return;
     const bool exact = radome_of(antenna.type()) == radome_of(wanted_);
@@ -162,7 +164,7 @@ class Reader {
 std::string antenna_name(std::string_view text) {
   const std::string_view whole = trim(text);
   if (whole.empty()) return {};
-  // Where all columns are there the radome is in the last four; else it is the last word.
+  // The radome of a complete name is in the last four columns; otherwise it is the last word.
   std::string_view type = whole, radome = "NONE";
   const auto blank = whole.find_last_of(" \t");
   if (whole.size() > kTypeWidth && whole[kTypeWidth - 1] == ' ') {

@@ -1,23 +1,24 @@
-// Antenna models in ANTEX 1.3 and 1.4.
-// Source: M. Rothacher, R. Schmid, ANTEX: The Antenna Exchange Format, Version 1.4 (2010).
+// This unit reads antenna models in ANTEX 1.3 and 1.4. Source: M. Rothacher, R. Schmid, ANTEX: The
+// Antenna Exchange Format, Version 1.4 (2010).
 #pragma once
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/gnss/antenna_model.h"
+#include "core/gnss/propagation/antenna_model.h"
 
 namespace leonav {
 
-// What to keep of a file: the models of all satellites that hold at `time` (unset: of any time),
-// and of one receiver antenna, named as in RINEX headers: twenty characters, type and, in the last
-// four, radome ("ASH701945E_M    SCIS"). An empty name: none.
+// Choice of the models to keep: those of all satellites that are valid at `time` (unset: at any
+// time), and that of one receiver antenna, named as in RINEX headers: twenty characters, type and,
+// in the last four, radome ("ASH701945E_M    SCIS"). An empty name: none.
 struct AntexSelection {
   GpsTime time;
   std::string receiver_antenna;
 };
 
+// Outcome of the search for the receiver antenna.
 enum class ReceiverMatch : std::uint8_t {
   kNotAsked,
   kExact,
@@ -25,15 +26,17 @@ enum class ReceiverMatch : std::uint8_t {
   kAbsent,         // the file does not have the type
 };
 
-// A part that was left out and why; the file is usable without it.
+// A part that was skipped and its error; the file is usable without it.
 struct AntexProblem {
   long line = 0;
   std::string what;
 };
 
+// Patterns selected from a file, with counts of what was skipped.
 struct AntexFile {
-  // One per band of each satellite antenna (variation by nadir angle alone, that is the mean over
-  // azimuth where the file has more), in the file's order, then of the receiver antenna.
+  // One pattern per band of each satellite antenna in the file's order, then of the receiver
+  // antenna. A satellite's varies by nadir angle alone: where the file has azimuths it is the mean
+  // over them.
   std::vector<AntennaPattern> satellites;
   std::vector<AntennaPattern> receiver;
   ReceiverMatch match = ReceiverMatch::kNotAsked;
@@ -48,12 +51,12 @@ struct AntexFile {
   std::vector<AntexProblem> problems;  // the first 20
 };
 
-// "ASH701945E_M SCIS", however spaced, as the twenty characters of the format; a name without
-// radome gets NONE. Empty stays empty.
+// Returns "ASH701945E_M SCIS", however spaced, as the twenty characters of the format; a name
+// without radome gets NONE. An empty name stays empty.
 std::string antenna_name(std::string_view text);
 
-// Throws FileError for a file that cannot be read at all, is no ANTEX file, has relative models
-// (which differ from absolute ones by centimetres) or nothing that was asked for.
+// Reads a whole file. Throws FileError for a file that cannot be read at all, is no ANTEX file, has
+// relative models (which differ from absolute ones by centimetres) or nothing of the selection.
 AntexFile read_antex(const std::string& path, const AntexSelection& selection);
 
 }  // namespace leonav

@@ -50,8 +50,9 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-// Names are all that is neither comment nor row. Stations of satellite laser ranging are named by
-// numbers ("7840 13212S001"): a row is mostly numbers, and more than one.
+// A line that is neither a comment nor a row is a name. Stations of satellite laser ranging are
+// named by numbers ("7840 13212S001"), so a row is a line that is mostly numbers, and more than
+// one.
 bool is_row(const std::vector<std::string_view>& words) {
   const auto numbers = std::count_if(words.begin(), words.end(), [](std::string_view word) {
     return parse_double(word).has_value();
@@ -109,7 +110,7 @@ class Reader {
   }
 
  private:
-  // "$$ COLUMN ORDER:  M2  S2 ...": other programs have had other orders.
+  // The comment is "$$ COLUMN ORDER:  M2  S2 ..."; other programs have used other orders.
   void check_columns(std::string_view comment) {
     const std::size_t at = upper(comment).find("COLUMN ORDER:");
     if (at == std::string::npos) return;
@@ -142,7 +143,7 @@ class Reader {
   }
 
   void read_row(const std::vector<std::string_view>& words) {
-    if (blocks_.empty()) return;  // of a station whose name is missing
+    if (blocks_.empty()) return;  // a row without a station's name before it
     Block& block = blocks_.back();
     const long line = lines_.line_number();
     if (block.rows == kRows) return blame(&block, line, "has more than six rows");
@@ -161,7 +162,7 @@ class Reader {
       }
       block.station.rows(row, static_cast<Eigen::Index>(i)) = *value;
     }
-    // A file cut off within its last number shows it by fewer decimals than the row has.
+    // A file cut off within its last number has fewer decimals there than elsewhere in the row.
     last_row_cut_ = decimals(words[kColumns - 1]) < decimals(words[0]);
   }
 
@@ -170,7 +171,8 @@ class Reader {
   bool last_row_cut_ = false;
 };
 
-// All that fit the name, or, for an empty one, all that are more than a stray line of text.
+// Returns the stations that fit the name or, for an empty name, all that have more than a stray
+// line of text.
 std::vector<const Block*> fitting(const std::vector<Block>& blocks, std::string_view name) {
   const std::string wanted = upper(trim(name));
   std::vector<const Block*> whole, first_word;
@@ -198,7 +200,8 @@ std::string listed(const std::vector<const Block*>& blocks) {
   return text;
 }
 
-// What to say where the name fits none: what is there, and the nearest of it.
+// Returns the message for a name that fits no station: the stations of the file, and the nearest
+// name.
 std::string absence(const std::vector<const Block*>& there, std::string_view name) {
   std::vector<std::string> names;
   for (const Block* block : there) names.push_back(upper(block->station.name));

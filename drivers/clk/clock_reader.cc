@@ -4,18 +4,19 @@
 #include <cmath>
 #include <limits>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/time_system.h"
 
 namespace leonav {
 namespace {
 
 constexpr std::size_t kMaxProblems = 20;
-constexpr double kMaxClock = 0.1;        // s; the widest satellite clocks drift to some ms
-constexpr int kMaxValues = 6;            // of a record: two on its line, four on the next
-constexpr std::size_t kValuesBegin = 7;  // fields before: year to second, number of values
+constexpr double kMaxClock = 0.1;  // s; the widest satellite clocks drift to some ms
+constexpr int kMaxValues = 6;      // in a record: two on its line, four on the next
+// Number of fields before: year to second, number of values.
+constexpr std::size_t kValuesBegin = 7;
 
-// Labels stand in column 61 up to version 3.03 and in column 66 from 3.04 on.
+// Labels are in column 61 up to version 3.03 and in column 66 from 3.04 on.
 bool has_label(std::string_view line, std::string_view label) {
   return line.size() > 60 && line.substr(60).find(label) != std::string_view::npos;
 }
@@ -87,14 +88,14 @@ void ClockReader::set_time_system(std::string_view name) {
 
 bool ClockReader::next(ClockEpoch* epoch) {
   epoch->states.clear();
-  if (has_ahead_) epoch->states.push_back(ahead_);
-  has_ahead_ = false;
+  if (has_next_epoch_clock_) epoch->states.push_back(next_epoch_clock_);
+  has_next_epoch_clock_ = false;
   PreciseState state = without_position();
   for (std::string_view line; lines_.next(line);) {
     if (!read_record(line, &state)) continue;
     if (!epoch->states.empty() && state.time != epoch->states.front().time) {
-      ahead_ = state;
-      has_ahead_ = true;
+      next_epoch_clock_ = state;
+      has_next_epoch_clock_ = true;
       break;
     }
     epoch->states.push_back(state);
@@ -122,7 +123,7 @@ bool ClockReader::next(ClockEpoch* epoch) {
   return true;
 }
 
-// True if the line is a clock to use.
+// Returns whether the line is a clock to be used.
 bool ClockReader::read_record(std::string_view line, PreciseState* state) {
   if (continuation_lines_ > 0 && !line.empty() && line[0] == ' ') {
     --continuation_lines_;  // uncertainties of the rate, and the acceleration: not used
@@ -139,7 +140,8 @@ bool ClockReader::read_record(std::string_view line, PreciseState* state) {
     fields_[field_count_] = first_word(rest);
     rest = trim(rest.substr(fields_[field_count_++].size()));
   }
-  // Receivers' names differ in length by version, so that of them only the number is looked for.
+  // The length of receivers' names depends on the version, so records other than AS are not parsed.
+  // A continuation line may follow them.
   if (!line.starts_with("AS")) {
     ++counts_.other_records;
     continuation_lines_ = 1;
@@ -181,7 +183,7 @@ std::optional<GpsTime> ClockReader::read_time() const {
 bool ClockReader::read_clock(SatelliteId satellite, PreciseState* state) {
   const auto time = read_time();
   if (!time) return damaged("time is unreadable");
-  // The format's E19.12: a number without exponent is one that was cut off.
+  // The format is E19.12: a number without exponent was cut off.
   const std::string_view field = fields_[kValuesBegin];
   const bool complete = field.find_first_of("EeDd") != std::string_view::npos;
   const auto clock_s = complete ? parse_double(field) : std::nullopt;

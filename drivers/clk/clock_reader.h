@@ -1,6 +1,6 @@
-// Precise satellite clocks in RINEX clock files 2.00 and 3.00 to 3.04.
-// Source: RINEX Extensions to Handle Clock Information, versions 2.00 (J. Ray, W. Gurtner 1999),
-// 3.02 (2010) and 3.04 (IGS 2017).
+// This unit reads precise satellite clocks in RINEX clock files 2.00 and 3.00 to 3.04. Source:
+// RINEX Extensions to Handle Clock Information, versions 2.00 (J. Ray, W. Gurtner 1999), 3.02
+// (2010) and 3.04 (IGS 2017).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,17 +9,18 @@
 #include <string_view>
 #include <vector>
 
-#include "core/gnss/satellite_catalog.h"
+#include "core/gnss/orbits/ephemeris_store.h"
 #include "drivers/text/line_reader.h"
 
 namespace leonav {
 
+// The clocks of one epoch.
 struct ClockEpoch {
   GpsTime time;
   std::vector<PreciseState> states;  // clock only, sorted by satellite
 };
 
-// What a file holds besides the clocks handed out.
+// Counts of a file's records, used and skipped.
 struct ClockCounts {
   struct Problem {
     long line = 0;
@@ -34,16 +35,16 @@ struct ClockCounts {
   std::vector<Problem> problems;  // the first 20 damaged lines
 };
 
-// Reads one file epoch by epoch: it may be longer than what fits in memory.
+// The reader streams one file epoch by epoch, because a file may be larger than the memory.
 class ClockReader {
  public:
-  // Reads the header. Throws FileError if the file cannot be read, is no clock file of a version
-  // known, is in an unknown time system or ends within its header.
+  // Reads the header. Throws FileError if the file cannot be read, is no clock file of a supported
+  // version, is in an unknown time system, or ends within its header.
   explicit ClockReader(const std::string& path);
 
-  // The next epoch in which a satellite of leonav's has a clock; false at the end. Epochs are in
-  // the order of the file, so that a damaged time costs that record and none after it: the caller
-  // sorts. Throws FileError at the end of a file that had no such clock at all.
+  // Reads the next epoch in which a satellite that leonav uses has a clock; returns false at the
+  // end. Epochs come in the order of the file, so that a damaged time excludes only its own record;
+  // the caller sorts them. Throws FileError at the end of a file without any such clock.
   bool next(ClockEpoch* epoch);
 
   double version() const { return version_; }
@@ -55,7 +56,7 @@ class ClockReader {
   void read_header();
   void set_time_system(std::string_view name);
   bool read_record(std::string_view line, PreciseState* state);
-  std::optional<GpsTime> read_time() const;  // of the fields at hand
+  std::optional<GpsTime> read_time() const;  // of the current fields
   bool read_clock(SatelliteId satellite, PreciseState* state);
   bool damaged(const std::string& what);
 
@@ -64,11 +65,11 @@ class ClockReader {
   std::string time_system_ = "GPS";
   bool time_system_known_ = false;
   ClockCounts counts_;
-  int continuation_lines_ = 0;               // of the record last read, still to come
-  std::array<std::string_view, 12> fields_;  // of the line at hand, behind the name
+  int continuation_lines_ = 0;               // of the last record, not yet read
+  std::array<std::string_view, 12> fields_;  // of the current line, after the name
   std::size_t field_count_ = 0;
-  PreciseState ahead_;  // the first clock of the next epoch
-  bool has_ahead_ = false;
+  PreciseState next_epoch_clock_;  // the first clock of the next epoch
+  bool has_next_epoch_clock_ = false;
 };
 
 }  // namespace leonav

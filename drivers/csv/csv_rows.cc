@@ -99,7 +99,7 @@ GpsTime CsvRows::time(int week_column, int tow_column) {
 }
 
 void CsvRows::mark_bad(const std::string& why) {
-  if (why_bad_.empty()) why_bad_ = why;  // the first reason explains best
+  if (why_bad_.empty()) why_bad_ = why;  // the first reason is the cause
 }
 
 void CsvRows::skip() {

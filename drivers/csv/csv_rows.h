@@ -1,4 +1,5 @@
-// Rows of a comma-separated file with a header line: fields by column name, bad rows counted.
+// This unit reads the rows of a comma-separated file with a header line: fields by column name, bad
+// rows counted.
 #pragma once
 #include <optional>
 #include <span>
@@ -6,57 +7,60 @@
 #include <string_view>
 #include <vector>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 #include "drivers/text/line_reader.h"
 #include "drivers/text/stamp_order.h"
 
 namespace leonav {
 
-// What a reader left out. A bad row costs itself and nothing else.
+// Counts of a reader's rows. A bad row excludes only itself.
 struct CsvReport {
   long rows = 0;                      // used
   long skipped = 0;                   // not used
-  std::vector<std::string> problems;  // "FILE:LINE: what", the first kMaxProblems lines
+  std::vector<std::string> problems;  // "FILE:LINE: error", the first kMaxProblems lines
   static constexpr std::size_t kMaxProblems = 10;
 };
 
+// CsvRows iterates over the rows of one file; a bad field makes its row bad().
 class CsvRows {
  public:
-  // Opens and reads the header line. Throws FileError, saying `expected_header`, if one of the
-  // comma-separated names in `required` is not a column.
+  // Opens the file and reads the header line. Throws FileError, quoting `expected_header`, if one
+  // of the comma-separated names in `required` is not a column.
   CsvRows(const std::string& path, std::string_view required, std::string_view expected_header);
 
-  // Column of that name, or -1.
+  // Returns the column with that name, or -1.
   int column(std::string_view name) const;
 
-  // Goes to the next row that is not blank; false at the end. Counts the last row as used unless
-  // skip() was called.
+  // Goes to the next row that is not blank; returns false at the end. It counts the last row as
+  // used unless skip() was called.
   bool next();
 
   bool blank(int column) const;  // absent or empty
-  // The field as a number; nullopt if blank. Text that is no finite number makes the row bad().
+  // Returns the field as a number, or nullopt if blank. Text that is no finite number makes the row
+  // bad().
   std::optional<double> number(int column);
   std::string_view text(int column) const;
-  // Week and time of week; unset, and the row bad(), if blank or out of range.
+  // Returns the instant of week and time of week; it is unset, and the row bad(), where they are
+  // blank or out of range.
   GpsTime time(int week_column, int tow_column);
-  // Bad too is a row with another number of fields than the header.
+  // A row whose number of fields differs from the header's is bad too.
   bool bad() const { return !why_bad_.empty(); }
   void mark_bad(const std::string& why);
 
-  // Counts the current row as not used, for the reason mark_bad() or a bad field gave.
+  // Counts the current row as not used, with the reason of mark_bad() or of a bad field.
   void skip();
 
-  // After the last row: of the rows used, takes out those whose stamp contradicts the stamps around
-  // it, and counts them as not used. `rows` holds one element per row that was used.
+  // Removes, after the last row, those used rows whose stamp contradicts the stamps around it, and
+  // counts them as not used. `rows` must have one element per row that was used.
   template <typename Row, typename TimeOf>
   void drop_disordered(std::vector<Row>* rows, TimeOf time_of);
 
-  // Throws FileError if no row was used. To be called at the end.
+  // Ends the reading. Throws FileError if no row was used.
   CsvReport finish();
 
  private:
   void add_problem(long line, const std::string& what);
-  // Of the rows used, by their stamps; the others are counted.
+  // Decides which of the used rows are in order, by their stamps, and counts the others.
   std::vector<bool> rows_in_order(std::span<const GpsTime> stamps);
 
   LineReader reader_;

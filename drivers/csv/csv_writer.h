@@ -1,18 +1,18 @@
-// Writing rows of numbers: the same text on every machine, whatever its locale.
+// This unit writes rows of numbers as the same text on every machine, whatever its locale.
 #pragma once
 #include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 
 namespace leonav {
 
-// A file of rows; every failure to write is an error, at the latest in close().
+// The writer makes a file of rows; every failure to write is an error, at the latest in close().
 class CsvWriter {
  public:
-  // Throws FileError if the file cannot be made.
+  // Throws FileError if the file cannot be created.
   CsvWriter(const std::string& path, std::string_view header);
 
   CsvWriter& time(GpsTime time);  // two fields: week, time of week with all its digits

@@ -8,7 +8,7 @@
 namespace leonav {
 namespace {
 
-// The rates of all usable rows stand in the increments until the intervals are known.
+// At this point the increments of all usable rows hold rates; the intervals are not known yet.
 std::int64_t median_interval(const std::vector<ImuSample>& samples) {
   std::vector<std::int64_t> intervals;
   intervals.reserve(samples.size());

@@ -1,11 +1,12 @@
-// imu.csv: rates and specific forces, body axes forward-right-down, GPS time.
+// This unit reads and writes imu.csv: rates and specific forces in body axes forward, right, down,
+// with GPS time.
 #pragma once
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/ins/imu.h"
+#include "core/inertial/strapdown/imu.h"
 #include "drivers/csv/csv_rows.h"
 
 namespace leonav {
@@ -14,6 +15,7 @@ inline constexpr std::string_view kImuCsvHeader =
     "gps_week,gps_tow_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,accel_x_m_s2,accel_y_m_s2,accel_z_m_"
     "s2";
 
+// Contents of a file: increments over intervals, in body axes.
 struct ImuCsv {
   std::vector<ImuSample> samples;  // times strictly increasing
   CsvReport report;
@@ -21,14 +23,14 @@ struct ImuCsv {
   std::int64_t median_interval_ns = 0;
 };
 
-// Each row is the mean over (previous stamp, stamp]; the first row, and one after a gap, covers the
-// median interval. Rows that do not parse, or whose time does not fit those around them, are
-// skipped and reported. Throws FileError if the header is another one or fewer than two rows are
-// usable.
+// Reads a whole file. Each row is the mean over (previous stamp, stamp]; the first row, and one
+// after a gap, covers the median interval. Rows that do not parse, or whose time does not fit the
+// rows around them, are skipped and reported. Throws FileError if the header differs or fewer than
+// two rows are usable.
 ImuCsv read_imu_csv(const std::string& path);
 inline constexpr double kGapIntervals = 5.0;
 
-// Digits: 1e-12 rad/s, 1e-10 m/s^2. Throws FileError.
+// Writes 12 decimals of rad/s and 10 of m/s^2. Throws FileError.
 void write_imu_csv(const std::string& path, std::span<const ImuSample> samples);
 
 }  // namespace leonav

@@ -1,4 +1,5 @@
-// solution.csv: the truth columns, then uncertainty, source and geometry of each answer.
+// This unit writes and reads solution.csv: the truth columns, then uncertainty, source and geometry
+// of each solution.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -6,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/navigator/outputs.h"
+#include "core/navigator/interface/solution.h"
 #include "drivers/csv/csv_writer.h"
 #include "drivers/csv/truth_csv.h"
 
@@ -17,6 +18,7 @@ inline constexpr std::string_view kSolutionCsvHeader =
     "roll_deg,pitch_deg,yaw_deg,std_north_m,std_east_m,std_down_m,std_v_north_m_s,std_v_east_m_s,"
     "std_v_down_m_s,std_roll_deg,std_pitch_deg,std_yaw_deg,source,satellites,pdop";
 
+// One row, in the frames of the truth file.
 struct SolutionRow {
   TruthPoint pva;                            // position, velocity, attitude; no attitude: empty
   std::optional<Eigen::Vector3d> sigma_p_n;  // m, 1 sigma north east down
@@ -27,11 +29,11 @@ struct SolutionRow {
   std::optional<double> pdop;
 };
 
-// The row of a solution; satellites and pdop come from the epoch it belongs to.
+// Converts a solution to a row; satellites and pdop come from the epoch on which it is based.
 SolutionRow to_solution_row(const Solution& solution, std::optional<int> satellites,
                             std::optional<double> pdop);
 
-// Digits as in truth.csv; sigmas 1e-4 m and m/s, 1e-6 deg; pdop 1e-2.
+// Writes the digits of truth.csv; sigmas 1e-4 m and m/s, 1e-6 deg; pdop 1e-2.
 class SolutionCsvWriter {
  public:
   explicit SolutionCsvWriter(const std::string& path);  // throws FileError
@@ -44,12 +46,13 @@ class SolutionCsvWriter {
   long rows_ = 0;
 };
 
+// Contents of a file.
 struct SolutionCsv {
   std::vector<SolutionRow> rows;  // times strictly increasing
   CsvReport report;
 };
 
-// As read_truth_csv: only time and position must be there.
+// Reads a whole file by the rules of read_truth_csv: only time and position are required.
 SolutionCsv read_solution_csv(const std::string& path);
 
 }  // namespace leonav

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kRequired = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMaxHeight = 1e8;  // m; beyond it is no position of a vehicle
+constexpr double kMaxHeight = 1e8;  // m; no vehicle is higher
 
 std::optional<double> read_angle(CsvRows& rows, int column) {
   const std::optional<double> degrees = rows.number(column);

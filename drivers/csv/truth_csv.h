@@ -1,4 +1,5 @@
-// truth.csv: where the IMU centre was. Unknown columns are empty, more columns are allowed.
+// This unit reads and writes truth.csv, the reference trajectory of the IMU centre. Fields of
+// unknown values are empty; additional columns are allowed.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -7,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/gps_time.h"
 #include "core/earth/ellipsoid.h"
-#include "core/time/gps_time.h"
 #include "drivers/csv/csv_rows.h"
 #include "drivers/csv/csv_writer.h"
 
@@ -18,6 +19,7 @@ inline constexpr std::string_view kTruthCsvHeader =
     "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m,v_north_m_s,v_east_m_s,v_down_m_s,"
     "roll_deg,pitch_deg,yaw_deg";
 
+// State of the IMU centre at one instant.
 struct TruthPoint {
   GpsTime time;
   Geodetic position;                       // height above the ellipsoid
@@ -25,21 +27,23 @@ struct TruthPoint {
   std::optional<double> roll, pitch, yaw;  // rad, yaw in (-pi, pi]
 };
 
+// Contents of a file.
 struct TruthCsv {
   std::vector<TruthPoint> points;  // times strictly increasing
   CsvReport report;
 };
 
-// Columns are found by name; only time and position must be there. Rows that do not parse, are out
-// of range or whose time does not fit those around them are skipped and reported. Throws FileError
-// if the header lacks a column or no row is usable.
+// Reads a whole file. Columns are found by name; only time and position are required. Rows that do
+// not parse, are out of range or whose time does not fit the rows around them are skipped and
+// reported. Throws FileError if the header lacks a column or no row is usable.
 TruthCsv read_truth_csv(const std::string& path);
 
-// Digits: 1e-10 deg (0.01 mm), 1e-4 m, 1e-6 m/s, 1e-8 deg of attitude: enough to start an inertial
-// navigator that stays within a centimetre for minutes. Throws FileError.
+// Writes 1e-10 deg (0.01 mm), 1e-4 m, 1e-6 m/s, 1e-8 deg of attitude, which suffices to start an
+// inertial navigator that stays within a centimetre for minutes. Throws FileError.
 void write_truth_csv(const std::string& path, std::span<const TruthPoint> points);
 
-// The columns shared with solution.csv: reads the current row (see CsvRows::bad) or appends to it.
+// The columns shared with solution.csv. read() takes the current row (see CsvRows::bad); write()
+// appends to it.
 class TruthColumns {
  public:
   explicit TruthColumns(const CsvRows& rows);
@@ -50,7 +54,7 @@ class TruthColumns {
   int week_, tow_, latitude_, longitude_, height_, v_north_, v_east_, v_down_, roll_, pitch_, yaw_;
 };
 
-// Three columns as one vector; nullopt unless all three are there.
+// Reads three columns as one vector; nullopt unless all three have a number.
 std::optional<Eigen::Vector3d> read_vector(CsvRows& rows, int x, int y, int z);
 
 }  // namespace leonav

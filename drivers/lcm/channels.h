@@ -1,5 +1,4 @@
-// The LCM channels by which leonav speaks. A channel's full name is the configured prefix and the
-// name below.
+// The LCM channels of leonav are enumerated here, with their names.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -41,17 +40,17 @@ inline constexpr std::array<Channel, 9> kInputChannels = {
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCheckpoint; }
-// What is told again and again whatever the vehicle does: orbits, clocks, ionosphere, antennas.
+// Products are repeated whatever the vehicle does: orbits, clocks, ionosphere, antennas.
 constexpr bool is_product(Channel channel) {
   return channel >= Channel::kEphemeris && channel <= Channel::kAntenna;
 }
 
 std::string_view name_of(Channel channel);  // "IMU", "GNSS_EPOCH", ...
 
-// "LEONAV_IMU".
+// The full name, as in "LEONAV_IMU": the configured prefix and the name.
 std::string channel_name(Channel channel, std::string_view prefix = kDefaultChannelPrefix);
 
-// nullopt for a channel that is not leonav's. Does not allocate.
+// nullopt for a channel that leonav does not have. Does not allocate.
 std::optional<Channel> channel_from_name(std::string_view name,
                                          std::string_view prefix = kDefaultChannelPrefix);
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/navigator/input_checks.h"
+#include "core/navigator/sequencer/input_validation.h"
 
 namespace leonav::wire {
 namespace {

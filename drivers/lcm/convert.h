@@ -1,4 +1,4 @@
-// Elements of decoded messages -> core structs, with every value judged: finite, in range, known.
+// Elements of decoded messages are converted to core structs, and every value is checked.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 #include <leonav/gnss_observation_t.hpp>
 #include <leonav/precise_state_t.hpp>
 
-#include "core/gnss/antenna_model.h"
-#include "core/gnss/ephemeris.h"
-#include "core/gnss/observation.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/navigator/checkpoint.h"
-#include "core/navigator/outputs.h"
+#include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/propagation/antenna_model.h"
+#include "core/gnss/signals/observation.h"
+#include "core/navigator/interface/checkpoint.h"
+#include "core/navigator/interface/input_fault.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav::wire {
@@ -27,7 +27,8 @@ bool all_finite(const double (&values)[N]) {
   return std::all_of(values, values + N, [](double value) { return std::isfinite(value); });
 }
 
-// kNone: `to` is filled; otherwise what it holds means nothing.
+// Values must be finite, in range, and known. kNone: `to` is filled; otherwise its content is
+// undefined.
 InputFault convert(const gnss_observation_t& from, SignalObservation* to);
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);

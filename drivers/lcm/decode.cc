@@ -253,7 +253,7 @@ DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {
     decision->sequence = static_cast<std::uint64_t>(message.sequence);
     decision->epoch = static_cast<std::uint64_t>(message.epoch);
     decision->time = GpsTime::from_nanoseconds(message.time_ns);
-    decision->mailbox = static_cast<std::uint8_t>(message.mailbox);
+    decision->subject = static_cast<Decision::Subject>(message.mailbox);
     decision->committed = message.committed == 1;
     decision->iterations = message.iterations;
   }

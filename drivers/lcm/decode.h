@@ -1,30 +1,32 @@
-// LCM messages as bytes -> core structs. Every byte is taken to be hostile: a message is either
-// wholly valid or refused with its fault, and nothing is allocated by what the wire claims.
+// The Decoder converts LCM messages to core structs and treats every byte as hostile.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <span>
 
-#include "core/gnss/ephemeris.h"
-#include "core/gnss/observation.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/ins/imu.h"
-#include "core/navigator/outputs.h"
-#include "core/navigator/stage_work.h"
+#include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/signals/observation.h"
+#include "core/inertial/strapdown/imu.h"
+#include "core/navigator/interface/decision.h"
+#include "core/navigator/interface/input_fault.h"
+#include "core/navigator/interface/smoother_report.h"
+#include "core/navigator/interface/stage_work.h"
 
 namespace leonav {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
 struct DecodeResult {
-  InputFault fault = InputFault::kNone;  // kNone: the output is valid; otherwise leave it alone
+  InputFault fault = InputFault::kNone;  // kNone: the output is valid; otherwise do not use it
   std::uint64_t sequence = 0;            // the sender's count; 0 when it could not be read
-  // Faults of single observations or states, as bits 1 << InputFault. Those were left out, the
-  // rest of the message is good.
+  // Faults of single observations or states, as bits 1 << InputFault. These were left out; the
+  // rest of the message is valid.
   std::uint32_t element_faults = 0;
 };
 
-// Takes all its memory at construction. One thread at a time.
+// A message is either valid as a whole or refused with its fault; no count in a message makes it
+// allocate. All memory is taken at construction. One thread at a time.
 class Decoder {
  public:
   Decoder();
@@ -33,8 +35,8 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
 
   DecodeResult decode(ByteSpan bytes, ImuSample* sample);
-  // Observations come out sorted; copies of one satellite and code are all dropped (kDuplicate), as
-  // none can be trusted.
+  // Observations are sorted. Copies of one satellite and code are all dropped (kDuplicate), as none
+  // can be trusted.
   DecodeResult decode(ByteSpan bytes, RawEpoch* epoch);
   DecodeResult decode(ByteSpan bytes, OdometerIncrement* increment);
   DecodeResult decode(ByteSpan bytes, Ephemeris* ephemeris);
@@ -44,7 +46,7 @@ class Decoder {
   DecodeResult decode(ByteSpan bytes, Command* command);
   DecodeResult decode(ByteSpan bytes, Checkpoint* checkpoint);
   DecodeResult decode(ByteSpan bytes, Decision* decision);
-  // Which epoch it is of, and the iterations that were made; nothing else is read.
+  // Only the epoch and the number of iterations are read.
   DecodeResult decode(ByteSpan bytes, SmootherReport* report);
 
  private:

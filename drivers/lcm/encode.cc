@@ -135,7 +135,8 @@ struct Encoder::Storage {
   template <typename T>
   ByteSpan write(const T& message) {
     const int size = message.encode(buffer.data(), 0, static_cast<int>(buffer.size()));
-    // Cannot fail: every array is limited by core/capacity.h, and the buffer holds the largest.
+    // Cannot fail: every array is limited by core/base/capacity.h, and the buffer holds the
+    // largest.
     return {buffer.data(), static_cast<std::size_t>(std::max(size, 0))};
   }
 };
@@ -338,7 +339,7 @@ ByteSpan Encoder::encode(const Decision& decision) {
   decision_t message;
   set_header(decision.time, decision.sequence, &message);
   message.epoch = static_cast<std::int64_t>(decision.epoch);
-  message.mailbox = static_cast<std::int8_t>(decision.mailbox);
+  message.mailbox = static_cast<std::int8_t>(decision.subject);
   message.committed = decision.committed ? 1 : 0;
   message.iterations = decision.iterations;
   return storage_->write(message);

@@ -1,23 +1,27 @@
-// Core structs -> LCM messages as bytes.
+// The Encoder converts core structs to LCM messages.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <span>
 
-#include "core/gnss/ephemeris.h"
-#include "core/gnss/observation.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/ins/imu.h"
-#include "core/navigator/outputs.h"
-#include "core/navigator/stage_work.h"
+#include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/signals/observation.h"
+#include "core/inertial/strapdown/imu.h"
+#include "core/navigator/interface/decision.h"
+#include "core/navigator/interface/epoch_report.h"
+#include "core/navigator/interface/event.h"
+#include "core/navigator/interface/smoother_report.h"
+#include "core/navigator/interface/solution.h"
+#include "core/navigator/interface/stage_work.h"
 
 namespace leonav {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-// Encodes into a buffer of its own, which the returned span points into until the next call. All
+// The returned span points into the encoder's own buffer and is valid until the next call. All
 // memory is taken at construction. One thread at a time. Satellite names and enums are written as
-// they are: what decode.h would refuse must not be encoded.
+// they are: values that the Decoder would refuse must not be encoded.
 class Encoder {
  public:
   Encoder();
@@ -30,7 +34,8 @@ class Encoder {
   ByteSpan encode(const RawEpoch& epoch, std::uint64_t sequence);
   ByteSpan encode(const OdometerIncrement& increment, std::uint64_t sequence);
   ByteSpan encode(const Ephemeris& ephemeris, std::uint64_t sequence);
-  // All of one time; the time on the wire is the first one's. At most kMaxEphemerisSatellites.
+  // All states have one time; the first gives the time on the wire. At most
+  // kMaxEphemerisSatellites.
   ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
   ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence);

@@ -1,6 +1,7 @@
-// LCM event logs (what lcm-logger writes), read and written with every error told. lcm::LogFile
-// ends silently where a log is damaged and ignores a full disk when writing; a journal needs both
-// known.
+// LCM event logs, as lcm-logger writes them, are read and written here with every error reported.
+//
+// lcm::LogFile ends silently where a log is damaged, and ignores a full disk when writing; a
+// journal must report both.
 //
 // Format (LCM documentation, "Log file format"), big endian: sync word 0xEDA1DA01, event number
 // (8 bytes), timestamp in microseconds (8), channel length (4), data length (4), channel, data.
@@ -39,7 +40,7 @@ class EventLogReader {
   explicit EventLogReader(const std::string& path);
 
   // False at the end. Throws EventLogError, naming the byte, where the log is damaged. A last event
-  // that is cut short, as a power cut leaves it, is the end; truncated() then tells.
+  // that is cut short, as by a power cut, is the end; truncated() is then true.
   bool next(LogEvent* event);
 
   bool truncated() const { return truncated_; }
@@ -63,7 +64,7 @@ class EventLogWriter {
   // False once writing has failed (disk full, ...): see error().
   bool write(std::int64_t timestamp_us, std::string_view channel,
              std::span<const std::uint8_t> data);
-  // Hands everything to the operating system; `sync`: waits until it is on the disk.
+  // Passes everything to the operating system; `sync`: waits until it is on the disk.
   bool flush(bool sync = false);
   const std::string& error() const { return error_; }
   std::int64_t events() const { return next_number_; }

@@ -1,10 +1,10 @@
-// What encoding and decoding share: the schema version, limits, and where the counts stand.
+// Encoder and Decoder share the schema version, limits, and byte offsets of the messages.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 
 namespace leonav::wire {
 
@@ -17,8 +17,8 @@ inline constexpr std::size_t kMaxMessageBytes = 40 * 1024;
 inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
 
 // Encoded layout (LCM: fingerprint, then the members in order, big endian, unpadded). The counts
-// stand before the arrays so that they can be judged before the generated decoder, which resizes
-// its vectors by whatever the wire says, sees them.
+// come before the arrays, so that they can be checked before the generated decoder, which resizes
+// its vectors by any count in the message, is called.
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
 inline constexpr std::size_t kEventStageOffset = 28;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
@@ -16,7 +16,8 @@ int days_in_month(int year, int month) {
   return kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && leap ? 1 : 0);
 }
 
-// Seconds in nanoseconds; nullopt unless digits with at most one point.
+// Returns the seconds in nanoseconds, or nullopt unless the field has only digits and at most one
+// point.
 std::optional<std::int64_t> nanoseconds_of(std::string_view field) {
   const std::string_view text = trim(field);
   const std::size_t point = text.find('.');

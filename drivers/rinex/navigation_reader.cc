@@ -42,7 +42,7 @@ NavigationLayout read_first_line(LineReader* lines) {
   return layout;
 }
 
-// Four coefficients of 12 columns each.
+// Reads four coefficients of 12 columns each.
 bool read_coefficients(std::string_view line, std::size_t start, std::array<double, 4>* result) {
   for (std::size_t i = 0; i < 4; ++i) {
     const auto value = parse_double(columns(line, start + 12 * i, 12));
@@ -91,8 +91,8 @@ void take_record(const std::vector<std::string>& record, long line_number,
 }  // namespace
 
 NavigationFile read_navigation(const std::string& path) {
-  // The longest record that exists has eight lines; what follows without a satellite name is junk
-  // of which a line or two suffice to see that the record is damaged.
+  // The longest record has eight lines. Lines that follow without a satellite name are junk, of
+  // which a line or two suffice to recognize the record as damaged.
   constexpr std::size_t kMaxLines = 16;
   LineReader lines(path);
   NavigationFile file;

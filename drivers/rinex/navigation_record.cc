@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/gnss/satellite_state.h"
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
+#include "core/gnss/orbits/satellite_state.h"
 #include "drivers/rinex/calendar_fields.h"
 #include "drivers/rinex/satellite_refusal.h"
 #include "drivers/text/parse.h"
@@ -57,7 +57,7 @@ using Fields = std::array<double, kFieldCount>;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// False if a field is neither blank nor a whole number.
+// Returns false if a field is neither blank nor a complete number.
 bool read_fields(const std::vector<std::string>& lines, const NavigationLayout& layout,
                  Fields* fields) {
   const std::size_t first_start = layout.is_version_2 ? 22 : 23;
@@ -70,7 +70,7 @@ bool read_fields(const std::vector<std::string>& lines, const NavigationLayout& 
       const std::string_view field = columns(lines[line], start, kFieldWidth);
       (*fields)[index] = std::numeric_limits<double>::quiet_NaN();
       if (is_blank(field)) continue;
-      // A number that the end of the line cuts off is still a number, but not the one sent.
+      // A number that is cut off by the end of the line is still a number, but not the one sent.
       const auto value = field.size() == kFieldWidth ? parse_double(field) : std::nullopt;
       if (!value) {
         if (index >= kSpare7a || index == kSpare5) continue;
@@ -95,7 +95,7 @@ std::optional<GpsTime> epoch_field(std::string_view line, bool version_2) {
 
 double or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
 
-// The instant with this time of week that is nearest to `reference`.
+// Returns the instant with this time of week that is nearest to `reference`.
 GpsTime nearest_with_tow(double tow_s, GpsTime reference) {
   const GpsTime guess = GpsTime::from_week_and_tow(reference.week(), tow_s);
   const double weeks = std::round(seconds_between(reference, guess) / double{kSecondsPerWeek});
@@ -121,9 +121,9 @@ void copy_elements(const Fields& f, Ephemeris* e) {
   e->accuracy_m = or_zero(f[kAccuracy]);
 }
 
-// Times of week are the system's own; the week is the one nearest to the clock's reference time, as
-// the week field is written modulo 1024, of toe or of transmission, depending on who wrote the
-// file.
+// Times of week are the system's own. The week is the one nearest to the clock's reference time,
+// because the week field is written modulo 1024, of toe or of the transmission, depending on the
+// program that wrote the file.
 void set_times(const Fields& f, GpsTime toc_as_written, double to_gps_s, Ephemeris* e) {
   e->toc = toc_as_written.plus_seconds(to_gps_s);
   e->toe = nearest_with_tow(f[kToe] + to_gps_s, e->toc);
@@ -134,8 +134,8 @@ void set_times(const Fields& f, GpsTime toc_as_written, double to_gps_s, Ephemer
   if (std::abs(seconds_between(sent, e->toe)) <= kPlausibleAge) e->transmission_time = sent;
 }
 
-// RINEX 3.05 table A8: bit 0 and 2 I/NAV, bit 1 F/NAV; where both are set the clock is the one for
-// E5a (bit 8, F/NAV) or for E5b (bit 9, I/NAV).
+// RINEX 3.05 table A8: bits 0 and 2 mean I/NAV, bit 1 F/NAV. Where both are set the clock is the
+// one for E5a (bit 8, F/NAV) or for E5b (bit 9, I/NAV).
 NavigationMessage galileo_message(double data_sources) {
   std::uint16_t bits = 0;
   if (!to_uint16(data_sources, &bits)) return NavigationMessage::kGalileoInav;
@@ -145,7 +145,7 @@ NavigationMessage galileo_message(double data_sources) {
   return is_fnav ? NavigationMessage::kGalileoFnav : NavigationMessage::kGalileoInav;
 }
 
-// What the systems keep in places of their own. False if a number is out of its range.
+// Reads the fields whose position depends on the system. Returns false if a number is out of range.
 bool set_system_fields(const Fields& f, Ephemeris* e) {
   e->group_delay_s = {or_zero(f[kGroupDelay1]), 0.0};
   bool ok = to_uint16(f[kIssue], &e->issue) && to_uint16(f[kHealth], &e->health);

@@ -1,26 +1,28 @@
-// One record of a RINEX navigation file: the lines from a satellite name to the next.
+// This unit parses one record of a RINEX navigation file: the lines from a satellite name to the
+// next.
 #pragma once
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/gnss/ephemeris.h"
+#include "core/gnss/orbits/ephemeris.h"
 
 namespace leonav {
 
-// What the layout of the records depends on.
+// Properties of the file that determine the layout of its records.
 struct NavigationLayout {
   bool is_version_2 = false;
   char system = 'G';  // of the whole file, in RINEX 2
 };
 
-// Whether a record begins with this line.
+// Returns whether a record begins with this line.
 bool starts_navigation_record(std::string_view line, const NavigationLayout& layout);
 
-// The satellite of a record's first line as RINEX 3 writes it: "G05".
+// Returns the satellite in a record's first line as RINEX 3 writes it: "G05".
 std::string record_satellite(std::string_view line, const NavigationLayout& layout);
 
-// Reads a record of a satellite that leonav uses. Returns why it cannot be used; empty: it can.
+// Parses a record of a satellite that leonav uses. Returns the reason why it cannot be used, or an
+// empty text if it can.
 std::string_view parse_navigation_record(const std::vector<std::string>& lines,
                                          const NavigationLayout& layout, Ephemeris* ephemeris);
 

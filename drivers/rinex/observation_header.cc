@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/rinex/calendar_fields.h"
 #include "drivers/rinex/observation_types.h"
 #include "drivers/text/parse.h"
@@ -21,8 +21,8 @@ Eigen::Vector3d vector_field(std::string_view line) {
   return v;
 }
 
-// The names in `line` from column `first`, `width` characters each of which the last `length`
-// count.
+// Returns the names in `line` from column `first`: `width` characters each, of which the last
+// `length` form the name.
 std::vector<std::string> names_in(std::string_view line, std::size_t first, std::size_t width,
                                   std::size_t length, std::size_t at_most) {
   std::vector<std::string> names;

@@ -48,7 +48,7 @@ struct ObservationReader::State {
   ReadCounts counts;
   long epoch_line_number = 0;
   SatelliteRecord record;  // kept for its memory
-  // A loss of lock reported while the carrier was not measured holds until it is.
+  // A loss of lock reported while the carrier was not measured holds until the carrier is measured.
   std::set<Signal> interrupted;
   // After a power failure every signal has lost lock when it first comes back.
   bool power_failed = false;
@@ -82,10 +82,10 @@ bool ObservationReader::State::starts_epoch(std::string_view line) const {
   return append_satellites_2(line, parser.header().file_system, count, &names);
 }
 
-// Goes on to the next line that starts an epoch and can be read.
+// Skips to the next line that starts an epoch and can be read.
 bool ObservationReader::State::next_epoch_line(EpochLine* epoch) {
   std::string_view line;
-  bool in_sequence = true;  // nothing was passed over yet
+  bool in_sequence = true;  // nothing was skipped yet
   while (lines.next(line)) {
     const auto parsed = is_version_2() ? parse_epoch_line_2(line) : parse_epoch_line_3(line);
     if (parsed) {
@@ -110,7 +110,7 @@ bool ObservationReader::State::read_satellite_list_2(EpochLine* epoch, std::stri
     }
     left -= here;
     if (left == 0) return true;
-    if (!lines.next(line)) return true;  // the records will be found missing
+    if (!lines.next(line)) return true;  // the records will be reported as missing
     if (!is_blank(columns(line, 0, 32))) {
       lines.step_back();
       return false;
@@ -145,7 +145,7 @@ void ObservationReader::State::skip_event(const EpochLine& event) {
   }
 }
 
-// The lines of one satellite in RINEX 2, put one behind the other.
+// Joins the lines of one satellite in RINEX 2.
 bool ObservationReader::State::read_values_2(std::string* values) {
   values->clear();
   const std::size_t types = parser.header().types.at('G').size();
@@ -235,7 +235,7 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
   }
 }
 
-// Whether the epoch can be handed on.
+// Returns whether the epoch can be used.
 bool ObservationReader::State::accept(const EpochLine& line, long line_number, RawEpoch* epoch) {
   epoch->time = to_gps_time(line.time, parser.header().time_system);
   if (epoch->observations.empty()) {

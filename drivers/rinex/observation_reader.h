@@ -1,17 +1,18 @@
-// Streams the epochs of a RINEX observation file, versions 2.00 to 3.05.
+// This unit streams the epochs of a RINEX observation file, versions 2.00 to 3.05.
 #pragma once
 #include <memory>
 #include <string>
 
-#include "core/gnss/observation.h"
+#include "core/gnss/signals/observation.h"
 #include "drivers/rinex/observation_header.h"
 #include "drivers/rinex/read_counts.h"
 
 namespace leonav {
 
-// Source: RINEX 2.11 (Gurtner, Estey 2007), RINEX 3.05 (IGS/RTCM 2020). Times come out in GPS time,
-// values as core/gnss/observation.h says. What cannot be used is counted with its reason and first
-// line; a file with no usable epoch is for the caller to refuse (counts().used == 0).
+// Source: RINEX 2.11 (Gurtner, Estey 2007), RINEX 3.05 (IGS/RTCM 2020). Times are converted to GPS
+// time; values are those of core/gnss/signals/observation.h. Records that cannot be used are
+// counted with their reason and first line. The caller must refuse a file without a usable epoch
+// (counts().used == 0).
 class ObservationReader {
  public:
   // Reads the header. Throws FileError if the file cannot be opened, is compressed, is no RINEX
@@ -21,10 +22,11 @@ class ObservationReader {
   ObservationReader(ObservationReader&&) noexcept;
   ObservationReader& operator=(ObservationReader&&) noexcept;
 
-  // Next epoch with at least one observation; false at the end of the file. Epochs come as they
-  // stand in the file: their order in time is for the caller to judge, who knows the files around.
+  // Reads the next epoch with at least one observation; returns false at the end of the file.
+  // Epochs come in the order of the file: the caller, which may have several files, tests their
+  // order in time.
   bool next(RawEpoch* epoch);
-  long line_number() const;  // of the line that begins the epoch handed on last
+  long line_number() const;  // of the first line of the last epoch
 
   const ObservationHeader& header() const;
   const ReadCounts& counts() const;

@@ -17,10 +17,10 @@ int digit_or_zero(std::string_view field, std::size_t column) {
   return column < field.size() && is_digit(field[column]) ? field[column] - '0' : 0;
 }
 
-// RINEX 3.05, table 8: digit n stands for 6 n to 6 n + 5 dBHz; its middle.
+// Returns the middle of the interval of a digit: n is 6 n to 6 n + 5 dBHz (RINEX 3.05, table 8).
 double cn0_from_digit(int digit) { return 6.0 * digit + 3.0; }
 
-// Index of `code` in `signals`, appended if it is not there.
+// Returns the index of `code` in `signals`, and appends it if it is missing.
 std::size_t slot_of(SatelliteId satellite, SignalCode code,
                     std::vector<SignalObservation>* signals) {
   for (std::size_t i = 0; i < signals->size(); ++i) {
@@ -33,7 +33,7 @@ std::size_t slot_of(SatelliteId satellite, SignalCode code,
   return signals->size() - 1;
 }
 
-// F14.3 ends with a digit in the last of its columns; a field that does not was cut off or shifted.
+// F14.3 ends with a digit in the last of its columns; another field was cut off or shifted.
 std::optional<double> value_field(std::string_view field) {
   if (field.size() < 14 || !is_digit(field[13])) return std::nullopt;
   return parse_double(field.substr(0, 14));
@@ -58,7 +58,7 @@ void store(char kind, double value, SignalObservation* signal) {
   }
 }
 
-// RINEX 2 only: which of two codes a carrier belongs to depends on the one that was measured.
+// RINEX 2 only: the code that a carrier belongs to is the one of the two that was measured.
 SignalCode code_of(const ObservationType& type, const std::vector<SignalObservation>& signals) {
   if (!type.fallback.is_set()) return type.code;
   bool has_code = false, has_fallback = false;
@@ -154,7 +154,7 @@ void parse_values(std::string_view values, SatelliteId satellite,
       if (type.kind == 'C') strength_digits[slot][1] = digit_or_zero(field, 15);
     }
   };
-  // Pseudoranges first: in RINEX 2 the others go by them.
+  // Pseudoranges come first, because in RINEX 2 the signals of the others depend on them.
   for (std::size_t i = 0; i < types.size(); ++i) {
     if (types[i].kind == 'C') read(i);
   }

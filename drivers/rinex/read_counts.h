@@ -1,4 +1,4 @@
-// What a reader used of a file and what it left out, by reason.
+// This unit counts what a reader used and what it skipped, by reason.
 #pragma once
 #include <string>
 #include <string_view>
@@ -6,6 +6,7 @@
 
 namespace leonav {
 
+// Counts of the epochs or records of a file.
 struct ReadCounts {
   struct Skip {
     std::string reason;
@@ -13,7 +14,7 @@ struct ReadCounts {
     long first_line = 0;  // 1 is the first line of the file
   };
 
-  long used = 0;              // epochs or records handed on
+  long used = 0;              // epochs or records returned
   std::vector<Skip> skipped;  // in order of first occurrence
 
   void skip(std::string_view reason, long line, long count = 1);

@@ -1,6 +1,6 @@
 #include "drivers/rinex/satellite_refusal.h"
 
-#include "core/gnss/satellite.h"
+#include "core/gnss/signals/satellite.h"
 
 namespace leonav {
 

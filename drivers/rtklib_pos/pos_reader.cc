@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "drivers/text/stamp_order.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-// "2021/04/28 22:19:22.430" or "2155 339562.430".
+// A time is "2021/04/28 22:19:22.430" or "2155 339562.430".
 bool parse_time(const std::string& first, const std::string& second, GpsTime* time) {
   CalendarTime c;
   int week = 0;

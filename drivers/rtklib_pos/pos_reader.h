@@ -1,14 +1,15 @@
-// Solutions as RTKLIB writes them (.pos), so that its results can be judged by the same tool.
+// This unit reads solutions of RTKLIB (.pos), so that the same tool can evaluate them.
 #pragma once
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "core/base/gps_time.h"
 #include "core/earth/ellipsoid.h"
-#include "core/time/gps_time.h"
 
 namespace leonav {
 
+// One solution.
 struct PosRow {
   GpsTime time;
   Geodetic position;  // of the antenna; ellipsoidal height
@@ -18,17 +19,18 @@ struct PosRow {
       Eigen::Vector3d::Zero();  // m; zero where the file has none (x, y, z form)
 };
 
+// All solutions of a file.
 struct PosFile {
   std::vector<PosRow> rows;
-  long skipped = 0;  // lines that are no solution, or whose time does not fit those around them
+  long skipped = 0;  // lines without a solution, or with a time out of order
   long first_skipped_line = 0;
 };
 
-// True if the file begins like one of RTKLIB's.
+// Returns whether the file begins like one of RTKLIB's.
 bool looks_like_pos(const std::string& path);
 
-// Times in GPS time as week and seconds or as date; positions as degrees and height or ECEF.
-// Throws FileError if the file is absent or has no solution.
+// Reads a whole file. Times are in GPS time as week and seconds or as date; positions are degrees
+// and height or ECEF. Throws FileError if the file is absent or has no solution.
 PosFile read_pos(const std::string& path);
 
 }  // namespace leonav

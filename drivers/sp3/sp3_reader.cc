@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/line_reader.h"
 #include "drivers/text/time_system.h"
 
@@ -17,7 +17,7 @@ constexpr std::size_t kMaxProblems = 20;
 constexpr double kBadClock = 999'999.0;       // microseconds; the format writes 999999.999999
 constexpr double kMaxCoordinate = 100'000.0;  // km: twice beyond any orbit in use
 
-// Reads one file; its members are what the lines so far have said.
+// The reader takes one file; its members hold the contents of the lines read so far.
 class Reader {
  public:
   explicit Reader(const std::string& path) : lines_(path) {}
@@ -46,7 +46,7 @@ class Reader {
     }
     file_.version = line[1];
     file_.frame = trim(columns(line, 46, 5));
-    // A file that names no time system means GPS time.
+    // A file that names no time system is in GPS time.
     file_.time_system = "GPS";
   }
 
@@ -110,7 +110,7 @@ class Reader {
   void read_position(std::string_view line) {
     if (!epoch_is_good_) {
       if (file_.epochs.empty()) damaged("position before the first epoch");
-      return;  // of a damaged epoch, which is already counted
+      return;  // the damaged epoch is already counted
     }
     const std::string_view name = columns(line, 1, 3);
     const std::optional<SatelliteId> satellite = satellite_from_string(name);
@@ -151,7 +151,7 @@ class Reader {
     if (!microseconds && !trim(text).empty()) damaged("clock is unreadable; the position is kept");
   }
 
-  // Columns 75, 76, 79 and 80 of the format (both versions): clock event, predicted clock,
+  // The flags are in columns 75, 76, 79 and 80 (both versions): clock event, predicted clock,
   // maneuver, predicted orbit.
   void read_flags(std::string_view line, PreciseState* state) {
     const auto is = [&](std::size_t column, char letter) {

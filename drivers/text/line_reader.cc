@@ -9,7 +9,7 @@
 namespace leonav {
 namespace {
 
-// The program that unpacks a file with these first bytes; nullptr if they are not a packer's.
+// Returns the program that unpacks a file with these first bytes, or nullptr if no packer is known.
 const char* unpacker_for(const std::array<unsigned char, 3>& head) {
   if (head[0] == 0x1f && head[1] == 0x8b) return "gunzip";
   if (head[0] == 0x1f && (head[1] == 0x9d || head[1] == 0xa0)) return "uncompress";

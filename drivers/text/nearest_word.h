@@ -1,4 +1,4 @@
-// "Did you mean": the nearest of a list of words.
+// This unit finds the nearest of a list of words, for "did you mean" in error messages.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace leonav {
 
-// The candidate with the fewest single-letter edits (Levenshtein) to `word`; nullopt if even that
-// is no plausible slip of the pen (more than half of the letters differ).
+// Returns the candidate with the fewest single-letter edits (Levenshtein) to `word`, or nullopt if
+// even that one is no plausible typing error (more than half of the letters differ).
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 

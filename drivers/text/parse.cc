@@ -13,7 +13,7 @@ std::string locate(const std::string& file, long line, const std::string& messag
   return file + ":" + std::to_string(line) + ": " + message;
 }
 
-// A leading plus, which std::from_chars refuses, removed; not if another sign follows.
+// Removes a leading plus, which std::from_chars refuses, unless another sign follows.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   return text;

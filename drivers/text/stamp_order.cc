@@ -6,18 +6,19 @@
 namespace leonav {
 namespace {
 
-// Of two stamps with equally many behind them (at the end of a file: none) the first is the wrong
-// one if it lies further ahead of the last good one than this.
+// Two stamps may have equally many stamps that can follow (at the end of a file: none). The first
+// one is then wrong if it is ahead of the last good one by more than this.
 constexpr double kLeap_s = 10.0;
 
 }  // namespace
 
-// Whether another start than the oldest stamp keeps more of the stamps.
+// Returns whether another start than the oldest stamp keeps more of the stamps.
 bool StampWindow::is_contradicted() const {
   if (std::is_sorted(stamps_.begin(), stamps_.end())) return false;
   const GpsTime front = stamps_.front();
   const bool leaps = last_.is_set() && seconds_between(front, last_) > kLeap_s;
-  // From the back: how many stamps can follow each one, itself included.
+  // kept[i] is the number of stamps that can follow stamp i, itself included, counted from the
+  // back.
   std::array<int, kStampsAhead + 1> kept{};
   int best_other = 0;
   for (std::size_t i = stamps_.size(); i-- > 0;) {

@@ -1,37 +1,40 @@
-// Which time stamps of a file are in order: one that is wrong must cost itself and nothing else.
+// This unit finds the time stamps of a file that are in order, so that a wrong stamp excludes only
+// itself.
 #pragma once
 #include <cstddef>
 #include <deque>
 #include <span>
 #include <vector>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 
 namespace leonav {
 
-// Decides about the stamps of a stream one by one, knowing the next kStampsAhead. A stamp is in
-// order if it is later than the last one that was, and if no later start would keep more of those
-// behind it in increasing order: a stamp that leaps ahead is refused by its successors, not they by
-// it. So up to kStampsAhead / 2 wrong stamps in a row are told from right ones, also the first.
+// The window decides about the stamps of a stream one by one, from the next kStampsAhead. A stamp
+// is in order if it is later than the last one that was, and if no later start would keep more of
+// the following stamps in increasing order. A stamp that leaps ahead is therefore refused by its
+// successors and does not refuse them. Up to kStampsAhead / 2 wrong stamps in a row are recognized,
+// also at the start of the stream.
 inline constexpr std::size_t kStampsAhead = 31;
 
 class StampWindow {
  public:
   void push(GpsTime stamp) { stamps_.push_back(stamp); }
   bool empty() const { return stamps_.empty(); }
-  // All is known that take() needs. At the end of the stream it may be called without.
+  // Returns whether take() has all the stamps that it needs. At the end of the stream take() may be
+  // called without them.
   bool is_full() const { return stamps_.size() > kStampsAhead; }
-  // Takes the oldest stamp out; true: it is in order.
+  // Removes the oldest stamp; returns whether it is in order.
   bool take();
 
  private:
   bool is_contradicted() const;
 
   std::deque<GpsTime> stamps_;
-  GpsTime last_;  // in order
+  GpsTime last_;  // the last stamp in order
 };
 
-// The same for stamps that are all there: true where one is in order.
+// Decides the same for a complete list of stamps: true where one is in order.
 std::vector<bool> stamps_in_order(std::span<const GpsTime> stamps);
 
 }  // namespace leonav

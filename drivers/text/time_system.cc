@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 
 namespace leonav {
 namespace {
@@ -24,7 +24,8 @@ GpsTime gps_time_of(GpsTime reading, std::string_view time_system) {
   }
   if (time_system == "TAI") return reading.plus_seconds(-kTaiMinusGpsSeconds);
   if (time_system == "UTC" || time_system == "GLO") {
-    // The step lies in UTC; asked once more at the result, the day of a step is right too.
+    // The leap second takes effect in UTC; the second look-up at the result is right on the day of
+    // a step too.
     const GpsTime first = reading.plus_seconds(leap_seconds(reading));
     return reading.plus_seconds(leap_seconds(first));
   }

@@ -36,8 +36,8 @@ SubframeStatus BeidouD1::add(std::span<const std::uint32_t, kBeidouWords> words,
   return SubframeStatus::kUsed;
 }
 
-// The reference time is split over subframes 2 and 3 and no issue number joins the three, so they
-// must be of one frame.
+// The reference time is split over subframes 2 and 3 and no issue number joins the three subframes,
+// so they must be of one frame.
 bool BeidouD1::is_complete() const {
   if (!parts_[0].sent.is_set()) return false;
   for (std::size_t i = 1; i < parts_.size(); ++i) {

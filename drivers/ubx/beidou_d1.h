@@ -1,4 +1,4 @@
-// BeiDou D1 (medium and inclined orbits): subframes 1 to 3 -> Ephemeris.
+// This unit decodes BeiDou D1 (medium and inclined orbits): subframes 1 to 3 give an Ephemeris.
 // Source: BDS-SIS-ICD-B1I 3.0, section 5.2 (figures 5-8 to 5-10, tables 5-5 to 5-10).
 #pragma once
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-// Collects the subframes of one satellite.
+// The decoder collects the subframes of one satellite.
 class BeidouD1 {
  public:
   SubframeStatus add(std::span<const std::uint32_t, kBeidouWords> words,

@@ -39,7 +39,7 @@ SubframeStatus BeidouD2::add(std::span<const std::uint32_t, kBeidouWords> words,
   return SubframeStatus::kUsed;
 }
 
-// Elements are split over pages and no issue number joins them, so all ten must be of one round.
+// The elements are split over pages that no issue number joins, so all ten must be of one round.
 bool BeidouD2::is_complete() const {
   if (!parts_[0].sent.is_set()) return false;
   for (std::size_t i = 1; i < kPages; ++i) {
@@ -65,8 +65,8 @@ Ephemeris BeidouD2::decode(const SubframeOrigin& origin) const {
   e.group_delay_s[0] = r.take_signed(10) * kGroupDelayUnit;
   e.group_delay_s[1] = r.take_signed(10) * kGroupDelayUnit;
 
-  // The elements, page by page, put together into one run of bits: a field that a page boundary
-  // splits then reads as one. Page 2 holds the ionosphere coefficients, which are not used.
+  // The elements of all pages are joined into one run of bits, so that a field that a page boundary
+  // splits reads as one. Page 2 holds the ionosphere coefficients, which are not used.
   struct Piece {
     std::size_t page, skip;  // bits after the page number that are not elements
     int count;

@@ -1,5 +1,5 @@
-// BeiDou D2 (geostationary satellites): subframe 1, pages 1 to 10 -> Ephemeris.
-// Source: BDS-SIS-ICD-B1I 3.0, section 5.3 (figures 5-14-1 to 5-14-10).
+// This unit decodes BeiDou D2 (geostationary satellites): subframe 1, pages 1 to 10, gives an
+// Ephemeris. Source: BDS-SIS-ICD-B1I 3.0, section 5.3 (figures 5-14-1 to 5-14-10).
 #pragma once
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-// Collects the pages of one satellite.
+// The decoder collects the pages of one satellite.
 class BeidouD2 {
  public:
   SubframeStatus add(std::span<const std::uint32_t, kBeidouWords> words,

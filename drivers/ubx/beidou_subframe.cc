@@ -1,6 +1,6 @@
 #include "drivers/ubx/beidou_subframe.h"
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 #include "drivers/ubx/bit_field.h"
 
 namespace leonav {
@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::uint32_t kPreamble = 0b111'0001'0010;
 
-// Word one: 15 bits without check, then one codeword. The others: two codewords, which are sent
-// interleaved (figure 5-5) and handed out by the receiver one after the other: 11 + 11 information
-// bits, 4 + 4 check bits.
+// Word one has 15 bits without check, then one codeword. Each other word has two codewords, which
+// are sent interleaved (figure 5-5) and which the receiver outputs one after the other: 11 + 11
+// information bits, 4 + 4 check bits.
 bool checks_are_good(std::span<const std::uint32_t, kBeidouWords> words) {
   if (beidou_bch((words[0] >> 4) & 0x7FF) != (words[0] & 0xF)) return false;
   for (const std::uint32_t word : words.subspan(1)) {

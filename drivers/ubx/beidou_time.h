@@ -1,20 +1,20 @@
-// BeiDou seconds of week -> GPS time.
+// This header converts BeiDou seconds of week to GPS time.
 #pragma once
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/ubx/navigation_frame.h"
 
 namespace leonav {
 
 inline constexpr int kBeidouWeekModulus = 8192;
 
-// The instant with this BeiDou second of week that is nearest to `near`.
+// Returns the instant with this BeiDou second of week that is nearest to `near`.
 inline GpsTime nearest_beidou_instant(std::int64_t sow_s, GpsTime near) {
   const GpsTime near_bdt = near.plus_nanoseconds(kBeidouMinusGpsSeconds * kNanosecondsPerSecond);
   return nearest_instant(sow_s, near_bdt)
       .plus_nanoseconds(-kBeidouMinusGpsSeconds * kNanosecondsPerSecond);
 }
 
-// True if a broadcast BeiDou week number can be that of `time` (see week_agrees).
+// Returns whether a broadcast BeiDou week number can be that of `time` (see week_agrees).
 inline bool beidou_week_agrees(int week, GpsTime time) {
   return week_agrees(week, kBeidouWeekModulus, kBeidouWeekZeroInGpsWeeks, time);
 }

@@ -1,5 +1,5 @@
-// Bit fields of navigation messages: most significant bit first, as the interface documents draw
-// them.
+// This header reads and writes the bit fields of navigation messages, most significant bit first,
+// as in the figures of the interface documents.
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace leonav {
 
-// Reads fields one after the other. Bits beyond the end read as zero and set overrun().
+// The reader takes fields one after the other. Bits beyond the end read as zero and set overrun().
 class BitReader {
  public:
   explicit constexpr BitReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  // Next `count` (0 to 32) bits as an unsigned number.
+  // Returns the next `count` (0 to 32) bits as an unsigned number.
   constexpr std::uint32_t take(int count) {
     std::uint32_t value = 0;
     for (int i = 0; i < count; ++i, ++position_) {
@@ -26,14 +26,14 @@ class BitReader {
     }
     return value;
   }
-  // Next `count` (1 to 32) bits in two's complement.
+  // Returns the next `count` (1 to 32) bits in two's complement.
   constexpr std::int32_t take_signed(int count) {
     const std::uint32_t raw = take(count);
     const std::uint32_t sign = std::uint32_t{1} << (count - 1);
     // (x ^ s) - s extends the sign without a shift of a negative number.
     return static_cast<std::int32_t>((raw ^ sign) - sign);
   }
-  // The same times 2^power.
+  // Return the next bits times 2^power.
   double scaled(int count, int power) {
     return std::ldexp(static_cast<double>(take(count)), power);
   }
@@ -53,11 +53,11 @@ class BitReader {
   bool overrun_ = false;
 };
 
-// Writes fields one after the other into a fixed buffer; bits that do not fit are dropped.
+// The writer puts fields one after the other into a fixed buffer; bits that do not fit are dropped.
 template <std::size_t kBytes>
 class BitWriter {
  public:
-  // The `count` (0 to 32) least significant bits of `value`.
+  // Writes the `count` (0 to 32) least significant bits of `value`.
   constexpr void put(std::uint32_t value, int count) {
     for (int i = count - 1; i >= 0; --i, ++position_) {
       if (position_ / 8 >= kBytes) continue;

@@ -1,4 +1,4 @@
-// CRC-24Q, as Galileo and SBAS pages and RTCM 3 frames carry it.
+// This header computes CRC-24Q, the checksum of Galileo and SBAS pages and RTCM 3 frames.
 #pragma once
 #include <cstdint>
 
@@ -6,8 +6,9 @@
 
 namespace leonav {
 
-// The checksum `crc` with one more bit. Generator x^24 + x^23 + x^18 + x^17 + x^14 + x^11 + x^10 +
-// x^7 + x^6 + x^5 + x^4 + x^3 + x + 1 (Galileo OS-SIS-ICD 2.1, 5.1.9.4; RTCM 10403.3, 4.2).
+// Returns the checksum `crc` continued by one bit. Generator x^24 + x^23 + x^18 + x^17 + x^14 +
+// x^11 + x^10 + x^7 + x^6 + x^5 + x^4 + x^3 + x + 1 (Galileo OS-SIS-ICD 2.1, 5.1.9.4; RTCM 10403.3,
+// 4.2).
 constexpr std::uint32_t crc24q_with_bit(std::uint32_t crc, std::uint32_t bit) {
   constexpr std::uint32_t kGenerator = 0x864CFB;
   const std::uint32_t feedback = ((crc >> 23) ^ bit) & 1u;
@@ -15,13 +16,13 @@ constexpr std::uint32_t crc24q_with_bit(std::uint32_t crc, std::uint32_t bit) {
   return feedback ? crc ^ kGenerator : crc;
 }
 
-// With one more byte, highest bit first.
+// Returns the checksum continued by one byte, highest bit first.
 constexpr std::uint32_t crc24q_next(std::uint32_t crc, std::uint8_t byte) {
   for (int shift = 7; shift >= 0; --shift) crc = crc24q_with_bit(crc, byte >> shift);
   return crc;
 }
 
-// Checksum of the next `count` bits.
+// Returns the checksum of the next `count` bits.
 constexpr std::uint32_t crc24q(BitReader bits, int count) {
   std::uint32_t crc = 0;
   for (int i = 0; i < count; ++i)

@@ -38,11 +38,12 @@ void ForeignMessages::begin(std::uint8_t byte) {
   size_ = 1;
   star_ = 0;
   length_ = 0;
-  told_ = 0;
-  check_ = kind_ == Kind::kRtcm3 ? crc24q_next(0, byte) : 0;
+  stated_checksum_ = 0;
+  checksum_ = kind_ == Kind::kRtcm3 ? crc24q_next(0, byte) : 0;
 }
 
-// $ text * two hexadecimal digits, carriage return, line feed; the checksum is over the text.
+// A sentence is: $, text, *, two hexadecimal digits, carriage return, line feed; the checksum is
+// over the text.
 void ForeignMessages::take_nmea(std::uint8_t byte) {
   ++size_;
   const std::size_t after_star = star_ == 0 ? 0 : size_ - star_;
@@ -52,14 +53,14 @@ void ForeignMessages::take_nmea(std::uint8_t byte) {
     if (byte == '*') {
       star_ = size_;
     } else {
-      check_ ^= byte;
+      checksum_ ^= byte;
     }
   } else if (after_star <= 2) {
     const int digit = hexadecimal(byte);
     fits = digit >= 0;
-    told_ = told_ * 16 + static_cast<std::uint32_t>(digit);
+    stated_checksum_ = stated_checksum_ * 16 + static_cast<std::uint32_t>(digit);
   } else {
-    fits = byte == (after_star == 3 ? '\r' : '\n') && told_ == check_;
+    fits = byte == (after_star == 3 ? '\r' : '\n') && stated_checksum_ == checksum_;
     if (fits && after_star == 4) {
       ++counters_.nmea_sentences;
       counters_.nmea_bytes += size_;
@@ -71,15 +72,15 @@ void ForeignMessages::take_nmea(std::uint8_t byte) {
 
 void ForeignMessages::take_rtcm3(std::uint8_t byte) {
   ++size_;
-  check_ = crc24q_next(check_, byte);
+  checksum_ = crc24q_next(checksum_, byte);
   if (size_ == 2) {
     if ((byte & 0xFC) != 0) return begin(byte);
     length_ = std::size_t{byte} << 8;
   } else if (size_ == 3) {
     length_ += byte + kRtcm3Overhead;
   } else if (size_ == length_) {
-    // The checksum at the end of what it protects leaves no remainder.
-    if (check_ != 0) return begin(byte);
+    // A CRC computed over a frame and its own checksum is zero.
+    if (checksum_ != 0) return begin(byte);
     ++counters_.rtcm3_frames;
     counters_.rtcm3_bytes += size_;
     kind_ = Kind::kNone;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/ubx/bit_field.h"
 #include "drivers/ubx/crc24q.h"
 #include "drivers/ubx/galileo_inav.h"
@@ -15,7 +15,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kWeekModulus = 4096;
 constexpr int kCovered = 6 + 208;  // bits under the CRC
 
-// Where each page type has its issue of data and its time of week, from the page's first bit.
+// Position of the issue of data and of the time of week in each page type, from the page's first
+// bit.
 struct Position {
   std::size_t issue, tow;
   bool has_week;  // 12 bits, before the time of week
@@ -44,7 +45,7 @@ SubframeStatus GalileoFnav::add(std::span<const std::uint32_t, kWords> words,
   const std::uint32_t type = BitReader(bits).take(6);
   if (type < 1 || type > pages_.size()) return SubframeStatus::kOtherMessage;
 
-  // Page 1 names its satellite; another one's page came by cross-correlation.
+  // Page 1 has its satellite's number; another number is a page received by cross-correlation.
   if (type == 1 && BitReader(bits).skip(6).take(6) != origin.satellite.number) {
     return SubframeStatus::kWrongSatellite;
   }

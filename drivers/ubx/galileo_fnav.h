@@ -1,5 +1,5 @@
-// Galileo F/NAV (E5a): page types 1 to 4 -> Ephemeris.
-// Source: Galileo OS-SIS-ICD issue 2.1, 4.2 (pages) and 5.1 (parameters).
+// This unit decodes Galileo F/NAV (E5a): page types 1 to 4 give an Ephemeris. Source: Galileo
+// OS-SIS-ICD issue 2.1, 4.2 (pages) and 5.1 (parameters).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace leonav {
 
-// Collects the pages of one satellite.
+// The decoder collects the pages of one satellite.
 class GalileoFnav {
  public:
   static constexpr std::size_t kWords = 8;
-  // One page: type 6 bits, data 208, CRC 24, tail 6, left-aligned in the eight words.
+  // Takes one page: type 6 bits, data 208, CRC 24, tail 6, left-aligned in the eight words.
   SubframeStatus add(std::span<const std::uint32_t, kWords> words, const SubframeOrigin& origin,
                      NavigationUpdate* update);
 

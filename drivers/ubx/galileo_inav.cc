@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/ubx/bit_field.h"
 #include "drivers/ubx/crc24q.h"
 
@@ -54,7 +54,7 @@ SubframeStatus GalileoInav::add(std::span<const std::uint32_t, kWords> words,
   for (int i = 0; i < 16; ++i) word.put(odd.take(1), 1);
   const std::uint32_t type = BitReader(word.bytes()).take(6);
   if (type < 1 || type > words_.size()) return SubframeStatus::kOtherMessage;
-  // Word 4 names its satellite; another one's word came by cross-correlation.
+  // Word 4 has its satellite's number; another number is a word received by cross-correlation.
   if (type == 4 && BitReader(word.bytes()).skip(16).take(6) != origin.satellite.number) {
     return SubframeStatus::kWrongSatellite;
   }
@@ -78,7 +78,7 @@ bool GalileoInav::is_complete() const {
   for (std::size_t i = 1; i < words_.size(); ++i) {
     if (!are_contemporary(words_[0].received, words_[i].received)) return false;
   }
-  // Word 5 carries no issue of data: it holds what does not change with it.
+  // Word 5 has no issue of data: its contents do not depend on the issue.
   const std::uint32_t issue = issue_of(words_[0].bits);
   return issue == issue_of(words_[1].bits) && issue == issue_of(words_[2].bits) &&
          issue == issue_of(words_[3].bits);
@@ -125,7 +125,7 @@ Ephemeris GalileoInav::decode(const SubframeOrigin& origin) const {
   e.group_delay_s[1] = r.scaled_signed(10, -32);
   const std::uint32_t e5b_health = r.take(2), e1b_health = r.take(2);
   const std::uint32_t e5b_invalid = r.take(1), e1b_invalid = r.take(1);
-  // As RINEX packs them: E1-B in bits 0-2, E5b in bits 6-8.
+  // The bits are packed as in RINEX: E1-B in bits 0-2, E5b in bits 6-8.
   e.health = static_cast<std::uint16_t>(e1b_invalid | (e1b_health << 1) | (e5b_invalid << 6) |
                                         (e5b_health << 7));
   e.transmission_time = nearest_instant(r.skip(12).take(20), origin.now);

@@ -1,5 +1,5 @@
-// Galileo I/NAV (E1-B and E5b): word types 1 to 5 -> Ephemeris.
-// Source: Galileo OS-SIS-ICD issue 2.1, 4.3 (pages and words) and 5.1 (parameters).
+// This unit decodes Galileo I/NAV (E1-B and E5b): word types 1 to 5 give an Ephemeris. Source:
+// Galileo OS-SIS-ICD issue 2.1, 4.3 (pages and words) and 5.1 (parameters).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,14 +9,16 @@
 
 namespace leonav {
 
-// Signal-in-space accuracy in metres of an index (OS-SIS-ICD table 89); -1: no prediction or spare.
+// Returns the signal-in-space accuracy in metres of an index (OS-SIS-ICD table 89); -1: no
+// prediction or spare.
 double galileo_sisa_m(unsigned index);
 
-// Collects the words of one satellite; E1-B and E5b send the same ones and share a collector.
+// The decoder collects the words of one satellite; E1-B and E5b send the same ones and share it.
 class GalileoInav {
  public:
   static constexpr std::size_t kWords = 8;
-  // One nominal page: the even part in words 0 to 3, the odd part in words 4 to 7, 120 bits each.
+  // Takes one nominal page: the even part in words 0 to 3, the odd part in words 4 to 7, 120 bits
+  // each.
   SubframeStatus add(std::span<const std::uint32_t, kWords> words, const SubframeOrigin& origin,
                      NavigationUpdate* update);
 

@@ -17,8 +17,8 @@ constexpr int kSubframeSeconds = 6;
 constexpr std::uint32_t kKlobucharPageId = 56;  // "SV ID" of page 18 (table 20-V)
 constexpr std::uint32_t kGpsDataId = 1;         // "01": the structure of IS-GPS-200
 
-// Data bits of each word that enter parity bit D25..D30, and which of the previous word's last
-// two bits does (IS-GPS-200N table 20-XIV); bit 23 is d1.
+// Each rule has the data bits of a word that enter parity bit D25..D30, and which of the previous
+// word's last two bits does (IS-GPS-200N table 20-XIV); bit 23 is d1.
 struct ParityRule {
   std::uint32_t mask;
   bool uses_d29;
@@ -32,7 +32,7 @@ constexpr std::array<ParityRule, 6> kParityRules = {{
     {0b0010'1101'1110'1010'0010'0111, true},
 }};
 
-// Subframe without TLM and HOW: what words three to ten hold.
+// Returns the subframe without TLM and HOW: the contents of words three to ten.
 BitReader after_how(std::span<const std::uint8_t> bits) {
   BitReader reader(bits);
   reader.skip(48);
@@ -93,7 +93,7 @@ SubframeStatus GpsLnav::add(std::span<const std::uint32_t, kWords> words,
   how.skip(24);
   const std::uint32_t next_count = how.take(17);  // of the next subframe, in 6 s
   const std::uint32_t number = how.skip(2).take(3);
-  // A time of week beyond the week: the satellite says it is testing (20.3.3.2 counts to 100799).
+  // With a time of week beyond the week the satellite marks a test (20.3.3.2 counts to 100799).
   if (next_count >= kSecondsPerWeek / kSubframeSeconds) return SubframeStatus::kBadParity;
 
   if (number == 4) {
@@ -123,7 +123,7 @@ bool GpsLnav::is_complete() const {
   if (!are_contemporary(first.sent, second.sent) || !are_contemporary(second.sent, third.sent)) {
     return false;
   }
-  // A cut-over between issues shows as different numbers (20.3.3.4.1).
+  // A change of issue within the set appears as different numbers (20.3.3.4.1).
   const std::uint32_t issue = issue_of_subframe2(second.bits);
   return issue == issue_of_clock_low(first.bits) && issue == issue_of_subframe3(third.bits);
 }

@@ -1,5 +1,6 @@
-// GPS LNAV: subframes 1 to 3 -> Ephemeris, subframe 4 page 18 -> KlobucharModel.
-// Source: IS-GPS-200N, 20.3.3 (figures 20-1, tables 20-I to 20-III) and 20.3.5 (parity).
+// This unit decodes GPS LNAV: subframes 1 to 3 give an Ephemeris, subframe 4 page 18 a
+// KlobucharModel. Source: IS-GPS-200N, 20.3.3 (figures 20-1, tables 20-I to 20-III) and 20.3.5
+// (parity).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,16 +10,16 @@
 
 namespace leonav {
 
-// User range accuracy in metres of an index as GPS and BeiDou D1/D2 send it: the nominal value X
-// of IS-GPS-200N 20.3.3.3.1.3 (2.8 m for 1, ...). -1 for 15, "no prediction".
+// Returns the user range accuracy in metres of an index of GPS or BeiDou D1/D2: the nominal value X
+// of IS-GPS-200N 20.3.3.3.1.3 (2.8 m for 1, ...). It is -1 for 15, "no prediction".
 double nominal_accuracy_m(unsigned index);
 
-// Collects the subframes of one satellite.
+// The decoder collects the subframes of one satellite.
 class GpsLnav {
  public:
   static constexpr std::size_t kWords = 10;
-  // One subframe: ten words. u-blox turns a whole word over, its two leading bits (D29*, D30* of
-  // the word before) and its parity included, so that the data bits stand upright.
+  // Takes one subframe: ten words. u-blox inverts a whole word with its two leading bits (D29*,
+  // D30* of the word before) and its parity, so that the data bits are not inverted.
   SubframeStatus add(std::span<const std::uint32_t, kWords> words, const SubframeOrigin& origin,
                      NavigationUpdate* update);
 
@@ -35,8 +36,8 @@ class GpsLnav {
   std::array<Subframe, 3> subframes_;
 };
 
-// True if the parity of all ten words is right. A word turned over together with its D29* and D30*
-// satisfies the same equations, so each word is checked by itself.
+// Returns whether the parity of all ten words is right. A word inverted together with its D29* and
+// D30* satisfies the same equations, so each word is checked by itself.
 bool gps_parity_is_good(std::span<const std::uint32_t, GpsLnav::kWords> words);
 
 }  // namespace leonav

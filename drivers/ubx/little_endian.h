@@ -1,10 +1,12 @@
-// Little-endian numbers in a UBX payload.
+// This header reads little-endian numbers from a UBX payload.
 #pragma once
 #include <bit>
 #include <cstdint>
 
 namespace leonav {
 
+// Each function reads the u-blox type of its name (U2, U4, U8, R4, R8) at `p`; the caller checks
+// the length.
 constexpr std::uint16_t read_u2(const std::uint8_t* p) {
   return static_cast<std::uint16_t>(p[0] | (p[1] << 8));
 }

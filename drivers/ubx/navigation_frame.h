@@ -1,39 +1,41 @@
-// What the decoders of all navigation messages share: their result, and full times from truncated
-// ones.
+// This header defines what the decoders of all navigation messages share: their result, and full
+// times from truncated ones.
 #pragma once
 #include <cstdint>
 #include <optional>
 
-#include "core/gnss/ephemeris.h"
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
+#include "core/gnss/orbits/ephemeris.h"
 
 namespace leonav {
 
-// What one subframe completed, if anything.
+// Result of one subframe: the set that it completed, if any.
 struct NavigationUpdate {
   std::optional<Ephemeris> ephemeris;
   std::optional<KlobucharModel> klobuchar;
 };
 
+// Outcome of one subframe.
 enum class SubframeStatus : std::uint8_t {
   kUsed = 0,
-  kOtherMessage,    // well-formed, but nothing leonav reads
+  kOtherMessage,    // well-formed, but not a message that leonav reads
   kBadParity,       // parity, CRC or fixed bits wrong
   kBadWeek,         // its week number contradicts the receiver's
-  kWrongSatellite,  // it names another satellite than the one it is said to come from
+  kWrongSatellite,  // it names another satellite than the receiver does
 };
 
-// Where one subframe comes from. `now` is the time of the last RAWX.
+// Source of one subframe. `now` is the time of the last RAWX.
 struct SubframeOrigin {
   SatelliteId satellite;
   GpsTime now;
 };
 
-// Parts of one ephemeris may come this far apart and still belong together: below the least time
-// after which an issue number is used again (GPS IODE: six hours, IS-GPS-200 20.3.4.4).
+// Parts of one ephemeris may be received this far apart. It is below the least time after which an
+// issue number is used again (GPS IODE: six hours, IS-GPS-200 20.3.4.4).
 inline constexpr double kMaxSetAge_s = 3600.0;
 
-// The week in full whose remainder modulo `modulus` is `truncated`, nearest to `reference_week`.
+// Returns the full week whose remainder modulo `modulus` is `truncated`, nearest to
+// `reference_week`.
 constexpr int full_week(int truncated, int modulus, int reference_week) {
   int difference = (truncated - reference_week) % modulus;
   if (difference < 0) difference += modulus;
@@ -41,7 +43,7 @@ constexpr int full_week(int truncated, int modulus, int reference_week) {
   return reference_week + difference;
 }
 
-// The instant with this time of week that is nearest to `near`.
+// Returns the instant with this time of week that is nearest to `near`.
 inline GpsTime nearest_instant(std::int64_t tow_s, GpsTime near) {
   const std::int64_t start = near.week() * kNanosecondsPerWeek;
   GpsTime time = GpsTime::from_nanoseconds(start + tow_s * kNanosecondsPerSecond);
@@ -51,15 +53,15 @@ inline GpsTime nearest_instant(std::int64_t tow_s, GpsTime near) {
   return time;
 }
 
-// True if a broadcast week number can be that of `time`: the week itself or, since receiver and
-// satellite may be on two sides of a week's end, a neighbour. `offset` is week zero of the
+// Returns whether a broadcast week number can be that of `time`: the week itself or, since receiver
+// and satellite may be on two sides of a week's end, a neighbour. `offset` is week zero of the
 // system's own count in GPS weeks.
 constexpr bool week_agrees(int truncated, int modulus, int offset, GpsTime time) {
   const int difference = full_week(truncated + offset, modulus, time.week()) - time.week();
   return difference >= -1 && difference <= 1;
 }
 
-// True if two parts received at these times may belong to one set.
+// Returns whether two parts received at these times may belong to one set.
 inline bool are_contemporary(GpsTime a, GpsTime b) {
   const double age_s = seconds_between(a, b);
   return a.is_set() && b.is_set() && age_s > -kMaxSetAge_s && age_s < kMaxSetAge_s;

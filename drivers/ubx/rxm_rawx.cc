@@ -13,8 +13,8 @@ constexpr std::size_t kHeaderSize = 16;
 constexpr std::size_t kBlockSize = 32;
 constexpr std::uint8_t kVersion = 1;
 
-// What a receiver on or near the Earth can measure, with room for its clock being off by tens of
-// milliseconds. Anything outside is damage or malice.
+// Bounds on what a receiver on or near the Earth can measure, with a clock error of tens of
+// milliseconds. Values outside are damage or malice.
 constexpr double kMinPseudorange = 1e6;  // m
 constexpr double kMaxPseudorange = 1e8;  // m
 constexpr double kMaxCarrier = 1e10;     // cycles
@@ -30,7 +30,7 @@ constexpr std::uint8_t kCarrierValid = 2;
 constexpr std::uint8_t kHalfCycleKnown = 4;
 constexpr std::uint8_t kHalfCycleSubtracted = 8;
 
-// One measurement block of the message, as it stands there.
+// One measurement block of the message, with the message's own units.
 struct Block {
   explicit Block(const std::uint8_t* p)
       : pseudorange_m(read_r8(p)),
@@ -73,7 +73,7 @@ RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawE
   }
   const double tow_s = read_r8(payload.data());
   const int week = read_u2(payload.data() + 8);
-  // Week zero is what the receiver says before it knows the time.
+  // The receiver sends week zero before it has the time.
   if (!is_within(tow_s, 0.0, static_cast<double>(kSecondsPerWeek)) || week < 1 || week > kMaxWeek) {
     ++counters_.bad_time;
     return RxmRawxStatus::kBadTime;
@@ -134,7 +134,7 @@ bool RxmRawxDecoder::decode_measurement(const std::uint8_t* bytes, GpsTime time,
   if (block.tracking & kPseudorangeValid) {
     observation->pseudorange_m = checked(block.pseudorange_m, kMinPseudorange, kMaxPseudorange);
   }
-  // Before the first lock the carrier reads 0, or -0.5 once the half cycle is subtracted.
+  // Before the first lock the carrier is 0, or -0.5 once the half cycle is subtracted.
   const bool has_carrier = (block.tracking & kCarrierValid) && block.carrier_cycles != 0.0 &&
                            block.carrier_cycles != -0.5 &&
                            block.carrier_std_index <= options_.max_carrier_std_index;
@@ -161,11 +161,12 @@ bool RxmRawxDecoder::decode_measurement(const std::uint8_t* bytes, GpsTime time,
   return true;
 }
 
-// `last` is the last epoch with a valid carrier, so that a lock lost and found again while the
-// carrier was away is seen too: then the lock is younger than that epoch.
+// `last` is the last epoch with a valid carrier, so that a lock lost and found again without a
+// carrier in between is recognized too: the lock is then younger than that epoch.
 bool RxmRawxDecoder::lock_was_lost(const LockState& last, const LockState& now) {
   if (now.lock_time_ms == 0) return true;
-  if (!last.time.is_set()) return false;  // first seen: nothing to be continuous with
+  // First epoch of the signal: nothing to be continuous with.
+  if (!last.time.is_set()) return false;
   if (last.suspect || now.half_cycle_subtracted != last.half_cycle_subtracted) return true;
   if (now.lock_time_ms < last.lock_time_ms) return true;
   const double elapsed_ms = seconds_between(now.time, last.time) * 1e3;

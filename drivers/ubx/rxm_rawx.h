@@ -1,20 +1,22 @@
-// UBX-RXM-RAWX (0x02 0x15): multi-GNSS raw measurements -> RawEpoch.
-// Source: u-blox ZED-F9P interface description UBX-22008968, section 3.17.5.
+// This unit decodes UBX-RXM-RAWX (0x02 0x15), multi-GNSS raw measurements, to a RawEpoch. Source:
+// u-blox ZED-F9P interface description UBX-22008968, section 3.17.5.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "core/gnss/observation.h"
+#include "core/gnss/signals/observation.h"
 
 namespace leonav {
 
+// Settings of the decoder.
 struct RxmRawxOptions {
-  // Carriers whose standard deviation index (0.004 cycles each) is above this are left out; the
-  // receiver says 15 for "invalid".
+  // Carriers whose standard deviation index (0.004 cycles each) is above this are excluded; 15
+  // means "invalid".
   int max_carrier_std_index = 14;
 };
 
+// Outcome of one message.
 enum class RxmRawxStatus : std::uint8_t {
   kOk = 0,
   kBadLength,   // payload does not hold the measurements it claims
@@ -22,6 +24,7 @@ enum class RxmRawxStatus : std::uint8_t {
   kBadTime,     // week or time of week not finite or out of range
 };
 
+// Counts of messages and measurements.
 struct RxmRawxCounters {
   std::uint64_t epochs = 0;
   std::uint64_t bad_length = 0;
@@ -36,8 +39,8 @@ struct RxmRawxCounters {
   std::uint64_t empty = 0;           // neither code nor carrier nor Doppler
 };
 
-// Keeps the lock state of each signal from epoch to epoch, so that a carrier whose lock time has
-// restarted says loss_of_lock.
+// The decoder keeps the lock state of each signal from epoch to epoch, so that a carrier whose lock
+// time has restarted gets loss_of_lock.
 class RxmRawxDecoder {
  public:
   explicit RxmRawxDecoder(const RxmRawxOptions& options = {});
@@ -49,7 +52,7 @@ class RxmRawxDecoder {
     GpsTime time;  // last epoch that had this signal's carrier
     std::uint16_t lock_time_ms = 0;
     bool half_cycle_subtracted = false;
-    bool suspect = false;  // since then the receiver tracked on but vouched for nothing
+    bool suspect = false;  // since then the carrier was tracked without a standard deviation
   };
   static constexpr std::size_t kSatellites = 64;  // numbers within a system
   static constexpr std::size_t kSignalIds = 16;

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/gnss/satellite_state.h"
+#include "core/gnss/orbits/satellite_state.h"
 #include "drivers/ubx/beidou_d1.h"
 #include "drivers/ubx/beidou_d2.h"
 #include "drivers/ubx/galileo_fnav.h"
@@ -22,7 +22,7 @@ constexpr std::size_t kSatellites = 64;
 
 using Words = std::span<const std::uint32_t>;
 
-// True if both say the same, whenever they were sent.
+// Returns whether both have the same contents, whenever they were sent.
 bool say_the_same(const Ephemeris& a, const Ephemeris& b) {
   const auto elements = [](const Ephemeris& e) {
     return std::array{e.sqrt_a,
@@ -53,14 +53,14 @@ bool say_the_same(const Ephemeris& a, const Ephemeris& b) {
 
 }  // namespace
 
-// One collector per satellite and message; a satellite number is below kSatellites.
+// There is one collector per satellite and message; a satellite number is below kSatellites.
 struct RxmSfrbxDecoder::State {
   std::array<GpsLnav, kSatellites> gps_lnav;
   std::array<GalileoInav, kSatellites> galileo_inav;
   std::array<GalileoFnav, kSatellites> galileo_fnav;
   std::array<BeidouD1, kSatellites> beidou_d1;
   std::array<BeidouD2, kSatellites> beidou_d2;
-  // Last reported, by NavigationMessage.
+  // Ephemerides last reported, by NavigationMessage.
   std::array<std::array<Ephemeris, kSatellites>, 5> reported;
 
   SubframeStatus add_gps(std::uint8_t signal_id, Words words, const SubframeOrigin& origin,
@@ -138,7 +138,7 @@ NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, 
     buffer[i] = read_u4(payload.data() + kHeaderSize + i * sizeof(std::uint32_t));
   }
   count(add(payload[2], Words(buffer).first(payload[4]), origin, &update));
-  if (update.ephemeris && !is_news(*update.ephemeris)) update.ephemeris.reset();
+  if (update.ephemeris && !is_new_issue(*update.ephemeris)) update.ephemeris.reset();
   return update;
 }
 
@@ -177,7 +177,7 @@ void RxmSfrbxDecoder::count(SubframeStatus status) {
   }
 }
 
-bool RxmSfrbxDecoder::is_news(const Ephemeris& ephemeris) {
+bool RxmSfrbxDecoder::is_new_issue(const Ephemeris& ephemeris) {
   if (!is_sane(ephemeris)) {
     ++counters_.not_sane;
     return false;

@@ -1,5 +1,5 @@
-// UBX-RXM-SFRBX (0x02 0x13): broadcast subframes -> ephemerides and ionosphere coefficients.
-// Source: u-blox ZED-F9P interface description UBX-22008968, sections 1.5 and 3.17.9.
+// This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides and ionosphere
+// coefficients. Source: u-blox ZED-F9P interface description UBX-22008968, sections 1.5 and 3.17.9.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -9,6 +9,7 @@
 
 namespace leonav {
 
+// Counts of subframes and ephemerides.
 struct RxmSfrbxCounters {
   std::uint64_t subframes = 0;  // understood and used
   std::uint64_t bad_length = 0;
@@ -18,19 +19,20 @@ struct RxmSfrbxCounters {
   std::uint64_t other_message = 0;  // a navigation message leonav does not read (CNAV, B-CNAV, ...)
   std::uint64_t bad_parity = 0;     // parity or CRC wrong, or the fixed bits are not there
   std::uint64_t bad_week = 0;       // its week number contradicts the receiver's
-  std::uint64_t wrong_satellite = 0;  // it names another satellite than the receiver says
-  std::uint64_t without_time = 0;     // came before a RAWX had told the week
+  std::uint64_t wrong_satellite = 0;  // it names another satellite than the receiver does
+  std::uint64_t without_time = 0;     // received before a RAWX had given the week
   std::uint64_t not_sane = 0;         // decoded elements outside physical bounds
   std::uint64_t ephemerides = 0;
 };
 
-// Collects the subframes of every satellite. An ephemeris is reported when it is complete and says
-// anything that the last one reported for its satellite and message did not.
+// The decoder collects the subframes of every satellite. It reports an ephemeris when it is
+// complete and differs from the last one reported for its satellite and message.
 class RxmSfrbxDecoder {
  public:
   RxmSfrbxDecoder();
   ~RxmSfrbxDecoder();
-  // `now`: time of the last RAWX, by which truncated week numbers are completed; unset if none yet.
+  // Takes one message. `now` is the time of the last RAWX, which completes truncated week numbers;
+  // unset if there was none.
   NavigationUpdate decode(std::span<const std::uint8_t> payload, GpsTime now);
   const RxmSfrbxCounters& counters() const { return counters_; }
 
@@ -38,7 +40,7 @@ class RxmSfrbxDecoder {
   SubframeStatus add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
                      const SubframeOrigin& origin, NavigationUpdate* update);
   void count(SubframeStatus status);
-  bool is_news(const Ephemeris& ephemeris);
+  bool is_new_issue(const Ephemeris& ephemeris);
 
   struct State;
   RxmSfrbxCounters counters_;

@@ -1,19 +1,19 @@
-// A u-blox byte stream -> observations, ephemerides and ionosphere coefficients.
+// This unit decodes a u-blox byte stream to observations, ephemerides and ionosphere coefficients.
 // Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <span>
 
-#include "core/gnss/ephemeris.h"
-#include "core/gnss/observation.h"
+#include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/signals/observation.h"
 #include "drivers/ubx/rxm_rawx.h"
 #include "drivers/ubx/rxm_sfrbx.h"
 #include "drivers/ubx/ubx_framer.h"
 
 namespace leonav {
 
-// Gets what the decoder finds, in the order of the stream.
+// The handler gets the decoder's results in the order of the stream.
 class UbxHandler {
  public:
   virtual ~UbxHandler() = default;
@@ -22,6 +22,7 @@ class UbxHandler {
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
 };
 
+// Counts of all parts of the decoder.
 struct UbxCounters {
   UbxFramerCounters framer;
   RxmRawxCounters rawx;
@@ -29,15 +30,15 @@ struct UbxCounters {
   std::uint64_t other_messages = 0;  // framed, but not one that leonav reads
 };
 
-// Streaming: chunks of any size, no recursion, bounded memory. An ephemeris is reported once per
-// issue: the receiver repeats the same one every 30 s or so.
+// The decoder streams: chunks of any size, no recursion, bounded memory. An ephemeris is reported
+// once per issue, although the receiver repeats it every 30 s or so.
 class UbxDecoder {
  public:
   explicit UbxDecoder(const RxmRawxOptions& options = {});
   ~UbxDecoder();
 
   void feed(std::span<const std::uint8_t> bytes, UbxHandler* handler);
-  // End of the stream: decodes what a false sync near the end still holds back.
+  // Ends the stream and decodes the bytes that a false sync near the end still holds back.
   void finish(UbxHandler* handler);
   UbxCounters counters() const;
 

@@ -1,4 +1,4 @@
-// A recorded UBX file, one output after the other.
+// This unit reads a recorded UBX file, one output after the other.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,13 +10,14 @@ namespace leonav {
 
 using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
 
-// Reads the file in chunks. Throws FileError if the file cannot be opened or read.
+// The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
+// read.
 class UbxFileReader {
  public:
   explicit UbxFileReader(const std::string& path, const RxmRawxOptions& options = {});
   ~UbxFileReader();
-  // The next output in the order of the file; false at its end. Check counters() then: a file in
-  // which nothing was found is not an error here.
+  // Returns the next output in the order of the file; false at its end. The caller then checks
+  // counters(): a file without any output is not an error here.
   bool next(UbxOutput* output);
   UbxCounters counters() const;
 

@@ -33,10 +33,10 @@ std::size_t UbxFramer::append(std::span<const std::uint8_t> bytes) {
   return count;
 }
 
-// The 8-bit Fletcher checksum of bytes [first, last] from the running sums: with S and T the sums
-// up to and including a byte, A = S(last) - S(first-1), B = T(last) - T(first-1) - n S(first-1).
-// So a candidate costs the same whatever length it claims, and a stream full of false syncs
-// cannot make the search slow.
+// The 8-bit Fletcher checksum of bytes [first, last] follows from running sums: with S and T the
+// sums up to and including a byte, A = S(last) - S(first-1), B = T(last) - T(first-1) - n
+// S(first-1). A candidate therefore costs the same whatever its length field is, and a stream full
+// of false syncs cannot make the search slow.
 bool UbxFramer::checksum_is_good(std::size_t first, std::size_t last) const {
   const auto n = static_cast<std::uint8_t>(last - first + 1);
   const std::uint8_t before = sum_[first - 1];

@@ -1,4 +1,5 @@
-// Finds UBX messages in a stream of bytes: sync characters, length bound, Fletcher checksum.
+// This unit finds UBX messages in a stream of bytes by sync characters, length bound and Fletcher
+// checksum.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,29 +17,30 @@ struct UbxMessage {
   std::span<const std::uint8_t> payload;
 };
 
+// Counts of messages and of bytes between them.
 struct UbxFramerCounters {
   std::uint64_t messages = 0;       // framed, checksum good
   std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
-  ForeignMessageCounters foreign;   // what of bytes_skipped belongs to other protocols
+  ForeignMessageCounters foreign;   // the part of bytes_skipped that belongs to other protocols
   std::uint64_t bad_checksums = 0;
   std::uint64_t oversize = 0;    // claimed length above kMaxPayload: taken for a false sync
   std::uint64_t incomplete = 0;  // cut off by the end of the stream
 };
 
-// The caller appends bytes and takes messages until there are none. A false sync or a damaged
-// message costs only its own bytes: the search resumes one byte after its first.
+// The caller appends bytes and takes messages until none is left. A false sync or a damaged message
+// costs only its own bytes: the search resumes one byte after its first.
 class UbxFramer {
  public:
   // RXM-RAWX with 255 measurements has 16 + 255 * 32 bytes of payload; nothing else is longer.
   static constexpr std::size_t kMaxPayload = 16 + 255 * 32;
 
-  // Copies as many of `bytes` as fit and returns how many; never zero unless `bytes` is empty or a
-  // message is still to be taken.
+  // Copies as many of `bytes` as fit and returns their number. It is never zero unless `bytes` is
+  // empty or a message has not been taken yet.
   std::size_t append(std::span<const std::uint8_t> bytes);
-  // Takes the next message; false: more bytes are needed.
+  // Takes the next message; returns false if more bytes are needed.
   bool next(UbxMessage* message);
-  // The stream has ended: counts what is left as skipped after looking for messages inside it
-  // (a false sync near the end must not swallow good messages). Call next() until false after it.
+  // Ends the stream: the rest counts as skipped after a search for messages inside it (a false sync
+  // near the end must not hide good messages). After it, call next() until it returns false.
   void finish() { finished_ = true; }
 
   UbxFramerCounters counters() const;

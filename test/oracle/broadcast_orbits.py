@@ -4,7 +4,7 @@
 Needs the PyPI package pyrtklib (RTKLIB's own functions, callable from Python), in a virtual
 environment; nothing else in the project does. Use:
 
-  broadcast_orbits.py literals NAV > test/core/gnss/broadcast_oracle.h
+  broadcast_orbits.py literals NAV > test/core/gnss/orbits/broadcast_oracle.h
       A few ephemerides of each kind with RTKLIB's positions and clocks, as C++.
   broadcast_orbits.py table NAV > states.txt
       Every GPS, Galileo and BeiDou ephemeris of the file at several instants around its toe. Then
@@ -90,7 +90,7 @@ def print_literals(path):
     print("// RTKLIB's eph2pos makes of them.")
     print("#pragma once")
     print("#include <cmath>\n#include <vector>\n")
-    print('#include "core/gnss/satellite_state.h"\n')
+    print('#include "core/gnss/orbits/satellite_state.h"\n')
     print("namespace leonav::test {\n")
     print("struct BroadcastCase {")
     print("  Ephemeris ephemeris;\n  double since_toe_s;\n  Eigen::Vector3d p_e;\n  double clock_s;")

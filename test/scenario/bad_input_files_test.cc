@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "support/catch.h"
 #include "support/program_run.h"
 #include "support/shared_data.h"
@@ -54,7 +54,7 @@ ImportAndReplay run_files(const TemporaryFile& yaml, const std::string& replay_o
   result.satellites = read_table(out + "/satellites.csv");
   return result;
 }
-const std::string kStation = "--config " LEONAV_SOURCE_DIR "/config/station.yaml";
+const std::string kStation = "--preset station";
 
 TEST_CASE("a RINEX file that ends in the middle of an epoch: the epochs before it are answered") {
   const std::string name = "station/ESBC00DNK_2020177_6H_30S.obs";
@@ -82,8 +82,7 @@ TEST_CASE("a UBX recording with flipped bits loses the messages they are in") {
     const TemporaryFile yaml("set.yaml", "name: s\nobservations: walk.ubx\nnavigation: " +
                                              shared_data("walk/gnss.nav") + "\n");
     std::ofstream(yaml.beside("walk.ubx"), std::ios::binary) << bytes;
-    return run_files(
-        yaml, "--config " LEONAV_SOURCE_DIR "/config/walk.yaml --set ekf.motion=constant_velocity");
+    return run_files(yaml, "--preset walk --set ekf.motion=constant_velocity");
   };
   const ImportAndReplay clean = answer(whole);
   std::string damaged = whole;

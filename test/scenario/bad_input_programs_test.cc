@@ -9,7 +9,7 @@ namespace leonav::test {
 namespace {
 
 using Catch::Contains;
-const std::string kDriveConfig = LEONAV_SOURCE_DIR "/config/drive_ins.yaml";
+const std::string kPreset = "--preset phone_imu";
 
 void check_refused(const std::string& program, const std::string& arguments,
                    const std::string& named) {
@@ -38,14 +38,13 @@ TEST_CASE("an absent file is named by each program, and none succeeds") {
                     log = place.beside("log");
   write_log(log);
   check_refused("leonav-import", absent + " -o " + out, "absent.file");
-  check_refused("leonav-replay", "--config " + kDriveConfig + " --out " + out + " " + absent,
-                "absent.file");
+  check_refused("leonav-replay", kPreset + " --out " + out + " " + absent, "absent.file");
   check_refused("leonav-replay", "--config " + absent + " --out " + out + " " + log, "absent.file");
   check_refused("leonavd", "--config " + absent, "absent.file");
   check_refused("leonav-eval", "--truth " + absent + " " + absent, "absent.file");
   check_refused("leonav-report", "--out " + out + " " + absent, "absent.file");
   check_refused("leonav-imu-from-truth", "--truth " + absent + " --out " + out, "absent.file");
-  check_refused("leonav-bench", "--config " + kDriveConfig + " " + absent, "absent.file");
+  check_refused("leonav-bench", kPreset + " " + absent, "absent.file");
   CHECK_FALSE(std::filesystem::exists(out + "/solution.csv"));
 }
 
@@ -91,14 +90,13 @@ TEST_CASE("a bench that navigated nothing is no success") {
   const TemporaryFile place("unused", "");
   const std::string log = place.beside("log");
   write_log(log);
-  check_refused("leonav-bench", "--config " LEONAV_SOURCE_DIR "/config/station.yaml " + log,
-                "nothing was navigated");
+  check_refused("leonav-bench", "--preset station " + log, "nothing was navigated");
 }
 
 TEST_CASE("a log with no input that could be used does not replay as a success") {
   if (!have_programs("leonav-replay")) return;
   const TemporaryFile place("empty.lcmlog", "");
-  const std::string replay = "--config " + kDriveConfig + " --out " + place.beside("out") + " ";
+  const std::string replay = kPreset + " --out " + place.beside("out") + " ";
   check_refused("leonav-replay", replay + place.path(), "empty.lcmlog");
 
   const TemporaryFile text("text.lcmlog", "this is not an event log, but long enough to be one\n");
@@ -150,8 +148,7 @@ TEST_CASE("epochs without an ephemeris give no position: said with the satellite
     REQUIRE(log.flush());
   }
   const ProgramRun run =
-      run_program("leonav-replay", "--config " LEONAV_SOURCE_DIR "/config/station.yaml --out " +
-                                       place.beside("out") + " " + path);
+      run_program("leonav-replay", "--preset station --out " + place.beside("out") + " " + path);
   CAPTURE(run.err);
   CHECK(run.exit_code == 1);
   CHECK_THAT(run.err, Contains("no position was found"));

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/navigator/pipeline.h"
-#include "daemon/input_dispatch.h"
+#include "core/navigator/navigator.h"
+#include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
 #include "support/synthetic_drive.h"
@@ -19,7 +19,7 @@ struct Run final : OutputSink {
   std::vector<Solution> solutions;
   std::vector<EpochReport> epochs;
   std::vector<Event> events;
-  Pipeline pipeline;
+  Navigator pipeline;
   InputDispatch dispatch;
   Encoder encoder;
   std::uint64_t count = 0;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <sstream>
 
-#include "core/gnss/satellite_state.h"
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
+#include "core/gnss/orbits/satellite_state.h"
 #include "support/catch.h"
 #include "support/dataset.h"
 #include "support/rtklib_ephemerides.h"
@@ -74,7 +74,7 @@ TEST_CASE("station: every broadcast position and clock agrees with RTKLIB's") {
   REQUIRE(std::system(command.c_str()) == 0);
 
   const Dataset data = read_station(false);
-  RtklibFeed feed(data, CatalogOptions{});
+  RtklibFeed feed(data, EphemerisConfig{});
   struct Worst {
     long compared = 0;
     double position_m = 0.0, clock_s = 0.0;

@@ -1,4 +1,5 @@
-// Mistakes of a first run through the programs as a user runs them; tools/clinic has them all.
+// Mistakes of a first run through the programs as a user runs them; tools/validate
+// first-run-mistakes has them all.
 #include "edited_log.h"
 #include "recorded_runs.h"
 #include "support/catch.h"
@@ -113,7 +114,7 @@ TEST_CASE("recorded and semi-real runs are not accused of anything") {
   };
   const TemporaryFile walk("walk", ""), drive("drive", "");
   quiet(walk, imported(walk, "walk"), "walk");
-  quiet(drive, semi_real_log(drive, drive.beside("truth.csv")), "drive_ins");
+  quiet(drive, semi_real_log(drive, drive.beside("truth.csv")), "phone_imu");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST_CASE("the drive with an IMU and one to four satellites of each system") {
   double fewer_m = 1e9;
   for (int n = 1; n <= 4; ++n) {
     const Errors errors =
-        errors_of(place, log, config("drive_ins") + capped(n), "--truth " + truth);
+        errors_of(place, log, config("phone_imu") + capped(n), "--truth " + truth);
     std::printf("drive with IMU, GPS and Galileo capped at %d: horizontal RMSE %.2f m\n", n,
                 errors.rmse);
     CAPTURE(n);

@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
-#include "core/gnss/group_delay.h"
-#include "core/gnss/preprocess.h"
+#include "core/gnss/preprocessing/preprocess.h"
+#include "core/gnss/propagation/group_delay.h"
 #include "drivers/ubx/ubx_file_reader.h"
 #include "support/catch.h"
 #include "support/dataset.h"
@@ -43,9 +43,9 @@ TEST_CASE("walk: group delays that are not told are within their sigmas") {
   const Dataset walk = read_walk();
   GnssConfig config = default_gnss_config();
   config.code_combination = CodeCombination::kSingleFrequency;
-  SatelliteCatalog catalog(config.catalog);
-  catalog.set_klobuchar(walk.klobuchar);
-  for (const Ephemeris& e : walk.ephemerides) catalog.add(e);
+  EphemerisStore ephemeris_store(config.ephemeris_store);
+  ephemeris_store.set_klobuchar(walk.klobuchar);
+  for (const Ephemeris& e : walk.ephemerides) ephemeris_store.add(e);
   std::vector<Pair> pairs = {{System::kBeidou, {'1', 'P'}, {'6', 'I'}},
                              {System::kBeidou, {'5', 'P'}, {'6', 'I'}},
                              {System::kGalileo, {'6', 'B'}, {'1', 'C'}},
@@ -56,7 +56,7 @@ TEST_CASE("walk: group delays that are not told are within their sigmas") {
   while (reader.next(&output)) {
     const auto* raw = std::get_if<RawEpoch>(&output);
     if (raw == nullptr) continue;
-    preprocess(*raw, catalog, config, walk.truth.front().p_e, epoch.get());
+    preprocess(*raw, ephemeris_store, config, walk.truth.front().p_e, epoch.get());
     for (Pair& pair : pairs) gather(*epoch, &pair);
   }
   for (const Pair& pair : pairs) {
@@ -65,7 +65,7 @@ TEST_CASE("walk: group delays that are not told are within their sigmas") {
     for (const auto& [id, values] : pair.differences_m) {
       if (values.size() < 100) continue;
       medians.push_back(quantile(values, 0.5));
-      const Ephemeris* e = catalog.ephemeris_at(id, walk.epochs.front().time);
+      const Ephemeris* e = ephemeris_store.ephemeris_at(id, walk.epochs.front().time);
       REQUIRE(e != nullptr);
       sigma = group_delay(*e, pair.untold).sigma_m;
     }

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "core/gnss/point_solution.h"
+#include "core/gnss/positioning/point_solution.h"
 #include "support/catch.h"
 #include "support/dataset.h"
 
@@ -18,8 +18,8 @@ struct Quality {
 
 template <typename Truth>
 Quality measure(const char* name, const Dataset& data, const GnssConfig& config, Truth truth) {
-  Feed feed(data, config.catalog);
-  BandBiases biases;
+  Feed feed(data, config.ephemeris_store);
+  ReceiverCodeBiases biases;
   const auto epoch = std::make_unique<MeasurementEpoch>();
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();
   Quality quality;

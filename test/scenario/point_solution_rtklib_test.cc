@@ -6,9 +6,9 @@
 #include <map>
 #include <memory>
 
-#include "core/gnss/point_solution.h"
-#include "core/gnss/preprocess.h"
-#include "core/gnss/range_model.h"
+#include "core/gnss/measurement/range_model.h"
+#include "core/gnss/positioning/point_solution.h"
+#include "core/gnss/preprocessing/preprocess.h"
 #include "support/catch.h"
 #include "support/dataset.h"
 #include "support/rtklib_ephemerides.h"
@@ -24,7 +24,7 @@ struct Comparison {
   std::string observations, navigation;
   RtklibOptions rtklib;
   std::map<System, std::string> bands;  // left in the observations
-  bool phone = false;                   // weights by C/N0, as config/drive.yaml
+  bool phone = false;                   // weights by C/N0, as the preset phone
   bool remove_offset = false;           // the truth's datum is not that of the orbits
 };
 
@@ -98,9 +98,10 @@ bool is_between_reference_times(GpsTime time) {
 }
 
 // leonav's residuals at RTKLIB's position less RTKLIB's.
-void compare_models(const RawEpoch& raw, const SatelliteCatalog& catalog, const GnssConfig& config,
-                    const RtklibEpoch& rtklib, MeasurementEpoch* epoch, Differences* out) {
-  preprocess(raw, catalog, config, rtklib.p_e, epoch);
+void compare_models(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
+                    const GnssConfig& config, const RtklibEpoch& rtklib, MeasurementEpoch* epoch,
+                    Differences* out) {
+  preprocess(raw, ephemeris_store, config, rtklib.p_e, epoch);
   const Geodetic antenna = to_geodetic(rtklib.p_e);
   std::map<System, std::vector<double>> models, same_troposphere;
   for (const Measurement& code : epoch->measurements) {
@@ -135,14 +136,14 @@ Differences compare(const Comparison& comparison, const Dataset& data, Truth tru
       run_rtklib(comparison.rtklib, comparison.observations, comparison.navigation);
   REQUIRE(!rtklib.empty());
   const GnssConfig config = config_of(comparison);
-  Feed feed(data, config.catalog);
-  RtklibFeed rtklib_feed(data, config.catalog);
+  Feed feed(data, config.ephemeris_store);
+  RtklibFeed rtklib_feed(data, config.ephemeris_store);
   const auto epoch = std::make_unique<MeasurementEpoch>();
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();
   Differences out;
   for (const RawEpoch& all : data.epochs) {
     const RawEpoch raw = only_bands(all, comparison.bands);
-    const SatelliteCatalog& catalog = feed.at(raw.time);
+    const EphemerisStore& ephemeris_store = feed.at(raw.time);
     const std::optional<Eigen::Vector3d> reference = truth(raw.time);
     const RtklibEpoch* theirs = rtklib_epoch_at(rtklib, raw.time);
     if (theirs != nullptr) {
@@ -152,7 +153,8 @@ Differences compare(const Comparison& comparison, const Dataset& data, Truth tru
       compare_models(raw, rtklib_feed.at(raw.time), config, *theirs, epoch.get(), &out);
       if (reference) out.rtklib_ned.push_back(error_ned(theirs->p_e, *reference));
     }
-    const PointSolution point = solve_point(raw, catalog, config, RobustConfig{}, p_e, epoch.get());
+    const PointSolution point =
+        solve_point(raw, ephemeris_store, config, RobustConfig{}, p_e, epoch.get());
     if (point.status != PointStatus::kOk) continue;
     p_e = point.p_e;
     if (reference) out.leonav_ned.push_back(error_ned(p_e, *reference));

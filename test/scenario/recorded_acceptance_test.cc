@@ -25,10 +25,10 @@ TEST_CASE("the recorded drive: every epoch answered, and what each part of the f
   const TemporaryFile place("unused", "");
   const std::string log = imported(place, "drive");
   const std::string judge = "--truth " + shared_data("drive/truth.csv");
-  const Errors shipped = errors_of(place, log, config("drive"), judge);
-  const Errors codes = errors_of(place, log, config("drive") + " --set ekf.carrier=false", judge);
+  const Errors shipped = errors_of(place, log, config("phone"), judge);
+  const Errors codes = errors_of(place, log, config("phone") + " --set ekf.carrier=false", judge);
   const Errors trusting =
-      errors_of(place, log, config("drive") + " --set robust.enabled=false", judge);
+      errors_of(place, log, config("phone") + " --set robust.enabled=false", judge);
   std::printf(
       "drive: horizontal RMSE %.3f m, 95 %% %.3f m; without carriers %.3f m; not robust %.3f m\n",
       shipped.rmse, shipped.p95, codes.rmse, trusting.rmse);

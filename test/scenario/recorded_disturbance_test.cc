@@ -86,7 +86,7 @@ TEST_CASE("the drive with one disturbance, GNSS only: every epoch that is there 
   // Without a change the log comes out as it went in: what follows is the disturbance alone.
   CHECK(text_of(edited(place, log, [](int, RawEpoch*) { return true; })) == text_of(log));
 
-  const Drive drive("drive", place, log, config("drive"), judge);
+  const Drive drive("drive", place, log, config("phone"), judge);
   drive.check("a third of the codes +150 m for 30 s", reflected(), kEpochs, 1.17);
   drive.check("outage of 60 s", outage(300), kEpochs - 60, 1.25);
   drive.check("all codes +5000 m", all_codes_off_from(300, 5000.0), kEpochs, 1.15);
@@ -97,7 +97,7 @@ TEST_CASE("the drive with one epoch stamped late") {
   if (!programs() || !have_shared_data("drive/dataset.yaml")) return;
   const TemporaryFile place("unused", "");
   const std::string judge = "--remove-offset --truth " + shared_data("drive/truth.csv");
-  const Drive drive("drive, offset removed", place, imported(place, "drive"), config("drive"),
+  const Drive drive("drive, offset removed", place, imported(place, "drive"), config("phone"),
                     judge);
   for (const int which : {300, 1000}) {
     for (const int late_ms : {50, 100, 300, 2500}) {
@@ -121,7 +121,7 @@ TEST_CASE("the drive with one disturbance and an IMU: every epoch that is there 
   const TemporaryFile place("unused", "");
   const std::string truth = place.beside("truth.csv");
   const std::string log = semi_real_log(place, truth);
-  const Drive drive("semi-real INS", place, log, config("drive_ins"), "--truth " + truth);
+  const Drive drive("semi-real INS", place, log, config("phone_imu"), "--truth " + truth);
   // This car creeps before it starts: taken for standing it would leave a gyro bias of 45 deg/h and
   // 0.61 degrees.
   const double yaw_deg = number_after(text_of(place.beside("errors.json")), "yaw_deg", "rmse");

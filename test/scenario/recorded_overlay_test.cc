@@ -42,11 +42,11 @@ void compare(const std::string& name, const std::string& log, const std::string&
 TEST_CASE("LEO over the recorded drive: GPS gains by it, with and without an IMU") {
   if (!programs() || !have_shared_data("drive/dataset.yaml")) return;
   const TemporaryFile place("unused", "");
-  compare("drive, GPS", imported(place, "drive"), shared_data("drive/truth.csv"), config("drive"),
+  compare("drive, GPS", imported(place, "drive"), shared_data("drive/truth.csv"), config("phone"),
           "gps", 1985);
   const std::string truth = place.beside("truth.csv");
   compare("drive, GPS, Galileo, semi-real IMU", semi_real_log(place, truth), truth,
-          config("drive_ins"), "gps, galileo", 1985);
+          config("phone_imu"), "gps, galileo", 1985);
 }
 
 }  // namespace leonav::test

@@ -39,7 +39,7 @@ inline std::string imported(const TemporaryFile& place, const std::string& set) 
   return imported_from(place, shared_data(set + "/dataset.yaml"));
 }
 
-// The drive with an IMU synthesised from its truth, as tools/compare-with-rtklib makes it.
+// The drive with an IMU synthesised from its truth, as tools/validate rtklib makes it.
 inline std::string semi_real_log(const TemporaryFile& place, const std::string& truth) {
   const std::string imu = place.beside("imu.csv"), dataset = place.beside("dataset.yaml");
   const ProgramRun run =
@@ -70,9 +70,7 @@ inline Errors errors_of(const TemporaryFile& place, const std::string& log,
           number_after(text, "horizontal_m", "p95"), number_after(text, "", "within_three_sigma")};
 }
 
-inline std::string config(const std::string& name) {
-  return "--config " LEONAV_SOURCE_DIR "/config/" + name + ".yaml";
-}
+inline std::string config(const std::string& preset) { return "--preset " + preset; }
 
 // The station does not move.
 inline std::string station_truth() {

@@ -1,4 +1,4 @@
-// A recorded data set in memory, and a catalog that is fed as a live receiver would be.
+// A recorded data set in memory, and a ephemeris_store that is fed as a live receiver would be.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/observation.h"
-#include "core/gnss/satellite_catalog.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/signals/observation.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/rinex/observation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
@@ -101,11 +101,12 @@ inline Eigen::Vector3d station_antenna() {
   return to_ecef(geodetic);
 }
 
-// Feeds a catalog, which holds only a few issues and nodes per satellite, as time goes on.
+// Feeds a ephemeris_store, which holds only a few issues and nodes per satellite, as time goes on.
 class Feed {
  public:
-  Feed(const Dataset& data, const CatalogOptions& options) : data_(data), catalog_(options) {
-    catalog_.set_klobuchar(data.klobuchar);
+  Feed(const Dataset& data, const EphemerisConfig& options)
+      : data_(data), ephemeris_store_(options) {
+    ephemeris_store_.set_klobuchar(data.klobuchar);
     for (const PreciseState& state : data.states) {
       if (state.time == data.states.front().time) continue;
       nodes_ahead_s_ = 0.5 * static_cast<double>(kMaxOrbitNodes) *
@@ -114,21 +115,21 @@ class Feed {
     }
   }
   // Ephemerides whose toe is at most an hour ahead, and as many orbit nodes ahead as behind.
-  const SatelliteCatalog& at(GpsTime time) {
+  const EphemerisStore& at(GpsTime time) {
     while (next_ephemeris_ < data_.ephemerides.size() &&
            seconds_between(data_.ephemerides[next_ephemeris_].toe, time) <= 3600.0) {
-      catalog_.add(data_.ephemerides[next_ephemeris_++]);
+      ephemeris_store_.add(data_.ephemerides[next_ephemeris_++]);
     }
     while (next_state_ < data_.states.size() &&
            seconds_between(data_.states[next_state_].time, time) <= nodes_ahead_s_) {
-      catalog_.add(data_.states[next_state_++]);
+      ephemeris_store_.add(data_.states[next_state_++]);
     }
-    return catalog_;
+    return ephemeris_store_;
   }
 
  private:
   const Dataset& data_;
-  SatelliteCatalog catalog_;
+  EphemerisStore ephemeris_store_;
   double nodes_ahead_s_ = 0.0;
   std::size_t next_ephemeris_ = 0, next_state_ = 0;
 };

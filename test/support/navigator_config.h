@@ -1,6 +1,6 @@
 // The navigator's configuration for synthetic drives.
 #pragma once
-#include "core/navigator/navigator_config.h"
+#include "core/navigator/interface/navigator_config.h"
 #include "support/synthetic_drive.h"
 
 namespace leonav::test {

@@ -1,7 +1,7 @@
 // What a vehicle left that was parked.
 #pragma once
 #include "core/earth/ellipsoid.h"
-#include "core/navigator/checkpoint.h"
+#include "core/navigator/interface/checkpoint.h"
 
 namespace leonav::test {
 

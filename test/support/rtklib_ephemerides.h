@@ -1,6 +1,6 @@
-// Which broadcast elements RTKLIB 2.4.3 b34 uses at a time, put into a catalog of leonav, so that
-// the two can be compared with nothing but the models between them. The rules were read in RTKLIB's
-// ephemeris.c, rtkcmn.c and pntpos.c; where they differ from leonav's they are Galileo's:
+// Which broadcast elements RTKLIB 2.4.3 b34 uses at a time, put into a ephemeris_store of leonav,
+// so that the two can be compared with nothing but the models between them. The rules were read in
+// RTKLIB's ephemeris.c, rtkcmn.c and pntpos.c; where they differ from leonav's they are Galileo's:
 //  - I/NAV alone, and only with a reference time before the epoch (leonav: the nearest one);
 //  - BGDs of the satellite's record that was sent first, of either message and however old. F/NAV
 //    has no BGD E5b/E1: where it was the first, E1 is left without a delay against I/NAV's clock,
@@ -33,25 +33,25 @@ inline std::vector<Ephemeris> ephemerides_as_rtklib_reads(const std::vector<Ephe
 
 class RtklibFeed {
  public:
-  RtklibFeed(const Dataset& data, const CatalogOptions& options)
-      : ephemerides_(ephemerides_as_rtklib_reads(data.ephemerides)), catalog_(options) {
-    catalog_.set_klobuchar(data.klobuchar);
+  RtklibFeed(const Dataset& data, const EphemerisConfig& options)
+      : ephemerides_(ephemerides_as_rtklib_reads(data.ephemerides)), ephemeris_store_(options) {
+    ephemeris_store_.set_klobuchar(data.klobuchar);
   }
   // Called with growing times.
-  const SatelliteCatalog& at(GpsTime time) {
+  const EphemerisStore& at(GpsTime time) {
     for (const System system : kSystems) {
       const double ahead_s = system == System::kGalileo ? -1.0e-9 : 3600.0;
       for (std::size_t& i = next_[index_of(system)]; i < ephemerides_.size(); ++i) {
         if (seconds_between(ephemerides_[i].toe, time) > ahead_s) break;
-        if (ephemerides_[i].satellite.system == system) catalog_.add(ephemerides_[i]);
+        if (ephemerides_[i].satellite.system == system) ephemeris_store_.add(ephemerides_[i]);
       }
     }
-    return catalog_;
+    return ephemeris_store_;
   }
 
  private:
   std::vector<Ephemeris> ephemerides_;  // by toe
-  SatelliteCatalog catalog_;
+  EphemerisStore ephemeris_store_;
   std::array<std::size_t, kSystemCount> next_{};
 };
 

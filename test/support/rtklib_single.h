@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/gnss/satellite.h"
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
+#include "core/gnss/signals/satellite.h"
 #include "support/shared_data.h"
 #include "support/temporary_file.h"
 

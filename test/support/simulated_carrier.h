@@ -5,8 +5,8 @@
 #include <random>
 #include <utility>
 
-#include "core/gnss/phase_wind_up.h"
-#include "core/gnss/satellite_attitude.h"
+#include "core/gnss/orbits/satellite_attitude.h"
+#include "core/gnss/propagation/phase_wind_up.h"
 #include "support/simulated_sky.h"
 
 namespace leonav::test {
@@ -46,7 +46,7 @@ class SimulatedCarriers {
       const double wavelength = kSpeedOfLight / frequency;
       double ionosphere = 0.0;
       if (receiver.atmosphere) {
-        ionosphere = klobuchar_delay_m(sky.catalog.klobuchar(), to_geodetic(p_a),
+        ionosphere = klobuchar_delay_m(sky.ephemeris_store.klobuchar(), to_geodetic(p_a),
                                        look_angles(state.p_e, p_a), now, frequency);
       }
       o.carrier_cycles =

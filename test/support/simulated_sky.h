@@ -10,13 +10,13 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/sun_moon.h"
 #include "core/earth/tides.h"
-#include "core/gnss/ionosphere.h"
-#include "core/gnss/look_angles.h"
-#include "core/gnss/observation.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/gnss/satellite_state.h"
-#include "core/gnss/shapiro.h"
-#include "core/gnss/troposphere.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/gnss/propagation/ionosphere.h"
+#include "core/gnss/propagation/shapiro.h"
+#include "core/gnss/propagation/troposphere.h"
+#include "core/gnss/signals/observation.h"
 
 namespace leonav::test {
 
@@ -80,12 +80,12 @@ inline PreciseState product_node(const Ephemeris& ephemeris, GpsTime time) {
 }
 
 struct SimulatedSky {
-  SatelliteCatalog catalog{CatalogOptions{}};
+  EphemerisStore ephemeris_store{EphemerisConfig{}};
   std::vector<Ephemeris> ephemerides;
 
   void add(const Walker& walker) {
     for (const Ephemeris& e : walker_ephemerides(walker)) {
-      if (catalog.add(e)) ephemerides.push_back(e);
+      if (ephemeris_store.add(e)) ephemerides.push_back(e);
     }
   }
 };
@@ -130,7 +130,8 @@ inline double simulated_pseudorange(const SimulatedSky& sky, const SimulatedRece
     const LookAngles angles = look_angles(p_s_now, p_a);
     const GpsTime now = kSkyEpoch.plus_seconds(t);
     range += saastamoinen_slant_delay_m(to_geodetic(p_a), angles.elevation, now);
-    range += klobuchar_delay_m(sky.catalog.klobuchar(), to_geodetic(p_a), angles, now, frequency);
+    range += klobuchar_delay_m(sky.ephemeris_store.klobuchar(), to_geodetic(p_a), angles, now,
+                               frequency);
   }
   return range;
 }

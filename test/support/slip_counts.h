@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/gnss/satellite.h"
-#include "core/gnss/slip_cause.h"
+#include "core/gnss/signals/satellite.h"
+#include "core/gnss/signals/slip_cause.h"
 
 namespace leonav::test {
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/gnss/carrier_arcs.h"
-#include "core/gnss/gnss_config.h"
-#include "core/gnss/range_change.h"
-#include "core/gnss/weighting.h"
+#include "core/gnss/cycle_slips/carrier_arcs.h"
+#include "core/gnss/cycle_slips/range_change.h"
+#include "core/gnss/measurement/gnss_config.h"
+#include "core/gnss/measurement/weighting.h"
 #include "support/slip_counts.h"
 #include "support/slip_prediction.h"
 
@@ -84,9 +84,9 @@ class SlipRun {
     ArcEpoch epoch;
     arcs_.process(raw.time, inputs, &epoch);
     if (epoch.clock_jump.any()) ++counts_.clock_jumps;
-    std::vector<RangeRowResult> verdicts(inputs.size());
+    std::vector<RangeChangeRowResult> verdicts(inputs.size());
     if (scene_.use_range_change) check_geometry(k, raw, inputs, predictions, epoch, &verdicts);
-    arcs_.settle(verdicts, &epoch);
+    arcs_.apply_range_change(verdicts, &epoch);
     remember(k, inputs, predictions, epoch);
     for (std::size_t i = 0; i < inputs.size(); ++i) count(k, inputs[i], epoch.satellites[i]);
   }
@@ -177,7 +177,7 @@ class SlipRun {
 
   void check_geometry(std::size_t k, const RawEpoch& raw, const std::vector<CarrierInput>& inputs,
                       const std::vector<std::optional<Prediction>>& predictions,
-                      const ArcEpoch& epoch, std::vector<RangeRowResult>* verdicts) {
+                      const ArcEpoch& epoch, std::vector<RangeChangeRowResult>* verdicts) {
     if (k == 0) return;
     const double interval_s = seconds_between(raw.time, scene_.epochs[k - 1].time);
     std::vector<RangeChangeRow> rows;

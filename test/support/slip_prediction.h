@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/carrier_correction.h"
-#include "core/gnss/look_angles.h"
-#include "core/gnss/satellite_catalog.h"
-#include "core/gnss/troposphere.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/preprocessing/internal/carrier_correction.h"
+#include "core/gnss/propagation/troposphere.h"
 
 namespace leonav::test {
 
@@ -40,21 +40,23 @@ inline Prediction predicted_range(const SatelliteState& state, double flight_s,
   return prediction;
 }
 
-// From a catalog as of now and the tag and pseudorange, whose errors in the receiver's clock
-// cancel.
-inline std::optional<Prediction> predict_by_catalog(const SatelliteCatalog& catalog, SatelliteId id,
-                                                    GpsTime tag, double pseudorange_m,
+// From a ephemeris_store as of now and the tag and pseudorange, whose errors in the receiver's
+// clock cancel.
+inline std::optional<Prediction> predict_by_catalog(const EphemerisStore& ephemeris_store,
+                                                    SatelliteId id, GpsTime tag,
+                                                    double pseudorange_m,
                                                     const Eigen::Vector3d& p_e) {
   SatelliteState state;
   const Ephemeris* ephemeris = nullptr;
   if (!std::isfinite(pseudorange_m)) return std::nullopt;
   double sent_s = -pseudorange_m / kSpeedOfLight;  // after the tag, by the satellite's clock
-  if (catalog.state_at(id, tag.plus_seconds(sent_s), &state) != LookupStatus::kOk) {
+  if (ephemeris_store.state_at(id, tag.plus_seconds(sent_s), &state) != LookupStatus::kOk) {
     return std::nullopt;
   }
   sent_s -= state.clock_s;
   const GpsTime sent = tag.plus_seconds(sent_s);
-  if (catalog.state_at(id, sent, &state, &ephemeris) != LookupStatus::kOk) return std::nullopt;
+  if (ephemeris_store.state_at(id, sent, &state, &ephemeris) != LookupStatus::kOk)
+    return std::nullopt;
   // What a time in whole nanoseconds leaves out.
   state.p_e += state.v_e * (sent_s - seconds_between(sent, tag));
   double flight_s = (state.p_e - p_e).norm() / kSpeedOfLight;

@@ -72,7 +72,7 @@ class SlipScene1Hz {
     for (int k = 0; k < count; ++k) add_epoch(kStart_s + k * options.interval_s);
     predict_positions();
     scene_.predict = [this](std::size_t k, SatelliteId id, double pseudorange_m) {
-      return predict_by_catalog(sky_.catalog, id, scene_.epochs[k].time, pseudorange_m,
+      return predict_by_catalog(sky_.ephemeris_store, id, scene_.epochs[k].time, pseudorange_m,
                                 positions_[k]);
     };
     scene_.prior.change_is_free = options.prediction_sigma_m < 0.0;

@@ -15,8 +15,8 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/gravity.h"
 #include "core/earth/rotation.h"
-#include "core/ins/imu.h"
-#include "core/ins/nav_state.h"
+#include "core/inertial/strapdown/imu.h"
+#include "core/inertial/strapdown/nav_state.h"
 #include "support/simulated_carrier.h"
 #include "support/simulated_sky.h"
 

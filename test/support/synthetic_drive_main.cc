@@ -5,7 +5,7 @@
 #include "drivers/csv/truth_csv.h"
 #include "support/synthetic_drive.h"
 #include "tools/common/arguments.h"
-#include "tools/dataset/log_output.h"
+#include "tools/import/log_output.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "growth.h"
+#include "tools/bench/growth.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,24 +6,25 @@
 #include <stdexcept>
 #include <vector>
 
-#include "daemon/input_dispatch.h"
+#include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/event_log.h"
-#include "measured.h"
-#include "timed_stages.h"
+#include "tools/bench/process_measures.h"
+#include "tools/bench/timed_stages.h"
 
 namespace leonav {
 namespace {
 
 constexpr double kFirstRow_s = 600.0, kRow_s = 3600.0, kEnd_s = 10.0;
-// Chance: other satellites in view, other work on the machine.
+// Differences within these factors may be chance: other satellites in view, other work on the
+// machine.
 constexpr double kMoreMemory = 1.02, kMoreTime = 1.25, kMoreOfWindow = 1.15;
 
 struct Row {
   double hours = 0.0, resident_mb = 0.0, solve_ms = 0.0, slow_solve_ms = 0.0;
   std::size_t solves = 0;
   int keyframes = 0;
-  double satellites = 0.0;                 // in the window, per keyframe
-  long unknowns = 0, residual_blocks = 0;  // of the window
+  double satellites = 0.0;                 // measurements in the window, per keyframe
+  long unknowns = 0, residual_blocks = 0;  // in the window
 };
 
 Row row_of(double seconds, TimedStages* stages) {
@@ -34,11 +35,11 @@ Row row_of(double seconds, TimedStages* stages) {
   if (times.empty()) throw std::runtime_error("the log gave the smoother no keyframe");
   row.solves = times.size();
   std::sort(times.begin(), times.end());
-  row.solve_ms = 1e3 * at_share(times, 0.5);
-  row.slow_solve_ms = 1e3 * at_share(times, 0.99);
+  row.solve_ms = 1e3 * quantile(times, 0.5);
+  row.slow_solve_ms = 1e3 * quantile(times, 0.99);
   const Window& window = *stages->window();
   row.keyframes = window.size();
-  row.residual_blocks = row.keyframes;  // the prior and the links
+  row.residual_blocks = row.keyframes;  // the prior and the process factors
   for (int i = 0; i < window.size(); ++i) {
     row.satellites += static_cast<double>(window.at(i).satellites.size()) / window.size();
     row.unknowns += static_cast<long>(window.at(i).active.size());
@@ -55,7 +56,7 @@ void print(const Row& row) {
   std::fflush(stdout);
 }
 
-// The sky changes from hour to hour, so means of several rows are compared.
+// The sky changes from hour to hour, so that means of several rows are compared.
 void require_no_growth(const std::vector<Row>& rows) {
   const auto count = std::min<std::ptrdiff_t>(6, std::ssize(rows) / 2);
   const auto require = [&](const char* what, auto value, double most) {

@@ -1,4 +1,5 @@
-// leonav-bench: how fast the navigator is on this machine, on a log of the user's choice.
+// leonav-bench measures how fast the navigator is on this machine, with a log that the user
+// chooses.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -7,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config/load_config.h"
-#include "daemon/input_dispatch.h"
+#include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/event_log.h"
-#include "growth.h"
-#include "measured.h"
-#include "timed_stages.h"
+#include "tools/bench/growth.h"
+#include "tools/bench/process_measures.h"
+#include "tools/bench/timed_stages.h"
 #include "tools/common/arguments.h"
+#include "tools/common/configuration_options.h"
 
 namespace {
 
@@ -49,8 +50,7 @@ Recording load(const std::string& path, const std::string& prefix) {
   return recording;
 }
 
-// One row for the wall's clock and one for the processor's; returns what 99 % of the latter keep
-// to.
+// Prints one row of wall time and one of processor time; returns the 99 % quantile of the latter.
 double print_rows(const char* name, const char* unit, double per_second, const Times& times) {
   double processor = 0.0;
   for (const bool wall : {true, false}) {
@@ -62,34 +62,34 @@ double print_rows(const char* name, const char* unit, double per_second, const T
     for (double& value : values) value *= per_second;
     std::sort(values.begin(), values.end());
     std::printf("%-22s %8zu  median %9.3f  99 %% %9.3f  99.9 %% %9.3f  worst %9.3f %s\n",
-                wall ? name : "  processor time", values.size(), leonav::at_share(values, 0.5),
-                leonav::at_share(values, 0.99), leonav::at_share(values, 0.999), values.back(),
+                wall ? name : "  processor time", values.size(), leonav::quantile(values, 0.5),
+                leonav::quantile(values, 0.99), leonav::quantile(values, 0.999), values.back(),
                 unit);
-    processor = leonav::at_share(values, 0.99);
+    processor = leonav::quantile(values, 0.99);
   }
   return processor;
 }
 
-// What all runs took, and what the last one used: all use the same.
+// Durations of all runs, and the counts of the last run: they are equal in all runs.
 struct Bench {
   Times imu_sample, gnss_epoch, solve;
   std::vector<double> speeds;
-  std::vector<double> satellites;  // of each epoch, sorted
+  std::vector<double> satellites;  // used in each epoch, sorted
   std::uint64_t carriers = 0, slips = 0;
   std::vector<double> iterations;  // of each solve, sorted
   int keyframes = 0;
   std::size_t solve_allocations = 0;  // of all runs
 };
 
-// Returns what 99 % of the solves keep to, ms of the processor.
+// Returns the 99 % quantile of the solves, ms of processor time.
 double print_solves(const Bench& bench) {
   const double solve_ms = print_rows("solve", "ms", 1e3, bench.solve);
   const double solves = static_cast<double>(bench.solve.wall_s.size());
   std::printf(
       "%-22s median %.0f, 99 %% %.0f, most %.0f; keyframes at most %d; allocations per solve "
       "%.3f\n",
-      "  iterations", leonav::at_share(bench.iterations, 0.5),
-      leonav::at_share(bench.iterations, 0.99), bench.iterations.back(), bench.keyframes,
+      "  iterations", leonav::quantile(bench.iterations, 0.5),
+      leonav::quantile(bench.iterations, 0.99), bench.iterations.back(), bench.keyframes,
       static_cast<double>(bench.solve_allocations) / solves);
   return solve_ms;
 }
@@ -144,9 +144,8 @@ int body(int argc, char** argv) {
       "Feeds a log's inputs through the navigator in one thread and prints "
       "microseconds per IMU sample,\n"
       "milliseconds per GNSS epoch and solve of the smoother, replay speed and peak memory.");
-  arguments.option("--config", "FILE", "the vehicle's configuration")
-      .option("--set", "GROUP.KEY=VALUE", "override one key of it; may be repeated")
-      .option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
+  leonav::add_configuration_options(&arguments);
+  arguments.option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
       .option("--max-imu-us", "US",
               "fail unless 99 % of the IMU samples take at most so much processor time")
       .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
@@ -164,10 +163,10 @@ int body(int argc, char** argv) {
   }
   for (const char* limit :
        {"--max-imu-us", "--max-epoch-ms", "--max-solve-ms", "--min-satellites"}) {
-    if (arguments.has(limit)) arguments.number(limit);  // refused before the long run, not after
+    // an invalid value is refused before the long run
+    if (arguments.has(limit)) arguments.number(limit);
   }
-  const leonav::DaemonConfig config =
-      leonav::load_config(arguments.required("--config"), arguments.all("--set"));
+  const leonav::DaemonConfig config = leonav::load_configuration(arguments);
   if (arguments.has("--growth")) {
     leonav::measure_growth(config.navigator, arguments.positional()[0], config.lcm.prefix);
     return 0;
@@ -176,7 +175,7 @@ int body(int argc, char** argv) {
   const Bench bench = run(config.navigator, recording, static_cast<int>(repeats));
 
   const double epochs = static_cast<double>(bench.satellites.size());
-  const double satellites = leonav::at_share(bench.satellites, 0.5);
+  const double satellites = leonav::quantile(bench.satellites, 0.5);
   std::printf("%zu inputs over %.1f s, %.0f runs\n", recording.messages.size(), recording.span_s,
               repeats);
   std::printf(

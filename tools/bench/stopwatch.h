@@ -1,4 +1,5 @@
-// Time by the wall and by the processor: on a machine with other work the first counts that too.
+// Stopwatch measures wall time and processor time, because on a busy machine the former includes
+// other work.
 #pragma once
 #include <chrono>
 #include <ctime>
@@ -6,12 +7,13 @@
 
 namespace leonav {
 
-// Seconds, in step.
+// Durations in seconds; both vectors have the same length.
 struct Times {
   std::vector<double> wall_s, processor_s;
 
   void reserve(std::size_t count) {
-    // Touched too: memory that comes with the notes would look like the navigator's.
+    // The memory is touched here too: memory that grows with the durations would be counted as the
+    // navigator's.
     wall_s.assign(count, 0.0);
     processor_s.assign(count, 0.0);
     clear();
@@ -26,10 +28,12 @@ struct Times {
   }
 };
 
+// Stopwatch starts when it is constructed.
 class Stopwatch {
  public:
+  // Appends the time since construction.
   void stop(Times* times) const {
-    // The wall's clock is read inside the processor's, which takes longer to read.
+    // The wall time is read first, because reading the processor time takes longer.
     const double wall_s = std::chrono::duration<double>(Clock::now() - wall_).count();
     times->processor_s.push_back(processor_now_s() - processor_s_);
     times->wall_s.push_back(wall_s);

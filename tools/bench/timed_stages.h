@@ -1,19 +1,19 @@
-// The navigator's stages run in one thread with a stopwatch on each.
+// TimedStages runs the navigator's stages in one thread with a stopwatch on each.
 #pragma once
 #include <algorithm>
 #include <memory>
 #include <vector>
 
-#include "core/navigator/gnss_stage.h"
-#include "core/navigator/inertial_navigator.h"
-#include "core/navigator/sequencer.h"
-#include "core/navigator/smoother_stage.h"
-#include "stopwatch.h"
-#include "tools/allocations/allocation_counter.h"
+#include "core/navigator/sequencer/sequencer.h"
+#include "core/navigator/stages/gnss_stage.h"
+#include "core/navigator/stages/inertial_navigator.h"
+#include "core/navigator/stages/smoother_stage.h"
+#include "tools/bench/stopwatch.h"
+#include "tools/common/allocations/allocation_counter.h"
 
 namespace leonav {
 
-// Takes outputs and keeps counts: the bench times the navigator, not the disk.
+// CountingSink counts outputs and writes nothing: the bench measures the navigator, not the disk.
 class CountingSink final : public OutputSink {
  public:
   void on_solution(const Solution&) override { ++solutions; }
@@ -35,10 +35,11 @@ class CountingSink final : public OutputSink {
 
   std::vector<int> satellites;  // used, of each epoch
   std::vector<int> iterations;  // of each solve
-  int keyframes = 0;            // most in a window
+  int keyframes = 0;            // largest number in a window
   std::uint64_t solutions = 0, carriers = 0, slips = 0;
 };
 
+// TimedStages is fed through its Sequencer and measures every call of a stage.
 class TimedStages final : private StageInputs, private KeyframeSink, private SolveBudget {
  public:
   explicit TimedStages(const NavigatorConfig& config)
@@ -50,13 +51,13 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
         gnss_(config, &mailbox_, smoother_ != nullptr ? this : nullptr, &sink_),
         sequencer_(config, this) {}
 
-  // Before the first message: places for some hours' notes.
+  // Reserves memory for the durations of some hours; call it before the first message.
   void reserve() {
     for (Times* times : {&imu_sample, &gnss_epoch, &solve}) times->reserve(1 << 20);
     sink_.satellites.reserve(1 << 20);
     sink_.iterations.reserve(1 << 20);
   }
-  // All notes; their places are kept.
+  // Deletes all durations, but keeps their memory.
   void forget() {
     for (Times* times : {&imu_sample, &gnss_epoch, &solve}) times->clear();
     sink_.satellites.clear();
@@ -69,9 +70,9 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
   Sequencer* sequencer() { return &sequencer_; }
   const CountingSink& sink() const { return sink_; }
 
-  Times imu_sample;  // one inertial tick, commits with their re-propagation included
-  Times gnss_epoch;  // prediction over the block, preprocessing, slip checks, update, report
-  Times solve;       // a keyframe into the window, all iterations, links and prior
+  Times imu_sample;  // one inertial tick, including commits and propagation from a new anchor
+  Times gnss_epoch;  // prediction over the block, preprocessing, slip tests, update, report
+  Times solve;       // a keyframe into the window, all iterations, process factors and prior
   std::size_t solve_allocations = 0;
 
  private:
@@ -99,14 +100,17 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
     watch.stop(&solve);
   }
   KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
-  void push_keyframe() override { has_keyframe_ = true; }  // so that the filter's time is its own
-  void no_keyframe(const Solution& filter, bool due) override { smoother_->pass(filter, due); }
+  // deferred, so that the filter's time is its own
+  void push_keyframe() override { has_keyframe_ = true; }
+  void no_keyframe(const Solution& filter, bool due) override {
+    smoother_->process_non_keyframe(filter, due);
+  }
   bool may_iterate(int) override { return true; }
   void event(const Event&) override {}
 
   CountingSink sink_;
-  TimedMailbox<EkfUpdate> mailbox_;
-  TimedMailbox<SmootherUpdate> smoother_mailbox_;
+  TimedMailbox<Anchor> mailbox_;
+  TimedMailbox<SmootherAnchor> smoother_mailbox_;
   std::unique_ptr<KeyframeInput> keyframe_;
   bool has_keyframe_ = false;
   std::unique_ptr<SmootherStage> smoother_;  // nullptr: the filter gives the answer

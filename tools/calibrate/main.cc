@@ -1,11 +1,11 @@
-// leonav-calibrate: lever arm, mounting and time offset of an IMU, from a log.
+// leonav-calibrate finds lever arm, mounting and time offset of an IMU from a log.
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
-#include "daemon/config/load_config.h"
-#include "tools/calibration/print_calibration.h"
+#include "tools/calibrate/print_calibration.h"
 #include "tools/common/arguments.h"
+#include "tools/common/configuration_options.h"
 #include "tools/common/progress_bar.h"
 
 namespace {
@@ -25,10 +25,9 @@ Arguments declare() {
       "to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, "
       "nothing\n"
       "was observed, or the passes did not settle; 2 command line.");
-  arguments.option("--config", "FILE", "configuration, as for leonavd")
-      .option("--passes", "N", "over the log, at most", "6")
-      .option("--json", "FILE", "what was found, for programs")
-      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+  add_configuration_options(&arguments);
+  arguments.option("--passes", "N", "over the log, at most", "6")
+      .option("--json", "FILE", "what was found, for programs");
   return arguments;
 }
 
@@ -38,10 +37,10 @@ int run(int argc, char** argv) {
   if (arguments.positional().size() != 1) throw UsageError("expected one log file");
   const double passes = arguments.number("--passes");
   if (!(passes >= 1.0 && passes <= 50.0)) throw UsageError("--passes: must be 1 to 50");
-  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  const DaemonConfig config = load_configuration(arguments);
   CalibrateOptions options;
   options.max_passes = static_cast<int>(passes);
-  // Before the work, so that a folder that is not there does not cost it.
+  // The file is opened before the run, so that a missing folder does not cost the run.
   std::ofstream json;
   if (arguments.has("--json")) {
     json.open(arguments.get("--json"));

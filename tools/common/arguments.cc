@@ -80,6 +80,11 @@ bool Arguments::parse(int argc, const char* const* argv) {
   return true;
 }
 
+void Arguments::take_positional_as(const std::string& name) {
+  values_[name].push_back(positional_.front());
+  positional_.erase(positional_.begin());
+}
+
 bool Arguments::has(const std::string& name) const { return values_.count(name) != 0; }
 
 std::string Arguments::get(const std::string& name) const {

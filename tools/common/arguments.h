@@ -1,44 +1,52 @@
-// Command lines of the tools: every option declared once, with its help.
+// Arguments reads the command line of a tool, whose options are declared once, with their help.
 #pragma once
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 
 namespace leonav {
 
-// Wrong words on the command line; what() says which and what would be right.
+// Error on the command line; what() names the wrong argument and a right one.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+// Arguments holds the declared options and, after parse(), their values.
 class Arguments {
  public:
-  // `synopsis` and `description` head the text of --help.
+  // `synopsis` and `description` are the first lines of the text of --help.
   Arguments(std::string program, std::string synopsis, std::string description);
 
-  // An option with a value ("--out DIR"); `fallback` empty: no default.
+  // Declares an option with a value ("--out DIR"); an empty `fallback` means no default.
   Arguments& option(const std::string& name, const std::string& value_name, const std::string& help,
                     const std::string& fallback = "");
-  // An option without one.
+  // Declares an option without a value.
   Arguments& flag(const std::string& name, const std::string& help);
 
-  // Reads the command line; "--name VALUE" and "--name=VALUE" are alike, "--" ends the options, an
-  // option may be repeated. Throws UsageError, for an unknown option with the nearest known one.
-  // True: go on; false: --help was asked for and has been printed.
+  // Reads the command line.
+  //
+  // "--name VALUE" and "--name=VALUE" are equivalent, "--" ends the options, and an option may be
+  // repeated. Throws UsageError, with the nearest known option for an unknown one. Returns false if
+  // --help was given and has been printed.
   bool parse(int argc, const char* const* argv);
+
+  // The first positional argument becomes the value of the option `name`.
+  void take_positional_as(const std::string& name);
 
   bool has(const std::string& name) const;         // given on the command line
   std::string get(const std::string& name) const;  // last one given, or the default
   std::vector<std::string> all(const std::string& name) const;
   double number(const std::string& name) const;  // throws UsageError if it is none
-  // Of an option given as WEEK:SECONDS of GPS time; unset where it is not given. Throws UsageError.
+  // Returns an option given as WEEK:SECONDS of GPS time; unset if it is not given. Throws
+  // UsageError.
   GpsTime time(const std::string& name) const;
   std::string required(const std::string& name) const;  // throws UsageError if absent
   const std::vector<std::string>& positional() const { return positional_; }
+  const std::string& program() const { return program_; }
   std::string help() const;
 
  private:
@@ -54,8 +62,9 @@ class Arguments {
   std::vector<std::string> positional_;
 };
 
-// Runs a tool's body: 0 from it is success; UsageError gives 2, any other exception 1, both with a
-// message on standard error that starts with the program's name.
+// Runs the body of a tool and returns the exit status: 0 on success, 2 for UsageError, 1 for any
+// other exception. Both errors print a message on standard error that starts with the program's
+// name.
 int run_tool(const std::string& program, int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace leonav

@@ -1,16 +1,16 @@
-// Text of numbers for tables and JSON.
+// This unit turns numbers into text for tables and JSON.
 #pragma once
 #include <string>
 
 namespace leonav {
 
-// As printf; the result is cut after 511 bytes.
+// Formats like printf; the result is cut after 511 bytes.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
-// With its quotation marks.
+// Returns `text` as a JSON string with its quotation marks.
 std::string json_string(const std::string& text);
 
-// JSON knows neither NaN nor infinity: null.
+// Returns a JSON number; null for NaN and infinity, which JSON does not have.
 std::string json_number(double value, int decimals);
 
 }  // namespace leonav

@@ -1,4 +1,4 @@
-// How far a long job is, for whoever watches.
+// ProgressBar shows the progress of a long job on a terminal.
 #pragma once
 #include <chrono>
 #include <iosfwd>
@@ -6,8 +6,8 @@
 
 namespace leonav {
 
-// On a terminal one line that is drawn over itself, a few times a second, with the time that is
-// left; anywhere else (a file, a pipe, nullptr) nothing at all.
+// The bar is one line that is redrawn a few times a second, with the remaining time. Where `out` is
+// not a terminal (a file, a pipe, nullptr) it prints nothing.
 class ProgressBar {
  public:
   ProgressBar(std::ostream* out, std::string label, bool is_terminal);
@@ -24,7 +24,7 @@ class ProgressBar {
   bool is_drawn_ = false;
 };
 
-// Whether standard error is a terminal.
+// Returns whether standard error is a terminal.
 bool is_stderr_terminal();
 
 }  // namespace leonav

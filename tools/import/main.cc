@@ -1,8 +1,8 @@
-// leonav-import: a recording in files -> an LCM event log.
+// leonav-import converts a recording in files to an LCM event log.
 #include <iostream>
 
 #include "tools/common/arguments.h"
-#include "tools/dataset/import.h"
+#include "tools/import/import.h"
 
 namespace {
 

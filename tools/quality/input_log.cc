@@ -19,12 +19,12 @@ class Reading {
   void take(Channel channel, const std::vector<std::uint8_t>& data) {
     ++counts.messages[index_of(channel)];
     if (channel == Channel::kGnssEpoch) return take_epoch(data);
-    if (handlers_.catalog == nullptr) return;
+    if (handlers_.ephemeris_store == nullptr) return;
     if (channel == Channel::kAntenna || !is_product(channel)) return;
     if (!take_product(channel, data)) ++counts.refused_products;
   }
 
-  // The epoch that waits.
+  // Hands on the epoch that waits.
   void hand_on() {
     if (!waits_) return;
     waits_ = false;
@@ -46,7 +46,7 @@ class Reading {
     put_in_order();
   }
 
-  // What has been read waits for the one after it, which may show that it is astray.
+  // An epoch waits for the next one, which may show that its time is wrong.
   void put_in_order() {
     if (waits_ && epoch_->time <= waiting_->time) {
       ++counts.disordered_epochs;
@@ -60,20 +60,21 @@ class Reading {
   }
 
   bool take_product(Channel channel, const std::vector<std::uint8_t>& data) {
-    SatelliteCatalog& catalog = *handlers_.catalog;
+    EphemerisStore& ephemeris_store = *handlers_.ephemeris_store;
     if (channel == Channel::kEphemeris) {
       Ephemeris ephemeris;
-      return decoder_.decode(data, &ephemeris).fault == InputFault::kNone && catalog.add(ephemeris);
+      return decoder_.decode(data, &ephemeris).fault == InputFault::kNone &&
+             ephemeris_store.add(ephemeris);
     }
     if (channel == Channel::kIonosphere) {
       KlobucharModel model;
       if (decoder_.decode(data, &model).fault != InputFault::kNone) return false;
-      catalog.set_klobuchar(model);
+      ephemeris_store.set_klobuchar(model);
       return true;
     }
     if (decoder_.decode(data, states_.get()).fault != InputFault::kNone) return false;
     bool all = true;
-    for (const PreciseState& state : *states_) all = catalog.add(state) && all;
+    for (const PreciseState& state : *states_) all = ephemeris_store.add(state) && all;
     return all;
   }
 
@@ -82,7 +83,7 @@ class Reading {
   std::unique_ptr<RawEpoch> epoch_ = std::make_unique<RawEpoch>();
   std::unique_ptr<RawEpoch> waiting_ = std::make_unique<RawEpoch>();
   bool waits_ = false;
-  GpsTime last_;  // handed on
+  GpsTime last_;  // the last one handed on
   std::unique_ptr<PreciseStates> states_ = std::make_unique<PreciseStates>();
 };
 

@@ -1,10 +1,10 @@
-// A quality analysis for programs: everything the table has, and every slip.
+// This unit writes a quality analysis as JSON: everything in the table, and every slip.
 #include <cmath>
 #include <numbers>
 
 #include "tools/common/format.h"
+#include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
-#include "tools/quality/slip_text.h"
 
 namespace leonav {
 namespace {
@@ -125,7 +125,7 @@ std::string slips_json(const Quality& q) {
            format(
                ": {\"followed\": %llu, \"slips\": %llu, \"slips_told\": %llu, \"interruptions\": "
                "%llu, ",
-               n(t.followed), n(t.slips), n(t.told_slips), n(t.interruptions)) +
+               n(t.followed), n(t.slips), n(t.flagged_slips), n(t.interruptions)) +
            "\"observations_per_slip\": " + json_number(t.observations_per_slip(), 1) + "}";
   }
   out += "},\n \"arc_ends\": [";

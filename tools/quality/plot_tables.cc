@@ -1,12 +1,12 @@
-// CSV tables of a quality analysis, for the plots.
+// This unit writes the CSV tables of a quality analysis for the plots.
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <stdexcept>
 
 #include "tools/common/format.h"
+#include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
-#include "tools/quality/slip_text.h"
 
 namespace leonav {
 namespace {

@@ -1,12 +1,12 @@
-// The table of a quality analysis for people.
+// This unit prints the table of a quality analysis for people.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "tools/common/format.h"
+#include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
-#include "tools/quality/slip_text.h"
 
 namespace leonav {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::size_t kSlipsShown = 20;
 
 unsigned long long n(std::uint64_t count) { return count; }
 
-// A number in so many columns, a dash where there is none.
+// Returns a number in `width` columns, a dash if it is not finite.
 std::string cell(double value, int width, int decimals) {
   return std::isfinite(value) ? format("%*.*f", width, decimals, value) : format("%*s", width, "-");
 }

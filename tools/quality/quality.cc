@@ -5,15 +5,15 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/gnss/signal_selection.h"
-#include "tools/quality/code_steps.h"
+#include "core/gnss/preprocessing/signal_selection.h"
+#include "tools/quality/internal/code_steps.h"
 
 namespace leonav {
 namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-// Values of all epochs, for exact percentiles: a day at 10 Hz is 7 MB each.
+// The values of all epochs are kept, for exact percentiles: a day at 10 Hz is 7 MB each.
 DopRange range_of(std::vector<float> values) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return {0, kNaN, kNaN, kNaN};
@@ -31,7 +31,7 @@ GnssConfig config_of(const QualityOptions& options) {
   return config;
 }
 
-// Second pass.
+// Analysis is the second pass over the log.
 class Analysis {
  public:
   Analysis(const Census& census, const QualityOptions& options, Quality* quality)
@@ -40,7 +40,7 @@ class Analysis {
     if (most > 0) plot_every_ = (quality_.times.epochs + most - 1) / most;
   }
 
-  SatelliteCatalog* catalog() { return sky_.catalog(); }
+  EphemerisStore* ephemeris_store() { return sky_.ephemeris_store(); }
 
   void add(const RawEpoch& raw) {
     if (last_time_.is_set() && raw.time <= last_time_) return;  // counted by the census
@@ -96,11 +96,12 @@ class Analysis {
       ++satellite.epochs;
       ++satellite.reasons[view.reason];
       ++epoch.seen[system];
-      if (is_usable(view.reason) && sky_.has_place()) {
+      if (is_usable(view.reason) && sky_.has_position()) {
         ++satellite.usable_epochs;
         ++epoch.usable[system];
       }
-      if (has_direction(view, sky_.has_place()) && !(view.elevation < satellite.highest_elevation))
+      if (has_direction(view, sky_.has_position()) &&
+          !(view.elevation < satellite.highest_elevation))
         satellite.highest_elevation = view.elevation;
     }
     std::uint64_t seen = 0, usable = 0;
@@ -126,7 +127,7 @@ class Analysis {
       SatelliteQuality& satellite = quality_.satellites[one.satellite];
       if (is_slip(one.causes)) {
         ++satellite.slips;
-        satellite.told_slips += is_told_by_receiver(one.causes) ? 1 : 0;
+        satellite.flagged_slips += is_flagged_by_receiver(one.causes) ? 1 : 0;
       } else {
         ++satellite.interruptions;
       }
@@ -146,7 +147,7 @@ class Analysis {
   void count_signal(GpsTime time, const SignalObservation& o, bool plotted) {
     SignalQuality& signal = quality_.satellites[o.satellite].signals[o.code];
     const SatelliteInView* view = sky_.find(o.satellite);
-    const bool seen = view != nullptr && has_direction(*view, sky_.has_place());
+    const bool seen = view != nullptr && has_direction(*view, sky_.has_position());
     const double elevation = seen ? view->elevation : std::numeric_limits<double>::quiet_NaN();
     signal.carriers += std::isfinite(o.carrier_cycles) ? 1 : 0;
     signal.loss_of_lock += o.loss_of_lock ? 1 : 0;
@@ -162,7 +163,7 @@ class Analysis {
     sample_values_m_.push_back(value_m);
   }
 
-  // The number of the arc, or kNoArc.
+  // Returns the index of the arc, or kNoArc.
   std::size_t count_multipath(const SignalObservation& o, double elevation, SignalQuality* signal,
                               double* value_m) {
     if (!std::isfinite(o.pseudorange_m)) return kNoArc;
@@ -191,8 +192,8 @@ class Analysis {
   GpsTime last_time_;
   std::uint64_t epochs_ = 0, plot_every_ = 0;
   std::vector<float> gdop_, pdop_, hdop_, vdop_;
-  std::vector<std::size_t> sample_arcs_;  // of plot_samples
-  std::vector<double> sample_values_m_;   // likewise, with the arc's level
+  std::vector<std::size_t> sample_arcs_;  // index-parallel to plot_samples
+  std::vector<double> sample_values_m_;   // index-parallel to plot_samples, arc's level included
 };
 
 [[noreturn]] void fail_without_epochs(const std::string& log, const InputCounts& inputs,
@@ -258,7 +259,7 @@ Quality analyse_quality(const std::string& log, const QualityOptions& options,
   Analysis analysis(census, options, &quality);
   const auto analyse = [&](const RawEpoch& raw) { analysis.add(raw); };
   quality.inputs =
-      read_inputs(log, options.prefix, {analyse, analysis.catalog()}, progress, "judging ");
+      read_inputs(log, options.prefix, {analyse, analysis.ephemeris_store()}, progress, "judging ");
   analysis.finish();
   return quality;
 }

@@ -1,4 +1,5 @@
-// How good the GNSS measurements of a log are: satellites, geometry, code multipath, C/N0, slips.
+// This unit measures the quality of a log's GNSS measurements: satellites, geometry, multipath,
+// C/N0, slips.
 #pragma once
 #include <array>
 #include <iosfwd>
@@ -6,22 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "tools/quality/carrier_streams.h"
-#include "tools/quality/census.h"
-#include "tools/quality/distribution.h"
 #include "tools/quality/input_log.h"
-#include "tools/quality/multipath.h"
+#include "tools/quality/internal/carrier_streams.h"
+#include "tools/quality/internal/census.h"
+#include "tools/quality/internal/distribution.h"
+#include "tools/quality/internal/multipath.h"
 
 namespace leonav {
 
+// Settings of an analysis.
 struct QualityOptions {
   std::string prefix{kDefaultChannelPrefix};
   double elevation_mask = default_gnss_config().elevation_mask;  // rad; of usable satellites
-  // The rows kept for plots: of every k-th epoch, so that there are at most so many. 0: no rows.
+  // Rows for plots are kept of every k-th epoch, so that there are at most this many; 0: no rows.
   std::uint64_t plot_epochs = 0;
 };
 
-// Of one signal, of one satellite or of a system's.
+// Quality of one signal, of one satellite or summed over a system.
 struct SignalQuality {
   std::uint64_t codes = 0, carriers = 0;
   std::uint64_t loss_of_lock = 0, half_cycles = 0;  // flags that the receiver has set
@@ -33,13 +35,14 @@ struct SignalQuality {
   void add(const SignalQuality& other);
 };
 
+// Quality of one satellite.
 struct SatelliteQuality {
   std::uint64_t epochs = 0, usable_epochs = 0;
   std::map<Reason, std::uint64_t> reasons;                              // of each epoch
   double highest_elevation = std::numeric_limits<double>::quiet_NaN();  // rad
-  std::uint64_t followed = 0;    // epochs with carriers that an arc was followed on
-  std::uint64_t unresolved = 0;  // of these, with a half cycle that was ambiguous
-  std::uint64_t slips = 0, told_slips = 0, interruptions = 0;  // told: by the receiver itself
+  std::uint64_t followed = 0;    // epochs with carriers on which an arc was tracked
+  std::uint64_t unresolved = 0;  // those among them with an ambiguous half cycle
+  std::uint64_t slips = 0, flagged_slips = 0, interruptions = 0;  // flagged: by the receiver
   bool one_frequency = false;  // no second carrier in the whole log: no multipath combination
   std::map<SignalCode, SignalQuality> signals;
 };
@@ -51,11 +54,13 @@ struct CountRange {
   double mean() const;
 };
 
+// Quality of one system.
 struct SystemQuality {
   std::uint64_t satellites = 0;
   CountRange seen, usable;
 };
 
+// One epoch, for plots.
 struct EpochQuality {
   GpsTime time;
   bool solved = false;
@@ -70,14 +75,16 @@ struct SignalSample {
   SignalCode code;
   float elevation = 0.0F, azimuth = 0.0F;  // rad; NaN: not known
   float cn0_dbhz = 0.0F;
-  float multipath_m = 0.0F;  // level taken off; NaN: none
+  float multipath_m = 0.0F;  // level removed; NaN: none
 };
 
+// Range of one dilution of precision.
 struct DopRange {
   std::uint64_t epochs = 0;                     // with a value
   double median = 0.0, p95 = 0.0, worst = 0.0;  // NaN: none
 };
 
+// The whole analysis.
 struct Quality {
   std::string log;
   QualityOptions options;
@@ -85,26 +92,27 @@ struct Quality {
   EpochTimes times;
   std::uint64_t solved_epochs = 0;
   std::uint64_t clock_jumps = 0;  // by whole milliseconds
-  std::uint64_t code_steps = 0;   // of all codes against the carriers, taken out (CodeSteps)
+  std::uint64_t code_steps = 0;   // of all codes against the carriers, removed (CodeSteps)
   std::map<SatelliteId, SatelliteQuality> satellites;
   std::array<SystemQuality, kSystemCount> systems;
   SystemQuality all_systems;
   std::map<std::pair<System, SignalCode>, SignalQuality> signals;  // sums over satellites
   DopRange gdop, pdop, hdop, vdop;
-  std::vector<ArcBreak> breaks;  // slips and interruptions, in time
+  std::vector<ArcBreak> breaks;  // slips and interruptions, in order of time
   std::vector<EpochQuality> plot_epochs;
   std::vector<SignalSample> plot_samples;
 };
 
-// Throws EventLogError as read_inputs(); std::runtime_error for a log without a GNSS epoch.
+// Analyses a log. Throws EventLogError as read_inputs() does, and std::runtime_error for a log
+// without a GNSS epoch.
 Quality analyse_quality(const std::string& log, const QualityOptions& options,
                         std::ostream* progress);
 
-// For people.
+// These format the analysis as a table for people and as JSON.
 std::string to_table(const Quality& quality);
 std::string to_json(const Quality& quality);
-// epochs.csv, signals.csv and slips.csv in `folder`, which must exist: what leonav-quality-plots
-// draws. Throws std::runtime_error if one cannot be written.
+// Writes epochs.csv, signals.csv and slips.csv, which leonav-quality-plots draws, to `folder`,
+// which must exist. Throws std::runtime_error if one cannot be written.
 void write_plot_tables(const Quality& quality, const std::string& folder);
 
 }  // namespace leonav

@@ -1,27 +1,27 @@
-// Which configuration a replay runs with: the one given, or the one the journal recorded.
+// This unit chooses the configuration of a replay: the given one, or the one that the journal
+// recorded.
 #pragma once
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "daemon/config/daemon_config.h"
 #include "drivers/lcm/run_configuration.h"
+#include "tools/common/arguments.h"
 
 namespace leonav {
 
+// The chosen configuration.
 struct ReplayConfiguration {
   DaemonConfig config;
   std::string origin;       // in words
-  std::string differences;  // from what the journal was written with, in words; empty: none known
+  std::string differences;  // to the journal's configuration, in words; empty: none known
 };
 
-// The first message of a journal; nullopt: the log holds none. Throws EventLogError.
+// Returns the first message of a journal; nullopt if the log has none. Throws EventLogError.
 std::optional<RunConfiguration> recorded_configuration(const std::string& log);
 
-// `file`: of the command line; nullopt: take what the log holds. Throws ConfigError; UsageError
-// if there is neither.
-ReplayConfiguration choose_configuration(const std::string& log,
-                                         const std::optional<std::string>& file,
-                                         const std::vector<std::string>& overrides);
+// Chooses the configuration of the command line (configuration_options.h), else the one that the
+// log holds, with the overrides of --set. Throws ConfigError, and UsageError if there is neither.
+ReplayConfiguration choose_configuration(const std::string& log, const Arguments& arguments);
 
 }  // namespace leonav

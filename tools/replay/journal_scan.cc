@@ -1,4 +1,4 @@
-#include "journal_scan.h"
+#include "tools/replay/journal_scan.h"
 
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"

@@ -1,14 +1,14 @@
-// leonav-replay: a recorded log through the navigator, in one thread and as fast as it goes.
+// leonav-replay runs a recorded log through the navigator, in one thread and as fast as possible.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 
-#include "configuration.h"
-#include "journal_scan.h"
-#include "replay_run.h"
-#include "tools/common/arguments.h"
+#include "tools/common/configuration_options.h"
+#include "tools/replay/configuration.h"
+#include "tools/replay/journal_scan.h"
+#include "tools/replay/replay_run.h"
 
 namespace {
 
@@ -18,24 +18,22 @@ constexpr const char* kCutShort = ": its last message is cut short; replaying wh
 
 Arguments declare() {
   Arguments arguments(
-      "leonav-replay", "[--config FILE] --out DIR [options] run.lcmlog",
+      "leonav-replay", "[--config FILE | --preset NAME] --out DIR [options] run.lcmlog",
       "Feeds an LCM log (of lcm-logger, leonav-import or leonavd's journal) to the "
-      "navigator and writes\nits answers as tables. A journal's deadline misses are "
-      "obeyed, so that its run comes again bit for bit.\nExit codes: 0 done; 1 a file or the "
+      "navigator and writes\nits answers as tables. A journal holds its own configuration, which "
+      "is the "
+      "default. Its deadline misses are\nobeyed, so that its run comes again bit for bit.\nExit "
+      "codes: 0 done; 1 a file or the "
       "configuration cannot be used, the log gave no answer, or --verify found a\ndifference (what "
       "tables there are and summary.txt are written even so); 2 command line.");
+  add_configuration_options(&arguments);
   arguments
-      .option("--config", "FILE",
-              "configuration, as for leonavd; a journal holds its own, which is the default")
       .option("--out", "DIR",
               "folder for solution.csv, epochs.csv, satellites.csv, "
               "measurements.csv and summary.txt")
       .option("--rate", "HZ",
               "rows of solution.csv from the continuous solution at this rate "
               "instead of one per epoch")
-      .option("--set", "KEY=VALUE",
-              "override one configuration key, as in gnss.systems=[gps]; "
-              "may be repeated")
       .flag("--verify", "compare every output with those in the journal, byte for byte");
   return arguments;
 }
@@ -54,8 +52,8 @@ void require_inputs(const JournalScan& scan, const std::string& log, const std::
                            " messages on others); is lcm.prefix right?");
 }
 
-// Why the log gave no answer that is of use; empty: it gave one. Tables alone prove nothing:
-// without an IMU the inertial configuration still fills them, from the filter, but there is no
+// Returns why the log gave no useful result; empty if it gave one. Tables alone are no proof:
+// without an IMU the inertial configuration still fills them from the filter, but there is no
 // SOLUTION.
 std::string no_answer(const ReplayRun& run, const JournalScan& scan, bool inertial) {
   const std::string inputs = " (" + scan.describe() + ")";
@@ -75,7 +73,7 @@ std::string no_answer(const ReplayRun& run, const JournalScan& scan, bool inerti
   return "";
 }
 
-// What went wrong; empty: nothing.
+// Returns what went wrong; empty if nothing did.
 std::string verdict(const ReplayRun& run, const JournalScan& scan, bool inertial,
                     const std::string& other_run, std::ostream& out) {
   if (const Verifier* verifier = run.verifier()) {
@@ -105,10 +103,7 @@ int replay(int argc, char** argv) {
   options.out_folder = arguments.required("--out");
   options.rate_hz = rate_of(arguments);
   options.verify = arguments.has("--verify");
-  std::optional<std::string> config_file;
-  if (arguments.has("--config")) config_file = arguments.get("--config");
-  const auto [config, origin, other_run] =
-      choose_configuration(options.log, config_file, arguments.all("--set"));
+  const auto [config, origin, other_run] = choose_configuration(options.log, arguments);
 
   const JournalScan scan = scan_journal(options.log, config.lcm.prefix);
   require_inputs(scan, options.log, config.lcm.prefix);

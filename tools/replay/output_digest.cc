@@ -1,4 +1,4 @@
-#include "output_digest.h"
+#include "tools/replay/output_digest.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -6,7 +6,7 @@
 namespace leonav {
 namespace {
 
-// Byte by byte: the same on every machine.
+// The number is added byte by byte, so that the sum is the same on every machine.
 void add_number(std::uint64_t number, Crc64* sum) {
   for (int shift = 56; shift >= 0; shift -= 8) {
     sum->process_byte(static_cast<std::uint8_t>(number >> shift));
@@ -16,7 +16,7 @@ void add_number(std::uint64_t number, Crc64* sum) {
 }  // namespace
 
 void OutputDigest::add(std::size_t group, ByteSpan bytes) {
-  // The length first: otherwise two messages and their concatenation would be one.
+  // The length comes first; otherwise two messages and their concatenation would give one sum.
   add_number(bytes.size(), &sums_[group]);
   sums_[group].process_bytes(bytes.data(), bytes.size());
   ++messages_[group];

@@ -1,10 +1,10 @@
-#include "replay_run.h"
+#include "tools/replay/replay_run.h"
 
 #include <cmath>
 #include <iostream>
 
 #include "drivers/lcm/event_log.h"
-#include "run_warnings.h"
+#include "tools/replay/run_warnings.h"
 
 namespace leonav {
 
@@ -83,7 +83,7 @@ void ReplayRun::take(Channel channel, ByteSpan bytes) {
 void ReplayRun::print_summary(std::ostream& out) {
   const auto& received = dispatch_.counters();
   for (const Channel channel : kInputChannels) {
-    // Few runs begin from one.
+    // Few runs begin from a checkpoint, so that the line is left out without one.
     if (channel == Channel::kCheckpoint && received.received[index_of(channel)] == 0) continue;
     out << "input " << name_of(channel) << ": " << received.received[index_of(channel)] << "\n";
     if (received.lost[index_of(channel)] > 0) {
@@ -105,7 +105,7 @@ void ReplayRun::print_summary(std::ostream& out) {
   out << "output hash: " << digest_.hex_digest() << "\n";
 }
 
-// What the filter has found of it in the end.
+// Prints the odometer's scale factor that the filter has estimated at the end.
 void ReplayRun::print_odometer(std::ostream& out) {
   using ekf_index::kOdometerScale, ekf_index::kSize;
   const Ekf& ekf = pipeline_.gnss().ekf();

@@ -1,22 +1,23 @@
-// One replay: a log through the Pipeline, its outputs into files, digest and verifier.
+// ReplayRun feeds one log through the Navigator, with outputs to files, digest and verifier.
 #pragma once
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/navigator/pipeline.h"
+#include "core/navigator/navigator.h"
 #include "daemon/config/daemon_config.h"
-#include "daemon/encoding_sink.h"
-#include "daemon/input_dispatch.h"
-#include "journal_scan.h"
-#include "output_digest.h"
-#include "result_files.h"
-#include "run_statistics.h"
-#include "verifier.h"
+#include "daemon/messages/encoding_sink.h"
+#include "daemon/messages/input_dispatch.h"
+#include "tools/replay/journal_scan.h"
+#include "tools/replay/output_digest.h"
+#include "tools/replay/result_files.h"
+#include "tools/replay/run_statistics.h"
+#include "tools/replay/verifier.h"
 
 namespace leonav {
 
+// ReplayRun owns everything that one replay needs.
 class ReplayRun final : private OutputSink, private MessageTarget {
  public:
   struct Options {
@@ -30,10 +31,10 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   // Feeds the whole log. Throws EventLogError, FileError.
   void run();
 
-  // "key: value" lines; call once, after run().
+  // Prints "key: value" lines; call it once, after run().
   void print_summary(std::ostream& out);
 
-  // What must not be overlooked; empty: nothing. After run().
+  // Returns the warnings for the user, empty if there are none. Precondition: run().
   std::vector<std::string> warnings() const;
 
   const RunStatistics& statistics() const { return statistics_; }
@@ -61,7 +62,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   OutputDigest digest_;
   std::unique_ptr<Verifier> verifier_;
   EncodingSink encoder_;
-  Pipeline pipeline_;
+  Navigator pipeline_;
   InputDispatch dispatch_;
 };
 

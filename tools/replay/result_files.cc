@@ -1,10 +1,10 @@
-#include "result_files.h"
+#include "tools/replay/result_files.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "core/gnss/satellite.h"
+#include "core/gnss/signals/satellite.h"
 
 namespace leonav {
 namespace {
@@ -53,7 +53,7 @@ std::string_view name_of(Observable observable) {
   return "";
 }
 
-// "geometry_free|doppler"; empty: none.
+// Returns "geometry_free|doppler"; empty if there is no cause.
 std::string to_string(SlipCauses causes) {
   std::string names;
   for (const SlipCause cause : kSlipCauses) {
@@ -86,7 +86,7 @@ ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_h
 void ResultFiles::add(const Solution& solution) {
   if (!interval_ns_ || solution.source == Source::kNone || solution.time < next_row_) return;
   solution_.write(to_solution_row(solution, satellites_, pdop_));
-  // The grid is anchored to time itself, so that rows of different runs fall together.
+  // The grid is anchored to GPS time, so that rows of different runs coincide.
   next_row_ =
       GpsTime::from_nanoseconds((solution.time.nanoseconds() / *interval_ns_ + 1) * *interval_ns_);
 }

@@ -1,24 +1,30 @@
-// The tables a replay leaves behind: solution.csv, epochs.csv, satellites.csv, measurements.csv
-// and, where the motion is constrained, constraints.csv.
+// ResultFiles writes the tables of a replay: solution, epochs, satellites, measurements and
+// constraints.
+//
+// The files are solution.csv, epochs.csv, satellites.csv, measurements.csv and, where the motion is
+// constrained, constraints.csv.
 #pragma once
 #include <optional>
 #include <string>
 
-#include "core/navigator/outputs.h"
+#include "core/navigator/interface/epoch_report.h"
+#include "core/navigator/interface/smoother_report.h"
+#include "core/navigator/interface/solution.h"
 #include "drivers/csv/csv_writer.h"
 #include "drivers/csv/solution_csv.h"
 
 namespace leonav {
 
+// ResultFiles opens its files when it is constructed.
 class ResultFiles {
  public:
-  // `rate_hz`: rows of solution.csv from the SOLUTION stream at this rate; nullopt: one row per
-  // epoch, the estimate at the epoch itself. Throws FileError.
+  // `rate_hz` is the rate of rows of solution.csv, from the SOLUTION stream; nullopt: one row per
+  // epoch, with the estimate at the epoch itself. Throws FileError.
   ResultFiles(const std::string& folder, std::optional<double> rate_hz);
 
   void add(const Solution& solution);
   void add(const EpochReport& report);
-  // After the epoch's own report: the row is the smoother's where it has an answer.
+  // Call it after the epoch's own report: the row is the smoother's if it has a result.
   void add(const SmootherReport& report);
   void close();  // throws FileError
   long solution_rows() const { return solution_.rows(); }
@@ -33,12 +39,12 @@ class ResultFiles {
   GpsTime next_row_;
   std::optional<int> satellites_;
   std::optional<double> pdop_;
-  std::optional<SolutionRow> row_;  // of the last epoch, not written yet
+  std::optional<SolutionRow> row_;  // row of the last epoch, not written yet
   std::uint64_t row_epoch_ = 0;
   SolutionCsvWriter solution_;
   CsvWriter epochs_, satellites_file_, measurements_;
   std::string folder_;
-  std::optional<CsvWriter> constraints_;  // once there is one
+  std::optional<CsvWriter> constraints_;  // opened for the first constraint
 };
 
 }  // namespace leonav

@@ -1,11 +1,11 @@
-#include "run_statistics.h"
+#include "tools/replay/run_statistics.h"
 
 #include <algorithm>
 
 namespace leonav {
 namespace {
 
-// The event's code is tenths of a sigma in a byte.
+// The event's code is in tenths of a sigma, in one byte.
 constexpr double kLargestStepTold = 25.5;
 
 void print_map(std::ostream& out, const std::string& title,
@@ -55,9 +55,10 @@ void RunStatistics::add(const Event& event, double after_s) {
 }
 
 void RunStatistics::add(const Decision& decision) {
-  if (decision.mailbox == 0) ++(decision.committed ? commits_ : misses_);
-  if (decision.mailbox == 1) ++(decision.committed ? smoother_commits_ : smoother_misses_);
-  if (decision.mailbox == 2) ++keyframes_skipped_;
+  if (decision.subject == Decision::Subject::kFilter) ++(decision.committed ? commits_ : misses_);
+  if (decision.subject == Decision::Subject::kSmoother)
+    ++(decision.committed ? smoother_commits_ : smoother_misses_);
+  if (decision.subject == Decision::Subject::kKeyframe) ++keyframes_skipped_;
 }
 
 void RunStatistics::add(const SmootherReport& report) {

@@ -1,4 +1,4 @@
-// What a run did, in counts.
+// RunStatistics counts what a run did.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,31 +7,32 @@
 #include <string>
 #include <vector>
 
-#include "core/conventions/convention.h"
-#include "core/navigator/outputs.h"
+#include "core/installation_checks/convention.h"
+#include "core/navigator/interface/output_sink.h"
 
 namespace leonav {
 
+// RunStatistics is given all outputs of a run.
 class RunStatistics {
  public:
-  // An event kConventionSuspect.
+  // One event kConventionSuspect.
   struct Suspicion {
     Convention convention = Convention::kNone;
     double value = 0.0, after_s = 0.0;
   };
   void add(const Solution& solution);
   void add(const EpochReport& report);
-  void add(const Event& event, double after_s);  // of the log, since its first measurement
+  void add(const Event& event, double after_s);  // s of the log, since its first measurement
   void add(const Decision& decision);
   void add(const SmootherReport& report);
 
-  // "key: value" lines.
+  // Prints "key: value" lines.
   void print(std::ostream& out) const;
   const std::vector<Suspicion>& suspicions() const { return suspicions_; }
   std::uint64_t solutions() const { return solutions_; }
   std::uint64_t epochs() const { return epochs_; }
   std::uint64_t epochs_without_position() const { return epochs_without_position_; }
-  // Of the last epoch: what an alignment under way lacks.
+  // Returns the need of an alignment under way at the last epoch.
   const AlignmentNeed& alignment() const { return alignment_; }
   const std::map<std::string, std::uint64_t>& satellites_by_reason() const {
     return satellites_by_reason_;
@@ -47,11 +48,11 @@ class RunStatistics {
   double used_sum_ = 0.0;
   std::array<std::uint64_t, kSystemCount> used_of_{};
   double largest_jump_m_ = 0.0;
-  // Of outages of 5 s and more: what the filter's position stepped by at their ends, over its
-  // sigma, and the seconds until that was as before.
+  // For outages of 5 s and more: the step of the filter's position at the end over its sigma, and
+  // the seconds until the sigma was as before.
   std::vector<double> outage_steps_, reconverged_s_;
   AlignmentNeed alignment_;
-  // Ordered maps: they are printed in order.
+  // Ordered maps, because they are printed in order.
   std::map<std::string, std::uint64_t> smoother_statuses_, solutions_by_source_, events_,
       satellites_by_reason_, arc_ends_, measurements_by_reason_;
 };

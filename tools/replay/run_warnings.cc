@@ -1,11 +1,11 @@
-#include "run_warnings.h"
+#include "tools/replay/run_warnings.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
-#include "daemon/alignment_text.h"
-#include "daemon/convention_text.h"
+#include "daemon/text/alignment_text.h"
+#include "daemon/text/convention_text.h"
 
 namespace leonav {
 namespace {

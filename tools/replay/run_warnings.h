@@ -1,18 +1,20 @@
-// What a user must not overlook in a run that ended well.
+// This unit finds what a user must not overlook in a run that ended without an error.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "core/navigator/sequencer.h"
-#include "daemon/input_dispatch.h"
-#include "run_statistics.h"
+#include "core/navigator/sequencer/sequencer.h"
+#include "daemon/messages/input_dispatch.h"
+#include "tools/replay/run_statistics.h"
 
 namespace leonav {
 
-// One line each where more than half of a stream's messages were not used, or more than half of the
-// epochs gave no position; with the reasons and their counts, most frequent first. Then one for
-// each input that does not follow a convention, with the remedy, and one where the run ends while
-// aligning, with what that lacks.
+// Returns the warnings, one line each.
+//
+// There is one for every stream of which more than half of the messages were not used, and one if
+// more than half of the epochs gave no position, with the reasons and their counts, most frequent
+// first. One follows for each input that violates a convention, with the remedy, and one if the run
+// ends while aligning, with what the alignment lacks.
 std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
                                       const Sequencer::Counters& accepted,
                                       const RunStatistics& statistics,

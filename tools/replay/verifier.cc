@@ -1,4 +1,4 @@
-#include "verifier.h"
+#include "tools/replay/verifier.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Compares regenerated outputs with those that a journal recorded, byte for byte.
+// Verifier compares regenerated outputs with those that a journal recorded, byte by byte.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -6,26 +6,28 @@
 #include <optional>
 #include <string>
 
-#include "daemon/output_groups.h"
+#include "daemon/messages/output_groups.h"
 #include "drivers/lcm/event_log.h"
 
 namespace leonav {
 
-// Reads the journal once per group side by side with the replay, so that memory stays bounded
-// however long the run was.
+// Verifier reads the journal once per group, in parallel with the replay, so that memory is bounded
+// for runs of any length.
 class Verifier {
  public:
   Verifier(const std::string& journal, const std::string& prefix);
 
+  // Compares the next output of a group with the journal.
   void compare(std::size_t group, ByteSpan regenerated);
-  // After the last output. `complete`: the journal was stopped cleanly, so that it must hold all.
+  // Ends the comparison after the last output. `complete`: the journal was stopped cleanly, so that
+  // it must hold all outputs.
   void finish(bool complete);
 
   std::uint64_t compared() const { return compared_; }
   std::uint64_t differences() const { return differences_; }
-  // Outputs that a journal that was cut does not hold.
+  // Returns the number of outputs beyond the end of a journal that was cut.
   std::uint64_t beyond_end() const { return beyond_end_; }
-  // In words; empty: none.
+  // Describes the first difference in words; empty: none.
   const std::string& first_difference() const { return first_difference_; }
 
  private:
@@ -34,7 +36,7 @@ class Verifier {
     std::uint64_t count = 0;
     bool ended = false;
   };
-  // The next recorded message of the group into event_; false: no more.
+  // Reads the next recorded message of the group into event_; false if there is none.
   bool next_recorded(std::size_t group);
   void differ(std::size_t group, const std::string& what);
 

@@ -1,4 +1,4 @@
-// leonav-sim: a scenario -> measurements as a vehicle would have recorded them.
+// leonav-sim turns a scenario into measurements as a vehicle would have recorded them.
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -8,7 +8,7 @@
 
 #include "tools/common/arguments.h"
 #include "tools/common/format.h"
-#include "tools/dataset/log_output.h"
+#include "tools/import/log_output.h"
 #include "tools/sim/overlay/overlay.h"
 #include "tools/sim/run/simulate.h"
 #include "tools/sim/run/sky_statistics.h"
@@ -40,7 +40,7 @@ Arguments declare() {
   return arguments;
 }
 
-// Options that another one leaves without a meaning.
+// Refuses options that have no meaning because of another option.
 void refuse_ignored_options(const Arguments& arguments) {
   using Names = std::initializer_list<const char*>;
   const auto refuse = [&arguments](Names options, const std::string& why) {

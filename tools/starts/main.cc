@@ -1,5 +1,5 @@
-// leonav-starts: cold starts at random instants of a recorded run; how soon, and how well, the
-// heading is found.
+// leonav-starts makes cold starts at random instants of a recorded run and measures how soon, and
+// how well, the heading is found.
 #include <fstream>
 #include <iostream>
 #include <numbers>
@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "daemon/config/load_config.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
-#include "tools/alignment/start_list.h"
-#include "tools/alignment/starts.h"
-#include "tools/alignment/table.h"
 #include "tools/common/arguments.h"
+#include "tools/common/configuration_options.h"
 #include "tools/common/progress_bar.h"
+#include "tools/starts/cold_starts.h"
+#include "tools/starts/start_list.h"
+#include "tools/starts/start_tables.h"
 
 namespace {
 
@@ -32,20 +32,19 @@ Arguments declare() {
       "in reverse, by the first ten seconds. Exit codes: 0 no false alignment;\n1 a file cannot be "
       "used; 2 command line; 3 a heading was wrong: an alignment false, carried away later, or\n"
       "(--told-off) still wrong at the end.");
-  arguments.option("--config", "FILE", "configuration, as for leonavd")
-      .option("--truth", "FILE", "truth.csv with velocity and attitude")
+  add_configuration_options(&arguments);
+  arguments.option("--truth", "FILE", "truth.csv with velocity and attitude")
       .option("--number", "N", "starts of each kind, as far as the run has so many", "100")
       .option("--seconds", "S", "length of each", "60")
       .option("--seed", "N", "of the instants", "1")
       .option("--told-off", "LOW:HIGH",
               "each start is told a heading that is off by so many degrees, to either side; prints "
               "how soon that is found")
-      .option("--list", "FILE", "a row per start, as CSV")
-      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+      .option("--list", "FILE", "a row per start, as CSV");
   return arguments;
 }
 
-// rad, of `number` starts; empty: none is told.
+// Draws the heading errors of `number` starts, rad; empty if no heading is given.
 std::vector<double> draw_told(const std::string& range, std::size_t number, std::uint64_t seed) {
   std::vector<double> told;
   if (range.empty()) return told;
@@ -64,7 +63,7 @@ std::vector<double> draw_told(const std::string& range, std::size_t number, std:
   return told;
 }
 
-// Before the work, so that a folder that is not there does not cost it.
+// The file is opened before the run, so that a missing folder does not cost the run.
 std::ofstream opened(const std::string& path) {
   std::ofstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be written");
@@ -80,7 +79,7 @@ int run(int argc, char** argv) {
   if (!(seconds >= 31.0 && seconds <= 3600.0)) throw UsageError("--seconds: must be 31 to 3600");
   const double seed = arguments.number("--seed");
   if (!(seed >= 0.0 && seed <= 1e15)) throw UsageError("--seed: must be 0 to 1e15");
-  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  const DaemonConfig config = load_configuration(arguments);
   if (config.navigator.motion != MotionModel::kInertial)
     throw std::runtime_error("ekf.motion is not inertial: there is no heading to be found");
   std::ofstream list;
@@ -91,7 +90,7 @@ int run(int argc, char** argv) {
       choose_starts(truth, static_cast<int>(number), seconds, whole_seed);
   const std::string range = arguments.has("--told-off") ? arguments.get("--told-off") : "";
   std::vector<double> told = draw_told(range, instants.size(), whole_seed);
-  Starts starts(config.navigator, truth, std::move(instants), std::move(told), seconds);
+  ColdStarts starts(config.navigator, truth, std::move(instants), std::move(told), seconds);
   EventLogReader log(arguments.positional().front());
   LogEvent event;
   ProgressBar progress(&std::cerr, "leonav-starts", is_stderr_terminal());
@@ -105,8 +104,8 @@ int run(int argc, char** argv) {
   if (results.empty())
     throw std::runtime_error(
         "no start was made: is the truth of this log, with velocity and attitude?");
-  const int wrong =
-      range.empty() ? print_table(results, std::cout) : print_told_table(results, std::cout);
+  const int wrong = range.empty() ? print_table(results, std::cout)
+                                  : print_given_heading_table(results, std::cout);
   if (starts.not_begun() + starts.cut_short() > 0)
     std::cout << "the log ends before the truth: " << starts.not_begun()
               << " starts after its end were not made, " << starts.cut_short()

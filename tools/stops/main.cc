@@ -1,14 +1,15 @@
-// leonav-stops: where the detector of standstills was right, wrong, and blind, on a recorded run.
+// leonav-stops measures where the standstill detector was right, wrong, or missed a stop, on a
+// recorded run.
 #include <iostream>
 #include <stdexcept>
 
-#include "daemon/config/load_config.h"
-#include "daemon/input_dispatch.h"
+#include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/common/arguments.h"
+#include "tools/common/configuration_options.h"
 #include "tools/common/progress_bar.h"
-#include "tools/standstill/stops.h"
+#include "tools/stops/standstill_evaluation.h"
 
 namespace {
 
@@ -22,11 +23,11 @@ Arguments declare() {
       "Runs the filter over a log and holds the instants at which it took the vehicle for standing "
       "\nagainst the truth: false declarations, missed stops. Exit codes: 0 none was false; 1 a "
       "file\ncannot be used; 2 command line; 3 some were false.");
-  arguments.option("--config", "FILE", "configuration, as for leonavd")
+  add_configuration_options(&arguments);
+  arguments
       .option("--truth", "FILE",
               "truth.csv with velocity, ten rows a second: what lies between rows is a guess")
-      .option("--still", "M_S", "no declaration below this speed is false", "0.06")
-      .option("--set", "KEY=VALUE", "override one configuration key; may be repeated");
+      .option("--still", "M_S", "no declaration below this speed is false", "0.06");
   return arguments;
 }
 
@@ -38,13 +39,13 @@ int run(int argc, char** argv) {
   judged.still_m_s = arguments.number("--still");
   if (!(judged.still_m_s > 0.0 && judged.still_m_s < judged.creep_m_s))
     throw UsageError("--still: must be above 0 and below 0.3");
-  const DaemonConfig config = load_config(arguments.required("--config"), arguments.all("--set"));
+  const DaemonConfig config = load_configuration(arguments);
   if (!config.navigator.vehicle.motion.constraints.zero_velocity)
     throw std::runtime_error(
         "vehicle.zero_velocity is off: nothing asks whether it stands; --set vehicle.kind=car");
   const Track truth = load_truth(arguments.required("--truth"));
   StopsRecorder recorder;
-  Pipeline pipeline(config.navigator, &recorder);
+  Navigator pipeline(config.navigator, &recorder);
   InputDispatch dispatch(&pipeline.sequencer());
   EventLogReader log(arguments.positional().front());
   LogEvent event;
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
     const auto channel = channel_from_name(event.channel, config.lcm.prefix);
     if (channel && is_input(*channel)) dispatch.dispatch(*channel, event.data);
   }
-  const StopsResult result = judge_stops(recorder.asked(), truth, judged);
+  const StopsResult result = evaluate_stops(recorder.asked(), truth, judged);
   if (result.asked == 0)
     throw std::runtime_error(
         "the detector was never asked: did the run align, and is the truth of this log, with "

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "support/catch.h"
 
 namespace leonav {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
-#include "core/time/calendar.h"
 #include "support/catch.h"
 
 namespace leonav {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "stage_drive.h"
+#include "support/stage_drive.h"
 
 namespace leonav::test {
 
@@ -41,7 +41,7 @@ inline std::vector<OdometerIncrement> wheel_of(const SyntheticDriveOptions& driv
 // Each increment comes `late_s` after its end by the IMU's time. Allocates nothing.
 inline void feed_with_wheel(const SyntheticDrive& drive,
                             const std::vector<OdometerIncrement>& wheel, double late_s,
-                            Pipeline* pipeline) {
+                            Navigator* pipeline) {
   Sequencer& sequencer = pipeline->sequencer();
   std::size_t next = 0;
   feed(

@@ -57,7 +57,7 @@ struct Outcome {
 Outcome drive_with(const SyntheticDrive& drive, const std::vector<OdometerIncrement>& wheel,
                    const NavigatorConfig& config, double late_s = 0.01) {
   Outcome outcome;
-  Pipeline pipeline(config, &outcome.sink);
+  Navigator pipeline(config, &outcome.sink);
   feed_with_wheel(drive, wheel, late_s, &pipeline);
   const Ekf& ekf = pipeline.gnss().ekf();
   outcome.has_scale = ekf.vehicle().size() > kOdometerScale;

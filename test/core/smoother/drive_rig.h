@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/ekf/carrier_receiver.h"
-#include "core/ekf/measurement_model.h"
-#include "core/ekf/nees.h"
-#include "core/ekf/synthetic.h"
+#include "core/filter/carrier_receiver.h"
+#include "core/filter/nees.h"
+#include "core/filter/synthetic.h"
+#include "core/filter/update/measurement_model.h"
 #include "core/smoother/keyframe_from_filter.h"
 
 namespace leonav::synthetic {
@@ -27,7 +27,7 @@ struct DriveOptions {
   bool constrained = false;                     // it neither slides nor flies
   bool odometer = false;                        // and has one, where it is constrained
   bool calibrating = false;                     // lever arm and time offset are estimated
-  double wander = 0.0;                          // of the carriers, m/sqrt(s)
+  double random_walk = 0.0;                     // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, at the start
   Eigen::Vector3d lever_b{0.5, 0.3, -1.2};
@@ -78,7 +78,7 @@ class Drive {
     result_ = filter_.update(measured_);
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
-    input_->block_whole = input_->linked;
+    input_->block_complete = input_->follows_previous;
     return *input_;
   }
 
@@ -125,7 +125,7 @@ class Drive {
       instant.time = block[i].time;
       if (options_.odometer) instant.odometer = odometer_at(i);
       MotionMeasurements measurements;
-      motion_measurements(motion(), instant, filter_.whole_state(), filter_.measured_rate_b(),
+      motion_measurements(motion(), instant, filter_.filter_state(), filter_.measured_rate_b(),
                           &measurements);
       instant.used = filter_.constrain(&measurements, motion().gate);
       input_->instants.push_back(instant);
@@ -177,8 +177,8 @@ class Drive {
       *noise *= options_.noise;
     advance_clocks(clock, kPerEpoch * kStep, &truth_.clocks, &noise_);
     for (double& ambiguity : ambiguities_m_)
-      ambiguity += options_.noise * options_.wander * noise_.normal();
-    input_->before_block = input_->block.empty() ? ImuSample{} : input_->block.back();
+      ambiguity += options_.noise * options_.random_walk * noise_.normal();
+    input_->sample_before_block = input_->block.empty() ? ImuSample{} : input_->block.back();
     input_->block.clear();
     speeds_.clear();
     if (!options_.inertial) {
@@ -232,7 +232,7 @@ class Drive {
       const auto i = static_cast<int>(code.satellite_index);
       const auto turn = static_cast<std::uint32_t>((epoch_ + 7 * i) / options_.arc_epochs);
       carrier.arc = 1u + code.satellite_index + 100u * turn;
-      carrier.wander = options_.wander;
+      carrier.random_walk = options_.random_walk;
       carrier.value =
           predict_range(view, truth_.p_antenna_e).range_m +
           truth_.clocks.offset_m(static_cast<Eigen::Index>(index_of(view.satellite.system))) +

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/earth/rotation.h"
-#include "core/smoother/linear_link.h"
+#include "core/smoother/linear_process_factor.h"
 #include "drive_rig.h"
 #include "support/catch.h"
 #include "window_rig.h"
@@ -47,7 +47,7 @@ Index whole_index(const ActiveStates& active, Index i) {
   return kSize + i - active.core_size();
 }
 
-// Two keyframes whose estimates are far from where their link was linearized.
+// Two keyframes whose estimates are far from where their process_factor was linearized.
 std::unique_ptr<Window> window_of_two(bool inertial, Eigen::Vector3d* lever_b) {
   DriveOptions options;
   options.inertial = inertial;
@@ -130,23 +130,23 @@ TEST_CASE("a link's Jacobians are the slopes of its error, far from where it was
   const auto window = window_of_two(inertial, &lever_b);
   Keyframe& before = window->at(1);
   Keyframe& keyframe = window->at(2);
-  const auto link = std::make_unique<LinearLink>();
-  linearize_link(before, keyframe, link.get());
+  const auto process_factor = std::make_unique<LinearProcessFactor>();
+  linearize_process_factor(before, keyframe, process_factor.get());
   // Its error is J^-1 (error - F error_before + offset) with the J of this keyframe.
   const Eigen::MatrixXd change =
-      change_of_difference(keyframe.active, keyframe.state, keyframe.link.to);
+      change_of_difference(keyframe.active, keyframe.state, keyframe.process_factor.to);
   CHECK(Eigen::MatrixXd(change).isIdentity(1e-3) == !inertial);
-  CHECK((change * link->offset - link_error(before, keyframe)).norm() < 1e-9);
-  const Eigen::MatrixXd noise = change * link->noise * change.transpose();
-  CHECK(apart_in_correlations(
-            noise + 1e-12 * Eigen::MatrixXd::Identity(noise.rows(), noise.rows()),
-            keyframe.link.noise + 1e-12 * Eigen::MatrixXd::Identity(noise.rows(), noise.rows())) <
+  CHECK((change * process_factor->offset - process_error(before, keyframe)).norm() < 1e-9);
+  const Eigen::MatrixXd noise = change * process_factor->noise * change.transpose();
+  CHECK(apart_in_correlations(noise + 1e-12 * Eigen::MatrixXd::Identity(noise.rows(), noise.rows()),
+                              keyframe.process_factor.noise +
+                                  1e-12 * Eigen::MatrixXd::Identity(noise.rows(), noise.rows())) <
         1e-9);
   for (Index i = 0; i < keyframe.active.size(); ++i) {
     const auto error = [&](const FilterState& state) {
       auto there = std::make_unique<Keyframe>(keyframe);
       there->state = state;
-      return Eigen::VectorXd(link_error(before, *there));
+      return Eigen::VectorXd(process_error(before, *there));
     };
     CAPTURE(i);
     CHECK((slope(keyframe, whole_index(keyframe.active, i), error) - change.col(i)).norm() < 1e-7);
@@ -155,10 +155,10 @@ TEST_CASE("a link's Jacobians are the slopes of its error, far from where it was
     const auto error = [&](const FilterState& state) {
       auto there = std::make_unique<Keyframe>(before);
       there->state = state;
-      return Eigen::VectorXd(link_error(*there, keyframe));
+      return Eigen::VectorXd(process_error(*there, keyframe));
     };
     CAPTURE(i);
-    const Eigen::VectorXd column = -change * link->F.col(i);
+    const Eigen::VectorXd column = -change * process_factor->F.col(i);
     CHECK((slope(before, whole_index(before.active, i), error) - column).norm() <
           1e-7 * (1.0 + column.norm()));
   }
@@ -192,7 +192,7 @@ TEST_CASE("both ways between an attitude's error and its difference undo each ot
       quaternion_from_rotation_vector(angle * Eigen::Vector3d(2.0, -1.0, 2.0) / 3.0);
   ActiveStates active;
   for (int i = 0; i < kInsSize; ++i) active.core.push_back(i);
-  const AttitudeChange change = attitude_change(active, estimate, linearized_at);
+  const AttitudeJacobian change = attitude_jacobian(active, estimate, linearized_at);
   CHECK(change.place == kAttitude);
   CHECK((change.of_error * change.to_error - Eigen::Matrix3d::Identity()).norm() < 1e-11);
 }

@@ -3,7 +3,7 @@
 
 #include "smoother_rig.h"
 #include "support/catch.h"
-#include "tools/allocations/allocation_counter.h"
+#include "tools/common/allocations/allocation_counter.h"
 
 namespace leonav {
 namespace {
@@ -21,7 +21,7 @@ void check_same(const Window& a, const Window& b) {
   for (int k = 0; k < a.size(); ++k) {
     CAPTURE(k);
     CHECK(same(a.at(k).state, b.at(k).state));
-    CHECK(a.at(k).judged == b.at(k).judged);
+    CHECK(a.at(k).weights_decided == b.at(k).weights_decided);
     REQUIRE(a.at(k).measurements.size() == b.at(k).measurements.size());
     for (std::size_t m = 0; m < a.at(k).measurements.size(); ++m) {
       CHECK(a.at(k).measurements[m].factor == b.at(k).measurements[m].factor);
@@ -53,7 +53,7 @@ TEST_CASE("a solve that is not taken has not happened") {
       with->add(input);
       with->solve(epoch % 2 == 0 ? static_cast<SolveBudget*>(&unlimited) : &stingy);
       // The next keyframe may come before it is known what has become of this one's result.
-      if (epoch % 9 != 0) with->settle(false);
+      if (epoch % 9 != 0) with->commit_or_roll_back(false);
       without->add(input);
       if (epoch % 9 != 0) check_same(with->window(), without->window());
       continue;
@@ -92,7 +92,7 @@ TEST_CASE("the smoother allocates when constructed, not after") {
   for (int epoch = 1; epoch <= 40; ++epoch) {
     KeyframeInput input = drive.step();
     if (epoch == 25) input.process.noise(0, 0) = -1.0;
-    if (epoch == 35) input.linked = false;
+    if (epoch == 35) input.follows_previous = false;
     start_counting_allocations();
     const SmootherResult result = solve(input, smoother.get(), epoch % 7 != 0);
     allocations += stop_counting_allocations();

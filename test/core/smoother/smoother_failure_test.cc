@@ -35,7 +35,7 @@ const Fault kFaults[] = {
      SmootherStatus::kSingular},
     {"far from the filter", [](KeyframeInput* input) { input->prior.nav.p_e.x() += 1e5; },
      SmootherStatus::kDiverged},
-    {"the filter has started over", [](KeyframeInput* input) { input->linked = false; },
+    {"the filter has started over", [](KeyframeInput* input) { input->follows_previous = false; },
      SmootherStatus::kStarted},
     {"there is no filter", [](KeyframeInput* input) { input->valid = false; },
      SmootherStatus::kNoFilter},

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/earth/rotation.h"
-#include "core/ekf/nees.h"
+#include "core/filter/nees.h"
 #include "smoother_rig.h"
 #include "support/catch.h"
 
@@ -92,7 +92,7 @@ TEST_CASE("the smoother's errors are as large as its covariance says") {
   DriveOptions options;
   options.arc_epochs = 20;
   options.carriers = GENERATE(false, true);
-  options.wander = options.carriers ? 0.005 : 0.0;
+  options.random_walk = options.carriers ? 0.005 : 0.0;
   check(options.carriers ? "with carriers" : "without carriers", run(options, 10, 30));
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("the smoother's errors are as large as its covariance says with LEO sa
   options.leo = true;
   options.arc_epochs = 20;
   options.carriers = GENERATE(false, true);
-  options.wander = options.carriers ? 0.005 : 0.0;
+  options.random_walk = options.carriers ? 0.005 : 0.0;
   check(options.carriers ? "LEO, with carriers" : "LEO, without carriers", run(options, 10, 30));
 }
 

@@ -18,12 +18,12 @@ struct Stingy final : SolveBudget {
 };
 
 inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, const SmootherConfig& config) {
-  RelinkConfig relink;
-  relink.ekf = drive.config();
-  relink.imu = mems();
-  relink.lever_arm_b = drive.lever_b();
-  relink.motion = Drive::motion();
-  return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), relink);
+  RepropagationConfig repropagation;
+  repropagation.ekf = drive.config();
+  repropagation.imu = mems();
+  repropagation.lever_arm_b = drive.lever_b();
+  repropagation.motion = Drive::motion();
+  return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), repropagation);
 }
 
 inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, int window, int iterations = 4) {
@@ -37,7 +37,7 @@ inline SmootherResult solve(const KeyframeInput& input, Smoother* smoother, bool
   Unlimited budget;
   smoother->add(input);
   const SmootherResult result = smoother->solve(&budget);
-  smoother->settle(take);
+  smoother->commit_or_roll_back(take);
   return result;
 }
 

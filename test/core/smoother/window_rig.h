@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/smoother/chain_solver.h"
+#include "core/smoother/internal/rts_solver.h"
 #include "core/smoother/window.h"
 
 namespace leonav::synthetic {
@@ -18,7 +18,7 @@ inline bool feed(const KeyframeInput& input, const Eigen::Vector3d& lever_b, Win
     if (!marginalize_oldest(*window, lever_b, prior.get())) return false;
     window->drop_oldest(*prior);
   }
-  if (window->size() > 0 && input.linked && window->append(input)) return true;
+  if (window->size() > 0 && input.follows_previous && window->append(input)) return true;
   window->start(input);
   return false;
 }
@@ -26,7 +26,7 @@ inline bool feed(const KeyframeInput& input, const Eigen::Vector3d& lever_b, Win
 inline void apply(const WindowCorrections& corrections, Window* window) {
   for (int i = 0; i < window->size(); ++i) {
     Keyframe& keyframe = window->at(i);
-    add(whole_error(keyframe.active, corrections[static_cast<std::size_t>(i)]),
+    add(full_error(keyframe.active, corrections[static_cast<std::size_t>(i)]),
         keyframe.has_attitude, &keyframe.state);
   }
 }
@@ -42,11 +42,12 @@ inline bool iterate(WindowSolver* solver, const Eigen::Vector3d& lever_b, int st
   return true;
 }
 
-// How an error of the estimate changes its difference from where a link or prior was linearized.
+// How an error of the estimate changes its difference from where a process_factor or prior was
+// linearized.
 inline Eigen::MatrixXd change_of_difference(const ActiveStates& active, const FilterState& estimate,
                                             const FilterState& linearized_at) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Identity(active.size(), active.size());
-  const AttitudeChange change = attitude_change(active, estimate, linearized_at);
+  const AttitudeJacobian change = attitude_jacobian(active, estimate, linearized_at);
   if (change.place >= 0) J.block<3, 3>(change.place, change.place) = change.of_error;
   return J;
 }
@@ -98,13 +99,13 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
           R.transpose().triangularView<Eigen::Lower>().solve(window.prior().gradient) - R * moved;
     } else {
       const Keyframe& before = window.at(k - 1);
-      const Eigen::MatrixXd root = inverse_root(keyframe.link.noise);
+      const Eigen::MatrixXd root = inverse_root(keyframe.process_factor.noise);
       J.block(row, own, n, n) =
-          root * change_of_difference(keyframe.active, keyframe.state, keyframe.link.to);
+          root * change_of_difference(keyframe.active, keyframe.state, keyframe.process_factor.to);
       J.block(row, step.first[static_cast<std::size_t>(k) - 1], n, before.active.size()) =
-          -root * keyframe.link.F *
-          change_of_difference(before.active, before.state, keyframe.link.from);
-      r.segment(row, n) = -root * link_error(before, keyframe);
+          -root * keyframe.process_factor.F *
+          change_of_difference(before.active, before.state, keyframe.process_factor.from);
+      r.segment(row, n) = -root * process_error(before, keyframe);
     }
     row += n;
     const AntennaMotion antenna = antenna_of(keyframe, lever_b);

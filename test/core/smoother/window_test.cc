@@ -21,15 +21,15 @@ constexpr int kSteps = 8;  // of Gauss and Newton, far more than it takes
 double most_apart_from_filter(const DriveOptions& options, int capacity, double* stepped_m) {
   Drive drive(options);
   Window window(capacity);
-  ChainSolver chain(capacity);
+  RtsSolver chain(capacity);
   double most = 0.0;
   for (int i = 0; i < kEpochs; ++i) {
-    const bool linked = feed(drive.step(), drive.lever_b(), &window);
-    CHECK(linked == (i > 0));
+    const bool follows_previous = feed(drive.step(), drive.lever_b(), &window);
+    CHECK(follows_previous == (i > 0));
     *stepped_m += std::abs(drive.result().clock_jump_m);
-    for (const double step_m : drive.result().base_step_m) *stepped_m += std::abs(step_m);
+    for (const double step_m : drive.result().inter_system_step_m) *stepped_m += std::abs(step_m);
     REQUIRE(iterate(&chain, drive.lever_b(), 2, &window));
-    most = std::max(most, apart_in_sigmas(window.newest().state, drive.filter().whole_state(),
+    most = std::max(most, apart_in_sigmas(window.newest().state, drive.filter().filter_state(),
                                           drive.filter().covariance()));
   }
   return most;
@@ -49,12 +49,12 @@ constexpr double kMillisecond_m = 299'792.458;
 
 const Course kCourses[] = {
     {"nothing happens", [](DriveOptions*) {}},
-    {"ambiguities wander", [](DriveOptions* options) { options->wander = 0.02; }},
+    {"ambiguities wander", [](DriveOptions* options) { options->random_walk = 0.02; }},
     {"arcs end and begin", [](DriveOptions* options) { options->arc_epochs = 15; }},
     {"wandering arcs end and begin",
      [](DriveOptions* options) {
        options->arc_epochs = 15;
-       options->wander = 0.02;
+       options->random_walk = 0.02;
      }},
     {"a time base begins, goes and comes back",
      [](DriveOptions* options) {
@@ -127,7 +127,7 @@ TEST_CASE("what has left the window is not lost: a short window is a long one") 
   course.set(&options);
   Drive drive(options);
   Window shorter(5), longer(60);
-  ChainSolver chain(60);
+  RtsSolver chain(60);
   double most = 0.0, moved = 0.0;
   for (int i = 0; i < kEpochs; ++i) {
     const KeyframeInput& input = drive.step();
@@ -138,7 +138,7 @@ TEST_CASE("what has left the window is not lost: a short window is a long one") 
     const EkfCovariance& covariance = drive.filter().covariance();
     const FilterState& by_longer = longer.newest().state;
     most = std::max(most, apart_in_sigmas(shorter.newest().state, by_longer, covariance));
-    moved = std::max(moved, apart_in_sigmas(by_longer, drive.filter().whole_state(), covariance));
+    moved = std::max(moved, apart_in_sigmas(by_longer, drive.filter().filter_state(), covariance));
   }
   WARN(course.name << ", noise " << options.noise << ": windows of 5 and 60 apart " << most
                    << " sigma; from the filter " << moved);
@@ -157,7 +157,7 @@ TEST_CASE("a window of one keyframe is the filter with more than one pass") {
     REQUIRE(result.status == (i > 0 ? SmootherStatus::kOk : SmootherStatus::kStarted));
     REQUIRE(smoother->window().size() == 1);
     const EkfCovariance& covariance = drive.filter().covariance();
-    CHECK(apart_in_sigmas(smoother->window().newest().state, drive.filter().whole_state(),
+    CHECK(apart_in_sigmas(smoother->window().newest().state, drive.filter().filter_state(),
                           covariance) < 1e-6);
     // Inverted twice at every keyframe, which costs digits.
     CHECK(apart_in_correlations(result.covariance.topLeftCorner<9, 9>(),

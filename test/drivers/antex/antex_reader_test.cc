@@ -8,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
 #include "support/shared_data.h"

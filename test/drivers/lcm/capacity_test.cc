@@ -1,4 +1,4 @@
-// The longest messages that core/capacity.h allows fit into the buffers and come back whole.
+// The longest messages that core/base/capacity.h allows fit into the buffers and come back whole.
 #include <leonav/constraints_t.hpp>
 #include <leonav/epoch_t.hpp>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/rinex/rinex_text.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/rinex/rinex_text.h"
 #include "support/catch.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
 #include "support/shared_data.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 #include "support/catch.h"
 
 namespace leonav {

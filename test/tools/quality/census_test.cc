@@ -1,10 +1,10 @@
-#include "tools/quality/census.h"
+#include "tools/quality/internal/census.h"
 
 #include <memory>
 
 #include "support/catch.h"
-#include "tools/quality/code_steps.h"
-#include "tools/quality/distribution.h"
+#include "tools/quality/internal/code_steps.h"
+#include "tools/quality/internal/distribution.h"
 
 using namespace leonav;
 

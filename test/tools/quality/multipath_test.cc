@@ -1,4 +1,4 @@
-#include "tools/quality/multipath.h"
+#include "tools/quality/internal/multipath.h"
 
 #include <cmath>
 #include <numbers>

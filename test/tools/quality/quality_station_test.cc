@@ -8,10 +8,10 @@
 #include "support/catch.h"
 #include "support/program_run.h"
 #include "support/rtklib_single.h"
-#include "tools/dataset/dataset.h"
-#include "tools/dataset/import.h"
+#include "tools/import/dataset.h"
+#include "tools/import/import.h"
+#include "tools/quality/internal/sky.h"
 #include "tools/quality/quality.h"
-#include "tools/quality/sky.h"
 
 using namespace leonav;
 using namespace leonav::test;
@@ -77,7 +77,7 @@ TEST_CASE("station: directions and dilution of precision are RTKLIB's") {
       worst_dop = std::max(worst_dop, std::abs(ours / other - 1.0));
     ++epochs;
   };
-  read_inputs(log.path(), "LEONAV_", {compare, sky.catalog()}, nullptr);
+  read_inputs(log.path(), "LEONAV_", {compare, sky.ephemeris_store()}, nullptr);
   std::cout << "station against RTKLIB: " << directions << " directions, worst " << worst_deg
             << " deg; DOP of " << epochs << " epochs, worst " << 100.0 * worst_dop << " %\n";
   CHECK(directions > 4000);

@@ -173,7 +173,7 @@ TEST_CASE("quality of a log of which everything is known") {
       CHECK(found.count(one.satellite) == 0);
       CHECK(one.elevation > 0.35);
       found[one.satellite] = one.time;
-      CHECK(is_told_by_receiver(one.causes) == log.slips.at(one.satellite).told);
+      CHECK(is_flagged_by_receiver(one.causes) == log.slips.at(one.satellite).told);
     }
     REQUIRE(found.size() == log.slips.size());
     for (const auto& [id, slip] : log.slips)

@@ -26,7 +26,7 @@ double mean_at(const AntennaGrid& grid, int angle) {
   return sum / grid.azimuths;
 }
 
-// Without a variation: zeros at two angles, as readers want a grid.
+// A pattern without variations is written as zeros at two angles, because readers expect a grid.
 void write_band(const AntennaPattern& pattern, TextFile* file) {
   const std::string name = formatted("   %c0%c", letter_of(pattern.satellite.system), pattern.band);
   file->labelled(name, "START OF FREQUENCY");
@@ -59,7 +59,7 @@ void write_antenna(std::span<const AntennaPattern> bands, const std::string& rec
                            empty ? 90.0 : grid.angle_step / kDegree),
                  "ZEN1 / ZEN2 / DZEN");
   file->labelled(formatted("%6zu", bands.size()), "# OF FREQUENCIES");
-  // RTKLIB takes no satellite antenna without a beginning.
+  // RTKLIB ignores a satellite antenna without a beginning of validity.
   if (!first.is_receiver) {
     file->labelled("  1980     1     6     0     0    0.0000000", "VALID FROM");
   }

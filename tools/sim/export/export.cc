@@ -67,7 +67,7 @@ std::string Export::path(const std::string& name) const {
   return (std::filesystem::path(options_.folder) / name).string();
 }
 
-// A file of orbits per system: their nodes are not equally far apart.
+// Each system has its own file of orbits, because the node intervals differ.
 void Export::write_products(const Products& products) {
   for (const System system : kSystems) {
     std::vector<OrbitEpoch> own;

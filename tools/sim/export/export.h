@@ -1,4 +1,4 @@
-// A simulated run as the files that a recording would come in.
+// Export writes a simulated run as the files of a recording.
 #pragma once
 #include <memory>
 #include <optional>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/gnss/antenna_model.h"
-#include "core/ins/imu.h"
+#include "core/gnss/propagation/antenna_model.h"
+#include "core/inertial/strapdown/imu.h"
 #include "drivers/csv/truth_csv.h"
 #include "tools/sim/export/leo_as_gps.h"
 #include "tools/sim/export/rinex_observation_writer.h"
@@ -16,26 +16,27 @@
 
 namespace leonav::sim {
 
+// Settings of an export.
 struct ExportOptions {
-  std::string folder;  // made if it is not there
-  // Low satellites under GPS names in the place of all others: leo_as_gps.h.
+  std::string folder;  // created if it does not exist
+  // Name low satellites as GPS satellites and leave out all others: leo_as_gps.h.
   bool leo_as_gps = false;
 };
 
-// Every file that an export to the folder may write.
+// Returns every file that an export to the folder may write.
 std::vector<std::string> export_files(const ExportOptions& options);
 
-// Writes run.obs, run.nav, one SP3 file per system (gps.sp3, ...), run.clk, antennas.atx, imu.csv,
-// truth.csv, and the dataset.yaml that names them. Everything throws FileError.
+// Export writes run.obs, run.nav, one SP3 file per system (gps.sp3, ...), run.clk, antennas.atx,
+// imu.csv, truth.csv, and the dataset.yaml that lists them. All functions throw FileError.
 class Export {
  public:
-  // `scenario` and `sky` must outlive it.
+  // `scenario` and `sky` must outlive this object.
   Export(const Scenario& scenario, const TrueSky& sky, const ExportOptions& options);
 
   void write(const Products& products, const BroadcastMessages& messages,
              std::span<const AntennaPattern> antennas);
-  // In order of time; what is not later than the one before is left out: files have no place for
-  // messages that come late or twice.
+  // These write in order of time. An epoch or sample not later than the one before is left out,
+  // because the files cannot hold messages that arrive late or twice.
   void write(const RawEpoch& epoch);
   void write(const ImuSample& sample);
   void finish(std::span<const TruthPoint> truth);

@@ -3,12 +3,12 @@
 #include <limits>
 #include <set>
 
-#include "core/gnss/look_angles.h"
+#include "core/gnss/measurement/look_angles.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr std::uint16_t kGpsNames = 32;  // that programs count on
+constexpr std::uint16_t kGpsNames = 32;  // that programs support
 
 }  // namespace
 
@@ -41,7 +41,7 @@ LeoAsGps::LeoAsGps(const Scenario& scenario, const TrueSky& sky) : scenario_(sce
 
 RawEpoch LeoAsGps::epoch(const RawEpoch& epoch) {
   const System wanted = epochs_++ < kStartEpochs ? System::kGps : System::kLeo;
-  // Sorted by the new names.
+  // The observations are sorted by the new names.
   std::map<std::pair<SatelliteId, SignalCode>, SignalObservation> named;
   for (SignalObservation observation : epoch.observations) {
     const auto name = names_.find(observation.satellite);

@@ -7,7 +7,7 @@
 namespace leonav::sim {
 namespace {
 
-// What the systems keep in places of their own.
+// Fields whose meaning depends on the system.
 struct SystemFields {
   double sources = 0.0, week = 0.0, delay2_or_iodc = 0.0, fit_or_aodc = 0.0;
 };

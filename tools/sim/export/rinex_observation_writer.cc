@@ -23,7 +23,7 @@ std::string letters_of(System system) {
   return {};
 }
 
-// F14.3 and the two flags; blank where not measured. Zero would mean that as well.
+// Formats as F14.3 with the two flags; blank if not measured, which zero would mean too.
 std::string field(double value, char lock_flags) {
   if (!std::isfinite(value)) return std::string(16, ' ');
   std::string text = formatted("%14.3f", value);
@@ -56,7 +56,7 @@ void RinexObservationWriter::write_header(GpsTime first) {
           line += formatted(" %c%c%c", kind, code.band, code.attribute);
         }
       }
-      // Thirteen names a line.
+      // A line holds thirteen names.
       for (std::size_t at = 0; at == 0 || at < line.size() - 6; at += 52) {
         file_.labelled(
             (at == 0 ? line.substr(0, 6) : std::string(6, ' ')) + line.substr(6 + at, 52),
@@ -85,7 +85,7 @@ bool RinexObservationWriter::lost_lock(const SignalObservation& o, GpsTime time)
   if (!std::isfinite(o.carrier_cycles)) return o.loss_of_lock;
   const auto [place, first] = last_carrier_.try_emplace({o.satellite, o.code}, time);
   const double since_s = seconds_between(time, std::exchange(place->second, time));
-  // The receiver's lock time is by its own clock.
+  // The receiver's lock time is in its own clock's time.
   return o.loss_of_lock || (!first && o.lock_time_s < 0.99 * since_s);
 }
 
@@ -98,7 +98,7 @@ std::string RinexObservationWriter::fields(const SignalObservation& o, GpsTime t
 
 void RinexObservationWriter::write(const RawEpoch& epoch) {
   if (!has_header_) write_header(epoch.time);
-  // A line per satellite; the epoch's observations are sorted by satellite.
+  // There is one line per satellite; the epoch's observations are sorted by satellite.
   std::vector<std::string> lines;
   SatelliteId satellite;
   for (const SignalObservation& o : epoch.observations) {

@@ -10,8 +10,8 @@ namespace leonav::sim {
 namespace {
 
 constexpr std::size_t kNamesPerLine = 17;
-constexpr std::size_t kFewestNameLines = 5;  // which readers of SP3-c count on
-constexpr std::int64_t kUnixToMjd = 40587;   // and the GPS epoch is 3657 days after that of Unix
+constexpr std::size_t kFewestNameLines = 5;  // that readers of SP3-c expect
+constexpr std::int64_t kUnixToMjd = 40587;   // the GPS epoch is 3657 days after that of Unix
 
 std::string date(GpsTime time) {
   const CalendarTime c = rounded_calendar(time, 8);

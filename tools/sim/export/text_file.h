@@ -1,29 +1,29 @@
-// Files of lines in fixed columns.
+// TextFile writes files of lines in fixed columns.
 #pragma once
 #include <fstream>
 #include <string>
 #include <string_view>
 
-#include "core/time/calendar.h"
+#include "core/base/calendar.h"
 
 namespace leonav::sim {
 
-// As std::snprintf formats, which the C locale rules: a program that leaves it alone writes the
+// Formats like std::snprintf in the C locale: a program that does not change the locale writes the
 // same text on every machine.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
-// The calendar of `time` with its seconds rounded to `decimals` (at most 9), carried where they
-// would read 60.
+// Returns the calendar of `time` with seconds rounded to `decimals` (at most 9), with a carry where
+// they would be 60.
 CalendarTime rounded_calendar(GpsTime time, int decimals);
 
-// Every failure to write is an error, at the latest in close().
+// TextFile reports every failed write, at the latest in close().
 class TextFile {
  public:
-  // Throws FileError if the file cannot be made.
+  // Throws FileError if the file cannot be created.
   explicit TextFile(const std::string& path);
 
   void line(std::string_view text);
-  // RINEX and ANTEX headers: `text` in columns 1 to 60, `label` behind.
+  // Writes a header line of RINEX or ANTEX: `text` in columns 1 to 60, then `label`.
   void labelled(std::string_view text, std::string_view label);
 
   // Throws FileError if anything could not be written.

@@ -15,8 +15,8 @@ bool meets(const Fault& fault, SatelliteId satellite) {
          std::ranges::find(fault.satellites, satellite) != fault.satellites.end();
 }
 
-// Whose rate rises smoothly from 0 to pull_m_s within pull_time_s: rate * (x^3 - x^4 / 2) up to
-// there, as the integral of 3 x^2 - 2 x^3.
+// The rate rises smoothly from 0 to pull_m_s within pull_time_s: the range is rate * (x^3 - x^4 /
+// 2) until then, the integral of 3 x^2 - 2 x^3.
 Pull spoofed(const Fault& fault, double since_s) {
   const double x = std::min(1.0, since_s / fault.pull_time_s);
   Pull pull;

@@ -15,16 +15,16 @@
 #include "tools/sim/overlay/recording_rules.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/run/antennas.h"
-#include "tools/sim/run/told_products.h"
+#include "tools/sim/run/product_messages.h"
 #include "tools/sim/signals/receiver.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kEdge_s = 1.0;  // of the motion, within which there are no rates
+constexpr double kEdge_s = 1.0;  // of the motion, where there are no rates
 constexpr std::uint64_t kUncounted = 0;
 
-// The scenario for the whole of its recorded route and with no other satellites.
+// Returns the scenario over the whole of its recorded route, without other satellites.
 Scenario low_satellites_alone(Scenario scenario) {
   const std::vector<TruthPoint>& track = scenario.route.track;
   if (track.empty()) throw std::runtime_error("an overlay needs the truth of the recording");
@@ -36,7 +36,7 @@ Scenario low_satellites_alone(Scenario scenario) {
   return scenario;
 }
 
-// Written beside its place until it is whole.
+// Output is written under another name until it is complete.
 class Output {
  public:
   explicit Output(const std::string& path) : path_(path), part_(path + ".part"), writer_(part_) {}
@@ -65,7 +65,8 @@ class Overlay {
         faults_(scenario.faults),
         clock_(recorded_clock(recorded, scenario_, motion_)),
         sky_(build_sky(scenario_)),
-        products_(in_order_of_arrival(told_products(scenario_, sky_, faults_), scenario_.start)),
+        products_(
+            in_order_of_arrival(provided_products(scenario_, sky_, faults_), scenario_.start)),
         receiver_(scenario_, motion_, sky_, faults_),
         log_(recorded),
         output_(output) {
@@ -103,7 +104,7 @@ class Overlay {
   }
 
  private:
-  // Writes what becomes of an epoch; false: it stays as it is.
+  // Writes the changed epoch; returns false if it stays unchanged.
   bool change(const LogEvent& event) {
     const DecodeResult result = decoder_.decode(event.data, raw_.get());
     if (result.fault != InputFault::kNone) return false;
@@ -119,7 +120,8 @@ class Overlay {
     return true;
   }
 
-  // Before the epoch, as a live system would have had them; antennas before all.
+  // Products are written before the epoch, as a live system would have received them; antennas come
+  // first.
   void tell_products(const LogEvent& event) {
     if (report_.epochs == 1) {
       for (const AntennaPattern& pattern : ideal_antennas(sky_)) {
@@ -139,7 +141,7 @@ class Overlay {
     const auto before = raw_->observations.size();
     const auto kept = std::remove_if(raw_->observations.begin(), raw_->observations.end(),
                                      [&](const SignalObservation& o) {
-                                       // check_overlay_faults() lets no outage ask for the
+                                       // check_overlay_faults() excludes outages that depend on the
                                        // elevation.
                                        return faults_.is_out(o.satellite, 0.0, t);
                                      });
@@ -172,8 +174,8 @@ class Overlay {
     return static_cast<long>(low.observations.size());
   }
 
-  // How white the recorded clock is: a receiver that sets it anew at every epoch is a phone. By the
-  // median, as steps and gaps are none of that.
+  // Returns the noise of the recorded clock; a receiver that sets its clock at every epoch is a
+  // phone. The median excludes steps and gaps.
   double clock_noise_m() const {
     std::vector<double> changes;
     for (auto b = clock_.readings.begin(); b != clock_.readings.end(); ++b) {

@@ -1,4 +1,5 @@
-// Simulated low satellites over a recorded run, and recorded satellites taken away.
+// This unit adds simulated low satellites to a recorded run and removes recorded satellites from
+// it.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,29 +9,28 @@
 
 namespace leonav::sim {
 
+// Counts of one overlay.
 struct OverlayReport {
-  long messages = 0;            // of the recording, all but epochs copied byte by byte
-  long epochs = 0;              // of it
-  long with_leo = 0;            // that low satellites were added to
+  long messages = 0;            // of the recording; all except epochs are copied byte by byte
+  long epochs = 0;              // of the recording
+  long with_leo = 0;            // to which low satellites were added
   long removed = 0, added = 0;  // observations
-  long without_clock = 0;       // epochs whose clock could not be told, which get none
-  double clock_noise_m =
-      0.0;                 // change of the receiver's clock from epoch to epoch beyond its drift
-  bool truncated = false;  // the recording ends within a message
-  std::vector<std::string> unused;  // keys of the scenario that the recording says instead
+  // Epochs whose clock could not be determined; they get no low satellites.
+  long without_clock = 0;
+  // Change of the receiver's clock from epoch to epoch beyond its drift.
+  double clock_noise_m = 0.0;
+  bool truncated = false;           // the recording ends within a message
+  std::vector<std::string> unused;  // keys of the scenario that the recording replaces
 };
 std::string to_string(const OverlayReport& report);
 
-// Copies `recorded` to `output`. Each epoch loses the satellites that outages of the scenario name
-// and gains those of the scenario's low satellites that its antenna would have received, by the
-// recorded receiver's clock (recorded_clock.h); their orbits, clocks and antennas are told too.
-// What the scenario says of other systems, of the IMU and of the receiver's clock has no effect
-// (recording_rules.h tells which keys; faults of that kind are errors).
-// The scenario's route is the truth of the recording.
+// Copies `recorded` to `output` with low satellites added and others removed.
 //
-// Added messages carry the sequence number 0, which no receiver counts as a loss, and an epoch
-// keeps its own. Throws std::runtime_error where nothing could be added or taken away, and
-// EventLogError.
+// Each epoch loses the satellites that the scenario's outages name. It gains those of the
+// scenario's low satellites that its antenna would have received, by the recorded receiver's clock
+// (recorded_clock.h); their orbits, clocks and antennas are provided too. The scenario's settings
+// of other systems, of the IMU and of the receiver's clock have no effect (recording_rules.h lists
+// the keys; faults of that kind are errors). The scenario's route is the truth of the recording.
 OverlayReport overlay(const Scenario& scenario, const std::string& recorded,
                       const std::string& output, ProgressBar* progress);
 

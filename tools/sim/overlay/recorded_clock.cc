@@ -7,16 +7,17 @@
 #include <utility>
 #include <vector>
 
-#include "core/gnss/preprocess.h"
-#include "core/gnss/range_model.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/measurement/range_model.h"
+#include "core/gnss/preprocessing/preprocess.h"
+#include "core/gnss/signals/signal.h"
 #include "tools/quality/input_log.h"
 
 namespace leonav::sim {
 namespace {
 
 constexpr std::size_t kLeastSatellites = 3;
-// Codes whose median distance from their median is larger are of another place than the truth's.
+// If the median distance of codes from their median is larger, they belong to another position than
+// the truth's.
 constexpr double kWidestScatter_m = 300.0;
 
 double median(std::vector<double>* values) {
@@ -37,15 +38,15 @@ GnssConfig every_code() {
   return config;
 }
 
-// Codes of one band of one system: all others have another delay in the receiver.
+// The codes of one band of one system: all others have another delay in the receiver.
 using Group = std::pair<System, char>;
 
-// What one epoch tells.
+// The clock at one epoch.
 struct Sighting {
   GpsTime stamp;
-  std::map<Group, double> code_m;        // medians of the groups with satellites enough
+  std::map<Group, double> code_m;        // medians of the groups with enough satellites
   double drift_m_s = 0.0;                // median of all Dopplers
-  std::optional<double> carrier_step_m;  // of the carriers' clock, since the epoch before
+  std::optional<double> carrier_step_m;  // of the carriers' clock, since the previous epoch
 };
 
 class Reading {
@@ -53,13 +54,13 @@ class Reading {
   Reading(const Scenario& scenario, const SplineMotion& motion)
       : lever_arm_b_(scenario.receiver.lever_arm_b), motion_(motion), config_(every_code()) {}
 
-  SatelliteCatalog* catalog() { return &catalog_; }
+  EphemerisStore* ephemeris_store() { return &ephemeris_store_; }
 
   void take(const RawEpoch& raw) {
     const double tag = seconds_between(raw.time, motion_.start());
     Sighting now;
     double t = tag;
-    // The second round knows where the antenna was when it really was there.
+    // The second round uses the antenna's position at the true time of reception.
     for (int round = 0; round < 2; ++round) {
       if (t < 0.0 || t > motion_.duration_s()) return;
       now = Sighting();
@@ -83,9 +84,9 @@ class Reading {
   Eigen::Vector3d lever_arm_b_;
   const SplineMotion& motion_;
   GnssConfig config_;
-  SatelliteCatalog catalog_{config_.catalog};
+  EphemerisStore ephemeris_store_{config_.ephemeris_store};
   std::unique_ptr<MeasurementEpoch> epoch_ = std::make_unique<MeasurementEpoch>();
-  // Carriers minus ranges, m: of this epoch, and of the one before.
+  // Carriers minus ranges, m, of this epoch and of the previous one.
   std::map<std::pair<SatelliteId, SignalCode>, double> carriers_, carriers_before_;
   std::vector<Sighting> sightings_;
   long without_ = 0;
@@ -94,7 +95,7 @@ class Reading {
 bool Reading::measure(const RawEpoch& raw, double t, Sighting* sighting) {
   const MotionInstant now = motion_.at(t);
   const Eigen::Vector3d p_a_e = now.p_e + now.q_eb.toRotationMatrix() * lever_arm_b_;
-  preprocess(raw, catalog_, config_, p_a_e, epoch_.get());
+  preprocess(raw, ephemeris_store_, config_, p_a_e, epoch_.get());
   std::map<Group, std::vector<double>> codes;
   std::vector<double> dopplers;
   carriers_.clear();
@@ -102,7 +103,7 @@ bool Reading::measure(const RawEpoch& raw, double t, Sighting* sighting) {
     const SatelliteInView& satellite = epoch_->satellites[m.satellite_index];
     if (satellite.reason != Reason::kUsed || m.reason != Reason::kUsed) continue;
     if (m.observable == Observable::kDoppler) {
-      // Counted in seconds of the receiver's clock: m = (rate + c drift) / (1 + drift).
+      // Rates are per second of the receiver's clock: m = (rate + c drift) / (1 + drift).
       const double rate = predict_range_rate(satellite, p_a_e, now.v_e).range_rate_m_s;
       dopplers.push_back((m.value - rate) / (1.0 - m.value / kSpeedOfLight));
     }
@@ -112,7 +113,7 @@ bool Reading::measure(const RawEpoch& raw, double t, Sighting* sighting) {
     const auto raw_one = std::ranges::find_if(raw.observations, [&](const auto& o) {
       return o.satellite == satellite.satellite && o.code == m.code;
     });
-    // The ionosphere's sign does not matter within a second.
+    // The sign of the ionospheric delay does not matter within a second.
     if (raw_one != raw.observations.end() && !raw_one->loss_of_lock) {
       carriers_[{satellite.satellite, m.code}] =
           raw_one->carrier_cycles * wavelength_m(satellite.satellite.system, m.code.band) +
@@ -151,7 +152,7 @@ RecordedClock Reading::clock() const {
   if (epochs.empty()) return clock;
   const Group reference =
       std::ranges::max_element(epochs, {}, [](const auto& e) { return e.second; })->first;
-  std::map<Group, std::vector<double>> beyond;  // the reference
+  std::map<Group, std::vector<double>> beyond;  // relative to the reference group
   for (const Sighting& s : sightings_) {
     if (!s.code_m.contains(reference)) continue;
     for (const auto& [group, value] : s.code_m)
@@ -191,7 +192,7 @@ RecordedClock recorded_clock(const std::string& log, const Scenario& scenario,
                              const SplineMotion& motion) {
   Reading reading(scenario, motion);
   const InputHandlers handlers{[&reading](const RawEpoch& raw) { reading.take(raw); },
-                               reading.catalog()};
+                               reading.ephemeris_store()};
   const InputCounts counts =
       read_inputs(log, std::string(kDefaultChannelPrefix), handlers, nullptr);
   RecordedClock clock = reading.clock();

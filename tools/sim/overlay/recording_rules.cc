@@ -15,7 +15,7 @@ bool names_only_low(const Fault& fault) {
                              [](SatelliteId id) { return id.system == System::kLeo; });
 }
 
-// A key itself, or a group with all below it.
+// The keys that a recording replaces: a key itself, or a group with all keys below it.
 constexpr std::array<std::string_view, 32> kRecorded = {"start_gps_week",
                                                         "start_gps_tow_s",
                                                         "duration_s",
@@ -88,7 +88,7 @@ std::vector<std::string> keys_of_the_recording(const std::vector<std::string>& g
   for (const std::string& key : given) {
     const bool recorded = std::ranges::any_of(
         kRecorded, [&key](std::string_view group) { return is_in(key, group); });
-    // A group is named by its keys.
+    // A group is represented by its keys.
     const bool is_group = std::ranges::any_of(
         given, [&key](const std::string& other) { return other != key && is_in(other, key); });
     if (recorded && !is_group) found.push_back(key);

@@ -1,4 +1,4 @@
-// What of a scenario a recorded run leaves no room for.
+// This unit defines which parts of a scenario a recorded run replaces.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,12 +7,14 @@
 
 namespace leonav::sim {
 
-// Throws std::runtime_error, naming file and line, for a fault that an overlay cannot lay over a
-// recording: of the IMU, of the messages' times, of the receiver itself, or, but for outages, of
-// satellites that are the recording's own.
+// Throws std::runtime_error, with file and line, for a fault that an overlay cannot apply to a
+// recording.
+//
+// Such faults concern the IMU, the messages' times, the receiver itself, or, except outages, the
+// recording's own satellites.
 void check_overlay_faults(const std::vector<Fault>& faults);
 
-// Of the keys that a scenario gives, those that the recording says instead.
+// Returns those of the given keys that the recording replaces.
 std::vector<std::string> keys_of_the_recording(const std::vector<std::string>& given);
 
 }  // namespace leonav::sim

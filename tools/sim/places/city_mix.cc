@@ -7,7 +7,7 @@ namespace {
 
 struct Share {
   PlaceKind kind;
-  double city, dense_city;  // of the segments
+  double city, dense_city;  // shares of the segments
   double length_m;          // mean
 };
 constexpr Share kShares[] = {
@@ -15,7 +15,7 @@ constexpr Share kShares[] = {
     {PlaceKind::kUrbanCanyon, 0.42, 0.74, 350.0}, {PlaceKind::kViaduct, 0.12, 0.12, 120.0},
     {PlaceKind::kWoods, 0.08, 0.03, 200.0},       {PlaceKind::kTunnel, 0.02, 0.03, 80.0},
 };
-constexpr double kDenseHeight = 1.7;    // of its houses, against those of the city
+constexpr double kDenseHeight = 1.7;    // factor of the city's house heights
 constexpr double kOpenStart_m = 100.0;  // a navigator must find its heading first
 
 }  // namespace
@@ -33,7 +33,7 @@ std::vector<PlaceSegment> city_places(PlaceMix mix, double length_m, GaussianGen
       PlaceSegment segment;
       segment.from_m = from_m;
       segment.place = usual_place(share.kind);
-      // No two streets are alike.
+      // Every street has its own height.
       segment.place.house_height *= std::exp(0.25 * taller);
       if (mix == PlaceMix::kDenseCity) segment.place.house_height *= kDenseHeight;
       segments.push_back(segment);

@@ -1,19 +1,21 @@
-// How far the vehicle has gone.
+// Odometer gives the distance that the vehicle has travelled.
 #pragma once
 #include <vector>
 
-#include "tools/motion/spline_motion.h"
+#include "tools/sim/motion/spline_motion.h"
 
 namespace leonav::sim {
 
+// Odometer tabulates the motion when it is constructed.
 class Odometer {
  public:
   explicit Odometer(const SplineMotion& motion);
 
-  // Horizontal and vertical way since the start, m; beyond both ends as at them.
+  // Returns the horizontal and vertical distance since the start, m; beyond both ends the value at
+  // the end.
   double travelled_m(double t) const;
   double speed_m_s(double t) const;
-  // When it had gone so far; the end if it never does.
+  // Returns the time of that distance; the end if it is never reached.
   double when_s(double travelled_m) const;
 
  private:

@@ -14,9 +14,9 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kAntennaHeight = 1.6;  // m above the street
-constexpr double kLaneOffset = 2.5;     // m that the vehicle drives right of the middle
+constexpr double kLaneOffset = 2.5;     // vehicle's distance right of the middle
 constexpr double kWavelength = 0.19;    // m
-// A ray almost along the street meets houses only at its far end, which the horizon stands for.
+// A ray almost along the street meets houses only at its far end, which the horizon represents.
 constexpr double kFarthestHouse = 400.0;  // m
 constexpr double kRoofEdge_db = 0.05;     // losses below this are none
 
@@ -70,8 +70,8 @@ PlaceNow Surroundings::at(double t) const {
   return now;
 }
 
-// Of the house on one side (+1 right, -1 left) of the street at `along_m` of its length; 0 where
-// there is none. `house` is a number of its own, never 0.
+// Returns the height of the house on one side (+1 right, -1 left) of the street at `along_m` of its
+// length; 0 if there is none. `house` gets a number of its own, never 0.
 double Surroundings::house_height(const PlaceNow& now, int side, double along_m,
                                   unsigned* house) const {
   const Place& place = *now.place;
@@ -95,11 +95,12 @@ bool Surroundings::reflect(const PlaceNow& now, const LookAngles& direction,
   const double bearing = direction.azimuth - now.course;
   const double across = std::abs(std::sin(bearing));
   const int hidden_side = std::sin(bearing) > 0.0 ? 1 : -1;
-  const double distance = to_wall(place, -hidden_side) / across;  // to the mirror, horizontally
+  // horizontal distance to the mirror
+  const double distance = to_wall(place, -hidden_side) / across;
   if (distance > kFarthestHouse) return false;
   const double forward = std::cos(bearing), rise = std::tan(direction.elevation);
   unsigned wall = 0, none = 0;
-  // It meets a wall, and on its way there passes over the houses that hide the direct signal.
+  // The ray meets a wall, and on its way there passes over the houses that hide the direct signal.
   if (house_height(now, -hidden_side, now.travelled_m + distance * forward, &wall) <
       kAntennaHeight + distance * rise) {
     return false;
@@ -152,7 +153,7 @@ Reception Surroundings::reception(const PlaceNow& now, SatelliteId satellite,
   if (!reception.possible) return reception;
   if (place.house_height > 0.0) pass_houses(now, direction, rates, &reception);
   if (place.deck_width > 0.0) {
-    // Where the ray passes the deck's height, across the street from its middle.
+    // Distance from the street's middle at which the ray passes the deck's height.
     const double across = (place.deck_height - kAntennaHeight) / std::tan(direction.elevation) *
                           std::sin(direction.azimuth - now.course);
     const double beside = std::abs(across + kLaneOffset) - 0.5 * place.deck_width;
@@ -161,9 +162,9 @@ Reception Surroundings::reception(const PlaceNow& now, SatelliteId satellite,
         knife_edge_loss_db(beside * std::sin(direction.elevation), slant, kWavelength);
   }
   if (place.leaves_db > 0.0) {
-    // Trunks and crowns pass by every few metres; in the wind also while it stands.
+    // Trunks and crowns pass by every few metres; in the wind the loss also changes at rest.
     constexpr double kCrown = 4.0;  // m
-    const LatticeNoise fade(stream_key(seed_, "leaves", place_of(satellite)));
+    const LatticeNoise fade(stream_key(seed_, "leaves", table_index_of(satellite)));
     const double leaves =
         place.leaves_db + place.leaves_sigma_db * fade.at(now.travelled_m / kCrown).value;
     reception.loss_db += std::max(0.0, leaves) / std::max(0.25, std::sin(direction.elevation));

@@ -1,16 +1,17 @@
-// What of the sky the vehicle sees, and how the rest reaches it.
+// Surroundings computes which signals reach the vehicle between houses, below decks and through
+// leaves.
 #pragma once
 #include <vector>
 
-#include "core/gnss/look_angles.h"
-#include "core/gnss/satellite.h"
-#include "tools/motion/spline_motion.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "core/gnss/signals/satellite.h"
+#include "tools/sim/motion/spline_motion.h"
 #include "tools/sim/places/odometer.h"
 #include "tools/sim/scenario/scenario.h"
 
 namespace leonav::sim {
 
-// Where the vehicle is at one instant.
+// The vehicle's place at one instant.
 struct PlaceNow {
   const Place* place = nullptr;
   std::size_t segment = 0;
@@ -19,26 +20,28 @@ struct PlaceNow {
   double travelled_m = 0.0, speed_m_s = 0.0;
 };
 
-// How one satellite's signals arrive.
+// The way in which one satellite's signals arrive.
 struct Reception {
   bool possible = true;
-  bool line_of_sight = true;  // though perhaps along an edge or through leaves
-  double loss_db = 0.0;       // against free sight
-  // Of a reflection that arrives instead: the way behind the mirror, and what it adds to the range.
+  bool line_of_sight = true;  // possibly along an edge or through leaves
+  double loss_db = 0.0;       // relative to free sight
+  // For a reflection that arrives instead: distance behind the mirror, and its addition to the
+  // range.
   double mirror_m = 0.0, extra_m = 0.0, extra_m_s = 0.0;
-  unsigned route = 0;  // 0 straight on; otherwise another number for each wall
+  unsigned route = 0;  // 0: direct; otherwise a different number for each wall
 };
 
-// Geometry of a straight street with houses along it, or a deck above it, or leaves. A house that
-// hides a satellite lets through what bends round its roof (knife edge, Rec. ITU-R P.526, 4.1) and
-// what the houses across the street reflect; the stronger one is received.
+// The geometry is that of a straight street with houses along it, a deck above it, or leaves.
+//
+// A house that hides a satellite passes a signal diffracted at its roof (knife edge, Rec. ITU-R
+// P.526, 4.1) and one reflected by the houses across the street; the stronger one is received.
 class Surroundings {
  public:
-  // Throws std::runtime_error where segments are not in order. `motion` must outlive it.
+  // Throws std::runtime_error if segments are not in order. `motion` must outlive this object.
   Surroundings(const Scenario& scenario, const SplineMotion& motion);
 
   PlaceNow at(double t) const;
-  // `direction` and its rates (rad/s) as seen by the antenna.
+  // Returns the reception. `direction` and its rates (rad/s) are as seen by the antenna.
   Reception reception(const PlaceNow& now, SatelliteId satellite, const LookAngles& direction,
                       const LookAngles& rates) const;
 
@@ -61,8 +64,8 @@ class Surroundings {
   std::vector<Segment> segments_;
 };
 
-// Loss of a knife edge, dB: `clearance_m` by which the ray passes beside it (negative: through the
-// shadow) at `distance_m` from the antenna.
+// Returns the loss of a knife edge, dB. `clearance_m` is the distance by which the ray passes the
+// edge (negative: through the shadow) at `distance_m` from the antenna.
 double knife_edge_loss_db(double clearance_m, double distance_m, double wavelength_m);
 
 }  // namespace leonav::sim

@@ -27,7 +27,7 @@ std::vector<Waypoint> city_drive(const RouteConfig& route, double duration_s,
   };
   std::vector<Waypoint> waypoints(1);
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
-  int heading = 0;  // quarters of a turn from north
+  int heading = 0;  // quarter turns from north
   double travelled_m = 0.0;
   const double needed_m = 17.0 * duration_s;  // more than can be driven
   while (travelled_m < needed_m) {
@@ -43,8 +43,8 @@ std::vector<Waypoint> city_drive(const RouteConfig& route, double duration_s,
     waypoints.push_back(next);
     travelled_m += length;
     const int wanted = turn >= kTurnShare ? 0 : side < 0.5 ? 1 : -1;
-    // Not farther out than this: without it a drive of hours leaves the tangent plane. One of the
-    // three ways never leads out, and none of them back.
+    // The drive stays within this distance; otherwise a drive of hours would leave the tangent
+    // plane. One of the three ways never leads out, and none of them back.
     for (const int quarter : {wanted, 0, 1, -1}) {
       if (leads_out(p, heading + quarter)) continue;
       heading += quarter;

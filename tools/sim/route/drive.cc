@@ -19,7 +19,7 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kRounding = 18.0;  // m
-constexpr double kTail = 2.0;       // s: where a natural spline ends its acceleration is made up
+constexpr double kTail = 2.0;       // s: at its ends a natural spline has no true acceleration
 
 std::vector<Waypoint> waypoints_of(const Scenario& scenario) {
   const RouteConfig& route = scenario.route;
@@ -68,7 +68,7 @@ SplineMotion along_road(const Scenario& scenario) {
   return SplineMotion(std::move(splines));
 }
 
-// What keeps a file from being a route, and what of it was not read.
+// Returns why a file is not a route, and what was left out of it.
 std::string why_not(const RouteConfig& route, const std::string& what) {
   const std::string missing = left_out(route.file_report);
   return route.file + ": " + what + (missing.empty() ? "" : "; " + missing);

@@ -6,9 +6,9 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
-// A passenger car's springs: some 5 degrees of roll and 2.5 of pitch at 1 g.
+// Values of a passenger car's springs: about 5 degrees of roll and 2.5 of pitch at 1 g.
 constexpr double kRollPerAcceleration = 0.009, kPitchPerAcceleration = 0.0045;  // rad/(m/s^2)
-// A small multicopter leans some 6 degrees against the drag of 10 m/s.
+// A small multicopter leans about 6 degrees against the drag of 10 m/s.
 constexpr double kDragPerSpeed = 0.1;  // 1/s
 
 }  // namespace

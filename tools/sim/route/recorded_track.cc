@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "core/earth/rotation.h"
-#include "tools/motion/smooth_track.h"
+#include "tools/sim/motion/smooth_track.h"
 #include "tools/sim/route/lean.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kMinSpeed = 1.0;  // m/s, below which sideways has no meaning
+constexpr double kMinSpeed = 1.0;  // m/s; below, the direction of motion is not defined
 
 using Angle = std::optional<double> TruthPoint::*;
 
-// Unwrapped; empty unless every point has it.
+// Returns the unwrapped angles; empty unless every point has one.
 std::vector<double> recorded(const std::vector<TruthPoint>& points, Angle angle) {
   std::vector<double> values;
   for (const TruthPoint& point : points) {

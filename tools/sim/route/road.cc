@@ -15,7 +15,8 @@ const double kSharpest = -0.5 * std::numbers::sqrt3;  // cosine of the sharpest 
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Equidistant samples of the polyline, prolonged at both ends so that rounding keeps them.
+// Returns equidistant samples of the polyline, extended at both ends so that rounding preserves
+// them.
 Points sampled(const std::vector<Waypoint>& waypoints, const std::vector<double>& places,
                double margin_m) {
   Points points;
@@ -29,7 +30,7 @@ Points sampled(const std::vector<Waypoint>& waypoints, const std::vector<double>
   return points;
 }
 
-// Mean over 2 * half + 1 points; half fewer points at either end.
+// Returns means over 2 * half + 1 points, half fewer points at either end.
 Points averaged(const Points& points, std::size_t half) {
   Points result;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -43,7 +44,7 @@ Points averaged(const Points& points, std::size_t half) {
   return result;
 }
 
-// Along the rounded curve, for a place along the polyline that it was sampled at every kStep of.
+// Returns the length along the rounded curve for a position along the polyline sampled every kStep.
 double length_at(const std::vector<double>& s, double along_polyline) {
   const auto i = std::min(static_cast<std::size_t>(along_polyline / kStep), s.size() - 2);
   const double share = along_polyline / kStep - static_cast<double>(i);

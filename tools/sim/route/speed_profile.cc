@@ -7,14 +7,14 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kGrid = 0.5;       // m, at most
-constexpr double kSmoothing = 1.0;  // s, of each of two moving averages
-constexpr double kReach = 1.0;      // s before and after that both averages together see
+constexpr double kSmoothing = 1.0;  // length of each of two moving averages
+constexpr double kReach = 1.0;      // range of both averages, before and after
 constexpr double kCrawl = 0.05;     // m/s
 
-// Points along the road: every waypoint is one, so that stops are where they are said to be.
+// Points along the road; every waypoint is one, so that stops are exactly at their waypoints.
 struct Grid {
   std::vector<double> place;          // m along the road
-  std::vector<std::size_t> waypoint;  // of each waypoint
+  std::vector<std::size_t> waypoint;  // index for each waypoint
 };
 
 Grid make_grid(const Road& road) {
@@ -32,8 +32,7 @@ Grid make_grid(const Road& road) {
   return grid;
 }
 
-// The averages see the motion before and behind: a limit holds that much longer, so that the
-// averaged speed keeps it too.
+// Extends each limit by the reach of the averages, so that the averaged speed keeps it too.
 std::vector<double> held_longer(const Grid& grid, const std::vector<double>& limit) {
   std::vector<double> held = limit;
   for (std::size_t i = 0; i < limit.size(); ++i) {
@@ -46,7 +45,7 @@ std::vector<double> held_longer(const Grid& grid, const std::vector<double>& lim
   return held;
 }
 
-// Limits at the grid's points: waypoints, bends, then what can be reached from and braked to.
+// Returns the limits at the grid's points: waypoints, bends, then accelerations and braking.
 std::vector<double> limits(const Grid& grid, const Road& road, const RouteConfig& route,
                            const std::vector<Waypoint>& waypoints) {
   const std::size_t count = grid.place.size();
@@ -72,7 +71,7 @@ std::vector<double> limits(const Grid& grid, const Road& road, const RouteConfig
   return v;
 }
 
-// Means over `width` samples, centred; constant beyond both ends.
+// Returns centred means over `width` samples; the values are constant beyond both ends.
 std::vector<double> averaged(const std::vector<double>& values, int width) {
   const int half = width / 2, n = static_cast<int>(values.size());
   const auto at = [&](int i) { return values[static_cast<std::size_t>(std::clamp(i, 0, n - 1))]; };
@@ -86,12 +85,12 @@ std::vector<double> averaged(const std::vector<double>& values, int width) {
   return result;
 }
 
-// Seconds at which the grid's points are reached, and left where it stands there.
+// Times, in s, at which a grid point is reached, and left after a stop.
 struct Passage {
   double arrival, departure;
 };
 
-// The averages eat kReach of a stop at either end.
+// The averages shorten a stop by kReach at either end.
 std::vector<Passage> passages(const Grid& grid, const std::vector<double>& v,
                               const RouteConfig& route, const std::vector<Waypoint>& waypoints) {
   std::vector<Passage> passage(v.size());
@@ -117,13 +116,13 @@ std::vector<double> drive_along(const Road& road, const RouteConfig& route,
   const std::vector<Passage> passage = passages(grid, v, route, waypoints);
   std::vector<double> s;
   std::size_t i = 0;
-  // Beyond the end too, so that the averages are of a motion.
+  // The samples continue beyond the end, so that the averages have values there.
   for (double t = 0.0; t <= duration_s + 4.0 * kSmoothing;
        t = kDriveStep * static_cast<double>(s.size())) {
     while (i + 1 < passage.size() && passage[i + 1].arrival <= t) ++i;
     double place = grid.place[i];
     if (i + 1 < passage.size() && t > passage[i].departure) {
-      // Uniformly accelerated between two points of the grid.
+      // The acceleration is uniform between two points of the grid.
       const double dt = t - passage[i].departure;
       const double whole = passage[i + 1].arrival - passage[i].departure;
       const double a = (v[i + 1] - v[i]) / whole;

@@ -1,4 +1,4 @@
-// How fast a vehicle goes along its road.
+// This unit computes the speed of a vehicle along its road.
 #pragma once
 #include <vector>
 
@@ -6,10 +6,11 @@
 
 namespace leonav::sim {
 
-// Length along the road every kDriveStep seconds from the start on, `duration_s` long: standing
-// first, within the waypoints' speed limits, the route's accelerations and what the bends allow,
-// standing at waypoints that say so for exactly so long, and at the end of the road. Smooth:
-// acceleration changes within a second.
+// Returns the length along the road every kDriveStep seconds from the start, for `duration_s`.
+//
+// The vehicle stands first, keeps the waypoints' speed limits, the route's accelerations and the
+// limits of the bends, and stands at waypoints with a stop for exactly that time, and at the end of
+// the road. The acceleration changes smoothly, within a second.
 std::vector<double> drive_along(const Road& road, const RouteConfig& route,
                                 const std::vector<Waypoint>& waypoints, double duration_s);
 

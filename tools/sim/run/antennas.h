@@ -1,14 +1,14 @@
-// The antennas of a simulated run.
+// This unit gives the antennas of a simulated run.
 #pragma once
 #include <vector>
 
-#include "core/gnss/antenna_model.h"
+#include "core/gnss/propagation/antenna_model.h"
 #include "tools/sim/sky/true_sky.h"
 
 namespace leonav::sim {
 
-// Phase centres in the centres of mass and at the receiver's reference point, whatever the
-// direction, and told so: what is not told is not known to be zero.
+// Returns phase centres in the centres of mass and at the receiver's reference point, for every
+// direction. They are published explicitly, because an unknown pattern does not count as zero.
 std::vector<AntennaPattern> ideal_antennas(const TrueSky& sky);
 
 }  // namespace leonav::sim

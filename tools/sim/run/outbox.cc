@@ -5,7 +5,7 @@
 namespace leonav::sim {
 namespace {
 
-// A second copy, as of a network that repeats itself.
+// Delay of a duplicate, as from a network that repeats a message.
 constexpr std::int64_t kCopyBehind_ns = 1'000'000;
 
 }  // namespace

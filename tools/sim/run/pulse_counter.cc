@@ -26,7 +26,7 @@ double PulseCounter::forward_speed(double t) const {
   return (v_b + (now.omega_ib_b - earth_b).cross(config_.point_b)).x();
 }
 
-// The way by the trapezoidal rule.
+// Integrates the distance by the trapezoidal rule.
 void PulseCounter::roll(double to_s) {
   while (now_s_ < to_s - 1e-9) {
     const double step_s = std::min(kStep_s, to_s - now_s_);

@@ -8,24 +8,24 @@
 #include "core/earth/rotation.h"
 #include "drivers/csv/truth_csv.h"
 #include "tools/common/format.h"
-#include "tools/dataset/log_output.h"
-#include "tools/motion/ideal_imu.h"
-#include "tools/motion/inertial_sensor.h"
+#include "tools/import/log_output.h"
+#include "tools/sim/motion/ideal_imu.h"
+#include "tools/sim/motion/inertial_sensor.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/run/antennas.h"
 #include "tools/sim/run/outbox.h"
+#include "tools/sim/run/product_messages.h"
 #include "tools/sim/run/pulse_counter.h"
-#include "tools/sim/run/told_products.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/signals/receiver.h"
 
 namespace leonav::sim {
 namespace {
 
-// The motion's last second is there for rates and latencies.
+// The last second of the motion is reserved for rates and latencies.
 constexpr double kEndMargin_s = 1.0;
 
-// Written beside its place until the whole run is good.
+// Output is written under another name until the whole run has succeeded.
 class TruthOutput {
  public:
   explicit TruthOutput(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
@@ -63,7 +63,7 @@ class Run {
     const std::vector<AntennaPattern> antennas = ideal_antennas(sky_);
     for (const AntennaPattern& pattern : antennas) log->write(scenario.start, pattern);
     BroadcastMessages messages = make_broadcast(scenario, sky_);
-    Products products = told_products(scenario, sky_, faults_);
+    Products products = provided_products(scenario, sky_, faults_);
     if (files) {
       export_.emplace(scenario, sky_, *files);
       export_->write(products, messages, antennas);
@@ -143,7 +143,7 @@ class Run {
 
   void post_imu(GpsTime start, std::int64_t interval_ns) {
     const ImuSample ideal = in_imu_axes(ideal_sample(motion_, start, interval_ns));
-    // Drawn also in gaps, so that the noise after them stays the same.
+    // The noise is drawn also in gaps, so that the noise after them does not change.
     const double speed = sensor_.needs_speed()
                              ? motion_.at(seconds_between(start, scenario_.start)).v_e.norm()
                              : 0.0;
@@ -200,7 +200,7 @@ std::string to_string(const RunReport& report) {
 
 RunReport simulate(const Scenario& scenario, const RunOutputs& outputs, ProgressBar* progress) {
   RunReport report;
-  // First of all, so that a name that cannot be written to costs no work.
+  // The outputs are opened first, so that a name that cannot be written costs no work.
   TruthOutput truth(outputs.truth);
   LogOutput log(outputs.log, &report.written);
   Run run(scenario, outputs.files, &log);

@@ -9,8 +9,8 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "core/gnss/dop.h"
-#include "core/gnss/look_angles.h"
+#include "core/gnss/measurement/dop.h"
+#include "core/gnss/measurement/look_angles.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/signals/receiver.h"
 #include "tools/sim/signals/signal_plan.h"
@@ -51,7 +51,7 @@ void add_epoch(const Positions& satellites, const Eigen::Vector3d& p_a_e,
   if (std::isfinite(pdop)) series->pdop.push_back(pdop);
 }
 
-// Those with a pseudorange on every signal of their system.
+// Returns the satellites with a pseudorange on every signal of their system.
 Positions tracked_of(const RawEpoch& epoch, const Positions& in_the_sky) {
   std::map<SatelliteId, std::size_t> ranges;
   for (const SignalObservation& o : epoch.observations) {
@@ -68,12 +68,12 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double at_share(std::vector<double> values, double share) {
+double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-// Means of the papers: satellites and PDOP.
+// Returns the papers' means: satellites and PDOP.
 std::string published(const std::string& name) {
   static const std::map<std::string, std::string> numbers = {{"gps", "6.5 / 4.3    7.0 / 3.4"},
                                                              {"beidou", "12.8 / 4.1"},
@@ -97,14 +97,14 @@ void print_table(const std::vector<SystemCombination>& names, const std::vector<
        "mean", "min", "50 %", "75 %", "95 %", "max");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::vector<double>&n = series[i].satellites, &p = series[i].pdop;
-    if (n.empty() || at_share(n, 1.0) == 0.0) continue;
-    line("  %-16s%6.1f%6.0f%6.0f%6.0f%6.0f", names[i].name.c_str(), mean(n), at_share(n, 0.0),
-         at_share(n, 0.05), at_share(n, 0.95), at_share(n, 1.0));
+    if (n.empty() || quantile(n, 1.0) == 0.0) continue;
+    line("  %-16s%6.1f%6.0f%6.0f%6.0f%6.0f", names[i].name.c_str(), mean(n), quantile(n, 0.0),
+         quantile(n, 0.05), quantile(n, 0.95), quantile(n, 1.0));
     if (p.empty()) {
       line("  %38s", "-");
     } else {
-      line("  %7.1f%7.1f%6.1f%6.1f%6.1f%6.0f", mean(p), at_share(p, 0.0), at_share(p, 0.5),
-           at_share(p, 0.75), at_share(p, 0.95), at_share(p, 1.0));
+      line("  %7.1f%7.1f%6.1f%6.1f%6.1f%6.0f", mean(p), quantile(p, 0.0), quantile(p, 0.5),
+           quantile(p, 0.75), quantile(p, 0.95), quantile(p, 1.0));
     }
     const double without = 1.0 - static_cast<double>(p.size()) / static_cast<double>(n.size());
     line("  %5.1f %%   %s\n", 100.0 * without, with_papers ? published(names[i].name).c_str() : "");

@@ -10,7 +10,7 @@ constexpr Bounds kAngle = {-360.0, 360.0}, kSigma = {0.0, 1e3};
 
 void read_shell(ConfigReader& group, ConstellationConfig* c) {
   OrbitShell shell;
-  shell.node_span = 360.0 * kDegree;  // as Walker has it
+  shell.node_span = 360.0 * kDegree;  // as in Walker's notation
   group.integer("planes", 1, 100, &shell.planes);
   group.integer("per_plane", 1, 100, &shell.per_plane);
   group.number("semi_major_axis_km", {6500.0, 1e5}, &shell.semi_major_axis_m, 1e3);
@@ -31,7 +31,7 @@ void read_shell(ConfigReader& group, ConstellationConfig* c) {
   c->shells.push_back(shell);
 }
 
-// The numbers that build_sky() will give must be ones that leonav knows, each once.
+// The numbers that build_sky() will assign must be valid in leonav and unique.
 void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
   if (c.only_risen) return;  // build_sky() counts
   const int highest = kHighestNumber[index_of(c.system)];
@@ -54,7 +54,7 @@ void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
   }
 }
 
-void read_errors(ConfigReader& group, ToldErrors* errors) {
+void read_errors(ConfigReader& group, EphemerisErrors* errors) {
   double all = -1.0;
   group.number("orbit_error_m", kSigma, &all);
   if (all >= 0.0) errors->orbit_m.setConstant(all);
@@ -74,10 +74,12 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   if (!c->file.empty() && c->system == System::kLeo) {
     group.fail("file", "is for GPS, Galileo and BeiDou; give shells for low satellites");
   }
-  group.choice<Told>(
-      "told", {{"precise", Told::kPrecise}, {"broadcast", Told::kBroadcast}, {"both", Told::kBoth}},
-      &c->told);
-  if (c->told != Told::kPrecise && c->system == System::kLeo) {
+  group.choice<ProvidedProducts>("told",
+                                 {{"precise", ProvidedProducts::kPrecise},
+                                  {"broadcast", ProvidedProducts::kBroadcast},
+                                  {"both", ProvidedProducts::kBoth}},
+                                 &c->provided);
+  if (c->provided != ProvidedProducts::kPrecise && c->system == System::kLeo) {
     group.fail("told", "must be precise: low satellites have no broadcast message");
   }
   read_errors(group, &c->precise);

@@ -72,7 +72,7 @@ void read_sizes(ConfigReader& group, Fault* fault) {
 
 void read_fault(ConfigReader& group, std::vector<Fault>* faults) {
   Fault fault;
-  // Without one it would be an outage of everything, by a slip of the pen.
+  // Without a kind it would be an outage of everything, by a mere omission.
   if (!group.is_scalar("kind")) group.fail("kind", "must be given, as one word");
   group.choice<FaultKind>("kind",
                           {{"outage", FaultKind::kOutage},

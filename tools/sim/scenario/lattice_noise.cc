@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/motion/gaussian_generator.h"
+#include "tools/sim/motion/gaussian_generator.h"
 
 namespace leonav::sim {
 
@@ -11,7 +11,7 @@ LatticeNoise::Value LatticeNoise::at(double argument) const {
   const double left = std::floor(argument), x = argument - left;
   const auto deviate = [this](double knot) {
     const auto k = static_cast<std::uint64_t>(static_cast<std::int64_t>(knot));
-    // Neighbours' seeds must be far apart: the generator steps by a constant.
+    // The seeds of neighbours must be far apart, because the generator steps by a constant.
     return GaussianGenerator((key_ ^ (k * 0xD1342543DE82EF95ULL)) * 0x2545F4914F6CDD1DULL).draw();
   };
   const double a = deviate(left), b = deviate(left + 1.0);

@@ -1,12 +1,13 @@
-// Noise that is a function: the value at an argument depends on nothing evaluated before.
+// LatticeNoise is random noise as a function: a value depends on its argument only, not on earlier
+// calls.
 #pragma once
 #include <cstdint>
 
 namespace leonav::sim {
 
-// Zero mean, standard deviation 1 everywhere, correlated over about one unit of the argument, once
-// continuously differentiable. Normal deviates at the whole numbers, hashed from the key; between
-// two of them a mix whose squared weights add up to one.
+// The noise has zero mean and standard deviation 1 everywhere, is correlated over about one unit of
+// the argument, and is once continuously differentiable. At whole numbers it has normal deviates,
+// hashed from the key; between two of them a mix whose squared weights add up to one.
 class LatticeNoise {
  public:
   LatticeNoise() = default;

@@ -14,7 +14,7 @@ constexpr double kTurn = 360.0 * kDegree;
 constexpr double kGeosynchronous = 42'164'170.0;  // m
 constexpr double kBeidouMedium = 27'906'100.0;
 
-// Walker's i:t/p/f pattern: planes spread over `span`, phased by f * 360 / t degrees.
+// Returns Walker's i:t/p/f pattern: planes spread over `span`, phased by f * 360 / t degrees.
 OrbitShell walker(int planes, int per_plane, double semi_major_axis_m, double inclination_deg,
                   int phasing, double span = kTurn) {
   OrbitShell shell;
@@ -27,7 +27,7 @@ OrbitShell walker(int planes, int per_plane, double semi_major_axis_m, double in
   return shell;
 }
 
-// Satellite `number` that crosses the equator northwards, or stays, at `longitude_deg`.
+// Returns satellite `number`, which crosses the equator northwards, or stays, at `longitude_deg`.
 OrbitShell geosynchronous(int number, double longitude_deg, double inclination_deg,
                           double anomaly_deg) {
   OrbitShell shell = walker(1, 1, kGeosynchronous, inclination_deg, 0);
@@ -37,9 +37,10 @@ OrbitShell geosynchronous(int number, double longitude_deg, double inclination_d
   return shell;
 }
 
-// The 24 slots of the GPS SPS Performance Standard (5th edition, 2020, table 3.2-1), of which B1,
-// D2 and F2 are expanded to two each (table 3.2-2), and four more where three planes' gaps are
-// widest: 31 as flown. Walker's patterns of 30 stand worse over the mid-latitudes than GPS does.
+// The satellites are in the 24 slots of the GPS SPS Performance Standard (5th edition, 2020, table
+// 3.2-1), of which B1, D2 and F2 are expanded to two each (table 3.2-2), and four more where the
+// gaps in the planes are widest: 31 as flown. Walker's patterns of 30 have a worse geometry at
+// mid-latitudes.
 void add_gps(ConstellationConfig* c) {
   static const std::vector<std::vector<double>> arguments_of_latitude_deg = {
       {268.126, 161.786, 11.676, 41.806, 101.8, 215.0},
@@ -61,9 +62,10 @@ void add_gps(ConstellationConfig* c) {
   }
 }
 
-// As at the end of 2020, with the numbers that the real ones have: geostationary BDS-2 C01-C05 and
-// BDS-3 C59-C61; inclined BDS-2 C06-C10, C13, C16 and BDS-3 C38-C40; medium BDS-2 C11, C12, C14 and
-// BDS-3 C19-C30, C32-C37, C41-C46 (Walker 24/3/1). Longitudes and planes: BDS-SIS-ICD-B1I 3.0, 3.2.
+// The constellation is that at the end of 2020, with the real numbers: geostationary BDS-2 C01-C05
+// and BDS-3 C59-C61; inclined BDS-2 C06-C10, C13, C16 and BDS-3 C38-C40; medium BDS-2 C11, C12, C14
+// and BDS-3 C19-C30, C32-C37, C41-C46 (Walker 24/3/1). Longitudes and planes: BDS-SIS-ICD-B1I 3.0,
+// 3.2.
 void add_beidou(ConstellationConfig* c) {
   int number = 1;
   for (const double longitude : {140.0, 80.0, 110.5, 160.0, 58.75})
@@ -85,7 +87,7 @@ void add_beidou(ConstellationConfig* c) {
     shell.first_anomaly = (22.5 + 45.0 * place++) * kDegree;
     c->shells.push_back(shell);
   }
-  // A plane of eight each; the second one's numbers are in two pieces.
+  // Each plane has eight; the numbers of the second one are in two pieces.
   const auto piece = [c](int first, int plane, int slot, int count) {
     OrbitShell shell = walker(1, 1, kBeidouMedium, 55.0, 0);
     shell.first_node = (50.0 + 120.0 * plane) * kDegree;
@@ -102,9 +104,9 @@ void add_beidou(ConstellationConfig* c) {
   piece(41, 2, 2, 6);
 }
 
-// Remote Sensing 2024, 16, 1782, section 3.1: 70 in six polar planes (so not evenly: 12, 12, 12,
-// 12, 11, 11), 90 in ten planes of 60 degrees. How the planes are
-// phased is not told there: here so that satellites keep farthest apart.
+// The source is Remote Sensing 2024, 16, 1782, section 3.1: 70 in six polar planes (hence unevenly:
+// 12, 12, 12, 12, 11, 11), 90 in ten planes of 60 degrees. The paper does not give the phasing of
+// the planes; here it keeps the satellites farthest apart.
 void add_leo(ConstellationConfig* c) {
   for (int plane = 0; plane < 6; ++plane) {
     OrbitShell shell = walker(1, plane < 4 ? 12 : 11, kEarthSemiMajorAxis + 970e3, 90.0, 0);
@@ -113,12 +115,13 @@ void add_leo(ConstellationConfig* c) {
     c->shells.push_back(shell);
   }
   c->shells.push_back(walker(10, 9, kEarthSemiMajorAxis + 970e3, 60.0, 2));
-  c->shells.back().first_node = 5.0 * kDegree;  // apart from the polar planes'
+  c->shells.back().first_node = 5.0 * kDegree;  // distinct from the polar planes
 }
 
 }  // namespace
 
-// Clocks' noise of GPS and Galileo as their products show it (docs/models.md), the others' assumed.
+// The clock noise of GPS and Galileo is that of their products (docs/validation/orbits.md), the
+// others' is assumed.
 ConstellationConfig nominal_constellation(System system) {
   ConstellationConfig c;
   c.system = system;
@@ -141,7 +144,7 @@ ConstellationConfig nominal_constellation(System system) {
     case System::kLeo:
       add_leo(&c);
       c.node_interval_s = 30.0;
-      c.told = Told::kPrecise;
+      c.provided = ProvidedProducts::kPrecise;
       c.clock.noise_s_per_sqrt_s = 3e-12;
       c.group_delay_m = 0.0;
       break;

@@ -50,7 +50,7 @@ void read_tracking(ConfigReader& group, TrackingConfig* tracking) {
   group.number("acquire_s", kSeconds, &tracking->acquire_s);
   group.number("carrier_s", kSeconds, &tracking->carrier_s);
   group.number("slips_per_hour", {0.0, 1e5}, &tracking->slips_per_hour);
-  group.number("told_share", kShare, &tracking->told_share);
+  group.number("told_share", kShare, &tracking->flagged_share);
   group.integer("max_slip_cycles", 1, 1'000'000, &tracking->max_slip_cycles);
   group.number("half_cycle_share", kShare, &tracking->half_cycle_share);
   group.number("half_cycle_s", kSeconds, &tracking->half_cycle_s);

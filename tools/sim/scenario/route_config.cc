@@ -35,7 +35,7 @@ void read_track(ConfigReader& group, const std::filesystem::path& folder, RouteC
   }
 }
 
-// One wrong row would be a flight round the world, which the smoothing makes look like a route.
+// One wrong row would become a flight round the world, which the smoothing would make plausible.
 void check_leaps(const std::string& file, const std::vector<TruthPoint>& points) {
   constexpr double kFastest_m_s = 500.0, kScatter_m = 10.0;
   for (std::size_t i = 1; i < points.size(); ++i) {

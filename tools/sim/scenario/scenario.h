@@ -1,11 +1,11 @@
-// Everything that a scenario file says.
+// Scenario holds the contents of a scenario file.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "core/time/gps_time.h"
+#include "core/base/gps_time.h"
 #include "tools/sim/scenario/atmosphere_config.h"
 #include "tools/sim/scenario/constellation_config.h"
 #include "tools/sim/scenario/faults_config.h"
@@ -17,6 +17,7 @@
 
 namespace leonav::sim {
 
+// All settings of a simulated run.
 struct Scenario {
   std::string name;
   std::uint64_t seed = 1;
@@ -31,8 +32,8 @@ struct Scenario {
   AtmosphereConfig atmosphere;
   PlacesConfig places;
   std::vector<Fault> faults;
-  bool ideal = false;              // nothing that a navigator could not model is left
-  std::vector<std::string> given;  // its keys that were not left at their defaults
+  bool ideal = false;              // everything that a navigator cannot model is removed
+  std::vector<std::string> given;  // the keys that were given
 };
 
 }  // namespace leonav::sim

@@ -11,7 +11,7 @@
 namespace leonav::sim {
 namespace {
 
-// The sky as it is so much later: satellites go on, and the Earth turns below their planes.
+// Advances the sky by `seconds`: satellites move on, and the Earth turns below their planes.
 void advance(double seconds, ConstellationConfig* constellation) {
   for (OrbitShell& shell : constellation->shells) {
     const double a = shell.semi_major_axis_m;
@@ -20,14 +20,14 @@ void advance(double seconds, ConstellationConfig* constellation) {
   }
 }
 
-// `ideal`: of the whole scenario, of the receiver.
+// Applies `ideal` of the whole scenario and of the receiver.
 void remove_what_is_off(Scenario* scenario) {
   if (scenario->ideal) {
     scenario->imu.ideal = scenario->receiver.ideal = true;
     remove_unmodelled(&scenario->atmosphere);
     for (ConstellationConfig& c : scenario->constellations) {
       c.precise = c.broadcast.errors = {Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0};
-      // Which no product could tell from node to node.
+      // No product could follow this noise from node to node.
       c.clock.noise_s_per_sqrt_s = c.clock.drift_walk_per_sqrt_s = 0.0;
     }
   }
@@ -78,7 +78,7 @@ Scenario default_scenario() {
   for (const System system : kSystems) {
     scenario.constellations[index_of(system)] = nominal_constellation(system);
   }
-  // Papers, section 3.1: 0.5 m and 3 mm.
+  // These values are from the papers, section 3.1: 0.5 m and 3 mm.
   scenario.receiver.noise[index_of(System::kLeo)] = {0.5, 0.003, 0.05};
   return scenario;
 }
@@ -92,7 +92,7 @@ Scenario load_scenario(const std::string& path, const std::vector<std::string>& 
 Scenario load_scenario_text(const std::string& text, const std::string& name,
                             const std::vector<std::string>& overrides) {
   Scenario scenario = default_scenario();
-  ConfigSource source{name, {}, {}};
+  ConfigSource source{name};
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   read_yaml(text, overrides, &source,
             [&](ConfigReader& root) { read_root(root, folder, &scenario); });

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/gnss/troposphere.h"
+#include "core/gnss/propagation/troposphere.h"
 #include "tools/sim/scenario/random_streams.h"
 
 namespace leonav::sim {

@@ -1,19 +1,21 @@
-// The true troposphere and ionosphere over the route.
+// Atmosphere gives the true tropospheric and ionospheric delays over the route.
 #pragma once
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/look_angles.h"
+#include "core/gnss/measurement/look_angles.h"
 #include "tools/sim/scenario/scenario.h"
 #include "tools/sim/signals/ionosphere.h"
 #include "tools/sim/sky/clock_table.h"
 
 namespace leonav::sim {
 
+// Atmosphere draws its random walk when it is constructed.
 class Atmosphere {
  public:
   explicit Atmosphere(const Scenario& scenario);
 
-  // Slant delay, m: standard hydrostatic part, wet part that walks, both mapped by Niell; a
-  // horizontal gradient mapped as Chen and Herring (1997), J. Geophys. Res. 102, 20489.
+  // Returns the slant delay, m: a standard hydrostatic part and a random-walk wet part, both mapped
+  // by Niell, and a horizontal gradient mapped by Chen and Herring (1997), J. Geophys. Res. 102,
+  // 20489.
   double troposphere_m(double t, const Geodetic& antenna, const LookAngles& direction) const;
   double zenith_wet_m(double t, const Geodetic& antenna) const;
 
@@ -22,7 +24,7 @@ class Atmosphere {
  private:
   AtmosphereConfig config_;
   GpsTime start_;
-  ClockTable wet_;  // a random walk like any other; its "seconds" are metres
+  ClockTable wet_;  // a random walk; its "seconds" are metres
   Ionosphere ionosphere_;
 };
 

@@ -1,4 +1,4 @@
-// What all satellites of one epoch share.
+// EpochInstant holds what all satellites of one epoch share.
 #pragma once
 #include <array>
 
@@ -9,17 +9,18 @@
 
 namespace leonav::sim {
 
+// Time, clock and antenna of one epoch.
 struct EpochInstant {
   double t_tag = 0.0;  // as stamped, s from the start
-  ClockReading clock;  // clock.t: when it really was
+  ClockReading clock;  // clock.t is the true time of reception
   AntennaInstant antenna;
-  // The antenna at -2, -1, +1, +2 steps around it: what rates are taken from.
+  // The antenna at -2, -1, +1, +2 steps around the instant, for rates.
   std::array<AntennaInstant, 4> around;
   SunMoon bodies;
   PlaceNow place;
 };
 
-// The five-point rule on values at -2, -1, +1, +2 steps: its error is far below 0.1 mm/s even for
+// The five-point rule uses values at -2, -1, +1, +2 steps; its error is far below 0.1 mm/s even for
 // LEO.
 inline constexpr double kRateStep_s = 0.05;
 inline constexpr std::array<double, 4> kRateTimes = {-2.0 * kRateStep_s, -kRateStep_s, kRateStep_s,

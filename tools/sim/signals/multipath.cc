@@ -8,8 +8,8 @@
 namespace leonav::sim {
 
 void MultipathAge::advance(double t, double elevation, const LookAngles& rates) {
-  constexpr double kMediumOrbit = 1.2e-4;  // rad/s: GPS, Galileo and BeiDou's most, over the sky
-  constexpr double kSlowest = 0.1;         // geostationary ones: the surroundings change
+  constexpr double kMediumOrbit = 1.2e-4;  // rad/s: GPS, Galileo and most of BeiDou, over the sky
+  constexpr double kSlowest = 0.1;         // geostationary satellites: the surroundings change
   const double turn = std::hypot(rates.elevation, rates.azimuth * std::cos(elevation));
   const double rate = std::max(kSlowest, turn / kMediumOrbit);
   if (started_) seconds_ += 0.5 * (rate_ + rate) * (t - t_);
@@ -22,10 +22,11 @@ MultipathError Multipath::error(SatelliteId satellite, std::size_t signal, doubl
                                 const MultipathAge& age, double travelled_m, double speed_m_s,
                                 double strength) const {
   const double height = strength * std::exp(-std::max(0.0, elevation) / config_.elevation);
-  // One argument for both: the reflectors' geometry changes as the satellite or the vehicle goes.
+  // Code and carrier share one argument, because the reflectors' geometry changes with the
+  // satellite or the vehicle.
   const double argument = age.seconds() / config_.time_s + travelled_m / config_.length_m;
   const double argument_rate = age.rate() / config_.time_s + speed_m_s / config_.length_m;
-  const std::uint64_t number = signal_number(place_of(satellite), signal);
+  const std::uint64_t number = signal_number(table_index_of(satellite), signal);
   MultipathError error;
   if (config_.code_m > 0.0) {
     const LatticeNoise code(stream_key(seed_, "multipath of code", number));
@@ -34,8 +35,8 @@ MultipathError Multipath::error(SatelliteId satellite, std::size_t signal, doubl
   if (config_.carrier_m > 0.0) {
     const LatticeNoise carrier(stream_key(seed_, "multipath of carrier", number));
     const LatticeNoise::Value now = carrier.at(argument);
-    // A quarter of the shortest wavelength is the most that reflections weaker than the signal do;
-    // the strength of a place is one of codes and counts here by its root.
+    // The largest carrier error of reflections weaker than the signal is a quarter of the shortest
+    // wavelength. The strength of a place refers to codes; for carriers its root counts.
     const double sigma = config_.carrier_m * height / std::sqrt(std::max(strength, 1.0));
     error.carrier_m = sigma * now.value;
     error.doppler_m_s = sigma * now.slope * argument_rate;

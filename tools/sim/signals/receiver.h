@@ -1,25 +1,28 @@
-// A receiver's epochs: every satellite it tracks, with code, carrier, Doppler and C/N0.
+// Receiver produces a receiver's epochs: every tracked satellite with code, carrier, Doppler and
+// C/N0.
 #pragma once
 #include <vector>
 
-#include "core/gnss/observation.h"
+#include "core/gnss/signals/observation.h"
 #include "tools/sim/signals/satellite_observer.h"
 
 namespace leonav::sim {
 
+// Receiver simulates epoch after epoch.
 class Receiver {
  public:
-  // All referred to must outlive it. Throws as Surroundings does.
+  // All arguments must outlive this object. Throws as Surroundings does.
   Receiver(const Scenario& scenario, const SplineMotion& motion, const TrueSky& sky,
            const FaultScript& faults);
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
-  // The epoch that the receiver's clock stamps `t_tag` seconds from the start. In order of time.
+  // Returns the epoch that the receiver's clock stamps `t_tag` seconds from the start, in order of
+  // time.
   RawEpoch epoch(double t_tag);
-  // The same at a reading of some other clock.
+  // Returns the epoch at a reading of some other clock.
   RawEpoch epoch(double t_tag, const ClockReading& clock);
-  // It starts anew: all tracks are lost.
+  // Restarts the receiver: all tracks are lost.
   void reset();
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMillisecond = 1e-3;
 
-// White and random-walk frequency noise from the h0 and h-2 of Brown and Hwang, Introduction to
+// White and random-walk frequency noise follow from h0 and h-2 in Brown and Hwang, Introduction to
 // Random Signals and Applied Kalman Filtering, 4th ed., table 9.2: sqrt(h0 / 2), sqrt(2 pi^2 h-2).
 ClockErrors oscillator_errors(const ReceiverClockConfig& config) {
   ClockErrors errors;
@@ -34,7 +34,7 @@ ReceiverClock::ReceiverClock(const Scenario& scenario)
     ClockErrors walk;
     GaussianGenerator random = random_stream(scenario.seed, "time base", index_of(system));
     const double offset_m = config_.time_base_sigma_m * random.draw();
-    if (system != System::kGps) {  // the one that the others are told against
+    if (system != System::kGps) {  // the reference for the others
       walk.offset_s = offset_m;
       walk.phase_walk_s = config_.time_base_walk_m_per_sqrt_s;
     }
@@ -44,7 +44,7 @@ ReceiverClock::ReceiverClock(const Scenario& scenario)
 
 ClockReading ReceiverClock::read(double t_tag) {
   const auto offset_at = [&](double t) { return oscillator_.at(t).offset_s + steps_s_; };
-  // Within a millisecond of the instant is near enough to decide.
+  // Within a millisecond of the instant is accurate enough to decide.
   while (config_.jumps != ClockJumps::kNone && std::abs(offset_at(t_tag)) > config_.jump_limit_s) {
     steps_s_ -= std::copysign(kMillisecond, offset_at(t_tag));
   }

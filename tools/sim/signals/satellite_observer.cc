@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "core/earth/rotation.h"
-#include "core/gnss/phase_wind_up.h"
-#include "core/gnss/satellite_attitude.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/orbits/satellite_attitude.h"
+#include "core/gnss/propagation/phase_wind_up.h"
+#include "core/gnss/signals/signal.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/signals/signal_plan.h"
 #include "tools/sim/signals/signal_strength.h"
@@ -57,7 +57,7 @@ Arrival SatelliteObserver::arrival(const EpochInstant& now, const Geometry& g,
     arrival.cn0_dbhz[s] = zenith_cn0_dbhz(cn0, satellite_.id.system, s) - arrival.loss_db;
   }
   arrival.slip_factor = now.place.place->slips;
-  // A spoofer that leaves breaks the lock as another way of the signal does.
+  // The end of spoofing breaks the lock, as another way of the signal does.
   arrival.route = g.reception.route + 0x9E3779B9U * pull.breaks;
   return arrival;
 }
@@ -72,7 +72,7 @@ void SatelliteObserver::turn(const EpochInstant& now, const SignalPath& path) {
     return phase_wind_up_cycles(p_s_e, C_es, antenna.p_e, antenna.C_eb, wind_up_);
   };
   wind_up_ = cycles(now.antenna);
-  // The satellite's own turn is 1e-4 cycles a second and less.
+  // The satellite's own rotation is 1e-4 cycles a second or less.
   wind_up_rate_ = rate_of(
       {cycles(now.around[0]), cycles(now.around[1]), cycles(now.around[2]), cycles(now.around[3])});
 }
@@ -97,8 +97,8 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
   const ReceiverConfig& receiver = world_.scenario.receiver;
   const System system = satellite_.id.system;
   const SignalTrack& track = tracking_.signal(s);
-  const std::uint64_t number = signal_number(place_of(satellite_.id), s);
-  // At the stamp, so that jumps of the clock change nothing.
+  const std::uint64_t number = signal_number(table_index_of(satellite_.id), s);
+  // The noise belongs to the stamp, so that jumps of the clock do not change it.
   GaussianGenerator random =
       random_stream(world_.scenario.seed, "noise", instant_number(number, now.t_tag));
   const NoiseConfig& noise = receiver.noise[index_of(system)];
@@ -124,8 +124,8 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
   o.pseudorange_m = common + late_m + kSpeedOfLight * now.clock.code_s + delay * g.path.tecu +
                     reflected.code_m + code_noise_m;
   // Cycles are counted in seconds of the receiver's clock, which a fast oscillator makes shorter:
-  // at a drift of 1e-5 a low satellite's rate of 6 km/s is 6 cm/s smaller.
-  const double receiver_seconds = 1.0 + now.clock.drift;  // in one of GPS time
+  // at a drift of 1e-5 the rate of a low satellite of 6 km/s is 6 cm/s smaller.
+  const double receiver_seconds = 1.0 + now.clock.drift;  // per second of GPS time
   o.doppler_hz =
       -((rate - delay * g.tecu_rate + reflected.doppler_m_s + doppler_noise_m_s) / wavelength +
         wind_up_rate_) /

@@ -1,6 +1,6 @@
-// One satellite as the receiver observes it, epoch by epoch.
+// SatelliteObserver produces the observations of one satellite, epoch by epoch.
 #pragma once
-#include "core/gnss/observation.h"
+#include "core/gnss/signals/observation.h"
 #include "tools/sim/faults/fault_script.h"
 #include "tools/sim/signals/epoch_instant.h"
 #include "tools/sim/signals/multipath.h"
@@ -8,7 +8,7 @@
 
 namespace leonav::sim {
 
-// What all observers of a receiver share; outlives them.
+// The models that all observers of a receiver share; they outlive the observers.
 struct ObserverWorld {
   const Scenario& scenario;
   const Atmosphere& atmosphere;
@@ -18,11 +18,12 @@ struct ObserverWorld {
   const FaultScript& faults;
 };
 
+// SatelliteObserver tracks the signals of one satellite.
 class SatelliteObserver {
  public:
   SatelliteObserver(const ObserverWorld& world, const TrueSatellite& satellite);
 
-  // Appends what is tracked. Epochs in order of time. Throws std::runtime_error if `raw` is full.
+  // Appends what is tracked; epochs in order of time. Throws std::runtime_error if `raw` is full.
   void observe(const EpochInstant& now, RawEpoch* raw);
   void reset() { tracking_.reset(); }
 
@@ -43,7 +44,7 @@ class SatelliteObserver {
   const ObserverWorld& world_;
   const TrueSatellite& satellite_;
   Tracking tracking_;
-  double wind_up_ = 0.0, wind_up_rate_ = 0.0;  // cycles, and a second
+  double wind_up_ = 0.0, wind_up_rate_ = 0.0;  // cycles, and cycles per second
   MultipathAge age_;
 };
 

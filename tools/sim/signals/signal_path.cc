@@ -1,7 +1,7 @@
 #include "tools/sim/signals/signal_path.h"
 
-#include "core/gnss/shapiro.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/propagation/shapiro.h"
+#include "core/gnss/signals/signal.h"
 
 namespace leonav::sim {
 
@@ -26,7 +26,7 @@ SignalPath signal_path(const TrueSatellite& satellite, const AntennaInstant& ant
     path.satellite = satellite.orbit.at(antenna.t - path.flight_s);
     path.flight_s = (path.satellite.p_i - antenna.p_i).norm() / kSpeedOfLight;
   }
-  // The satellite as seen in ECEF of the instant of reception.
+  // The satellite's position is in ECEF of the instant of reception.
   const Eigen::Vector3d p_s_e = to_earth(path.satellite.p_i, antenna.t);
   path.direction = look_angles(p_s_e, antenna.p_e);
   const double clock = clock_s(satellite, antenna.t - path.flight_s);

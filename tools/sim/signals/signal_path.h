@@ -1,7 +1,7 @@
-// From a satellite's antenna to the receiver's, without noise.
+// This unit computes the path from a satellite's antenna to the receiver's, without noise.
 #pragma once
-#include "core/gnss/look_angles.h"
-#include "tools/motion/spline_motion.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "tools/sim/motion/spline_motion.h"
 #include "tools/sim/signals/atmosphere.h"
 #include "tools/sim/sky/true_sky.h"
 
@@ -14,17 +14,19 @@ struct AntennaInstant {
   Geodetic position;
   Eigen::Matrix3d C_eb;
 };
+// Returns the antenna at time `t`.
 AntennaInstant antenna_at(const SplineMotion& motion, const Eigen::Vector3d& lever_arm_b,
                           const Eigen::Vector3d& tide_e, double t);
 
+// The path of one signal.
 struct SignalPath {
   double range_m = 0.0;  // all that is common to the frequencies, with the satellite's clock
   double tecu = 0.0;     // slant
   LookAngles direction;
-  OrbitState satellite;  // when the signal left
+  OrbitState satellite;  // at the time of transmission
   double flight_s = 0.0;
 };
-// Light time solved in the inertial frame; Shapiro's delay, troposphere.
+// Returns the path: light time in the inertial frame, Shapiro delay, troposphere.
 SignalPath signal_path(const TrueSatellite& satellite, const AntennaInstant& antenna,
                        const Atmosphere& atmosphere);
 

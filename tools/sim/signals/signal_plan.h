@@ -1,9 +1,9 @@
-// Which signals a receiver tracks of each system, in the order of its observation records.
+// This unit lists the signals that a receiver tracks of each system, in the order of its records.
 #pragma once
 #include <span>
 
-#include "core/gnss/satellite.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/signals/satellite.h"
+#include "core/gnss/signals/signal.h"
 
 namespace leonav::sim {
 

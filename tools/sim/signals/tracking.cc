@@ -8,7 +8,9 @@
 namespace leonav::sim {
 
 Tracking::Tracking(const Scenario& scenario, SatelliteId satellite)
-    : config_(scenario.receiver.tracking), seed_(scenario.seed), place_(place_of(satellite)) {}
+    : config_(scenario.receiver.tracking),
+      seed_(scenario.seed),
+      place_(table_index_of(satellite)) {}
 
 void Tracking::reset() {
   for (Signal& signal : signals_) signal = Signal();
@@ -43,7 +45,7 @@ void Tracking::follow(std::size_t i, double t, const Arrival& arrival) {
     signal.acquired_at = running_ ? t + config_.acquire_s : t;
     signal.carrier_at = running_ ? signal.acquired_at + config_.carrier_s : t;
   }
-  constexpr double kRounding_s = 1e-3;  // of the receiver's clock against its stamps
+  constexpr double kRounding_s = 1e-3;  // the receiver's clock against its stamps
   signal.now.code = t >= signal.acquired_at - kRounding_s;
   if (!signal.now.code || t < signal.carrier_at - kRounding_s) return;
   if (!signal.now.carrier) start_carrier(i, t);
@@ -69,7 +71,7 @@ void Tracking::start_carrier(std::size_t i, double t) {
   signal.now.cycles += signal.half;
 }
 
-// Either signal alone or both, alike often; a weaker signal slips the more often.
+// A slip affects either signal or both, with equal probability; a weaker signal slips more often.
 void Tracking::slip(double t, const Arrival& arrival, double interval_s) {
   if (config_.slips_per_hour == 0.0) return;
   GaussianGenerator random =
@@ -77,7 +79,7 @@ void Tracking::slip(double t, const Arrival& arrival, double interval_s) {
   const double rate = config_.slips_per_hour / 3600.0 * arrival.slip_factor *
                       std::pow(10.0, 0.1 * std::max(0.0, arrival.loss_db));
   const bool slips = random.uniform() < 1.0 - std::exp(-rate * interval_s);
-  const bool told = random.uniform() <= config_.told_share;
+  const bool told = random.uniform() <= config_.flagged_share;
   const double which = random.uniform();
   for (std::size_t i = 0; i < kTrackedSignals; ++i) {
     const double size = std::ceil(random.uniform() * config_.max_slip_cycles);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gnss/signal.h"
-#include "tools/sim/sky/told_error.h"
+#include "core/gnss/signals/signal.h"
+#include "tools/sim/sky/ephemeris_error.h"
 
 namespace leonav::sim {
 namespace {
@@ -25,18 +25,18 @@ NavigationMessage message_of(SatelliteId satellite) {
   return NavigationMessage::kGpsLnav;
 }
 
-// Half the arc that an issue is fitted to: what its user interface gives as validity, or a bit
-// more.
+// Returns half the arc that an issue is fitted to: the validity in the interface document, or
+// slightly more.
 double half_span_s(System system) {
   if (system == System::kGps) return 7200.0;
-  return system == System::kGalileo ? 3600.0 : 5400.0;  // eccentric Galileos want short arcs
+  return system == System::kGalileo ? 3600.0 : 5400.0;  // eccentric Galileo orbits need short arcs
 }
 double lead_s(System system) { return system == System::kGps ? 7200.0 : 0.0; }
 
-// URA, SISA: the smallest that the messages are seen with.
+// The smallest URA and SISA that occur in messages.
 double accuracy_m(System system) { return system == System::kGalileo ? 3.12 : 2.0; }
 
-// Turned so that the axes are those of ECEF at `t`.
+// Returns the state with axes rotated to those of ECEF at `t`.
 OrbitState at_own_axes(const OrbitState& state, double t) {
   return {to_earth(state.p_i, t), to_earth(state.v_i, t)};
 }
@@ -75,7 +75,7 @@ EphemerisFit fit_issue(const Scenario& scenario, const TrueSatellite& satellite,
   }
   const OrbitState at_toe = at_own_axes(satellite.orbit.at(request.toe_s), request.toe_s);
   EphemerisFit fit = fit_ephemeris(given, at_toe, samples);
-  // The true clock's straight line over the arc.
+  // The clock polynomial is the true clock's straight line over the arc.
   const double before = satellite.clock.at(request.toe_s - request.half_span_s).offset_s;
   const double after = satellite.clock.at(request.toe_s + request.half_span_s).offset_s;
   const double reference_m = broadcast_reference_m(given.message, satellite.group_delay_m);
@@ -93,14 +93,14 @@ BroadcastMessages make_broadcast(const Scenario& scenario, const TrueSky& sky) {
   BroadcastMessages messages;
   for (const TrueSatellite& satellite : sky.satellites) {
     const ConstellationConfig& c = scenario.constellations[satellite.constellation];
-    if (c.told == Told::kPrecise || c.system == System::kLeo) continue;
-    ToldErrors errors = c.broadcast.errors;
+    if (c.provided == ProvidedProducts::kPrecise || c.system == System::kLeo) continue;
+    EphemerisErrors errors = c.broadcast.errors;
     errors.update_s = c.broadcast.issue_interval_s;
-    const ToldError error(errors, satellite.id, period_s(satellite.orbit.at(0.0)), scenario.seed,
-                          "broadcast");
+    const EphemerisError error(errors, satellite.id, period_s(satellite.orbit.at(0.0)),
+                               scenario.seed, "broadcast");
     const double interval = c.broadcast.issue_interval_s;
     const double start_tow = scenario.start.tow_s();
-    // The issue in force at the start and the one before.
+    // The issues begin with the one in force at the start and the one before.
     double toe = std::floor((start_tow + lead_s(c.system)) / interval) * interval - start_tow;
     for (toe -= interval; toe <= scenario.duration_s + lead_s(c.system); toe += interval) {
       const IssueRequest request{satellite.id, toe, half_span_s(c.system), error.orbit_m(toe),

@@ -6,28 +6,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/satellite_state.h"
-#include "core/time/calendar.h"
+#include "core/gnss/orbits/satellite_state.h"
 
 namespace leonav::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kElements = 15;
-constexpr double kSampleSigma = 0.01;  // m, against the priors
+constexpr double kSampleSigma = 0.01;  // relative to the priors
 using Elements = Eigen::Matrix<double, kElements, 1>;
 
-// In this order: sqrt_a, e cos omega, e sin omega, m0 + omega, delta_n, omega0, omega_dot, i0,
-// i_dot, cuc, cus, crc, crs, cic, cis. Steps that move the satellite by some metres.
+// The order is: sqrt_a, e cos omega, e sin omega, m0 + omega, delta_n, omega0, omega_dot, i0,
+// i_dot, cuc, cus, crc, crs, cic, cis. The steps move the satellite by some metres.
 Elements steps() {
   Elements step;
   step << 1e-3, 1e-7, 1e-7, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-7, 1.0, 1.0, 1e-7, 1e-7;
   return step;
 }
 
-// 1 / sigma of the priors (0: none), in units of the steps. The Earth's flattening shakes low
-// satellites, and short arcs of theirs, a hundred times more.
+// Returns 1 / sigma of the priors (0: none), in units of the steps. The Earth's flattening perturbs
+// low satellites, and their short arcs, a hundred times more.
 Elements prior_weights(bool low) {
   Elements sigma;
   sigma << 0, 0, 0, 0, 2e-8, 0, 2e-8, 0, 1e-9, 2e-5, 2e-5, 500.0, 500.0, 1e-6, 1e-6;
@@ -52,7 +52,7 @@ Ephemeris with_elements(const Ephemeris& given, const Elements& x) {
   return e;
 }
 
-// Osculating elements at toe; of geostationary BeiDou satellites in their tilted frame.
+// Returns osculating elements at toe; for geostationary BeiDou satellites in their tilted frame.
 Elements first_guess(const Ephemeris& given, OrbitState s) {
   if (is_beidou_geostationary(given.satellite)) {
     const Eigen::AngleAxisd untilt(-5.0 * kPi / 180.0, Eigen::Vector3d::UnitX());
@@ -68,7 +68,7 @@ Elements first_guess(const Ephemeris& given, OrbitState s) {
   const double ex = e.dot(to_node), ey = e.dot(ahead), ecc = std::hypot(ex, ey);
   const double perigee = ecc > 0.0 ? std::atan2(ey, ex) : 0.0;
   const double latitude = std::atan2(s.p_i.dot(ahead), s.p_i.dot(to_node));
-  const double anomaly = latitude - perigee;  // true
+  const double anomaly = latitude - perigee;  // true anomaly
   const double E = 2.0 * std::atan2(std::sqrt(1.0 - ecc) * std::sin(0.5 * anomaly),
                                     std::sqrt(1.0 + ecc) * std::cos(0.5 * anomaly));
   const bool beidou = given.satellite.system == System::kBeidou;
@@ -83,7 +83,7 @@ Elements first_guess(const Ephemeris& given, OrbitState s) {
   return x;
 }
 
-// Model minus samples, in sample sigmas, then the priors.
+// Returns model minus samples, in sample sigmas, then the priors.
 Eigen::VectorXd residuals(const Ephemeris& given, const Elements& x, const Elements& weights,
                           std::span<const OrbitSample> samples) {
   const Ephemeris e = with_elements(given, x);

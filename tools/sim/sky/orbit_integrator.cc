@@ -17,7 +17,8 @@ using Vector6 = std::array<double, 6>;
 
 }  // namespace
 
-// Potential of degree n: -(GM/r) Jn (R/r)^n Pn(s), s = z/r; its gradient along p and along z.
+// The potential of degree n is -(GM/r) Jn (R/r)^n Pn(s), s = z/r; its gradient is taken along p and
+// z.
 Eigen::Vector3d gravitation_i(const Eigen::Vector3d& p_i) {
   const double r = p_i.norm(), s = p_i.z() / r, q = kRadius / r;
   const double g = kEarthGravitationalConstant / (r * r);
@@ -63,7 +64,7 @@ OrbitState kepler_state(const KeplerElements& k) {
   }
   const double a = k.semi_major_axis_m, e = k.eccentricity, root = std::sqrt(1.0 - e * e);
   const double rate = std::sqrt(kEarthGravitationalConstant / (a * a * a)) /
-                      (1.0 - e * std::cos(anomaly));  // of the eccentric anomaly
+                      (1.0 - e * std::cos(anomaly));  // rate of the eccentric anomaly
   const double c = std::cos(anomaly), s = std::sin(anomaly);
   const double x = a * (c - e), y = a * root * s, vx = -a * s * rate, vy = a * root * c * rate;
   const double cw = std::cos(k.perigee), sw = std::sin(k.perigee), cn = std::cos(k.node),

@@ -1,4 +1,4 @@
-// A satellite's true orbit as dense nodes.
+// OrbitTable holds a satellite's true orbit as dense nodes.
 #pragma once
 #include <Eigen/Core>
 #include <utility>
@@ -8,12 +8,12 @@
 
 namespace leonav::sim {
 
-// Quintic Hermite interpolation (position, velocity, acceleration at both ends) in the inertial
-// frame of OrbitState. Error below h^6 / 46080 times the sixth derivative: 0.1 um for LEO nodes
-// every 30 s, 0.02 um for GNSS nodes every 120 s.
+// Interpolation is quintic Hermite (position, velocity, acceleration at both ends) in the inertial
+// frame of OrbitState. The error is below h^6 / 46080 times the sixth derivative: 0.1 um for LEO
+// nodes every 30 s, 0.02 um for GNSS nodes every 120 s.
 class OrbitTable {
  public:
-  // Nodes every `step_s` from `first_s` on (seconds from the scenario's start).
+  // `states` are nodes every `step_s` from `first_s` on (seconds from the scenario's start).
   OrbitTable(double first_s, double step_s, const std::vector<OrbitState>& states);
   struct Node {
     Eigen::Vector3d p, v, a;

@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "core/gnss/signal.h"
-#include "tools/sim/sky/told_error.h"
+#include "core/gnss/signals/signal.h"
+#include "tools/sim/sky/ephemeris_error.h"
 
 namespace leonav::sim {
 namespace {
@@ -28,9 +28,9 @@ Products make_products(const Scenario& scenario, const TrueSky& sky) {
   ByTime orbits, clocks;
   for (const TrueSatellite& satellite : sky.satellites) {
     const ConstellationConfig& c = scenario.constellations[satellite.constellation];
-    if (c.told == Told::kBroadcast) continue;
-    const ToldError error(c.precise, satellite.id, period_s(satellite.orbit.at(0.0)), scenario.seed,
-                          "product");
+    if (c.provided == ProvidedProducts::kBroadcast) continue;
+    const EphemerisError error(c.precise, satellite.id, period_s(satellite.orbit.at(0.0)),
+                               scenario.seed, "product");
     const auto node = [&](double t) {
       PreciseState state;
       state.satellite = satellite.id;

@@ -8,8 +8,8 @@
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/sun_moon.h"
-#include "core/gnss/precise_orbit.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/orbits/precise_orbit.h"
+#include "core/gnss/signals/signal.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/line_reader.h"
@@ -19,15 +19,15 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kStep = 120.0;           // s between the table's nodes
-constexpr double kMaxOrbitGap = 1000.0;   // s between the file's
+constexpr double kMaxOrbitGap = 1000.0;   // s, between the nodes of the file
 constexpr double kMaxTruncation = 0.005;  // m, of a polynomial through nodes
 constexpr double kMaxAge = 7200.0;        // s from toe, before the first and after the last one
 constexpr double kMaxToeGap = 4.5 * 3600.0;
 
-// ECEF position `t` s from the start, where the file has one.
+// Returns the ECEF position `t` s from the start, where the file has one.
 using PositionAt = std::function<std::optional<Eigen::Vector3d>(double t)>;
 
-// Inertial positions at multiples of kStep, without a hole, around t = 0.
+// Inertial positions at multiples of kStep, without a gap, around t = 0.
 struct Samples {
   int first = 0;
   std::vector<Eigen::Vector3d> p_i;
@@ -54,8 +54,8 @@ Samples sample(const PositionAt& position, const OrbitSpan& span) {
   return samples;
 }
 
-// First and second derivative by central differences of eighth order: what they leave out is below
-// 1e-12 of the orbit at these steps.
+// First and second derivative are central differences of eighth order, whose error is below 1e-12
+// of the orbit at these steps.
 OrbitTable::Node node_at(const std::vector<Eigen::Vector3d>& p, std::size_t i) {
   constexpr double d1[4] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
   constexpr double d2[4] = {8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0};
@@ -69,7 +69,8 @@ OrbitTable::Node node_at(const std::vector<Eigen::Vector3d>& p, std::size_t i) {
   return node;
 }
 
-// The ellipticity of the Earth's equator (EGM2008's C22 and S22, not normalized), in ECEF.
+// Returns the effect of the Earth's equatorial ellipticity (EGM2008's C22 and S22, not normalized),
+// ECEF.
 Eigen::Vector3d equator_e(const Eigen::Vector3d& p) {
   constexpr double kC22 = 1.57461533e-6, kS22 = -9.03872789e-7, kRadius = 6'378'136.3;
   const double r = p.norm(), scale = 3.0 * kEarthGravitationalConstant * kRadius * kRadius;
@@ -79,9 +80,9 @@ Eigen::Vector3d equator_e(const Eigen::Vector3d& p) {
   return scale * (slope / std::pow(r, 5) - 5.0 * form / std::pow(r, 7) * p);
 }
 
-// What the zonal harmonics leave out above 1e-7 m/s^2: that, and the attraction of Sun and Moon
-// less that of the Earth's centre. Their places are kept for ten minutes, in which the Moon moves
-// by 0.1 degrees.
+// MoreGravity is the acceleration above 1e-7 m/s^2 that the zonal harmonics lack: the equatorial
+// ellipticity, and the attraction of Sun and Moon minus that on the Earth's centre. Their positions
+// are kept for ten minutes, in which the Moon moves by 0.1 degrees.
 class MoreGravity {
  public:
   explicit MoreGravity(GpsTime start) : start_(start) {}
@@ -108,11 +109,11 @@ class MoreGravity {
   Eigen::Vector3d sun_i_, moon_i_;
 };
 
-// On from the node at `t` under the gravity of Earth, Sun and Moon, `count` more nodes.
+// Continues from the node at `t` under the gravity of Earth, Sun and Moon, with `count` more nodes.
 std::vector<OrbitTable::Node> beyond(const OrbitTable::Node& last, double t, double step,
                                      std::size_t count, GpsTime start) {
   MoreGravity bodies(start);
-  // What is still left at the node (the Sun's light, the elements' own smoothness) goes on.
+  // The remaining acceleration at the node (solar pressure, the elements' own smoothness) is kept.
   const Eigen::Vector3d rest = last.a - gravitation_i(last.p) - bodies(last.p, t);
   const Perturbation more = [&](const Eigen::Vector3d& p_i, double since) -> Eigen::Vector3d {
     return rest + bodies(p_i, t + since);
@@ -151,7 +152,7 @@ std::optional<OrbitTable> table_of(const PositionAt& position, const OrbitSpan& 
 // Runs from 0 to 1 with its first two derivatives zero at both ends.
 double smooth_step(double x) { return x * x * x * (10.0 - x * (15.0 - 6.0 * x)); }
 
-// `issues`: one per toe, in order of toe.
+// `issues` holds one issue per toe, in order of toe.
 PositionAt broadcast_position(const std::vector<Ephemeris>& issues, GpsTime start) {
   return [&issues, start](double t) -> std::optional<Eigen::Vector3d> {
     const GpsTime time = start.plus_seconds(t);
@@ -179,7 +180,7 @@ std::vector<RealOrbit> from_navigation(const std::string& path, System system,
   for (const Ephemeris& e : read_navigation(path).ephemerides) {
     if (e.satellite.system != system) continue;
     auto& of_satellite = issues[e.satellite];
-    // Of Galileo's two messages the one that came first.
+    // Only the first received of Galileo's two messages is used.
     if (of_satellite.empty() || of_satellite.begin()->second.message == e.message) {
       of_satellite.try_emplace(e.toe, e);
     }

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/look_angles.h"
-#include "core/gnss/signal.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "core/gnss/signals/signal.h"
 #include "tools/sim/scenario/random_streams.h"
 #include "tools/sim/sky/broadcast.h"
 #include "tools/sim/sky/products.h"
@@ -22,7 +22,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kClockStep = 30.0;  // s
 
 ClockTable clock_of(const Scenario& scenario, const ConstellationConfig& c, SatelliteId id) {
-  GaussianGenerator random = random_stream(scenario.seed, "satellite clock", place_of(id));
+  GaussianGenerator random = random_stream(scenario.seed, "satellite clock", table_index_of(id));
   ClockErrors errors;
   errors.offset_s = c.clock.offset_s * random.draw();
   errors.drift = c.clock.drift * random.draw();
@@ -33,10 +33,10 @@ ClockTable clock_of(const Scenario& scenario, const ConstellationConfig& c, Sate
 }
 
 BroadcastDelays delays_of(const Scenario& scenario, const ConstellationConfig& c, SatelliteId id) {
-  GaussianGenerator random = random_stream(scenario.seed, "group delay", place_of(id));
+  GaussianGenerator random = random_stream(scenario.seed, "group delay", table_index_of(id));
   BroadcastDelays delays;
   for (double& delay : delays) delay = c.group_delay_m * random.draw();
-  if (c.system == System::kGps) delays[1] = 0.0;  // LNAV has one
+  if (c.system == System::kGps) delays[1] = 0.0;  // LNAV has only one
   return delays;
 }
 
@@ -53,7 +53,8 @@ OrbitTable orbit_of(const KeplerElements& elements, System system, double margin
   return OrbitTable(-step * static_cast<double>(before), step, states);
 }
 
-// From the route's origin, with a margin for where the route leads: 100 km are 0.9 degrees.
+// The horizon is that of the route's origin, with a margin for the length of the route: 100 km are
+// 0.9 degrees.
 bool rises(const Scenario& scenario, const OrbitTable& orbit) {
   constexpr double kMargin = 2.0 * std::numbers::pi / 180.0, kStep = 20.0;
   const Eigen::Vector3d p_e = to_ecef(scenario.route.origin);
@@ -110,10 +111,11 @@ void add_real(const Scenario& scenario, std::size_t constellation, TrueSky* sky)
 }  // namespace
 
 double sky_margin_s(const ConstellationConfig& c) {
-  // At least what a low satellite under a name of GPS needs (export.h).
+  // The margin is at least that of a low satellite under a GPS name (export.h).
   const double products =
       std::max(1900.0, (kOrbitNodesAhead + 2) * c.node_interval_s + 12.0 * c.clock_interval_s);
-  return c.told == Told::kPrecise ? products : std::max(products, kBroadcastMargin_s);
+  return c.provided == ProvidedProducts::kPrecise ? products
+                                                  : std::max(products, kBroadcastMargin_s);
 }
 
 TrueSky build_sky(const Scenario& scenario) {

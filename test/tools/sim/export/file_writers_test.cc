@@ -1,5 +1,5 @@
 // What the writers write, leonav's own readers read back. That RTKLIB reads it too is
-// tools/judge-simulation's business.
+// tools/validate simulation's business.
 #include <cmath>
 
 #include "drivers/antex/antex_reader.h"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "core/gnss/signal.h"
+#include "core/gnss/signals/signal.h"
 #include "support/catch.h"
 #include "support/simulated_receiver.h"
 #include "tools/sim/scenario/scenario_yaml.h"

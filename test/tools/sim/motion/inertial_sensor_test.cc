@@ -1,14 +1,14 @@
 // What the simulated sensor does to a perfect one's samples.
-#include "tools/motion/inertial_sensor.h"
+#include "tools/sim/motion/inertial_sensor.h"
 
 #include <cmath>
 #include <iostream>
 #include <numbers>
 
 #include "core/earth/rotation.h"
-#include "core/ins/mechanization.h"
+#include "core/inertial/strapdown/mechanization.h"
 #include "support/catch.h"
-#include "tools/motion/ideal_imu.h"
+#include "tools/sim/motion/ideal_imu.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "core/gnss/signal.h"
+#include "core/gnss/signals/signal.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"

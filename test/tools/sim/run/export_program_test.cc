@@ -17,11 +17,10 @@ std::string quoted(const std::string& path) { return "'" + path + "'"; }
 
 SolutionCsv replayed(const test::TemporaryFile& place, const std::string& log) {
   const std::string out = place.beside(log + "_out");
-  const auto run =
-      test::run_program("leonav-replay", "--config " LEONAV_SOURCE_DIR
-                                         "/config/demo.yaml --set "
-                                         "'gnss.systems=[gps,galileo,beidou,leo]' " +
-                                             quoted(place.beside(log)) + " --out " + quoted(out));
+  const auto run = test::run_program("leonav-replay",
+                                     "--preset demo --set "
+                                     "'gnss.systems=[gps,galileo,beidou,leo]' " +
+                                         quoted(place.beside(log)) + " --out " + quoted(out));
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   return read_solution_csv(out + "/solution.csv");

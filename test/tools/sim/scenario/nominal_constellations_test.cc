@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
-#include "core/gnss/look_angles.h"
+#include "core/gnss/measurement/look_angles.h"
 #include "support/catch.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 #include "tools/sim/sky/true_sky.h"

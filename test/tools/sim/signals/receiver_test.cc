@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/gnss/signal.h"
+#include "core/gnss/signals/signal.h"
 #include "support/catch.h"
 #include "support/simulated_receiver.h"
 

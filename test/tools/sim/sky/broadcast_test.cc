@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/gnss/group_delay.h"
-#include "core/gnss/satellite_state.h"
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/gnss/propagation/group_delay.h"
 #include "support/catch.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 

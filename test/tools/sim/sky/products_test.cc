@@ -5,7 +5,7 @@
 
 #include "support/catch.h"
 #include "tools/sim/scenario/scenario_yaml.h"
-#include "tools/sim/sky/told_error.h"
+#include "tools/sim/sky/ephemeris_error.h"
 
 using namespace leonav;
 using namespace leonav::sim;
@@ -64,15 +64,16 @@ TEST_CASE("Errors of products are set along, across, radially and for clocks, sy
 }
 
 TEST_CASE("Errors vary slowly, and step where a product is updated") {
-  const ToldErrors sigma{Eigen::Vector3d::Constant(0.1), 0.1, 0.05, 3600.0};
-  const ToldError error(sigma, {System::kGps, 3}, 43'000.0, 1, "product");
+  const EphemerisErrors sigma{Eigen::Vector3d::Constant(0.1), 0.1, 0.05, 3600.0};
+  const EphemerisError error(sigma, {System::kGps, 3}, 43'000.0, 1, "product");
   const auto change = [&](double t) {
     return std::abs(error.orbit_m(t + 1.0).x() - error.orbit_m(t).x()) +
            std::abs(error.clock_m(t + 1.0) - error.clock_m(t));
   };
   for (const double t : {-7000.0, -3.0, 10.0, 3500.0, 3600.0, 7000.0}) CHECK(change(t) < 1e-3);
   for (const double t : {-3601.0, -1.0, 3599.0, 7199.0}) CHECK(change(t) > 0.01);
-  const ToldError never({sigma.orbit_m, 0.1, 0.05, 0.0}, {System::kGps, 3}, 43'000.0, 1, "product");
+  const EphemerisError never({sigma.orbit_m, 0.1, 0.05, 0.0}, {System::kGps, 3}, 43'000.0, 1,
+                             "product");
   for (double t = 0.0; t < 7300.0; t += 1.0) {
     CHECK(std::abs(never.clock_m(t + 1.0) - never.clock_m(t)) < 1e-4);
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/gnss/precise_orbit.h"
-#include "core/gnss/satellite_state.h"
+#include "core/gnss/orbits/precise_orbit.h"
+#include "core/gnss/orbits/satellite_state.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "support/catch.h"

@@ -1,0 +1,16 @@
+# cmake -DOUT=FILE -DREFERENCE=FILE "-DPRESETS=FILE;FILE" -P embed_configuration.cmake: C++ source with
+# the texts of the presets and of the reference, for daemon/config/presets.h.
+set(text "// Generated from config/presets/*.yaml and config/reference.yaml.\n")
+string(APPEND text "#include \"daemon/config/presets.h\"\n\nnamespace leonav {\n\n")
+string(APPEND text "std::span<const Preset> presets() {\n  static constexpr Preset kPresets[] = {\n")
+list(SORT PRESETS)
+foreach(file ${PRESETS})
+  cmake_path(GET file STEM name)
+  file(READ ${file} content)
+  string(APPEND text "      {\"${name}\", R\"yaml(${content})yaml\"},\n")
+endforeach()
+string(APPEND text "  };\n  return kPresets;\n}\n\n")
+file(READ ${REFERENCE} content)
+string(APPEND text "std::string_view reference_text() {\n  return R\"yaml(${content})yaml\";\n}\n\n")
+string(APPEND text "}  // namespace leonav\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,50 @@
+// This header holds every fixed capacity of leonav in one place. The wire types in lcmtypes/ carry
+// the same limits: a message that claims more is rejected before it is decoded.
+#pragma once
+#include <cstddef>
+
+namespace leonav {
+
+inline constexpr std::size_t kMaxSignals = 6;         // signals of one satellite
+inline constexpr std::size_t kMaxObservations = 512;  // signals in one raw epoch, all satellites
+// Satellites in one raw epoch. The table is as large as that of the observations, so that no
+// satellite can go missing unreported.
+inline constexpr std::size_t kMaxSatellites = kMaxObservations;
+inline constexpr std::size_t kMaxMeasurements = 512;         // code, carrier, Doppler in one epoch
+inline constexpr std::size_t kMaxEphemerisSatellites = 575;  // every satellite that has a name
+// Sets of broadcast elements kept for one satellite. A server may send those of the next hour
+// ahead: Galileo has a set of each of its two messages every ten minutes, and the set in force must
+// stay.
+inline constexpr std::size_t kMaxEphemeridesPerSatellite = 16;
+inline constexpr std::size_t kMaxOrbitNodes = 32;    // precise states kept per satellite
+inline constexpr std::size_t kMaxClockNodes = 64;    // precise clocks kept per satellite
+inline constexpr std::size_t kMaxImuBlock = 1536;    // IMU samples between two epochs: 500 Hz, 3 s
+inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-propagation
+// Raw epochs that wait for an IMU which is late: 2 s at 20 Hz.
+inline constexpr std::size_t kMaxPendingEpochs = 40;
+// Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
+inline constexpr std::size_t kMaxArcs = 64;
+
+// Odometer increments between two epochs: 100 Hz, 3 s.
+inline constexpr std::size_t kMaxOdometerBlock = 320;
+inline constexpr std::size_t kMaxSpeedHistory = 2048;  // speeds kept: 500 Hz, 4 s
+
+// Instants between two keyframes at which motion constraints act: 3 s, ten times a second.
+inline constexpr std::size_t kMaxConstraintInstants = 32;
+// Components of all constraints between two keyframes.
+inline constexpr std::size_t kMaxConstraintReports = 8 * kMaxConstraintInstants;
+
+inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
+
+inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
+inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once
+
+// Values of one antenna pattern: a receiver antenna has a grid of azimuth and zenith angle every 5
+// degrees; a satellite has nadir angles alone, every degree up to 40 or every two up to 80.
+inline constexpr std::size_t kMaxAntennaValues = 73 * 19;
+inline constexpr std::size_t kMaxNadirValues = 41;
+inline constexpr std::size_t kMaxSatelliteAntennaBands = 8;
+inline constexpr std::size_t kMaxReceiverAntennaBands = 24;  // all systems together
+inline constexpr std::size_t kMaxAntennaIntervals = 2;       // validity intervals kept at once
+
+}  // namespace leonav

@@ -1,0 +1,60 @@
+#include "core/filter/state/filter_process.h"
+
+namespace leonav {
+
+using Eigen::Index;
+
+void joseph_update(const EkfCorrection& gain, const EkfCorrection& spread, double variance,
+                   EkfCovariance* covariance) {
+  covariance->noalias() -= gain * spread.transpose();
+  covariance->noalias() -= spread * gain.transpose();
+  covariance->noalias() += (variance * gain) * gain.transpose();
+}
+
+// The joint density of x_now and the measurement, given x_then, conditioned on the measurement;
+// what is left is the measurement's own density, given x_then.
+void FilterProcess::condition(const EkfCorrection& h, double innovation, double variance) {
+  const Index then = transition.cols() - 1;
+  if (!has_information) {
+    information.setZero(then, then);
+    gradient.setZero(then);
+    has_information = true;
+  }
+  const EkfCorrection spread = noise * h;
+  const double total = h.dot(spread) + variance;
+  const EkfCorrection gain = spread / total;
+  const double unexplained = innovation - h.dot(transition.col(then));
+  const EkfCorrection seen = transition.leftCols(then).transpose() * h;
+  transition.leftCols(then).noalias() -= gain * seen.transpose();
+  transition.col(then) += unexplained * gain;
+  joseph_update(gain, spread, total, &noise);
+  information.noalias() += (seen / total) * seen.transpose();
+  gradient += (unexplained / total) * seen;
+}
+
+void FilterProcess::start(Index row, double variance) {
+  transition.row(row).setZero();
+  noise.row(row).setZero();
+  noise.col(row).setZero();
+  noise(row, row) = variance;
+}
+
+void FilterProcess::append(double variance) {
+  const Index states = noise.rows();
+  transition.conservativeResize(states + 1, transition.cols());
+  noise.conservativeResize(states + 1, states + 1);
+  start(states, variance);
+}
+
+void FilterProcess::remove(Index row) {
+  const Index last = noise.rows() - 1;
+  for (Index i = row; i < last; ++i) {
+    transition.row(i) = transition.row(i + 1);
+    noise.row(i) = noise.row(i + 1);
+  }
+  for (Index i = row; i < last; ++i) noise.col(i) = noise.col(i + 1);
+  transition.conservativeResize(last, transition.cols());
+  noise.conservativeResize(last, last);
+}
+
+}  // namespace leonav

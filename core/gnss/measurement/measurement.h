@@ -1,0 +1,111 @@
+// This header defines an epoch after preprocessing, as both estimators consume it.
+#pragma once
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "core/base/capacity.h"
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/gnss/signals/signal.h"
+#include "core/gnss/signals/slip_cause.h"
+
+namespace leonav {
+
+// The values are on the wire: append only.
+enum class Observable : std::uint8_t { kCode = 0, kCarrier = 1, kDoppler = 2 };
+
+// Reason why a satellite or a measurement was used or excluded. On the wire: append only.
+enum class Reason : std::uint8_t {
+  kUsed = 0,
+  kDownweighted = 1,    // used, with a robust factor below one
+  kOutlier = 2,         // robust factor zero, or excluded by fault detection
+  kSystemDisabled = 3,  // configuration leaves the system out
+  kNoEphemeris = 4,
+  kEphemerisTooOld = 5,
+  kUnhealthy = 6,
+  kLowElevation = 7,
+  kLowCn0 = 8,
+  kNoUsableSignal = 9,  // no configured signal has a pseudorange
+  kImplausible = 10,    // pseudorange or Doppler out of physical range
+  kSatelliteCap = 11,   // the configured number of satellites per system is reached
+  kCapacity = 12,       // a fixed table was full
+  kNoPosition = 13,     // no approximate position yet, so nothing can be predicted
+  kNotSolved = 14,      // epoch had too few satellites for a solution
+};
+std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
+
+// One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
+// Earth's rotation during the flight of the signal has been applied.
+struct SatelliteInView {
+  SatelliteId satellite;
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, at transmission
+  Eigen::Vector3d v_e =
+      Eigen::Vector3d::Zero();  // m/s, at transmission, relative to rotating Earth
+  double clock_m = 0.0;         // satellite clock times c
+  double clock_drift_m_s = 0.0;
+  double orbit_sigma_m = 0.0;
+  double orbit_sigma_change_m = 0.0;  // as in SatelliteState
+  std::uint32_t orbit_issue = 0;      // as in SatelliteState
+  // Change of `carrier minus range` by a change of elements since the last epoch: 0 if the elements
+  // are the same, NaN if the old ones are no longer stored.
+  double orbit_step_m = 0.0;
+  double ephemeris_age_s = 0.0;
+  OrbitSource source = OrbitSource::kNone;
+  bool clock_from_file = false;  // as in SatelliteState
+  double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
+  double azimuth = 0.0;          // rad
+  double troposphere_m = 0.0;    // slant delay applied
+  double wet_mapping = 0.0;  // wet mapping function, for a zenith wet delay beyond the modelled one
+  double path_m = 0.0;       // other lengthening of the path of all signals: gravity, tides
+  double wind_up_cycles = 0.0;  // of the carrier
+  double antenna_m = 0.0;       // lengthening of the carrier's path by the antenna patterns
+  // Identity of these patterns; a new one means another correction.
+  std::uint32_t antenna_issue = 0;
+  double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
+  double cn0_dbhz = 0.0;         // strongest signal
+  std::uint32_t arc = 0;         // identity of its carrier arc; 0: none used
+  bool arc_started = false;      // its arc starts at this epoch
+  SlipCauses arc_causes;         // why the previous arc ended; none at a satellite's first arc
+  Reason reason = Reason::kUsed;
+};
+
+// One scalar range (m) or range rate (m/s), corrected so that the model is
+//   code:    |p_sat - p_antenna| + clock offset of the system time
+//   carrier: the same + the ambiguity of the arc
+//   doppler: predict_range_rate() of range_model.h + clock drift of the system time
+// The satellite clock, group delay, troposphere and ionosphere are already removed. Code and
+// carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one.
+struct Measurement {
+  std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
+  Observable observable = Observable::kCode;
+  SignalCode code;         // first signal
+  SignalCode second_code;  // set for an ionosphere-free combination
+  double value = 0.0;
+  double sigma = 0.0;
+  // Code only: the part of sigma that is correlated from epoch to epoch (orbit, clock, group delay,
+  // modelled ionosphere), and its correlation time.
+  double correlated_sigma = 0.0;
+  double correlation_time_s = 0.0;
+  // Carrier only.
+  std::uint32_t arc = 0;     // identity of the uninterrupted arc; 0: none
+  double random_walk = 0.0;  // m/sqrt(s): random walk of the ambiguity
+  // 1 sigma of a step of the ambiguity since the last epoch (another orbit)
+  double disturbance_m = 0.0;
+  Reason reason = Reason::kUsed;
+};
+
+// All satellites and measurements of one epoch.
+struct MeasurementEpoch {
+  std::uint64_t index = 0;  // k
+  GpsTime time;             // receiver's time tag
+  Eigen::Vector3d approximate_p_e =
+      Eigen::Vector3d::Zero();  // used for elevation and delays; zero: none
+  // 1 sigma, each axis, of a step of the measured position since the last epoch, caused by other
+  // antenna patterns.
+  double position_disturbance_m = 0.0;
+  boost::container::static_vector<SatelliteInView, kMaxSatellites> satellites;
+  boost::container::static_vector<Measurement, kMaxMeasurements> measurements;
+};
+
+}  // namespace leonav

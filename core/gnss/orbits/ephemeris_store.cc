@@ -1,0 +1,232 @@
+#include "core/gnss/orbits/ephemeris_store.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+
+#include "core/base/capacity.h"
+#include "core/gnss/orbits/internal/interpolation_table.h"
+#include "core/gnss/orbits/precise_orbit.h"
+
+namespace leonav {
+namespace {
+
+struct StoredEphemeris {
+  Ephemeris ephemeris;
+  std::uint64_t arrival = 0;
+};
+
+struct SatelliteProducts {
+  boost::container::static_vector<StoredEphemeris, kMaxEphemeridesPerSatellite> ephemerides;
+  InterpolationTable<OrbitNode, kMaxOrbitNodes> orbit;
+  InterpolationTable<ClockNode, kMaxClockNodes> clock;  // from clock files
+};
+
+bool is_same_issue(const Ephemeris& a, const Ephemeris& b) {
+  return a.message == b.message && a.toe == b.toe && a.issue == b.issue;
+}
+
+// Galileo's health is SVH as in RINEX: DVS and HS of E1-B, E5a, E5b in bits 0-8. Any set bit
+// counts, also "working without guarantee"; the same holds for the six bits of GPS and the one of
+// BeiDou.
+bool is_healthy(const Ephemeris& ephemeris) { return ephemeris.health == 0; }
+
+bool is_preferred_message(const Ephemeris& ephemeris, const EphemerisConfig& options) {
+  if (ephemeris.satellite.system != System::kGalileo) return true;
+  return (ephemeris.message == NavigationMessage::kGalileoFnav) == options.galileo_prefers_fnav;
+}
+
+double max_age_s(System system, const EphemerisConfig& options) {
+  switch (system) {
+    case System::kGps:
+      return options.max_age_gps_s;
+    case System::kGalileo:
+      return options.max_age_galileo_s;
+    case System::kBeidou:
+      return options.max_age_beidou_s;
+    case System::kLeo:
+      return options.max_age_leo_s;
+  }
+  return 0.0;
+}
+
+// Returns whether `a` serves `time` better than `b`: nearer toe, preferred message, later
+// transmission, later arrival, in this order. Galileo sends each batch of elements in both
+// messages, with the same toe and IODnav and the clock of each message's pair (OS-SIS-ICD 5.1.3,
+// 5.1.9). The group delays make either clock serve any signal, so the choice of message matters
+// less than the age of the batch.
+bool is_better(const StoredEphemeris& a, const StoredEphemeris& b, GpsTime time,
+               const EphemerisConfig& options) {
+  const double age_a = std::abs(seconds_between(time, a.ephemeris.toe));
+  const double age_b = std::abs(seconds_between(time, b.ephemeris.toe));
+  if (age_a != age_b) return age_a < age_b;
+  const bool preferred_a = is_preferred_message(a.ephemeris, options);
+  const bool preferred_b = is_preferred_message(b.ephemeris, options);
+  if (preferred_a != preferred_b) return preferred_a;
+  if (a.ephemeris.transmission_time != b.ephemeris.transmission_time) {
+    return a.ephemeris.transmission_time > b.ephemeris.transmission_time;
+  }
+  return a.arrival > b.arrival;
+}
+
+bool is_in_age(const Ephemeris& ephemeris, GpsTime time, const EphemerisConfig& options) {
+  return std::abs(seconds_between(time, ephemeris.toe)) <=
+         max_age_s(ephemeris.satellite.system, options);
+}
+
+const Ephemeris* best_ephemeris(const SatelliteProducts& products, GpsTime time,
+                                const EphemerisConfig& options) {
+  const StoredEphemeris* best = nullptr;
+  for (const StoredEphemeris& stored : products.ephemerides) {
+    if (!is_in_age(stored.ephemeris, time, options)) continue;
+    if (best == nullptr || is_better(stored, *best, time, options)) best = &stored;
+  }
+  return best != nullptr ? &best->ephemeris : nullptr;
+}
+
+// The health is the last one transmitted up to `time`: an older issue may be nearer in toe and
+// carry an outdated health.
+bool newest_is_unhealthy(const SatelliteProducts& products, GpsTime time,
+                         const EphemerisConfig& options) {
+  const Ephemeris* newest = nullptr;
+  for (const StoredEphemeris& stored : products.ephemerides) {
+    const Ephemeris& e = stored.ephemeris;
+    if (!e.transmission_time.is_set() || e.transmission_time > time) continue;
+    if (!is_in_age(e, time, options)) continue;
+    if (newest == nullptr || e.transmission_time >= newest->transmission_time) newest = &e;
+  }
+  return newest != nullptr && !is_healthy(*newest);
+}
+
+bool is_sane_node(const PreciseState& state) {
+  if (!is_valid(state.satellite) || state.time.nanoseconds() <= 0) return false;
+  const bool has_clock = std::abs(state.clock_s) < 0.1;  // false for NaN
+  if (state.is_clock_only()) return has_clock;
+  const double radius = state.p_e.norm();
+  if (!(radius > 6.4e6 && radius < 1e8)) return false;  // false for NaN
+  return has_clock || std::isnan(state.clock_s);
+}
+
+// SatelliteState::issue has the kind of product in its two highest bits. For broadcast elements the
+// others are the message, the time of ephemeris (it repeats after 4.5 h, twice the longest life of
+// a set) and the issue.
+enum class IssueKind : std::uint32_t { kBroadcast = 1, kPrecise = 2, kPreciseWithClocks = 3 };
+
+std::uint32_t issue_of(IssueKind kind) { return static_cast<std::uint32_t>(kind) << 30; }
+
+std::uint32_t issue_of(const Ephemeris& e) {
+  constexpr std::int64_t kToeUnit = 8 * kNanosecondsPerSecond;  // the finest that a message has
+  const auto toe = static_cast<std::uint32_t>(e.toe.nanoseconds() / kToeUnit % 2048);
+  return issue_of(IssueKind::kBroadcast) | static_cast<std::uint32_t>(e.message) << 27 | toe << 16 |
+         e.issue;
+}
+
+// The orbit comes from the orbit's nodes, the clock from the finer clock files where they exist.
+bool find_precise(const SatelliteProducts& products, System system, GpsTime time,
+                  const EphemerisConfig& options, SatelliteState* state) {
+  PreciseClock clock;
+  const bool fine = interpolate_clock(products.clock.data(), products.clock.size(), time,
+                                      options.max_clock_gap_s, system, &clock);
+  if (!precise_state(products.orbit.data(), products.orbit.size(), time, options.max_orbit_gap_s,
+                     system, fine ? &clock : nullptr, state)) {
+    return false;
+  }
+  state->issue = issue_of(fine ? IssueKind::kPreciseWithClocks : IssueKind::kPrecise);
+  state->clock_from_file = fine;
+  return true;
+}
+
+}  // namespace
+
+struct EphemerisStore::Storage {
+  EphemerisConfig options;
+  KlobucharModel klobuchar;
+  std::uint64_t arrivals = 0;
+  std::array<SatelliteProducts, kMaxEphemerisSatellites> products_of;
+};
+
+EphemerisStore::EphemerisStore(const EphemerisConfig& options)
+    : storage_(std::make_unique<Storage>()) {
+  storage_->options = options;
+}
+EphemerisStore::~EphemerisStore() = default;
+EphemerisStore::EphemerisStore(EphemerisStore&&) noexcept = default;
+EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
+
+bool EphemerisStore::add(const Ephemeris& ephemeris) {
+  if (!is_sane(ephemeris)) return false;
+  auto& stored = storage_->products_of[table_index_of(ephemeris.satellite)].ephemerides;
+  auto slot = std::find_if(stored.begin(), stored.end(), [&](const StoredEphemeris& s) {
+    return is_same_issue(s.ephemeris, ephemeris);
+  });
+  if (slot == stored.end() && stored.size() < stored.capacity()) {
+    stored.emplace_back();
+    slot = stored.end() - 1;
+  }
+  if (slot == stored.end()) {
+    slot = std::min_element(
+        stored.begin(), stored.end(),
+        [](const StoredEphemeris& a, const StoredEphemeris& b) { return a.arrival < b.arrival; });
+  }
+  *slot = {ephemeris, ++storage_->arrivals};
+  return true;
+}
+
+bool EphemerisStore::add(const PreciseState& state) {
+  if (!is_sane_node(state)) return false;
+  SatelliteProducts& products = storage_->products_of[table_index_of(state.satellite)];
+  const std::uint64_t arrival = ++storage_->arrivals;
+  if (state.is_clock_only()) {
+    products.clock.insert({state.time, state.clock_s, state.clock_event, state.clock_predicted},
+                          arrival);
+  } else {
+    products.orbit.insert({state.time, state.p_e, state.clock_s, state.clock_event, state.maneuver,
+                           state.clock_predicted, state.orbit_predicted},
+                          arrival);
+  }
+  return true;
+}
+
+void EphemerisStore::set_klobuchar(const KlobucharModel& model) { storage_->klobuchar = model; }
+const KlobucharModel& EphemerisStore::klobuchar() const { return storage_->klobuchar; }
+
+LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
+                                      const Ephemeris** ephemeris) const {
+  if (ephemeris != nullptr) *ephemeris = nullptr;
+  if (!is_valid(satellite) || time.nanoseconds() <= 0) return LookupStatus::kNoEphemeris;
+  const EphemerisConfig& options = storage_->options;
+  const SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
+  if (products.ephemerides.empty() && products.orbit.empty()) return LookupStatus::kNoEphemeris;
+
+  const Ephemeris* best = best_ephemeris(products, time, options);
+  if (best != nullptr && (!is_healthy(*best) || newest_is_unhealthy(products, time, options))) {
+    return LookupStatus::kUnhealthy;
+  }
+  if (options.use_precise && find_precise(products, satellite.system, time, options, state)) {
+    return LookupStatus::kOk;
+  }
+  if (best == nullptr) {
+    return products.ephemerides.empty() && !options.use_precise ? LookupStatus::kNoEphemeris
+                                                                : LookupStatus::kTooOld;
+  }
+  *state = broadcast_state(*best, time);
+  state->issue = issue_of(*best);
+  if (ephemeris != nullptr) *ephemeris = best;
+  return LookupStatus::kOk;
+}
+
+const Ephemeris* EphemerisStore::ephemeris_at(SatelliteId satellite, GpsTime time) const {
+  if (!is_valid(satellite) || time.nanoseconds() <= 0) return nullptr;
+  return best_ephemeris(storage_->products_of[table_index_of(satellite)], time, storage_->options);
+}
+
+const Ephemeris* EphemerisStore::ephemeris_of_issue(SatelliteId satellite,
+                                                    std::uint32_t issue) const {
+  if (!is_valid(satellite)) return nullptr;
+  for (const StoredEphemeris& stored : storage_->products_of[table_index_of(satellite)].ephemerides)
+    if (issue_of(stored.ephemeris) == issue) return &stored.ephemeris;
+  return nullptr;
+}
+
+}  // namespace leonav

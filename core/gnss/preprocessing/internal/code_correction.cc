@@ -1,0 +1,246 @@
+#include "core/gnss/preprocessing/internal/code_correction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/square.h"
+#include "core/earth/tides.h"
+#include "core/gnss/measurement/weighting.h"
+#include "core/gnss/preprocessing/internal/path_correction.h"
+#include "core/gnss/propagation/group_delay.h"
+#include "core/gnss/propagation/ionosphere.h"
+#include "core/gnss/propagation/troposphere.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kHalfPi = 1.5707963267948966;
+constexpr double kL1Frequency = 1575.42e6;  // Hz
+
+// Klobuchar's model leaves about half of the delay, and never less than this at zenith on L1
+// (night, quiet sun: the constant 1.5 m of the model is itself uncertain by that order).
+constexpr double kIonosphereFloor = 0.5;  // m
+// Without broadcast coefficients the error may reach the delay itself.
+constexpr double kUnknownModelShare = 1.0;
+
+// Correlation times, in s, of the errors of orbit and clock and of the ionosphere model.
+constexpr double kOrbitCorrelation = 3600.0;
+constexpr double kIonosphereCorrelation = 900.0;
+
+// Returns 1 / sin E, bounded at the value for 5 degrees: the growth of atmospheric errors towards
+// the horizon.
+double obliquity(double elevation) { return 1.0 / std::max(std::sin(elevation), 0.0872); }
+
+double ionosphere_sigma(const DelayContext& context, double elevation, double delay_m,
+                        double frequency) {
+  const double share = context.klobuchar->valid
+                           ? context.config->ionosphere_model_error
+                           : std::max(kUnknownModelShare, context.config->ionosphere_model_error);
+  // The thin shell at 350 km limits the growth: obliquity of IS-GPS-200, at most 3.
+  const double slant = std::min(obliquity(elevation), 3.0);
+  const double floor = kIonosphereFloor * slant * square(kL1Frequency / frequency);
+  return std::max(share * delay_m, floor);
+}
+
+double atmosphere_variance(const DelayContext& context, const SatelliteInView& satellite) {
+  if (!context.has_position) return square(kUnknownAtmosphereSigma);
+  return square(context.config->troposphere_model_error_m * obliquity(satellite.elevation));
+}
+
+GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast, SignalCode first,
+                    SignalCode second) {
+  if (satellite.source == OrbitSource::kPrecise || broadcast == nullptr) {
+    return precise_group_delay(satellite.satellite.system, broadcast, first, second);
+  }
+  return group_delay(*broadcast, first, second);
+}
+
+// Returns the rate of the tropospheric delay by the satellite's motion: below 1 mm/s for GNSS, some
+// cm/s for a LEO satellite near the horizon. It is a central difference over one second.
+double troposphere_rate(const DelayContext& context, const SatelliteInView& satellite) {
+  if (!context.has_position) return 0.0;
+  const Eigen::Vector3d p_a_e = to_ecef(context.antenna);
+  const auto delay_at = [&](double seconds) {
+    const Eigen::Vector3d p_sat_e = satellite.p_e + seconds * satellite.v_e;
+    return saastamoinen_slant_delay_m(context.antenna, look_angles(p_sat_e, p_a_e).elevation,
+                                      context.time);
+  };
+  return delay_at(0.5) - delay_at(-0.5);
+}
+
+// Precise states are those of the centre of mass, while the signal comes from the antenna, 0.7 to
+// 2.7 m nearer to the Earth depending on block and band (IGS antenna models). Unless these offsets
+// are applied, a clock per system leaves some 0.7 m of them. A LEO satellite's antenna is within
+// decimetres of its centre of mass.
+double antenna_variance(const SatelliteInView& satellite, bool antenna_known) {
+  constexpr double kAntennaOffsetSigma = 0.7;  // m
+  const bool is_offset =
+      satellite.source == OrbitSource::kPrecise && satellite.satellite.system != System::kLeo;
+  return is_offset && !antenna_known ? square(kAntennaOffsetSigma) : 0.0;
+}
+
+double noise_elevation(const DelayContext& context, const SatelliteInView& satellite) {
+  return context.has_position ? satellite.elevation : kHalfPi;
+}
+
+// Signals chipped at 5 or 10 MHz instead of 1 MHz have less noise and far less multipath.
+bool is_wideband(System system, char band) {
+  switch (system) {
+    case System::kGps:
+      return band == '5';
+    case System::kGalileo:
+      return band != '1';
+    case System::kBeidou:
+      return band == '5' || band == '6' || band == '7';
+    case System::kLeo:
+      return false;
+  }
+  return false;
+}
+
+double code_noise(const DelayContext& context, double elevation, const SignalObservation& signal) {
+  const System system = signal.satellite.system;
+  const ObservableSigma& sigma = context.config->systems[index_of(system)].sigma;
+  const double factor = is_wideband(system, signal.code.band) ? sigma.wideband_code_factor : 1.0;
+  return sigma.code_m * factor * noise_factor(*context.config, elevation, signal.cn0_dbhz);
+}
+
+// Returns the code minus the receiver's delay of its band.
+double unbiased_range(const DelayContext& context, const SignalObservation& signal) {
+  if (context.biases == nullptr) return signal.pseudorange_m;
+  return signal.pseudorange_m - context.biases->offset_m(signal.satellite.system, signal.code.band);
+}
+
+double bias_variance(const DelayContext& context, const SignalObservation& signal) {
+  if (context.biases == nullptr) return 0.0;
+  return context.biases->variance_m2(signal.satellite.system, signal.code.band);
+}
+
+// Combines two Gauss-Markov errors into one that a long mean reduces as slowly: their spectral
+// densities at zero, sigma^2 T, add.
+void set_correlation(double orbit_variance, double ionosphere_variance, Measurement* code) {
+  const double sum = orbit_variance + ionosphere_variance;
+  if (!(sum > 0.0)) return;
+  code->correlated_sigma = std::sqrt(sum);
+  code->correlation_time_s =
+      (orbit_variance * kOrbitCorrelation + ionosphere_variance * kIonosphereCorrelation) / sum;
+}
+
+double frequency_of(const SignalObservation& signal) {
+  return frequency_hz(signal.satellite.system, signal.code.band);
+}
+
+// Returns the displacement of the ground from its position without tides, loading and polar motion.
+Eigen::Vector3d ground_displacement(const GnssConfig& config, const Eigen::Vector3d& p_e,
+                                    GpsTime time, const SunMoon& bodies) {
+  Eigen::Vector3d d_e = solid_earth_tide(p_e, time, bodies);
+  if (config.ocean_loading) d_e += ocean_loading_displacement(p_e, time, *config.ocean_loading);
+  if (config.polar_motion) d_e += pole_tide(p_e, time, *config.polar_motion);
+  return d_e;
+}
+
+}  // namespace
+
+DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobuchar, GpsTime time,
+                           const Eigen::Vector3d& p_a_e) {
+  DelayContext context;
+  context.config = &config;
+  context.klobuchar = &klobuchar;
+  context.time = time;
+  context.has_position = !p_a_e.isZero();
+  if (!context.has_position) return context;
+  context.antenna = to_geodetic(p_a_e);
+  context.C_er = rotation_ecef_to_ned(context.antenna).transpose();
+  const SunMoon bodies = sun_moon_positions(time);
+  context.p_sun_e = bodies.sun_e;
+  context.tide_e = ground_displacement(config, p_a_e, time, bodies);
+  return context;
+}
+
+void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
+                                     SatelliteInView* satellite) {
+  if (!context.has_position) return;
+  const LookAngles angles = look_angles(satellite->p_e, p_a_e);
+  satellite->elevation = angles.elevation;
+  satellite->azimuth = angles.azimuth;
+  const ZenithDelays zenith = saastamoinen_zenith_delays(context.antenna);
+  const TroposphereMapping mapping = niell_mapping(context.antenna, angles.elevation, context.time);
+  satellite->troposphere_m =
+      zenith.hydrostatic_m * mapping.hydrostatic + zenith.wet_m * mapping.wet;
+  satellite->wet_mapping = mapping.wet;
+  satellite->path_m = path_delay_m(context, p_a_e, *satellite);
+}
+
+Measurement code_measurement(const DelayContext& given, const SignalObservation& first,
+                             const SignalObservation* second, const Ephemeris* broadcast,
+                             int shared_by, SatelliteInView* satellite) {
+  DelayContext context = given;
+  if (second != nullptr && given.biases != nullptr &&
+      given.biases->is_reference_pair(first.satellite.system, first.code.band, second->code.band))
+    context.biases = nullptr;
+  const double elevation = noise_elevation(context, *satellite);
+  const double f1 = frequency_of(first);
+  const double noise1 = code_noise(context, elevation, first);
+
+  Measurement code;
+  code.observable = Observable::kCode;
+  code.code = first.code;
+  double range = unbiased_range(context, first);
+  double variance = square(noise1);
+  double ionosphere = 0.0;  // variance of the model's error
+  if (second != nullptr) {
+    const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
+    code.second_code = second->code;
+    range = pair.gamma1 * range + pair.gamma2 * unbiased_range(context, *second);
+    variance = square(combined_sigma(pair, noise1, code_noise(context, elevation, *second))) +
+               square(pair.gamma1) * bias_variance(context, first) +
+               square(pair.gamma2) * bias_variance(context, *second);
+  } else if (context.has_position) {
+    const LookAngles direction{satellite->elevation, satellite->azimuth};
+    const double delay =
+        klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
+    range -= delay;
+    variance += bias_variance(context, first);
+    ionosphere = shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
+  }
+  const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
+  const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);
+  code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m -
+               satellite->path_m - antenna.range_m;
+  const double orbit =
+      square(satellite->orbit_sigma_m) + antenna_variance(*satellite, antenna.known);
+  set_correlation(orbit, ionosphere, &code);
+  code.sigma = std::sqrt(variance + square(group.sigma_m) + orbit + ionosphere +
+                         atmosphere_variance(context, *satellite));
+  return code;
+}
+
+Measurement doppler_measurement(const DelayContext& context, const SignalObservation& first,
+                                const SignalObservation* second, const SatelliteInView& satellite) {
+  const double sigma0 =
+      context.config->systems[index_of(satellite.satellite.system)].sigma.doppler_m_s;
+  const double elevation = noise_elevation(context, satellite);
+  const double f1 = frequency_of(first);
+  const double rate1 = -first.doppler_hz * kSpeedOfLight / f1;
+  const double noise1 = sigma0 * noise_factor(*context.config, elevation, first.cn0_dbhz);
+
+  Measurement doppler;
+  doppler.observable = Observable::kDoppler;
+  doppler.code = first.code;
+  double rate = rate1;
+  doppler.sigma = noise1;
+  if (second != nullptr) {
+    const double f2 = frequency_of(*second);
+    const IonosphereFree pair = ionosphere_free(f1, f2);
+    const double noise2 = sigma0 * noise_factor(*context.config, elevation, second->cn0_dbhz);
+    doppler.second_code = second->code;
+    rate = pair.gamma1 * rate1 - pair.gamma2 * second->doppler_hz * kSpeedOfLight / f2;
+    doppler.sigma = combined_sigma(pair, noise1, noise2);
+  }
+  // A fast satellite clock shortens the measured range, so its drift is added back.
+  doppler.value = rate + satellite.clock_drift_m_s - troposphere_rate(context, satellite);
+  return doppler;
+}
+
+}  // namespace leonav

@@ -1,0 +1,55 @@
+// This unit corrects a measured pseudorange or Doppler to the geometric range model and computes
+// its uncertainty.
+#pragma once
+#include "core/earth/ellipsoid.h"
+#include "core/gnss/measurement/gnss_config.h"
+#include "core/gnss/measurement/look_angles.h"
+#include "core/gnss/measurement/measurement.h"
+#include "core/gnss/preprocessing/receiver_code_bias.h"
+#include "core/gnss/propagation/antenna_pattern_store.h"
+#include "core/gnss/signals/observation.h"
+
+namespace leonav {
+
+// Inputs of the delays of one epoch other than the satellite.
+struct DelayContext {
+  const GnssConfig* config = nullptr;
+  const KlobucharModel* klobuchar = nullptr;
+  GpsTime time;
+  bool has_position = false;  // without one there is no elevation and no atmosphere
+  Geodetic antenna;
+  const ReceiverCodeBiases* biases = nullptr;  // of the receiver; may be nullptr
+  const AntennaPatternStore* antennas = nullptr;
+  Eigen::Matrix3d C_er =
+      Eigen::Matrix3d::Identity();  // receiver antenna's axes, forward-right-down
+  Eigen::Vector3d p_sun_e = Eigen::Vector3d::Zero();
+  Eigen::Vector3d tide_e =
+      Eigen::Vector3d::Zero();  // of the ground under the antenna, all tides, m
+};
+
+// Builds the context at `p_a_e` (ECEF, m), or zero if unknown, with the antenna's axes north, east,
+// down.
+DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobuchar, GpsTime time,
+                           const Eigen::Vector3d& p_a_e);
+
+// 1 sigma of all uncorrected errors while no position is known: the atmosphere down to the horizon.
+inline constexpr double kUnknownAtmosphereSigma = 15.0;  // m
+
+// Sets elevation, azimuth and tropospheric delay of `satellite`.
+void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
+                                     SatelliteInView* satellite);
+
+// Corrects the code of one signal or, with `second`, of the ionosphere-free pair. `broadcast` has
+// the group delays and may be nullptr. `shared_by` is the number of single-frequency measurements
+// of the satellite that are used together: their ionospheric errors are the same, so each variance
+// is multiplied by their number, which leaves the weight of one in the sum. For a single frequency
+// satellite->ionosphere_l1_m is set.
+Measurement code_measurement(const DelayContext& context, const SignalObservation& first,
+                             const SignalObservation* second, const Ephemeris* broadcast,
+                             int shared_by, SatelliteInView* satellite);
+
+// Corrects the Doppler of one signal, or the ionosphere-free combination of two.
+Measurement doppler_measurement(const DelayContext& context, const SignalObservation& first,
+                                const SignalObservation* second, const SatelliteInView& satellite);
+
+}  // namespace leonav

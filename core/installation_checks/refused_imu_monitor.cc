@@ -1,0 +1,42 @@
+#include "core/installation_checks/refused_imu_monitor.h"
+
+#include <cmath>
+
+namespace leonav {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s^2
+constexpr int kMinRun = 100;
+// times the expected value: the vehicle may be moving
+constexpr double kLowest = 0.5, kHighest = 2.0;
+
+bool is_about(double value, double expected) {
+  return value > kLowest * expected && value < kHighest * expected;
+}
+
+}  // namespace
+
+ConventionFinding RefusedImuMonitor::add_refused(const ImuSample& sample) {
+  if (reported_ || !sample.delta_velocity_b.allFinite() || !sample.delta_theta_b.allFinite())
+    return {};
+  if (run_ == 0) seconds_ = speed_ = angle_ = 0.0;
+  ++run_;
+  interval_s_ = sample.interval_s();
+  seconds_ += interval_s_;
+  speed_ += sample.delta_velocity_b.norm();
+  angle_ += sample.delta_theta_b.norm();
+  if (run_ < kMinRun || !(seconds_ > 0.0)) return {};
+  const ConventionFinding finding = evaluate();
+  reported_ = static_cast<bool>(finding);
+  return finding;
+}
+
+ConventionFinding RefusedImuMonitor::evaluate() const {
+  const double ratio = speed_ / seconds_ / kGravity;
+  if (!std::isfinite(ratio) || !std::isfinite(angle_)) return {};
+  if (is_about(ratio * interval_s_, 1.0)) return {Convention::kRatesAsIncrements, ratio};
+  if (is_about(ratio, 1.0)) return {Convention::kGyroRange, angle_ / seconds_};
+  return {Convention::kForceUnit, ratio};
+}
+
+}  // namespace leonav

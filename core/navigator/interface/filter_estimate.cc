@@ -1,0 +1,36 @@
+#include "core/navigator/interface/filter_estimate.h"
+
+#include <cmath>
+
+#include "core/navigator/interface/solution_conversion.h"
+
+namespace leonav {
+
+double position_sigma(const Ekf& filter) {
+  return norm_of_sigmas(
+      filter.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition));
+}
+
+double velocity_sigma(const Ekf& filter) {
+  const Eigen::Matrix3d covariance =
+      filter.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  return norm_of_sigmas(covariance) / std::sqrt(3.0);
+}
+
+double gyro_bias_sigma(const Ekf& filter) {
+  return std::sqrt(filter.covariance().diagonal().segment<3>(ekf_index::kGyroBias).maxCoeff());
+}
+
+void fill_solution(const Ekf& filter, Solution* solution) {
+  const PvaCovariance covariance = filter.covariance().topLeftCorner<9, 9>();
+  const double offset_s = filter.has_attitude() ? time_offset_of(filter.vehicle()) : 0.0;
+  fill_solution(at_stamp(filter.state(), offset_s), covariance, filter.has_attitude(), solution);
+}
+
+Eigen::Vector3d sigma_of_euler(const Ekf& filter) {
+  Solution solution;
+  fill_solution(filter, &solution);
+  return solution.sigma_rpy;
+}
+
+}  // namespace leonav

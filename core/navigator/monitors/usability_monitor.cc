@@ -1,0 +1,33 @@
+#include "core/navigator/monitors/usability_monitor.h"
+
+namespace leonav {
+namespace {
+
+bool is_expected(Reason reason) {
+  return reason == Reason::kSystemDisabled || reason == Reason::kLowElevation;
+}
+
+}  // namespace
+
+std::optional<UsabilityMonitor::Finding> UsabilityMonitor::add(
+    std::span<const SatelliteReport> satellites) {
+  Finding finding;
+  bool alike = true;
+  for (const SatelliteReport& satellite : satellites) {
+    if (is_expected(satellite.reason)) continue;
+    if (finding.satellites == 0) finding.reason = satellite.reason;
+    alike = alike && satellite.reason == finding.reason;
+    ++finding.satellites;
+  }
+  const bool used = finding.reason == Reason::kUsed || finding.reason == Reason::kDownweighted;
+  if (finding.satellites == 0 || !alike || used) {
+    epochs_ = 0;
+    return std::nullopt;
+  }
+  epochs_ = finding.reason == reason_ ? epochs_ + 1 : 1;
+  reason_ = finding.reason;
+  if (epochs_ != kEpochs) return std::nullopt;
+  return finding;
+}
+
+}  // namespace leonav

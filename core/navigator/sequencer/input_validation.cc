@@ -1,0 +1,136 @@
+#include "core/navigator/sequencer/input_validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leonav {
+
+bool is_plausible(GpsTime time) {
+  constexpr std::int64_t k120YearsNs = 3'786'912'000LL * kNanosecondsPerSecond;
+  return time.nanoseconds() > 0 && time.nanoseconds() < k120YearsNs;
+}
+
+InputFault check(const ImuSample& sample, const ImuLimits& limits) {
+  if (!sample.delta_theta_b.allFinite() || !sample.delta_velocity_b.allFinite()) {
+    return InputFault::kNotFinite;
+  }
+  if (!is_plausible(sample.time) || sample.interval_ns <= 0 ||
+      sample.interval_ns > limits.interval_ns) {
+    return InputFault::kOutOfRange;
+  }
+  // Gravity, the Earth's rotation and noise: all six are zero only of a sensor that is dead.
+  if (sample.delta_theta_b.isZero(0.0) && sample.delta_velocity_b.isZero(0.0))
+    return InputFault::kNotSane;
+  const double dt = sample.interval_s();
+  const bool in_range = sample.delta_theta_b.cwiseAbs().maxCoeff() <= limits.rotation_rate * dt &&
+                        sample.delta_velocity_b.cwiseAbs().maxCoeff() <= limits.specific_force * dt;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const OdometerIncrement& increment, double speed, std::int64_t interval_ns) {
+  if (!std::isfinite(increment.distance_m)) return InputFault::kNotFinite;
+  if (!is_plausible(increment.time) || increment.interval_ns <= 0 ||
+      increment.interval_ns > interval_ns ||
+      (!increment.sign_known && increment.distance_m < 0.0)) {
+    return InputFault::kOutOfRange;
+  }
+  const bool in_range = std::abs(increment.distance_m) <= speed * increment.interval_s();
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const PreciseState& state) {
+  const bool clock_only = state.is_clock_only() && std::isfinite(state.clock_s);
+  if (!(state.p_e.allFinite() || clock_only) || std::isinf(state.clock_s)) {
+    return InputFault::kNotFinite;
+  }
+  if (!is_valid(state.satellite) || !is_plausible(state.time)) return InputFault::kOutOfRange;
+  // From the ground to beyond the geosynchronous orbits; a satellite clock stays below a second.
+  const double radius = state.p_e.norm();
+  const bool in_range =
+      (clock_only || (radius > 6.3e6 && radius < 1e8)) && !(std::abs(state.clock_s) > 1.0);
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const SignalObservation& observation) {
+  // Generous: a receiver's clock may be off by a second, a carrier count may have any start, and a
+  // low orbit's Doppler in the Ku band is 0.3 MHz. NaN is "not measured" and passes.
+  constexpr double kMaxCode = 1e9, kMaxCarrier = 1e11, kMaxDoppler = 1e6, kMaxCn0 = 100.0;
+  for (const double value :
+       {observation.pseudorange_m, observation.carrier_cycles, observation.doppler_hz,
+        observation.cn0_dbhz, observation.lock_time_s}) {
+    if (std::isinf(value)) return InputFault::kNotFinite;
+  }
+  const bool absurd = std::abs(observation.pseudorange_m) >= kMaxCode ||
+                      std::abs(observation.carrier_cycles) >= kMaxCarrier ||
+                      std::abs(observation.doppler_hz) >= kMaxDoppler ||
+                      observation.cn0_dbhz < 0.0 || observation.cn0_dbhz > kMaxCn0;
+  return absurd ? InputFault::kNotSane : InputFault::kNone;
+}
+
+InputFault check(const KlobucharModel& model) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  const bool ok = std::all_of(model.alpha.begin(), model.alpha.end(), finite) &&
+                  std::all_of(model.beta.begin(), model.beta.end(), finite);
+  return ok ? InputFault::kNone : InputFault::kNotFinite;
+}
+
+InputFault check(const AntennaPattern& pattern) {
+  const bool times = (!pattern.valid_from.is_set() || is_plausible(pattern.valid_from)) &&
+                     (!pattern.valid_until.is_set() || is_plausible(pattern.valid_until));
+  if (!times) return InputFault::kOutOfRange;
+  return is_storable(pattern) ? InputFault::kNone : InputFault::kNotSane;
+}
+
+InputFault check(const Command& command) {
+  if (command.kind != CommandKind::kRestart && command.kind != CommandKind::kSetHeading) {
+    return InputFault::kOutOfRange;
+  }
+  if (!std::isfinite(command.value) || !std::isfinite(command.sigma)) {
+    return InputFault::kNotFinite;
+  }
+  const bool heading = command.kind == CommandKind::kSetHeading;
+  if (heading && (std::abs(command.value) > 7.0 || command.sigma <= 0.0)) {
+    return InputFault::kOutOfRange;
+  }
+  return InputFault::kNone;
+}
+
+InputFault check(const Checkpoint& checkpoint) {
+  const bool finite =
+      checkpoint.antenna_p_e.allFinite() && checkpoint.gyro_bias_b.allFinite() &&
+      std::isfinite(checkpoint.antenna_sigma) && std::isfinite(checkpoint.heading) &&
+      std::isfinite(checkpoint.heading_sigma) && std::isfinite(checkpoint.gyro_bias_sigma);
+  if (!finite) return InputFault::kNotFinite;
+  // From the poles' radius less the deepest valley to the equator's and the highest flight.
+  constexpr double kMinRadius_m = 6.35e6, kMaxRadius_m = 6.43e6, kMaxSigma_m = 1e5;
+  constexpr double kMaxHeading = 6.3, kMaxBias = 1.0;  // rad, rad/s
+  const double radius_m = checkpoint.antenna_p_e.norm();
+  const bool in_range =
+      is_plausible(checkpoint.time) && radius_m > kMinRadius_m && radius_m < kMaxRadius_m &&
+      checkpoint.antenna_sigma > 0.0 && checkpoint.antenna_sigma < kMaxSigma_m &&
+      std::abs(checkpoint.heading) <= kMaxHeading && checkpoint.heading_sigma > 0.0 &&
+      checkpoint.heading_sigma <= kMaxCheckpointHeadingSigma &&
+      checkpoint.gyro_bias_b.cwiseAbs().maxCoeff() <= kMaxBias &&
+      checkpoint.gyro_bias_sigma > 0.0 && checkpoint.gyro_bias_sigma <= kMaxBias;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+std::size_t copy_valid_observations(const RawEpoch& from, RawEpoch* to) {
+  to->time = from.time;
+  to->observations.clear();
+  for (const SignalObservation& observation : from.observations) {
+    if (is_valid(observation.satellite) && observation.code.is_set()) {
+      to->observations.push_back(observation);
+    }
+  }
+  const auto key = [](const SignalObservation& o) { return std::pair(o.satellite, o.code); };
+  auto& kept = to->observations;
+  std::sort(kept.begin(), kept.end(),
+            [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  kept.erase(std::unique(kept.begin(), kept.end(),
+                         [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+             kept.end());
+  return from.observations.size() - kept.size();
+}
+
+}  // namespace leonav

@@ -1,0 +1,94 @@
+#include "core/navigator/sequencer/internal/epoch_queue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/navigator/sequencer/input_validation.h"
+#include "core/navigator/sequencer/internal/interval.h"
+
+namespace leonav {
+
+EpochQueue::EpochQueue(double epoch_interval_s)
+    : max_ahead_ns_(std::max(kMaxStampAheadNs,
+                             interval_in_nanoseconds(kMaxAheadIntervals * epoch_interval_s))),
+      time_monitor_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
+      held_(std::make_unique<RawEpoch>()) {
+  for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
+}
+
+StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
+  const GpsTime reference = std::max(imu_time, newest_time());
+  if (!reference.is_set()) return {};
+  const std::int64_t ahead_ns = nanoseconds_between(time, reference);
+  if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
+    if (!time_monitor_.reject(time)) {
+      return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
+    }
+    return {InputFault::kNone, true, seconds_between(time, reference)};
+  }
+  return {is_known(time) ? InputFault::kDuplicate : InputFault::kNone};
+}
+
+bool EpochQueue::leaps(GpsTime time) const {
+  const GpsTime newest = newest_time();
+  return newest.is_set() && nanoseconds_between(time, newest) > max_ahead_ns_;
+}
+
+bool EpochQueue::is_known(GpsTime time) const {
+  const auto end = pending_.begin() + static_cast<std::ptrdiff_t>(count_);
+  return (time == last_time_ && !last_is_empty_) ||
+         std::any_of(pending_.begin(), end, [&](const auto& slot) { return slot->time == time; });
+}
+
+std::size_t EpochQueue::insert(const RawEpoch& epoch) {
+  const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
+  for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
+    std::swap(pending_[i], pending_[i - 1]);
+  }
+  ++count_;
+  return left_out;
+}
+
+void EpochQueue::remove_oldest() {
+  std::rotate(pending_.begin(), pending_.begin() + 1,
+              pending_.begin() + static_cast<std::ptrdiff_t>(count_));
+  --count_;
+}
+
+bool EpochQueue::is_overdue() const {
+  if (count_ > kMaxPendingEpochs) return true;
+  if (count_ <= kMinPending) return false;
+  const GpsTime newest = pending_[count_ - 1]->time;
+  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
+}
+
+GpsTime EpochQueue::newest_time() const {
+  return count_ > 0 ? pending_[count_ - 1]->time : last_time_;
+}
+
+void EpochQueue::hold(const RawEpoch& epoch) {
+  *held_ = epoch;
+  has_held_ = true;
+}
+
+const RawEpoch& EpochQueue::release_held() {
+  has_held_ = false;
+  return *held_;
+}
+
+void EpochQueue::set_issued(GpsTime time, bool empty) {
+  last_time_ = time;
+  last_is_empty_ = empty;
+  if (!empty) last_raw_time_ = time;
+}
+
+void EpochQueue::clear() {
+  last_time_ = last_raw_time_ = GpsTime();
+  last_is_empty_ = true;
+  count_ = 0;
+  has_held_ = false;
+  time_monitor_.clear();
+}
+
+}  // namespace leonav

@@ -1,0 +1,70 @@
+#include "core/navigator/sequencer/internal/imu_intake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/earth/rotation.h"
+#include "core/navigator/sequencer/input_validation.h"
+
+namespace leonav {
+
+ImuIntake::ImuIntake(const NavigatorConfig& config)
+    : C_b_imu_(
+          rotation_from_euler({config.vehicle.mounting_rpy.x(), config.vehicle.mounting_rpy.y(),
+                               config.vehicle.mounting_rpy.z()})),
+      mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
+      offset_ns_(static_cast<std::int64_t>(std::llround(config.imu_time_offset_s * 1e9))) {}
+
+ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
+  ImuSample sample = received;
+  sample.time = received.time.plus_nanoseconds(offset_ns_);
+  return sample;
+}
+
+InputFault ImuIntake::check(const ImuSample& sample) {
+  const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxIntervalNs};
+  return leonav::check(sample, limits);
+}
+
+bool ImuIntake::leaps(const ImuSample& sample) const {
+  const GpsTime last_stamp = timeline_.last_stamp();
+  if (!last_stamp.is_set()) return false;
+  const std::int64_t ahead_ns = nanoseconds_between(sample.time, last_stamp);
+  return ahead_ns > kLeapNs && ahead_ns <= kMaxStampAheadNs;
+}
+
+std::optional<ImuSample> ImuIntake::release_held() { return std::exchange(held_, std::nullopt); }
+
+StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch) {
+  const GpsTime last_stamp = timeline_.last_stamp();
+  if (!last_stamp.is_set()) return {};
+  if (sample.time == last_stamp) return {InputFault::kDuplicate};
+  const GpsTime newest = std::max(last_stamp, newest_epoch);
+  const bool backwards = !timeline_.follows(sample);
+  if (!backwards && nanoseconds_between(sample.time, newest) <= kMaxStampAheadNs) return {};
+  if (!time_monitor_.reject(sample.time)) {
+    return {backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead};
+  }
+  return {InputFault::kNone, true, seconds_between(sample.time, last_stamp)};
+}
+
+void ImuIntake::accept(const ImuSample& sample) {
+  time_monitor_.clear();
+  time_ = sample.time;
+}
+
+void ImuIntake::rotate_to_body(ImuSample* sample) const {
+  if (mounting_is_identity_) return;
+  sample->delta_theta_b = C_b_imu_ * sample->delta_theta_b;
+  sample->delta_velocity_b = C_b_imu_ * sample->delta_velocity_b;
+}
+
+void ImuIntake::clear() {
+  time_ = GpsTime();
+  timeline_.clear();
+  held_.reset();
+  time_monitor_.clear();
+}
+
+}  // namespace leonav

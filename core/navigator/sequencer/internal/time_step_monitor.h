@@ -1,0 +1,33 @@
+// The TimeStepMonitor separates a stray time stamp from a clock that has been set.
+#pragma once
+#include <cstdint>
+
+#include "core/base/gps_time.h"
+
+namespace leonav {
+
+// It follows the rejected stamps of one stream. A single wild stamp changes nothing; a run of them,
+// each a little later than the one before and with no accepted stamp between, is a new time.
+class TimeStepMonitor {
+ public:
+  TimeStepMonitor(int run_to_accept, std::int64_t max_step_ns)
+      : run_to_accept_(run_to_accept), max_step_ns_(max_step_ns) {}
+
+  void clear() { run_ = 0; }
+
+  // Adds a stamp that does not fit. True: it completes a run and is to be accepted.
+  bool reject(GpsTime stamp) {
+    const std::int64_t step = nanoseconds_between(stamp, last_);
+    run_ = run_ > 0 && step > 0 && step <= max_step_ns_ ? run_ + 1 : 1;
+    last_ = stamp;
+    return run_ >= run_to_accept_;
+  }
+
+ private:
+  int run_to_accept_;
+  std::int64_t max_step_ns_;
+  int run_ = 0;
+  GpsTime last_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,274 @@
+#include "core/navigator/sequencer/sequencer.h"
+
+#include <algorithm>
+
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/navigator/interface/event_limiter.h"
+#include "core/navigator/sequencer/input_validation.h"
+
+namespace leonav {
+
+Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
+    : config_(config),
+      stages_(stages),
+      inertial_(config.motion == MotionModel::kInertial),
+      imu_(config),
+      epochs_(config.realtime.epoch_interval_s),
+      empty_epochs_(config.realtime),
+      odometer_(inertial_ && config.vehicle.motion.constraints.odometer),
+      work_(std::make_unique<GnssWork>()) {}
+
+void Sequencer::on_imu(const ImuSample& received) {
+  const ImuSample sample = imu_.shift_stamp(received);
+  const InputFault fault = ImuIntake::check(sample);
+  if (inertial_) monitor_conventions(sample, fault);
+  if (fault != InputFault::kNone) return reject(fault);
+  if (const auto leapt = imu_.release_held()) {
+    if (sample.time > leapt->time)
+      accept_imu(*leapt);
+    else
+      reject(InputFault::kTooFarAhead);
+  }
+  if (imu_.leaps(sample))
+    imu_.hold(sample);
+  else
+    accept_imu(sample);
+}
+
+void Sequencer::monitor_conventions(const ImuSample& sample, InputFault fault) {
+  if (fault == InputFault::kNone) {
+    refused_imu_.add_accepted();
+    stamp_offset_.add_imu(sample.time);
+  } else if (fault == InputFault::kOutOfRange && is_plausible(sample.time) &&
+             sample.interval_ns > 0 && sample.interval_ns <= ImuIntake::kMaxIntervalNs) {
+    report_finding(refused_imu_.add_refused(sample));
+  }
+}
+
+void Sequencer::accept_imu(const ImuSample& received) {
+  ImuSample sample = received;
+  const StampDecision stamp = imu_.evaluate_stamp(sample, epochs_.newest_time());
+  if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
+  if (stamp.starts_new_time) change_time_base(stamp.jump_s);
+  if (!lay_on_timeline(&sample)) return reject(InputFault::kTimeBackwards);
+
+  ++counters_.imu;
+  imu_.accept(sample);
+  if (!inertial_) return;
+  epochs_.clear_rejected_run();  // the IMU keeps time: GNSS alone cannot change it
+  imu_.rotate_to_body(&sample);
+  stages_->push_inertial(sample);
+  append_to_block(sample);
+  if (epochs_.has_held()) accept_epoch(epochs_.release_held());  // the IMU's time confirms it
+  issue_ready_epochs();
+}
+
+bool Sequencer::lay_on_timeline(ImuSample* sample) {
+  const ImuTimeline::Placement placement = imu_.lay_on_timeline(sample);
+  if (!placement.accepted) return false;
+  if (placement.smoothed) ++counters_.imu_smoothed;
+  if (placement.hole_ns > 0 && is_event_due(++counters_.imu_gaps)) {
+    emit(EventKind::kImuGap, 0, static_cast<double>(placement.hole_ns) * 1e-9);
+  }
+  return true;
+}
+
+// Everything kept belongs to the old time: it goes, and the filter starts over.
+void Sequencer::change_time_base(double jump_s) {
+  emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
+  imu_.clear();
+  epochs_.clear();
+  imu_since_epoch_.clear();
+  odometer_.clear();
+  push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
+}
+
+void Sequencer::append_to_block(const ImuSample& sample) {
+  if (!epochs_.last_time().is_set() && epochs_.empty()) epochs_.set_start(sample.start());
+  if (sample.time <= epochs_.last_time()) return;  // an epoch was issued without waiting for it
+  if (imu_since_epoch_.full())
+    issue(nullptr, imu_since_epoch_.cut_of_full_block(empty_epochs_.wait_ns()));
+  imu_since_epoch_.append(sample, epochs_.last_time());
+}
+
+void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
+  if (!is_plausible(epoch.time)) return reject(InputFault::kOutOfRange);
+  if (inertial_) report_finding(stamp_offset_.add_epoch(epoch.time));
+  if (epochs_.has_held()) resolve_held_epoch(epoch.time);
+  if (!hold(epoch)) accept_epoch(epoch);
+}
+
+// Keeps an epoch that comes after an outage, or has a wild stamp, until the next one decides which.
+bool Sequencer::hold(const RawEpoch& epoch) {
+  const bool gnss_keeps_time = !inertial_ || !imu_.time().is_set();
+  if (!gnss_keeps_time || !epochs_.leaps(epoch.time)) return false;
+  epochs_.hold(epoch);
+  return true;
+}
+
+void Sequencer::resolve_held_epoch(GpsTime next) {
+  const RawEpoch& held = epochs_.release_held();
+  if (next < held.time) return reject(InputFault::kTooFarAhead);
+  if (next == held.time) return reject(InputFault::kDuplicate);  // `next` is used instead
+  ++counters_.epochs;
+  queue_epoch(held);
+  issue_ready_epochs();
+}
+
+void Sequencer::accept_epoch(const RawEpoch& epoch) {
+  const StampDecision stamp = epochs_.evaluate(epoch.time, imu_.time());
+  if (stamp.starts_new_time) change_time_base(stamp.jump_s);
+  if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
+  if (epochs_.is_late(epoch.time)) return drop_late(epoch.time);
+  epochs_.clear_rejected_run();
+  ++counters_.epochs;
+  queue_epoch(epoch);
+  issue_ready_epochs();
+}
+
+// Where an empty epoch was issued for it, the wait was too short.
+void Sequencer::drop_late(GpsTime time) {
+  if (is_event_due(++counters_.late_epochs)) {
+    emit(EventKind::kLateEpoch, 0, seconds_between(epochs_.last_time(), time));
+  }
+  const bool replaced =
+      epochs_.last_is_empty() && imu_.time().is_set() && time > epochs_.last_raw_time();
+  if (replaced) empty_epochs_.lengthen_wait(nanoseconds_between(imu_.time(), time));
+}
+
+// issue_ready_epochs() leaves at most kMaxPendingEpochs waiting, so there is room for one.
+void Sequencer::queue_epoch(const RawEpoch& epoch) {
+  if (epochs_.insert(epoch) > 0) reject(InputFault::kNotSane);
+}
+
+void Sequencer::issue_ready_epochs() {
+  for (;;) {
+    const bool waiting = !epochs_.empty();
+    const bool passed = waiting && (!inertial_ || epochs_.oldest().time <= imu_.time());
+    if (passed) {
+      issue_oldest_pending();
+    } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
+      issue(nullptr, due);
+    } else if (epochs_.is_overdue()) {
+      if (is_event_due(++counters_.epochs_without_imu)) {
+        emit(EventKind::kCapacity, static_cast<std::uint8_t>(SequencerCapacity::kPendingEpochs),
+             static_cast<double>(next_index_));
+      }
+      issue_oldest_pending();
+    } else {
+      return;
+    }
+  }
+}
+
+void Sequencer::issue_oldest_pending() {
+  issue(&epochs_.oldest(), epochs_.oldest().time);
+  epochs_.remove_oldest();
+}
+
+GpsTime Sequencer::time_of_due_empty_epoch() const {
+  if (!inertial_ || !imu_.time().is_set() || !epochs_.last_time().is_set() ||
+      imu_since_epoch_.empty())
+    return {};
+  return empty_epochs_.due_time(imu_.time(), epochs_.last_time(), imu_since_epoch_.newest_start());
+}
+
+void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
+  EpochWork& work = work_->emplace<EpochWork>();
+  work.index = next_index_++;
+  work.time = time;
+  work.empty = raw == nullptr;
+  work.raw.time = time;
+  if (raw != nullptr) work.raw = *raw;
+  imu_since_epoch_.move_to_block(time, &work.block);
+  odometer_.move_to_block(time, &work.odometer);
+  epochs_.set_issued(time, work.empty);
+  if (work.empty && is_event_due(++counters_.empty_epochs)) {
+    emit(EventKind::kEmptyEpoch, 0, static_cast<double>(work.index));
+  }
+  if (inertial_) open_at_inertial_stage(work);
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::open_at_inertial_stage(const EpochWork& work) {
+  stages_->open_epoch(work.index);
+  const RealtimeConfig& realtime = config_.realtime;
+  EpochIssued issued{work.index, work.time, imu_.time().plus_seconds(realtime.deadline_ekf_s), {}};
+  if (config_.estimator == Estimator::kSmoother)
+    issued.deadline_smoother =
+        imu_.time().plus_seconds(std::max(realtime.deadline_ekf_s, realtime.deadline_smoother_s));
+  stages_->push_inertial(issued);
+}
+
+void Sequencer::on_odometer(const OdometerIncrement& increment) {
+  const InputFault fault = odometer_.add(increment, imu_.time(), epochs_.last_time());
+  if (fault != InputFault::kNone) return reject(fault);
+  ++counters_.odometer;
+  counters_.late_odometer = odometer_.late();
+}
+
+template <typename Input>
+void Sequencer::check_and_push(const Input& input) {
+  if (const InputFault fault = check(input); fault != InputFault::kNone) return reject(fault);
+  *work_ = input;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_klobuchar(const KlobucharModel& model) { check_and_push(model); }
+void Sequencer::on_antenna(const AntennaPattern& pattern) { check_and_push(pattern); }
+void Sequencer::on_checkpoint(const Checkpoint& checkpoint) { check_and_push(checkpoint); }
+
+void Sequencer::on_ephemeris(const Ephemeris& ephemeris) {
+  if (!is_valid(ephemeris.satellite) || !is_sane(ephemeris)) return reject(InputFault::kNotSane);
+  ++counters_.ephemerides;
+  *work_ = ephemeris;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_precise_states(const PreciseStates& states) {
+  auto& good = work_->emplace<PreciseStates>();
+  for (const PreciseState& state : states) {
+    if (const InputFault fault = check(state); fault != InputFault::kNone) {
+      reject(fault);
+    } else {
+      good.push_back(state);
+    }
+  }
+  if (!good.empty()) stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_command(const Command& command) {
+  if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);
+  push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});
+}
+
+// A restart lies between the same two epochs in the work of both stages.
+void Sequencer::push_command(const Command& command) {
+  if (inertial_ && command.kind == CommandKind::kRestart) {
+    stages_->push_inertial(Restart{command.cause});
+  }
+  *work_ = command;
+  stages_->push_gnss(*work_);
+}
+
+void Sequencer::on_rejected(InputFault fault) { reject(fault); }
+
+void Sequencer::reject(InputFault fault) {
+  const auto index = static_cast<std::size_t>(fault);
+  if (index >= counters_.rejected.size()) return;
+  if (is_event_due(++counters_.rejected[index])) {
+    emit(EventKind::kRejectedInput, static_cast<std::uint8_t>(fault), 0.0);
+  }
+}
+
+void Sequencer::report_finding(const ConventionFinding& finding) {
+  if (!finding) return;
+  emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(finding.convention), finding.value);
+}
+
+void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
+  const GpsTime time = imu_.time().is_set() ? imu_.time() : epochs_.newest_time();
+  stages_->event(events_.next(kind, code, value, time));
+}
+
+}  // namespace leonav

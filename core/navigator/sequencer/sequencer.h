@@ -1,0 +1,142 @@
+// The Sequencer brings all inputs into one total order and cuts the IMU stream at the GNSS epochs.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "core/installation_checks/refused_imu_monitor.h"
+#include "core/installation_checks/stamp_offset_monitor.h"
+#include "core/navigator/interface/event_source.h"
+#include "core/navigator/interface/navigator_config.h"
+#include "core/navigator/interface/stage_work.h"
+#include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
+#include "core/navigator/sequencer/internal/epoch_queue.h"
+#include "core/navigator/sequencer/internal/imu_block_cutter.h"
+#include "core/navigator/sequencer/internal/imu_intake.h"
+#include "core/navigator/sequencer/internal/odometer_queue.h"
+
+namespace leonav {
+
+// The stages take the Sequencer's work through this interface. push_* may wait for room, never
+// drop.
+class StageInputs {
+ public:
+  virtual ~StageInputs() = default;
+  // Called before the epoch's work is pushed to either stage.
+  virtual void open_epoch(std::uint64_t index) = 0;
+  virtual void push_inertial(const InertialWork& work) = 0;
+  virtual void push_gnss(const GnssWork& work) = 0;
+  virtual void event(const Event& event) = 0;  // sequencer's own events, sequence counted per stage
+};
+
+// Codes of EventKind::kCapacity from this stage.
+enum class SequencerCapacity : std::uint8_t {
+  kPendingEpochs = 0,  // value: index of the epoch that was issued without its IMU
+};
+
+// Every decision follows from the data alone, so that a replay decides the same. The rules:
+// - An epoch is issued once the IMU has passed its time. Without IMU
+//   (MotionModel::kConstantVelocity) it is issued at once, and nothing goes to the inertial stage.
+// - An epoch whose IMU data are late waits until more than EpochQueue::kMinPending wait and the
+//   newest is more than kMaxImuLatencyNs later, or until kMaxPendingEpochs wait. It is then issued
+//   without all of its IMU data, counted, and reported as kCapacity
+//   (SequencerCapacity::kPendingEpochs).
+// - An empty epoch is issued one epoch interval after the last one, when the IMU has run that
+//   interval and the wait for a GNSS latency; so blocks stay bounded. After a hole in the IMU
+//   stream it is issued at the hole's end. The start of the first IMU sample counts as an epoch
+//   here.
+// - The wait is the configured allowance, at least half an epoch interval. An epoch that comes
+//   after an empty one was issued for it makes the wait longer, up to
+//   EmptyEpochSchedule::kMaxGnssLatencyNs; so a steady latency costs one epoch and not all.
+// - An epoch not later than the last issued one is late: counted, dropped, reported. One that is
+//   merely out of order is sorted in among those waiting.
+// - IMU stamps are shifted by the configured time offset before anything else is done.
+// - IMU samples must be finite, in range and increasing (kTimeBackwards). Where their stamps
+//   jitter, ImuTimeline lays them end to end: increments stay, intervals change.
+// - A gap in the IMU stream is reported and left as a hole. After one longer than
+//   ImuIntake::kLeapNs, the first sample is held until the next one: if that is later, the gap is
+//   real, else the stamp was wild.
+// - An IMU stamp more than kMaxStampAheadNs beyond everything seen (kTooFarAhead), or behind, is
+//   rejected, until a run of consistent ones shows that time itself has changed. Then everything
+//   restarts in the new time.
+// - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
+//   intervals where those are longer. While IMU samples arrive, GNSS does not change the time.
+// - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an
+//   outage or has a wild stamp. It is held until the next one: if that is later, there was an
+//   outage. So an outage of any length, or an interval other than configured, costs no epoch.
+// - An odometer increment goes with the epoch that it ends by: OdometerQueue.
+class Sequencer {
+ public:
+  static constexpr int kImuRunToRestart = ImuIntake::kRunToRestart;
+  static constexpr int kEpochRunToRestart = EpochQueue::kRunToRestart;
+
+  Sequencer(const NavigatorConfig& config, StageInputs* stages);
+
+  // None of these allocates or throws.
+  void on_imu(const ImuSample& sample);
+  void on_raw_epoch(const RawEpoch& epoch);
+  void on_odometer(const OdometerIncrement& increment);
+  void on_ephemeris(const Ephemeris& ephemeris);
+  void on_precise_states(const PreciseStates& states);  // the good ones among them
+  void on_klobuchar(const KlobucharModel& model);
+  void on_antenna(const AntennaPattern& pattern);
+  void on_command(const Command& command);
+  void on_checkpoint(const Checkpoint& checkpoint);
+  // A message that could not be decoded or failed validation before it got here.
+  void on_rejected(InputFault fault);
+
+  struct Counters {
+    std::uint64_t imu = 0, epochs = 0, ephemerides = 0, empty_epochs = 0, late_epochs = 0,
+                  imu_gaps = 0;
+    std::uint64_t epochs_without_imu = 0;           // issued before their IMU came
+    std::uint64_t odometer = 0, late_odometer = 0;  // accepted; accepted but not used
+    std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter, see ImuTimeline
+    std::array<std::uint64_t, 16> rejected{};  // by InputFault
+  };
+  const Counters& counters() const { return counters_; }
+  GpsTime imu_time() const { return imu_.time(); }  // end of the last accepted sample; may be unset
+  GpsTime odometer_time() const { return odometer_.last_time(); }  // may be unset
+
+ private:
+  // IMU.
+  void monitor_conventions(const ImuSample& sample, InputFault fault);
+  void accept_imu(const ImuSample& received);
+  bool lay_on_timeline(ImuSample* sample);
+  void append_to_block(const ImuSample& sample);
+  // Epochs.
+  bool hold(const RawEpoch& epoch);
+  void resolve_held_epoch(GpsTime next);
+  void accept_epoch(const RawEpoch& epoch);
+  void drop_late(GpsTime time);
+  void queue_epoch(const RawEpoch& epoch);
+  void issue_ready_epochs();
+  void issue_oldest_pending();
+  GpsTime time_of_due_empty_epoch() const;  // unset: none is due
+  void issue(const RawEpoch* raw, GpsTime time);
+  void open_at_inertial_stage(const EpochWork& work);
+  // All inputs.
+  template <typename Input>
+  void check_and_push(const Input& input);
+  void change_time_base(double jump_s);
+  void push_command(const Command& command);
+  void reject(InputFault fault);
+  void report_finding(const ConventionFinding& finding);
+  void emit(EventKind kind, std::uint8_t code, double value);
+
+  NavigatorConfig config_;
+  StageInputs* stages_;
+  bool inertial_;
+  Counters counters_;
+  EventNumbering events_{Stage::kSequencer};
+  ImuIntake imu_;
+  ImuBlockCutter imu_since_epoch_;
+  EpochQueue epochs_;
+  EmptyEpochSchedule empty_epochs_;
+  OdometerQueue odometer_;
+  RefusedImuMonitor refused_imu_;
+  StampOffsetMonitor stamp_offset_;
+  std::uint64_t next_index_ = 1;
+  std::unique_ptr<GnssWork> work_;  // too large for a thread's stack
+};
+
+}  // namespace leonav

@@ -1,0 +1,209 @@
+#include "core/navigator/stages/inertial_navigator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace leonav {
+namespace {
+
+constexpr double kLongestHole_s = 10.0;  // beyond, the old answer is worth nothing
+constexpr double kJumpEvent_m = 1.0;
+
+std::int64_t to_nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+}
+
+}  // namespace
+
+InertialNavigator::InertialNavigator(const NavigatorConfig& config,
+                                     TimedMailbox<Anchor>* ekf_mailbox,
+                                     TimedMailbox<SmootherAnchor>* smoother_mailbox,
+                                     OutputSink* sink)
+    : sink_(sink),
+      events_(Stage::kInertial, sink),
+      solution_period_ns_(
+          config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
+      ins_only_after_ns_(to_nanoseconds(2.5 * config.realtime.epoch_interval_s +
+                                        config.realtime.gnss_latency_allowance_s +
+                                        config.realtime.deadline_ekf_s)),
+      decisions_(ekf_mailbox, smoother_mailbox, sink, &events_),
+      answer_(config) {}
+
+void InertialNavigator::process(const InertialWork& work) {
+  if (const auto* sample = std::get_if<ImuSample>(&work)) {
+    on_sample(*sample);
+  } else if (const auto* epoch = std::get_if<EpochIssued>(&work)) {
+    on_epoch(*epoch);
+  } else if (const auto* restart = std::get_if<Restart>(&work)) {
+    on_restart(*restart);
+  }
+}
+
+void InertialNavigator::on_epoch(const EpochIssued& issued) {
+  auto& epochs = decisions_.epochs();
+  if (epochs.full()) {  // the IMU has stopped, so no deadline is ever reached
+    PendingEpoch oldest = epochs.front();
+    epochs.pop_front();
+    events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
+                 static_cast<double>(oldest.issued.index), imu_time_);
+    decide(&oldest, imu_time_, true);
+  }
+  epochs.push_back({issued, false, {}});
+}
+
+void InertialNavigator::on_sample(const ImuSample& sample) {
+  const bool first = !imu_time_.is_set();
+  if (!first &&
+      (sample.time <= imu_time_ || seconds_between(sample.start(), imu_time_) > kLongestHole_s)) {
+    start_over(sample.time);
+  }
+  imu_time_ = sample.time;
+  answer_.add_sample(sample);
+  decide_due_epochs(sample.time);
+  source_ = source_at(sample.time);
+  if (publication_due(sample)) publish(sample.time);
+}
+
+void InertialNavigator::on_restart(const Restart& restart) {
+  if (restart.cause == ResetCause::kTimeBase) {
+    start_over(imu_time_);
+  } else {
+    clear_anchor();
+    decisions_.invalidate_issued();
+  }
+  source_ = Source::kNone;
+}
+
+void InertialNavigator::clear_anchor() {
+  answer_.clear_anchor();
+  pending_jump_m_ = 0.0;
+  last_gnss_time_ = GpsTime();
+}
+
+void InertialNavigator::start_over(GpsTime now) {
+  auto& epochs = decisions_.epochs();
+  while (!epochs.empty()) {
+    decide(&epochs.front(), now, false);
+    epochs.pop_front();
+  }
+  clear_anchor();
+  answer_.clear_samples();
+  next_solution_due_ = GpsTime();
+}
+
+// Numbers have overflowed: no answer until a filter that is sound delivers the next anchor.
+void InertialNavigator::drop_anchor(GpsTime now) {
+  clear_anchor();
+  answer_.clear_samples();
+  source_ = Source::kNone;
+  events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
+               now);
+}
+
+void InertialNavigator::decide_due_epochs(GpsTime now) {
+  auto& epochs = decisions_.epochs();
+  for (PendingEpoch& epoch : epochs)
+    if (!epoch.filter_decided && epoch.issued.deadline_ekf <= now) decide_filter(&epoch, now, true);
+  while (!epochs.empty() && epochs.front().filter_decided) {
+    PendingEpoch& oldest = epochs.front();
+    const GpsTime deadline = oldest.issued.deadline_smoother;
+    if (deadline.is_set() && deadline > now) return;
+    if (deadline.is_set()) decide_smoother(&oldest, now, true);
+    epochs.pop_front();
+  }
+}
+
+// Makes the decisions that are left. `usable`: what was committed may become the anchor.
+void InertialNavigator::decide(PendingEpoch* epoch, GpsTime now, bool usable) {
+  if (!epoch->filter_decided) decide_filter(epoch, now, usable);
+  if (epoch->issued.deadline_smoother.is_set()) decide_smoother(epoch, now, usable);
+}
+
+void InertialNavigator::decide_filter(PendingEpoch* epoch, GpsTime now, bool usable) {
+  Anchor anchor;
+  if (!decisions_.take_filter(epoch, now, &anchor)) return;
+  if (!usable || !anchor.valid || decisions_.is_invalid(*epoch)) return;
+  // The smoother's answer, also between its keyframes, rests on the same GNSS.
+  if (anchor.gnss_used && answer_.has_anchor()) last_gnss_time_ = anchor.state.time;
+  const bool smoother_answers = answer_.has_anchor() && anchor_source_ == Source::kSmoother;
+  if (epoch->issued.deadline_smoother.is_set() && smoother_answers)
+    epoch->held = anchor;
+  else
+    commit(anchor, Source::kEkf, now);
+}
+
+void InertialNavigator::decide_smoother(PendingEpoch* epoch, GpsTime now, bool usable) {
+  SmootherAnchor result;
+  const bool taken = decisions_.take_smoother(epoch, now, &result);
+  if (!usable || decisions_.is_invalid(*epoch)) return;
+  if (taken && result.anchor.valid && commit(result.anchor, Source::kSmoother, now)) return;
+  const bool not_due = taken && !result.due;  // the one before stays the anchor
+  if (epoch->held.valid && !not_due) commit(epoch->held, Source::kEkf, now);
+}
+
+// Goes on from the new anchor. False: it cannot.
+bool InertialNavigator::commit(const Anchor& anchor, Source source, GpsTime now) {
+  if (anchor.state.time > now) return false;  // the IMU is behind or gone
+  if (answer_.has_discarded_after(anchor.state.time)) {
+    events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
+                 static_cast<double>(anchor.index), now);
+    return false;
+  }
+  const bool had_answer = answer_.has_anchor();
+  const Eigen::Vector3d old_p_e = had_answer ? answer_.state(now).p_e : Eigen::Vector3d::Zero();
+  const PvaCovariance old_covariance = had_answer ? answer_.covariance(now) : PvaCovariance::Zero();
+  if (had_answer && source != anchor_source_)
+    events_.emit(EventKind::kSourceChange, static_cast<std::uint8_t>(source),
+                 static_cast<double>(anchor.index), now);
+  anchor_source_ = source;
+  if (anchor.gnss_used) last_gnss_time_ = anchor.state.time;
+  answer_.restart_from(anchor, decisions_.earliest_needed(anchor.state.time));
+  if (had_answer) report_jump(old_p_e, old_covariance, now);
+  return true;
+}
+
+void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
+                                    const PvaCovariance& old_covariance, GpsTime now) {
+  const double jump_m = (answer_.state(now).p_e - old_p_e).norm();
+  pending_jump_m_ = std::max(pending_jump_m_, jump_m);
+  const double sigma_m = std::sqrt(std::max(0.0, old_covariance.topLeftCorner<3, 3>().trace()));
+  if (jump_m > kJumpEvent_m || jump_m > 3.0 * sigma_m) {
+    events_.emit(EventKind::kSolutionJump, 0, jump_m, now);
+  }
+}
+
+Source InertialNavigator::source_at(GpsTime now) const {
+  if (!answer_.has_anchor()) return Source::kNone;
+  if (!answer_.anchor().has_attitude) return Source::kAligning;
+  const bool recent =
+      last_gnss_time_.is_set() && nanoseconds_between(now, last_gnss_time_) <= ins_only_after_ns_;
+  return recent ? anchor_source_ : Source::kInsOnly;
+}
+
+// At most solution_rate_hz on average; a quarter of a period of jitter in the stamps costs nothing.
+bool InertialNavigator::publication_due(const ImuSample& sample) {
+  if (!answer_.has_anchor() || solution_period_ns_ <= 0) return false;
+  const GpsTime earliest = next_solution_due_.plus_nanoseconds(-solution_period_ns_ / 4);
+  if (next_solution_due_.is_set() && sample.time < earliest) return false;
+  next_solution_due_ = next_solution_due_.plus_nanoseconds(solution_period_ns_);
+  if (next_solution_due_ <= sample.time) {
+    next_solution_due_ = sample.time.plus_nanoseconds(solution_period_ns_);
+  }
+  return true;
+}
+
+void InertialNavigator::publish(GpsTime now) {
+  Solution solution;
+  fill_solution(answer_.state(now), answer_.covariance(now), answer_.anchor().has_attitude,
+                &solution);
+  if (!is_finite(solution)) return drop_anchor(now);
+  solution.sequence = next_solution_++;
+  solution.source = source_;
+  solution.anchor_epoch = answer_.anchor().index;
+  solution.jump_m = pending_jump_m_;
+  pending_jump_m_ = 0.0;
+  sink_->on_solution(solution);
+}
+
+}  // namespace leonav

@@ -1,0 +1,86 @@
+// The InertialNavigator turns every IMU sample into a published solution, from the newest anchor.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "core/navigator/interface/event_source.h"
+#include "core/navigator/interface/navigator_config.h"
+#include "core/navigator/interface/solution_conversion.h"
+#include "core/navigator/interface/stage_work.h"
+#include "core/navigator/interface/timed_mailbox.h"
+#include "core/navigator/stages/internal/anchor_propagation.h"
+#include "core/navigator/stages/internal/pending_decisions.h"
+
+namespace leonav {
+
+// Codes of EventKind::kCapacity from this stage.
+enum class InertialCapacity : std::uint8_t {
+  kHistory = 0,  // an anchor older than the kept samples could not be used
+  kWaiting = 1,  // too many undecided epochs: the oldest was decided before its deadline
+};
+
+// It decides which result of the filter or the smoother becomes the anchor (PendingDecisions) and
+// publishes that anchor's propagation (AnchorPropagation):
+// - Before the first valid anchor nothing is published.
+// - While the smoother gives the answer, the filter's anchor of an epoch is held back until the
+//   smoother's deadline. It is used only if the smoother misses it, or has no answer. From then on
+//   the filter's anchors are used at once, until the smoother is in time again.
+// - A missed epoch leaves the older anchor in use: the answer goes on, its sigma grows.
+// - When IMU time runs backwards or leaps, everything is dropped. The epochs pending are
+//   decided, so that the journal has one decision for each.
+// - A restart ends the answer until there is an anchor that was issued after it. Epochs issued
+//   before are decided at their deadlines, so that none counts as missed, but not used. The samples
+//   are kept, for the next epoch may be older than the command. Where time changed, everything is
+//   dropped.
+// - A solution with a number that is not finite is never published: the anchor is dropped, with an
+//   event.
+class InertialNavigator {
+ public:
+  InertialNavigator(const NavigatorConfig& config, TimedMailbox<Anchor>* ekf_mailbox,
+                    TimedMailbox<SmootherAnchor>* smoother_mailbox, OutputSink* sink);
+  InertialNavigator(const InertialNavigator&) = delete;
+  InertialNavigator& operator=(const InertialNavigator&) = delete;
+
+  // Allocates nothing, never throws.
+  void process(const InertialWork& work);
+
+  Source source() const { return source_; }
+  std::uint64_t misses() const { return decisions_.misses(); }
+  std::uint64_t smoother_misses() const { return decisions_.smoother_misses(); }
+
+ private:
+  void on_sample(const ImuSample& sample);
+  void on_epoch(const EpochIssued& epoch);
+  void on_restart(const Restart& restart);
+  // Decisions.
+  void decide_due_epochs(GpsTime now);
+  void decide(PendingEpoch* epoch, GpsTime now, bool usable);
+  void decide_filter(PendingEpoch* epoch, GpsTime now, bool usable);
+  void decide_smoother(PendingEpoch* epoch, GpsTime now, bool usable);
+  bool commit(const Anchor& anchor, Source source, GpsTime now);
+  void report_jump(const Eigen::Vector3d& old_p_e, const PvaCovariance& old_covariance,
+                   GpsTime now);
+  void clear_anchor();
+  void start_over(GpsTime now);
+  void drop_anchor(GpsTime now);
+  // Publication.
+  Source source_at(GpsTime now) const;
+  bool publication_due(const ImuSample& sample);
+  void publish(GpsTime now);
+
+  OutputSink* sink_;
+  EventSource events_;
+  std::int64_t solution_period_ns_;
+  std::int64_t ins_only_after_ns_;
+  PendingDecisions decisions_;
+  AnchorPropagation answer_;
+  Source anchor_source_ = Source::kEkf;
+  GpsTime imu_time_;        // end of the last sample
+  GpsTime last_gnss_time_;  // of the last anchor that used GNSS
+  GpsTime next_solution_due_;
+  double pending_jump_m_ = 0.0;  // not published yet
+  Source source_ = Source::kNone;
+  std::uint64_t next_solution_ = 1;
+};
+
+}  // namespace leonav

@@ -1,0 +1,19 @@
+#include "core/navigator/stages/internal/anchor_from_filter.h"
+
+namespace leonav {
+
+Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used) {
+  Anchor anchor;
+  anchor.index = index;
+  anchor.valid = filter.initialized();
+  if (!anchor.valid) return anchor;
+  anchor.has_attitude = filter.has_attitude();
+  anchor.state = filter.state();
+  anchor.covariance = filter.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
+  anchor.gnss_used = gnss_used;
+  anchor.random_walk = filter.filter_state().random_walk;
+  anchor.time_offset_s = filter.has_attitude() ? time_offset_of(filter.vehicle()) : 0.0;
+  return anchor;
+}
+
+}  // namespace leonav

@@ -1,0 +1,26 @@
+// AttitudeCarryOver takes the attitude from a filter before its restart and gives it back after.
+#pragma once
+#include <Eigen/Geometry>
+
+#include "core/filter/ekf.h"
+
+namespace leonav {
+
+// What has been estimated of the IMU's errors goes with the attitude. Roll and pitch come back with
+// at least `levelling_sigma`, the heading with twice its sigma and at least 0.1 rad.
+class AttitudeCarryOver {
+ public:
+  // `levelling_sigma`: AlignmentConfig, rad. `filter` has an attitude.
+  AttitudeCarryOver(const Ekf& filter, double levelling_sigma);
+  // `filter`: initialized at `time`, without attitude.
+  void give_to(Ekf* filter, GpsTime time) const;
+
+ private:
+  Eigen::Quaterniond q_eb_;
+  Eigen::Vector3d sigma_rpy_;  // rad
+  ImuErrors errors_;
+  ImuErrorCovariance error_covariance_;
+  AttitudeRandomWalk random_walk_;
+};
+
+}  // namespace leonav

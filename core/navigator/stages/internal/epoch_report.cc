@@ -1,0 +1,144 @@
+#include "core/navigator/stages/internal/epoch_report.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <limits>
+
+#include "core/gnss/measurement/dop.h"
+#include "core/navigator/interface/filter_estimate.h"
+#include "core/navigator/interface/solution_conversion.h"
+
+namespace leonav {
+namespace {
+
+bool counts(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
+
+AidingReport start_aiding(const MeasurementEpoch& epoch, const Measurement& measurement) {
+  AidingReport aiding;
+  aiding.satellite = epoch.satellites[measurement.satellite_index].satellite;
+  aiding.observable = measurement.observable;
+  aiding.code = measurement.code;
+  aiding.second_code = measurement.second_code;
+  aiding.observation = measurement.value;
+  aiding.reason = measurement.reason;
+  return aiding;
+}
+
+// A satellite is used if any of its measurements counted; else the reason of its first measurement
+// tells why, and where it has none, preprocessing has told.
+void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
+  for (const SatelliteInView& in_view : epoch.satellites) {
+    SatelliteReport satellite;
+    satellite.satellite = in_view.satellite;
+    satellite.reason = in_view.reason;
+    satellite.elevation = in_view.elevation;
+    satellite.azimuth = in_view.azimuth;
+    satellite.cn0_dbhz = in_view.cn0_dbhz;
+    satellite.ephemeris_age_s = in_view.ephemeris_age_s;
+    satellite.source = in_view.source;
+    satellite.clock_from_file = in_view.clock_from_file;
+    satellite.arc = in_view.arc;
+    satellite.arc_started = in_view.arc_started;
+    satellite.arc_causes = in_view.arc_causes;
+    const AidingReport* first = nullptr;
+    bool used = false;
+    for (const AidingReport& aiding : report->aiding) {
+      if (aiding.satellite != in_view.satellite) continue;
+      if (first == nullptr) first = &aiding;
+      used = used || counts(aiding.reason);
+    }
+    if (first != nullptr) satellite.reason = used ? Reason::kUsed : first->reason;
+    if (used) ++report->satellites_used;
+    report->satellites.push_back(satellite);
+  }
+}
+
+// The geometry of what counted in the end: the filter's verdicts stand in the report alone. Its
+// aiding holds the epoch's measurements in order, or fewer.
+void report_dop(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e,
+                EpochReport* report) {
+  std::bitset<kMaxSatellites> used;
+  for (std::size_t i = 0; i < report->aiding.size(); ++i) {
+    const AidingReport& aiding = report->aiding[i];
+    if (aiding.observable != Observable::kCode || !counts(aiding.reason)) continue;
+    used.set(epoch.measurements[i].satellite_index);
+  }
+  const Dop dop = dilution_of_precision(epoch, used, antenna_p_e);
+  report->pdop = dop.pdop;
+  report->hdop = dop.hdop;
+  report->vdop = dop.vdop;
+}
+
+}  // namespace
+
+void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* report) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  report->sequence = 0;
+  report->index = index;
+  report->time = time;
+  report->empty = empty;
+  report->solution = Solution();
+  report->solution.time = time;
+  report->satellites_used = 0;
+  report->pdop = report->hdop = report->vdop = nan;
+  report->clock_m.fill(nan);
+  report->clock_drift_m_s.fill(nan);
+  report->wet_delay_m = report->wet_delay_sigma_m = nan;
+  report->nis = 0.0;
+  report->nis_degrees = 0;
+  report->satellites.clear();
+  report->aiding.clear();
+  report->constraints.clear();
+  report->constraint_reports.clear();
+}
+
+void report_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,
+                   const Eigen::Vector3d& antenna_p_e, EpochReport* report) {
+  const std::size_t reported = std::min(result.innovations.size(), epoch.measurements.size());
+  for (std::size_t i = 0; i < reported; ++i) {
+    const InnovationReport& innovation = result.innovations[i];
+    AidingReport aiding = start_aiding(epoch, epoch.measurements[i]);
+    aiding.innovation = innovation.innovation;
+    aiding.innovation_variance = innovation.innovation_variance;
+    aiding.residual = innovation.residual;
+    aiding.test_ratio = innovation.test_ratio;
+    aiding.weight_factor = innovation.weight_factor;
+    aiding.reason = innovation.reason;
+    report->aiding.push_back(aiding);
+  }
+  report->nis = result.nis;
+  report->nis_degrees = result.used;
+  report_satellites(epoch, report);
+  report_dop(epoch, antenna_p_e, report);
+}
+
+void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vector3d& antenna_p_e,
+                  EpochReport* report) {
+  for (const Measurement& measurement : epoch.measurements) {
+    AidingReport aiding = start_aiding(epoch, measurement);
+    aiding.innovation_variance = measurement.sigma * measurement.sigma;
+    if (!solved && counts(aiding.reason)) aiding.reason = Reason::kNotSolved;
+    if (!counts(aiding.reason)) aiding.weight_factor = 0.0;
+    report->aiding.push_back(aiding);
+  }
+  report_satellites(epoch, report);
+  if (solved) report_dop(epoch, antenna_p_e, report);
+}
+
+void report_state(const Ekf& ekf, EpochReport* report) {
+  if (!ekf.initialized()) return;
+  fill_solution(ekf, &report->solution);
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
+    const auto i = static_cast<Eigen::Index>(base);
+    if (ekf.known_clocks().offset[base]) report->clock_m[base] = ekf.clocks().offset_m(i);
+    if (ekf.known_clocks().drift[base]) report->clock_drift_m_s[base] = ekf.clocks().drift_m_s(i);
+  }
+  const double wet_variance = ekf.covariance()(ekf_index::kWetDelay, ekf_index::kWetDelay);
+  if (wet_variance > 0.0) {
+    report->wet_delay_m = ekf.wet_delay_m();
+    report->wet_delay_sigma_m = std::sqrt(wet_variance);
+  }
+}
+
+}  // namespace leonav

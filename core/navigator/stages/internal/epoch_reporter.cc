@@ -1,0 +1,155 @@
+#include "core/navigator/stages/internal/epoch_reporter.h"
+
+#include <algorithm>
+
+#include "core/navigator/interface/event_limiter.h"
+#include "core/navigator/stages/internal/epoch_report.h"
+
+namespace leonav {
+namespace {
+
+EventKind event_of(OrbitChange change) {
+  switch (change) {
+    case OrbitChange::kNone:
+    case OrbitChange::kFallback:
+      break;
+    case OrbitChange::kReturn:
+      return EventKind::kOrbitReturn;
+    case OrbitChange::kClockFallback:
+      return EventKind::kClockFallback;
+    case OrbitChange::kClockReturn:
+      return EventKind::kClockReturn;
+  }
+  return EventKind::kOrbitFallback;
+}
+
+// The event's code: side 1, vertical 2, standing's velocity 4 and rate 8, odometer 16.
+std::uint8_t constraint_groups(MotionComponents components) {
+  const auto bits = [&](MotionComponent first, unsigned count) {
+    return (components >> static_cast<unsigned>(first)) & ((1u << count) - 1u);
+  };
+  return static_cast<std::uint8_t>((bits(MotionComponent::kSide, 1) != 0 ? 1 : 0) |
+                                   (bits(MotionComponent::kVertical, 1) != 0 ? 2 : 0) |
+                                   (bits(MotionComponent::kVelocity, 3) != 0 ? 4 : 0) |
+                                   (bits(MotionComponent::kAngularRate, 3) != 0 ? 8 : 0) |
+                                   (bits(MotionComponent::kOdometer, 1) != 0 ? 16 : 0));
+}
+
+}  // namespace
+
+EpochReporter::EpochReporter(OutputSink* sink)
+    : sink_(sink), events_(Stage::kGnss, sink), report_(std::make_unique<EpochReport>()) {}
+
+void EpochReporter::start(const EpochWork& work) {
+  start_report(work.index, work.time, work.empty, report_.get());
+}
+
+void EpochReporter::add_prediction(GpsTime last_epoch, MotionAiding* motion) {
+  if (const auto found = motion->contradiction())
+    emit(EventKind::kConstraintsLeftOut, constraint_groups(found->left_out), found->share,
+         report_->time);
+  for (const ConstraintInstant& instant : motion->instants())
+    if (!last_epoch.is_set() || instant.time > last_epoch) report_->constraints.push_back(instant);
+  report_->constraint_reports = motion->reports();
+}
+
+void EpochReporter::add_point(const IndependentSolution& solution) {
+  report_point(*solution.measurements, solution.accepted, solution.point.p_e, report_.get());
+}
+
+void EpochReporter::add_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,
+                               const Ekf& filter) {
+  report_update(epoch, result, filter.antenna_position_e(), report_.get());
+}
+
+void EpochReporter::monitor_usability() {
+  const auto finding =
+      usability_monitor_.add({report_->satellites.data(), report_->satellites.size()});
+  if (finding)
+    emit(EventKind::kNoneUsable, static_cast<std::uint8_t>(finding->reason), finding->satellites,
+         report_->time);
+}
+
+void EpochReporter::add_state(const Ekf& filter) { report_state(filter, report_.get()); }
+
+void EpochReporter::clear_solution() {
+  report_->solution = Solution();
+  report_->solution.time = report_->time;
+}
+
+void EpochReporter::publish(Source source, const AlignmentNeed& alignment,
+                            const std::optional<Checkpoint>& checkpoint, bool publishes_solution) {
+  report_->solution.source = source;
+  report_->alignment = alignment;
+  report_->checkpoint = checkpoint;
+  report_->solution.anchor_epoch = report_->index;
+  report_->sequence = next_report_++;
+  if (publishes_solution) {
+    report_->solution.sequence = next_solution_++;
+    sink_->on_solution(report_->solution);
+  }
+  sink_->on_epoch(*report_);
+}
+
+// A filter that is less accurate than it states, for long, needs attention even where no
+// measurement is an outlier.
+void EpochReporter::report_consistency(const std::array<std::optional<double>, 2>& improbable,
+                                       GpsTime time) {
+  for (std::size_t i = 0; i < improbable.size(); ++i)
+    if (improbable[i])
+      emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), *improbable[i], time);
+}
+
+// A step that the clocks have taken up loses nothing; but users of the receiver's time need it, and
+// it explains why arcs ended. Some receivers' clocks step every second.
+void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime time) {
+  const auto report_step = [&](std::size_t code, double step_m) {
+    if (step_m == 0.0) return;
+    if (!is_event_due(++clock_steps_)) return;
+    emit(EventKind::kClockStep, static_cast<std::uint8_t>(code), step_m, time);
+  };
+  report_step(static_cast<std::size_t>(ClockStep::kReceiver),
+              result.clock_jump_m - result.code_step_m);
+  report_step(static_cast<std::size_t>(ClockStep::kCodes), result.code_step_m);
+  for (std::size_t base = 0; base < kMaxTimeBases; ++base)
+    report_step(static_cast<std::size_t>(ClockStep::kFirstSystem) + base,
+                result.inter_system_step_m[base]);
+}
+
+void EpochReporter::report_outage(const OutageMonitor::Position& before,
+                                  const OutageMonitor::Position& after, GpsTime time) {
+  if (const auto over = outage_monitor_.add(time, before, after))
+    emit(EventKind::kOutageOver,
+         static_cast<std::uint8_t>(std::min(255.0, 10.0 * over->step_sigmas)), over->lasted_s,
+         time);
+  if (const auto after_s = outage_monitor_.reconverged())
+    emit(EventKind::kReconverged, 0, *after_s, time);
+}
+
+void EpochReporter::report_checkpoint(
+    const std::optional<CheckpointValidityMonitor::Verdict>& verdict, GpsTime time) {
+  if (!verdict) return;
+  emit(EventKind::kCheckpoint, static_cast<std::uint8_t>(verdict->use), verdict->value, time);
+}
+
+void EpochReporter::report_orbit_changes() {
+  for (const SatelliteReport& satellite : report_->satellites) {
+    const OrbitChange change = orbit_source_monitor_.update(satellite.satellite, satellite.source,
+                                                            satellite.clock_from_file);
+    if (change == OrbitChange::kNone) continue;
+    if (!is_event_due(++orbit_changes_[static_cast<std::size_t>(change)])) continue;
+    emit(event_of(change), static_cast<std::uint8_t>(satellite.satellite.system),
+         satellite.satellite.number, report_->time);
+  }
+}
+
+void EpochReporter::report_skipped_keyframe(const EpochWork& work) {
+  Decision skipped;
+  skipped.sequence = next_decision_++;
+  skipped.epoch = work.index;
+  skipped.time = work.time;
+  skipped.subject = Decision::Subject::kKeyframe;
+  sink_->on_decision(skipped);
+}
+
+}  // namespace leonav

@@ -1,0 +1,135 @@
+#include "core/navigator/stages/internal/measurement_front_end.h"
+
+#include "core/gnss/positioning/point_solution.h"
+#include "core/navigator/interface/filter_estimate.h"
+
+namespace leonav {
+namespace {
+
+constexpr int kMinSatellites = 4;
+constexpr double kMaxPdop = 15.0;
+// A more certain prediction corrects delays to a centimetre.
+constexpr double kMaxLinearizationSigma_m = 20.0;
+constexpr double kMaxResidualRms_m = 60.0;
+
+// A start has nothing to compare its measurements with but each other: it always excludes faults,
+// also where the filter is configured to trust everything.
+RobustConfig robust_start(RobustConfig config) {
+  config.enabled = true;
+  return config;
+}
+
+bool is_accepted(const PointSolution& point) {
+  return point.status == PointStatus::kOk && point.satellites >= kMinSatellites &&
+         point.pdop <= kMaxPdop && point.residual_rms_m <= kMaxResidualRms_m &&
+         point.p_e.allFinite() && point.covariance_p_e.allFinite();
+}
+
+}  // namespace
+
+MeasurementFrontEnd::MeasurementFrontEnd(const NavigatorConfig& config)
+    : gnss_(config.gnss),
+      robust_(robust_start(config.ekf.robust)),
+      use_carrier_(config.ekf.use_carrier),
+      inertial_(config.motion == MotionModel::kInertial),
+      lever_arm_b_(config.vehicle.lever_arm_b),
+      ephemeris_store_(config.gnss.ephemeris_store),
+      carriers_(config.gnss.cycle_slips),
+      measurements_(std::make_unique<MeasurementEpoch>()),
+      point_measurements_(std::make_unique<MeasurementEpoch>()) {}
+
+void MeasurementFrontEnd::add(const PreciseStates& states) {
+  for (const PreciseState& state : states) ephemeris_store_.add(state);
+}
+
+IndependentSolution MeasurementFrontEnd::solve(const EpochWork& work,
+                                               const Eigen::Vector3d& approximate_p_e,
+                                               ReceiverCodeBiases* biases) {
+  IndependentSolution solution;
+  solution.point = solve_point(work.raw, ephemeris_store_, gnss_, robust_, approximate_p_e,
+                               point_measurements_.get(), biases);
+  point_measurements_->index = work.index;
+  solution.accepted = is_accepted(solution.point);
+  solution.measurements = point_measurements_.get();
+  return solution;
+}
+
+IndependentSolution MeasurementFrontEnd::solve(const EpochWork& work,
+                                               const Eigen::Vector3d& approximate_p_e) {
+  return solve(work, approximate_p_e, &code_biases_);
+}
+
+IndependentSolution MeasurementFrontEnd::solve_without_biases(
+    const EpochWork& work, const Eigen::Vector3d& approximate_p_e) {
+  return solve(work, approximate_p_e, nullptr);
+}
+
+PreprocessAids MeasurementFrontEnd::aids(const Ekf& filter) {
+  PreprocessAids aids;
+  aids.biases = &code_biases_;
+  aids.antennas = &antennas_;
+  if (use_carrier_) aids.carriers = &carriers_;
+  // One to three satellites carry neither a start nor an alignment.
+  aids.caps = !inertial_ || filter.has_attitude();
+  if (filter.has_attitude()) {
+    C_er_ = filter.state().q_eb.toRotationMatrix();
+    aids.C_er = &C_er_;
+  }
+  return aids;
+}
+
+// How far the antenna has moved since the last epoch. The velocity's covariance grows over the
+// interval, so its value at the end bounds that of the change; the antenna swings about the IMU as
+// accurately as the gyro bias is known.
+RangeChangePrior MeasurementFrontEnd::change_prior(const Ekf& filter, bool predicted) const {
+  RangeChangePrior prior;
+  prior.position_covariance = last_position_covariance_;
+  if (!predicted || !carriers_.last_time().is_set()) return prior;
+  const double dt = seconds_between(filter.state().time, carriers_.last_time());
+  prior.change_is_free = false;
+  prior.change_covariance = dt * dt * filter.antenna_velocity_covariance_e();
+  if (filter.has_attitude()) {
+    const double rate_variance =
+        filter.covariance().diagonal().segment<3>(ekf_index::kGyroBias).sum() / 3.0;
+    prior.change_covariance.diagonal().array() +=
+        dt * dt * lever_arm_b_.squaredNorm() * rate_variance;
+  }
+  return prior;
+}
+
+// Where the measurements are corrected and linearized: the predicted position, or where that is too
+// uncertain for centimetres, the codes' own.
+Eigen::Vector3d MeasurementFrontEnd::approximate_position(const EpochWork& work,
+                                                          const Ekf& filter) {
+  const Eigen::Vector3d predicted_p_e = filter.antenna_position_e();
+  if (!use_carrier_ || position_sigma(filter) < kMaxLinearizationSigma_m) return predicted_p_e;
+  const IndependentSolution solution = solve(work, predicted_p_e);
+  return solution.accepted ? solution.point.p_e : predicted_p_e;
+}
+
+void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
+  const Eigen::Vector3d approximate_p_e = approximate_position(work, filter);
+  preprocess(work.raw, ephemeris_store_, gnss_, approximate_p_e, measurements_.get(), aids(filter));
+  measurements_->index = work.index;
+  if (!use_carrier_) return;
+  const bool predicted = approximate_p_e == filter.antenna_position_e();
+  change_prior_ = change_prior(filter, predicted);
+  carriers_.check_range_changes(approximate_p_e, change_prior_, measurements_.get());
+}
+
+std::optional<double> MeasurementFrontEnd::update_carrier_speed() {
+  if (!use_carrier_) return std::nullopt;
+  carrier_speed_.add(carriers_.antenna_change(change_prior_));
+  return carrier_speed_.horizontal(measurements_->approximate_p_e);
+}
+
+void MeasurementFrontEnd::store_update(const EkfUpdateResult& result, const Ekf& filter) {
+  if (!use_carrier_) return;
+  carriers_.store_epoch(*measurements_, filter.antenna_position_e());
+  for (const SatelliteId satellite : result.slipped)
+    carriers_.end_arc(satellite, measurements_.get());
+  last_position_covariance_ =
+      filter.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
+}
+
+}  // namespace leonav

@@ -1,0 +1,59 @@
+// PendingDecisions keeps the issued epochs until each mailbox has been read at its deadline.
+#pragma once
+#include <boost/circular_buffer.hpp>
+#include <cstdint>
+
+#include "core/navigator/interface/event_source.h"
+#include "core/navigator/interface/stage_work.h"
+#include "core/navigator/interface/timed_mailbox.h"
+
+namespace leonav {
+
+// An issued epoch whose decisions are not all made.
+struct PendingEpoch {
+  EpochIssued issued;
+  bool filter_decided = false;
+  Anchor held;  // valid: the filter's anchor waits for the smoother's deadline
+};
+
+// A decision is made by taking an epoch's result from a mailbox: committed, or a miss. Each is
+// reported to the sink, a miss also as an event. Allocates when constructed, not after.
+class PendingDecisions {
+ public:
+  // `events`: of the stage that decides; must outlive this object, as the others must.
+  PendingDecisions(TimedMailbox<Anchor>* filter_mailbox,
+                   TimedMailbox<SmootherAnchor>* smoother_mailbox, OutputSink* sink,
+                   EventSource* events);
+
+  boost::circular_buffer<PendingEpoch>& epochs() { return epochs_; }  // oldest first
+  // The oldest epoch time that is still to be decided, or `time` if that is earlier.
+  GpsTime earliest_needed(GpsTime time) const;
+
+  // Decides at `now`. True and *anchor: committed.
+  bool take_filter(PendingEpoch* epoch, GpsTime now, Anchor* anchor);
+  bool take_smoother(PendingEpoch* epoch, GpsTime now, SmootherAnchor* anchor);
+
+  // A restart: the epochs issued so far are decided as usual, but give no anchor any more.
+  void invalidate_issued();
+  bool is_invalid(const PendingEpoch& epoch) const {
+    return epoch.issued.index <= last_invalid_epoch_;
+  }
+
+  std::uint64_t misses() const { return misses_; }
+  std::uint64_t smoother_misses() const { return smoother_misses_; }
+
+ private:
+  template <typename Result>
+  bool take(TimedMailbox<Result>* mailbox, Decision::Subject subject, const EpochIssued& epoch,
+            GpsTime now, Result* result);
+
+  TimedMailbox<Anchor>* filter_mailbox_;
+  TimedMailbox<SmootherAnchor>* smoother_mailbox_;
+  OutputSink* sink_;
+  EventSource* events_;
+  boost::circular_buffer<PendingEpoch> epochs_;
+  std::uint64_t last_invalid_epoch_ = 0;
+  std::uint64_t misses_ = 0, smoother_misses_ = 0, next_decision_ = 1;
+};
+
+}  // namespace leonav

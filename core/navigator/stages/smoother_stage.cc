@@ -1,0 +1,105 @@
+#include "core/navigator/stages/smoother_stage.h"
+
+#include "core/navigator/interface/solution_conversion.h"
+
+namespace leonav {
+namespace {
+
+Solution solution_of(const Anchor& anchor, Source source) {
+  Solution solution;
+  fill_solution(at_stamp(anchor.state, anchor.time_offset_s),
+                anchor.covariance.topLeftCorner<9, 9>(), anchor.has_attitude, &solution);
+  solution.source = source;
+  solution.anchor_epoch = anchor.index;
+  return solution;
+}
+
+}  // namespace
+
+SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<SmootherAnchor>* mailbox,
+                             OutputSink* sink)
+    : mailbox_(mailbox),
+      sink_(sink),
+      events_(Stage::kSmoother, sink),
+      inertial_(config.motion == MotionModel::kInertial),
+      smoother_(
+          config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
+          {config.ekf, config.imu, config.vehicle.lever_arm_b, config.vehicle.motion.constraints}) {
+}
+
+void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
+  smoother_.add(input);
+  if (inertial_ && !mailbox_->is_open(input.index)) return;
+  const SmootherResult result = smoother_.solve(budget);
+  const SmootherAnchor update = answer(input, result);
+  const bool delivered = !inertial_ || mailbox_->deliver(input.index, update);
+  smoother_.commit_or_roll_back(delivered);
+  if (delivered) report(input, result, update);
+}
+
+SmootherAnchor SmootherStage::answer(const KeyframeInput& input,
+                                     const SmootherResult& result) const {
+  SmootherAnchor update;
+  update.due = true;
+  update.status = result.status;
+  update.iterations = result.iterations;
+  update.anchor.index = input.index;
+  if (result.status != SmootherStatus::kOk) return update;
+  update.anchor.valid = true;
+  update.anchor.has_attitude = result.has_attitude;
+  update.anchor.state = result.state;
+  update.anchor.covariance = result.covariance;
+  update.anchor.time_offset_s = result.time_offset_s;
+  update.anchor.random_walk = input.state.random_walk;
+  update.anchor.gnss_used = result.used > 0;
+  update.anchor.valid = is_finite(solution_of(update.anchor, Source::kSmoother));
+  return update;
+}
+
+void SmootherStage::report(const KeyframeInput& input, const SmootherResult& result,
+                           const SmootherAnchor& update) {
+  if (result.status == SmootherStatus::kSingular || result.status == SmootherStatus::kDiverged)
+    events_.emit(EventKind::kSmootherFailed, static_cast<std::uint8_t>(result.status),
+                 static_cast<double>(input.index), input.time);
+  SmootherReport report;
+  report.sequence = next_report_++;
+  report.index = input.index;
+  report.status = result.status;
+  report.iterations = result.iterations;
+  report.converged = result.converged;
+  report.keyframes = smoother_.window().size();
+  report.used = result.used;
+  if (update.anchor.valid) report.solution = solution_of(update.anchor, Source::kSmoother);
+  report.solution.time = input.time;
+  sink_->on_smoother(report);
+  if (inertial_ || !input.valid) return;
+  Solution solution = report.solution;
+  if (!update.anchor.valid) {
+    Anchor filter;
+    filter.index = input.index;
+    filter.state = input.state.nav;
+    filter.covariance = input.covariance.topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
+    solution = solution_of(filter, Source::kEkf);
+  }
+  if (!input.has_gnss) solution.source = Source::kInsOnly;
+  publish(solution);
+}
+
+void SmootherStage::process_non_keyframe(const Solution& filter, bool due) {
+  SmootherAnchor none;
+  none.due = due;
+  if (inertial_)
+    mailbox_->deliver(filter.anchor_epoch, none);
+  else if (filter.source != Source::kNone)
+    publish(filter);
+}
+
+// Where there is no IMU nobody else does.
+void SmootherStage::publish(Solution solution) {
+  if (!is_finite(solution)) return;
+  source_ = solution.source;
+  solution.sequence = next_solution_++;
+  sink_->on_solution(solution);
+}
+
+}  // namespace leonav

@@ -1,0 +1,93 @@
+#include "core/smoother/internal/window_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/square.h"
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+SatelliteId satellite_of(const Keyframe& keyframe, const KeyframeMeasurement& measurement) {
+  return keyframe.satellites[measurement.measurement.satellite_index].satellite;
+}
+
+}  // namespace
+
+double WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_arm_b,
+                                     Window* window) {
+  for (int i = 0; i < window->size(); ++i) {
+    Keyframe& keyframe = window->at(i);
+    const AntennaMotion antenna = antenna_of(keyframe, lever_arm_b);
+    for (KeyframeMeasurement& measurement : keyframe.measurements)
+      measurement.residual = linearize(measurement, keyframe, antenna).residual;
+  }
+  gather_means(*window);
+  double change = 0.0;
+  for (int i = 0; i < window->size(); ++i) {
+    Keyframe& keyframe = window->at(i);
+    const bool keep = first && !keyframe.weights_decided;
+    change = std::max(change, keep ? 1.0 : reweigh(&keyframe));
+    keyframe.weights_decided = true;
+  }
+  return change;
+}
+
+// The errors of the white part are independent after `correlation_time_s`. Over n such intervals
+// their mean has 1/n of the variance.
+void WindowWeights::gather_means(const Window& window) {
+  means_.clear();
+  if (!(correlation_time_s_ > 0.0) || window.size() < 2) return;
+  for (int i = 0; i < window.size(); ++i) {
+    const Keyframe& keyframe = window.at(i);
+    for (const KeyframeMeasurement& measurement : keyframe.measurements) {
+      if (measurement.measurement.observable != Observable::kCode) continue;
+      CodeMean* mean = find_mean(satellite_of(keyframe, measurement), measurement.measurement.code);
+      if (mean == nullptr) {
+        if (means_.size() == means_.capacity()) continue;
+        means_.push_back({satellite_of(keyframe, measurement), measurement.measurement.code});
+        mean = &means_.back();
+      }
+      // A gross error is left to the test of the single residual.
+      const double most = robust_.k1 * std::sqrt(measurement.variance);
+      const double correlated_variance =
+          std::min(measurement.variance, square(measurement.measurement.correlated_sigma));
+      ++mean->count;
+      mean->residuals += std::clamp(measurement.residual, -most, most);
+      mean->correlated_variance += correlated_variance;
+      mean->white_variance += measurement.variance - correlated_variance;
+    }
+  }
+  const double interval_s =
+      seconds_between(window.newest().time, window.at(0).time) / (window.size() - 1);
+  for (CodeMean& mean : means_) {
+    const double errors = std::max(1.0, mean.count * interval_s / correlation_time_s_);
+    const double n = std::min<double>(errors, mean.count);
+    mean.ratio = mean.residuals / mean.count /
+                 std::sqrt((mean.correlated_variance + mean.white_variance / n) / mean.count);
+  }
+}
+
+WindowWeights::CodeMean* WindowWeights::find_mean(SatelliteId satellite, SignalCode code) {
+  for (CodeMean& mean : means_)
+    if (mean.satellite == satellite && mean.code == code) return &mean;
+  return nullptr;
+}
+
+double WindowWeights::reweigh(Keyframe* keyframe) {
+  double change = 0.0;
+  for (KeyframeMeasurement& measurement : keyframe->measurements) {
+    double factor =
+        igg3_factor(measurement.residual / std::sqrt(measurement.variance), robust_.k0, robust_.k1);
+    if (measurement.measurement.observable == Observable::kCode)
+      if (const CodeMean* mean =
+              find_mean(satellite_of(*keyframe, measurement), measurement.measurement.code))
+        factor = std::min(factor, igg3_factor(mean->ratio, robust_.k0, robust_.k1));
+    change = std::max(change, std::abs(factor - measurement.factor));
+    measurement.factor = factor;
+  }
+  return change;
+}
+
+}  // namespace leonav

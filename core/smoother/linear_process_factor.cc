@@ -1,0 +1,104 @@
+#include "core/smoother/linear_process_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/earth/rotation.h"
+
+namespace leonav {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Expands 0.5 (x - at)^T at_information (x - at) - at_gradient^T (x - at) about the keyframe's
+// estimate.
+void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
+                         const EkfCovariance& at_information, const EkfCorrection& at_gradient,
+                         EkfCovariance* information, EkfCorrection* gradient) {
+  const EkfCorrection moved = active_part(keyframe.active, difference(keyframe.state, at));
+  *information = at_information;
+  *gradient = at_gradient;
+  gradient->noalias() -= at_information * moved;
+  const AttitudeJacobian change = attitude_jacobian(keyframe.active, keyframe.state, at);
+  if (change.place < 0) return;
+  auto rows = information->middleRows<3>(change.place);
+  rows = (change.of_error.transpose() * rows).eval();
+  auto columns = information->middleCols<3>(change.place);
+  columns = (columns * change.of_error).eval();
+  auto slope = gradient->segment<3>(change.place);
+  slope = (change.of_error.transpose() * slope).eval();
+}
+
+}  // namespace
+
+AttitudeJacobian attitude_jacobian(const ActiveStates& active, const FilterState& estimate,
+                                   const FilterState& linearized_at) {
+  AttitudeJacobian change;
+  const auto place = std::find(active.core.begin(), active.core.end(), ekf_index::kAttitude);
+  if (place == active.core.end()) return change;
+  change.place = place - active.core.begin();
+  const Vector3d turned =
+      rotation_vector_from_quaternion(estimate.nav.q_eb * linearized_at.nav.q_eb.conjugate());
+  const double angle = turned.norm();
+  const Matrix3d S = skew(turned);
+  // (1 - cos x) / x^2, (x - sin x) / x^3 and (1 - x/2 cot(x/2)) / x^2, as series near zero.
+  double a = 0.5, b = 1.0 / 6.0, c = 1.0 / 12.0;
+  const double square = angle * angle;
+  if (angle < 1e-2) {
+    a -= square / 24.0;
+    b -= square / 120.0;
+    c += square / 720.0;
+  } else {
+    a = (1.0 - std::cos(angle)) / square;
+    b = (angle - std::sin(angle)) / (square * angle);
+    c = (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / square;
+  }
+  change.to_error += a * S + b * S * S;
+  change.of_error += -0.5 * S + c * S * S;
+  return change;
+}
+
+void linearize_process_factor(const Keyframe& before, const Keyframe& keyframe,
+                              LinearProcessFactor* linear) {
+  const ProcessFactor& process_factor = keyframe.process_factor;
+  linear->F = process_factor.F;
+  linear->noise = process_factor.noise;
+  linear->offset = process_error(before, keyframe);
+  const AttitudeJacobian then = attitude_jacobian(before.active, before.state, process_factor.from);
+  if (then.place >= 0) {
+    auto columns = linear->F.middleCols<3>(then.place);
+    columns = (columns * then.of_error).eval();
+  }
+  const AttitudeJacobian now =
+      attitude_jacobian(keyframe.active, keyframe.state, process_factor.to);
+  if (now.place < 0) return;
+  auto rows = linear->F.middleRows<3>(now.place);
+  rows = (now.to_error * rows).eval();
+  auto noise_rows = linear->noise.middleRows<3>(now.place);
+  noise_rows = (now.to_error * noise_rows).eval();
+  auto noise_columns = linear->noise.middleCols<3>(now.place);
+  noise_columns = (noise_columns * now.to_error.transpose()).eval();
+  auto offset = linear->offset.segment<3>(now.place);
+  offset = (now.to_error * offset).eval();
+}
+
+void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient) {
+  const WindowPrior& prior = window.prior();
+  linearize_quadratic(window.at(0), prior.at, prior.information, prior.gradient, information,
+                      gradient);
+}
+
+void add_process_information(const Keyframe& before, const ProcessFactor& process_factor,
+                             EkfCovariance* information, EkfCorrection* gradient) {
+  if (!process_factor.has_information) return;
+  EkfCovariance told;
+  EkfCorrection slope;
+  linearize_quadratic(before, process_factor.from, process_factor.information,
+                      process_factor.gradient, &told, &slope);
+  *information += told;
+  *gradient += slope;
+}
+
+}  // namespace leonav

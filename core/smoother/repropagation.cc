@@ -1,0 +1,101 @@
+#include "core/smoother/repropagation.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "core/smoother/window.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Index;
+
+// An attitude off by this turns 1 g of specific force over a second into 5e-6 m/s beyond the first
+// order; a scale of 1e-3 beside it does less.
+constexpr double kFarAttitude = 1e-3;   // rad
+constexpr double kFarVelocity = 5.0;    // m/s
+constexpr double kFarPosition = 100.0;  // m
+
+EkfConfig propagating(EkfConfig config) {
+  config.keep_process = true;
+  return config;
+}
+
+// What the propagator knows of: neither clocks nor wet delay.
+bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
+
+bool is_far(const EkfCorrection& moved) {
+  return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
+         moved.segment<3>(kVelocity).norm() > kFarVelocity ||
+         moved.segment<3>(kPosition).norm() > kFarPosition;
+}
+
+// What constraints tell of the inertial states before; they know of no others.
+void take_information(const FilterProcess& process, const ActiveStates& active,
+                      ProcessFactor* process_factor) {
+  process_factor->information.setZero(active.size(), active.size());
+  process_factor->gradient.setZero(active.size());
+  if (!process.has_information) return;
+  for (Index i = 0; i < active.core_size(); ++i) {
+    const int row = active.core[static_cast<std::size_t>(i)];
+    process_factor->gradient(i) = process.gradient(row);
+    for (Index j = 0; j < active.core_size(); ++j)
+      process_factor->information(i, j) =
+          process.information(row, active.core[static_cast<std::size_t>(j)]);
+  }
+}
+
+}  // namespace
+
+Repropagator::Repropagator(const RepropagationConfig& config)
+    : motion_(config.motion),
+      propagator_(std::make_unique<Ekf>(propagating(config.ekf), config.imu, config.lever_arm_b)) {}
+
+// From the estimate before, with the constraints that the filter has used.
+void Repropagator::propagate(const Keyframe& before, const Keyframe& keyframe) {
+  propagator_->set_state(before.state, true, keyframe.sample_before_block);
+  const std::span<const ImuSample> block{keyframe.block.data(), keyframe.block.size()};
+  for (const ConstraintInstant& instant : keyframe.instants) {
+    propagator_->predict(block, instant.time);  // takes up what is still ahead of it
+    motion_measurements(motion_, instant, propagator_->filter_state(),
+                        propagator_->measured_rate_b(), &measurements_);
+    const auto unused = [&](const MotionMeasurement& measurement) {
+      return (instant.used >> measurement.component & 1) == 0;
+    };
+    measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), unused),
+                        measurements_.end());
+    propagator_->constrain(&measurements_, std::numeric_limits<double>::infinity());
+  }
+  propagator_->predict(block, keyframe.time);
+}
+
+void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
+  ProcessFactor& process_factor = keyframe->process_factor;
+  if (!keyframe->has_attitude || !keyframe->block_complete) return;
+  if (!is_far(difference(before.state, process_factor.from))) return;
+  propagate(before, *keyframe);
+
+  const FilterProcess& process = propagator_->process();
+  FilterState whole = propagator_->filter_state();
+  // Constraints have moved the state away from where the process then leads.
+  if (process.has_information) add(process.transition.rightCols<1>(), true, &whole);
+  FilterState to = predicted_state(before, *keyframe);
+  to.nav = whole.nav;
+  to.vehicle = whole.vehicle;
+  const ProcessMatrix& F = process.transition;
+  if (process_factor.has_information) take_information(process, before.active, &process_factor);
+  for (Index i = 0; i < keyframe->active.core_size(); ++i) {
+    const int row = keyframe->active.core[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < before.active.core_size(); ++j) {
+      const int column = before.active.core[static_cast<std::size_t>(j)];
+      if (is_of_motion(row) && is_of_motion(column)) process_factor.F(i, j) = F(row, column);
+    }
+  }
+  process_factor.from = before.state;
+  process_factor.to = to;
+  ++repropagations_;
+}
+
+}  // namespace leonav

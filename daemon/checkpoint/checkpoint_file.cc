@@ -1,0 +1,135 @@
+#include "daemon/checkpoint/checkpoint_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <sstream>
+
+#include "core/navigator/sequencer/input_validation.h"
+#include "daemon/config/config_file.h"
+#include "daemon/config/load_config.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegreePerHour = kDegree / 3600.0;
+constexpr std::uintmax_t kMostBytes = 4096;
+
+std::string failure(const std::string& path, const char* what) {
+  return path + ": " + what + ": " + std::strerror(errno);
+}
+
+std::string text_of(const Checkpoint& checkpoint) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(13);  // micrometres on the Earth
+  const auto vector = [&out](const char* key, const Eigen::Vector3d& v) {
+    out << key << ": [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
+  };
+  out << "# Where leonavd was last sure of its heading, for its next start. It may be deleted.\n"
+      << "gps_week: " << checkpoint.time.week() << "\ngps_tow_s: " << checkpoint.time.tow_s()
+      << "\nstanding: " << (checkpoint.standing ? "true" : "false") << "\n";
+  vector("antenna_p_e_m", checkpoint.antenna_p_e);
+  out << "antenna_sigma_m: " << checkpoint.antenna_sigma
+      << "\nheading_deg: " << checkpoint.heading / kDegree
+      << "\nheading_sigma_deg: " << checkpoint.heading_sigma / kDegree << "\n";
+  vector("gyro_bias_b_deg_per_h", checkpoint.gyro_bias_b / kDegreePerHour);
+  out << "gyro_bias_sigma_deg_per_h: " << checkpoint.gyro_bias_sigma / kDegreePerHour
+      << "\ncomplete: true\n";  // last: what was cut lacks it
+  return out.str();
+}
+
+Checkpoint parse(const std::string& text, const std::string& path) {
+  ConfigSource source{path};
+  Checkpoint checkpoint;
+  int week = 0;
+  double tow_s = 0.0;
+  bool complete = false;
+  read_yaml(text, {}, &source, [&](ConfigReader& root) {
+    constexpr Bounds kEcef = {-1e7, 1e7}, kSigma = {0.0, 1e6};
+    root.integer("gps_week", 1, 10000, &week);
+    root.number("gps_tow_s", {0.0, 604800.0}, &tow_s);
+    root.boolean("standing", &checkpoint.standing);
+    root.vector("antenna_p_e_m", kEcef, &checkpoint.antenna_p_e);
+    root.number("antenna_sigma_m", kSigma, &checkpoint.antenna_sigma);
+    root.number("heading_deg", {-360.0, 360.0}, &checkpoint.heading, kDegree);
+    root.number("heading_sigma_deg", kSigma, &checkpoint.heading_sigma, kDegree);
+    root.vector("gyro_bias_b_deg_per_h", {-1e6, 1e6}, &checkpoint.gyro_bias_b, kDegreePerHour);
+    root.number("gyro_bias_sigma_deg_per_h", kSigma, &checkpoint.gyro_bias_sigma, kDegreePerHour);
+    root.boolean("complete", &complete);
+  });
+  for (const ConfigKey& key : source.keys) {
+    if (!key.given) throw ConfigError(path + ": is damaged: " + key.path + " is missing");
+  }
+  checkpoint.time = GpsTime::from_week_and_tow(week, tow_s);
+  if (!complete || check(checkpoint) != InputFault::kNone)
+    throw ConfigError(path + ": holds no place on the Earth with a heading (sigma at most 10 deg)");
+  return checkpoint;
+}
+
+bool write_all(int descriptor, const std::string& text) {
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t n = write(descriptor, text.data() + written, text.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    written += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+// A new name is on the disk only once its folder is. Some file systems cannot: no harm.
+void sync_folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+}  // namespace
+
+std::optional<Checkpoint> load_checkpoint(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
+  if (error) throw ConfigError(path + ": " + error.message());
+  if (!std::filesystem::is_regular_file(status)) throw ConfigError(path + ": is no ordinary file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size == 0 || size > kMostBytes)
+    throw ConfigError(path + ": is damaged: " + (size == 0 ? "empty" : "too long"));
+  std::ifstream file(path, std::ios::binary);
+  std::string text(size, '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(size)))
+    throw ConfigError(failure(path, "cannot be read"));
+  return parse(text, path);
+}
+
+std::string save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
+  const std::string beside = path + ".tmp";
+  const int descriptor =
+      open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (descriptor < 0) return failure(beside, "cannot be made");
+  const bool written = write_all(descriptor, text_of(checkpoint)) && fsync(descriptor) == 0;
+  std::string problem = written ? "" : failure(beside, "cannot be written");
+  close(descriptor);
+  if (!problem.empty()) return problem;
+  if (std::rename(beside.c_str(), path.c_str()) != 0) return failure(path, "cannot be replaced");
+  sync_folder_of(path);
+  return {};
+}
+
+std::string remove_checkpoint(const std::string& path) {
+  if (unlink(path.c_str()) != 0) return errno == ENOENT ? "" : failure(path, "cannot be removed");
+  sync_folder_of(path);
+  return {};
+}
+
+}  // namespace leonav

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <numbers>
+
+#include "daemon/config/config_groups.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// One character of each text into a fixed list; the texts must be single characters from..to.
+template <typename List>
+void read_letters(ConfigReader& group, const char* key, char from, char to, List* letters) {
+  std::vector<std::string> texts;
+  for (const char letter : *letters) texts.emplace_back(1, letter);
+  const std::string allowed =
+      "list of at most " + std::to_string(letters->capacity()) + ", each " + from + " to " + to;
+  if (!group.list(key, &texts, allowed)) return;
+  if (texts.size() > letters->capacity()) {
+    group.fail(key, "at most " + std::to_string(letters->capacity()) + " entries");
+  }
+  letters->clear();
+  for (const std::string& text : texts) {
+    if (text.size() != 1 || text[0] < from || text[0] > to) {
+      group.fail(key, "'" + text + "' is not one character from " + from + " to " + to);
+    }
+    if (std::find(letters->begin(), letters->end(), text[0]) != letters->end()) {
+      group.fail(key, "'" + text + "' is given twice");
+    }
+    letters->push_back(text[0]);
+  }
+}
+
+void read_system(ConfigReader& group, SystemConfig* config) {
+  std::string first_band(1, config->signals.first_band);
+  group.text("first_band", &first_band, "1 to 9");
+  if (first_band.size() != 1 || first_band[0] < '1' || first_band[0] > '9') {
+    group.fail("first_band", "must be one RINEX band digit, 1 to 9");
+  }
+  config->signals.first_band = first_band[0];
+  read_letters(group, "second_bands", '1', '9', &config->signals.second_bands);
+  read_letters(group, "attributes", 'A', 'Z', &config->signals.attributes);
+  group.integer("max_satellites", 0, 512, &config->max_satellites);
+  group.number("code_sigma_m", {1e-3, 1e3}, &config->sigma.code_m);
+  group.number("wideband_code_factor", {0.01, 10.0}, &config->sigma.wideband_code_factor);
+  group.number("carrier_sigma_m", {1e-5, 10.0}, &config->sigma.carrier_m);
+  group.number("doppler_sigma_m_s", {1e-4, 1e2}, &config->sigma.doppler_m_s);
+}
+
+void read_catalog(ConfigReader& group, EphemerisConfig* config) {
+  constexpr Bounds kAge = {1.0, 7.0 * 86400.0};
+  group.boolean("use_precise", &config->use_precise);
+  group.number("max_age_gps_s", kAge, &config->max_age_gps_s);
+  group.number("max_age_galileo_s", kAge, &config->max_age_galileo_s);
+  group.number("max_age_beidou_s", kAge, &config->max_age_beidou_s);
+  group.number("max_age_leo_s", kAge, &config->max_age_leo_s);
+  group.number("max_orbit_gap_s", kAge, &config->max_orbit_gap_s);
+  group.number("max_clock_gap_s", kAge, &config->max_clock_gap_s);
+  group.boolean("galileo_prefers_fnav", &config->galileo_prefers_fnav);
+}
+
+void read_systems(ConfigReader& group, GnssConfig* config) {
+  std::vector<std::string> names;
+  for (const System system : kSystems) {
+    if (config->systems[index_of(system)].enabled) names.emplace_back(to_string(system));
+  }
+  if (!group.list("systems", &names, "list of gps, galileo, beidou, leo")) return;
+  if (names.empty()) group.fail("systems", "name at least one of gps, galileo, beidou, leo");
+  for (SystemConfig& system : config->systems) system.enabled = false;
+  for (const std::string& name : names) {
+    const auto system = system_from_string(name);
+    if (!system) {
+      group.fail("systems", "'" + name + "' is not one of gps, galileo, beidou, leo");
+    }
+    SystemConfig& chosen = config->systems[index_of(*system)];
+    if (chosen.enabled) group.fail("systems", "'" + name + "' is given twice");
+    chosen.enabled = true;
+  }
+}
+
+}  // namespace
+
+void read_gnss(ConfigReader& group, GnssConfig* config) {
+  read_systems(group, config);
+  group.number("elevation_mask_deg", {-90.0, 90.0}, &config->elevation_mask, kDegree);
+  group.number("cn0_mask_dbhz", {0.0, 60.0}, &config->cn0_mask_dbhz);
+  group.choice<CodeCombination>("code_combination",
+                                {{"ionosphere_free", CodeCombination::kIonosphereFree},
+                                 {"single_frequency", CodeCombination::kSingleFrequency}},
+                                &config->code_combination);
+  group.choice<WeightModel>("weight_model",
+                            {{"elevation", WeightModel::kElevation},
+                             {"cn0", WeightModel::kCn0},
+                             {"sine", WeightModel::kSine}},
+                            &config->weight_model);
+  group.number("cn0_reference_dbhz", {10.0, 70.0}, &config->cn0_reference_dbhz);
+  group.number("ionosphere_model_error", {0.0, 10.0}, &config->ionosphere_model_error);
+  group.number("troposphere_model_error_m", {0.0, 10.0}, &config->troposphere_model_error_m);
+  group.choice<AttitudeLaw>(
+      "leo_attitude",
+      {{"orbit_normal", AttitudeLaw::kOrbitNormal}, {"yaw_steering", AttitudeLaw::kYawSteering}},
+      &config->leo_attitude);
+  read_ground(group, config);
+  group.group("ephemerides", [&](ConfigReader& ephemeris_store) {
+    read_catalog(ephemeris_store, &config->ephemeris_store);
+  });
+  for (const System system : kSystems) {
+    const std::string name(to_string(system));
+    group.group(name.c_str(), [&](ConfigReader& reader) {
+      read_system(reader, &config->systems[index_of(system)]);
+    });
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,85 @@
+#include "daemon/engine/internal/stage_sink.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/text/alignment_text.h"
+#include "daemon/threads/wall_clock.h"
+
+namespace leonav {
+
+void StageSink::on_solution(const Solution& solution) {
+  counters_->solution_time_ns.set(solution.time.nanoseconds());
+  encoder_.on_solution(solution);
+}
+
+void StageSink::on_epoch(const EpochReport& report) {
+  std::array<std::int64_t, kSystemCount> used{}, age;
+  std::array<std::int64_t, 2> by_source{}, age_by_source;  // broadcast, precise
+  age.fill(-1);
+  age_by_source.fill(-1);
+  for (const SatelliteReport& satellite : report.satellites) {
+    const OrbitChange change = orbit_source_monitor_.update(satellite.satellite, satellite.source,
+                                                            satellite.clock_from_file);
+    if (change == OrbitChange::kFallback) counters_->orbit_fallbacks.add(1);
+    if (change == OrbitChange::kReturn) counters_->orbit_returns.add(1);
+    if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;
+    const std::size_t system = index_of(satellite.satellite.system);
+    ++used[system];
+    const auto age_ms = static_cast<std::int64_t>(satellite.ephemeris_age_s * 1e3);
+    age[system] = std::max(age[system], age_ms);
+    if (satellite.source == OrbitSource::kNone) continue;
+    const std::size_t source = satellite.source == OrbitSource::kPrecise ? 1 : 0;
+    ++by_source[source];
+    age_by_source[source] = std::max(age_by_source[source], age_ms);
+  }
+  for (std::size_t i = 0; i < by_source.size(); ++i) {
+    counters_->satellites_by_source[i].set(by_source[i]);
+    counters_->age_by_source_ms[i].set(age_by_source[i]);
+  }
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    counters_->satellites_used[i].set(used[i]);
+    counters_->ephemeris_age_ms[i].set(age[i]);
+  }
+  counters_->alignment_need.set(pack_alignment_need(report.alignment));
+  if (checkpoints_ != nullptr && report.checkpoint) checkpoints_->set(*report.checkpoint);
+  encoder_.on_epoch(report);
+}
+
+void StageSink::on_event(const Event& event) {
+  if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
+  if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
+    counters_->convention_milli[event.code].set(
+        std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
+    counters_->conventions[event.code].add(1);
+  }
+  if (event.kind == EventKind::kCheckpoint) {
+    counters_->checkpoint_milli.set(std::llround(std::clamp(event.value, -1e12, 1e12) * 1e3));
+    counters_->checkpoint_use.set(event.code + 1);
+    const bool used = event.code == static_cast<std::uint8_t>(CheckpointUse::kUsed);
+    (used ? counters_->checkpoints_used : counters_->checkpoints_ignored).add(1);
+  }
+  encoder_.on_event(event);
+}
+
+void StageSink::on_decision(const Decision& decision) {
+  Gauge* counter = decision.committed ? &counters_->commits : &counters_->misses;
+  if (decision.subject == Decision::Subject::kSmoother)
+    counter = decision.committed ? &counters_->smoother_commits : &counters_->smoother_misses;
+  if (decision.subject == Decision::Subject::kKeyframe) counter = &counters_->keyframes_skipped;
+  counter->add(1);
+  encoder_.on_decision(decision);
+}
+
+void StageSink::on_smoother(const SmootherReport& report) {
+  if (report.status == SmootherStatus::kSingular || report.status == SmootherStatus::kDiverged)
+    counters_->smoother_failures.add(1);
+  counters_->smoother_iterations.add(report.iterations);
+  encoder_.on_smoother(report);
+}
+
+void StageSink::take(Channel channel, ByteSpan bytes) {
+  ring_.push(channel, wall_clock_us(), bytes);
+}
+
+}  // namespace leonav

@@ -1,0 +1,107 @@
+#include "daemon/health/internal/health_message.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <leonav/health_t.hpp>
+#include <limits>
+
+#include "core/navigator/interface/input_fault.h"
+#include "drivers/lcm/wire.h"
+
+namespace leonav {
+namespace {
+
+double resident_megabytes() {
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0.0;
+  long total = 0, resident = 0;
+  const int fields = std::fscanf(file, "%ld %ld", &total, &resident);
+  std::fclose(file);
+  return fields == 2 ? static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6 : 0.0;
+}
+
+void add_count(const std::string& name, std::int64_t value, health_t* message) {
+  if (value == 0) return;
+  count_t count;
+  count.name = name;
+  count.value = value;
+  message->counts.push_back(count);
+}
+
+// NaN for the -1 of "none in use".
+double age_s(const Gauge& age_ms) {
+  const std::int64_t value = age_ms.get();
+  return value < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * 1e-3;
+}
+
+void add_counts(EngineCounters* counters, health_t* message) {
+  for (const Channel channel : kInputChannels) {
+    const std::string name(name_of(channel));
+    add_count("received " + name, counters->received[index_of(channel)].get(), message);
+    add_count("lost " + name, counters->lost[index_of(channel)].get(), message);
+  }
+  for (std::size_t i = 0; i < counters->rejected.size(); ++i) {
+    const std::string name(to_string(static_cast<InputFault>(i)));
+    add_count("rejected " + name, counters->rejected[i].get(), message);
+  }
+  add_count("empty epochs", counters->empty_epochs.get(), message);
+  add_count("late epochs", counters->late_epochs.get(), message);
+  add_count("epochs without imu", counters->epochs_without_imu.get(), message);
+  add_count("late odometer increments", counters->late_odometer.get(), message);
+  add_count("imu gaps", counters->imu_gaps.get(), message);
+  add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
+  add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
+  add_count("orbit returns", counters->orbit_returns.get(), message);
+  add_count("filter resets", counters->resets.get(), message);
+  add_count("checkpoints used", counters->checkpoints_used.get(), message);
+  add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);
+  add_count("commits", counters->commits.get(), message);
+  add_count("smoother commits", counters->smoother_commits.get(), message);
+  add_count("smoother failures", counters->smoother_failures.get(), message);
+  add_count("smoother iterations", counters->smoother_iterations.get(), message);
+  add_count("keyframes skipped", counters->keyframes_skipped.get(), message);
+  add_count("published", counters->published.get(), message);
+  add_count("health dropped", counters->unpublished.get(), message);
+  add_count("journaled", counters->journaled.get(), message);
+  message->n_counts = static_cast<std::int32_t>(message->counts.size());
+}
+
+}  // namespace
+
+void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std::uint8_t>* bytes) {
+  EngineCounters& counters = engine->counters();
+  health_t message{};
+  message.time_ns = counters.solution_time_ns.get();
+  message.sequence = static_cast<std::int64_t>(summary.sequence);
+  message.schema = wire::kSchema;
+  message.status = summary.status;
+  message.why = summary.why;
+  message.source = std::string(to_string(summary.source));
+  message.ekf_misses = counters.misses.get();
+  message.smoother_misses = counters.smoother_misses.get();
+  message.worst_solve_ms = static_cast<double>(counters.worst_solve_ns.take()) * 1e-6;
+  message.worst_tick_us = static_cast<double>(counters.worst_tick_ns.take()) * 1e-3;
+  message.worst_ekf_ms = static_cast<double>(counters.worst_epoch_ns.take()) * 1e-6;
+  const RingStatistics rings[] = {engine->inertial_ring(), engine->gnss_ring(), engine->out_ring()};
+  for (int i = 0; i < 3; ++i) {
+    message.queue_high_water_percent[i] = static_cast<std::int32_t>(rings[i].high_water_percent);
+  }
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    message.satellites_used[i] = static_cast<std::int32_t>(counters.satellites_used[i].get());
+    message.ephemeris_age_s[i] = age_s(counters.ephemeris_age_ms[i]);
+  }
+  for (std::size_t i = 0; i < counters.satellites_by_source.size(); ++i) {
+    message.satellites_by_source[i] =
+        static_cast<std::int32_t>(counters.satellites_by_source[i].get());
+    message.age_by_source_s[i] = age_s(counters.age_by_source_ms[i]);
+  }
+  message.odometer_age_s = age_s(counters.odometer_age_ms);
+  message.memory_mb = resident_megabytes();
+  message.uptime_s = summary.uptime_s;
+  add_counts(&counters, &message);
+  bytes->resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes->data(), 0, static_cast<int>(bytes->size()));
+}
+
+}  // namespace leonav

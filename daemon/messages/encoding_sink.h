@@ -1,0 +1,43 @@
+// The EncodingSink turns outputs into LCM messages and passes them to a MessageTarget.
+#pragma once
+#include "core/navigator/interface/output_sink.h"
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/encode.h"
+
+namespace leonav {
+
+class MessageTarget {
+ public:
+  virtual ~MessageTarget() = default;
+  // `bytes` are valid during the call.
+  virtual void take(Channel channel, ByteSpan bytes) = 0;
+};
+
+// One per thread; allocates only at construction.
+class EncodingSink : public OutputSink {
+ public:
+  explicit EncodingSink(MessageTarget* target) : target_(target) {}
+  void on_solution(const Solution& solution) override {
+    target_->take(Channel::kSolution, encoder_.encode(solution));
+  }
+  void on_epoch(const EpochReport& report) override {
+    target_->take(Channel::kEpoch, encoder_.encode(report));
+    if (!report.constraint_reports.empty())
+      target_->take(Channel::kConstraints, encoder_.encode_constraints(report));
+  }
+  void on_event(const Event& event) override {
+    target_->take(Channel::kEvent, encoder_.encode(event));
+  }
+  void on_decision(const Decision& decision) override {
+    target_->take(Channel::kDecision, encoder_.encode(decision));
+  }
+  void on_smoother(const SmootherReport& report) override {
+    target_->take(Channel::kSmoother, encoder_.encode(report));
+  }
+
+ private:
+  MessageTarget* target_;
+  Encoder encoder_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,22 @@
+// The outputs that a replay must reproduce are grouped here, so that each group has one order.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/encode.h"
+
+namespace leonav {
+
+// The order within a group does not depend on how threads interleave. SOLUTION, DECISION (of the
+// inertial stage), EPOCH, EVENT by stage, SMOOTHER, and DECISION of the GNSS stage.
+inline constexpr std::array<std::string_view, 9> kOutputGroups = {
+    "SOLUTION",   "DECISION",       "EPOCH",    "EVENT sequencer",  "EVENT inertial",
+    "EVENT gnss", "EVENT smoother", "SMOOTHER", "DECISION keyframe"};
+
+// nullopt: not compared (inputs; HEALTH, which depends on the machine).
+std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes);
+
+}  // namespace leonav

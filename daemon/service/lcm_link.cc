@@ -1,0 +1,95 @@
+#include "daemon/service/lcm_link.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace leonav {
+namespace {
+
+constexpr std::string_view kUdpm = "udpm://";
+constexpr const char* kDefaultGroup = "239.255.76.67";
+constexpr std::uint16_t kDefaultPort = 7667;
+
+std::unique_ptr<lcm::LCM> open_lcm(const std::string& url) {
+  if (url.empty()) throw LcmError("the LCM URL is empty; udpm://239.255.76.67:7667?ttl=0 is usual");
+  if (url.starts_with("tcpq:")) {
+    throw LcmError("LCM URL '" + url +
+                   "': tcpq ends the process when its server is away; use udpm:// or memq://");
+  }
+  if (const auto problem = multicast_problem(url)) throw LcmError(*problem);
+  auto instance = std::make_unique<lcm::LCM>(url);
+  if (!instance->good()) {
+    throw LcmError("LCM cannot be opened at '" + url + "' (lcm.url); see the message above");
+  }
+  return instance;
+}
+
+}  // namespace
+
+std::optional<std::string> multicast_problem(const std::string& url) {
+  if (!url.starts_with(kUdpm)) return std::nullopt;
+  std::string group = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
+  std::uint16_t port = kDefaultPort;
+  if (const auto colon = group.find(':'); colon != std::string::npos) {
+    const std::string digits = group.substr(colon + 1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    group.resize(colon);
+  }
+  if (group.empty()) group = kDefaultGroup;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  if (inet_pton(AF_INET, group.c_str(), &address.sin_addr) != 1 ||
+      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
+    return "lcm.url '" + url + "': '" + group + "' is not a multicast address";
+  }
+  const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) return std::nullopt;
+  const bool reached =
+      connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  const int error = errno;
+  close(descriptor);
+  if (reached) return std::nullopt;
+  return "no multicast route to " + group + " (" + std::strerror(error) +
+         "); mend it as root with: ip link set lo up multicast on && "
+         "ip route add 224.0.0.0/4 dev lo";
+}
+
+LcmPublisher::LcmPublisher(const LcmConfig& config) : lcm_(open_lcm(config.url)) {
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    names_.push_back(channel_name(static_cast<Channel>(i), config.prefix));
+  }
+}
+
+void LcmPublisher::take(Channel channel, ByteSpan bytes) {
+  lcm_->publish(names_[index_of(channel)], bytes.data(), static_cast<unsigned>(bytes.size()));
+}
+
+LcmReceiver::LcmReceiver(const LcmConfig& config, Engine* engine)
+    : engine_(engine), prefix_(config.prefix), lcm_(open_lcm(config.url)) {
+  for (const Channel channel : kInputChannels) {
+    const std::string name = channel_name(channel, prefix_);
+    lcm::Subscription* subscription = lcm_->subscribe(name, &LcmReceiver::on_message, this);
+    if (subscription == nullptr) {
+      throw LcmError("LCM cannot subscribe to " + name + " at '" + config.url + "'");
+    }
+    subscription->setQueueCapacity(config.receive_queue);
+  }
+}
+
+bool LcmReceiver::receive(int timeout_ms) { return lcm_->handleTimeout(timeout_ms) >= 0; }
+
+void LcmReceiver::on_message(const lcm::ReceiveBuffer* buffer, const std::string& name) {
+  const auto channel = channel_from_name(name, prefix_);
+  if (!channel) return;
+  engine_->receive(*channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
+                   buffer->recv_utime);
+}
+
+}  // namespace leonav

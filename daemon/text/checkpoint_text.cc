@@ -1,0 +1,38 @@
+#include "daemon/text/checkpoint_text.h"
+
+#include <cstdio>
+
+namespace leonav {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+}  // namespace
+
+std::string checkpoint_text(CheckpointUse use, double value) {
+  constexpr double kDay_s = 86400.0;
+  switch (use) {
+    case CheckpointUse::kUsed:
+      return "checkpoint used: heading as it was parked, " + number(value) + " m from its position";
+    case CheckpointUse::kElsewhere:
+      return "checkpoint ignored: the vehicle stands " + number(value) + " m from its position";
+    case CheckpointUse::kOld:
+      return "checkpoint ignored: " + number(value / kDay_s) +
+             " days old, more than checkpoint.max_age_s";
+    case CheckpointUse::kFuture:
+      return "checkpoint ignored: " + number(value) + " s later than the measurements";
+    case CheckpointUse::kTakenMoving:
+      return "checkpoint ignored: the vehicle was moving when it was written";
+    case CheckpointUse::kMoves:
+      return "checkpoint ignored: the vehicle moves, or has turned since the start";
+    case CheckpointUse::kNotNeeded:
+      return "checkpoint ignored: there is a heading already";
+  }
+  return "checkpoint: unknown";
+}
+
+}  // namespace leonav

@@ -1,0 +1,77 @@
+// The EngineCounters are numbers that each thread writes and `main` reads.
+#pragma once
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include "core/gnss/signals/satellite.h"
+#include "core/installation_checks/convention.h"
+#include "drivers/lcm/channels.h"
+
+namespace leonav {
+
+// A number with one writing thread and any number of readers.
+class Gauge {
+ public:
+  void set(std::int64_t value) { value_.store(value, std::memory_order_release); }
+  void add(std::int64_t value) { value_.fetch_add(value, std::memory_order_relaxed); }
+  void raise_to(std::int64_t value) {
+    if (value > get()) set(value);
+  }
+  std::int64_t get() const { return value_.load(std::memory_order_acquire); }
+  std::int64_t take() { return value_.exchange(0, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::int64_t> value_{0};
+};
+
+// Nanoseconds since construction.
+class Stopwatch {
+ public:
+  std::int64_t nanoseconds() const {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() -
+                                                                start_)
+        .count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct EngineCounters {
+  // io
+  Gauge io_rounds;  // polls for messages, with or without one
+  std::array<Gauge, kInputChannels.size()> received, lost;
+  std::array<Gauge, 16> rejected;  // by InputFault
+  Gauge odometer_age_ms;           // -1: none came
+  Gauge accepted_odometer, late_odometer;
+  Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps, imu_smoothed,
+      epochs_without_imu;
+  // ins, or gnss where that publishes
+  Gauge solution_time_ns, source, commits, misses, smoother_commits, smoother_misses, worst_tick_ns;
+  // gnss
+  std::array<Gauge, kSystemCount> satellites_used;
+  std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
+  // The same by source of the orbit: broadcast, precise.
+  std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
+  Gauge orbit_fallbacks, orbit_returns;
+  Gauge alignment_need;  // pack_alignment_need(), alignment_text.h
+  Gauge worst_epoch_ns;
+  Gauge keyframes_skipped;
+  Gauge checkpoints_used, checkpoints_ignored;
+  // The last kCheckpoint event: 1 + CheckpointUse (0: none), and a thousand times the value.
+  Gauge checkpoint_use, checkpoint_milli;
+  // smoother
+  Gauge worst_solve_ns, smoother_failures, smoother_iterations;
+  // any stage
+  Gauge resets;
+  // Events of each Convention, and a thousand times the value of the last.
+  std::array<Gauge, kConventionCount> conventions, convention_milli;
+  // main
+  Gauge unpublished;  // messages of HEALTH that found no room
+  // out
+  Gauge published, journaled, journal_failed;
+};
+
+}  // namespace leonav

@@ -1,0 +1,63 @@
+#include "daemon/threads/realtime_thread.h"
+
+#include <sched.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace leonav {
+namespace {
+
+// Locked memory counts whole stacks, so they are no larger than they must be; the GNSS stage keeps
+// matrices of some hundred kilobytes on its own.
+constexpr std::size_t kStackBytes = 4U << 20;
+
+}  // namespace
+
+std::string RealtimeThread::start(const std::string& name, const ThreadConfig& config,
+                                  std::function<void()> body) {
+  body_ = std::move(body);
+  name_ = "leonav-" + name;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  const auto entry = [](void* self) -> void* {
+    auto* thread = static_cast<RealtimeThread*>(self);
+    pthread_setname_np(pthread_self(), thread->name_.c_str());
+    thread->body_();
+    return nullptr;
+  };
+  const int failure = pthread_create(&thread_, &attributes, entry, this);
+  pthread_attr_destroy(&attributes);
+  if (failure != 0) {
+    throw std::runtime_error("cannot start thread " + name + ": " + std::strerror(failure));
+  }
+  running_ = true;
+  std::string refused;
+  if (config.priority > 0) {
+    sched_param parameters{};
+    parameters.sched_priority = config.priority;
+    if (const int error = pthread_setschedparam(thread_, SCHED_FIFO, &parameters)) {
+      refused += "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(error);
+    }
+  }
+  if (config.cpu >= 0) {
+    cpu_set_t cpus;
+    CPU_ZERO(&cpus);
+    CPU_SET(static_cast<unsigned>(config.cpu), &cpus);
+    if (const int error = pthread_setaffinity_np(thread_, sizeof cpus, &cpus)) {
+      refused += (refused.empty() ? "thread " : "; thread ") + name + ": not pinned to processor " +
+                 std::to_string(config.cpu) + ": " + std::strerror(error);
+    }
+  }
+  return refused;
+}
+
+void RealtimeThread::join() {
+  if (!running_) return;
+  pthread_join(thread_, nullptr);
+  running_ = false;
+}
+
+}  // namespace leonav

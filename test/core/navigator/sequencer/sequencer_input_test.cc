@@ -1,0 +1,72 @@
+// Inputs that are refused by themselves, wherever they stand in time.
+#include "core/navigator/sequencer/sequencer.h"
+
+#include <limits>
+
+#include "support/catch.h"
+#include "support/sequencer_rig.h"
+
+namespace leonav::test {
+namespace {
+
+TEST_CASE("observations that no receiver can have made are left out, the rest is sorted") {
+  SequencerRig rig;
+  rig.imu(0, 1000);
+  RawEpoch raw = epoch_at(at_ms(1000));
+  SignalObservation o = raw.observations[0];
+  o.satellite = {System::kGps, 3};
+  raw.observations.push_back(o);
+  raw.observations.push_back(o);  // again
+  o.satellite = {System::kGps, 999};
+  raw.observations.push_back(o);
+  rig.sequencer.on_raw_epoch(raw);
+  REQUIRE(rig.stages.blocks.size() == 1);
+  CHECK(rig.stages.blocks[0].observations == 2);
+  CHECK(rig.rejected(InputFault::kNotSane) == 1);
+}
+
+TEST_CASE("hostile commands, ephemerides, antennas and precise states are counted and dropped") {
+  SequencerRig rig;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  rig.sequencer.on_command({CommandKind::kSetHeading, nan, 0.1});
+  rig.sequencer.on_command({CommandKind::kSetHeading, 1.0, -0.1});
+  rig.sequencer.on_command({static_cast<CommandKind>(77), 1.0, 0.1});
+  rig.sequencer.on_ephemeris(Ephemeris());
+  rig.sequencer.on_antenna(AntennaPattern());
+  PreciseState state;
+  state.satellite = {System::kGps, 4};
+  state.time = kStart;
+  state.p_e << nan, 0, 0;
+  rig.sequencer.on_precise_states({state});
+  state.p_e.setZero();
+  rig.sequencer.on_precise_states({state});
+  rig.sequencer.on_rejected(InputFault::kUndecodable);
+  CHECK(rig.rejected(InputFault::kNotFinite) == 2);
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
+  CHECK(rig.rejected(InputFault::kNotSane) == 2);
+  CHECK(rig.rejected(InputFault::kUndecodable) == 1);
+  CHECK(rig.stages.commands.empty());
+  CHECK(rig.stages.precise.empty());
+}
+
+TEST_CASE("the good states of a message are one piece of work, each bad one is counted") {
+  SequencerRig rig;
+  PreciseStates states;
+  for (std::uint16_t number = 1; number <= 30; ++number) {
+    PreciseState state;
+    state.satellite = {System::kGps, number};
+    state.time = kStart;
+    state.p_e << 2.6e7, 0.0, 0.0;
+    if (number % 10 == 0) state.p_e.x() = 1.0;
+    states.push_back(state);
+  }
+  rig.sequencer.on_precise_states(states);
+  rig.sequencer.on_precise_states({});
+  REQUIRE(rig.stages.precise.size() == 1);
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 3);
+  REQUIRE(rig.stages.precise[0].size() == 27);
+  CHECK(rig.stages.precise[0][9].satellite.number == 11);  // in their order, without the tenth
+}
+
+}  // namespace
+}  // namespace leonav::test

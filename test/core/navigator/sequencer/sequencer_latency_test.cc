@@ -1,0 +1,133 @@
+// Epochs that come late, again, or out of order.
+#include "core/navigator/sequencer/sequencer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "support/catch.h"
+#include "support/sequencer_rig.h"
+
+namespace leonav::test {
+namespace {
+
+// Epochs as a receiver of this latency delivers them over a minute; those the
+// stages saw.
+std::size_t epochs_used(std::int64_t interval_ms, std::int64_t latency_ms, SequencerRig* rig) {
+  std::int64_t next = interval_ms;
+  for (std::int64_t ms = 5; ms <= 60'000 + latency_ms; ms += 5) {
+    rig->sequencer.on_imu(sample_until(at_ms(ms)));
+    if (next <= 60'000 && ms >= next + latency_ms) {
+      rig->sequencer.on_raw_epoch(epoch_at(at_ms(next)));
+      next += interval_ms;
+    }
+  }
+  const auto& blocks = rig->stages.blocks;
+  return static_cast<std::size_t>(
+      std::count_if(blocks.begin(), blocks.end(), [](const auto& b) { return !b.empty; }));
+}
+
+TEST_CASE(
+    "a steady GNSS latency costs no epoch, one beyond the allowance the "
+    "first ones") {
+  struct Case {
+    std::int64_t interval_ms, latency_ms;
+    std::size_t lost;
+  };
+  // Until the first late epoch teaches the wait, those under way with it are
+  // lost too.
+  for (const Case& c : {Case{100, 60, 0}, Case{100, 150, 0}, Case{100, 300, 0}, Case{100, 900, 5},
+                        Case{250, 200, 0}, Case{1000, 300, 0}, Case{1000, 520, 1},
+                        Case{1000, 900, 1}, Case{30'000, 900, 0}}) {
+    CAPTURE(c.interval_ms, c.latency_ms);
+    NavigatorConfig config;
+    config.realtime.epoch_interval_s = static_cast<double>(c.interval_ms) * 1e-3;
+    SequencerRig rig(config);
+    const auto sent = static_cast<std::size_t>(60'000 / c.interval_ms);
+    const std::size_t used = epochs_used(c.interval_ms, c.latency_ms, &rig);
+    CHECK(used + c.lost >= sent);
+    CHECK(rig.sequencer.counters().late_epochs == sent - used);
+    check_tiling(rig.stages);
+  }
+}
+
+TEST_CASE("old epochs delivered again do not lengthen the wait") {
+  SequencerRig rig;
+  for (int k = 1; k <= 3; ++k) {
+    rig.imu(1000 * (k - 1), 1000 * k);
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * k)));
+  }
+  rig.imu(3000, 4500);
+  CHECK(rig.stages.blocks.back().time == at_ms(4000));
+  for (int i = 0; i < 20; ++i) rig.sequencer.on_raw_epoch(epoch_at(at_ms(2000)));
+  rig.imu(4500, 5500);
+  CHECK(rig.stages.blocks.back().time == at_ms(5000));
+}
+
+TEST_CASE("late and repeated epochs are counted and dropped, and cost nothing else") {
+  SequencerRig rig;
+  rig.imu(0, 1010);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  CHECK(rig.rejected(InputFault::kDuplicate) == 1);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(400)));
+  CHECK(rig.sequencer.counters().late_epochs == 1);
+  REQUIRE(rig.stages.count(EventKind::kLateEpoch) == 1);
+  CHECK(rig.stages.events.back().value == Approx(0.6));
+  rig.imu(1010, 2600);  // the empty epoch for 2000 is out
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(2000)));
+  CHECK(rig.sequencer.counters().late_epochs == 2);
+  rig.imu(2600, 3000);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(3000)));
+  CHECK(rig.stages.blocks.back().time == at_ms(3000));
+  CHECK_FALSE(rig.stages.blocks.back().empty);
+  check_tiling(rig.stages);
+}
+
+TEST_CASE("an IMU that comes late costs no epoch its samples, up to two seconds") {
+  for (const auto& [interval_ms, latency_ms] :
+       {std::pair(100, 600), {100, 1900}, {50, 1900}, {200, 1500}, {1000, 3500}}) {
+    CAPTURE(interval_ms, latency_ms);
+    NavigatorConfig config;
+    config.realtime.epoch_interval_s = interval_ms * 1e-3;
+    SequencerRig rig(config);
+    for (int ms = 5; ms <= 30'000; ms += 5) {
+      if (ms > latency_ms) rig.sequencer.on_imu(sample_until(at_ms(ms - latency_ms)));
+      if (ms % interval_ms == 0) rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+    }
+    const auto expected = static_cast<std::size_t>((30'000 - latency_ms) / interval_ms);
+    REQUIRE(rig.stages.blocks.size() == expected);
+    for (const auto& block : rig.stages.blocks) {
+      CHECK_FALSE(block.empty);
+      CHECK(block.samples.size() == static_cast<std::size_t>(interval_ms / 5));
+    }
+    CHECK(rig.sequencer.counters().epochs_without_imu == 0);
+    check_tiling(rig.stages);
+  }
+}
+
+TEST_CASE(
+    "epochs whose IMU does not come are issued without it after two "
+    "seconds, and told") {
+  NavigatorConfig config;
+  config.realtime.epoch_interval_s = 0.1;
+  SequencerRig rig(config);
+  rig.imu(0, 400);
+  for (int ms = 1100; ms <= 20'000; ms += 100) rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+  CHECK(rig.stages.blocks.size() == 190 - 21);  // of 2 s
+  CHECK(rig.sequencer.counters().epochs_without_imu == 190 - 21);
+  CHECK(rig.stages.count(EventKind::kCapacity) == 16);  // then each 256th
+  CHECK(rig.stages.blocks.back().samples.empty());
+}
+
+TEST_CASE("epochs at a high rate fill the table before the two seconds") {
+  NavigatorConfig config;
+  config.realtime.epoch_interval_s = 0.05;
+  SequencerRig rig(config);
+  rig.imu(0, 400);
+  for (int ms = 1010; ms <= 3000; ms += 10) rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+  CHECK(rig.stages.blocks.size() == 200 - kMaxPendingEpochs);
+  CHECK(rig.sequencer.counters().epochs_without_imu == 200 - kMaxPendingEpochs);
+}
+
+}  // namespace
+}  // namespace leonav::test

@@ -1,0 +1,160 @@
+// A heading from outside, by configuration or command.
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "support/catch.h"
+#include "support/stage_drive.h"
+
+namespace leonav::test {
+namespace {
+
+double heading_at(const SyntheticDrive& drive, double t) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
+  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
+      .yaw;
+}
+
+TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
+  const SyntheticDrive drive = drive_of(90.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  for (const bool heading_given : {false, true}) {
+    CAPTURE(heading_given);
+    RecordingSink sink;
+    Navigator pipeline(config, &sink);
+    feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+      const double t = seconds(raw.time);
+      if (std::abs(t - 50.0) >= 0.5) return;
+      sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+      if (heading_given) {
+        sequencer->on_command({CommandKind::kSetHeading, heading_at(drive, t), 0.05});
+      }
+    });
+    CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kCommand});
+    CHECK(sink.count(EventKind::kAligned) == 2);
+    CHECK(sink.epochs.size() == 89);
+    CHECK(sink.epochs.back().solution.has_attitude);
+    CHECK(worst_error(sink, drive, 75.0, 90.0) < 1.0);
+  }
+}
+
+// Restarts the filter at each of these times.
+RecordingSink run_with_restarts(const SyntheticDrive& drive, const NavigatorConfig& config,
+                                const std::vector<double>& restarts_s) {
+  RecordingSink sink;
+  Navigator pipeline(config, &sink);
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    for (const double t : restarts_s)
+      if (std::abs(seconds(raw.time) - t) < 0.5)
+        sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+  });
+  return sink;
+}
+
+// Seconds from `since_s` to the first epoch with an attitude.
+double wait_for_attitude(const RecordingSink& sink, double since_s) {
+  for (const EpochReport& report : sink.epochs) {
+    const double t = seconds(report.time);
+    if (t > since_s + 0.5 && report.solution.has_attitude) return t - since_s;
+  }
+  return 1e9;
+}
+
+TEST_CASE("a configured heading aligns once, and again only while the vehicle stands there") {
+  SyntheticDriveOptions options;
+  options.duration_s = 90.0;
+  options.standstill_s = 30.0;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(options);
+  config.alignment.initial_heading = heading_at(drive, 0.0);
+  // At 65 s the vehicle drives in another direction than it stood.
+  REQUIRE(std::abs(wrap_to_pi(heading_at(drive, 66.0) - heading_at(drive, 0.0))) > 1.0);
+  const RecordingSink sink = run_with_restarts(drive, config, {15.0, 65.0});
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kCommand, ResetCause::kCommand});
+  CHECK(sink.count(EventKind::kAligned) == 3);
+  CHECK(wait_for_attitude(sink, 0.0) < 3.5);
+  CHECK(wait_for_attitude(sink, 15.0) < 3.5);
+  CHECK(wait_for_attitude(sink, 65.0) > 3.5);  // the course takes its time
+  int judged = 0;
+  for (const EpochReport& report : sink.epochs) {
+    if (!report.solution.has_attitude) continue;
+    ++judged;
+    const double off = wrap_to_pi(report.solution.yaw - heading_at(drive, seconds(report.time)));
+    CHECK(std::abs(off) < 4.0 * report.solution.sigma_rpy.z() + 0.002);
+  }
+  CHECK(judged >= 75);
+  CHECK(worst_error(sink, drive, 72.0, 90.0) < 1.0);
+}
+
+TEST_CASE("a heading that was found is less certain for a while, one that was told is not") {
+  SyntheticDriveOptions options;
+  options.duration_s = 120.0;
+  options.doppler_sigma_m_s = 0.03;
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(options);
+  const auto sigma = [&](double since_s) {
+    const RecordingSink sink = run(drive, config);
+    const EpochReport* aligned = nullptr;
+    for (const EpochReport& report : sink.epochs) {
+      if (aligned == nullptr && report.solution.has_attitude) aligned = &report;
+      if (aligned != nullptr && seconds(report.time) >= seconds(aligned->time) + since_s)
+        return report.solution.sigma_rpy.z();
+    }
+    FAIL("not that long");
+    return 0.0;
+  };
+  config.alignment.settling_s = 20.0;
+  for (const bool told : {false, true}) {
+    CAPTURE(told);
+    config.alignment.initial_heading.reset();
+    if (told) config.alignment.initial_heading = heading_at(drive, 0.0);
+    config.alignment.settling_random_walk = 0.0;
+    const double plain = sigma(15.0), plain_later = sigma(60.0);
+    config.alignment.settling_random_walk = 0.01;
+    if (told) {
+      CHECK(sigma(15.0) == plain);
+    } else {
+      CHECK(sigma(15.0) > 2.0 * plain);
+      CHECK(sigma(60.0) < 1.5 * plain_later);
+    }
+  }
+}
+
+double error_at_end(const RecordingSink& sink, const SyntheticDrive& drive) {
+  const EpochReport& last = sink.epochs.back();
+  REQUIRE(last.solution.has_attitude);
+  return wrap_to_pi(last.solution.yaw - heading_at(drive, seconds(last.time)));
+}
+
+TEST_CASE(
+    "a heading that was told wrongly is noticed once the vehicle drives, a right one is not") {
+  SyntheticDriveOptions options;
+  options.duration_s = 70.0;
+  options.epoch_interval_s = GENERATE(1.0, 0.2);
+  options.doppler_sigma_m_s = 0.03;
+  options.code_sigma_m = 0.5;
+  CAPTURE(options.epoch_interval_s);
+  const SyntheticDrive drive = synthetic_drive(options);
+  NavigatorConfig config = drive_navigator_config(drive.options);
+  config.alignment.velocity_matching = config.alignment.heading_watch = true;
+  config.alignment.max_reverse_speed_m_s = 5.0;
+  config.alignment.lever_arm_b = options.lever_arm_b;
+  for (const double off_deg : {0.0, 3.0, -40.0, 90.0, -135.0, 180.0}) {
+    CAPTURE(off_deg);
+    const double off = off_deg * 3.14159265358979 / 180.0;
+    config.alignment.initial_heading = wrap_to_pi(heading_at(drive, 0.0) + off);
+    const RecordingSink sink = run(drive, config);
+    int found = 0;
+    for (const Event& event : sink.events) {
+      if (event.kind != EventKind::kFilterReset) continue;
+      CHECK(event.code == static_cast<std::uint8_t>(ResetCause::kHeading));
+      CHECK(seconds(event.time) - options.standstill_s < 15.0);
+      ++found;
+    }
+    // Within some of the sigmas it was told with the filter finds back by itself.
+    if (std::abs(off_deg) < 10.0) CHECK(found == 0);
+    if (std::abs(off_deg) > 60.0) CHECK(found == 1);
+    CHECK(std::abs(error_at_end(sink, drive)) < 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace leonav::test

@@ -1,0 +1,168 @@
+// When the filter is started anew, and when it is not.
+#include "support/catch.h"
+#include "support/stage_drive.h"
+
+namespace leonav::test {
+namespace {
+
+TEST_CASE("a wrong prediction restarts the filter, which keeps its attitude the first time") {
+  const SyntheticDrive there = drive_of(120.0, 3'000.0);
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+  CHECK(sink.count(EventKind::kAligned) == 1);
+  CHECK(worst_error(sink, drive, 40.0, 59.5) < 0.5);
+  // Two suspect epochs are believed to be the measurements' fault, the third is not.
+  CHECK(worst_error(sink, there, 60.0, 61.5) > 2'900.0);
+  CHECK(worst_error(sink, there, 65.0, 120.0) < 5.0);
+  for (const EpochReport& report : sink.epochs) {
+    if (seconds(report.time) > 62.5) CHECK(report.solution.has_attitude);
+  }
+  // Jumps say so.
+  CHECK(sink.count(EventKind::kSolutionJump) >= 1);
+  const auto jumped = std::any_of(sink.solutions.begin(), sink.solutions.end(),
+                                  [](const Solution& s) { return s.jump_m > 2'900.0; });
+  CHECK(jumped);
+}
+
+TEST_CASE("an attitude that still settles goes on settling in the filter that is started anew") {
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const auto sigma_at_85 = [&](double random_walk, double settling_s) {
+    config.alignment.settling_random_walk = random_walk;
+    config.alignment.settling_s = settling_s;
+    const RecordingSink sink = run(drive, config);
+    CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+    for (const EpochReport& report : sink.epochs)
+      if (seconds(report.time) >= 85.0) return report.solution.sigma_rpy.z();
+    return 0.0;
+  };
+  const double settled_before = sigma_at_85(0.01, 30.0);
+  CHECK(sigma_at_85(0.01, 100.0) > 1.5 * settled_before);
+}
+
+TEST_CASE("a second wrong prediction within a minute gives up the attitude too") {
+  SyntheticDrive drive = carried_away(120.0, 50.0, 3'000.0);
+  const SyntheticDrive there = drive_of(120.0, 6'000.0);
+  for (std::size_t k = 0; k < drive.epochs.size(); ++k) {
+    if (seconds(drive.epochs[k].time) >= 70.0) drive.epochs[k] = there.epochs[k];
+  }
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction, ResetCause::kPrediction});
+  CHECK(sink.count(EventKind::kAligned) == 2);
+  CHECK(worst_error(sink, there, 75.0, 120.0) < 5.0);
+  CHECK(sink.epochs.back().solution.has_attitude);
+}
+
+TEST_CASE("without robust weights a vehicle carried away is found again, widening or restarting") {
+  const SyntheticDrive there = drive_of(120.0, 3'000.0);
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  for (const double widen : {3.0, kNeverWiden}) {
+    CAPTURE(widen);
+    NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+    config.ekf.robust.enabled = false;
+    config.ekf.prediction_suspect_ratio = widen;
+    const RecordingSink sink = run(drive, config);
+    CHECK(worst_error(sink, there, 70.0, 120.0) < 5.0);
+  }
+}
+
+TEST_CASE("a filter locked out of all Dopplers is started anew, with codes good or not") {
+  SyntheticDrive drive = drive_of(90.0, 0.0, false);
+  // The oscillator's frequency steps by 50 m/s. Codes follow, as clock jumps.
+  for (RawEpoch& raw : drive.epochs) {
+    const double t = seconds(raw.time) - 40.0;
+    if (t <= 0.0) continue;
+    for (SignalObservation& o : raw.observations) {
+      o.pseudorange_m += 50.0 * t;
+      o.doppler_hz -= 50.0 / wavelength_m(o.satellite.system, o.code.band);
+    }
+  }
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kPrediction});
+  int dopplers = 0;
+  for (const AidingReport& aiding : sink.epochs.back().aiding)
+    if (aiding.observable == Observable::kDoppler && aiding.weight_factor > 0.5) ++dopplers;
+  CHECK(dopplers >= 6);
+  CHECK(worst_error(sink, drive, 50.0, 90.0) < 3.0);
+}
+
+TEST_CASE("a point solution that nothing checks does not overthrow the filter at once") {
+  SyntheticDrive drive = carried_away(85.0, 60.0, 3'000.0);
+  // Four satellites of one system are left: any four codes fit a position.
+  for (RawEpoch& raw : drive.epochs) {
+    if (seconds(raw.time) < 59.5) continue;
+    std::vector<SatelliteId> seen;
+    const auto surplus = [&](const SignalObservation& o) {
+      if (o.satellite.system != System::kGps) return true;
+      if (std::find(seen.begin(), seen.end(), o.satellite) == seen.end())
+        seen.push_back(o.satellite);
+      return seen.size() > 5;
+    };
+    auto& all = raw.observations;
+    all.erase(std::remove_if(all.begin(), all.end(), surplus), all.end());
+  }
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  CHECK(resets(run(drive, config)).empty());
+}
+
+TEST_CASE("as configured, the filter follows a vehicle that was carried away without a restart") {
+  const SyntheticDrive there = drive_of(120.0, 3'000.0);
+  const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
+  const RecordingSink sink =
+      run(drive, drive_navigator_config(drive.options, MotionModel::kInertial));
+  CHECK(worst_error(sink, there, 70.0, 120.0) < 5.0);
+}
+
+TEST_CASE("after an outage that leaves the position unknown, the first epoch starts anew") {
+  SyntheticDrive drive = drive_of(900.0, 0.0, false);
+  std::erase_if(drive.epochs, [](const RawEpoch& raw) {
+    return seconds(raw.time) > 60.5 && seconds(raw.time) < 799.5;
+  });
+  const NavigatorConfig config =
+      drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kOutage});
+  CHECK(sink.solutions.size() == drive.epochs.size());
+  CHECK(worst_error(sink, drive, 799.5, 900.0) < 3.0);
+}
+
+TEST_CASE("an outage that ends in faults does not start anew from them") {
+  SyntheticDrive drive = drive_of(830.0, 0.0, false);
+  std::erase_if(drive.epochs, [](const RawEpoch& raw) {
+    return seconds(raw.time) > 60.5 && seconds(raw.time) < 799.5;
+  });
+  // Three satellites left: no position, and every one says why.
+  for (RawEpoch& raw : drive.epochs) {
+    if (seconds(raw.time) < 799.5 || seconds(raw.time) > 805.5) continue;
+    const SatelliteId third =
+        raw.observations[std::min<std::size_t>(6, raw.observations.size() - 1)].satellite;
+    const auto end = std::find_if(raw.observations.begin(), raw.observations.end(),
+                                  [&](const auto& o) { return third < o.satellite; });
+    raw.observations.erase(end, raw.observations.end());
+  }
+  const RecordingSink sink =
+      run(drive, drive_navigator_config(drive.options, MotionModel::kConstantVelocity));
+  for (const EpochReport& report : sink.epochs) {
+    const double t = seconds(report.time);
+    if (t < 799.5 || t > 805.5) continue;
+    CHECK(report.satellites_used == 0);
+    CHECK(report.solution.sigma_p_n.norm() > 500.0);
+    for (const SatelliteReport& satellite : report.satellites) {
+      CHECK(satellite.reason != Reason::kUsed);
+    }
+  }
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kOutage});
+  CHECK(worst_error(sink, drive, 806.0, 830.0) < 3.0);
+}
+
+}  // namespace
+}  // namespace leonav::test

@@ -1,0 +1,76 @@
+// What is told of satellites whose orbits change between precise and broadcast ones.
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "support/catch.h"
+#include "support/stage_drive.h"
+
+namespace leonav::test {
+namespace {
+
+// Precise states of GPS every 10 s that come half an interval after they are needed: each serves
+// for five seconds, and broadcast elements for the next five.
+RecordingSink run_with_late_product(const SyntheticDrive& drive) {
+  RecordingSink sink;
+  Navigator pipeline(drive_navigator_config(drive.options, MotionModel::kConstantVelocity), &sink);
+  Sequencer& sequencer = pipeline.sequencer();
+  for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
+  std::vector<Ephemeris> gps;
+  std::copy_if(drive.ephemerides.begin(), drive.ephemerides.end(), std::back_inserter(gps),
+               [](const Ephemeris& e) { return e.satellite.system == System::kGps; });
+  ProductNodes product(gps, 10.0, 5.0);
+  for (const RawEpoch& raw : drive.epochs) {
+    product.send_until(seconds(raw.time), &sequencer);
+    sequencer.on_raw_epoch(raw);
+  }
+  return sink;
+}
+
+struct Switch {
+  GpsTime time;
+  SatelliteId satellite;
+};
+
+// Those of the epochs' own reports.
+std::vector<Switch> switches(const RecordingSink& sink, OrbitSource to) {
+  std::vector<Switch> found;
+  std::map<SatelliteId, OrbitSource> last;
+  for (const EpochReport& report : sink.epochs) {
+    for (const SatelliteReport& satellite : report.satellites) {
+      if (satellite.source == OrbitSource::kNone) continue;
+      const auto [place, first] = last.insert({satellite.satellite, satellite.source});
+      if (!first && place->second != satellite.source && satellite.source == to)
+        found.push_back({report.time, satellite.satellite});
+      place->second = satellite.source;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a satellite's way to broadcast orbits and back is told, the first sixteen times each") {
+  const RecordingSink sink = run_with_late_product(drive_of(60.0, 0.0, false));
+  for (const bool fallback : {true, false}) {
+    CAPTURE(fallback);
+    const auto expected =
+        switches(sink, fallback ? OrbitSource::kBroadcast : OrbitSource::kPrecise);
+    REQUIRE(expected.size() > 30);
+    REQUIRE(expected.size() < 256);
+    std::size_t told = 0;
+    for (const Event& event : sink.events) {
+      if (event.kind != (fallback ? EventKind::kOrbitFallback : EventKind::kOrbitReturn)) continue;
+      REQUIRE(told < 16);
+      CHECK(event.time == expected[told].time);
+      CHECK(event.code == static_cast<std::uint8_t>(expected[told].satellite.system));
+      CHECK(event.value == expected[told].satellite.number);
+      ++told;
+    }
+    CHECK(told == 16);
+  }
+  CHECK(to_string(EventKind::kOrbitReturn) == "orbit_return");
+}
+
+}  // namespace leonav::test

@@ -1,0 +1,231 @@
+// The checkpoint's file: round trip, damage, power cuts; and who keeps it up to date.
+#include "daemon/checkpoint/checkpoint_file.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "daemon/checkpoint/checkpoint_writer.h"
+#include "daemon/config/load_config.h"
+#include "support/catch.h"
+#include "support/parked_checkpoint.h"
+#include "support/program_run.h"
+#include "support/temporary_file.h"
+
+namespace {
+
+using namespace leonav;
+using test::parked;
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string error_of(const std::string& path) {
+  try {
+    load_checkpoint(path);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Waits, ten seconds at most.
+template <typename Condition>
+bool comes_true(Condition condition) {
+  for (int i = 0; i < 1000 && !condition(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return condition();
+}
+
+}  // namespace
+
+TEST_CASE("a checkpoint comes back from its file; where there is none, that is no error") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  CHECK_FALSE(load_checkpoint(path));
+  const Checkpoint saved = parked();
+  REQUIRE(save_checkpoint(path, saved).empty());
+  CHECK_FALSE(std::filesystem::exists(path + ".tmp"));
+  const auto loaded = load_checkpoint(path);
+  REQUIRE(loaded);
+  CHECK(std::abs(seconds_between(loaded->time, saved.time)) < 1e-5);
+  CHECK(loaded->standing);
+  CHECK((loaded->antenna_p_e - saved.antenna_p_e).norm() < 1e-4);
+  CHECK(loaded->antenna_sigma == Approx(saved.antenna_sigma));
+  CHECK(loaded->heading == Approx(saved.heading));
+  CHECK(loaded->heading_sigma == Approx(saved.heading_sigma));
+  CHECK((loaded->gyro_bias_b - saved.gyro_bias_b).norm() < 1e-12);
+  CHECK(loaded->gyro_bias_sigma == Approx(saved.gyro_bias_sigma));
+  REQUIRE(remove_checkpoint(path).empty());
+  CHECK_FALSE(load_checkpoint(path));
+  CHECK(remove_checkpoint(path).empty());
+}
+
+TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
+  const test::TemporaryFile file("checkpoint.yaml", "");
+  CHECK(error_of(file.path()) == file.path() + ": is damaged: empty");
+  REQUIRE(save_checkpoint(file.path(), parked()).empty());
+  const std::string good = test::text_of(file.path());
+  // Cut anywhere it is never taken for another one; but for the last line end, it is an error.
+  for (std::size_t size = 0; size + 1 < good.size(); ++size) {
+    INFO(good.substr(0, size));
+    write_file(file.path(), good.substr(0, size));
+    CHECK_FALSE(error_of(file.path()).empty());
+  }
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, text.find('\n', at) - at, to);
+    write_file(file.path(), text);
+    return error_of(file.path());
+  };
+  CHECK(with("heading_deg", "heading_deg: nan").find(":7: heading_deg: 'nan'") !=
+        std::string::npos);
+  CHECK(with("heading_deg", "heading_deg: 400").find(":7: heading_deg") != std::string::npos);
+  CHECK(with("heading_deg", "").find("heading_deg is missing") != std::string::npos);
+  CHECK(with("heading_deg", "heading_rad: 1").find("unknown key") != std::string::npos);
+  CHECK(with("gps_week", "gps_week: -3").find("gps_week") != std::string::npos);
+  for (const char* bad :
+       {"heading_sigma_deg: 0", "heading_sigma_deg: 30", "antenna_p_e_m: [1, 2, 3]",
+        "antenna_sigma_m: 0", "complete: false", "gyro_bias_sigma_deg_per_h: 0"}) {
+    const std::string text = bad;
+    CHECK(with(text.substr(0, text.find(':')), text).find("holds no place") != std::string::npos);
+  }
+  write_file(file.path(), std::string(300, '\xff'));
+  CHECK_FALSE(error_of(file.path()).empty());
+  write_file(file.path(), std::string(1 << 20, '['));
+  CHECK(error_of(file.path()).find("too long") != std::string::npos);
+  CHECK(error_of("/dev/zero").find("no ordinary file") != std::string::npos);
+}
+
+TEST_CASE(
+    "a power cut while a checkpoint is written leaves the old one, and does not stay in the way") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  REQUIRE(save_checkpoint(path, parked()).empty());
+  const std::string old = test::text_of(path);
+  write_file(path + ".tmp", old.substr(0, 40));  // what the cut left
+  CHECK(load_checkpoint(path)->heading == Approx(-1.25));
+  Checkpoint next = parked();
+  next.heading = 2.0;
+  REQUIRE(save_checkpoint(path, next).empty());
+  CHECK(load_checkpoint(path)->heading == Approx(2.0));
+  CHECK_FALSE(std::filesystem::exists(path + ".tmp"));
+}
+
+TEST_CASE("whenever a writer is killed, the file is a whole checkpoint") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  REQUIRE(save_checkpoint(path, parked()).empty());
+  for (int round = 0; round < 50; ++round) {
+    const pid_t writer = fork();
+    REQUIRE(writer >= 0);
+    if (writer == 0) {
+      Checkpoint checkpoint = parked();
+      for (;;) {
+        checkpoint.heading = -checkpoint.heading;
+        if (!save_checkpoint(path, checkpoint).empty()) _exit(1);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(3000 + 137 * round));
+    REQUIRE(kill(writer, SIGKILL) == 0);
+    int status = 0;
+    REQUIRE(waitpid(writer, &status, 0) == writer);
+    CHECK(WIFSIGNALED(status));
+    INFO(error_of(path));
+    const auto left = load_checkpoint(path);
+    REQUIRE(left);
+    CHECK(std::abs(left->heading) == Approx(1.25));
+  }
+}
+
+TEST_CASE("where nothing can be written the old checkpoint stays, and there is a reason") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  REQUIRE(save_checkpoint(path, parked()).empty());
+  std::filesystem::create_directory(path + ".tmp");
+  CHECK(save_checkpoint(path, parked()).find(path + ".tmp: cannot be made: ") == 0);
+  CHECK(load_checkpoint(path));
+  CHECK_FALSE(save_checkpoint(folder.beside("absent/checkpoint.yaml"), parked()).empty());
+}
+
+TEST_CASE("the file follows stops and starts at once, else the interval; the end is written") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  CheckpointWriter keeper({path, 3600.0});
+  keeper.start();
+  Checkpoint checkpoint = parked();
+  keeper.latest()->set(checkpoint);
+  CHECK(comes_true([&] { return std::filesystem::exists(path); }));
+  checkpoint.heading = 1.0;
+  checkpoint.standing = false;
+  keeper.latest()->set(checkpoint);
+  CHECK(comes_true([&] { return !load_checkpoint(path)->standing; }));
+  checkpoint.heading = 2.0;
+  keeper.latest()->set(checkpoint);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  CHECK(load_checkpoint(path)->heading == Approx(1.0));  // the interval is not over
+  keeper.finish();
+  CHECK(load_checkpoint(path)->heading == Approx(2.0));
+  CHECK(keeper.error().empty());
+}
+
+TEST_CASE("without a heading the file stays while the vehicle stands and goes when it moves") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  Checkpoint unsure = parked();
+  unsure.heading_sigma = 1.0;
+  for (const bool standing : {true, false}) {
+    CAPTURE(standing);
+    REQUIRE(save_checkpoint(path, parked()).empty());
+    unsure.standing = standing;
+    CheckpointWriter keeper({path, 10.0});
+    keeper.start();
+    keeper.latest()->set(unsure);
+    keeper.finish();
+    CHECK(std::filesystem::exists(path) == standing);
+  }
+}
+
+TEST_CASE("what keeps a checkpoint from being written is told") {
+  const test::TemporaryFile folder("unused", "");
+  CheckpointWriter keeper({folder.beside("absent/checkpoint.yaml"), 10.0});
+  keeper.start();
+  keeper.latest()->set(parked());
+  CHECK(comes_true([&] { return !keeper.error().empty(); }));
+  keeper.finish();
+}
+
+TEST_CASE("the latest of many values is taken, once") {
+  LatestValue<std::array<int, 64>> latest;
+  std::array<int, 64> got{};
+  CHECK_FALSE(latest.take(&got));
+  constexpr int kMany = 200'000;
+  std::thread writer([&] {
+    std::array<int, 64> value{};
+    for (int i = 1; i <= kMany; ++i) {
+      value.fill(i);
+      latest.set(value);
+    }
+  });
+  int last = 0;
+  while (last < kMany) {
+    if (!latest.take(&got)) continue;
+    const bool whole = std::count(got.begin(), got.end(), got[0]) == 64;
+    if (!whole || got[0] <= last) break;
+    last = got[0];
+  }
+  writer.join();
+  CHECK(last == kMany);
+  CHECK_FALSE(latest.take(&got));
+}

@@ -1,0 +1,164 @@
+// Every way to get the configuration wrong names its place and the remedy.
+#include "config_error.h"
+#include "daemon/config/load_config.h"
+#include "support/catch.h"
+
+namespace {
+
+using leonav::ConfigError;
+using leonav::load_config;
+using leonav::load_config_text;
+using leonav::text_override;
+using leonav::test::error_of;
+
+}  // namespace
+
+TEST_CASE("a wrong configuration is refused with file, line and remedy") {
+  CHECK(error_of("gnss:\n  elevation_mask_dg: 10\n") ==
+        "car.yaml:2: gnss.elevation_mask_dg: unknown key; did you mean 'elevation_mask_deg'?");
+  CHECK(error_of("gnss:\n  elevation_mask_deg: ten\n") ==
+        "car.yaml:2: gnss.elevation_mask_deg: 'ten' is not a number");
+  CHECK(error_of("gnss:\n\n  elevation_mask_deg: 95\n") ==
+        "car.yaml:3: gnss.elevation_mask_deg: 95 is out of range; must be between -90 and 90");
+  CHECK(error_of("gnss: 3\n") ==
+        "car.yaml:1: gnss: expected a group of keys (\"key: value\" lines)");
+  CHECK(error_of("gnss:\n  systems: [gps, glonass]\n") ==
+        "car.yaml:2: gnss.systems: 'glonass' is not one of gps, galileo, beidou, leo");
+  CHECK(error_of("gnss:\n  systems: []\n") ==
+        "car.yaml:2: gnss.systems: name at least one of gps, galileo, beidou, leo");
+  for (const char* prefix : {"CAR.", "(A|B)_", "CAR*", "CAR 1_"}) {
+    INFO(prefix);
+    CHECK(error_of("lcm:\n  prefix: \"" + std::string(prefix) + "\"\n") ==
+          "car.yaml:2: lcm.prefix: only letters, digits, '_' and '-' may be in it");
+  }
+  CHECK(load_config_text("lcm:\n  prefix: Car-1_\n", "x").lcm.prefix == "Car-1_");
+  CHECK(error_of("robust:\n  k0: 5\n  k1: 2\n") ==
+        "car.yaml:3: robust.k1: must be greater than k0");
+  CHECK(error_of("robust:\n  k0: 1\n  k0: 2\n").find("given twice") != std::string::npos);
+  CHECK(error_of("ekf:\n  motion: sideways\n").find("inertial, constant_velocity") !=
+        std::string::npos);
+  CHECK(error_of("ekf:\n  reset_epochs: 2.5\n").find("whole number") != std::string::npos);
+  CHECK(error_of("imu:\n  gyro_bias_deg_per_h: .nan\n").find("not a number") != std::string::npos);
+  CHECK(error_of("vehicle:\n  lever_arm_b_m: [1, 2]\n").find("[x, y, z]") != std::string::npos);
+  CHECK(error_of("lcm:\n  url: \"tcpq://host\"\n").find("car.yaml:2: lcm.url") == 0);
+  CHECK(error_of("gnss:\n  gps: [\n").find("car.yaml:") == 0);
+  CHECK(error_of("gnss:\n  elevation_mask_deg: 9\n---\nlcm:\n  prefix: A_\n")
+            .find("car.yaml:4: a second document begins here") == 0);
+  CHECK(error_of("").find("empty") != std::string::npos);
+  CHECK_THROWS_AS(load_config("absent.yaml"), ConfigError);
+  CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);
+}
+
+TEST_CASE("how LEO satellites stand is read by name") {
+  const auto law = [](const std::string& name) {
+    return load_config_text("gnss:\n  leo_attitude: " + name + "\n", "x")
+        .navigator.gnss.leo_attitude;
+  };
+  CHECK(load_config_text("gnss: {}\n", "x").navigator.gnss.leo_attitude ==
+        leonav::AttitudeLaw::kOrbitNormal);
+  CHECK(law("orbit_normal") == leonav::AttitudeLaw::kOrbitNormal);
+  CHECK(law("yaw_steering") == leonav::AttitudeLaw::kYawSteering);
+  const std::string error = error_of("gnss:\n  leo_attitude: upright\n");
+  CHECK(error.find("car.yaml:2: gnss.leo_attitude: ") == 0);
+  CHECK(error.find("orbit_normal, yaw_steering") != std::string::npos);
+}
+
+TEST_CASE("lever arm and time offset are estimated where that is asked for") {
+  using namespace leonav::ekf_index;
+  const auto load = [](const std::string& text) { return load_config_text(text, "x").navigator; };
+  CHECK_FALSE(load("vehicle: {kind: car}\n").ekf.vehicle.moves_antenna());
+  CHECK(load("imu: {time_offset_ms: -12.5}\n").imu_time_offset_s == Approx(-0.0125));
+  const auto arm =
+      load("vehicle: {estimate_lever_arm: true, lever_arm_sigma_m: 0.3}\n").ekf.vehicle;
+  CHECK(arm.count == kMaxVehicle);
+  CHECK(arm.sigma[kLeverArm + 2] == 0.3);
+  CHECK(arm.sigma[kTimeOffset] == 0.0);
+  CHECK(arm.sigma[kTravelYaw] == 0.0);  // handheld: nothing tells of it
+  const auto offset = load("vehicle: {kind: car, estimate_time_offset: true}\n").ekf.vehicle;
+  CHECK(offset.count == kMaxVehicle);
+  CHECK(offset.sigma[kTimeOffset] == Approx(0.01));
+  CHECK(offset.sigma[kLeverArm] == 0.0);
+  CHECK(offset.sigma[kTravelYaw] > 0.0);
+}
+
+TEST_CASE("overrides are judged like the file") {
+  const std::string text = "gnss:\n  elevation_mask_deg: 10\n";
+  const auto config = load_config_text(
+      text, "x", {"gnss.systems=[gps]", "robust.enabled=false", "gnss.gps.max_satellites=5"});
+  CHECK(config.navigator.gnss.systems[0].enabled);
+  CHECK_FALSE(config.navigator.gnss.systems[1].enabled);
+  CHECK(config.navigator.gnss.systems[0].max_satellites == 5);
+  CHECK_FALSE(config.navigator.ekf.robust.enabled);
+  CHECK(config.navigator.gnss.elevation_mask == Approx(10 * 3.14159265358979 / 180));
+  CHECK(error_of(text, {"gnss.sistems=[gps]"}).find("--set gnss.sistems: unknown key") == 0);
+  CHECK(error_of(text, {"gnss.elevation_mask_deg=200"}).find("--set gnss.elevation") == 0);
+  CHECK(error_of(text, {"nonsense"}).find("group.key=value") != std::string::npos);
+}
+
+TEST_CASE("a text given as an override arrives as it is, and is judged") {
+  const std::string text = "journal:\n  path: from_file\n";
+  for (const std::string path :
+       {"", "plain.journal", "a: b", "~", "[x]", "it's", "say \"so\"", "back\\slash", "two\nlines",
+        "tab\there", "#1", "caf\xc3\xa9", "\xff\x04", " blank "}) {
+    INFO(path);
+    const std::string one = text_override("journal.path", path);
+    CHECK(one.find('\n') == std::string::npos);
+    CHECK(load_config_text(text, "x", {one}).journal.path == path);
+  }
+  CHECK(error_of(text, {text_override("lcm.url", "tcpq://host")}).find("--set lcm.url: tcpq") == 0);
+  CHECK(error_of(text, {text_override("lcm.url", "")}) == "--set lcm.url: must not be empty");
+  CHECK(error_of(text, {"gnss.systems=[gps,\ngalileo]"}) == "--set gnss.systems: more than a line");
+}
+
+TEST_CASE("data-sheet units become SI") {
+  const auto imu = load_config_text(
+                       "imu:\n  angle_random_walk_deg_per_sqrt_h: 0.6\n"
+                       "  velocity_random_walk_m_s_per_sqrt_h: 0.06\n"
+                       "  gyro_bias_deg_per_h: 3600\n  accel_bias_mgal: 100000\n"
+                       "  gyro_scale_ppm: 1000\n",
+                       "x")
+                       .navigator.imu;
+  CHECK(imu.angle_random_walk == Approx(0.01 * 3.14159265358979 / 180));
+  CHECK(imu.velocity_random_walk == Approx(0.001));
+  CHECK(imu.gyro_bias.sigma == Approx(3.14159265358979 / 180));
+  CHECK(imu.accel_bias.sigma == Approx(1.0));
+  CHECK(imu.gyro_scale.sigma == Approx(1e-3));
+}
+
+TEST_CASE("a found attitude wanders while it settles, but for who walks, unless said otherwise") {
+  const auto degrees = [](const std::string& text) {
+    return load_config_text(text, "x").navigator.alignment.settling_random_walk * 180.0 /
+           3.14159265358979;
+  };
+  CHECK(degrees("vehicle: {kind: car}\n") == Approx(0.4));
+  CHECK(degrees("vehicle: {kind: uav}\n") == Approx(0.4));
+  CHECK(degrees("vehicle: {kind: handheld}\n") == 0.0);
+  CHECK(degrees("vehicle: {kind: car}\nalignment: {settling_wander_deg_per_sqrt_s: 0}\n") == 0.0);
+  CHECK(degrees("alignment: {settling_wander_deg_per_sqrt_s: 1}\n") == Approx(1.0));
+  const auto confirming = [](const std::string& text) {
+    return load_config_text(text, "x").navigator.alignment.confirming_s;
+  };
+  CHECK(confirming("vehicle: {kind: rail}\n") == 3.0);
+  CHECK(confirming("vehicle: {kind: handheld}\n") == 0.0);
+  CHECK(confirming("alignment: {confirming_s: 5}\n") == 5.0);
+}
+
+TEST_CASE("an odometer is for wheels, at the point that does not slide, unless said otherwise") {
+  const auto motion_of = [](const std::string& vehicle) {
+    return load_config_text("vehicle: {" + vehicle + "}\n", "x")
+        .navigator.vehicle.motion.constraints;
+  };
+  CHECK(motion_of("kind: car").odometer);
+  CHECK(motion_of("kind: rail").odometer);
+  CHECK_FALSE(motion_of("kind: handheld").odometer);
+  CHECK_FALSE(motion_of("kind: car, odometer: false").odometer);
+  CHECK(motion_of("kind: boat, odometer: true").odometer);
+  const auto at = motion_of("kind: car, constraint_point_b_m: [-1, 0, 0.5]");
+  CHECK(at.odometer_point_b == at.point_b);
+  CHECK(motion_of("constraint_point_b_m: [-1, 0, 0], odometer_point_b_m: [2, 0, 0]")
+            .odometer_point_b.x() == 2.0);
+  const auto ekf = load_config_text("vehicle: {kind: car, odometer_scale_sigma_percent: 2}\n", "x")
+                       .navigator.ekf.vehicle;
+  CHECK(ekf.count == 2);  // it joins with its first message
+  CHECK(ekf.sigma[leonav::ekf_index::kOdometerScale] == Approx(0.02));
+}

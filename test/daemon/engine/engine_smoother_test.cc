@@ -1,0 +1,132 @@
+// The engine with the smoother in its thread: in time it gives the single thread's bytes; late, the
+// filter answers, every miss is told, and the journal's decisions give the same bytes again.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "daemon/engine/engine.h"
+#include "engine_runs.h"
+
+namespace {
+
+using namespace leonav;
+using test::Bytes;
+using test::check_same;
+using test::Collector;
+using test::Input;
+
+constexpr std::size_t kDecisions = 1, kSmoother = 7, kKeyframes = 8;
+
+const std::vector<Input>& inputs() {
+  static const std::vector<Input> list = test::drive_messages([](Channel) { return true; });
+  return list;
+}
+
+// Where the smoother is held at every third keyframe until its deadline has passed, while all other
+// stages keep up: before its first iteration or, with a solve begun, before the second.
+enum class Hold { kNever, kBefore, kWithin };
+
+DaemonConfig smoother_config() {
+  DaemonConfig config = test::drive_config();
+  config.navigator.estimator = Estimator::kSmoother;
+  config.navigator.smoother.window = 8;
+  config.navigator.smoother.time_limit_s = 0.0;  // nothing here may depend on the clock
+  return config;
+}
+
+// With the smoother's answers before them: of the last epochs nothing has been decided yet.
+std::vector<Decision> decisions_of(const Collector& outputs) {
+  Decoder decoder;
+  std::vector<Decision> decisions;
+  for (const Bytes& bytes : outputs.groups[kSmoother]) {
+    SmootherReport report;
+    REQUIRE(decoder.decode(bytes, &report).fault == InputFault::kNone);
+    decisions.push_back(decision_of(report));
+  }
+  for (const std::size_t group : {kDecisions, kKeyframes}) {
+    for (const Bytes& bytes : outputs.groups[group]) {
+      Decision decision;
+      REQUIRE(decoder.decode(bytes, &decision).fault == InputFault::kNone);
+      decisions.push_back(decision);
+    }
+  }
+  return decisions;
+}
+
+Collector replay(const std::vector<Decision>& decisions) {
+  return test::run_pipeline(smoother_config().navigator, inputs(), decisions);
+}
+
+bool is_done(const WorkCount& work) { return work.done == work.pushed; }
+
+Collector run_engine(Hold hold, double time_limit_s = 0.0) {
+  std::atomic<std::uint64_t> samples{0}, held_until{0};
+  std::uint64_t last_epoch = 0;
+  int iteration = 0;
+  EngineHooks hooks;
+  hooks.before_iteration = [&](std::uint64_t epoch) {
+    iteration = std::exchange(last_epoch, epoch) == epoch ? iteration + 1 : 0;
+    if (hold == Hold::kNever || epoch % 3 != 0) return;
+    if (iteration != (hold == Hold::kBefore ? 0 : 1)) return;
+    const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, inputs().size());
+    held_until = until;
+    while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
+  };
+  Collector outputs;
+  DaemonConfig config = smoother_config();
+  config.navigator.smoother.time_limit_s = time_limit_s;
+  Engine engine(config, &outputs, hooks);
+  engine.start();
+  std::int64_t stamp = 0;
+  for (const Input& input : inputs()) {
+    engine.receive(input.channel, input.bytes, ++stamp);
+    ++samples;
+    while (!engine.idle() && !(samples.load() < held_until.load() && is_done(engine.gnss_work()) &&
+                               is_done(engine.inertial_work())))
+      std::this_thread::yield();
+  }
+  REQUIRE(engine.finish());
+  return outputs;
+}
+
+int missed_of(const std::vector<Decision>& decisions, Decision::Subject subject) {
+  int missed = 0;
+  for (const Decision& decision : decisions)
+    missed += decision.subject == subject && !decision.committed ? 1 : 0;
+  return missed;
+}
+
+}  // namespace
+
+TEST_CASE("a smoother in time gives the bytes of the single thread") {
+  const Collector threaded = run_engine(Hold::kNever);
+  CHECK(missed_of(decisions_of(threaded), Decision::Subject::kFilter) == 0);
+  CHECK(missed_of(decisions_of(threaded), Decision::Subject::kSmoother) == 0);
+  check_same(replay({}), threaded);
+  CHECK(threaded.groups[kSmoother].size() > 50);
+}
+
+TEST_CASE("a smoother that is late leaves the filter's answer, and its run replays") {
+  const Hold hold = GENERATE(Hold::kBefore, Hold::kWithin);
+  const Collector in_time = run_engine(Hold::kNever);
+  const Collector late = run_engine(hold);
+  const std::vector<Decision> decisions = decisions_of(late);
+  const int missed = missed_of(decisions, Decision::Subject::kSmoother);
+  CHECK(missed >= 10);
+  CHECK(missed <= 40);
+  CHECK(missed_of(decisions, Decision::Subject::kFilter) == 0);
+  // The answer has not stopped, and the smoother has returned.
+  CHECK(late.groups[0].size() == in_time.groups[0].size());
+  CHECK(late.groups[kSmoother].size() >= 15);
+  check_same(replay(decisions), late);
+}
+
+TEST_CASE("solves that time has cut short replay with as many iterations, the last ones too") {
+  const Collector in_time = run_engine(Hold::kNever), hurried = run_engine(Hold::kNever, 1e-9);
+  CHECK(in_time.groups[kSmoother] != hurried.groups[kSmoother]);
+  check_same(replay(decisions_of(hurried)), hurried);
+}

@@ -1,0 +1,63 @@
+// What a stage's epochs leave for HEALTH.
+#include "daemon/engine/internal/stage_sink.h"
+
+#include <memory>
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+TEST_CASE("satellites that lose their precise orbits and get them back are counted") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  StageSink sink(1 << 20, &wakeup, &counters);
+  const auto epoch = [&](OrbitSource gps, OrbitSource leo) {
+    const auto report = std::make_unique<EpochReport>();
+    report->satellites.resize(2);
+    report->satellites[0].satellite = {System::kGps, 7};
+    report->satellites[0].source = gps;
+    report->satellites[1].satellite = {System::kLeo, 399};
+    report->satellites[1].source = leo;
+    sink.on_epoch(*report);
+  };
+  using enum OrbitSource;
+  epoch(kBroadcast, kPrecise);
+  CHECK(counters.orbit_fallbacks.get() == 0);
+  CHECK(counters.orbit_returns.get() == 0);
+  epoch(kPrecise, kNone);
+  epoch(kPrecise, kPrecise);
+  CHECK(counters.orbit_fallbacks.get() == 0);
+  CHECK(counters.orbit_returns.get() == 1);
+  epoch(kBroadcast, kBroadcast);
+  epoch(kPrecise, kBroadcast);
+  CHECK(counters.orbit_fallbacks.get() == 2);
+  CHECK(counters.orbit_returns.get() == 2);
+}
+
+TEST_CASE("what became of checkpoints is counted, and each epoch's goes to who keeps it") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  LatestValue<Checkpoint> checkpoints;
+  StageSink sink(1 << 20, &wakeup, &counters, &checkpoints);
+  Event event;
+  event.kind = EventKind::kCheckpoint;
+  event.code = static_cast<std::uint8_t>(CheckpointUse::kElsewhere);
+  event.value = 100.25;
+  sink.on_event(event);
+  CHECK(counters.checkpoints_ignored.get() == 1);
+  CHECK(counters.checkpoint_use.get() == 1 + event.code);
+  CHECK(counters.checkpoint_milli.get() == 100'250);
+  event.code = static_cast<std::uint8_t>(CheckpointUse::kUsed);
+  sink.on_event(event);
+  CHECK(counters.checkpoints_used.get() == 1);
+
+  const auto report = std::make_unique<EpochReport>();
+  Checkpoint taken;
+  sink.on_epoch(*report);
+  CHECK_FALSE(checkpoints.take(&taken));
+  report->checkpoint = Checkpoint();
+  report->checkpoint->heading = 1.5;
+  sink.on_epoch(*report);
+  REQUIRE(checkpoints.take(&taken));
+  CHECK(taken.heading == 1.5);
+}

@@ -1,0 +1,195 @@
+// What HEALTH says when an input falls silent, whatever came before it.
+#include "daemon/health/health_monitor.h"
+
+#include <cmath>
+#include <leonav/health_t.hpp>
+#include <thread>
+
+#include "support/catch.h"
+#include "support/drive_inputs.h"
+
+namespace {
+
+using namespace leonav;
+
+struct Discard final : MessageTarget {
+  void take(Channel, ByteSpan) override {}
+};
+
+// An engine and its health, fed in step.
+class Watched {
+ public:
+  explicit Watched(MotionModel motion, bool odometer = false) {
+    DaemonConfig config = test::drive_config();
+    config.navigator.vehicle.motion.constraints.odometer = odometer;
+    config.navigator.motion = motion;
+    REQUIRE(config.navigator.realtime.epoch_interval_s == 1.0);
+    engine_ = std::make_unique<Engine>(config, &target_);
+    engine_->start();
+    health_ = std::make_unique<HealthMonitor>(engine_.get(), config.navigator);
+  }
+  ~Watched() { CHECK(engine_->finish()); }
+
+  template <typename Wanted>
+  void feed(Wanted wanted) {
+    static const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
+    test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
+      if (wanted(channel)) receive(channel, bytes);
+    });
+  }
+
+  void receive(Channel channel, ByteSpan bytes) {
+    engine_->receive(channel, bytes, 1);
+    while (!engine_->idle()) std::this_thread::yield();
+  }
+
+  // "status: why" at `now_s`.
+  std::string at(double now_s) {
+    const auto bytes = health_->next(now_s);
+    REQUIRE(message_.decode(bytes.data(), 0, static_cast<int>(bytes.size())) ==
+            static_cast<int>(bytes.size()));
+    CHECK(message_.status == health_->status());
+    CHECK(message_.why == health_->why());
+    return message_.status + ": " + message_.why;
+  }
+
+  const health_t& message() const { return message_; }  // of the last at()
+
+ private:
+  Discard target_;
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<HealthMonitor> health_;
+  health_t message_{};
+};
+
+const auto everything = [](Channel) { return true; };
+const auto all_but_imu = [](Channel channel) { return channel != Channel::kImu; };
+
+}  // namespace
+
+TEST_CASE("HEALTH without any input says what is missing") {
+  Watched with_imu(MotionModel::kInertial);
+  CHECK(with_imu.at(1.0) == "FAULT: no solution yet; no usable IMU for 1 s");
+  CHECK(with_imu.at(100.0) ==
+        "FAULT: no solution yet; no usable IMU for 100 s; no usable GNSS for 100 s");
+  Watched gnss_only(MotionModel::kConstantVelocity);
+  CHECK(gnss_only.at(1.0) == "FAULT: no solution yet");
+  CHECK(gnss_only.at(3.0) == "FAULT: no solution yet; no usable GNSS for 3 s");
+}
+
+TEST_CASE("GNSS alone that dies: degraded after 2.5 intervals, a fault after 10") {
+  Watched watched(MotionModel::kConstantVelocity);
+  watched.feed(all_but_imu);
+  CHECK(watched.at(60.0) == "OK: ");
+  CHECK(watched.at(62.4) == "OK: ");
+  CHECK(watched.at(62.6) == "DEGRADED: no solution for 3 s; no usable GNSS for 3 s");
+  CHECK(watched.at(70.0) == "DEGRADED: no solution for 10 s; no usable GNSS for 10 s");
+  CHECK(watched.message().source == "ekf");
+  CHECK(watched.at(71.0) == "FAULT: no solution for 11 s; no usable GNSS for 11 s");
+  CHECK(watched.message().source == "none");
+  // Damaged messages are no sign of life.
+  watched.receive(Channel::kGnssEpoch, std::vector<std::uint8_t>(40, 0x55));
+  CHECK(watched.at(72.0) == "FAULT: no solution for 12 s; no usable GNSS for 12 s");
+}
+
+TEST_CASE("an IMU that dies: degraded after a second, a fault when the answer is too old") {
+  Watched watched(MotionModel::kInertial);
+  watched.feed(everything);
+  CHECK(watched.at(60.0) == "OK: ");
+  CHECK(watched.at(61.0) == "DEGRADED: no usable IMU for 1 s");
+  CHECK(watched.at(65.0) ==
+        "DEGRADED: no solution for 5 s; no usable IMU for 5 s; no usable GNSS for 5 s");
+  CHECK(watched.at(71.0) ==
+        "FAULT: no solution for 11 s; no usable IMU for 11 s; no usable GNSS for 11 s");
+}
+
+TEST_CASE("GNSS that dies beside an IMU is told, by its own name; the answer goes on degraded") {
+  Watched watched(MotionModel::kInertial);
+  int epochs = 0, samples = 0;
+  std::string at_30_s, at_34_s, at_59_s;
+  watched.feed([&](Channel channel) {
+    if (channel == Channel::kGnssEpoch) return ++epochs <= 30;
+    if (channel == Channel::kImu && ++samples % 200 == 0) {  // once a second
+      const double now_s = samples / 200;
+      const std::string said = watched.at(now_s);
+      if (now_s == 30.0) at_30_s = said;
+      if (now_s == 34.0) at_34_s = said;
+      if (now_s == 59.0) at_59_s = said;
+    }
+    return true;
+  });
+  // The epoch of the 30th second comes a latency after it, so it is the next look that sees it.
+  CHECK(at_30_s == "OK: ");
+  CHECK(at_34_s == "DEGRADED: INS only; no usable GNSS for 3 s");
+  CHECK(at_59_s == "DEGRADED: INS only; no usable GNSS for 28 s");
+  CHECK(watched.message().source == "ins");
+}
+
+TEST_CASE("an odometer that falls silent is told, one that never spoke is not missed") {
+  Watched watched(MotionModel::kInertial, true);
+  CHECK(watched.at(1.0).find("odometer") == std::string::npos);
+  CHECK(std::isnan(watched.message().odometer_age_s));
+  Encoder encoder;
+  std::uint64_t samples = 0, increments = 0;
+  watched.feed([&](Channel channel) {
+    if (channel != Channel::kImu || ++samples > 6000 || samples % 20 != 0) return true;
+    const GpsTime end = test::kSkyEpoch.plus_seconds(static_cast<double>(samples) / 200.0);
+    watched.receive(Channel::kOdometer,
+                    encoder.encode(OdometerIncrement{end, 100'000'000, 0.0}, ++increments));
+    if (samples == 6000) watched.at(30.0);
+    return true;
+  });
+  CHECK(watched.at(32.0).find("odometer") == std::string::npos);
+  CHECK(watched.at(34.0).find("no usable odometer for 4 s") != std::string::npos);
+  CHECK(watched.message().odometer_age_s == Approx(30.0).margin(0.02));
+}
+
+TEST_CASE("a restart takes the source with it, until there is an answer again") {
+  for (const MotionModel motion : {MotionModel::kInertial, MotionModel::kConstantVelocity}) {
+    CAPTURE(static_cast<int>(motion));
+    Watched watched(motion);
+    Encoder encoder;
+    int epochs = 0;
+    std::string before, after, later;
+    watched.feed([&](Channel channel) {
+      if (channel != Channel::kGnssEpoch) return true;
+      ++epochs;
+      if (epochs == 41) later = watched.at(41.0) + watched.message().source;
+      if (epochs != 40) return true;
+      before = watched.at(40.0) + watched.message().source;
+      watched.receive(Channel::kCommand, encoder.encode(Command(), test::kSkyEpoch, 1));
+      after = watched.at(40.0) + watched.message().source;
+      return true;
+    });
+    CHECK(before == "OK: ekf");
+    CHECK(after == "FAULT: no solution yetnone");
+    const bool inertial = motion == MotionModel::kInertial;
+    CHECK(later ==
+          (inertial
+               ? "DEGRADED: aligning: no heading: drive faster than 1 m/s for 3 s, or set_heading"
+                 "aligning"
+               : "OK: ekf"));
+    CHECK(watched.at(60.0) + watched.message().source == "OK: ekf");
+  }
+}
+
+TEST_CASE("an input that does not follow a convention stays a reason, with the remedy") {
+  Watched watched(MotionModel::kInertial);
+  Decoder decoder;
+  Encoder encoder;
+  const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
+  test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
+    ImuSample sample;
+    if (channel != Channel::kImu) return watched.receive(channel, bytes);
+    const DecodeResult result = decoder.decode(bytes, &sample);
+    REQUIRE(result.fault == InputFault::kNone);
+    sample.delta_velocity_b /= 9.80665;
+    watched.receive(channel, encoder.encode(sample, result.sequence));
+  });
+  for (const double now_s : {60.0, 60.5}) {
+    const std::string said = watched.at(now_s);
+    CAPTURE(said);
+    CHECK(said.find("DEGRADED: ") == 0);
+    CHECK(said.find("accelerations in g; multiply them by 9.80665") != std::string::npos);
+  }
+}

@@ -1,0 +1,104 @@
+// leonavd's command line and its journal, as a user or a service manager meets them.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "daemon/config/effective_config.h"
+#include "daemon/config/load_config.h"
+#include "drivers/lcm/event_log.h"
+#include "drivers/lcm/run_configuration.h"
+#include "support/catch.h"
+#include "support/daemon_program.h"
+
+namespace {
+
+using namespace leonav;
+
+const std::string kConfig = "--preset phone_imu ";
+
+}  // namespace
+
+TEST_CASE("--lcm-url is judged like lcm.url") {
+  if (!test::have_programs("leonavd")) return;
+  const auto tcpq = test::run_program("leonavd", kConfig + "--lcm-url tcpq://host");
+  CHECK(tcpq.exit_code == 3);
+  CHECK(tcpq.err.find("--set lcm.url: tcpq:// ends the process") != std::string::npos);
+  const auto empty = test::run_program("leonavd", kConfig + "--lcm-url ''");
+  CHECK(empty.exit_code == 3);
+  CHECK(empty.err.find("--set lcm.url: must not be empty") != std::string::npos);
+}
+
+TEST_CASE("a daemon without LCM touches no journal") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile journal("journal", "the evidence");
+  const auto run = test::run_program(
+      "leonavd", kConfig + "--lcm-url udpm://10.0.0.1:7667 --journal '" + journal.path() + "'");
+  CHECK(run.exit_code == 4);
+  CHECK(test::text_of(journal.path()) == "the evidence");
+  CHECK_FALSE(std::filesystem::exists(journal.path() + ".1"));
+  test::run_program("leonavd", kConfig + "--lcm-url udpm://10.0.0.1:7667 --journal '" +
+                                   journal.beside("new") + "'");
+  CHECK_FALSE(std::filesystem::exists(journal.beside("new")));
+}
+
+TEST_CASE("a restarted daemon keeps the journal; the journal holds what the command line changed") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile journal("journal", "the evidence");
+  test::DaemonProgram daemon({"--journal", journal.path()});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  CHECK(daemon.says("journal " + journal.path() + " exists and is kept; writing " + journal.path() +
+                    ".1"));
+  CHECK(daemon.stop() == 0);
+  CHECK(test::text_of(journal.path()) == "the evidence");
+
+  EventLogReader log(journal.path() + ".1");
+  LogEvent event;
+  REQUIRE(log.next(&event));
+  const auto configuration = decode_run_configuration(event.data);
+  REQUIRE(configuration.has_value());
+  // The whole configuration in one text, which needs no preset and no override.
+  CHECK(configuration->overrides.empty());
+  CHECK(configuration->name == "preset phone_imu");
+  const DaemonConfig recorded = load_config_text(configuration->text, "journal");
+  CHECK_FALSE(recorded.threads.lock_memory);
+  CHECK(recorded.lcm.url == "memq://");
+  CHECK(recorded.journal.path == journal.path());
+  CHECK(recorded.navigator == load_preset("phone_imu").navigator);
+  CHECK(effective_text(load_preset("phone_imu").source).find("preset:") == std::string::npos);
+}
+
+TEST_CASE("leonavd --check prints the effective configuration, or says what is wrong") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("vehicle.yaml",
+                                 "preset: car\nvehicle:\n  lever_arm_b_m: [0.4, -0.2, -1.1]\n");
+  const auto good = test::run_program("leonavd", "--check '" + file.path() + "'");
+  CHECK(good.exit_code == 0);
+  CHECK(good.err.find(file.path() + ": good") != std::string::npos);
+  const DaemonConfig again = load_config_text(good.out, "printed");
+  CHECK(again.navigator == load_config(file.path()).navigator);
+  CHECK(good.out.find("# from: " + file.path() + ":3\n") != std::string::npos);
+
+  const auto changes = test::run_program(
+      "leonavd", "--check --changes --config '" + file.path() + "' --set gnss.systems=[gps]");
+  CHECK(changes.exit_code == 0);
+  CHECK(changes.out.find("  systems: [gps] ") != std::string::npos);
+  CHECK(changes.out.size() < good.out.size() / 3);
+  CHECK(test::run_program("leonavd", "--check --preset urban").exit_code == 0);
+
+  const auto wrong =
+      test::run_program("leonavd", "--check '" + file.path() + "' --set vehicle.kind=cart");
+  CHECK(wrong.exit_code == 3);
+  CHECK(wrong.out.empty());
+  CHECK(wrong.err.find("--set vehicle.kind: 'cart' is not one of car, ") != std::string::npos);
+  CHECK(test::run_program("leonavd", "--check").exit_code == 2);
+  CHECK(test::run_program("leonavd", "--check --preset car '" + file.path() + "'").exit_code == 2);
+  CHECK(test::run_program("leonavd", "--changes --preset car").exit_code == 2);
+}
+
+TEST_CASE("leonavd --reference prints every key") {
+  if (!test::have_programs("leonavd")) return;
+  const auto run = test::run_program("leonavd", "--reference");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == test::text_of(LEONAV_SOURCE_DIR "/config/reference.yaml"));
+}

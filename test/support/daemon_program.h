@@ -1,0 +1,84 @@
+// leonavd as a service manager would run it: started, watched, told to stop.
+#pragma once
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "support/program_run.h"
+#include "support/temporary_file.h"
+
+namespace leonav::test {
+
+class DaemonProgram {
+ public:
+  // `environment`: "NAME=value", added to that of the test. Its LCM stays inside the process.
+  explicit DaemonProgram(std::vector<std::string> arguments,
+                         std::vector<std::string> environment = {}) {
+    std::vector<std::string> words = {
+        LEONAV_BIN_DIR "/leonavd",   "--preset", "phone_imu", "--lcm-url", "memq://", "--set",
+        "realtime.lock_memory=false"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (char** one = environ; *one != nullptr; ++one) environment.emplace_back(*one);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 2, text_.path().c_str(), O_WRONLY | O_TRUNC, 0600);
+    std::vector<char*> argv = pointers(&words), envp = pointers(&environment);
+    failed_ = posix_spawn(&process_, argv[0], &actions, nullptr, argv.data(), envp.data()) != 0;
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  ~DaemonProgram() {
+    if (running()) signal(SIGKILL);
+    if (!failed_ && !ended_) waitpid(process_, nullptr, 0);
+  }
+  DaemonProgram(const DaemonProgram&) = delete;
+  DaemonProgram& operator=(const DaemonProgram&) = delete;
+
+  pid_t process() const { return process_; }
+  std::string text() const { return text_of(text_.path()); }
+  void signal(int number) const { kill(process_, number); }
+
+  bool running() {
+    if (failed_ || ended_) return false;
+    ended_ = waitpid(process_, &status_, WNOHANG) == process_;
+    return !ended_;
+  }
+
+  // Waits, a minute at most, until what it has said on standard error holds `words`.
+  bool says(const std::string& words) {
+    for (int i = 0; i < 6000; ++i) {
+      const bool was_running = running();
+      if (text().find(words) != std::string::npos) return true;
+      if (!was_running) return false;
+      usleep(10'000);
+    }
+    return false;
+  }
+
+  // SIGTERM; the exit code, or 128 and the signal that ended it; -1: still running after a minute.
+  int stop() {
+    if (running()) signal(SIGTERM);
+    for (int i = 0; i < 6000 && running(); ++i) usleep(10'000);
+    if (!ended_) return -1;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  }
+
+ private:
+  static std::vector<char*> pointers(std::vector<std::string>* words) {
+    std::vector<char*> list;
+    for (std::string& word : *words) list.push_back(word.data());
+    list.push_back(nullptr);
+    return list;
+  }
+
+  TemporaryFile text_{"text", ""};
+  pid_t process_ = -1;
+  int status_ = 0;
+  bool failed_ = false, ended_ = false;
+};
+
+}  // namespace leonav::test

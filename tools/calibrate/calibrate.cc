@@ -1,0 +1,111 @@
+#include "tools/calibrate/calibrate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "drivers/lcm/channels.h"
+#include "drivers/lcm/event_log.h"
+#include "tools/calibrate/data_halves.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kSettledSigmas = 0.5;  // a smaller change does not count, in sigmas
+// nor does a smaller one in units: 2 mm, 0.002 degrees, 2 us
+constexpr double kSettledUnits = 2e-3;
+
+bool counts(const Finding& finding, std::size_t i) {
+  const double unit = unit_of(static_cast<Quantity>(i));
+  return finding.observed[i] &&
+         std::abs(finding.change[i]) >
+             std::max(kSettledSigmas * finding.sigma[i], kSettledUnits * unit);
+}
+
+bool is_settled(const Finding& finding) {
+  for (std::size_t i = 0; i < kQuantities; ++i)
+    if (counts(finding, i)) return false;
+  return true;
+}
+
+// A part of the log, as shares of its length. Orbits and clocks of the whole log are used in any
+// case.
+struct Part {
+  double from = 0.0, to = 1.0;
+};
+
+void feed(const std::string& path, const std::string& prefix, const Part& part,
+          const std::function<void(double)>& progress, CalibrationRun* run) {
+  EventLogReader log(path);
+  LogEvent event;
+  while (log.next(&event)) {
+    const double share =
+        static_cast<double>(log.position_bytes()) / static_cast<double>(log.size_bytes());
+    progress(share);
+    const auto channel = channel_from_name(event.channel, prefix);
+    if (!channel || !is_input(*channel)) continue;
+    // A given heading would let it start at rest (see with_installation_states()).
+    if (*channel == Channel::kCommand || *channel == Channel::kCheckpoint) continue;
+    const bool inside = share >= part.from && share <= part.to;
+    if (inside || is_product(*channel)) run->dispatch(*channel, event.data);
+  }
+}
+
+bool observes_any(const Finding& finding) {
+  return std::ranges::any_of(finding.observed, [](bool observed) { return observed; });
+}
+
+}  // namespace
+
+Calibration calibrate(const DaemonConfig& config, const std::string& log,
+                      const CalibrateOptions& options) {
+  NavigatorConfig navigator = config.navigator;
+  if (navigator.motion != MotionModel::kInertial)
+    throw std::runtime_error("ekf.motion is not inertial: there is no IMU to be calibrated");
+  Calibration calibration;
+  calibration.configured = calibration.found = installation_of(navigator);
+  calibration.wheeled = navigator.vehicle.motion.constraints.non_holonomic;
+  while (!calibration.settled && calibration.passes < options.max_passes) {
+    install(calibration.found, &navigator);
+    CalibrationRun run(with_installation_states(navigator, options.prior), options.prior);
+    const auto progress = [&](double share) {
+      options.progress((calibration.passes + share) / (options.max_passes + 1));
+    };
+    feed(log, config.lcm.prefix, {}, progress, &run);
+    if (!run.aligned())
+      throw std::runtime_error(log +
+                               ": the filter has found no attitude; does it hold IMU and "
+                               "GNSS, and does the vehicle drive?");
+    calibration.last = run.finding();
+    calibration.found = improved(calibration.found, calibration.last);
+    calibration.straight_s = run.straight_s();
+    calibration.settled = is_settled(calibration.last);
+    ++calibration.passes;
+  }
+  install(calibration.found, &navigator);
+  std::array<Finding, 2> halves;
+  for (std::size_t half = 0; half < 2; ++half) {
+    CalibrationRun run(with_installation_states(navigator, options.prior), options.prior);
+    const double from = 0.5 * static_cast<double>(half);
+    const auto progress = [&](double share) {
+      options.progress((options.max_passes + from + 0.5 * share) / (options.max_passes + 1));
+    };
+    feed(log, config.lcm.prefix, {from, from + 0.5}, progress, &run);
+    halves[half] = run.finding();
+  }
+  // The convergence test uses the filter's own sigmas: those of the halves would excuse changes.
+  // Quantities that are withdrawn take no part.
+  Finding by_filter = calibration.last;
+  calibration.compared = compare_halves(halves[0], halves[1], &calibration.last);
+  revert_unobserved(options.prior, calibration.configured, &calibration.last, &calibration.found);
+  if (!observes_any(calibration.last))
+    throw std::runtime_error(log +
+                             ": tells nothing of how the IMU is built in; it takes turns and "
+                             "changes of speed, with carriers or good Dopplers");
+  by_filter.observed = calibration.last.observed;
+  calibration.settled = is_settled(by_filter);
+  return calibration;
+}
+
+}  // namespace leonav

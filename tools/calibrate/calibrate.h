@@ -1,0 +1,36 @@
+// This unit finds the installation of the IMU from a log, by repeated runs of the filter. Every run
+// starts with the installation that the previous run has found, until nothing changes.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "daemon/config/daemon_config.h"
+#include "tools/calibrate/calibration_run.h"
+
+namespace leonav {
+
+// Result of a calibration.
+struct Calibration {
+  Installation configured, found;
+  // The change is that of the last pass. The sigma is the filter's, or that from the difference
+  // between the two halves of the log if that is larger.
+  Finding last;
+  int passes = 0;
+  bool settled = false;  // by the filter's sigmas the last pass has changed nothing that counts
+  std::array<bool, kQuantities> compared{};  // observed in both halves
+  double straight_s = 0.0;
+  bool wheeled = false;
+};
+
+struct CalibrateOptions {
+  InstallationPrior prior;
+  int max_passes = 6;
+  std::function<void(double)> progress = [](double) {};  // gets the share of the allowed passes
+};
+
+// Calibrates from `log`. Throws EventLogError, and std::runtime_error if the log gives no attitude,
+// if no quantity is observed, or if the configuration has no IMU.
+Calibration calibrate(const DaemonConfig& config, const std::string& log,
+                      const CalibrateOptions& options);
+
+}  // namespace leonav

@@ -1,0 +1,17 @@
+// This unit prints a calibration as a table for people and as JSON for programs.
+#pragma once
+#include <iosfwd>
+#include <string>
+
+#include "tools/calibrate/calibrate.h"
+
+namespace leonav {
+
+// Prints a table, the reason for every quantity that the log does not determine, and the lines for
+// the configuration.
+void print_calibration(const Calibration& calibration, std::ostream& out);
+// Returns {"passes": .., "settled": .., "lever_arm_forward_m": {"configured", "found", "sigma",
+// "observed", "compared"}, ..} in the units of the names.
+std::string json_of(const Calibration& calibration);
+
+}  // namespace leonav

@@ -1,0 +1,42 @@
+// Track holds the rows of a solution file or of a truth file.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/gps_time.h"
+#include "core/earth/ellipsoid.h"
+
+namespace leonav {
+
+// One row.
+struct TrackPoint {
+  GpsTime time;
+  Geodetic position;
+  std::optional<Eigen::Vector3d> v_n;        // m/s, north east down
+  std::array<std::optional<double>, 3> rpy;  // rad: roll, pitch, yaw
+  std::optional<Eigen::Vector3d> sigma_neu;  // m, 1 sigma
+};
+
+using Track = std::vector<TrackPoint>;  // times strictly increasing
+
+// Rows that are not in the track. They may have been every other epoch; then the interval of the
+// remaining ones, and the availability that follows from it, are meaningless.
+struct SkippedRows {
+  long skipped = 0, rows = 0;  // rows: those used
+  std::string first_problem;   // FILE:LINE: what
+};
+
+// Reads truth.csv. Throws FileError.
+Track load_truth(const std::string& path, SkippedRows* skipped = nullptr);
+
+// Reads solution.csv or RTKLIB's .pos (latitude, longitude, height or x, y, z), recognized by
+// content. Throws FileError, also if no row is usable.
+Track load_solution(const std::string& path, SkippedRows* skipped = nullptr);
+
+// Returns one line for people; empty if nothing was skipped.
+std::string to_string(const SkippedRows& skipped);
+
+}  // namespace leonav

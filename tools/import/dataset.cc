@@ -1,0 +1,131 @@
+#include "tools/import/dataset.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "drivers/text/line_reader.h"
+#include "drivers/text/nearest_word.h"
+
+namespace leonav {
+namespace {
+
+long line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
+
+class DatasetParser {
+ public:
+  explicit DatasetParser(const std::string& path) { dataset_.path = path; }
+
+  Dataset parse(const YAML::Node& root) {
+    if (!root.IsMap()) fail(root, "is no list of 'key: value' lines; see the keys in --help");
+    for (const auto& entry : root) take(entry.first, entry.second);
+    return dataset_;
+  }
+
+ private:
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const {
+    throw FileError(dataset_.path, line_of(node.Mark()), message);
+  }
+
+  void take(const YAML::Node& key_node, const YAML::Node& value) {
+    if (!key_node.IsScalar()) fail(key_node, "a key must be a word");
+    const std::string& key = key_node.Scalar();
+    if (!seen_.insert(key).second) fail(key_node, "key '" + key + "' is given twice; keep one");
+    for (const auto& [name, text] : texts_) {
+      if (key == name) {
+        if (!value.IsScalar() && !value.IsNull()) fail(value, "'" + key + "' must be text");
+        *text = value.IsNull() ? "" : value.Scalar();
+        return;
+      }
+    }
+    for (const auto& [name, paths] : lists_) {
+      if (key == name) {
+        *paths = read_paths(key, value);
+        return;
+      }
+    }
+    fail_unknown(key_node, key);
+  }
+
+  std::vector<std::string> read_paths(const std::string& key, const YAML::Node& value) const {
+    std::vector<std::string> paths;
+    if (value.IsNull()) return paths;
+    if (value.IsScalar()) {
+      add(value.Scalar(), &paths);
+    } else if (value.IsSequence()) {
+      for (const YAML::Node& item : value) {
+        if (!item.IsScalar()) fail(item, "'" + key + "' must be a path or a list of paths");
+        add(item.Scalar(), &paths);
+      }
+    } else {
+      fail(value, "'" + key + "' must be a path or a list of paths");
+    }
+    return paths;
+  }
+
+  void add(const std::string& text, std::vector<std::string>* paths) const {
+    if (text.empty()) return;
+    const auto folder = std::filesystem::path(dataset_.path).parent_path();
+    paths->push_back((folder / text).string());
+  }
+
+  [[noreturn]] void fail_unknown(const YAML::Node& node, const std::string& key) const {
+    std::vector<std::string> known;
+    for (const auto& [name, text] : texts_) known.push_back(name);
+    for (const auto& [name, paths] : lists_) known.push_back(name);
+    std::string message = "unknown key '" + key + "'";
+    if (const auto nearest = nearest_word(key, known)) {
+      message += "; did you mean '" + *nearest + "'?";
+    } else {
+      message += "; known are";
+      for (std::size_t i = 0; i < known.size(); ++i) message += (i == 0 ? " " : ", ") + known[i];
+    }
+    fail(node, message);
+  }
+
+  Dataset dataset_;
+  std::set<std::string> seen_;
+  const std::vector<std::pair<std::string, std::string*>> texts_ = {
+      {"name", &dataset_.name}, {"receiver_antenna", &dataset_.receiver_antenna}};
+  const std::vector<std::pair<std::string, std::vector<std::string>*>> lists_ = {
+      {"observations", &dataset_.observations},
+      {"navigation", &dataset_.navigation},
+      {"orbits", &dataset_.orbits},
+      {"clocks", &dataset_.clocks},
+      {"antenna_models", &dataset_.antenna_models},
+      {"imu", &dataset_.imu},
+      {"truth", &dataset_.truth}};
+};
+
+}  // namespace
+
+std::vector<std::string> Dataset::files() const {
+  std::vector<std::string> all = {path};
+  for (const auto* paths :
+       {&observations, &navigation, &orbits, &clocks, &antenna_models, &imu, &truth}) {
+    all.insert(all.end(), paths->begin(), paths->end());
+  }
+  return all;
+}
+
+Dataset load_dataset(const std::string& path) {
+  // Reports what is wrong with the path, and refuses files that are not text, before YAML reads
+  // them.
+  LineReader lines(path);
+  std::string text;
+  for (std::string_view line; lines.next(line);) text.append(line).push_back('\n');
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw FileError(path, line_of(documents[1].Mark()),
+                      "a second document begins here ('---'), which would not be read; keep one");
+    }
+    return DatasetParser(path).parse(documents.empty() ? YAML::Node() : documents[0]);
+  } catch (const YAML::Exception& error) {
+    throw FileError(path, line_of(error.mark), "is not readable as YAML: " + error.msg);
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,31 @@
+// Dataset lists the files of a recording, as dataset.yaml names them.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace leonav {
+
+// Paths are complete: those in the file are relative to its folder. Empty: not given.
+struct Dataset {
+  std::string path;  // path of the dataset.yaml
+  std::string name;
+  std::vector<std::string> observations;    // RINEX or .ubx, in order of time
+  std::vector<std::string> navigation;      // RINEX
+  std::vector<std::string> orbits;          // SP3
+  std::vector<std::string> clocks;          // RINEX clock
+  std::vector<std::string> antenna_models;  // ANTEX
+  std::string receiver_antenna;    // type and radome; empty: as in the observations' header
+  std::vector<std::string> imu;    // imu.csv
+  std::vector<std::string> truth;  // truth.csv
+
+  std::vector<std::string> files() const;  // all files, including dataset.yaml
+};
+
+// Reads dataset.yaml.
+//
+// Each key holds a path or a list of paths; "" and [] stand for none. Throws FileError with file
+// and line for unreadable YAML, a second document in it, an unknown key (with the nearest known
+// one) and a key given twice.
+Dataset load_dataset(const std::string& path);
+
+}  // namespace leonav

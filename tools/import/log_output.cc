@@ -1,0 +1,116 @@
+#include "tools/import/log_output.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace leonav {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kPartSuffix = ".part";
+
+}  // namespace
+
+void check_output(const std::string& path, const std::vector<std::string>& inputs) {
+  for (const std::string& name : {path, path + kPartSuffix}) {
+    std::error_code error;
+    const fs::file_status status = fs::status(name, error);
+    if (!fs::exists(status)) continue;
+    if (!fs::is_regular_file(status)) {
+      throw EventLogError(name + ": is there and no regular file; name another file to write to");
+    }
+    for (const std::string& input : inputs) {
+      std::error_code absent;
+      if (!fs::equivalent(name, input, absent)) continue;
+      throw EventLogError(name + ": is an input (" + input + "); name another file to write to");
+    }
+  }
+}
+
+LogOutput::LogOutput(const std::string& path, ImportReport* report)
+    : path_(path), part_path_(path + kPartSuffix), report_(report), writer_(part_path_) {
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    names_[i] = channel_name(static_cast<Channel>(i));
+  }
+}
+
+LogOutput::~LogOutput() {
+  if (!writer_) return;
+  writer_.reset();
+  remove_part();
+}
+
+void LogOutput::remove_part() {
+  std::error_code ignored;
+  fs::remove(part_path_, ignored);
+}
+
+void LogOutput::put(GpsTime arrival, Channel channel, ByteSpan bytes) {
+  last_stamp_us_ = std::max(last_stamp_us_ + 1, arrival.nanoseconds() / 1000);
+  if (!writer_->write(last_stamp_us_, names_[index_of(channel)], bytes)) {
+    throw EventLogError(writer_->error());
+  }
+}
+
+void LogOutput::extend_span(GpsTime time) {
+  if (!report_->first.is_set() || time < report_->first) report_->first = time;
+  report_->last = std::max(report_->last, time);
+}
+
+void LogOutput::write(GpsTime arrival, const ImuSample& sample) {
+  put(arrival, Channel::kImu, encoder_.encode(sample, next_sequence(Channel::kImu)));
+  extend_span(sample.time);
+  ++report_->imu_samples;
+}
+
+void LogOutput::write(GpsTime arrival, const OdometerIncrement& increment) {
+  put(arrival, Channel::kOdometer, encoder_.encode(increment, next_sequence(Channel::kOdometer)));
+  extend_span(increment.time);
+  ++report_->odometer_increments;
+}
+
+void LogOutput::write(GpsTime arrival, const RawEpoch& epoch) {
+  put(arrival, Channel::kGnssEpoch, encoder_.encode(epoch, next_sequence(Channel::kGnssEpoch)));
+  extend_span(epoch.time);
+  ++report_->epochs;
+  for (const SignalObservation& observation : epoch.observations) {
+    if (satellites_.insert(observation.satellite).second) {
+      ++report_->satellites[observation.satellite.system];
+    }
+  }
+}
+
+void LogOutput::write(GpsTime arrival, const Ephemeris& ephemeris) {
+  put(arrival, Channel::kEphemeris, encoder_.encode(ephemeris, next_sequence(Channel::kEphemeris)));
+  ++report_->ephemerides;
+}
+
+void LogOutput::write(GpsTime arrival, const KlobucharModel& model) {
+  put(arrival, Channel::kIonosphere,
+      encoder_.encode(model, arrival, next_sequence(Channel::kIonosphere)));
+  ++report_->ionosphere_models;
+}
+
+void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
+  put(arrival, Channel::kOrbitClock, encoder_.encode(states, next_sequence(Channel::kOrbitClock)));
+  const bool clocks = !states.empty() && states.front().is_clock_only();
+  ++(clocks ? report_->clock_epochs : report_->orbit_epochs);
+}
+
+void LogOutput::write(GpsTime arrival, const AntennaPattern& pattern) {
+  put(arrival, Channel::kAntenna,
+      encoder_.encode(pattern, arrival, next_sequence(Channel::kAntenna)));
+}
+
+void LogOutput::commit() {
+  if (!writer_->flush(true)) throw EventLogError(writer_->error());
+  writer_.reset();
+  std::error_code error;
+  fs::rename(part_path_, path_, error);
+  if (!error) return;
+  remove_part();
+  throw EventLogError(path_ + ": cannot be given its name: " + error.message());
+}
+
+}  // namespace leonav

@@ -1,0 +1,55 @@
+# Shared by tools/demo and tools/check: installs what is missing, configures, builds.
+# Sourced, with `set -euo pipefail` in force and the current folder anywhere.
+
+leonav_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
+
+say() { printf '\n== %s\n' "$*"; }
+fail() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
+
+# as_root COMMAND...: directly as root, otherwise through sudo.
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"
+  elif command -v sudo >/dev/null; then sudo "$@"
+  else fail "needs root or sudo to run: $*"
+  fi
+}
+
+# install_packages NAME...: only those that are missing, so that a second run asks nothing.
+install_packages() {
+  local missing=() name
+  for name in "$@"; do
+    dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || missing+=("$name")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  command -v apt-get >/dev/null || fail "not a Debian system; install by hand: ${missing[*]}"
+  say "Installing ${missing[*]}"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
+                       libyaml-cpp-dev libspdlog-dev)
+leonav_test_packages=(catch2 libceres-dev)
+
+# build PRESET [CMAKE_ARGUMENT...]
+build() {
+  local preset=$1; shift
+  local configure=("$@")
+  mkdir -p "$leonav_root/build"
+  say "Building ($preset)"
+  cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
+    { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
+  ninja -C "$leonav_root/build/$preset" --quiet || fail "the build failed"
+}
+
+# in_namespace COMMAND...: in a network namespace of its own, with LCM's multicast route on loopback.
+in_namespace() {
+  local enter=(unshare -n)
+  unshare -n true 2>/dev/null || enter=(unshare -rn)
+  "${enter[@]}" true 2>/dev/null ||
+    fail "cannot make a network namespace here; run as root, or in a container with the capability SYS_ADMIN"
+  "${enter[@]}" bash -c '
+    ip link set lo up multicast on || exit 90
+    ip route add 224.0.0.0/4 dev lo || exit 90
+    exec "$@"' in_namespace "$@"
+}
