@@ -42,21 +42,21 @@ void keyframe_from_filter(std::uint64_t index, GpsTime time, const MeasurementEp
   input->time = time;
   input->satellites.clear();
   input->measurements.clear();
-  input->valid = filter->initialized() && filter->is_finite();
-  input->follows_previous = input->valid && filter->process().continuous;
+  input->valid = filter->initialized() && filter->estimate().is_finite();
+  input->follows_previous = input->valid && filter->estimate().process().continuous;
   if (!input->valid) return;
   input->has_attitude = filter->has_attitude();
   input->state = filter->filter_state();
   input->covariance = filter->covariance();
-  input->measured_rate_b = filter->measured_rate_b();
-  input->acceleration_e = filter->acceleration_e();
+  input->measured_rate_b = filter->body().measured_rate_b;
+  input->acceleration_e = filter->body().acceleration_e;
   input->vertical_antenna_offset_e = filter->vertical_antenna_offset_e();
   if (input->follows_previous) {
     input->from = *from;
     // Where the process alone would have led, without the filter's updates.
     input->prior = input->state;
-    add(filter->process().transition.rightCols<1>(), input->has_attitude, &input->prior);
-    input->process = filter->process();
+    add(filter->estimate().process().transition.rightCols<1>(), input->has_attitude, &input->prior);
+    input->process = filter->estimate().process();
     if (measurements != nullptr) copy_measurements(*measurements, *filter, input);
   }
   *from = input->state;

@@ -51,24 +51,27 @@ void take_information(const FilterProcess& process, const ActiveStates& active,
 
 Repropagator::Repropagator(const RepropagationConfig& config)
     : motion_(config.motion),
-      propagator_(std::make_unique<Ekf>(propagating(config.ekf), config.imu, config.lever_arm_b)) {}
+      estimate_(std::make_unique<StateEstimate>(propagating(config.ekf))),
+      propagator_(config.ekf, config.imu) {}
 
 // From the estimate before, with the constraints that the filter has used.
 void Repropagator::propagate(const Keyframe& before, const Keyframe& keyframe) {
-  propagator_->set_state(before.state, true, keyframe.sample_before_block);
+  estimate_->set_exactly(before.state, true);
+  propagator_.restart(before.state.nav, keyframe.sample_before_block);
   const std::span<const ImuSample> block{keyframe.block.data(), keyframe.block.size()};
   for (const ConstraintInstant& instant : keyframe.instants) {
-    propagator_->predict(block, instant.time);  // takes up what is still ahead of it
-    motion_measurements(motion_, instant, propagator_->filter_state(),
-                        propagator_->measured_rate_b(), &measurements_);
+    // Samples that lie behind the estimate already are skipped.
+    propagator_.predict(block, instant.time, estimate_.get());
+    motion_measurements(motion_, instant, estimate_->state(), propagator_.body().measured_rate_b,
+                        &measurements_);
     const auto unused = [&](const MotionMeasurement& measurement) {
       return (instant.used >> measurement.component & 1) == 0;
     };
     measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), unused),
                         measurements_.end());
-    propagator_->constrain(&measurements_, std::numeric_limits<double>::infinity());
+    estimate_->constrain(&measurements_, std::numeric_limits<double>::infinity());
   }
-  propagator_->predict(block, keyframe.time);
+  propagator_.predict(block, keyframe.time, estimate_.get());
 }
 
 void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
@@ -77,8 +80,8 @@ void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
   if (!is_far(difference(before.state, process_factor.from))) return;
   propagate(before, *keyframe);
 
-  const FilterProcess& process = propagator_->process();
-  FilterState whole = propagator_->filter_state();
+  const FilterProcess& process = estimate_->process();
+  FilterState whole = estimate_->state();
   // Constraints have moved the state away from where the process then leads.
   if (process.has_information) add(process.transition.rightCols<1>(), true, &whole);
   FilterState to = predicted_state(before, *keyframe);

@@ -1,10 +1,11 @@
-// Integrates a process_factor's IMU block anew where the estimate has left the place it was
-// linearized at.
+// Repropagator integrates the IMU block of a process factor again where the estimate has moved away
+// from where the factor was linearized.
 #pragma once
 #include <cstdint>
 #include <memory>
 
-#include "core/filter/ekf.h"
+#include "core/filter/estimate/inertial_propagator.h"
+#include "core/filter/estimate/state_estimate.h"
 #include "core/smoother/keyframe.h"
 
 namespace leonav {
@@ -12,7 +13,6 @@ namespace leonav {
 struct RepropagationConfig {
   EkfConfig ekf;
   ImuErrorModel imu;
-  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
   MotionConstraintConfig motion;
 };
 
@@ -21,11 +21,10 @@ class Repropagator {
  public:
   explicit Repropagator(const RepropagationConfig& config);
 
-  // Nothing while the keyframe before is near where the process_factor begins. Otherwise the
-  // process_factor is moved to begin there: position, velocity and attitude are integrated anew, F
-  // of the inertial states with them, and constraints on the motion are met anew on the way, those
-  // that the filter has used. What is linear anyway (clocks, ambiguities) follows its old F; the
-  // noise stays.
+  // Does nothing while the keyframe before is near where the process factor begins. Otherwise the
+  // factor is moved to begin there: position, velocity and attitude are integrated anew, with the F
+  // of the inertial states, and the motion constraints that the filter has used are applied on the
+  // way. What is linear anyway (clocks, ambiguities) follows its old F; the noise stays.
   void operator()(const Keyframe& before, Keyframe* keyframe);
   std::uint64_t repropagations() const { return repropagations_; }
 
@@ -34,7 +33,8 @@ class Repropagator {
 
   MotionConstraintConfig motion_;
   MotionMeasurements measurements_;
-  std::unique_ptr<Ekf> propagator_;
+  std::unique_ptr<StateEstimate> estimate_;
+  InertialPropagator propagator_;
   std::uint64_t repropagations_ = 0;
 };
 

@@ -33,10 +33,10 @@ struct ForwardMotion {
 
 ForwardMotion forward_motion(const Ekf& ekf, const Eigen::Vector3d& point_b) {
   constexpr int kSize = ekf_index::kSize, kAttitude = ekf_index::kAttitude;
-  const TravelAxes axes = travel_axes(ekf.vehicle());
-  const BodyVelocity velocity = body_velocity(ekf.state(), ekf.measured_rate_b(), point_b);
+  const TravelAxes axes = travel_axes(ekf.filter_state().vehicle);
+  const BodyVelocity velocity = body_velocity(ekf.state(), ekf.body().measured_rate_b, point_b);
   const Eigen::Vector3d forward = axes.C_bv.col(0);
-  const Eigen::Index known = kSize + static_cast<Eigen::Index>(ekf.vehicle().size());
+  const Eigen::Index known = kSize + static_cast<Eigen::Index>(ekf.filter_state().vehicle.size());
   const auto variance_of = [&](const auto& row) {
     const auto h = row.head(known);
     return std::max(0.0, h.dot(ekf.covariance().topLeftCorner(known, known) * h));
@@ -177,8 +177,8 @@ void MotionAiding::constrain(Ekf* ekf) {
   const double alike = kAlike_s / constraints.interval_s * adrift * adrift;
   instant.side_second_order_variance = alike * forward.side_variance;
   instant.vertical_second_order_variance = alike * forward.down_variance;
-  motion_measurements(config_.constraints, instant, ekf->filter_state(), ekf->measured_rate_b(),
-                      &measurements_);
+  motion_measurements(config_.constraints, instant, ekf->filter_state(),
+                      ekf->body().measured_rate_b, &measurements_);
   instant.used = ekf->constrain(&measurements_, config_.constraints.gate);
   report(instant.time);
   count(instant.used);

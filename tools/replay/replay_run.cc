@@ -109,9 +109,9 @@ void ReplayRun::print_summary(std::ostream& out) {
 void ReplayRun::print_odometer(std::ostream& out) {
   using ekf_index::kOdometerScale, ekf_index::kSize;
   const Ekf& ekf = pipeline_.gnss().ekf();
-  if (ekf.vehicle().size() <= kOdometerScale) return;
+  if (ekf.filter_state().vehicle.size() <= kOdometerScale) return;
   const double sigma = std::sqrt(ekf.covariance()(kSize + kOdometerScale, kSize + kOdometerScale));
-  out << "odometer scale: " << 100.0 * ekf.vehicle()[kOdometerScale] << " % (1 sigma "
+  out << "odometer scale: " << 100.0 * ekf.filter_state().vehicle[kOdometerScale] << " % (1 sigma "
       << 100.0 * sigma << ")\n";
 }
 

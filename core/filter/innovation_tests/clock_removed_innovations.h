@@ -1,5 +1,5 @@
-// Innovations without what all of a kind have in common: a clock that nobody can predict would hide
-// what the prediction of the position is off.
+// This header removes the receiver clock from innovations, because an unpredictable clock would
+// hide an error of the predicted position.
 #pragma once
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
@@ -12,19 +12,19 @@ namespace leonav {
 struct ClockRemovedInnovation {
   std::size_t index = 0;  // into the measurements
   double innovation = 0.0;
-  double variance = 0.0;           // of what is left: measured and predicted
-  double measured_variance = 0.0;  // the measurement's own
+  double variance = 0.0;           // of `innovation`: measured and predicted
+  double measured_variance = 0.0;  // of the measurement alone
 };
 using ClockRemovedInnovations =
     boost::container::static_vector<ClockRemovedInnovation, kMaxMeasurements>;
 
-// An ambiguity of this variance or more, m^2, is as good as unknown: one that begins at this epoch.
+// An ambiguity with this variance or more, m^2, counts as unknown: its arc begins at this epoch.
 inline constexpr double kUnknownAmbiguityVariance = 1e4;
 
-// Those of one observable. Each time base with four of them or more is free of its own clock: a
-// step of one is then no wrong position. What the others have goes with the largest base, or, where
-// no base has four, they all go together. Carriers whose ambiguity is as good as unknown are left
-// out: they agree with everything.
+// Returns the clock-removed innovations of one observable. Each system with four or more of them
+// has its own median removed, so that a step of its clock does not look like a wrong position. The
+// others share the clock of the largest system or, where no system has four, one clock for all.
+// Carriers with an unknown ambiguity are left out, because they agree with everything.
 ClockRemovedInnovations clock_removed_innovations(const FilterMeasurements& measurements,
                                                   Observable observable,
                                                   const EkfCovariance& covariance);

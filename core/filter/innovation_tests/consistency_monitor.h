@@ -1,17 +1,17 @@
-// Does the filter go on being as wrong as it says? Weights hide what a single epoch's test does not
-// reject; a ratio that stays high tells it.
+// ConsistencyMonitor detects that innovations are persistently larger than the filter's sigmas.
 #pragma once
 
 namespace leonav {
 
-// Follows the mean of an epoch's consistency ratio (EkfUpdateResult: 1 when all is well) with an
-// exponential window. The median of eight measurements scatters by 0.4 about 1, such a mean over
-// thirty epochs by 0.05: 2 is not chance but sigmas half of what they should be, or a filter that
-// follows something else than the vehicle.
+// It follows the mean of the consistency ratio (consistency_ratio(), 1 when all is well) over an
+// exponential window of thirty epochs. The ratio of eight measurements scatters by 0.4 about 1,
+// this mean by 0.05: a mean of 2 is no chance, but sigmas of half the true size, or a filter that
+// follows something else than the vehicle. Single epochs below their test's limit do not reveal
+// this.
 class ConsistencyMonitor {
  public:
-  // True when the mean has just become improbable; again only after it has recovered. NaN: nothing
-  // to be told from this epoch.
+  // Adds an epoch's ratio; NaN is skipped. Returns true when the mean has just exceeded 2, and
+  // again only after it has fallen below 1.5.
   bool add(double ratio);
   double mean() const { return mean_; }
 

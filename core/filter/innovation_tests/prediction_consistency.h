@@ -1,6 +1,6 @@
-// Tells a wrong prediction from outliers: when the measurements agree with each other but not with
-// the prediction, the clock has jumped or the motion model has failed, and rejecting them all would
-// be the worst answer.
+// These functions distinguish a wrong prediction from outliers. Measurements that agree with each
+// other but not with the prediction show that the clock has jumped or the motion model has failed;
+// rejecting them all would be the worst answer.
 #pragma once
 
 #include "core/filter/innovation_tests/clock_removed_innovations.h"
@@ -9,41 +9,40 @@
 
 namespace leonav {
 
-// Looks for a shift that all innovations of one observable share: a clock jump (a receiver that
-// steps its clock by milliseconds, or a phone's by anything). Returns the shift, 0 if there is
-// none.
+// Returns a shift that all innovations of one observable share, 0 if there is none: a clock jump (a
+// receiver's by milliseconds, a phone's by anything), m.
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 
-// Median of |innovation| over its sigma, divided by what it is for normal errors. NaN: fewer than
-// four.
+// Returns the median of |innovation| over its sigma, divided by its value for normal errors
+// (0.674); NaN for fewer than four.
 double consistency_ratio(const ClockRemovedInnovations& table);
 
-// Whether the median standardized innovation is below `suspect`; false for fewer than four.
+// Returns true if the median standardized innovation is below `suspect`; false for fewer than four.
 bool median_is_consistent(const ClockRemovedInnovations& table, double suspect);
 
-// Whether all standardized innovations are below three.
+// Returns true if all standardized innovations are below three.
 bool all_are_consistent(const ClockRemovedInnovations& table);
 
-// Sets prior_ratio of the table's measurements, where there are four: a clock whose prediction is
-// worth nothing would let all of them pass, whatever they contradict.
+// Sets prior_ratio of the table's measurements if there are four or more: with an unpredictable
+// clock, all of them would pass the plain innovation test.
 void set_prior_ratios(const ClockRemovedInnovations& table, FilterMeasurements* measurements);
 
-// Variance by which the predicted position (of Dopplers: velocity), along each axis, is wrong
-// beyond its covariance; 0 while the median standardized innovation is below `suspect`, and 0 where
-// the measurements do not agree with each other either once the prior is that wide: then most of
-// them are bad, and following them would carry the filter away. `table`: of `observable`.
+// Returns the variance, per axis, by which the predicted position (for Dopplers: velocity) is wrong
+// beyond its covariance, m^2 or (m/s)^2. It is 0 while the median standardized innovation is below
+// `suspect`, and 0 if the measurements do not agree with each other even with so wide a prior: then
+// most of them are bad, and the filter must not follow them. `table`: of `observable`.
 double unmodelled_prior_variance(const RobustConfig& robust, const FilterMeasurements& measurements,
                                  Observable observable, const ClockRemovedInnovations& table,
                                  const EkfCovariance& covariance, double suspect,
                                  RobustUpdate* robust_update);
 
-// Adds `variance` to the states an observable sees first (code, carrier: position, clock offsets;
-// Doppler: velocity, clock drifts) and that are states at all: a fixed point has no velocity, a
-// time base none has seen no clock. Added, not scaled: correlations with ambiguities that are
-// nearly perfect would turn a wider prior into a better one. A velocity (a drift) that has gone
-// wrong over `interval_s`, evenly, has taken the position (the clock) with it: by half of the way,
-// which is added as well (without the correlation: what came of it is the ranges' to say).
+// Adds `variance` to the states that an observable measures directly: position and clock offsets
+// for code and carrier, velocity and clock drifts for Doppler. States without variance stay (the
+// velocity of a fixed point, the clock of an unobserved system). The variance is added, not
+// multiplied, because nearly perfect correlations with ambiguities would turn a scaled prior into a
+// better one. A velocity (drift) that went wrong evenly over `interval_s` has moved the position
+// (offset) by half the product, which is added as well, without correlation.
 void inflate_covariance(Observable observable, double variance, double interval_s,
                         EkfCovariance* covariance);
 

@@ -158,7 +158,7 @@ void InsTransition::propagate(EkfCovariance* covariance) const {
   rows.noalias() = top_ * P.topRows<kInsSize>();
   P.middleRows<kInsSize - 9>(9) = decays.asDiagonal() * P.middleRows<kInsSize - 9>(9);
   P.topRows<9>() = rows;
-  // (Phi P) Phi^T, likewise by columns.
+  // (Phi P) Phi^T, in the same way by columns.
   BoundedMatrix<kMaxSize, 9> columns;
   columns.noalias() = P.leftCols<kInsSize>() * top_.transpose();
   P.middleCols<kInsSize - 9>(9) = P.middleCols<kInsSize - 9>(9) * decays.asDiagonal();

@@ -1,4 +1,4 @@
-// Transition matrix and process noise of the 21 inertial error states in ECEF.
+// InsTransition accumulates transition matrix and process noise of the 21 inertial error states.
 #pragma once
 #include <Eigen/Core>
 
@@ -9,7 +9,7 @@
 
 namespace leonav {
 
-// What the error equations need to know of one IMU sample.
+// What the error equations need from one IMU sample.
 struct InsSample {
   Eigen::Matrix3d C_eb;        // at the middle of the interval
   Eigen::Vector3d f_b;         // mean specific force, errors removed, m/s^2
@@ -22,7 +22,7 @@ struct InsSample {
 //   p' = v
 //   v' = -(C_eb f x) psi - 2 omega_ie x v + gamma p + C_eb df
 //   psi' = -omega_ie x psi + C_eb dw
-//   dw = -(bias error + w scale error + noise) / (1 + scale), df likewise
+//   dw = -(bias error + w scale error + noise) / (1 + scale); df in the same way
 //   biases and scales: first-order Gauss-Markov
 // The matrix of each sample is multiplied onto the product so far through its 3 x 3 blocks, and the
 // covariance is moved only once per sub-block: at 200 Hz, a tenth of the work.
@@ -30,8 +30,8 @@ class InsTransition {
  public:
   using Matrix = Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>;
 
-  // Starts a sub-block: identity. `errors` are the ones removed from the samples; `gamma` is the
-  // gradient of gravity (1/s^2).
+  // Starts a sub-block at identity. `errors` are those removed from the samples; `gamma` is the
+  // gradient of gravity, ECEF, 1/s^2.
   void begin(const ImuErrorModel& model, const ImuErrors& errors, const Eigen::Matrix3d& gamma);
   void add(const InsSample& sample);
 
@@ -39,9 +39,9 @@ class InsTransition {
   Matrix transition() const;
   Matrix noise() const;
 
-  // P <- Phi P Phi^T + Q on the inertial states and their correlations with the others.
+  // Applies P <- Phi P Phi^T + Q to the inertial states and their correlations with the others.
   void propagate(EkfCovariance* covariance) const;
-  // F <- Phi F on its inertial rows.
+  // Applies F <- Phi F to the inertial rows.
   void advance(ProcessMatrix* transition) const;
 
  private:

@@ -1,4 +1,5 @@
-// The filter's carrier ambiguities: the states that come and go.
+// These functions add, find, remove and propagate the carrier ambiguities of a state and
+// covariance.
 #pragma once
 #include <cstdint>
 
@@ -8,17 +9,17 @@ namespace leonav {
 
 inline constexpr int kNoAmbiguity = -1;
 
-// Place of an arc in `ambiguities`, or kNoAmbiguity.
+// Returns the index of an arc in `ambiguities`, or kNoAmbiguity.
 int find_ambiguity(const Ambiguities& ambiguities, std::uint32_t arc);
 
-// Appends a state with `sigma_m`, uncorrelated with all else. The table must have room.
+// Appends a state with `sigma_m`, uncorrelated with all others. The table must have room.
 void add_ambiguity(const Ambiguity& ambiguity, double sigma_m, Ambiguities* ambiguities,
                    EkfCovariance* covariance);
 
-// Takes a state out; those behind it move up.
+// Removes a state; those behind it move up.
 void remove_ambiguity(int index, Ambiguities* ambiguities, EkfCovariance* covariance);
 
-// Random walk of every ambiguity over `dt` seconds.
+// Adds the random walk of every ambiguity over `dt` seconds.
 void propagate_ambiguities(const Ambiguities& ambiguities, double dt, EkfCovariance* covariance);
 
 }  // namespace leonav

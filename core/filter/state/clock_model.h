@@ -1,4 +1,5 @@
-// Receiver clock: one offset (m) and drift (m/s) per time base, driven by one oscillator.
+// This is the two-state model of the receiver clock: an offset (m) and a drift (m/s) per satellite
+// system, all driven by one oscillator (Brown and Hwang 2012, 9.3).
 #pragma once
 #include <cstddef>
 
@@ -7,22 +8,21 @@
 
 namespace leonav {
 
-// Moves the covariance of the bases observed so far by `dt` seconds (their offsets by their drifts
-// is the caller's). The oscillator's noise is the same for all bases (fully correlated), the noise
-// of each base against it is its own.
+// Propagates the covariance of the systems observed so far by `dt` seconds; the caller moves the
+// offsets by their drifts. The oscillator's noise is common to all systems (fully correlated), and
+// each system has its own noise against it.
 void propagate_clocks(const ClockModel& model, const ClockFlags& known, double dt,
                       EkfCovariance* covariance);
 
-// Starts the offset of a base that was not observed before, uncorrelated with all else.
+// Starts the offset of system `base`, uncorrelated with all other states.
 void start_clock_offset(std::size_t base, double offset_m, double sigma_m, ClockState* clocks,
                         EkfCovariance* covariance);
 
-// Likewise for its drift.
+// Starts the drift of system `base`, uncorrelated with all other states.
 void start_clock_drift(std::size_t base, double drift_m_s, double sigma_m_s, ClockState* clocks,
                        EkfCovariance* covariance);
 
-// The drift of a base that has given no Doppler yet is that of another, with `sigma_m_s` between
-// them.
+// Starts the drift of system `to` as that of system `from`, with `sigma_m_s` between them.
 void copy_clock_drift(std::size_t from, std::size_t to, double sigma_m_s, ClockState* clocks,
                       EkfCovariance* covariance);
 

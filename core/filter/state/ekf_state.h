@@ -1,4 +1,5 @@
-// The filter's error state: order, covariance, clocks, ambiguities.
+// This header defines the order of the filter's error state, its covariance, clocks and
+// ambiguities.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -17,20 +18,21 @@ namespace leonav {
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
 //   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s),
 //   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), the
-//   vehicle's constants as far as they are estimated, and one ambiguity (m) per carrier arc under
+//   vehicle constants as far as they are estimated, and one ambiguity (m) per carrier arc under
 //   way.
 // The constant-velocity and static models keep the same order; the states they lack have zero
 // covariance and take no correction.
 namespace ekf_index {
 inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12,
                      kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25,
-                     kWetDelay = 29, kCarrierClock = 30, kSize = 31;  // what comes and goes follows
+                     kWetDelay = 29, kCarrierClock = 30,
+                     kSize = 31;  // states that come and go follow
 inline constexpr int kInsSize = 21;
-// The vehicle's constants, from kSize on, as many as are estimated: the direction of travel in body
-// axes (yaw and pitch, rad), by which part an odometer shows more than
-// it should, the antenna's lever arm in body axes beyond the
-// configured one (3, m), and how much later than stamped, as configured, the IMU has measured (s).
-// One that is not estimated, before others that are, has no variance and takes no correction.
+// The vehicle constants follow from kSize on, as many as are estimated: the direction of travel in
+// body axes (yaw and pitch, rad), the relative scale error of the odometer, the antenna's lever arm
+// in body axes beyond the configured one (3, m), and by how much later than its corrected stamp the
+// IMU measures (s). A constant that is not estimated, before others that are, has no variance and
+// takes no correction.
 inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kLeverArm = 3,
                      kTimeOffset = 6, kMaxVehicle = 7;
 // The last four of them move the antenna.
@@ -38,14 +40,14 @@ inline constexpr int kAntennaConstants = kMaxVehicle - kLeverArm;
 inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 
-// Square, kSize, the vehicle's constants and the arcs under way; its storage has a fixed capacity.
+// A square matrix over all states at hand, in storage of fixed capacity.
 using EkfCovariance = BoundedMatrix<ekf_index::kMaxSize, ekf_index::kMaxSize>;
-// Likewise one number per state.
+// One number per state.
 using EkfCorrection = BoundedVector<ekf_index::kMaxSize>;
-// Of the states before the ambiguities: what a measurement's Jacobian has besides a one for its own
-// ambiguity.
+// One number per state before vehicle constants and ambiguities: the Jacobian row of a measurement,
+// which has a one for its own ambiguity beside.
 using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
-// Of gyro bias, accelerometer bias, gyro scale, accelerometer scale.
+// Covariance of gyro bias, accelerometer bias, gyro scale and accelerometer scale, in this order.
 using ImuErrorCovariance = Eigen::Matrix<double, 12, 12>;
 
 using VehicleConstants = boost::container::static_vector<double, ekf_index::kMaxVehicle>;
@@ -55,21 +57,21 @@ struct ClockState {
   Eigen::Vector4d drift_m_s = Eigen::Vector4d::Zero();
 };
 
-// Time bases observed so far, per System. An unobserved one has zero covariance and takes no
-// correction until its first measurement starts it. A known offset implies a known drift.
+// The clocks of systems observed so far, per System. An unobserved one has zero covariance and
+// takes no correction until its first measurement starts it. A known offset implies a known drift.
 struct ClockFlags {
   std::array<bool, kMaxTimeBases> offset{};
   std::array<bool, kMaxTimeBases> drift{};
 };
 
-// The constant of one carrier arc: what its carrier measures beyond the code's model, m.
+// The constant of one carrier arc, m: carrier phase minus the code's model.
 struct Ambiguity {
   std::uint32_t arc = 0;
   SatelliteId satellite;
   double value_m = 0.0;
   double random_walk = 0.0;  // m/sqrt(s), random walk
   GpsTime started, last_used;
-  int rejected = 0;  // epochs in a row
+  int rejected = 0;  // in so many epochs in a row
 };
 // Index-parallel to the error state from FilterState::first_ambiguity() on.
 using Ambiguities = boost::container::static_vector<Ambiguity, kMaxArcs>;

@@ -1,12 +1,13 @@
-// The filter's nominal state as a whole, and its error state's two operations: add and difference.
+// FilterState is the filter's nominal state; add() and difference() connect it with the error
+// state.
 #pragma once
 #include "core/filter/state/ekf_state.h"
 #include "core/inertial/strapdown/nav_state.h"
 
 namespace leonav {
 
-// Beside the gyros' noise, until then: an attitude that was found, not told, is wrong in ways that
-// its variances do not tell of.
+// Additional noise of the attitude for a limited time. An attitude found by alignment is wrong in
+// ways that its variances do not contain.
 struct AttitudeRandomWalk {
   double noise = 0.0;  // rad/sqrt(s)
   GpsTime until;
@@ -16,22 +17,23 @@ struct FilterState {
   NavState nav;
   ClockState clocks;
   double wet_delay_m = 0.0;      // at zenith, beyond the modelled one
-  double carrier_clock_m = 0.0;  // of the carriers against the codes
+  double carrier_clock_m = 0.0;  // clock of the carriers minus that of the codes
   VehicleConstants vehicle;
   Ambiguities ambiguities;
-  AttitudeRandomWalk random_walk;  // of its process; nothing that is estimated
+  AttitudeRandomWalk random_walk;  // part of the process model; not estimated
 
-  // Place in the error state.
+  // Index of the first ambiguity in the error state.
   int first_ambiguity() const { return ekf_index::kSize + static_cast<int>(vehicle.size()); }
 };
 
-// Corrects `state` by an error in the order of ekf_index; the attitude only if `has_attitude`.
+// Adds an error in the order of ekf_index to `state`; to the attitude only if `has_attitude`.
 void add(const EkfCorrection& error, bool has_attitude, FilterState* state);
 
-// The error of `reference` if `state` were true: add(difference(a, b), true, &b) makes b equal a.
-// Both have the same vehicle's constants and the same ambiguities in the same order.
+// Returns the error of `reference` if `state` were true: add(difference(a, b), true, &b) makes b
+// equal to a. Both must have the same vehicle constants and the same ambiguities in the same order.
 EkfCorrection difference(const FilterState& state, const FilterState& reference);
 
+// Returns false once any number is infinite or not a number.
 bool is_finite(const FilterState& state);
 
 }  // namespace leonav

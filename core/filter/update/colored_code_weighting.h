@@ -1,5 +1,5 @@
-// How much the codes of one satellite may still tell, given what they have told before: of their
-// errors, noise averages and the orbit's does not.
+// ColoredCodeWeighting weighs successive codes of one satellite whose errors are white noise plus a
+// Gauss-Markov process.
 #pragma once
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
@@ -10,28 +10,29 @@
 
 namespace leonav {
 
-// A code's error is white noise plus a Gauss-Markov process. The filter has no state for the
-// latter; instead each code counts for what it adds to all codes of its satellite before. For every
-// one a filter of two states (a constant, of which nothing is known at first, and the process)
-// tells how well n codes together know the constant: 1/P_n. What the n-th weighs in the large
-// filter is the increase of that, 1/P_n - 1/P_(n-1). So the first counts in full, the next ones
-// until noise is averaged down to the correlated part, and later ones as that part changes; the
-// total is that of the best linear estimate. The constant stands for the position along the line
-// of sight: this holds only as long as carriers, or a fixed antenna, keep that from epoch to epoch.
+// The filter has no state for the Gauss-Markov part (orbit, clock and atmosphere errors). Instead
+// each code gets the weight that it adds to the codes of its satellite before. For every satellite
+// and signal a filter of two states, an unknown constant and the process, gives the variance P_n of
+// the constant after n codes. The n-th code enters the large filter with the information
+//   1/P_n - 1/P_(n-1).
+// The first one counts in full, the next ones until noise is averaged down to the correlated part,
+// and later ones as far as that part changes; the sum is that of the best linear estimate. The
+// constant stands for the position along the line of sight, so that this holds only while carriers,
+// or a fixed antenna, keep the position from epoch to epoch. The method is our own.
 class ColoredCodeWeighting {
  public:
   struct CodeErrorModel {
-    std::uint32_t orbit_issue = 0;  // another one: another error
+    std::uint32_t orbit_issue = 0;  // another issue has another error
     double random_walk = 0.0;       // m/sqrt(s), of the constant
     double disturbance_m = 0;       // 1 sigma of a step in it since the last epoch
     double correlation_time_s = 0;  // of the process
   };
 
-  // Variance with which `code` is to be weighed; `noise_variance` is that of its white part. The
-  // entry_index of the code in the schedule comes out, -1 if it has none (the table is full).
+  // Returns the variance with which `code` is to be weighed, m^2; `noise_variance` is that of its
+  // white part. `entry_index` receives the code's index for accept(), -1 if the table is full.
   double weigh(const Measurement& code, SatelliteId satellite, const CodeErrorModel& error_model,
                double noise_variance, GpsTime time, int* entry_index);
-  // The filter has used the code that weigh() gave this entry_index.
+  // Records that the filter has used the code to which weigh() gave this index.
   void accept(int entry_index);
   void clear() { entries_.clear(); }
 

@@ -1,4 +1,4 @@
-// One epoch's measurement update with IGG-III weights.
+// RobustUpdate applies the measurements of one epoch to a covariance, with IGG-III weights.
 #pragma once
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
@@ -16,28 +16,31 @@ inline constexpr std::size_t kObservables = 3;
 struct RobustUpdateResult {
   EkfCorrection correction;
   double nis = 0.0;
-  // Per Observable: by how much the residuals are larger than they should be, from their median;
-  // 1 if they are not.
+  // Per Observable: median residual over its expected value, at least 1.
   std::array<double, kObservables> scale = {1.0, 1.0, 1.0};
-  // Likewise by how much the sigmas of measurements that contradict each other have been raised.
+  // Per Observable: the factor by which the sigmas of measurements that contradict each other were
+  // raised.
   std::array<double, kObservables> sigma_inflation = {1.0, 1.0, 1.0};
 };
 
-// The tables of one update. Allocates when constructed, not after.
+// IGG-III: core/robust/igg3.h. Allocates its tables when constructed, not after.
 class RobustUpdate {
  public:
-  // Re-weights and solves at most `config.max_iterations` times. The residual that is tested is
-  // that against the prediction from all *other* measurements and the prior, over its standard
-  // deviation: in the first pass (nothing used yet) that is the standardized innovation, afterwards
-  // it also sees outliers that hide behind a poor prior. What the innovation test excludes stays
-  // out (whether the prior is to be believed is decided before, prediction_check.h). Where half of
-  // the residuals of an observable are larger than they should be, all are scaled down first, so
-  // that the many are not thrown out for the few; where they still are more than three times as
-  // large in the end, codes or Dopplers contradict each other, and their variances grow by as much
-  // before all are weighted anew: `factor` then holds what is left of each one's weight.
-  // Carriers that contradict so much that the weights go to and fro are thrown out worst first;
-  // where fewer than three quarters of them are left by that, or beside codes that contradict each
-  // other, none is used: any four agree about some position.
+  // Weighs and solves at most `config.max_iterations` times, and writes `factor` of every
+  // measurement and the covariance after the update. The rules:
+  // 1. The tested residual is that against the prediction from the prior and all *other*
+  //    measurements, over its standard deviation. In the first pass, when none is used yet, this is
+  //    the standardized innovation; afterwards it also finds outliers that a poor prior hides.
+  // 2. What the innovation test excludes stays excluded. Whether the prior can be believed was
+  //    decided before (core/filter/prediction_test.h).
+  // 3. If the median residual of an observable is larger than it should be, all its residuals are
+  //    scaled down first, so that the many are not excluded for the sake of the few.
+  // 4. If that scale still exceeds three at the end, codes or Dopplers contradict each other: their
+  //    variances are multiplied by its square and all are weighed again.
+  // 5. Carriers whose weights do not converge are excluded worst first. If fewer than three
+  // quarters
+  //    of them remain, or if the codes contradict each other as well, no carrier is used: any four
+  //    agree about some position.
   RobustUpdateResult operator()(const RobustConfig& config, FilterMeasurements* measurements,
                                 EkfCovariance* covariance);
 
@@ -51,7 +54,7 @@ class RobustUpdate {
                                   FilterMeasurements* measurements, RobustUpdateResult* result);
 
   WeightedLeastSquares least_squares_;
-  bool worst_excluded_ = false;  // the worst of this epoch have been thrown out
+  bool worst_excluded_ = false;  // rule 5 has been applied in this epoch
 };
 
 }  // namespace leonav

@@ -23,7 +23,8 @@ double gyro_bias_sigma(const Ekf& filter) {
 
 void fill_solution(const Ekf& filter, Solution* solution) {
   const PvaCovariance covariance = filter.covariance().topLeftCorner<9, 9>();
-  const double offset_s = filter.has_attitude() ? time_offset_of(filter.vehicle()) : 0.0;
+  const double offset_s =
+      filter.has_attitude() ? time_offset_of(filter.filter_state().vehicle) : 0.0;
   fill_solution(at_stamp(filter.state(), offset_s), covariance, filter.has_attitude(), solution);
 }
 

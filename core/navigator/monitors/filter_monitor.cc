@@ -45,11 +45,12 @@ PointSolution inflated_estimate(const Ekf& filter, double sigma_m, double sigma_
   own.has_velocity = true;
   own.covariance_p_e = inflated(filter.covariance(), ekf_index::kPosition, sigma_m);
   own.covariance_v_e = inflated(filter.covariance(), ekf_index::kVelocity, sigma_m_s);
-  const ClockFlags& known = filter.known_clocks();
+  const ClockFlags& known = filter.estimate().known_clocks();
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     const auto i = static_cast<Eigen::Index>(base);
-    own.clock_m[base] = known.offset[base] ? filter.clocks().offset_m(i) : kUnknown;
-    own.clock_drift_m_s[base] = known.drift[base] ? filter.clocks().drift_m_s(i) : kUnknown;
+    own.clock_m[base] = known.offset[base] ? filter.filter_state().clocks.offset_m(i) : kUnknown;
+    own.clock_drift_m_s[base] =
+        known.drift[base] ? filter.filter_state().clocks.drift_m_s(i) : kUnknown;
   }
   return own;
 }
@@ -71,7 +72,8 @@ FilterMonitor::FilterMonitor(const NavigatorConfig& config)
       use_carrier_(config.ekf.use_carrier) {}
 
 FilterVerdict FilterMonitor::test_finite(const Ekf& filter) const {
-  if (filter.initialized() && !filter.is_finite()) return drop(ResetCause::kNotFinite, 0.0);
+  if (filter.initialized() && !filter.estimate().is_finite())
+    return drop(ResetCause::kNotFinite, 0.0);
   return {};
 }
 
@@ -201,8 +203,10 @@ bool FilterMonitor::motion_supports_point(const PointSolution& point, const Ekf&
   double from_filter = (moved_m_s - filter.antenna_velocity_e()).squaredNorm();
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     const double ran_m_s = (point.clock_m[base] - first_contradiction_point_.clock_m[base]) / dt;
-    const double drift_m_s = filter.clocks().drift_m_s(static_cast<Eigen::Index>(base));
-    if (!filter.known_clocks().drift[base] || !std::isfinite(ran_m_s + point.clock_drift_m_s[base]))
+    const double drift_m_s =
+        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(base));
+    if (!filter.estimate().known_clocks().drift[base] ||
+        !std::isfinite(ran_m_s + point.clock_drift_m_s[base]))
       continue;
     from_point += std::pow(ran_m_s - point.clock_drift_m_s[base], 2);
     from_filter += std::pow(ran_m_s - drift_m_s, 2);
@@ -220,8 +224,11 @@ bool FilterMonitor::contradicts(const PointSolution& point, const Ekf& filter, G
   const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
   bool differs = (point.v_e - filter.antenna_velocity_e()).norm() > limit_m_s;
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    if (!filter.known_clocks().drift[base] || !std::isfinite(point.clock_drift_m_s[base])) continue;
-    const double drift_m_s = filter.clocks().drift_m_s(static_cast<Eigen::Index>(base));
+    if (!filter.estimate().known_clocks().drift[base] ||
+        !std::isfinite(point.clock_drift_m_s[base]))
+      continue;
+    const double drift_m_s =
+        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(base));
     differs = differs || std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s;
   }
   return differs && motion_supports_point(point, filter, time);

@@ -22,10 +22,8 @@ SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<Smoothe
       sink_(sink),
       events_(Stage::kSmoother, sink),
       inertial_(config.motion == MotionModel::kInertial),
-      smoother_(
-          config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
-          {config.ekf, config.imu, config.vehicle.lever_arm_b, config.vehicle.motion.constraints}) {
-}
+      smoother_(config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
+                {config.ekf, config.imu, config.vehicle.motion.constraints}) {}
 
 void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   smoother_.add(input);

@@ -45,7 +45,7 @@ SpeedHistory* OdometerAiding::follow(const Ekf& ekf) {
     speeds_.clear();
     return nullptr;
   }
-  speeds_.correct(ekf.filter_state(), ekf.measured_rate_b());
+  speeds_.correct(ekf.filter_state(), ekf.body().measured_rate_b);
   return &speeds_;
 }
 

@@ -65,11 +65,11 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
     }
     const auto& P = filter.covariance();
     position += nees(truth.p_antenna_e - filter.state().p_e, P.topLeftCorner<3, 3>());
-    wet += nees(Eigen::VectorXd::Constant(1, wet_m - filter.wet_delay_m()),
+    wet += nees(Eigen::VectorXd::Constant(1, wet_m - filter.filter_state().wet_delay_m),
                 P.block<1, 1>(kWetDelay, kWetDelay));
     Eigen::VectorXd error(8);
     for (int i = 0; i < 8; ++i) {
-      const Ambiguity& estimate = filter.ambiguities()[static_cast<std::size_t>(i)];
+      const Ambiguity& estimate = filter.filter_state().ambiguities[static_cast<std::size_t>(i)];
       error(i) = ambiguities_m(estimate.satellite.number - 1) + 10.0 * (estimate.arc / 100u) -
                  estimate.value_m;
     }

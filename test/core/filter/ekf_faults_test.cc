@@ -93,7 +93,7 @@ TEST_CASE("a jump of the receiver clock goes to the clock, not to the position")
     CHECK(result.rejected[0] == 0);
     CHECK((walk.filter().state().p_e - before).norm() < 15.0);
     CHECK(walk.error() < 10.0);
-    CHECK(walk.filter().clocks().offset_m(0) ==
+    CHECK(walk.filter().filter_state().clocks.offset_m(0) ==
           Approx(walk.truth().clocks.offset_m(0)).margin(10.0));
     walk.run(5);
     CHECK(walk.error() < 8.0);
@@ -104,21 +104,22 @@ TEST_CASE("a time base that appears late is started from most of its satellites"
   Walk walk(23);
   walk.truth().clocks.offset_m(2) = -7.3e5;
   walk.run(10);
-  CHECK_FALSE(walk.filter().known_clocks().offset[2]);
+  CHECK_FALSE(walk.filter().estimate().known_clocks().offset[2]);
   for (std::uint16_t i = 0; i < 4; ++i)
     walk.sky().push_back(
         synthetic::satellite_at(System::kBeidou, static_cast<std::uint16_t>(20 + i), 1.6 * i, 0.6));
   MeasurementEpoch epoch = walk.next();
   epoch.measurements[code_of(9)].value += 400.0;
   const EkfUpdateResult result = walk.filter().update(epoch);
-  CHECK(walk.filter().known_clocks().offset[2]);
+  CHECK(walk.filter().estimate().known_clocks().offset[2]);
   CHECK(result.innovations[code_of(9)].reason == Reason::kOutlier);
   for (const std::size_t satellite : {8U, 10U, 11U})
     CHECK(result.innovations[code_of(satellite)].weight_factor > 0.0);
-  const double error = walk.filter().clocks().offset_m(2) - walk.truth().clocks.offset_m(2);
+  const double error =
+      walk.filter().filter_state().clocks.offset_m(2) - walk.truth().clocks.offset_m(2);
   CHECK(std::abs(error) < 10.0);
   CHECK(std::abs(error) < 4.0 * std::sqrt(walk.filter().covariance()(kClock + 2, kClock + 2)));
-  CHECK(walk.filter().clocks().drift_m_s(2) ==
+  CHECK(walk.filter().filter_state().clocks.drift_m_s(2) ==
         Approx(walk.truth().clocks.drift_m_s(2)).margin(1.0));
   CHECK(walk.error() < 8.0);
 }

@@ -248,7 +248,7 @@ TEST_CASE("an attitude that wanders is as much less certain, for as long as it w
     });
     // What the smoother is told of it.
     const Vector3d noise = more([](Ekf& filter) -> Eigen::Matrix3d {
-      return filter.process().noise.block<3, 3>(kAttitude, kAttitude);
+      return filter.estimate().process().noise.block<3, 3>(kAttitude, kAttitude);
     });
     const double expected = kNoise * kNoise * std::min(second, 3);
     CHECK((variance - Vector3d::Constant(expected)).cwiseAbs().maxCoeff() < 0.01 * expected);

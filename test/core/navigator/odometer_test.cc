@@ -60,10 +60,10 @@ Outcome drive_with(const SyntheticDrive& drive, const std::vector<OdometerIncrem
   Navigator pipeline(config, &outcome.sink);
   feed_with_wheel(drive, wheel, late_s, &pipeline);
   const Ekf& ekf = pipeline.gnss().ekf();
-  outcome.has_scale = ekf.vehicle().size() > kOdometerScale;
+  outcome.has_scale = ekf.filter_state().vehicle.size() > kOdometerScale;
   if (outcome.has_scale) {
     constexpr int kPlace = ekf_index::kSize + kOdometerScale;
-    outcome.scale = ekf.vehicle()[kOdometerScale];
+    outcome.scale = ekf.filter_state().vehicle[kOdometerScale];
     outcome.sigma = std::sqrt(ekf.covariance()(kPlace, kPlace));
   }
   outcome.counters = pipeline.sequencer().counters();

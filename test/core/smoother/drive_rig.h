@@ -125,7 +125,7 @@ class Drive {
       instant.time = block[i].time;
       if (options_.odometer) instant.odometer = odometer_at(i);
       MotionMeasurements measurements;
-      motion_measurements(motion(), instant, filter_.filter_state(), filter_.measured_rate_b(),
+      motion_measurements(motion(), instant, filter_.filter_state(), filter_.body().measured_rate_b,
                           &measurements);
       instant.used = filter_.constrain(&measurements, motion().gate);
       input_->instants.push_back(instant);

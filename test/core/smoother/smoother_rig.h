@@ -21,7 +21,6 @@ inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, const SmootherC
   RepropagationConfig repropagation;
   repropagation.ekf = drive.config();
   repropagation.imu = mems();
-  repropagation.lever_arm_b = drive.lever_b();
   repropagation.motion = Drive::motion();
   return std::make_unique<Smoother>(config, drive.config().robust, drive.lever_b(), repropagation);
 }

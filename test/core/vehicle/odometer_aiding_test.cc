@@ -31,11 +31,20 @@ struct Rig {
       state.nav.time = at_ms(ms);
       state.nav.p_e = to_ecef(SyntheticDriveOptions().start);
       state.nav.v_e.x() = sense * (5.0 + 2.0 * 1e-3 * static_cast<double>(ms));
-      if (ms == 0) ekf.set_state(state, true, ImuSample());
+      if (ms == 0) start(state.nav, &ekf);
       if (ms == 0) speeds = aid.follow(ekf);
       speeds->add(state, Eigen::Vector3d::Zero());
     }
     aid.take(at_ms(0), 0.0);
+  }
+  // The filter's attitude is that of `nav`, and its antenna is at the IMU.
+  static void start(const NavState& nav, Ekf* ekf) {
+    PointSolution point;
+    point.p_e = nav.p_e;
+    point.v_e = nav.v_e;
+    point.has_velocity = true;
+    ekf->initialize(nav.time, point);
+    ekf->set_attitude(nav.q_eb, Eigen::Vector3d::Constant(0.01), Eigen::Vector3d::Zero(), 1e-3);
   }
   static MotionConstraintConfig make_config() {
     MotionConstraintConfig config;

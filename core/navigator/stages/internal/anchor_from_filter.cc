@@ -12,7 +12,8 @@ Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used
   anchor.covariance = filter.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
   anchor.gnss_used = gnss_used;
   anchor.random_walk = filter.filter_state().random_walk;
-  anchor.time_offset_s = filter.has_attitude() ? time_offset_of(filter.vehicle()) : 0.0;
+  anchor.time_offset_s =
+      filter.has_attitude() ? time_offset_of(filter.filter_state().vehicle) : 0.0;
   return anchor;
 }
 

@@ -131,12 +131,14 @@ void report_state(const Ekf& ekf, EpochReport* report) {
   fill_solution(ekf, &report->solution);
   for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
     const auto i = static_cast<Eigen::Index>(base);
-    if (ekf.known_clocks().offset[base]) report->clock_m[base] = ekf.clocks().offset_m(i);
-    if (ekf.known_clocks().drift[base]) report->clock_drift_m_s[base] = ekf.clocks().drift_m_s(i);
+    if (ekf.estimate().known_clocks().offset[base])
+      report->clock_m[base] = ekf.filter_state().clocks.offset_m(i);
+    if (ekf.estimate().known_clocks().drift[base])
+      report->clock_drift_m_s[base] = ekf.filter_state().clocks.drift_m_s(i);
   }
   const double wet_variance = ekf.covariance()(ekf_index::kWetDelay, ekf_index::kWetDelay);
   if (wet_variance > 0.0) {
-    report->wet_delay_m = ekf.wet_delay_m();
+    report->wet_delay_m = ekf.filter_state().wet_delay_m;
     report->wet_delay_sigma_m = std::sqrt(wet_variance);
   }
 }

@@ -13,7 +13,7 @@ void PendingKeyframe::add(const ImuBlock& block) {
 }
 
 bool PendingKeyframe::is_due(const Ekf& ekf, GpsTime time) const {
-  return !last_time_.is_set() || !ekf.process().continuous ||
+  return !last_time_.is_set() || !ekf.estimate().process().continuous ||
          seconds_between(time, last_time_) >= interval_s_;
 }
 

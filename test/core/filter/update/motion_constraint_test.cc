@@ -1,12 +1,12 @@
-// Constraints on the motion: their Jacobians, the filter's update by them, and the process that has
-// met them, against numerical differences and a batch solution.
+// Constraints on the motion: their Jacobians and the recorded process that has met them, against
+// numerical differences and a batch solution.
 #include "core/filter/update/motion_constraint.h"
 
 #include <cmath>
 #include <functional>
 
 #include "core/earth/rotation.h"
-#include "core/filter/ekf.h"
+#include "core/filter/state/filter_process.h"
 #include "support/catch.h"
 #include "synthetic.h"
 
@@ -131,70 +131,6 @@ TEST_CASE("an odometer's residual is nothing where it shows the scaled mean befo
   REQUIRE(measurements.size() == 1);
   CHECK(std::abs(measurements[0].residual) < 1e-12);
   CHECK(measurements[0].variance == Approx(0.04));
-}
-
-TEST_CASE("how a component was met: innovation and variance by the prediction, what is left") {
-  EkfConfig config;
-  Ekf ekf(config, synthetic::mems(), Vector3d::Zero());
-  FilterState state;
-  state.nav = turning_state();
-  state.nav.time = synthetic::kStart;
-  ekf.set_state(state, true, ImuSample());
-  ekf.predict({}, synthetic::kStart.plus_seconds(1.0));
-  const auto& P = ekf.covariance();
-  MotionMeasurements two(2);
-  for (std::size_t i = 0; i < 2; ++i) {
-    two[i].component = static_cast<int>(i);
-    two[i].residual = i == 0 ? 0.1 : 1e3;  // the second far beyond the gate
-    two[i].variance = 0.01;
-    two[i].row(kVelocity + static_cast<int>(i)) = 1.0;
-  }
-  const double prior = P(kVelocity, kVelocity), variance = prior + 0.01;
-  CHECK(ekf.constrain(&two, 4.0) == 1);
-  CHECK(two[0].used);
-  CHECK(two[0].innovation == 0.1);
-  CHECK(two[0].innovation_variance == Approx(variance));
-  CHECK(two[0].left == Approx(0.1 * 0.01 / variance));
-  CHECK_FALSE(two[1].used);
-  CHECK(two[1].innovation == Approx(1e3).margin(0.1));  // the first has told something of it
-}
-
-TEST_CASE("a constant that joins later takes a place of its own and leaves all else as it is") {
-  EkfConfig config;
-  config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
-  const auto filter = [&] {
-    Ekf ekf(config, synthetic::mems(), Vector3d::Zero());
-    FilterState state;
-    state.nav = turning_state();
-    state.nav.time = synthetic::kStart;
-    state.vehicle = {0.01, 0.02};
-    state.ambiguities.resize(3);
-    for (std::size_t i = 0; i < 3; ++i) state.ambiguities[i].value_m = 10.0 + double(i);
-    ekf.set_state(state, true, ImuSample());
-    MotionMeasurements known(1);  // so that ambiguities are correlated with what is before them
-    known[0].variance = 1.0;
-    known[0].row.setOnes();
-    ekf.predict({}, synthetic::kStart.plus_seconds(1.0));
-    ekf.constrain(&known, 1e9);
-    return ekf;
-  };
-  Ekf ekf = filter();
-  const Ekf before = filter();
-  ekf.estimate_constant(kOdometerScale);
-  const auto& P = ekf.covariance();
-  const auto& Q = before.covariance();
-  constexpr int kNew = kSize + kOdometerScale;
-  REQUIRE(P.rows() == Q.rows() + 1);
-  REQUIRE(ekf.vehicle().size() == 3);
-  CHECK(P(kNew, kNew) == Approx(0.03 * 0.03));
-  CHECK(P.row(kNew).cwiseAbs().sum() == P(kNew, kNew));
-  CHECK(P.topLeftCorner(kNew, kNew) == Q.topLeftCorner(kNew, kNew));
-  CHECK(P.bottomLeftCorner(3, kNew) == Q.bottomLeftCorner(3, kNew));
-  CHECK(P.bottomRightCorner(3, 3) == Q.bottomRightCorner(3, 3));
-  CHECK(ekf.ambiguities()[2].value_m == before.ambiguities()[2].value_m);
-  CHECK_FALSE(ekf.process().continuous);
-  ekf.estimate_constant(kOdometerScale);  // is there
-  CHECK(P.rows() == Q.rows() + 1);
 }
 
 TEST_CASE("a body's point moves as the body turns about it") {

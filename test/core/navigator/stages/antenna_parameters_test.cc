@@ -73,7 +73,7 @@ TEST_CASE("a filter told a wrong lever arm and stamped late finds both") {
   Navigator pipeline(config, &sink);
   feed(drive, &pipeline);
   const Ekf& ekf = pipeline.gnss().ekf();
-  const VehicleConstants& found = ekf.vehicle();
+  const VehicleConstants& found = ekf.filter_state().vehicle;
   const auto sigma = [&](int state) {
     return std::sqrt(ekf.covariance()(kSize + state, kSize + state));
   };

@@ -1,4 +1,4 @@
-#include "core/filter/speed_history.h"
+#include "core/filter/estimate/speed_history.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The way over an interval, from speeds at samples, and what an update makes of those before it.
-#include "core/filter/speed_history.h"
+#include "core/filter/estimate/speed_history.h"
 
 #include "core/filter/update/motion_constraint.h"
 #include "support/catch.h"

@@ -1,0 +1,53 @@
+// CodeVarianceModel gives the variance with which a code enters the gain, given that code errors
+// are correlated in time.
+#pragma once
+#include "core/base/gps_time.h"
+#include "core/filter/state/ekf_config.h"
+#include "core/filter/update/colored_code_weighting.h"
+#include "core/filter/update/filter_measurement.h"
+#include "core/gnss/measurement/measurement.h"
+
+namespace leonav {
+
+// Returns the factor by which white noise must be inflated to average like an error of the given
+// correlation time, seen every `dt` seconds: (1 + r) / (1 - r), r = exp(-dt / correlation_time_s).
+double correlation_inflation(double correlation_time_s, double dt);
+
+// While carriers keep the position from epoch to epoch, the codes of a satellite are weighed
+// jointly (core/filter/update/colored_code_weighting.h). Otherwise each is inflated by
+// correlation_inflation(). Carriers do not keep the position where many arcs end (a phone, a
+// receiver among trees): then the codes hold it, and it follows their errors.
+class CodeVarianceModel {
+ public:
+  explicit CodeVarianceModel(const EkfConfig& config)
+      : correlation_time_s_(config.code_correlation_time_s), is_static_(config.static_point) {}
+
+  void reset();
+  // Forgets the codes used so far.
+  void forget_codes() { weighting_.clear(); }
+  // Enters the codes that the last update has used.
+  void accept(const FilterMeasurements& measurements);
+  // Judges from the arcs whether carriers keep the position since `last_update`.
+  void begin_epoch(const MeasurementEpoch& epoch, const Ambiguities& ambiguities,
+                   GpsTime last_update);
+  // Sets gain_variance, and code_weighting_entry for accept(), of `entry` from its variance.
+  // `correlation_time_ratio`: of this satellite's correlation times to the configured ones.
+  void weigh(const MeasurementEpoch& epoch, const Measurement& code, double correlation_time_ratio,
+             double seconds_since_update, FilterMeasurement* entry);
+
+ private:
+  // kNewArcs: whether the arcs last is not known yet.
+  enum class CarrierContinuity { kNone, kNewArcs, kContinuous };
+  CarrierContinuity evaluate_carrier_continuity(const MeasurementEpoch& epoch,
+                                                const Ambiguities& ambiguities,
+                                                GpsTime last_update);
+
+  double correlation_time_s_;
+  bool is_static_;
+  ColoredCodeWeighting weighting_;
+  CarrierContinuity continuity_ = CarrierContinuity::kNone;
+  GpsTime new_arcs_until_;             // no arc went on from before
+  GpsTime frequent_arc_breaks_until_;  // too many arcs ended
+};
+
+}  // namespace leonav

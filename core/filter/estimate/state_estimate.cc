@@ -1,0 +1,498 @@
+#include "core/filter/estimate/state_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/square.h"
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+#include "core/filter/innovation_tests/clock_steps.h"
+#include "core/filter/innovation_tests/prediction_consistency.h"
+#include "core/filter/process/constant_velocity.h"
+#include "core/filter/state/ambiguities.h"
+#include "core/filter/state/clock_model.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
+constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
+
+double gauss_markov_decay(const GaussMarkov& process, double dt) {
+  return std::exp(-dt / process.correlation_time_s);
+}
+
+// Turns errors of roll, pitch and yaw into a rotation of the body in n, to first order.
+Matrix3d rotation_from_rpy_errors(const Matrix3d& C_nb) {
+  const EulerAngles angles = euler_from_rotation(C_nb);
+  const Matrix3d yaw = rotation_from_euler({0.0, 0.0, angles.yaw});
+  Matrix3d J;
+  J << C_nb.col(0), yaw.col(1), Vector3d::UnitZ();
+  return J;
+}
+
+// Jacobian from the IMU's error state to the antenna's (direction 1) or back (-1): attitude and
+// gyro errors move the arm.
+EkfCovariance to_antenna(const AntennaMotion& arm, double direction, Eigen::Index states) {
+  EkfCovariance T = EkfCovariance::Identity(states, states);
+  T.block<3, 3>(kPosition, kAttitude) = direction * arm.d_p_d_attitude;
+  T.block<3, 3>(kVelocity, kAttitude) = direction * arm.d_v_d_attitude;
+  T.block<3, 3>(kVelocity, kGyroBias) = direction * arm.d_v_d_gyro_bias;
+  T.block<3, 3>(kVelocity, kGyroScale) = direction * arm.d_v_d_gyro_scale;
+  if (arm.estimated) {
+    T.block<3, kAntennaConstants>(kPosition, kSize + kLeverArm) = direction * arm.d_p_d_constants;
+    T.block<3, kAntennaConstants>(kVelocity, kSize + kLeverArm) = direction * arm.d_v_d_constants;
+  }
+  return T;
+}
+
+// Turns a correction of the antenna's position and velocity into one of the state's own.
+EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& antenna) {
+  EkfCorrection correction = of_antenna;
+  if (!antenna.estimated) return correction;
+  const AntennaVector constants = of_antenna.segment<kAntennaConstants>(kSize + kLeverArm);
+  correction.segment<3>(kPosition) -= antenna.d_p_d_constants * constants;
+  correction.segment<3>(kVelocity) -= antenna.d_v_d_constants * constants;
+  return correction;
+}
+
+}  // namespace
+
+StateEstimate::StateEstimate(const EkfConfig& config) : config_(config) {}
+
+bool StateEstimate::is_finite() const {
+  return leonav::is_finite(state_) && covariance_.allFinite();
+}
+
+void StateEstimate::begin_process() {
+  if (config_.keep_process) process_.begin(covariance_.rows());
+}
+
+void StateEstimate::initialize(GpsTime time, const PointSolution& point,
+                               const Vector3d& antenna_offset_e) {
+  const VehicleConstants vehicle = state_.vehicle, variances = vehicle_variances();
+  state_ = FilterState{};
+  state_.nav.time = time;
+  state_.nav.p_e = point.p_e;
+  state_.nav.p_e -= antenna_offset_e;
+  const bool moves = !config_.static_point;
+  state_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
+  known_clocks_ = ClockFlags{};
+  start_vehicle_constants(vehicle, variances);
+  covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
+  covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
+  if (moves) {
+    covariance_.block<3, 3>(kVelocity, kVelocity) =
+        point.has_velocity ? point.covariance_v_e
+                           : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
+  }
+  const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
+  const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
+  for (std::size_t system = 0; system < kMaxTimeBases; ++system) {
+    if (!std::isfinite(point.clock_m[system])) continue;
+    leonav::start_clock_offset(system, point.clock_m[system], clock_sigma, &state_.clocks,
+                               &covariance_);
+    known_clocks_.offset[system] = true;
+    const bool has_drift = point.has_velocity && std::isfinite(point.clock_drift_m_s[system]);
+    leonav::start_clock_drift(system, has_drift ? point.clock_drift_m_s[system] : 0.0,
+                              has_drift ? drift_sigma : kUnknownDrift, &state_.clocks,
+                              &covariance_);
+    known_clocks_.drift[system] = true;
+  }
+  process_.continuous = false;
+  has_attitude_ = false;
+}
+
+void StateEstimate::set_exactly(const FilterState& state, bool has_attitude) {
+  state_ = state;
+  has_attitude_ = has_attitude;
+  const Eigen::Index states =
+      state.first_ambiguity() + static_cast<Eigen::Index>(state.ambiguities.size());
+  covariance_.setZero(states, states);
+  begin_process();
+}
+
+void StateEstimate::set_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
+                                 const ImuErrors& errors, const ImuErrorCovariance& covariance,
+                                 const AntennaModel& model, const BodyMotion& body) {
+  const AntennaMotion before = model.motion(state_, has_attitude_, body);
+  EkfCovariance P = covariance_;
+  if (has_attitude_) {
+    const EkfCovariance T = to_antenna(before, 1.0, covariance_.rows());
+    P = T * covariance_ * T.transpose();
+  }
+  P.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
+  P.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
+  P.block<12, 12>(kGyroBias, kGyroBias) = covariance;
+  state_.nav.errors = errors;
+  apply_attitude(before, q_eb, sigma_rpy, P, model, body);
+}
+
+void StateEstimate::replace_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma_rpy,
+                                     const AntennaModel& model, const BodyMotion& body) {
+  const AntennaMotion before = model.motion(state_, has_attitude_, body);
+  const EkfCovariance T = to_antenna(before, 1.0, covariance_.rows());
+  EkfCovariance P = T * covariance_ * T.transpose();
+  P.middleRows<3>(kAttitude).setZero();
+  P.middleCols<3>(kAttitude).setZero();
+  apply_attitude(before, q_eb, sigma_rpy, P, model, body);
+}
+
+// `of_antenna` is the covariance with position and velocity of the antenna, its attitude empty.
+void StateEstimate::apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
+                                   const Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
+                                   const AntennaModel& model, const BodyMotion& body) {
+  state_.nav.q_eb = q_eb.normalized();
+  state_.nav.p_e.setZero();
+  state_.nav.v_e.setZero();
+  AntennaMotion arm = model.motion(state_, true, body);
+  state_.nav.p_e = before.p_e - arm.p_e;
+  state_.nav.v_e = before.v_e - arm.v_e;
+  if (arm.estimated) {
+    // The arm alone stood still; the antenna goes on while the IMU is late.
+    state_.nav.p_e += arm.time_offset_s * before.v_e;
+    arm.d_p_d_constants.rightCols<1>() = -before.v_e;
+  }
+
+  EkfCovariance P = of_antenna;
+  const Matrix3d C_en = rotation_ecef_to_ned(to_geodetic(before.p_e)).transpose();
+  const Matrix3d J =
+      C_en * rotation_from_rpy_errors(C_en.transpose() * state_.nav.q_eb.toRotationMatrix());
+  P.block<3, 3>(kAttitude, kAttitude) = J * sigma_rpy.cwiseAbs2().asDiagonal() * J.transpose();
+  const EkfCovariance T = to_antenna(arm, -1.0, P.rows());
+  covariance_.noalias() = T * P * T.transpose();
+  has_attitude_ = true;
+  process_.continuous = false;
+}
+
+void StateEstimate::inflate_attitude_noise(double noise, double seconds) {
+  state_.random_walk = {noise, state_.nav.time.plus_seconds(seconds)};
+}
+
+void StateEstimate::propagate(const InsTransition& transition) {
+  for (EkfCovariance* covariance : covariance_and_noise()) transition.propagate(covariance);
+  if (process_.continuous) transition.advance(&process_.transition);
+}
+
+void StateEstimate::add_gap_noise(const ImuGapFill& gap_fill) {
+  const Matrix3d C_eb = state_.nav.q_eb.toRotationMatrix();
+  const double half = 0.5 * gap_fill.filler.interval_s();
+  const Matrix3d V = C_eb * gap_fill.sigma_velocity_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+  for (EkfCovariance* covariance : covariance_and_noise()) {
+    covariance->block<3, 3>(kPosition, kPosition) += half * half * V;
+    covariance->block<3, 3>(kPosition, kVelocity) += half * V;
+    covariance->block<3, 3>(kVelocity, kPosition) += half * V;
+    covariance->block<3, 3>(kVelocity, kVelocity) += V;
+    covariance->block<3, 3>(kAttitude, kAttitude) +=
+        C_eb * gap_fill.sigma_theta_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
+  }
+}
+
+void StateEstimate::coast(GpsTime time) {
+  const double dt = seconds_between(time, state_.nav.time);
+  if (config_.static_point) {
+    state_.nav.time = time;
+    return;
+  }
+  for (EkfCovariance* covariance : covariance_and_noise())
+    propagate_constant_velocity(state_.nav.p_e, config_.acceleration_noise_horizontal,
+                                config_.acceleration_noise_vertical, dt, covariance);
+  if (process_.continuous)
+    process_.transition.middleRows<3>(kPosition) +=
+        dt * process_.transition.middleRows<3>(kVelocity);
+  state_.nav.p_e += dt * state_.nav.v_e;
+  state_.nav.time = time;
+  if (!has_attitude_) return;
+  // Biases and scales keep their variances, which are stationary.
+  for (EkfCovariance* covariance : covariance_and_noise())
+    covariance->diagonal().segment<3>(kAttitude).array() += square(config_.gap_attitude_noise) * dt;
+}
+
+void StateEstimate::propagate_slow_states(const ImuErrorModel& imu, double dt) {
+  state_.nav.errors.gyro_bias_b *= gauss_markov_decay(imu.gyro_bias, dt);
+  state_.nav.errors.accel_bias_b *= gauss_markov_decay(imu.accel_bias, dt);
+  state_.nav.errors.gyro_scale *= gauss_markov_decay(imu.gyro_scale, dt);
+  state_.nav.errors.accel_scale *= gauss_markov_decay(imu.accel_scale, dt);
+  state_.clocks.offset_m += dt * state_.clocks.drift_m_s;
+  for (EkfCovariance* covariance : covariance_and_noise()) {
+    propagate_clocks(config_.clock, known_clocks_, dt, covariance);
+    propagate_ambiguities(state_.ambiguities, dt, covariance);
+    for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i)
+      (*covariance)(kSize + i, kSize + i) +=
+          square(config_.vehicle.random_walk[static_cast<std::size_t>(i)]) * dt;
+    if (config_.wet_delay_sigma_m > 0.0)
+      (*covariance)(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
+    if (config_.use_carrier)
+      (*covariance)(kCarrierClock, kCarrierClock) += square(config_.carrier_clock_noise) * dt;
+  }
+  if (process_.continuous)
+    process_.transition.middleRows<4>(kClock) +=
+        dt * process_.transition.middleRows<4>(kClockDrift);
+}
+
+void StateEstimate::to_antenna_parametrization(const AntennaMotion& antenna) {
+  apply_antenna_transform(antenna, 1.0);
+}
+
+void StateEstimate::to_state_parametrization(const AntennaMotion& antenna) {
+  apply_antenna_transform(antenna, -1.0);
+}
+
+// Any variance that the update adds to position or velocity is the same in both parametrizations.
+void StateEstimate::apply_antenna_transform(const AntennaMotion& antenna, double direction) {
+  if (!antenna.estimated) return;
+  Eigen::Matrix<double, 6, kAntennaConstants> slopes;
+  slopes << antenna.d_p_d_constants, antenna.d_v_d_constants;
+  slopes *= direction;
+  constexpr int kFirst = kSize + kLeverArm;
+  EkfCovariance& P = covariance_;
+  P.middleRows<6>(kPosition).noalias() +=
+      slopes.lazyProduct(P.middleRows<kAntennaConstants>(kFirst));
+  P.middleCols<6>(kPosition).noalias() +=
+      P.middleCols<kAntennaConstants>(kFirst).lazyProduct(slopes.transpose());
+}
+
+RobustUpdateResult StateEstimate::correct(const RobustConfig& config, const AntennaMotion& antenna,
+                                          FilterMeasurements* measurements,
+                                          RobustUpdate* robust_update) {
+  const RobustUpdateResult update = (*robust_update)(config, measurements, &covariance_);
+  const EkfCorrection correction = of_state(update.correction, antenna);
+  to_state_parametrization(antenna);
+  if (process_.continuous) process_.transition.rightCols<1>() -= correction;
+  add(correction, has_attitude_, &state_);
+  return update;
+}
+
+MotionComponents StateEstimate::constrain(MotionMeasurements* measurements, double gate) {
+  EkfCorrection correction = EkfCorrection::Zero(covariance_.rows());
+  const Eigen::Index known = state_.first_ambiguity();
+  MotionComponents used = 0;
+  for (MotionMeasurement& measurement : *measurements) {
+    const auto h = measurement.row.head(known);
+    const EkfCorrection spread = covariance_.leftCols(known) * h;
+    const double variance = h.dot(spread.head(known)) + measurement.variance;
+    const double innovation = measurement.residual - h.dot(correction.head(known));
+    measurement.innovation = innovation;
+    measurement.innovation_variance = variance;
+    measurement.used = std::abs(innovation) < gate * std::sqrt(variance);
+    if (!measurement.used) continue;
+    used = static_cast<MotionComponents>(used | 1u << measurement.component);
+    if (process_.continuous) {
+      EkfCorrection row = EkfCorrection::Zero(covariance_.rows());
+      row.head(known) = h;
+      process_.condition(row, measurement.residual, measurement.variance);
+    }
+    const EkfCorrection gain = spread / variance;
+    correction += innovation * gain;
+    joseph_update(gain, spread, variance, &covariance_);
+  }
+  for (MotionMeasurement& measurement : *measurements)
+    measurement.left =
+        measurement.residual - measurement.row.head(known).dot(correction.head(known));
+  if (used == 0) return 0;
+  if (process_.continuous) process_.transition.rightCols<1>() -= correction;
+  add(correction, true, &state_);
+  return used;
+}
+
+void StateEstimate::inflate(Observable observable, double variance, double interval_s) {
+  const EkfCorrection before = covariance_.diagonal();
+  inflate_covariance(observable, variance, interval_s, &covariance_);
+  if (process_.continuous) process_.noise.diagonal() += covariance_.diagonal() - before;
+}
+
+void StateEstimate::inflate_position(double sigma_m) {
+  for (EkfCovariance* covariance : covariance_and_noise())
+    covariance->diagonal().segment<3>(kPosition).array() += square(sigma_m);
+}
+
+void StateEstimate::inflate_ambiguity(int state, double sigma_m) {
+  for (EkfCovariance* covariance : covariance_and_noise())
+    (*covariance)(state, state) += square(sigma_m);
+}
+
+void StateEstimate::start_clock_offset(std::size_t system, double offset_m, double sigma_m) {
+  leonav::start_clock_offset(system, offset_m, sigma_m, &state_.clocks, &covariance_);
+  if (process_.continuous)
+    process_.start(kClock + static_cast<Eigen::Index>(system), square(sigma_m));
+  known_clocks_.offset[system] = true;
+}
+
+void StateEstimate::start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s) {
+  leonav::start_clock_drift(system, drift_m_s, sigma_m_s, &state_.clocks, &covariance_);
+  if (process_.continuous)
+    process_.start(kClockDrift + static_cast<Eigen::Index>(system), square(sigma_m_s));
+  known_clocks_.drift[system] = true;
+}
+
+void StateEstimate::copy_clock_drift(std::size_t from, std::size_t to, double sigma_m_s) {
+  leonav::copy_clock_drift(from, to, sigma_m_s, &state_.clocks, &covariance_);
+  known_clocks_.drift[to] = true;
+  if (!process_.continuous) return;
+  const auto f = kClockDrift + static_cast<Eigen::Index>(from);
+  const auto t = kClockDrift + static_cast<Eigen::Index>(to);
+  EkfCovariance& N = process_.noise;
+  N.row(t) = N.row(f);
+  N.col(t) = N.col(f);
+  N(t, t) = N(f, f) + square(sigma_m_s);
+  process_.transition.row(t) = process_.transition.row(f);
+}
+
+bool StateEstimate::is_known_clock_of(std::size_t system, int wanted) const {
+  return known_clocks_.offset[system] &&
+         (wanted == kAllBases || static_cast<int>(system) == wanted);
+}
+
+void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
+  EkfVector direction = EkfVector::Zero();
+  for (std::size_t i = 0; i < kMaxTimeBases; ++i)
+    if (is_known_clock_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+  state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
+  for (EkfCovariance* covariance : covariance_and_noise())
+    covariance->topLeftCorner<kSize, kSize>() +=
+        square(sigma_m) * direction * direction.transpose();
+}
+
+// What the codes show of the step is noisy; clocks and ambiguities share that noise with opposite
+// signs.
+void StateEstimate::shift_codes_against_carriers(int system, double step_m, double sigma_m) {
+  EkfCorrection direction = EkfCorrection::Zero(covariance_.rows());
+  for (std::size_t i = 0; i < kMaxTimeBases; ++i)
+    if (is_known_clock_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+  for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
+    const auto own = static_cast<int>(index_of(state_.ambiguities[i].satellite.system));
+    if (system == kAllBases || own == system)
+      direction(state_.first_ambiguity() + static_cast<int>(i)) = -1.0;
+  }
+  state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
+  for (std::size_t i = 0; i < state_.ambiguities.size(); ++i)
+    state_.ambiguities[i].value_m +=
+        step_m * direction(state_.first_ambiguity() + static_cast<int>(i));
+  if (!(sigma_m > 0.0)) return;
+  for (EkfCovariance* covariance : covariance_and_noise())
+    *covariance += square(sigma_m) * direction * direction.transpose();
+}
+
+std::size_t StateEstimate::index_of_state(int state) const {
+  return static_cast<std::size_t>(state - state_.first_ambiguity());
+}
+
+const Ambiguity& StateEstimate::ambiguity_of_state(int state) const {
+  return state_.ambiguities[index_of_state(state)];
+}
+
+void StateEstimate::add_ambiguity(const Ambiguity& ambiguity, double sigma_m) {
+  leonav::add_ambiguity(ambiguity, sigma_m, &state_.ambiguities, &covariance_);
+  if (process_.continuous) process_.append(square(sigma_m));
+}
+
+void StateEstimate::remove_ambiguity(int index) {
+  leonav::remove_ambiguity(index, &state_.ambiguities, &covariance_);
+  if (process_.continuous) process_.remove(state_.first_ambiguity() + index);
+}
+
+void StateEstimate::shift_ambiguity(int state, double step_m) {
+  state_.ambiguities[index_of_state(state)].value_m += step_m;
+}
+
+void StateEstimate::set_ambiguity_random_walk(int state, double random_walk) {
+  state_.ambiguities[index_of_state(state)].random_walk = random_walk;
+}
+
+int StateEstimate::record_carrier(int state, bool used, GpsTime time) {
+  Ambiguity& ambiguity = state_.ambiguities[index_of_state(state)];
+  ambiguity.last_used = time;
+  ambiguity.rejected = used ? 0 : ambiguity.rejected + 1;
+  return ambiguity.rejected;
+}
+
+double StateEstimate::start_variance(int constant) const {
+  return square(config_.vehicle.sigma[static_cast<std::size_t>(constant)]);
+}
+
+VehicleConstants StateEstimate::vehicle_variances() const {
+  VehicleConstants variances;
+  for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i)
+    variances.push_back(covariance_(kSize + i, kSize + i));
+  return variances;
+}
+
+void StateEstimate::start_vehicle_constants(const VehicleConstants& before,
+                                            const VehicleConstants& variances) {
+  const int count = std::max(config_.vehicle.count, static_cast<int>(before.size()));
+  covariance_.setZero(kSize + count, kSize + count);
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const bool known = index < before.size();
+    state_.vehicle.push_back(known ? before[index] : 0.0);
+    covariance_(kSize + i, kSize + i) = known ? variances[index] : start_variance(i);
+  }
+}
+
+void StateEstimate::add_vehicle_constants(int constant) {
+  const int known = static_cast<int>(state_.vehicle.size());
+  if (constant < known) return;
+  const Eigen::Index before = kSize + known, more = constant + 1 - known;
+  const Eigen::Index after = covariance_.rows() - before;
+  EkfCovariance P = EkfCovariance::Zero(before + more + after, before + more + after);
+  P.topLeftCorner(before, before) = covariance_.topLeftCorner(before, before);
+  P.topRightCorner(before, after) = covariance_.topRightCorner(before, after);
+  P.bottomLeftCorner(after, before) = covariance_.bottomLeftCorner(after, before);
+  P.bottomRightCorner(after, after) = covariance_.bottomRightCorner(after, after);
+  for (int i = known; i <= constant; ++i) {
+    state_.vehicle.push_back(0.0);
+    P(kSize + i, kSize + i) = start_variance(i);
+  }
+  covariance_ = P;
+  process_.continuous = false;
+}
+
+void StateEstimate::restart_vehicle_constants(const AntennaMotion& antenna) {
+  to_antenna_parametrization(antenna);
+  for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i) {
+    covariance_.row(kSize + i).setZero();
+    covariance_.col(kSize + i).setZero();
+    covariance_(kSize + i, kSize + i) = start_variance(i);
+  }
+  to_state_parametrization(antenna);
+  process_.continuous = false;
+}
+
+Matrix3d StateEstimate::antenna_covariance_e(int first, bool estimated,
+                                             const AntennaSlopes& slopes) const {
+  Matrix3d covariance = covariance_.block<3, 3>(first, first);
+  if (!estimated) return covariance;
+  constexpr int kFirst = kSize + kLeverArm;
+  const Matrix3d cross = slopes * covariance_.block<kAntennaConstants, 3>(kFirst, first);
+  covariance += cross + cross.transpose();
+  covariance += slopes * covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
+                slopes.transpose();
+  return covariance;
+}
+
+Matrix3d StateEstimate::antenna_position_covariance_e(const AntennaMotion& antenna) const {
+  return antenna_covariance_e(kPosition, antenna.estimated, antenna.d_p_d_constants);
+}
+
+Matrix3d StateEstimate::antenna_velocity_covariance_e(const AntennaMotion& antenna) const {
+  return antenna_covariance_e(kVelocity, antenna.estimated, antenna.d_v_d_constants);
+}
+
+Vector3d StateEstimate::attitude_sigma_n() const {
+  const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(state_.nav.p_e));
+  const Matrix3d covariance =
+      C_ne * covariance_.block<3, 3>(kAttitude, kAttitude) * C_ne.transpose();
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+boost::container::static_vector<EkfCovariance*, 2> StateEstimate::covariance_and_noise() {
+  boost::container::static_vector<EkfCovariance*, 2> both{&covariance_};
+  if (process_.continuous) both.push_back(&process_.noise);
+  return both;
+}
+
+}  // namespace leonav

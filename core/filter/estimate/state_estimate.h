@@ -1,0 +1,161 @@
+// StateEstimate holds what the filter believes: nominal state, covariance of its error, and which
+// clocks are known.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cstddef>
+
+#include "core/filter/estimate/antenna_model.h"
+#include "core/filter/process/ins_transition.h"
+#include "core/filter/state/ekf_config.h"
+#include "core/filter/state/ekf_state.h"
+#include "core/filter/state/filter_process.h"
+#include "core/filter/state/filter_state.h"
+#include "core/filter/update/measurement_model.h"
+#include "core/filter/update/motion_constraint.h"
+#include "core/filter/update/robust_update.h"
+#include "core/gnss/positioning/point_solution.h"
+#include "core/inertial/strapdown/imu_gap_fill.h"
+
+namespace leonav {
+
+// StateEstimate is the only class that writes the filter's covariance. Every step of the filter
+// that changes the Gaussian is one of its functions; the equations themselves are in process/,
+// update/ and innovation_tests/, as functions of a matrix.
+//
+// Beside the covariance it records the process F, N since begin_process() for the smoother
+// (core/filter/state/filter_process.h). What adds noise to the covariance adds it to N too.
+class StateEstimate {
+ public:
+  explicit StateEstimate(const EkfConfig& config);
+
+  const FilterState& state() const { return state_; }
+  // In the order of ekf_index; SI units.
+  const EkfCovariance& covariance() const { return covariance_; }
+  const ClockFlags& known_clocks() const { return known_clocks_; }
+  bool has_attitude() const { return has_attitude_; }
+  // False once a number has overflowed: only a new filter helps then.
+  bool is_finite() const;
+  // The process since begin_process(); kept only if EkfConfig::keep_process.
+  const FilterProcess& process() const { return process_; }
+  void begin_process();
+
+  // --- start ---
+  // Starts from a point solution of the antenna, without attitude. `antenna_offset_e` leads from
+  // the estimated point to the antenna, m. Vehicle constants keep values and variances, not their
+  // correlations.
+  void initialize(GpsTime time, const PointSolution& point,
+                  const Eigen::Vector3d& antenna_offset_e);
+  // Takes `state` as certain and begins its process.
+  void set_exactly(const FilterState& state, bool has_attitude);
+  // Removes the vehicle constants; to be followed by initialize().
+  void remove_vehicle_constants() { state_.vehicle.clear(); }
+  void forget_clocks() { known_clocks_ = ClockFlags{}; }
+
+  // --- attitude from outside the filter ---
+  // Sets attitude and IMU errors with their covariances; the antenna keeps position and velocity.
+  // `sigma_rpy`: of roll, pitch and yaw, rad.
+  void set_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
+                    const ImuErrors& errors, const ImuErrorCovariance& covariance,
+                    const AntennaModel& model, const BodyMotion& body);
+  // Replaces the attitude alone; IMU errors keep their values and correlations.
+  void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
+                        const AntennaModel& model, const BodyMotion& body);
+  // Until `seconds` from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside
+  // that of the gyros.
+  void inflate_attitude_noise(double noise, double seconds);
+
+  // --- time update ---
+  // Sets the mechanized inertial state.
+  void set_inertial_state(const NavState& nav) { state_.nav = nav; }
+  // P <- Phi P Phi^T + Q of one sub-block of IMU samples.
+  void propagate(const InsTransition& transition);
+  // Adds the uncertainty of an IMU sample that was filled in.
+  void add_gap_noise(const ImuGapFill& gap_fill);
+  // Moves on at constant velocity to `time`, with the configured acceleration noise; a static point
+  // stays.
+  void coast(GpsTime time);
+  // Moves clocks, IMU errors, ambiguities, wet delay and vehicle constants on by `dt` seconds.
+  void propagate_slow_states(const ImuErrorModel& imu, double dt);
+
+  // --- measurement update ---
+  // Between these two calls position and velocity in the error state are those of the antenna, as
+  // far as lever arm and time offset move it, so that rows need no columns for these constants.
+  void to_antenna_parametrization(const AntennaMotion& antenna);
+  void to_state_parametrization(const AntennaMotion& antenna);
+  // Applies the robust update, in the antenna's parametrization, and leaves that.
+  RobustUpdateResult correct(const RobustConfig& config, const AntennaMotion& antenna,
+                             FilterMeasurements* measurements, RobustUpdate* robust_update);
+  // Applies motion constraints one by one, in Joseph's form, linearized at the state as it is. A
+  // component further than `gate` sigmas from its prediction is left out. Fills each measurement's
+  // outputs and returns the components used; needs an attitude.
+  MotionComponents constrain(MotionMeasurements* measurements, double gate);
+
+  // --- inflation ---
+  // Widens what an observable sees first (inflate_covariance in prediction_consistency.h), m^2 or
+  // (m/s)^2.
+  void inflate(Observable observable, double variance, double interval_s);
+  void inflate_position(double sigma_m);
+  void inflate_ambiguity(int state, double sigma_m);
+
+  // --- clocks; `system` is an index of System ---
+  void start_clock_offset(std::size_t system, double offset_m, double sigma_m);
+  void start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s);
+  // Starts a drift as that of another system, with `sigma_m_s` between them.
+  void copy_clock_drift(std::size_t from, std::size_t to, double sigma_m_s);
+  void forget_clock_offset(std::size_t system) { known_clocks_.offset[system] = false; }
+  // Shifts the known clocks of `system` (or kAllBases) by a step that codes and carriers share.
+  void shift_clocks(int system, double step_m, double sigma_m);
+  // Shifts them by a step of the codes alone: ambiguities make up for it. `sigma_m` 0: exact.
+  void shift_codes_against_carriers(int system, double step_m, double sigma_m);
+
+  // --- ambiguities; `index` into FilterState::ambiguities ---
+  int ambiguity_state(int index) const { return state_.first_ambiguity() + index; }
+  const Ambiguity& ambiguity_of_state(int state) const;
+  void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
+  void remove_ambiguity(int index);
+  void shift_ambiguity(int state, double step_m);
+  void set_ambiguity_random_walk(int state, double random_walk);
+  // Counts in how many epochs in a row the arc's carrier was rejected, and returns that number.
+  int record_carrier(int state, bool used, GpsTime time);
+
+  // --- vehicle constants ---
+  // Appends constants up to `constant` (kTravelYaw ... in ekf_index) before the ambiguities, each
+  // at zero with its configured sigma.
+  void add_vehicle_constants(int constant);
+  // Gives every constant its start variance again, uncorrelated; value and antenna stay.
+  void restart_vehicle_constants(const AntennaMotion& antenna);
+
+  // --- derived ---
+  // Of the antenna, with the uncertainty of its lever arm and of the IMU's time; ECEF, m^2,
+  // (m/s)^2.
+  Eigen::Matrix3d antenna_position_covariance_e(const AntennaMotion& antenna) const;
+  Eigen::Matrix3d antenna_velocity_covariance_e(const AntennaMotion& antenna) const;
+  // 1 sigma of the attitude about north, east and down, rad.
+  Eigen::Vector3d attitude_sigma_n() const;
+
+ private:
+  // The covariance and, if it is recorded, the process's noise.
+  boost::container::static_vector<EkfCovariance*, 2> covariance_and_noise();
+  double start_variance(int constant) const;
+  VehicleConstants vehicle_variances() const;
+  void start_vehicle_constants(const VehicleConstants& before, const VehicleConstants& variances);
+  void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
+                      const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
+                      const AntennaModel& model, const BodyMotion& body);
+  void apply_antenna_transform(const AntennaMotion& antenna, double direction);
+  Eigen::Matrix3d antenna_covariance_e(int first, bool estimated,
+                                       const AntennaSlopes& slopes) const;
+  bool is_known_clock_of(std::size_t system, int wanted) const;
+  std::size_t index_of_state(int state) const;
+
+  EkfConfig config_;
+  FilterState state_;
+  ClockFlags known_clocks_;
+  EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
+  FilterProcess process_;
+  bool has_attitude_ = false;
+};
+
+}  // namespace leonav

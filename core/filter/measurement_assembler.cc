@@ -1,0 +1,97 @@
+#include "core/filter/measurement_assembler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/square.h"
+#include "core/filter/carrier_ambiguities.h"
+#include "core/filter/update/measurement_model.h"
+#include "core/gnss/measurement/range_model.h"
+
+namespace leonav {
+
+using namespace ekf_index;
+using Eigen::Vector3d;
+
+void MeasurementAssembler::reset() {
+  code_model_.reset();
+  measurements_.clear();
+}
+
+void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion antenna,
+                                    GpsTime last_update, StateEstimate* estimate) {
+  const FilterState& state = estimate->state();
+  if (epoch_time_ != epoch.time) code_model_.accept(measurements_);
+  epoch_time_ = epoch.time;
+  code_model_.begin_epoch(epoch, state.ambiguities, last_update);
+  // A prediction hundreds of metres off is too far for a straight line to reach centimetres.
+  Vector3d off_e = Vector3d::Zero();
+  if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - antenna.p_e;
+  antenna.p_e += off_e;
+  const double dt = seconds_between(epoch.time, last_update);
+  measurements_.clear();
+  excluded_.clear();
+  arcs_without_capacity_ = 0;
+  for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
+    const Measurement& measurement = epoch.measurements[i];
+    const bool carrier = measurement.observable == Observable::kCarrier;
+    if (measurement.reason != Reason::kUsed) continue;
+    if (measurement.satellite_index >= epoch.satellites.size() || !(measurement.sigma > 0.0) ||
+        !std::isfinite(measurement.value)) {
+      excluded_.push_back({i, Reason::kImplausible});
+      continue;
+    }
+    const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+    if (carrier && (!config_.use_carrier || measurement.arc == 0 ||
+                    !estimate->known_clocks().offset[index_of(satellite.satellite.system)])) {
+      excluded_.push_back({i, Reason::kNotSolved});
+      continue;
+    }
+    const MeasurementPrediction prediction = predict_measurement(
+        measurement, satellite, antenna, state.clocks, state.wet_delay_m, state.carrier_clock_m);
+    FilterMeasurement entry;
+    entry.index = i;
+    entry.observable = measurement.observable;
+    entry.innovation =
+        measurement.value - prediction.value + prediction.row.segment<3>(kPosition).dot(off_e);
+    entry.variance = square(measurement.sigma);
+    entry.gain_variance = entry.variance;
+    entry.row = prediction.row;
+    const double lasts = correlation_time_ratio(satellite, antenna.p_e);
+    if (measurement.observable == Observable::kCode)
+      code_model_.weigh(epoch, measurement, lasts, dt, &entry);
+    if (measurement.observable == Observable::kDoppler)
+      entry.gain_variance *= correlation_inflation(lasts * config_.doppler_correlation_time_s, dt);
+    if (carrier) {
+      entry.ambiguity =
+          find_or_add_ambiguity(measurement, satellite.satellite, entry, epoch.time, estimate);
+      if (entry.ambiguity < 0) {
+        ++arcs_without_capacity_;
+        excluded_.push_back({i, Reason::kCapacity});
+        continue;
+      }
+      // The random walk comes from the orbit, which may be another by now.
+      estimate->set_ambiguity_random_walk(entry.ambiguity, measurement.random_walk);
+      entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
+    }
+    measurements_.push_back(entry);
+  }
+}
+
+template <typename Predicate>
+void MeasurementAssembler::exclude_if(Predicate predicate) {
+  for (const FilterMeasurement& m : measurements_)
+    if (predicate(m)) excluded_.push_back({m.index, Reason::kOutlier});
+  measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), predicate),
+                      measurements_.end());
+}
+
+void MeasurementAssembler::exclude(Observable observable) {
+  exclude_if([&](const FilterMeasurement& m) { return m.observable == observable; });
+}
+
+void MeasurementAssembler::exclude_ranges() {
+  exclude_if([](const FilterMeasurement& m) { return m.observable != Observable::kDoppler; });
+}
+
+}  // namespace leonav

@@ -1,0 +1,57 @@
+// MeasurementAssembler turns the measurements of an epoch into innovations with Jacobian and
+// variance.
+#pragma once
+#include <boost/container/static_vector.hpp>
+#include <cstddef>
+
+#include "core/filter/code_variance_model.h"
+#include "core/filter/estimate/state_estimate.h"
+#include "core/filter/update/filter_measurement.h"
+#include "core/gnss/measurement/measurement.h"
+
+namespace leonav {
+
+struct ExcludedMeasurement {
+  std::size_t index = 0;  // into MeasurementEpoch::measurements
+  Reason reason = Reason::kNotSolved;
+};
+using ExcludedMeasurements = boost::container::static_vector<ExcludedMeasurement, kMaxMeasurements>;
+
+// innovation = measured - h(x), linearized at MeasurementEpoch::approximate_p_e if that is given,
+// otherwise at the prediction; h and its Jacobian are those of
+// core/filter/update/measurement_model.h. Every measurement whose reason is kUsed becomes either an
+// entry of measurements() or, with a reason, one of excluded(). It keeps the entries until the next
+// epoch, because the smoother reads them and the code variances depend on which were used.
+class MeasurementAssembler {
+ public:
+  explicit MeasurementAssembler(const EkfConfig& config) : config_(config), code_model_(config) {}
+
+  void reset();
+  // Forgets the codes used so far: the position they were weighed for no longer holds.
+  void forget_codes() { code_model_.forget_codes(); }
+  // `antenna`: as predicted to the epoch. `last_update`: time of the last update that used
+  // measurements. Adds the ambiguities of new arcs to `estimate`.
+  void assemble(const MeasurementEpoch& epoch, AntennaMotion antenna, GpsTime last_update,
+                StateEstimate* estimate);
+
+  FilterMeasurements* mutable_measurements() { return &measurements_; }
+  const FilterMeasurements& measurements() const { return measurements_; }
+  const ExcludedMeasurements& excluded() const { return excluded_; }
+  int arcs_without_capacity() const { return arcs_without_capacity_; }
+  // Moves entries to excluded(), as outliers.
+  void exclude(Observable observable);
+  void exclude_ranges();
+
+ private:
+  template <typename Predicate>
+  void exclude_if(Predicate predicate);
+
+  EkfConfig config_;
+  CodeVarianceModel code_model_;
+  FilterMeasurements measurements_;
+  ExcludedMeasurements excluded_;
+  GpsTime epoch_time_;  // of measurements_
+  int arcs_without_capacity_ = 0;
+};
+
+}  // namespace leonav
