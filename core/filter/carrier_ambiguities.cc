@@ -73,7 +73,7 @@ int find_or_add_ambiguity(const Measurement& carrier, SatelliteId satellite,
                           const FilterMeasurement& entry, GpsTime time, StateEstimate* estimate) {
   const Ambiguities& ambiguities = estimate->state().ambiguities;
   const int index = find_ambiguity(ambiguities, carrier.arc);
-  if (index != kNoAmbiguity) return estimate->ambiguity_state(index);
+  if (index != kNoAmbiguity) return estimate->state().first_ambiguity() + index;
   if (ambiguities.size() == ambiguities.capacity()) return kNoAmbiguity;
   Ambiguity ambiguity;
   ambiguity.arc = carrier.arc;
@@ -84,7 +84,7 @@ int find_or_add_ambiguity(const Measurement& carrier, SatelliteId satellite,
   const double predicted =
       std::sqrt(std::max(predicted_variance(entry, estimate->covariance()), 0.0));
   estimate->add_ambiguity(ambiguity, kStartAmbiguitySigma + kStartShare * predicted);
-  return estimate->ambiguity_state(count_of(ambiguities) - 1);
+  return estimate->state().first_ambiguity() + count_of(ambiguities) - 1;
 }
 
 void inflate_disturbed_states(const MeasurementEpoch& epoch, StateEstimate* estimate) {
@@ -94,13 +94,15 @@ void inflate_disturbed_states(const MeasurementEpoch& epoch, StateEstimate* esti
       continue;
     const int index = find_ambiguity(estimate->state().ambiguities, measurement.arc);
     if (index == kNoAmbiguity) continue;
-    estimate->inflate_ambiguity(estimate->ambiguity_state(index), measurement.disturbance_m);
+    estimate->inflate_ambiguity(estimate->state().first_ambiguity() + index,
+                                measurement.disturbance_m);
   }
 }
 
-bool record_carrier(const FilterMeasurement& carrier, GpsTime time, StateEstimate* estimate) {
-  return estimate->record_carrier(carrier.ambiguity, carrier.factor > 0.0, time) >=
-         kMaxRejectedEpochs;
+bool record_carrier(const FilterMeasurement& carrier, GpsTime time, Ambiguity* ambiguity) {
+  ambiguity->last_used = time;
+  ambiguity->rejected = carrier.factor > 0.0 ? 0 : ambiguity->rejected + 1;
+  return ambiguity->rejected >= kMaxRejectedEpochs;
 }
 
 }  // namespace leonav

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/base/square.h"
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
@@ -10,7 +12,19 @@
 namespace leonav {
 
 using namespace ekf_index;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+namespace {
+
+// 1 sigma of the attitude about north, east and down at `p_e`, rad.
+Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
+  const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
+  const Matrix3d covariance = C_ne * P.block<3, 3>(kAttitude, kAttitude) * C_ne.transpose();
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace
 
 Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& lever_arm_b)
     : config_(config),
@@ -116,7 +130,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   if (!measurements().empty()) last_update_ = epoch.time;
   const double share = config_.vehicle.restart_share;
   if (share > 0.0 && has_attitude() &&
-      attitude_convergence_.advance(estimate_.attitude_sigma_n(), share))
+      attitude_convergence_.advance(attitude_sigma_n(state().p_e, covariance()), share))
     estimate_.restart_vehicle_constants(this->antenna());
   return result;
 }
@@ -196,8 +210,9 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     const bool rejected = measurement.factor <= 0.0 ||
                           (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
     if (measurement.ambiguity >= 0) {
-      const SatelliteId satellite = estimate_.ambiguity_of_state(measurement.ambiguity).satellite;
-      if (record_carrier(measurement, epoch.time, &estimate_)) result->slipped.push_back(satellite);
+      Ambiguity* ambiguity = estimate_.ambiguity_of_state(measurement.ambiguity);
+      if (record_carrier(measurement, epoch.time, ambiguity))
+        result->slipped.push_back(ambiguity->satellite);
     }
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
@@ -221,11 +236,11 @@ AntennaMotion Ekf::antenna() const {
 }
 
 Eigen::Matrix3d Ekf::antenna_position_covariance_e() const {
-  return estimate_.antenna_position_covariance_e(antenna());
+  return leonav::antenna_position_covariance_e(antenna(), covariance());
 }
 
 Eigen::Matrix3d Ekf::antenna_velocity_covariance_e() const {
-  return estimate_.antenna_velocity_covariance_e(antenna());
+  return leonav::antenna_velocity_covariance_e(antenna(), covariance());
 }
 
 Vector3d Ekf::vertical_antenna_offset_e() const {

@@ -36,4 +36,9 @@ class AntennaModel {
   bool vertical_arm_;
 };
 
+// Covariance of the antenna's position (m^2) and velocity ((m/s)^2), ECEF, with the uncertainty of
+// its lever arm and of the IMU's time, from that of the filter's state.
+Eigen::Matrix3d antenna_position_covariance_e(const AntennaMotion& antenna, const EkfCovariance& P);
+Eigen::Matrix3d antenna_velocity_covariance_e(const AntennaMotion& antenna, const EkfCovariance& P);
+
 }  // namespace leonav

@@ -60,6 +60,14 @@ EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& ant
   return correction;
 }
 
+bool is_of(std::size_t system, int wanted) {
+  return wanted == kAllBases || static_cast<int>(system) == wanted;
+}
+
+double start_variance(const VehicleConstantsConfig& config, int constant) {
+  return square(config.sigma[static_cast<std::size_t>(constant)]);
+}
+
 }  // namespace
 
 StateEstimate::StateEstimate(const EkfConfig& config) : config_(config) {}
@@ -74,15 +82,16 @@ void StateEstimate::begin_process() {
 
 void StateEstimate::initialize(GpsTime time, const PointSolution& point,
                                const Vector3d& antenna_offset_e) {
-  const VehicleConstants vehicle = state_.vehicle, variances = vehicle_variances();
+  const VehicleConstants vehicle = state_.vehicle;
   state_ = FilterState{};
+  state_.vehicle = vehicle;
   state_.nav.time = time;
   state_.nav.p_e = point.p_e;
   state_.nav.p_e -= antenna_offset_e;
   const bool moves = !config_.static_point;
   state_.nav.v_e = moves && point.has_velocity ? point.v_e : Vector3d::Zero();
   known_clocks_ = ClockFlags{};
-  start_vehicle_constants(vehicle, variances);
+  start_vehicle_constants();
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
   if (moves) {
@@ -238,10 +247,6 @@ void StateEstimate::to_antenna_parametrization(const AntennaMotion& antenna) {
   apply_antenna_transform(antenna, 1.0);
 }
 
-void StateEstimate::to_state_parametrization(const AntennaMotion& antenna) {
-  apply_antenna_transform(antenna, -1.0);
-}
-
 // Any variance that the update adds to position or velocity is the same in both parametrizations.
 void StateEstimate::apply_antenna_transform(const AntennaMotion& antenna, double direction) {
   if (!antenna.estimated) return;
@@ -261,7 +266,7 @@ RobustUpdateResult StateEstimate::correct(const RobustConfig& config, const Ante
                                           RobustUpdate* robust_update) {
   const RobustUpdateResult update = (*robust_update)(config, measurements, &covariance_);
   const EkfCorrection correction = of_state(update.correction, antenna);
-  to_state_parametrization(antenna);
+  apply_antenna_transform(antenna, -1.0);
   if (process_.continuous) process_.transition.rightCols<1>() -= correction;
   add(correction, has_attitude_, &state_);
   return update;
@@ -342,15 +347,10 @@ void StateEstimate::copy_clock_drift(std::size_t from, std::size_t to, double si
   process_.transition.row(t) = process_.transition.row(f);
 }
 
-bool StateEstimate::is_known_clock_of(std::size_t system, int wanted) const {
-  return known_clocks_.offset[system] &&
-         (wanted == kAllBases || static_cast<int>(system) == wanted);
-}
-
 void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
   EkfVector direction = EkfVector::Zero();
   for (std::size_t i = 0; i < kMaxTimeBases; ++i)
-    if (is_known_clock_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
   for (EkfCovariance* covariance : covariance_and_noise())
     covariance->topLeftCorner<kSize, kSize>() +=
@@ -362,10 +362,9 @@ void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
 void StateEstimate::shift_codes_against_carriers(int system, double step_m, double sigma_m) {
   EkfCorrection direction = EkfCorrection::Zero(covariance_.rows());
   for (std::size_t i = 0; i < kMaxTimeBases; ++i)
-    if (is_known_clock_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
   for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
-    const auto own = static_cast<int>(index_of(state_.ambiguities[i].satellite.system));
-    if (system == kAllBases || own == system)
+    if (is_of(index_of(state_.ambiguities[i].satellite.system), system))
       direction(state_.first_ambiguity() + static_cast<int>(i)) = -1.0;
   }
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
@@ -377,12 +376,8 @@ void StateEstimate::shift_codes_against_carriers(int system, double step_m, doub
     *covariance += square(sigma_m) * direction * direction.transpose();
 }
 
-std::size_t StateEstimate::index_of_state(int state) const {
-  return static_cast<std::size_t>(state - state_.first_ambiguity());
-}
-
-const Ambiguity& StateEstimate::ambiguity_of_state(int state) const {
-  return state_.ambiguities[index_of_state(state)];
+Ambiguity* StateEstimate::ambiguity_of_state(int state) {
+  return &state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
 }
 
 void StateEstimate::add_ambiguity(const Ambiguity& ambiguity, double sigma_m) {
@@ -395,41 +390,17 @@ void StateEstimate::remove_ambiguity(int index) {
   if (process_.continuous) process_.remove(state_.first_ambiguity() + index);
 }
 
-void StateEstimate::shift_ambiguity(int state, double step_m) {
-  state_.ambiguities[index_of_state(state)].value_m += step_m;
-}
-
-void StateEstimate::set_ambiguity_random_walk(int state, double random_walk) {
-  state_.ambiguities[index_of_state(state)].random_walk = random_walk;
-}
-
-int StateEstimate::record_carrier(int state, bool used, GpsTime time) {
-  Ambiguity& ambiguity = state_.ambiguities[index_of_state(state)];
-  ambiguity.last_used = time;
-  ambiguity.rejected = used ? 0 : ambiguity.rejected + 1;
-  return ambiguity.rejected;
-}
-
-double StateEstimate::start_variance(int constant) const {
-  return square(config_.vehicle.sigma[static_cast<std::size_t>(constant)]);
-}
-
-VehicleConstants StateEstimate::vehicle_variances() const {
+// Values and variances outlive the filter that found them; correlations do not.
+void StateEstimate::start_vehicle_constants() {
+  const int known = static_cast<int>(state_.vehicle.size());
   VehicleConstants variances;
-  for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i)
-    variances.push_back(covariance_(kSize + i, kSize + i));
-  return variances;
-}
-
-void StateEstimate::start_vehicle_constants(const VehicleConstants& before,
-                                            const VehicleConstants& variances) {
-  const int count = std::max(config_.vehicle.count, static_cast<int>(before.size()));
+  for (int i = 0; i < known; ++i) variances.push_back(covariance_(kSize + i, kSize + i));
+  const int count = std::max(config_.vehicle.count, known);
   covariance_.setZero(kSize + count, kSize + count);
   for (int i = 0; i < count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const bool known = index < before.size();
-    state_.vehicle.push_back(known ? before[index] : 0.0);
-    covariance_(kSize + i, kSize + i) = known ? variances[index] : start_variance(i);
+    if (i >= known) state_.vehicle.push_back(0.0);
+    covariance_(kSize + i, kSize + i) =
+        i < known ? variances[static_cast<std::size_t>(i)] : start_variance(config_.vehicle, i);
   }
 }
 
@@ -445,48 +416,21 @@ void StateEstimate::add_vehicle_constants(int constant) {
   P.bottomRightCorner(after, after) = covariance_.bottomRightCorner(after, after);
   for (int i = known; i <= constant; ++i) {
     state_.vehicle.push_back(0.0);
-    P(kSize + i, kSize + i) = start_variance(i);
+    P(kSize + i, kSize + i) = start_variance(config_.vehicle, i);
   }
   covariance_ = P;
   process_.continuous = false;
 }
 
 void StateEstimate::restart_vehicle_constants(const AntennaMotion& antenna) {
-  to_antenna_parametrization(antenna);
+  apply_antenna_transform(antenna, 1.0);
   for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i) {
     covariance_.row(kSize + i).setZero();
     covariance_.col(kSize + i).setZero();
-    covariance_(kSize + i, kSize + i) = start_variance(i);
+    covariance_(kSize + i, kSize + i) = start_variance(config_.vehicle, i);
   }
-  to_state_parametrization(antenna);
+  apply_antenna_transform(antenna, -1.0);
   process_.continuous = false;
-}
-
-Matrix3d StateEstimate::antenna_covariance_e(int first, bool estimated,
-                                             const AntennaSlopes& slopes) const {
-  Matrix3d covariance = covariance_.block<3, 3>(first, first);
-  if (!estimated) return covariance;
-  constexpr int kFirst = kSize + kLeverArm;
-  const Matrix3d cross = slopes * covariance_.block<kAntennaConstants, 3>(kFirst, first);
-  covariance += cross + cross.transpose();
-  covariance += slopes * covariance_.block<kAntennaConstants, kAntennaConstants>(kFirst, kFirst) *
-                slopes.transpose();
-  return covariance;
-}
-
-Matrix3d StateEstimate::antenna_position_covariance_e(const AntennaMotion& antenna) const {
-  return antenna_covariance_e(kPosition, antenna.estimated, antenna.d_p_d_constants);
-}
-
-Matrix3d StateEstimate::antenna_velocity_covariance_e(const AntennaMotion& antenna) const {
-  return antenna_covariance_e(kVelocity, antenna.estimated, antenna.d_v_d_constants);
-}
-
-Vector3d StateEstimate::attitude_sigma_n() const {
-  const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(state_.nav.p_e));
-  const Matrix3d covariance =
-      C_ne * covariance_.block<3, 3>(kAttitude, kAttitude) * C_ne.transpose();
-  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 boost::container::static_vector<EkfCovariance*, 2> StateEstimate::covariance_and_noise() {

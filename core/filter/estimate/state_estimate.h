@@ -80,10 +80,9 @@ class StateEstimate {
   void propagate_slow_states(const ImuErrorModel& imu, double dt);
 
   // --- measurement update ---
-  // Between these two calls position and velocity in the error state are those of the antenna, as
-  // far as lever arm and time offset move it, so that rows need no columns for these constants.
+  // Makes position and velocity in the error state those of the antenna, as far as lever arm and
+  // time offset move it, so that rows need no columns for these constants. correct() ends it.
   void to_antenna_parametrization(const AntennaMotion& antenna);
-  void to_state_parametrization(const AntennaMotion& antenna);
   // Applies the robust update, in the antenna's parametrization, and leaves that.
   RobustUpdateResult correct(const RobustConfig& config, const AntennaMotion& antenna,
                              FilterMeasurements* measurements, RobustUpdate* robust_update);
@@ -111,14 +110,11 @@ class StateEstimate {
   void shift_codes_against_carriers(int system, double step_m, double sigma_m);
 
   // --- ambiguities; `index` into FilterState::ambiguities ---
-  int ambiguity_state(int index) const { return state_.first_ambiguity() + index; }
-  const Ambiguity& ambiguity_of_state(int state) const;
+  // The ambiguity with this index in the error state; its value and bookkeeping may be changed,
+  // which leaves the covariance as it is.
+  Ambiguity* ambiguity_of_state(int state);
   void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
   void remove_ambiguity(int index);
-  void shift_ambiguity(int state, double step_m);
-  void set_ambiguity_random_walk(int state, double random_walk);
-  // Counts in how many epochs in a row the arc's carrier was rejected, and returns that number.
-  int record_carrier(int state, bool used, GpsTime time);
 
   // --- vehicle constants ---
   // Appends constants up to `constant` (kTravelYaw ... in ekf_index) before the ambiguities, each
@@ -127,28 +123,14 @@ class StateEstimate {
   // Gives every constant its start variance again, uncorrelated; value and antenna stay.
   void restart_vehicle_constants(const AntennaMotion& antenna);
 
-  // --- derived ---
-  // Of the antenna, with the uncertainty of its lever arm and of the IMU's time; ECEF, m^2,
-  // (m/s)^2.
-  Eigen::Matrix3d antenna_position_covariance_e(const AntennaMotion& antenna) const;
-  Eigen::Matrix3d antenna_velocity_covariance_e(const AntennaMotion& antenna) const;
-  // 1 sigma of the attitude about north, east and down, rad.
-  Eigen::Vector3d attitude_sigma_n() const;
-
  private:
   // The covariance and, if it is recorded, the process's noise.
   boost::container::static_vector<EkfCovariance*, 2> covariance_and_noise();
-  double start_variance(int constant) const;
-  VehicleConstants vehicle_variances() const;
-  void start_vehicle_constants(const VehicleConstants& before, const VehicleConstants& variances);
+  void start_vehicle_constants();
   void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
                       const AntennaModel& model, const BodyMotion& body);
   void apply_antenna_transform(const AntennaMotion& antenna, double direction);
-  Eigen::Matrix3d antenna_covariance_e(int first, bool estimated,
-                                       const AntennaSlopes& slopes) const;
-  bool is_known_clock_of(std::size_t system, int wanted) const;
-  std::size_t index_of_state(int state) const;
 
   EkfConfig config_;
   FilterState state_;
