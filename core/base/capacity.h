@@ -36,7 +36,7 @@ inline constexpr std::size_t kMaxConstraintReports = 8 * kMaxConstraintInstants;
 
 inline constexpr std::size_t kMaxWindow = 60;  // the smoother's keyframes
 
-inline constexpr std::size_t kMaxTimeBases = 4;       // GPS, Galileo, BeiDou, LEO
+inline constexpr std::size_t kMaxSystemTimes = 4;     // GPS, Galileo, BeiDou, LEO
 inline constexpr std::size_t kMaxMailboxEpochs = 64;  // epochs under way at once
 
 // Values of one antenna pattern: a receiver antenna has a grid of azimuth and zenith angle every 5

@@ -218,7 +218,7 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     ++result->offered[kind];
     if (rejected) ++result->rejected[kind];
     if (measurement.observable != Observable::kCode) continue;
-    const auto system = static_cast<std::size_t>(base_of(measurement, epoch));
+    const auto system = static_cast<std::size_t>(system_of(measurement, epoch));
     ++offered[system];
     accepted[system] += rejected ? 0 : 1;
   }

@@ -56,7 +56,7 @@ struct EkfUpdateResult {
   bool prediction_suspect = false;
   double clock_jump_m = 0.0;  // these three: ClockSteps
   double code_step_m = 0.0;
-  std::array<double, kMaxTimeBases> inter_system_step_m{};
+  std::array<double, kMaxSystemTimes> inter_system_step_m{};
   boost::container::static_vector<InnovationReport, kMaxMeasurements> innovations;
 };
 

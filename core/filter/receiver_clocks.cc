@@ -48,7 +48,7 @@ std::optional<Start> start_from(const FilterMeasurements& measurements,
   SmallTable innovations;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.observable == observable &&
-        base_of(measurement, epoch) == static_cast<int>(system))
+        system_of(measurement, epoch) == static_cast<int>(system))
       innovations.push_back(measurement.innovation);
   }
   if (innovations.empty()) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<Start> start_from(const FilterMeasurements& measurements,
   return start;
 }
 
-bool is_base(int base, int wanted) { return wanted == kAllBases || base == wanted; }
+bool is_of(int system, int wanted) { return wanted == kAllSystems || system == wanted; }
 
 // The step may be off by as much as it is large, up to what no noise of codes reaches: it was found
 // in the measurements that the update is to use, and its value is theirs to find.
@@ -82,7 +82,7 @@ bool ReceiverClocks::start(const MeasurementEpoch& epoch, const FilterMeasuremen
   const ClockFlags& known = estimate->known_clocks();
   const ClockState& clocks = estimate->state().clocks;
   bool started = false;
-  for (std::size_t system = 0; system < kMaxTimeBases; ++system) {
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (known.offset[system]) continue;
     const auto code = start_from(measurements, epoch, Observable::kCode, system);
     const auto doppler = start_from(measurements, epoch, Observable::kDoppler, system);
@@ -90,8 +90,8 @@ bool ReceiverClocks::start(const MeasurementEpoch& epoch, const FilterMeasuremen
     const auto i = static_cast<Eigen::Index>(system);
     if (!known.drift[system]) {
       std::size_t other = 0;
-      while (other < kMaxTimeBases && !known.drift[other]) ++other;
-      if (other < kMaxTimeBases)
+      while (other < kMaxSystemTimes && !known.drift[other]) ++other;
+      if (other < kMaxSystemTimes)
         estimate->copy_clock_drift(other, system, kInterSystemDriftSigma);
       else if (doppler)
         estimate->start_clock_drift(system, clocks.drift_m_s(i) + doppler->value,
@@ -123,7 +123,7 @@ double ReceiverClocks::apply_code_step(const MeasurementEpoch& epoch, int system
   const double shift_m = exact ? whole_m : step.value_m;
   estimate->shift_codes_against_carriers(system, shift_m, exact ? 0.0 : step_sigma(step));
   for (FilterMeasurement& m : *measurements)
-    if (m.observable == Observable::kCode && is_base(base_of(m, epoch), system))
+    if (m.observable == Observable::kCode && is_of(system_of(m, epoch), system))
       m.innovation -= shift_m;
   return shift_m;
 }
@@ -134,7 +134,7 @@ void ReceiverClocks::apply_clock_step(const MeasurementEpoch& epoch, int system,
                                       StateEstimate* estimate) {
   estimate->shift_clocks(system, step.value_m, step_sigma(step));
   for (FilterMeasurement& m : *measurements) {
-    if (m.observable == Observable::kDoppler || !is_base(base_of(m, epoch), system)) continue;
+    if (m.observable == Observable::kDoppler || !is_of(system_of(m, epoch), system)) continue;
     // An arc that begins here was begun with the clock as predicted.
     const bool begins = m.ambiguity >= 0 && estimate->covariance()(m.ambiguity, m.ambiguity) >=
                                                 kUnknownAmbiguityVariance;
@@ -150,7 +150,7 @@ void ReceiverClocks::compensate_jump(const MeasurementEpoch& epoch,
                                      FilterMeasurements* measurements, StateEstimate* estimate,
                                      ClockSteps* steps) {
   const EkfCovariance& covariance = estimate->covariance();
-  std::optional<CommonStep> step = code_step(*measurements, epoch, kAllBases, covariance);
+  std::optional<CommonStep> step = code_step(*measurements, epoch, kAllSystems, covariance);
   double jump_m = common_shift(*measurements, Observable::kCode, covariance);
   if (!step && jump_m != 0.0) {
     // Too few carriers to find small steps still show whether they have made this large one.
@@ -159,11 +159,11 @@ void ReceiverClocks::compensate_jump(const MeasurementEpoch& epoch,
       step = CommonStep{*offset_m, kRoughStepSigma};
   }
   if (step) {
-    steps->code_step_m = apply_code_step(epoch, kAllBases, *step, measurements, estimate);
+    steps->code_step_m = apply_code_step(epoch, kAllSystems, *step, measurements, estimate);
     jump_m = common_shift(*measurements, Observable::kCode, covariance);
   }
   // The part of the shift that was not the clock's is left to the update to find.
-  if (jump_m != 0.0) apply_clock_step(epoch, kAllBases, {jump_m, 0.0}, measurements, estimate);
+  if (jump_m != 0.0) apply_clock_step(epoch, kAllSystems, {jump_m, 0.0}, measurements, estimate);
   steps->clock_jump_m = steps->code_step_m + jump_m;
 }
 
@@ -177,8 +177,8 @@ void ReceiverClocks::compensate_inter_system_steps(const MeasurementEpoch& epoch
                                                    FilterMeasurements* measurements,
                                                    StateEstimate* estimate, ClockSteps* steps) {
   const EkfCovariance& covariance = estimate->covariance();
-  const int reference = largest_base(*measurements, epoch);
-  for (int system = 0; system < static_cast<int>(kMaxTimeBases); ++system) {
+  const int reference = largest_system(*measurements, epoch);
+  for (int system = 0; system < static_cast<int>(kMaxSystemTimes); ++system) {
     const auto i = static_cast<std::size_t>(system);
     const double before_m = std::exchange(pending_inter_system_step_m_[i], 0.0);
     if (!estimate->known_clocks().offset[i]) continue;
@@ -217,7 +217,7 @@ void ReceiverClocks::count_epochs_without_accepted_code(const Counts& offered,
                                                         const Counts& accepted) {
   const int all = std::accumulate(offered.begin(), offered.end(), 0);
   const int good = std::accumulate(accepted.begin(), accepted.end(), 0);
-  for (std::size_t system = 0; system < kMaxTimeBases; ++system) {
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     const int others = all - offered[system];
     const bool others_agree = others >= kMinOthers && 3 * good >= 2 * others;
     if (offered[system] > 0 && accepted[system] == 0 && others_agree)
@@ -228,7 +228,7 @@ void ReceiverClocks::count_epochs_without_accepted_code(const Counts& offered,
 }
 
 void ReceiverClocks::restart_rejected(StateEstimate* estimate) {
-  for (std::size_t system = 0; system < kMaxTimeBases; ++system) {
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (epochs_without_accepted_code_[system] < kMaxEpochsWithoutAcceptedCode) continue;
     epochs_without_accepted_code_[system] = 0;
     restarting_[system] = true;
@@ -238,7 +238,7 @@ void ReceiverClocks::restart_rejected(StateEstimate* estimate) {
 }
 
 void ReceiverClocks::restart_offsets(const ClockFlags& known) {
-  for (std::size_t system = 0; system < kMaxTimeBases; ++system)
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system)
     if (known.offset[system]) epochs_without_accepted_code_[system] = kMaxEpochsWithoutAcceptedCode;
 }
 

@@ -15,7 +15,7 @@ namespace leonav {
 struct ClockSteps {
   double clock_jump_m = 0.0;  // of all codes
   double code_step_m = 0.0;   // the part of clock_jump_m that the carriers did not make
-  std::array<double, kMaxTimeBases> inter_system_step_m{};  // of one system beyond that
+  std::array<double, kMaxSystemTimes> inter_system_step_m{};  // of one system beyond that
 };
 
 // The state has one clock offset and drift per system (core/filter/state/clock_model.h). Receivers
@@ -35,7 +35,7 @@ class ReceiverClocks {
                         FilterMeasurements* measurements, StateEstimate* estimate,
                         ClockSteps* steps);
 
-  using Counts = std::array<int, kMaxTimeBases>;
+  using Counts = std::array<int, kMaxSystemTimes>;
   // Counts, per system, the epochs in a row in which none of its codes was accepted while most of
   // the others' were.
   void count_epochs_without_accepted_code(const Counts& offered, const Counts& accepted);
@@ -58,9 +58,9 @@ class ReceiverClocks {
 
   RobustConfig robust_;
   // Step of a system's codes against the others' in the last epoch that awaits confirmation, m.
-  std::array<double, kMaxTimeBases> pending_inter_system_step_m_{};
+  std::array<double, kMaxSystemTimes> pending_inter_system_step_m_{};
   Counts epochs_without_accepted_code_{};
-  std::array<bool, kMaxTimeBases> restarting_{};  // the offset was removed and is to start anew
+  std::array<bool, kMaxSystemTimes> restarting_{};  // the offset was removed and is to start anew
 };
 
 }  // namespace leonav

@@ -71,7 +71,7 @@ FitState jacobian_of(const FitRow& row) {
 double weight_of(const FitRow& row) { return row.factor / (row.sigma * row.sigma); }
 
 void Fit::exclude_single_satellite_groups() {
-  std::array<Satellites, kMaxTimeBases> satellites;
+  std::array<Satellites, kMaxSystemTimes> satellites;
   for (FitRow& row : *rows_) {
     row.single_in_group = false;
     if (in_use(row))

@@ -13,7 +13,7 @@ namespace leonav {
 
 // Three geometric unknowns (position or velocity) come first, then one clock unknown per group of
 // rows.
-inline constexpr int kFitUnknowns = 3 + static_cast<int>(kMaxTimeBases);
+inline constexpr int kFitUnknowns = 3 + static_cast<int>(kMaxSystemTimes);
 using FitState = Eigen::Matrix<double, kFitUnknowns, 1>;
 using FitMatrix = Eigen::Matrix<double, kFitUnknowns, kFitUnknowns>;
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/smoother/internal/rts_solver.h"
 #include "core/smoother/internal/window_weights.h"
 #include "core/smoother/repropagation.h"
@@ -33,8 +34,7 @@ struct SmootherResult {
   bool converged = false;
   bool has_attitude = false;
   NavState state;  // at the newest keyframe
-  Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
-      Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
+  InertialCovariance covariance = InertialCovariance::Zero();
   int used = 0;                // measurements of the newest keyframe with a factor above zero
   double time_offset_s = 0.0;  // estimated: the state is this much later than its stamp
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
+#include "core/filter/state/covariance_blocks.h"
 
 namespace leonav {
 namespace {
@@ -64,8 +65,8 @@ ForwardMotion forward_motion(const Ekf& ekf, const Eigen::Vector3d& point_b) {
 // Returns the speed and its sigma without a direction of travel: total speed, largest sigma of a
 // component.
 ForwardMotion any_motion(const Ekf& ekf) {
-  const auto velocity = ekf.covariance().diagonal().segment<3>(ekf_index::kVelocity);
-  return {ekf.state().v_e.norm(), std::sqrt(velocity.maxCoeff())};
+  const Eigen::Matrix3d velocity = velocity_covariance_e(ekf.covariance());
+  return {ekf.state().v_e.norm(), std::sqrt(velocity.diagonal().maxCoeff())};
 }
 
 }  // namespace

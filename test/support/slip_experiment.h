@@ -199,7 +199,7 @@ class SlipRun {
       row.direction = now.direction;
       row.direction_change = now.direction - before->second.direction;
       row.sigma_m = row_sigma_m(now.elevation, std::isfinite(status.second_m), factors, interval_s);
-      row.time_base = static_cast<int>(index_of(inputs[i].first->satellite.system));
+      row.system_time = static_cast<int>(index_of(inputs[i].first->satellite.system));
       rows.push_back(row);
       owners.push_back(i);
     }

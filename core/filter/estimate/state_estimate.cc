@@ -61,7 +61,7 @@ EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& ant
 }
 
 bool is_of(std::size_t system, int wanted) {
-  return wanted == kAllBases || static_cast<int>(system) == wanted;
+  return wanted == kAllSystems || static_cast<int>(system) == wanted;
 }
 
 double start_variance(const VehicleConstantsConfig& config, int constant) {
@@ -101,7 +101,7 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
   }
   const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
   const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
-  for (std::size_t system = 0; system < kMaxTimeBases; ++system) {
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (!std::isfinite(point.clock_m[system])) continue;
     leonav::start_clock_offset(system, point.clock_m[system], clock_sigma, &state_.clocks,
                                &covariance_);
@@ -349,7 +349,7 @@ void StateEstimate::copy_clock_drift(std::size_t from, std::size_t to, double si
 
 void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
   EkfVector direction = EkfVector::Zero();
-  for (std::size_t i = 0; i < kMaxTimeBases; ++i)
+  for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
     if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
   for (EkfCovariance* covariance : covariance_and_noise())
@@ -361,7 +361,7 @@ void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
 // signs.
 void StateEstimate::shift_codes_against_carriers(int system, double step_m, double sigma_m) {
   EkfCorrection direction = EkfCorrection::Zero(covariance_.rows());
-  for (std::size_t i = 0; i < kMaxTimeBases; ++i)
+  for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
     if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
   for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
     if (is_of(index_of(state_.ambiguities[i].satellite.system), system))

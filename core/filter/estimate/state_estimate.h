@@ -104,7 +104,7 @@ class StateEstimate {
   // Starts a drift as that of another system, with `sigma_m_s` between them.
   void copy_clock_drift(std::size_t from, std::size_t to, double sigma_m_s);
   void forget_clock_offset(std::size_t system) { known_clocks_.offset[system] = false; }
-  // Shifts the known clocks of `system` (or kAllBases) by a step that codes and carriers share.
+  // Shifts the known clocks of `system` (or kAllSystems) by a step that codes and carriers share.
   void shift_clocks(int system, double step_m, double sigma_m);
   // Shifts them by a step of the codes alone: ambiguities make up for it. `sigma_m` 0: exact.
   void shift_codes_against_carriers(int system, double step_m, double sigma_m);

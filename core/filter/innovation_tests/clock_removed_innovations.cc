@@ -11,7 +11,7 @@ namespace {
 using namespace ekf_index;
 
 // Fewer are mostly what their own median is: they tell nothing.
-constexpr std::size_t kMinOfBase = 4;
+constexpr std::size_t kMinOfSystem = 4;
 
 // H_a P H_b^T of two measurements.
 double predicted_covariance(const FilterMeasurement& a, const FilterMeasurement& b,
@@ -64,23 +64,24 @@ void take_out_middle_one(const FilterMeasurements& measurements, const EkfCovari
   }
 }
 
-std::size_t base_of(const FilterMeasurement& measurement) {
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    const auto i = static_cast<Eigen::Index>(base);
-    if (measurement.row(kClock + i) != 0.0 || measurement.row(kClockDrift + i) != 0.0) return base;
+std::size_t system_of(const FilterMeasurement& measurement) {
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+    const auto i = static_cast<Eigen::Index>(system);
+    if (measurement.row(kClock + i) != 0.0 || measurement.row(kClockDrift + i) != 0.0)
+      return system;
   }
   return 0;
 }
 
-// The entries of bases that have few go to the one that has most.
-void join_small(std::array<ClockRemovedInnovations, kMaxTimeBases>* of_base) {
+// The entries of systems that have few go to the one that has most.
+void join_small(std::array<ClockRemovedInnovations, kMaxSystemTimes>* of_system) {
   const auto largest =
-      std::max_element(of_base->begin(), of_base->end(),
+      std::max_element(of_system->begin(), of_system->end(),
                        [](const ClockRemovedInnovations& a, const ClockRemovedInnovations& b) {
                          return a.size() < b.size();
                        });
-  for (ClockRemovedInnovations& entries : *of_base) {
-    if (&entries == &*largest || entries.size() >= kMinOfBase) continue;
+  for (ClockRemovedInnovations& entries : *of_system) {
+    if (&entries == &*largest || entries.size() >= kMinOfSystem) continue;
     largest->insert(largest->end(), entries.begin(), entries.end());
     entries.clear();
   }
@@ -91,17 +92,17 @@ void join_small(std::array<ClockRemovedInnovations, kMaxTimeBases>* of_base) {
 ClockRemovedInnovations clock_removed_innovations(const FilterMeasurements& measurements,
                                                   Observable observable,
                                                   const EkfCovariance& covariance) {
-  std::array<ClockRemovedInnovations, kMaxTimeBases> of_base;
+  std::array<ClockRemovedInnovations, kMaxSystemTimes> of_system;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const FilterMeasurement& m = measurements[i];
     if (m.observable != observable) continue;
     if (m.ambiguity >= 0 && covariance(m.ambiguity, m.ambiguity) >= kUnknownAmbiguityVariance)
       continue;
-    of_base[base_of(m)].push_back({i, m.innovation, 0.0, m.variance});
+    of_system[system_of(m)].push_back({i, m.innovation, 0.0, m.variance});
   }
-  join_small(&of_base);
+  join_small(&of_system);
   ClockRemovedInnovations table;
-  for (ClockRemovedInnovations& entries : of_base) {
+  for (ClockRemovedInnovations& entries : of_system) {
     if (entries.empty()) continue;
     if (observable == Observable::kCarrier)
       take_out_middle_one(measurements, covariance, &entries);

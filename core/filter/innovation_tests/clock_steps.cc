@@ -18,11 +18,11 @@ using Samples = boost::container::static_vector<StepSample, kMaxSatellites>;
 // The first code of each satellite, others of its bands being no witnesses of their own.
 using Codes = std::array<const FilterMeasurement*, kMaxSatellites>;
 
-Codes codes_of(const FilterMeasurements& measurements, const MeasurementEpoch& epoch, int base) {
+Codes codes_of(const FilterMeasurements& measurements, const MeasurementEpoch& epoch, int system) {
   Codes codes{};
   for (const FilterMeasurement& m : measurements) {
     if (m.observable != Observable::kCode) continue;
-    if (base != kAllBases && base_of(m, epoch) != base) continue;
+    if (system != kAllSystems && system_of(m, epoch) != system) continue;
     const FilterMeasurement*& code = codes[epoch.measurements[m.index].satellite_index];
     if (code == nullptr) code = &m;
   }
@@ -35,8 +35,8 @@ struct Differences {
 };
 
 Differences code_less_carrier(const FilterMeasurements& measurements, const MeasurementEpoch& epoch,
-                              int base, const EkfCovariance& P) {
-  const Codes codes = codes_of(measurements, epoch, base);
+                              int system, const EkfCovariance& P) {
+  const Codes codes = codes_of(measurements, epoch, system);
   Differences found;
   for (const FilterMeasurement& carrier : measurements) {
     if (carrier.ambiguity < 0 ||
@@ -64,15 +64,15 @@ double sigma_of_ambiguities(const Differences& differences, const EkfCovariance&
 
 }  // namespace
 
-int base_of(const FilterMeasurement& measurement, const MeasurementEpoch& epoch) {
+int system_of(const FilterMeasurement& measurement, const MeasurementEpoch& epoch) {
   const std::size_t satellite = epoch.measurements[measurement.index].satellite_index;
   return static_cast<int>(index_of(epoch.satellites[satellite].satellite.system));
 }
 
 std::optional<CommonStep> code_step(const FilterMeasurements& measurements,
-                                    const MeasurementEpoch& epoch, int base,
+                                    const MeasurementEpoch& epoch, int system,
                                     const EkfCovariance& covariance) {
-  const Differences found = code_less_carrier(measurements, epoch, base, covariance);
+  const Differences found = code_less_carrier(measurements, epoch, system, covariance);
   if (found.samples.size() < kMinStepSamples) return std::nullopt;
   return find_common_step({found.samples.data(), found.samples.size()},
                           sigma_of_ambiguities(found, covariance));
@@ -81,22 +81,22 @@ std::optional<CommonStep> code_step(const FilterMeasurements& measurements,
 std::optional<double> median_code_minus_carrier(const FilterMeasurements& measurements,
                                                 const MeasurementEpoch& epoch,
                                                 const EkfCovariance& covariance) {
-  const Differences found = code_less_carrier(measurements, epoch, kAllBases, covariance);
+  const Differences found = code_less_carrier(measurements, epoch, kAllSystems, covariance);
   if (found.samples.empty()) return std::nullopt;
   boost::container::static_vector<double, kMaxSatellites> values;
   for (const StepSample& sample : found.samples) values.push_back(sample.value_m);
   return median(values);
 }
 
-int largest_base(const FilterMeasurements& measurements, const MeasurementEpoch& epoch) {
-  std::array<int, kMaxTimeBases> counts{};
-  for (const FilterMeasurement* code : codes_of(measurements, epoch, kAllBases))
-    if (code != nullptr) ++counts[static_cast<std::size_t>(base_of(*code, epoch))];
+int largest_system(const FilterMeasurements& measurements, const MeasurementEpoch& epoch) {
+  std::array<int, kMaxSystemTimes> counts{};
+  for (const FilterMeasurement* code : codes_of(measurements, epoch, kAllSystems))
+    if (code != nullptr) ++counts[static_cast<std::size_t>(system_of(*code, epoch))];
   return static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
 InterSystemStep inter_system_step(const FilterMeasurements& measurements,
-                                  const MeasurementEpoch& epoch, int base, int reference,
+                                  const MeasurementEpoch& epoch, int system, int reference,
                                   const EkfCovariance& covariance) {
   InterSystemStep found;
   boost::container::static_vector<double, kMaxSatellites> of_reference;
@@ -115,8 +115,8 @@ InterSystemStep inter_system_step(const FilterMeasurements& measurements,
   const double middle = median(of_reference);
   Samples samples;
   EkfVector sum = EkfVector::Zero();
-  const Codes base_codes = codes_of(measurements, epoch, base);
-  for (const FilterMeasurement* code : base_codes) {
+  const Codes system_codes = codes_of(measurements, epoch, system);
+  for (const FilterMeasurement* code : system_codes) {
     if (code == nullptr) continue;
     samples.push_back({code->innovation - middle, std::sqrt(code->variance)});
     sum += code->row;
@@ -133,13 +133,13 @@ InterSystemStep inter_system_step(const FilterMeasurements& measurements,
 
 std::optional<CommonStep> fitted_inter_system_step(const RobustConfig& robust,
                                                    const FilterMeasurements& measurements,
-                                                   const MeasurementEpoch& epoch, int base,
+                                                   const MeasurementEpoch& epoch, int system,
                                                    int reference, const EkfCovariance& covariance,
                                                    RobustUpdate* robust_update) {
   FilterMeasurements codes;
-  for (const FilterMeasurement* code : codes_of(measurements, epoch, kAllBases))
+  for (const FilterMeasurement* code : codes_of(measurements, epoch, kAllSystems))
     if (code != nullptr) codes.push_back(*code);
-  const int clock = kClock + base, other = kClock + reference;
+  const int clock = kClock + system, other = kClock + reference;
   const auto variance_apart = [&](const EkfCovariance& P) {
     return P(clock, clock) + P(other, other) - 2.0 * P(clock, other);
   };

@@ -24,20 +24,20 @@ constexpr double kMillisecondStep =
 constexpr double kShiftRatio = 5.0;    // shift over predicted sigma
 constexpr double kSpreadShare = 0.33;  // spread about the shift, as a share of it
 
-// Measurements beyond what position (or velocity) and one clock per time base need.
+// Measurements beyond what position (or velocity) and one clock per system need.
 int redundancy(const FilterMeasurements& measurements) {
-  std::array<bool, kMaxTimeBases> bases{};
+  std::array<bool, kMaxSystemTimes> systems{};
   int count = -3;
   for (const FilterMeasurement& measurement : measurements) {
     if (measurement.factor <= 0.0) continue;
     ++count;
-    for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-      const auto i = static_cast<Eigen::Index>(base);
+    for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+      const auto i = static_cast<Eigen::Index>(system);
       if (measurement.row(kClock + i) != 0.0 || measurement.row(kClockDrift + i) != 0.0)
-        bases[base] = true;
+        systems[system] = true;
     }
   }
-  return count - static_cast<int>(std::count(bases.begin(), bases.end(), true));
+  return count - static_cast<int>(std::count(systems.begin(), systems.end(), true));
 }
 
 // The sum of `count` squared standard normal variables is larger once in a thousand times
@@ -147,7 +147,7 @@ void inflate_covariance(Observable observable, double variance, double interval_
     }
   };
   add(kPosition, kVelocity, 3);
-  add(kClock, kClockDrift, static_cast<int>(kMaxTimeBases));
+  add(kClock, kClockDrift, static_cast<int>(kMaxSystemTimes));
 }
 
 }  // namespace leonav

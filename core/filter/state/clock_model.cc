@@ -37,16 +37,16 @@ void propagate_clocks(const ClockModel& model, const ClockFlags& known, double d
   }
 }
 
-void start_clock_offset(std::size_t base, double offset_m, double sigma_m, ClockState* clocks,
+void start_clock_offset(std::size_t system, double offset_m, double sigma_m, ClockState* clocks,
                         EkfCovariance* covariance) {
-  const auto i = static_cast<Eigen::Index>(base);
+  const auto i = static_cast<Eigen::Index>(system);
   clocks->offset_m(i) = offset_m;
   start(kClock + i, sigma_m, covariance);
 }
 
-void start_clock_drift(std::size_t base, double drift_m_s, double sigma_m_s, ClockState* clocks,
+void start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s, ClockState* clocks,
                        EkfCovariance* covariance) {
-  const auto i = static_cast<Eigen::Index>(base);
+  const auto i = static_cast<Eigen::Index>(system);
   clocks->drift_m_s(i) = drift_m_s;
   start(kClockDrift + i, sigma_m_s, covariance);
 }

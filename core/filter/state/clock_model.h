@@ -14,12 +14,12 @@ namespace leonav {
 void propagate_clocks(const ClockModel& model, const ClockFlags& known, double dt,
                       EkfCovariance* covariance);
 
-// Starts the offset of system `base`, uncorrelated with all other states.
-void start_clock_offset(std::size_t base, double offset_m, double sigma_m, ClockState* clocks,
+// Starts the offset of system `system`, uncorrelated with all other states.
+void start_clock_offset(std::size_t system, double offset_m, double sigma_m, ClockState* clocks,
                         EkfCovariance* covariance);
 
-// Starts the drift of system `base`, uncorrelated with all other states.
-void start_clock_drift(std::size_t base, double drift_m_s, double sigma_m_s, ClockState* clocks,
+// Starts the drift of system `system`, uncorrelated with all other states.
+void start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s, ClockState* clocks,
                        EkfCovariance* covariance);
 
 // Starts the drift of system `to` as that of system `from`, with `sigma_m_s` between them.

@@ -16,7 +16,7 @@ namespace leonav {
 // Error state, in this order (all errors are "true minus estimate"; position, velocity and attitude
 // errors in ECEF: C_eb_true = exp([attitude x]) C_eb):
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
-//   accelerometer scale 3, clock offset per time base 4 (m), clock drift per time base 4 (m/s),
+//   accelerometer scale 3, clock offset per time system 4 (m), clock drift per time system 4 (m/s),
 //   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), the
 //   vehicle constants as far as they are estimated, and one ambiguity (m) per carrier arc under
 //   way.
@@ -60,8 +60,8 @@ struct ClockState {
 // The clocks of systems observed so far, per System. An unobserved one has zero covariance and
 // takes no correction until its first measurement starts it. A known offset implies a known drift.
 struct ClockFlags {
-  std::array<bool, kMaxTimeBases> offset{};
-  std::array<bool, kMaxTimeBases> drift{};
+  std::array<bool, kMaxSystemTimes> offset{};
+  std::array<bool, kMaxSystemTimes> drift{};
 };
 
 // The constant of one carrier arc, m: carrier phase minus the code's model.

@@ -89,13 +89,14 @@ MeasurementPrediction predict_measurement(const Measurement& measurement,
                                           double wet_delay_m, double carrier_clock_m) {
   MeasurementPrediction prediction;
   EkfVector& row = prediction.row;
-  const auto base = static_cast<Eigen::Index>(index_of(satellite.satellite.system));
+  const auto system_index = static_cast<Eigen::Index>(index_of(satellite.satellite.system));
   if (measurement.observable != Observable::kDoppler) {
     const RangePrediction range = predict_range(satellite, antenna.p_e);
-    prediction.value = range.range_m + clocks.offset_m(base) + satellite.wet_mapping * wet_delay_m;
+    prediction.value =
+        range.range_m + clocks.offset_m(system_index) + satellite.wet_mapping * wet_delay_m;
     row.segment<3>(kPosition) = range.d_range_d_p;
     row.segment<3>(kAttitude) = range.d_range_d_p * antenna.d_p_d_attitude;
-    row(kClock + base) = 1.0;
+    row(kClock + system_index) = 1.0;
     row(kWetDelay) = satellite.wet_mapping;
     if (antenna.estimated)
       add_by_antenna(range.d_range_d_p, RowVector3d::Zero(), antenna, &prediction);
@@ -105,7 +106,7 @@ MeasurementPrediction predict_measurement(const Measurement& measurement,
     }
   } else {
     const RangeRatePrediction rate = predict_range_rate(satellite, antenna.p_e, antenna.v_e);
-    prediction.value = rate.range_rate_m_s + clocks.drift_m_s(base);
+    prediction.value = rate.range_rate_m_s + clocks.drift_m_s(system_index);
     row.segment<3>(kPosition) = rate.d_rate_d_p;
     row.segment<3>(kVelocity) = rate.d_rate_d_v;
     row.segment<3>(kAttitude) =
@@ -113,7 +114,7 @@ MeasurementPrediction predict_measurement(const Measurement& measurement,
     row.segment<3>(kGyroBias) = rate.d_rate_d_v * antenna.d_v_d_gyro_bias;
     row.segment<3>(kGyroScale) = rate.d_rate_d_v * antenna.d_v_d_gyro_scale;
     if (antenna.estimated) add_by_antenna(rate.d_rate_d_p, rate.d_rate_d_v, antenna, &prediction);
-    row(kClockDrift + base) = 1.0;
+    row(kClockDrift + system_index) = 1.0;
   }
   return prediction;
 }

@@ -27,7 +27,7 @@ struct RangeChangeRow {
   // 1 sigma of the residual: noise of both epochs, satellite clock, orbit rate, troposphere; on one
   // frequency also the ionosphere over the interval.
   double sigma_m = 0.01;
-  int time_base = 0;  // [0, kMaxTimeBases)
+  int system_time = 0;  // [0, kMaxSystemTimes)
 };
 
 // Prior knowledge of x and p.
@@ -85,8 +85,8 @@ struct RangeChangeResult {
 // each further slip needs one more. Unknowns are the clock and, without a prior, three of position:
 // one slip is located with three satellites and a tight prior, or with six satellites and none. Up
 // to half of the spare rows may have slipped. Rows with a value that is not finite, a sigma that is
-// not positive or a time_base out of range are kNotTested. The result is deterministic; nothing is
-// allocated.
+// not positive or a system_time out of range are kNotTested. The result is deterministic; nothing
+// is allocated.
 RangeChangeResult range_change(std::span<const RangeChangeRow> rows, const RangeChangePrior& prior,
                                const CycleSlipConfig& config);
 

@@ -10,7 +10,7 @@
 namespace leonav {
 namespace {
 
-constexpr int kUnknowns = 3 + static_cast<int>(kMaxTimeBases);
+constexpr int kUnknowns = 3 + static_cast<int>(kMaxSystemTimes);
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 

@@ -30,8 +30,8 @@ struct PointSolution {
   Eigen::Vector3d v_e = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_p_e = Eigen::Matrix3d::Zero();  // m^2
   Eigen::Matrix3d covariance_v_e = Eigen::Matrix3d::Zero();  // (m/s)^2
-  std::array<double, kMaxTimeBases> clock_m{};               // per System; NaN where not observed
-  std::array<double, kMaxTimeBases> clock_drift_m_s{};       // per System; NaN where not observed
+  std::array<double, kMaxSystemTimes> clock_m{};             // per System; NaN where not observed
+  std::array<double, kMaxSystemTimes> clock_drift_m_s{};     // per System; NaN where not observed
   int satellites = 0;                                        // satellites whose code is used
   double pdop = 0.0;
   double residual_rms_m = 0.0;

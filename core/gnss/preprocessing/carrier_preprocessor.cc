@@ -94,7 +94,7 @@ RangeChangeRow CarrierPreprocessor::row_of(const SatelliteInView& satellite,
   row.residual_m += antenna_step_m(satellite, before);
   row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 +
                           square(change_sigma_m(config_, satellite, carrier, dt)));
-  row.time_base = static_cast<int>(index_of(satellite.satellite.system));
+  row.system_time = static_cast<int>(index_of(satellite.satellite.system));
   return row;
 }
 

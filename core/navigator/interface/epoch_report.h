@@ -52,8 +52,8 @@ struct EpochReport {
   Solution solution;
   int satellites_used = 0;
   double pdop = 0.0, hdop = 0.0, vdop = 0.0;
-  std::array<double, kMaxTimeBases> clock_m{};  // NaN where not estimated
-  std::array<double, kMaxTimeBases> clock_drift_m_s{};
+  std::array<double, kMaxSystemTimes> clock_m{};  // NaN where not estimated
+  std::array<double, kMaxSystemTimes> clock_drift_m_s{};
   AlignmentNeed alignment;  // nothing: there is an attitude, or never will be; not on the wire
   double wet_delay_m = 0.0, wet_delay_sigma_m = 0.0;  // at zenith, beyond the model's; NaN: none
   double nis = 0.0;  // normalized innovation squared over all used measurements

@@ -2,23 +2,22 @@
 
 #include <cmath>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/solution_conversion.h"
 
 namespace leonav {
 
 double position_sigma(const Ekf& filter) {
-  return norm_of_sigmas(
-      filter.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition));
+  return norm_of_sigmas(position_covariance_e(filter.covariance()));
 }
 
 double velocity_sigma(const Ekf& filter) {
-  const Eigen::Matrix3d covariance =
-      filter.covariance().block<3, 3>(ekf_index::kVelocity, ekf_index::kVelocity);
+  const Eigen::Matrix3d covariance = velocity_covariance_e(filter.covariance());
   return norm_of_sigmas(covariance) / std::sqrt(3.0);
 }
 
 double gyro_bias_sigma(const Ekf& filter) {
-  return std::sqrt(filter.covariance().diagonal().segment<3>(ekf_index::kGyroBias).maxCoeff());
+  return std::sqrt(gyro_bias_variances(filter.covariance()).maxCoeff());
 }
 
 void fill_solution(const Ekf& filter, Solution* solution) {

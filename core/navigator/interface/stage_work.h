@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/filter/ekf.h"
+#include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/propagation/antenna_model.h"
@@ -69,8 +70,7 @@ struct Anchor {
   bool valid = false;         // false: the filter is not initialized yet
   bool has_attitude = false;  // false: aligning; `state.q_eb` means nothing
   NavState state;             // at the epoch
-  Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize> covariance =
-      Eigen::Matrix<double, ekf_index::kInsSize, ekf_index::kInsSize>::Zero();
+  InertialCovariance covariance = InertialCovariance::Zero();
   bool gnss_used = false;  // at least one measurement counted in this epoch
   // Estimated: the state is valid this much later than its stamp.
   double time_offset_s = 0.0;

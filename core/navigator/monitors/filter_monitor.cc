@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/filter_estimate.h"
 #include "core/navigator/interface/solution.h"
 #include "core/navigator/interface/solution_conversion.h"
@@ -33,8 +34,8 @@ constexpr double kMaxTrust = 480.0;                 // a longer past adds no evi
 constexpr double kLongestInterval_s = 10.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-Eigen::Matrix3d inflated(const EkfCovariance& covariance, int first, double sigma) {
-  return covariance.block<3, 3>(first, first) + sigma * sigma * Eigen::Matrix3d::Identity();
+Eigen::Matrix3d inflated(const Eigen::Matrix3d& covariance, double sigma) {
+  return covariance + sigma * sigma * Eigen::Matrix3d::Identity();
 }
 
 // The filter's own estimate as a point solution, more uncertain by these sigmas.
@@ -43,14 +44,15 @@ PointSolution inflated_estimate(const Ekf& filter, double sigma_m, double sigma_
   own.p_e = filter.antenna_position_e();
   own.v_e = filter.antenna_velocity_e();
   own.has_velocity = true;
-  own.covariance_p_e = inflated(filter.covariance(), ekf_index::kPosition, sigma_m);
-  own.covariance_v_e = inflated(filter.covariance(), ekf_index::kVelocity, sigma_m_s);
+  own.covariance_p_e = inflated(position_covariance_e(filter.covariance()), sigma_m);
+  own.covariance_v_e = inflated(velocity_covariance_e(filter.covariance()), sigma_m_s);
   const ClockFlags& known = filter.estimate().known_clocks();
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    const auto i = static_cast<Eigen::Index>(base);
-    own.clock_m[base] = known.offset[base] ? filter.filter_state().clocks.offset_m(i) : kUnknown;
-    own.clock_drift_m_s[base] =
-        known.drift[base] ? filter.filter_state().clocks.drift_m_s(i) : kUnknown;
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+    const auto i = static_cast<Eigen::Index>(system);
+    own.clock_m[system] =
+        known.offset[system] ? filter.filter_state().clocks.offset_m(i) : kUnknown;
+    own.clock_drift_m_s[system] =
+        known.drift[system] ? filter.filter_state().clocks.drift_m_s(i) : kUnknown;
   }
   return own;
 }
@@ -146,7 +148,7 @@ FilterVerdict FilterMonitor::test_position(const FilterEvidence& evidence,
   const double interval_s = std::clamp(passed_s, 0.0, kLongestInterval_s);
   if (update.offered[code] < kMinCodesToMove) return {};
   if (update.rejected[code] == 0 && consistency_[0].mean() < kInconsistent) {
-    const int redundant = update.offered[code] - 3 - static_cast<int>(kMaxTimeBases);
+    const int redundant = update.offered[code] - 3 - static_cast<int>(kMaxSystemTimes);
     displacement_evidence_ =
         std::max(-kMaxTrust, displacement_evidence_ - std::max(redundant, 1) * interval_s);
     return {};
@@ -201,14 +203,15 @@ bool FilterMonitor::motion_supports_point(const PointSolution& point, const Ekf&
   const Eigen::Vector3d moved_m_s = (point.p_e - first_contradiction_point_.p_e) / dt;
   double from_point = (moved_m_s - point.v_e).squaredNorm();
   double from_filter = (moved_m_s - filter.antenna_velocity_e()).squaredNorm();
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    const double ran_m_s = (point.clock_m[base] - first_contradiction_point_.clock_m[base]) / dt;
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+    const double ran_m_s =
+        (point.clock_m[system] - first_contradiction_point_.clock_m[system]) / dt;
     const double drift_m_s =
-        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(base));
-    if (!filter.estimate().known_clocks().drift[base] ||
-        !std::isfinite(ran_m_s + point.clock_drift_m_s[base]))
+        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(system));
+    if (!filter.estimate().known_clocks().drift[system] ||
+        !std::isfinite(ran_m_s + point.clock_drift_m_s[system]))
       continue;
-    from_point += std::pow(ran_m_s - point.clock_drift_m_s[base], 2);
+    from_point += std::pow(ran_m_s - point.clock_drift_m_s[system], 2);
     from_filter += std::pow(ran_m_s - drift_m_s, 2);
   }
   return from_point < from_filter;
@@ -223,13 +226,13 @@ bool FilterMonitor::contradicts(const PointSolution& point, const Ekf& filter, G
   if (!motion || !point.has_velocity) return false;
   const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
   bool differs = (point.v_e - filter.antenna_velocity_e()).norm() > limit_m_s;
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    if (!filter.estimate().known_clocks().drift[base] ||
-        !std::isfinite(point.clock_drift_m_s[base]))
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+    if (!filter.estimate().known_clocks().drift[system] ||
+        !std::isfinite(point.clock_drift_m_s[system]))
       continue;
     const double drift_m_s =
-        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(base));
-    differs = differs || std::abs(point.clock_drift_m_s[base] - drift_m_s) > limit_m_s;
+        filter.filter_state().clocks.drift_m_s(static_cast<Eigen::Index>(system));
+    differs = differs || std::abs(point.clock_drift_m_s[system] - drift_m_s) > limit_m_s;
   }
   return differs && motion_supports_point(point, filter, time);
 }

@@ -46,7 +46,7 @@ RejectionVerdict MeasurementRejectionMonitor::add(const EkfUpdateResult& result,
   last_ = time;
   const double interval_s = std::clamp(passed_s, 0.0, kLongestInterval_s);
   Kind codes, dopplers, held;
-  std::array<bool, kMaxTimeBases> bases{};
+  std::array<bool, kMaxSystemTimes> systems{};
   for (std::size_t i = 0; i < std::min(result.innovations.size(), epoch.measurements.size()); ++i) {
     const InnovationReport& report = result.innovations[i];
     const Measurement& measurement = epoch.measurements[i];
@@ -57,9 +57,9 @@ RejectionVerdict MeasurementRejectionMonitor::add(const EkfUpdateResult& result,
     kind.innovations.push_back(report.innovation);
     kind.rejected += report.weight_factor > 0.0 ? 0 : 1;
     if (&kind == &codes)
-      bases[index_of(epoch.satellites[measurement.satellite_index].satellite.system)] = true;
+      systems[index_of(epoch.satellites[measurement.satellite_index].satellite.system)] = true;
   }
-  const int unknowns = 3 + static_cast<int>(std::count(bases.begin(), bases.end(), true));
+  const int unknowns = 3 + static_cast<int>(std::count(systems.begin(), systems.end(), true));
   if (codes.offered() < kMinCodes || codes.offered() - unknowns >= kMinRedundancy)
     return RejectionVerdict::kNone;
   if (!codes.most_rejected()) {

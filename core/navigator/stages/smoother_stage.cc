@@ -1,5 +1,6 @@
 #include "core/navigator/stages/smoother_stage.h"
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/solution_conversion.h"
 
 namespace leonav {
@@ -76,7 +77,7 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
     Anchor filter;
     filter.index = input.index;
     filter.state = input.state.nav;
-    filter.covariance = input.covariance.topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
+    filter.covariance = inertial_covariance(input.covariance);
     solution = solution_of(filter, Source::kEkf);
   }
   if (!input.has_gnss) solution.source = Source::kInsOnly;

@@ -45,7 +45,7 @@ class Search {
   double bounded_sum(const FitState& change, double scale);
 
   boost::container::static_vector<const FitRow*, kMaxMeasurements> rows_;
-  std::array<Places, kMaxTimeBases> satellites_;  // by group
+  std::array<Places, kMaxSystemTimes> satellites_;  // by group
   Places all_;
   std::array<bool, kMaxSatellites> chosen_{};
   std::array<double, kMaxMeasurements> standardized_{};
@@ -131,7 +131,7 @@ bool Search::improve(FitState* change) {
   std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(half),
                    begin + static_cast<std::ptrdiff_t>(rows_.size()));
   const double limit = sorted[half];
-  std::array<bool, kMaxTimeBases> fitted{};
+  std::array<bool, kMaxSystemTimes> fitted{};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (standardized_[i] <= limit) fitted[static_cast<std::size_t>(rows_[i]->group)] = true;
   }

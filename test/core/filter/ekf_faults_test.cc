@@ -1,4 +1,4 @@
-// Outliers, clock jumps, late time bases and wrong predictions, without an IMU.
+// Outliers, clock jumps, late systems and wrong predictions, without an IMU.
 #include <cmath>
 #include <vector>
 
@@ -100,7 +100,7 @@ TEST_CASE("a jump of the receiver clock goes to the clock, not to the position")
   }
 }
 
-TEST_CASE("a time base that appears late is started from most of its satellites") {
+TEST_CASE("a system that appears late is started from most of its satellites") {
   Walk walk(23);
   walk.truth().clocks.offset_m(2) = -7.3e5;
   walk.run(10);

@@ -56,7 +56,7 @@ const Course kCourses[] = {
        options->arc_epochs = 15;
        options->random_walk = 0.02;
      }},
-    {"a time base begins, goes and comes back",
+    {"a system begins, goes and comes back",
      [](DriveOptions* options) {
        options->edit = [](int epoch, MeasurementEpoch* measured) {
          if (epoch < 17 || (epoch > 25 && epoch < 33)) remove_satellites(is_galileo, measured);
@@ -83,7 +83,7 @@ const Course kCourses[] = {
        };
      },
      3.0 * kMillisecond_m},
-    {"one time base steps",
+    {"one system's time steps",
      [](DriveOptions* options) {
        options->gps_satellites = 4;
        options->edit_truth = [](int epoch, Truth* truth) {

@@ -20,7 +20,7 @@ Eigen::Matrix3d square_root(const Eigen::Matrix3d& covariance) {
 bool is_usable(const RangeChangeRow& row) {
   return row.direction.allFinite() && row.direction_change.allFinite() &&
          std::isfinite(row.residual_m) && std::isfinite(row.sigma_m) && row.sigma_m > 0.0 &&
-         row.time_base >= 0 && row.time_base < static_cast<int>(kMaxTimeBases);
+         row.system_time >= 0 && row.system_time < static_cast<int>(kMaxSystemTimes);
 }
 
 }  // namespace
@@ -35,12 +35,12 @@ ChangeRows scaled_rows(std::span<const RangeChangeRow> rows, const RangeChangePr
   const Eigen::Matrix3d position_root = prior.position_covariance.allFinite()
                                             ? square_root(prior.position_covariance)
                                             : Eigen::Matrix3d::Zero();
-  std::array<int, kMaxTimeBases> unknown_of_base;
-  unknown_of_base.fill(-1);
+  std::array<int, kMaxSystemTimes> unknown_of_system;
+  unknown_of_system.fill(-1);
   boost::container::static_vector<double, kMaxSatellites> residuals;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!is_usable(rows[i])) continue;
-    int& base = unknown_of_base[static_cast<std::size_t>(rows[i].time_base)];
+    int& base = unknown_of_system[static_cast<std::size_t>(rows[i].system_time)];
     if (base < 0) base = scaled.unknowns++;
     ChangeRow row;
     row.h.head<3>() = scaled.change_root.transpose() * rows[i].direction;

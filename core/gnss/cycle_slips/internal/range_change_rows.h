@@ -16,7 +16,7 @@ inline constexpr int kChangePosition = 3, kChangeClock = 6, kChangeTimeBase = 7;
 // The number is even, so that two numbers are computed at a time; those beyond the unknowns are
 // zero.
 inline constexpr int kChangeUnknowns = 12;
-static_assert(kChangeTimeBase + kMaxTimeBases <= kChangeUnknowns);
+static_assert(kChangeTimeBase + kMaxSystemTimes <= kChangeUnknowns);
 using ChangeVector = Eigen::Matrix<double, kChangeUnknowns, 1>;
 
 using ChangeSet = std::bitset<kMaxSatellites>;  // of rows

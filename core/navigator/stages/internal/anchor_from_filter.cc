@@ -1,5 +1,7 @@
 #include "core/navigator/stages/internal/anchor_from_filter.h"
 
+#include "core/filter/state/covariance_blocks.h"
+
 namespace leonav {
 
 Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used) {
@@ -9,7 +11,7 @@ Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used
   if (!anchor.valid) return anchor;
   anchor.has_attitude = filter.has_attitude();
   anchor.state = filter.state();
-  anchor.covariance = filter.covariance().topLeftCorner<ekf_index::kInsSize, ekf_index::kInsSize>();
+  anchor.covariance = inertial_covariance(filter.covariance());
   anchor.gnss_used = gnss_used;
   anchor.random_walk = filter.filter_state().random_walk;
   anchor.time_offset_s =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/filter_estimate.h"
 
 namespace leonav {
@@ -15,8 +16,7 @@ AttitudeCarryOver::AttitudeCarryOver(const Ekf& filter, double levelling_sigma)
     : q_eb_(filter.state().q_eb),
       sigma_rpy_(sigma_of_euler(filter)),
       errors_(filter.state().errors),
-      error_covariance_(
-          filter.covariance().block<12, 12>(ekf_index::kGyroBias, ekf_index::kGyroBias)),
+      error_covariance_(imu_error_covariance(filter.covariance())),
       random_walk_(filter.filter_state().random_walk) {
   sigma_rpy_.head<2>() = sigma_rpy_.head<2>().cwiseMax(levelling_sigma);
   sigma_rpy_.z() = std::max(2.0 * sigma_rpy_.z(), kMinHeadingSigma);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/measurement/dop.h"
 #include "core/navigator/interface/filter_estimate.h"
 #include "core/navigator/interface/solution_conversion.h"
@@ -129,14 +130,14 @@ void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vecto
 void report_state(const Ekf& ekf, EpochReport* report) {
   if (!ekf.initialized()) return;
   fill_solution(ekf, &report->solution);
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base) {
-    const auto i = static_cast<Eigen::Index>(base);
-    if (ekf.estimate().known_clocks().offset[base])
-      report->clock_m[base] = ekf.filter_state().clocks.offset_m(i);
-    if (ekf.estimate().known_clocks().drift[base])
-      report->clock_drift_m_s[base] = ekf.filter_state().clocks.drift_m_s(i);
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
+    const auto i = static_cast<Eigen::Index>(system);
+    if (ekf.estimate().known_clocks().offset[system])
+      report->clock_m[system] = ekf.filter_state().clocks.offset_m(i);
+    if (ekf.estimate().known_clocks().drift[system])
+      report->clock_drift_m_s[system] = ekf.filter_state().clocks.drift_m_s(i);
   }
-  const double wet_variance = ekf.covariance()(ekf_index::kWetDelay, ekf_index::kWetDelay);
+  const double wet_variance = wet_delay_variance(ekf.covariance());
   if (wet_variance > 0.0) {
     report->wet_delay_m = ekf.filter_state().wet_delay_m;
     report->wet_delay_sigma_m = std::sqrt(wet_variance);

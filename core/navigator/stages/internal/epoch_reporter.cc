@@ -111,9 +111,9 @@ void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime ti
   report_step(static_cast<std::size_t>(ClockStep::kReceiver),
               result.clock_jump_m - result.code_step_m);
   report_step(static_cast<std::size_t>(ClockStep::kCodes), result.code_step_m);
-  for (std::size_t base = 0; base < kMaxTimeBases; ++base)
-    report_step(static_cast<std::size_t>(ClockStep::kFirstSystem) + base,
-                result.inter_system_step_m[base]);
+  for (std::size_t system = 0; system < kMaxSystemTimes; ++system)
+    report_step(static_cast<std::size_t>(ClockStep::kFirstSystem) + system,
+                result.inter_system_step_m[system]);
 }
 
 void EpochReporter::report_outage(const OutageMonitor::Position& before,

@@ -1,5 +1,6 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/positioning/point_solution.h"
 #include "core/navigator/interface/filter_estimate.h"
 
@@ -128,8 +129,7 @@ void MeasurementFrontEnd::store_update(const EkfUpdateResult& result, const Ekf&
   carriers_.store_epoch(*measurements_, filter.antenna_position_e());
   for (const SatelliteId satellite : result.slipped)
     carriers_.end_arc(satellite, measurements_.get());
-  last_position_covariance_ =
-      filter.covariance().block<3, 3>(ekf_index::kPosition, ekf_index::kPosition);
+  last_position_covariance_ = position_covariance_e(filter.covariance());
 }
 
 }  // namespace leonav

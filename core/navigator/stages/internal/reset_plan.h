@@ -32,7 +32,7 @@ struct ResetPlan {
   bool gnss_used = false;  // whether the epoch of the reset counts as one with satellites
 };
 
-// A command, or a new time base: time may begin anew, so nothing that holds a time remains.
+// A command, or new GPS time: time may begin anew, so nothing that holds a time remains.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
                                             .alignment = true,

@@ -47,7 +47,7 @@ TEST_CASE("widening touches what is a state, and correlations not at all") {
   CHECK(change.isZero(0.0));
   inflate_covariance(Observable::kDoppler, 2.0, 1.0, &covariance);
   CHECK(covariance.diagonal().segment<3>(kVelocity).isZero(0.0));
-  CHECK(covariance.diagonal().segment(kClockDrift, kMaxTimeBases).isZero(0.0));
+  CHECK(covariance.diagonal().segment(kClockDrift, kMaxSystemTimes).isZero(0.0));
 }
 
 TEST_CASE("a velocity found wrong has taken the position with it") {

@@ -32,7 +32,7 @@ Sky sky(std::size_t count, std::uint64_t seed, const Eigen::Vector3d& change_m,
     row.direction = -Eigen::Vector3d(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine);
     row.sigma_m = 0.01;
     row.residual_m = row.direction.dot(change_m) + clock_m + row.sigma_m * normal(generator);
-    row.time_base = static_cast<int>(i % 2);
+    row.system_time = static_cast<int>(i % 2);
     sky.rows.push_back(row);
   }
   return sky;
@@ -144,7 +144,7 @@ TEST_CASE("Hostile rows are not tested and harm no other; nothing is allocated",
   Sky s = sky(16, 5, {7.0, -4.0, 2.0});
   s.rows[0].residual_m = std::numeric_limits<double>::quiet_NaN();
   s.rows[1].sigma_m = 0.0;
-  s.rows[2].time_base = 77;
+  s.rows[2].system_time = 77;
   s.rows[3].direction.x() = std::numeric_limits<double>::infinity();
   s.rows[5].residual_m += 1e300;
   s.rows[6].residual_m -= 3e6;
