@@ -1,4 +1,4 @@
-// One stage's events, numbered.
+// EventSource emits the events of one stage, numbered in sequence.
 #pragma once
 #include <cstdint>
 
@@ -27,7 +27,7 @@ class EventNumbering {
   std::uint64_t next_ = 1;
 };
 
-// Of a stage that publishes them itself.
+// For a stage that publishes its events itself.
 class EventSource {
  public:
   EventSource(Stage stage, OutputSink* sink) : numbering_(stage), sink_(sink) {}

@@ -1,4 +1,4 @@
-// Defaults of the navigator's configuration that depend on the kind of vehicle.
+// VehicleDefaults are the defaults of the configuration that depend on the kind of vehicle.
 #pragma once
 #include "core/navigator/interface/navigator_config.h"
 
@@ -18,12 +18,12 @@ VehicleDefaults defaults_of(VehicleKind kind);
 // The whole default configuration of a vehicle, with the errors of a consumer MEMS IMU.
 NavigatorConfig default_navigator_config(VehicleKind kind);
 
-// 1 sigma at the start of the installation parameters that are estimated by default.
+// 1 sigma at the start of the vehicle constants that are estimated by default.
 inline constexpr double kDefaultTravelDirectionSigma = 0.034906585039886591;  // rad, 2 degrees
 inline constexpr double kDefaultOdometerScaleSigma = 0.03;
 
-// The installation parameters that the filter estimates, each with its 1 sigma at the start and
-// the random walk that keeps the estimate open. Corrections of the configured values.
+// These functions let the filter estimate vehicle constants, each as a correction of its configured
+// value, with `sigma` at the start and a random walk that keeps the estimate open.
 
 // Yaw and pitch (rad) of the direction of travel in body axes, where `motion` measures it.
 void estimate_travel_direction(const MotionConstraintConfig& motion, double sigma,

@@ -1,4 +1,4 @@
-// Whether the heading of an earlier run's checkpoint still holds.
+// CheckpointValidityMonitor decides whether the heading of an earlier run's checkpoint still holds.
 #pragma once
 #include <optional>
 
@@ -7,23 +7,23 @@
 
 namespace leonav {
 
-// A parked vehicle keeps its heading. That it is parked still, nobody has watched: it must be where
-// it was, as far as the first good position can tell, and must not have moved since the start.
-// Turned in place meanwhile (a turntable, a tow) it passes; HeadingMonitor finds that.
+// A parked vehicle keeps its heading. Nothing watched it between the runs, so the first good
+// position must agree with the checkpoint's, and the vehicle must not have moved since the start. A
+// vehicle turned in place meanwhile (a turntable, a tow) passes; HeadingMonitor finds that.
 class CheckpointValidityMonitor {
  public:
-  // `rate_sigma`: of what gyros at rest show, rad/s; `max_age_s`: of data time.
+  // `rate_sigma`: of the rate that gyros measure at rest, rad/s. `max_age_s`: in data time.
   CheckpointValidityMonitor(const AlignmentConfig& config, double rate_sigma, double max_age_s)
       : config_(config), rate_sigma_(rate_sigma), max_age_s_(max_age_s) {}
 
-  // Replaces one that has not been judged yet.
+  // Takes a checkpoint; it replaces one without a verdict.
   void take(const Checkpoint& checkpoint);
   bool pending() const { return checkpoint_.has_value(); }
 
-  // All samples of the run, in order: what has turned once stands no more where it stood.
+  // Adds every sample of the run, in order: a vehicle that has turned no longer stands as it stood.
   void add(const ImuSample& sample);
 
-  // Of the antenna, by a filter that has no attitude yet.
+  // The antenna's position and speed by a filter that has no attitude yet.
   struct Filter {
     GpsTime time;
     Eigen::Vector3d p_e;
@@ -36,10 +36,10 @@ class CheckpointValidityMonitor {
     double value;
     ExternalHeading::Heading heading;  // if kUsed
   };
-  // nullopt: nothing pending, or position and speed cannot tell yet. After a verdict nothing is
-  // pending any more.
+  // Returns nullopt if nothing is pending, or position and speed are not good enough yet. After a
+  // verdict nothing is pending any more.
   std::optional<Verdict> evaluate(const Filter& filter);
-  // There is a heading from elsewhere.
+  // Ends what is pending, because the heading was found in another way.
   Verdict not_needed();
 
  private:

@@ -48,13 +48,13 @@ class FilterMonitor {
  public:
   explicit FilterMonitor(const NavigatorConfig& config);
 
-  // A filter with a number that is not finite is dropped.
+  // Drops a filter with a number that is not finite.
   FilterVerdict test_finite(const Ekf& filter) const;
 
-  // Whether the prediction of an initialized filter is worse than a point solution. Carrier arcs
-  // that go on since `last_gnss` are worth more than any position of codes.
+  // True if the prediction of an initialized filter is worse than a point solution. Carrier arcs
+  // that go on since `last_gnss` are worth more than any position from codes.
   bool prediction_is_too_uncertain(const Ekf& filter, GpsTime time, GpsTime last_gnss) const;
-  // After such a prediction: the restart from `point`.
+  // Returns the restart from `point` after such a prediction.
   FilterVerdict restart_after_outage(const PointSolution& point, const Ekf& filter,
                                      GpsTime time) const;
 

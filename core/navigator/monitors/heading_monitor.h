@@ -1,4 +1,4 @@
-// Notices a filter whose heading is wrong, by velocities that it has had no part in.
+// HeadingMonitor detects a wrong heading of the filter from velocities that are independent of it.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,19 +12,20 @@
 
 namespace leonav {
 
-// A heading that was told wrongly, or taken from reflected signals, does not show in one epoch's
-// innovations: weights hide them, and the filter drags the error along. Over a window it does: the
-// innovation here is what velocity matching, or for a vehicle that goes where it points the course
-// over ground, makes of point solutions' velocities and the gyros, less the filter's heading.
+// A heading that was given wrongly, or derived from reflected signals, does not show in the
+// innovations of one epoch: weights hide them, and the error stays. Over a window it does. The
+// innovation here is a heading from the velocities of point solutions and the gyros (velocity
+// matching, or for a vehicle that goes where it points the course over ground) minus the filter's.
 class HeadingMonitor {
  public:
   HeadingMonitor(const AlignmentConfig& config, const ImuErrorModel& imu);
 
-  // A filter has just got its attitude, with this gyro bias (rad/s) and its sigma per axis.
+  // Starts when the filter has received its attitude, with this gyro bias (rad/s) and its sigma per
+  // axis.
   void start(const Eigen::Vector3d& gyro_bias_b, double gyro_bias_sigma);
   bool started() const { return started_; }
   void stop() { started_ = false; }
-  // In order of time; after a hole the windows start anew.
+  // Adds samples in order of time; after a gap the windows start anew.
   void add(std::span<const ImuSample> block);
 
   struct Filter {
@@ -33,10 +34,9 @@ class HeadingMonitor {
     Eigen::Vector3d gyro_bias_b;
     double gyro_bias_sigma;
   };
-  // At the last sample: the antenna's velocity by a point solution, north and east, with its sigma
-  // per component (m/s), and what the filter says. Returns by how much its heading is off (rad),
-  // when that has been beyond chance for three velocities in a row, of those that the matching's
-  // window takes.
+  // Adds the antenna's velocity at the last sample by a point solution, north and east, with its
+  // sigma per component, m/s, and the filter's heading. Returns the heading error, rad, once it has
+  // been beyond chance for three velocities in a row among those that the matching window accepts.
   std::optional<double> add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                      const Filter& filter);
 
@@ -60,7 +60,7 @@ class HeadingMonitor {
     double yaw, seconds;
   };
   std::optional<Course> last_course_;
-  bool forward_ = false;                // faster, since it last stopped, than it goes in reverse
+  bool forward_ = false;                // since the last stop faster than it ever goes in reverse
   int consecutive_contradictions_ = 0;  // velocities in a row
 };
 

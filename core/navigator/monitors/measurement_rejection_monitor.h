@@ -1,5 +1,5 @@
-// Notices a filter that throws out nearly all that contradicts it, on and on, where too few
-// satellites are left for a point solution to tell who is right.
+// MeasurementRejectionMonitor detects a filter that persistently rejects nearly all measurements
+// while too few satellites are left for a point solution to decide who is right.
 #pragma once
 #include "core/filter/ekf.h"
 
@@ -9,27 +9,26 @@ enum class RejectionVerdict : unsigned char { kNone, kClocks, kPosition };
 
 class MeasurementRejectionMonitor {
  public:
-  // What has become of it: kNone until half a minute of epochs, in sum, has spoken against the
-  // filter; it then starts again. `result`: what the filter made of `epoch`.
+  // Adds an epoch with the result of its update. Returns kNone until the evidence against the
+  // filter amounts to half a minute of epochs; then the count starts again.
   //
-  // Only epochs count that no point solution could check: with less than two codes beyond a
-  // position and the clocks. Against the filter is one of whose codes (two or more) most are thrown
-  // out, if
-  // - most Dopplers are too, or there is none and the codes are off by 100 m, and the carriers of
-  //   arcs from before, if any, do not confirm the filter; or, whatever confirms it,
+  // Only epochs count that no point solution can check: fewer than two codes beyond a position and
+  // the clocks. An epoch is evidence against the filter if it has two or more codes, most of which
+  // are rejected, and
+  // - most Dopplers are rejected too, or there is none and the codes are off by 100 m, and carriers
+  //   of older arcs, if any, do not confirm the filter; or, whatever confirms it,
   // - the codes are off by more than any detour of a signal, 300 m; or
-  // - they are off by hardly more than what they have in common: that is the clocks' (kClocks).
-  // "Off" is without what all have in common, and of the second worst. An epoch of which most codes
-  // are kept counts back. What houses do to codes alone does not count: it leaves carriers and the
-  // Dopplers of a vehicle at rest.
+  // - their common part explains nearly all: then the clocks are wrong (kClocks).
+  // "Off" is the second largest innovation, with the common part removed. An epoch with most codes
+  // accepted counts back. Reflections alone do not count: they affect codes, but neither carriers
+  // nor the Dopplers of a vehicle at rest.
   RejectionVerdict add(const EkfUpdateResult& result, const MeasurementEpoch& epoch, GpsTime time);
   void reset() { position_evidence_s_ = clock_evidence_s_ = 0.0; }
-  // Of the last epoch: as many codes as a position and the clocks need.
+  // True if the last epoch had as many codes as a position and the clocks need.
   bool enough_to_start() const { return enough_to_start_; }
-  double code_discrepancy_m() const { return code_discrepancy_m_; }  // of the last epoch
-  double doppler_discrepancy_m_s() const {
-    return doppler_discrepancy_m_s_;
-  }  // likewise of the Dopplers
+  // By how much the codes and the Dopplers of the last epoch were off.
+  double code_discrepancy_m() const { return code_discrepancy_m_; }
+  double doppler_discrepancy_m_s() const { return doppler_discrepancy_m_s_; }
 
  private:
   GpsTime last_;

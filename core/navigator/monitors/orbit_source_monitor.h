@@ -1,4 +1,4 @@
-// Notices satellites whose orbit or clock comes from another source than before.
+// OrbitSourceMonitor detects satellites whose orbit or clock comes from another source than before.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,9 +17,9 @@ enum class OrbitChange : std::uint8_t {
 
 class OrbitSourceMonitor {
  public:
-  // Takes note of what serves `id` in this epoch, and compares it with what did when the satellite
-  // was last seen: where the source changes the range steps, by a metre or so; by centimetres to
-  // decimetres where only the clock does. kNone (no state) is no news.
+  // Records the source of `id` in this epoch and compares it with that of the last epoch with this
+  // satellite. A new source steps the range by about a metre; a new clock alone by centimetres to
+  // decimetres. OrbitSource::kNone (no state) changes nothing.
   OrbitChange update(SatelliteId id, OrbitSource source, bool clock_from_file) {
     if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
     const std::size_t place = table_index_of(id);

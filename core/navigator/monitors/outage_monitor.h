@@ -1,5 +1,5 @@
-// What became of an outage: how far the position stepped when satellites came back, against the
-// sigma it was told with, and how long it took to be as good as before.
+// OutageMonitor measures what an outage cost: the step of the position when satellites came back,
+// against its sigma, and the time until the position was as good as before.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -21,10 +21,11 @@ class OutageMonitor {
   };
 
   void reset() { *this = OutageMonitor(); }
-  // An update at `time` by satellites, before and after it. Set: an outage has ended with it.
+  // Adds an update by satellites at `time`, with the position before and after. Returns a value if
+  // it ended an outage.
   std::optional<Over> add(GpsTime time, const Position& before, const Position& after);
-  // Seconds since the outage's end, once: when the position's sigma is again at most half as large
-  // again as it was before the outage.
+  // Returns the seconds since the outage's end, once: when the position's sigma has fallen to 1.5
+  // times its value before the outage.
   std::optional<double> reconverged();
 
  private:

@@ -1,5 +1,5 @@
-// Notices a receiver of which nothing can be used, and why: a clock 110 ms off, for one, makes
-// every pseudorange implausible.
+// UsabilityMonitor detects a receiver of which nothing can be used, with the reason: a clock that
+// is 110 ms off, for example, makes every pseudorange implausible.
 #pragma once
 #include <optional>
 #include <span>
@@ -15,9 +15,9 @@ class UsabilityMonitor {
     int satellites = 0;
   };
 
-  // The satellites of one epoch that had any. A finding when, for the fifth epoch in a row, all but
-  // those below the mask or of systems switched off were left out for one and the same reason;
-  // again only after another epoch has come between.
+  // Adds the satellites of one epoch that had any. Returns a finding when, for the fifth epoch in a
+  // row, all satellites but those below the mask or of disabled systems were left out for the same
+  // reason; again only after another kind of epoch.
   std::optional<Finding> add(std::span<const SatelliteReport> satellites);
 
  private:

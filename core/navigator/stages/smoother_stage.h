@@ -1,4 +1,4 @@
-// Keyframes -> smoother -> anchor and report.
+// SmootherStage feeds keyframes to the smoother and delivers its answer before the deadline.
 #pragma once
 #include <cstdint>
 
@@ -20,8 +20,8 @@ class SmootherStage {
   // no deadline, and the solution is published here. Allocates nothing, never throws.
   void process(const KeyframeInput& input, SolveBudget* budget);
 
-  // An epoch that is no keyframe. With IMU the stage's only member that may be called in another
-  // thread, that of the filter.
+  // Handles an epoch that is no keyframe. With IMU this is the only member that may be called in
+  // another thread, that of the filter.
   void process_non_keyframe(const Solution& filter, bool due);
 
   const Smoother& smoother() const { return smoother_; }

@@ -1,4 +1,4 @@
-// What an epoch leaves behind for the world: every satellite, every measurement, with its reason.
+// These functions fill an EpochReport: every satellite and every measurement, with its reason.
 #pragma once
 #include "core/filter/ekf.h"
 #include "core/navigator/interface/epoch_report.h"

@@ -1,4 +1,4 @@
-// From the filter after an epoch to the smoother's keyframe.
+// PendingKeyframe collects what the smoother's next keyframe needs, from the filter and the IMU.
 #pragma once
 #include <memory>
 
@@ -13,22 +13,22 @@ class PendingKeyframe {
  public:
   explicit PendingKeyframe(double interval_s) : interval_s_(interval_s) {}
 
-  // Of every epoch, keyframe or not: the IMU since the epoch before.
+  // Adds the IMU samples since the epoch before; to be called for every epoch, keyframe or not.
   void add(const ImuBlock& block);
-  // Whether an epoch is to be a keyframe: not too soon after the last one, unless the filter has
-  // started over since.
+  // True if an epoch is to be a keyframe: not too soon after the last one, unless the filter has
+  // started over since then.
   bool is_due(const Ekf& ekf, GpsTime time) const;
-  // Writes it, and begins the filter's process to the next one. `measurements`: the epoch as the
-  // filter's update had it; nullptr: there was none.
-  // `motion`: its instants go into it.
+  // Writes the keyframe and begins the filter's process to the next one. `measurements`: the epoch
+  // as the filter's update used it; nullptr: there was none. The keyframe takes the constraint
+  // instants of `motion`.
   void make(const EpochWork& work, const MeasurementEpoch* measurements, MotionAiding* motion,
             Ekf* ekf, KeyframeInput* keyframe);
 
  private:
   double interval_s_;
   GpsTime last_time_;
-  FilterState last_state_;  // the filter's, then
-  // Since the last keyframe. Not whole: it was too long to be kept.
+  FilterState last_state_;  // the filter's, at the last keyframe
+  // The IMU samples since the last keyframe, incomplete if there was no room.
   std::unique_ptr<ImuBlock> block_ = std::make_unique<ImuBlock>();
   ImuSample before_block_, newest_;
   bool block_complete_ = true;
