@@ -1,5 +1,5 @@
-// What became of an outage: how far the position stepped when satellites came back, against the
-// sigma it was told with, and how long it took to be as good as before.
+// OutageMonitor measures how far the position stepped after an outage, and how long it took to
+// converge again.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -8,30 +8,35 @@
 
 namespace leonav {
 
+// An outage is an interval of 5 s or more without an update by satellites. Its step is compared
+// with the sigma that the filter had before the update.
 class OutageMonitor {
  public:
+  // An estimate of the antenna's position.
   struct Position {
-    Eigen::Vector3d p_e = Eigen::Vector3d::Zero();         // of the antenna, m
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
+    Eigen::Vector3d p_e = Eigen::Vector3d::Zero();         // m, ECEF
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2, ECEF
   };
+  // The end of an outage.
   struct Over {
     double lasted_s = 0.0;
-    double step_m = 0.0;
-    double step_sigmas = 0.0;  // of the 3D sigma before it
+    double step_m = 0.0;       // change of the position by the first update
+    double step_sigmas = 0.0;  // step over the 3D sigma before that update
   };
 
   void reset() { *this = OutageMonitor(); }
-  // An update at `time` by satellites, before and after it. Set: an outage has ended with it.
+  // Adds an update by satellites with the positions before and after it. Returns the outage that
+  // has ended with it, if there was one.
   std::optional<Over> add(GpsTime time, const Position& before, const Position& after);
-  // Seconds since the outage's end, once: when the position's sigma is again at most half as large
-  // again as it was before the outage.
+  // Returns once the seconds from the outage's end until the position's sigma is again at most 1.5
+  // times that before the outage; else nullopt.
   std::optional<double> reconverged();
 
  private:
   GpsTime last_, ended_;
-  double sigma_m_ = 0.0;       // after the last update
-  double sigma_then_m_ = 0.0;  // before the outage
-  bool converging_ = false;
+  double sigma_m_ = 0.0;       // 3D sigma after the last update
+  double sigma_then_m_ = 0.0;  // 3D sigma before the outage
+  bool converging_ = false;    // since an outage the sigma has not become as small as before
 };
 
 }  // namespace leonav
