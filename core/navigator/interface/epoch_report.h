@@ -57,8 +57,8 @@ struct EpochReport {
   // Receiver clock per system time; NaN where it is not estimated.
   std::array<double, kMaxSystemTimes> clock_m{};
   std::array<double, kMaxSystemTimes> clock_drift_m_s{};
-  // What the alignment still lacks. Nothing if there is an attitude or the motion model has none.
-  // Not on the wire.
+  // The alignment need. It is empty if there is an attitude or the motion model has none. Not on
+  // the wire.
   AlignmentNeed alignment;
   // Zenith wet delay beyond the modelled one; NaN: not estimated.
   double wet_delay_m = 0.0, wet_delay_sigma_m = 0.0;

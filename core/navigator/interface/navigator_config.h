@@ -15,7 +15,7 @@ namespace leonav {
 // devices have no motion constraints by default.
 enum class VehicleKind : unsigned char { kCar, kRail, kBoat, kUav, kHandheld };
 
-// How sensors are installed in the vehicle, and how it moves.
+// The installation of the sensors in the vehicle, and the vehicle's motion constraints.
 struct VehicleConfig {
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  // m, IMU centre to antenna phase centre
   // Roll, pitch and yaw (rad) of the rotation from the IMU's axes to the body frame.

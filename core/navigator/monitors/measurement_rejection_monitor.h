@@ -5,7 +5,8 @@
 
 namespace leonav {
 
-// What the rejected measurements contradict: nothing, the clocks, or the position.
+// The part of the filter that the rejected measurements contradict: none, its clocks, or its
+// position.
 enum class RejectionVerdict : unsigned char { kNone, kClocks, kPosition };
 
 // MeasurementRejectionMonitor counts seconds of epochs with evidence against the filter's clocks

@@ -1,4 +1,4 @@
-// From the filter after an epoch to the smoother's keyframe.
+// PendingKeyframe collects the IMU samples of the next keyframe and fills it from the filter.
 #pragma once
 #include <memory>
 
@@ -9,28 +9,30 @@
 
 namespace leonav {
 
+// PendingKeyframe lives in the GNSS stage. Allocates when constructed, not after.
 class PendingKeyframe {
  public:
+  // `interval_s` is the smallest interval between keyframes.
   explicit PendingKeyframe(double interval_s) : interval_s_(interval_s) {}
 
-  // Of every epoch, keyframe or not: the IMU since the epoch before.
+  // Adds the IMU samples since the epoch before; call it at every epoch, keyframe or not.
   void add(const ImuBlock& block);
-  // Whether an epoch is to be a keyframe: not too soon after the last one, unless the filter has
-  // started over since.
+  // Returns whether an epoch is to be a keyframe: it is not too soon after the last one, or the
+  // filter has started over since.
   bool is_due(const Ekf& ekf, GpsTime time) const;
-  // Writes it, and begins the filter's process to the next one. `measurements`: the epoch as the
-  // filter's update had it; nullptr: there was none.
-  // `motion`: its instants go into it.
+  // Fills `keyframe` and begins the filter's process to the next one. `measurements` is the epoch
+  // as the filter's update used it; nullptr: there was no update. The constraint instants of
+  // `motion` move into the keyframe.
   void make(const EpochWork& work, const MeasurementEpoch* measurements, MotionAiding* motion,
             Ekf* ekf, KeyframeInput* keyframe);
 
  private:
   double interval_s_;
   GpsTime last_time_;
-  FilterState last_state_;  // the filter's, then
-  // Since the last keyframe. Not whole: it was too long to be kept.
+  FilterState last_state_;  // the filter's at last_time_
+  // Samples since the last keyframe. Not complete if they exceeded the capacity.
   std::unique_ptr<ImuBlock> block_ = std::make_unique<ImuBlock>();
-  ImuSample before_block_, newest_;
+  ImuSample before_block_, newest_;  // the last sample before the block, and of all
   bool block_complete_ = true;
 };
 
