@@ -52,7 +52,7 @@ struct KeyframeInput {
   KeyframeSatellites satellites;
   KeyframeMeasurements measurements;
   ImuBlock block;                 // since the previous keyframe
-  bool block_complete = false;    // no sample of it is missing here
+  bool block_complete = false;    // no sample is missing
   ImuSample sample_before_block;  // the last measured sample before the block; interval 0: none
   ConstraintInstants instants;    // motion constraints within the block
 };

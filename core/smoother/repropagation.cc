@@ -32,7 +32,7 @@ bool is_far(const EkfCorrection& moved) {
          moved.segment<3>(kPosition).norm() > kFarPosition;
 }
 
-// What constraints tell of the inertial states before; they know of no others.
+// Information of motion constraints about the inertial states before; they concern no others.
 void take_information(const FilterProcess& process, const ActiveStates& active,
                       ProcessFactor* process_factor) {
   process_factor->information.setZero(active.size(), active.size());

@@ -1,4 +1,4 @@
-// YAML text and the overrides of a command line, read as one tree of groups.
+// These functions read YAML text and the overrides of a command line as one tree of groups.
 #pragma once
 #include <functional>
 #include <string>
@@ -23,7 +23,7 @@ ConfigLayer override_layer(const std::vector<std::string>& overrides);
 void read_layers(const std::vector<ConfigLayer>& layers, ConfigSource* source,
                  const std::function<void(ConfigReader&)>& read);
 
-// The same of a text and the overrides.
+// Does the same with one text and overrides.
 void read_yaml(const std::string& text, const std::vector<std::string>& overrides,
                ConfigSource* source, const std::function<void(ConfigReader&)>& read);
 

@@ -1,4 +1,4 @@
-// One function per group of the configuration file.
+// Each of these functions reads one group of the configuration file.
 #pragma once
 #include "daemon/config/config_reader.h"
 #include "daemon/config/daemon_config.h"
@@ -7,12 +7,12 @@ namespace leonav {
 
 void read_vehicle(ConfigReader& group, NavigatorConfig* navigator);
 void read_imu(ConfigReader& group, ImuErrorModel* config);
-// The key of imu that is not about its errors.
+// Reads the key of the group imu that does not concern its errors.
 void read_imu_stamps(ConfigReader& group, double* time_offset_s);
-// After read_vehicle(): some defaults are those of its kind.
+// To be called after read_vehicle(), because some defaults depend on the vehicle's kind.
 void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);
-// The keys of gnss that tell how the ground moves. Reads the file of ocean loading.
+// Reads the keys of gnss about the motion of the ground, and the file of ocean loading.
 void read_ground(ConfigReader& group, GnssConfig* config);
 void read_ekf(ConfigReader& group, NavigatorConfig* config);
 void read_smoother(ConfigReader& group, SmootherConfig* config);
@@ -22,7 +22,7 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
 void read_drill(ConfigReader& group, DrillConfig* config);
 void read_lcm(ConfigReader& group, LcmConfig* config);
 void read_journal(ConfigReader& group, JournalConfig* config);
-// How old one may be is the navigator's to judge.
+// The navigator gets the greatest age of a checkpoint.
 void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator);
 
 }  // namespace leonav

@@ -1,4 +1,4 @@
-// One key of a configuration as it was read: its allowed values, its value and the value's origin.
+// ConfigKey is one key of a configuration as it was read: allowed values, value, and origin.
 #pragma once
 #include <string>
 

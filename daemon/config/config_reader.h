@@ -1,6 +1,8 @@
-// Reads one group of a YAML configuration into typed fields. Each key is named once, where it is
-// read: that one line gives its type, unit, bounds and, by what the field held before, its default.
-// Every key that is read is recorded with all of these.
+// ConfigReader reads one group of a YAML configuration into typed fields.
+//
+// Each key is named once, where it is read: that line gives its type, unit and bounds, and the
+// field's value before the call is its default. Every key that is read is recorded with all of
+// these.
 #pragma once
 #include <yaml-cpp/yaml.h>
 
@@ -23,8 +25,8 @@ struct Bounds {
   double max = std::numeric_limits<double>::infinity();
 };
 
-// One source of values: a preset, a file, or the command line. Of several a later one takes
-// precedence, key by key.
+// One source of values: a preset, a file, or the command line. A later layer takes precedence over
+// an earlier one, key by key.
 struct ConfigLayer {
   std::string name;           // for errors: of the file, or "preset NAME"
   YAML::Node root;            // a map, or null where nothing is given
@@ -37,7 +39,7 @@ struct ConfigNode {
   YAML::Node node;
 };
 
-// What all groups of one configuration share.
+// State that all groups of one configuration share.
 struct ConfigSource {
   std::string name;                     // for errors where no layer has the key
   std::vector<std::string> given = {};  // keys and groups that are there
@@ -50,24 +52,24 @@ class ConfigReader {
   // null. `path` is "" at the root, else e.g. "gnss.gps".
   ConfigReader(ConfigSource* source, std::vector<ConfigNode> nodes, std::string path);
 
-  // `*value` is set to the file's number times `unit`, or left alone if the key is absent.
+  // Sets `*value` to the file's number times `unit`; leaves it as it is if the key is absent.
   void number(const char* key, Bounds bounds, double* value, double unit = 1.0);
   void number(const char* key, Bounds bounds, std::optional<double>* value, double unit = 1.0);
   void vector(const char* key, Bounds bounds, Eigen::Vector3d* value, double unit = 1.0);
-  // A list of numbers, of any length; left alone if the key is absent.
+  // Reads a list of numbers of any length.
   void numbers(const char* key, Bounds bounds, std::vector<double>* values);
   void integer(const char* key, int min, int max, int* value);
   void boolean(const char* key, bool* value);
-  // `allowed`: its values in words.
+  // `allowed`: the allowed values in words.
   void text(const char* key, std::string* value, const std::string& allowed = "text");
   // "~" stands for none.
   void text(const char* key, std::optional<std::string>* value, const std::string& allowed);
-  // Whether the key is there with a single value; it is not counted as asked for.
+  // True if the key is present with a single value. Does not count as reading the key.
   bool is_scalar(const char* key) const;
-  // A list of scalars; left alone, and false, if absent.
+  // Reads a list of scalars; returns false if the key is absent.
   bool list(const char* key, std::vector<std::string>* values, const std::string& allowed = "list");
   void group(const char* key, const std::function<void(ConfigReader&)>& read);
-  // A list of groups; false if absent.
+  // Reads a list of groups; returns false if the key is absent.
   bool groups(const char* key, const std::function<void(ConfigReader&)>& read);
 
   // Keys whose default depends on another key, `from`: absent, or given as "~" (a switch:
@@ -104,13 +106,13 @@ class ConfigReader {
 
  private:
   using Found = std::optional<ConfigNode>;
-  // Which of `names` the key's value is; throws, listing them, if it is none.
+  // Returns the index in `names` of the key's value; throws, listing them, if it is none.
   std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names,
                                           const std::string& built_in);
   Found look_up(const char* key) const;
   Found find(const char* key);
   ConfigKey& record(const char* key, const Found& found, std::string allowed, std::string built_in);
-  // The default that follows from the key `from` holds.
+  // Marks that the default that follows from the key `from` holds.
   static void fall_back(ConfigKey* key, const char* from, std::string value);
   Eigen::Vector3d parse_vector(const char* key, const ConfigNode& found, Bounds bounds) const;
   std::string scalar(const char* key, const ConfigNode& found, const char* expected) const;

@@ -1,4 +1,4 @@
-// Everything the configuration file says.
+// DaemonConfig holds the whole configuration of the daemon.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-// Delays on purpose, in the service only.
+// Delays on purpose, to drill missed deadlines; in the service only.
 struct DrillConfig {
   int late_solve_every = 0;  // epochs; 0: never
   double late_solve_s = 0.8;
@@ -53,7 +53,7 @@ struct ThreadsConfig {
   bool operator==(const ThreadsConfig&) const = default;
 };
 
-// Where the configuration came from, and what it is in full.
+// Origin of the configuration, with every key.
 struct ConfigOrigin {
   std::string name;             // the file, or "preset NAME"
   std::vector<ConfigKey> keys;  // every key, in the order of the reference; empty: not from a file

@@ -1,4 +1,4 @@
-// A configuration as YAML text that needs neither presets nor other files.
+// These functions write a configuration as YAML text that needs neither presets nor other files.
 #pragma once
 #include <string>
 
@@ -11,12 +11,12 @@ enum class Extent : unsigned char {
   kChanges,  // only keys that differ from their defaults
 };
 
-// The effective values, one key a line with its origin in a comment. The text loads as the same
-// configuration, bit for bit; with all keys also under other presets and other defaults.
+// Returns the effective values, one key a line, with the origin in a comment. The text loads as the
+// same configuration, bit for bit; with kAllKeys even where presets and defaults have changed.
 std::string effective_text(const ConfigOrigin& source, Extent extent = Extent::kAllKeys);
 
-// Every key at its default, with its allowed values in a comment: config/reference.yaml without its
-// explanations.
+// Returns every key at its default with its allowed values in a comment: config/reference.yaml
+// without its explanations.
 std::string reference_keys();
 
 }  // namespace leonav

@@ -1,4 +1,4 @@
-// The YAML configuration -> DaemonConfig.
+// These functions load a DaemonConfig from YAML.
 //
 // Built-in defaults are overridden by a preset (the key `preset`), the preset by the keys of the
 // file, and these by the overrides of the command line, key by key.
@@ -23,14 +23,15 @@ class ConfigError : public std::runtime_error {
 // configuration names are read here and once; `source` of the result has their contents.
 DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {});
 
-// The same from text; `name` stands for the file in errors.
+// Loads from text; `name` stands for the file in errors.
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
                               const std::vector<std::string>& overrides = {});
 
-// The configuration of a preset alone.
+// Loads a preset alone.
 DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides = {});
 
-// The override that sets `key` to exactly `value`, which YAML would otherwise read in its own way.
+// Returns the override that sets `key` to exactly `value`, which YAML might otherwise read as
+// another type.
 std::string text_override(const std::string& key, const std::string& value);
 
 }  // namespace leonav

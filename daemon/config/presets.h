@@ -1,4 +1,5 @@
-// Configurations for common uses, and the reference of all keys, compiled into the program.
+// Presets are configurations for common uses, compiled into the program with the reference of all
+// keys.
 #pragma once
 #include <span>
 #include <string>
@@ -14,21 +15,21 @@ struct Preset {
   std::string_view text;  // its content
 };
 
-// In alphabetical order. Generated from config/presets.
+// Returns the presets in alphabetical order, generated from config/presets.
 std::span<const Preset> presets();
 
-// The content of config/reference.yaml: every key with its default, its range and its meaning.
+// Returns config/reference.yaml: every key with default, range and meaning.
 std::string_view reference_text();
 
-// "car, demo, ...".
+// Returns "car, demo, ...".
 std::string preset_names();
 
-// Throws ConfigError, beginning with `where` and listing the presets, if there is none of that
+// Throws a ConfigError that begins with `where` and lists the presets, if there is none of that
 // name.
 const Preset& find_preset(const std::string& name, const std::string& where);
 
-// The preset that the key `preset` of these layers names and those that it builds on, lowest
-// precedence first; empty where the key is absent. Throws ConfigError.
+// Returns the preset that the key `preset` of these layers names, and those that it builds on,
+// lowest precedence first; empty if the key is absent. Throws ConfigError.
 std::vector<ConfigLayer> preset_layers(const std::vector<ConfigLayer>& layers);
 
 }  // namespace leonav

@@ -1,5 +1,5 @@
-// This unit models range and range rate between a satellite and an antenna, with Jacobians. The
-// point solution, the filter and the smoother share it.
+// This unit models range and range rate between satellite and antenna, with Jacobians, for point
+// solution, filter and smoother (Misra and Enge 2011, 5.1; range rate: docs/models/measurement.md).
 //   range       rho  = |p_sat - p_a|
 //   range rate  rho' = u.(v_sat - v_a) / (1 + u.V_sat / c)
 // u is the unit vector from antenna to satellite, V_sat the satellite's velocity in inertial space.

@@ -1,27 +1,27 @@
-// Values as YAML text that is read back as the same bits.
+// These functions write values as YAML text that is read back as the same bits.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace leonav {
 
-// The shortest decimal of exactly this number.
+// Returns the shortest decimal of exactly this number.
 std::string number_text(double number);
 
-// The shortest decimal whose product with `unit` is exactly `value`; where there is none, the
-// shortest of the quotient.
+// Returns the shortest decimal whose product with `unit` is exactly `value`; if there is none, the
+// shortest one of the quotient.
 std::string number_text(double value, double unit);
 
-// In double quotes, with escapes.
+// Returns the text in double quotes, with escapes.
 std::string quoted_text(const std::string& text);
 
-// As it is, or in double quotes where YAML would read it in its own way.
+// Returns the text as it is, or in double quotes if YAML would read it as another type.
 std::string plain_text(const std::string& text);
 
-// "[a, b]", each as plain_text().
+// Returns "[a, b]", each as plain_text().
 std::string list_text(const std::vector<std::string>& elements);
 
-// "a, b or c".
+// Returns "a, b or c".
 std::string alternatives(const std::vector<std::string>& words);
 
 }  // namespace leonav

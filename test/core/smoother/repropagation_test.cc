@@ -16,16 +16,14 @@ using Eigen::Index;
 // Two keyframes a second apart; the estimate of the first is displaced by `error`.
 class Pair {
  public:
-  Pair()
-      : drive_(options()),
-        repropagator_({drive_.config(), mems(), drive_.lever_b(), Drive::motion()}) {
+  Pair() : drive_(options()), repropagator_({drive_.config(), mems(), Drive::motion()}) {
     for (int i = 0; i < 3; ++i) feed(drive_.step(), drive_.lever_b(), &window_);
     before().state = keyframe().process_factor.from;
   }
 
   Keyframe& before() { return window_.at(1); }
   Keyframe& keyframe() { return window_.at(2); }
-  const Repropagator& relinker() const { return repropagator_; }
+  const Repropagator& repropagator() const { return repropagator_; }
 
   void displace(Index i, double by) {
     EkfCorrection error = EkfCorrection::Zero(kSize + before().active.ambiguities);
@@ -61,7 +59,7 @@ TEST_CASE("a link whose start has turned away is integrated anew, one that is ne
   Pair near;
   near.displace(kAttitude + 2, 5e-4);
   near.repropagation();
-  CHECK(near.relinker().repropagations() == 0);
+  CHECK(near.repropagator().repropagations() == 0);
 
   Pair far;
   far.displace(kAttitude, 0.1);
@@ -69,21 +67,21 @@ TEST_CASE("a link whose start has turned away is integrated anew, one that is ne
   // What the first order leaves of 1 g tilted by 0.1 rad over a second.
   CHECK(apart_m(far.predicted(), far.integrated()) > 0.01);
   far.repropagation();
-  CHECK(far.relinker().repropagations() == 1);
+  CHECK(far.repropagator().repropagations() == 1);
   CHECK(apart_m(far.predicted(), far.integrated()) < 1e-5);
   CHECK((far.predicted().v_e - far.integrated().v_e).norm() < 1e-5);
   CHECK(far.predicted().q_eb.angularDistance(far.integrated().q_eb) < 1e-6);
   CHECK(process_error(far.before(), far.keyframe()).segment<3>(0).norm() >
         0.01);  // the estimate stays
   far.repropagation();
-  CHECK(far.relinker().repropagations() == 1);  // it begins there now
+  CHECK(far.repropagator().repropagations() == 1);  // it begins there now
 }
 
 TEST_CASE("the Jacobian of a link that was integrated anew is the slope of its end") {
   Pair rig;
   rig.displace(kAttitude + 1, 0.1);
   rig.repropagation();
-  REQUIRE(rig.relinker().repropagations() == 1);
+  REQUIRE(rig.repropagator().repropagations() == 1);
   const FilterState start = rig.before().state;
   const ProcessFactor process_factor = rig.keyframe().process_factor;
   for (Index j = kPosition; j < kGyroBias; ++j) {
@@ -109,7 +107,7 @@ TEST_CASE("a block that is not whole leaves its link as it is") {
   rig.keyframe().block_complete = false;
   const Eigen::MatrixXd F = rig.keyframe().process_factor.F;
   rig.repropagation();
-  CHECK(rig.relinker().repropagations() == 0);
+  CHECK(rig.repropagator().repropagations() == 0);
   CHECK(Eigen::MatrixXd(rig.keyframe().process_factor.F) == F);
 }
 

@@ -68,7 +68,7 @@ std::vector<RangeChangeRowResult> RangeTest::test(const std::vector<CarrierInput
     row.sigma_m =
         std::sqrt(noise * noise + ionosphere * ionosphere + kClockWalk * kClockWalk * interval_s +
                   2.0 * satellite->orbit_sigma_change_m * satellite->orbit_sigma_change_m);
-    row.time_base = static_cast<int>(index_of(id.system));
+    row.system_time = static_cast<int>(index_of(id.system));
     rows.push_back(row);
     owners.push_back(i);
   }

@@ -9,7 +9,7 @@ import subprocess
 
 import gdb
 
-WORK = 400  # pieces of work of the GNSS stage (epochs, ephemerides) before the one that is followed
+WORK = 100  # pieces of work of the GNSS stage (epochs, ephemerides) before the one that is followed
 FOLDERS = re.compile(r"core/(navigator|ekf|filter|smoother|vehicle)/")
 
 gdb.execute("set breakpoint pending off")
@@ -37,8 +37,11 @@ program = gdb.current_progspace().filename
 symbols = [line.split(" ", 2) for line in
            subprocess.run(["nm", "-C", "--defined-only", program], capture_output=True, text=True, check=True)
            .stdout.splitlines()]
-anchor = next(int(address, 16) for address, kind, name in symbols if name.startswith("leonav::GnssStage::process("))
-start = gdb.Breakpoint("leonav::GnssStage::process")
+# The function for epochs alone, where there is one: process() jumps to it, and a jump cannot be finished.
+ENTRIES = ("leonav::GnssStage::process_work(leonav::EpochWork const&)", "leonav::GnssStage::process(")
+anchor, entry = next((int(address, 16), name) for wanted in ENTRIES for address, kind, name in symbols
+                     if name.startswith(wanted) and kind == "T")
+start = gdb.Breakpoint(entry if entry == ENTRIES[0] else "leonav::GnssStage::process")
 start.ignore_count = WORK
 gdb.execute("run")
 base = gdb.block_for_pc(gdb.newest_frame().pc()).start - anchor
