@@ -25,7 +25,7 @@ void Navigator::record(const Decision& decision) {
   recorded.iterations = decision.iterations;
 }
 
-// A slot still under way makes this epoch a miss, as in the daemon.
+// If the slot is still occupied, open() fails and this epoch is a miss, as in the daemon.
 void Navigator::open_epoch(std::uint64_t index) {
   ekf_mailbox_.open(index);
   if (smoother_ != nullptr) smoother_mailbox_.open(index);

@@ -1,4 +1,5 @@
-// The Navigator turns IMU and GNSS inputs into solutions: the one header for embedding and replay.
+// Navigator turns IMU and GNSS inputs into solutions; it is the one header for embedding and
+// replay.
 //
 //   struct Printer final : OutputSink {
 //     void on_solution(const Solution& solution) override { print(solution); }
@@ -13,11 +14,11 @@
 //   Navigator navigator(config, &sink);
 //   for (const Decision& decision : recorded) navigator.record(decision);  // replay only
 //   for (const Ephemeris& ephemeris : ephemerides) navigator.sequencer().on_ephemeris(ephemeris);
-//   navigator.sequencer().on_imu(sample);       // each as it comes,
+//   navigator.sequencer().on_imu(sample);       // each as it arrives,
 //   navigator.sequencer().on_raw_epoch(epoch);  // in any order that follows time roughly
 //
 // The stages (core/navigator/stages) run in the caller's thread, inside the call that feeds an
-// input. What an input must satisfy is stated at Sequencer, every output at OutputSink.
+// input. Sequencer lists the conditions on inputs, OutputSink the outputs.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -33,20 +34,23 @@
 
 namespace leonav {
 
-// Without recorded decisions every result of the filter and the smoother is in time.
+// Navigator runs all stages by direct calls. Without recorded decisions every result of the filter
+// and the smoother is in time.
 class Navigator final : private StageInputs, private KeyframeSink, private SolveBudget {
  public:
   // `sink` must outlive the navigator.
   Navigator(const NavigatorConfig& config, OutputSink* sink);
 
-  // Replays a decision of a journal. Call it for every one before the first input. Results of
-  // epochs without a decision are in time.
+  // Records a decision of a journal, to be repeated when its epoch is processed. Call it for every
+  // decision before the first input; it allocates. Results of epochs without a decision are in
+  // time.
   void record(const Decision& decision);
 
-  // Inputs go in here.
+  // Returns the Sequencer, which accepts all inputs.
   Sequencer& sequencer() { return sequencer_; }
   const Sequencer& sequencer() const { return sequencer_; }
-  // For tests and tools.
+  // These return the stages, for tests and tools. smoother() is nullptr if the filter gives the
+  // solution.
   const GnssStage& gnss() const { return gnss_; }
   const InertialNavigator& inertial() const { return inertial_; }
   const SmootherStage* smoother() const { return smoother_.get(); }
@@ -61,18 +65,18 @@ class Navigator final : private StageInputs, private KeyframeSink, private Solve
   void no_keyframe(const Solution& filter, bool due) override;
   bool may_iterate(int iterations_done) override;
 
-  // The recorded decisions about one epoch.
+  // The recorded decisions about the results of one epoch.
   struct Recorded {
     bool ekf_missed = false, smoother_missed = false, keyframe_skipped = false;
-    int iterations = -1;  // of the smoother; -1: not recorded
+    int iterations = -1;  // of the smoother's solve; -1: not recorded
   };
   OutputSink* sink_;
   std::map<std::uint64_t, Recorded> recorded_;
-  int iterations_allowed_ = -1;  // of the current solve; -1: no limit
+  int iterations_allowed_ = -1;  // in the current solve; -1: no limit
   TimedMailbox<Anchor> ekf_mailbox_;
   TimedMailbox<SmootherAnchor> smoother_mailbox_;
   std::unique_ptr<KeyframeInput> keyframe_;
-  std::unique_ptr<SmootherStage> smoother_;  // nullptr: the filter gives the answer
+  std::unique_ptr<SmootherStage> smoother_;  // nullptr: the filter gives the solution
   InertialNavigator inertial_;
   GnssStage gnss_;
   Sequencer sequencer_;

@@ -1,4 +1,4 @@
-// The LCM channels of leonav are enumerated here, with their names.
+// Channel enumerates the LCM channels of leonav and gives their names.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,6 +10,7 @@ namespace leonav {
 
 inline constexpr std::string_view kDefaultChannelPrefix = "LEONAV_";
 
+// The channels; inputs come first.
 enum class Channel : std::uint8_t {
   // inputs
   kImu,
@@ -39,18 +40,21 @@ inline constexpr std::array<Channel, 9> kInputChannels = {
     Channel::kCommand,    Channel::kOdometer,   Channel::kCheckpoint};
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
+// Returns whether leonav receives the channel.
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCheckpoint; }
-// Products are repeated whatever the vehicle does: orbits, clocks, ionosphere, antennas.
+// Returns whether the channel carries products: orbits, clocks, ionosphere, antennas. Their senders
+// repeat them regardless of the vehicle.
 constexpr bool is_product(Channel channel) {
   return channel >= Channel::kEphemeris && channel <= Channel::kAntenna;
 }
 
-std::string_view name_of(Channel channel);  // "IMU", "GNSS_EPOCH", ...
+// Returns the name without prefix, for instance "GNSS_EPOCH".
+std::string_view name_of(Channel channel);
 
-// The full name, as in "LEONAV_IMU": the configured prefix and the name.
+// Returns the full name, the configured prefix and the name: "LEONAV_IMU".
 std::string channel_name(Channel channel, std::string_view prefix = kDefaultChannelPrefix);
 
-// nullopt for a channel that leonav does not have. Does not allocate.
+// Returns the channel with this full name, or nullopt if leonav has none. Does not allocate.
 std::optional<Channel> channel_from_name(std::string_view name,
                                          std::string_view prefix = kDefaultChannelPrefix);
 

@@ -45,7 +45,7 @@ InputFault convert(const gnss_observation_t& from, SignalObservation* to) {
   to->satellite = *satellite;
   to->code = {static_cast<char>(from.band), static_cast<char>(from.attribute)};
   to->pseudorange_m = from.pseudorange_m;
-  // Zero is how receivers say that they count no cycles; RINEX too knows it as "not measured".
+  // Receivers send zero if they count no cycles; in RINEX too it means "not measured".
   to->carrier_cycles = from.carrier_cycles == 0.0 ? kNotMeasured : from.carrier_cycles;
   to->doppler_hz = from.doppler_hz;
   to->cn0_dbhz = from.cn0_dbhz;
@@ -92,7 +92,7 @@ InputFault convert(const ephemeris_t& from, Ephemeris* to) {
   to->issue = static_cast<std::uint16_t>(from.issue);
   to->issue_clock = static_cast<std::uint16_t>(from.issue_clock);
   to->health = static_cast<std::uint16_t>(from.health);
-  // Every real-valued element, once: what is not listed here does not cross the wire.
+  // Every real-valued element is listed here once; others are not decoded.
   const std::pair<double, double*> elements[] = {{from.accuracy_m, &to->accuracy_m},
                                                  {from.sqrt_a, &to->sqrt_a},
                                                  {from.eccentricity, &to->eccentricity},

@@ -1,4 +1,4 @@
-// Elements of decoded messages are converted to core structs, and every value is checked.
+// These functions convert elements of decoded messages to core's values and check every value.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,7 @@
 
 namespace leonav::wire {
 
+// Returns whether `ns` is a plausible GPS time in nanoseconds.
 inline bool is_time(std::int64_t ns) { return ns > 0 && ns <= kMaxTimeNs; }
 inline bool is_time_or_unset(std::int64_t ns) { return ns == 0 || is_time(ns); }
 
@@ -27,8 +28,8 @@ bool all_finite(const double (&values)[N]) {
   return std::all_of(values, values + N, [](double value) { return std::isfinite(value); });
 }
 
-// Values must be finite, in range, and known. kNone: `to` is filled; otherwise its content is
-// undefined.
+// Every convert() requires values that are finite, in range and known. It returns kNone if `to` is
+// filled; otherwise the content of `to` is undefined.
 InputFault convert(const gnss_observation_t& from, SignalObservation* to);
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);

@@ -29,7 +29,7 @@ constexpr std::int64_t kMaxImuIntervalNs = 10 * kNanosecondsPerSecond;
 
 constexpr std::uint32_t bit(InputFault fault) { return 1U << static_cast<unsigned>(fault); }
 
-// The count at `offset` is within capacity.
+// Checks that the count at `offset` is within `capacity`.
 InputFault check_count(ByteSpan bytes, std::size_t offset, std::size_t capacity) {
   if (bytes.size() < offset + 4) return InputFault::kUndecodable;
   const std::int32_t count = static_cast<std::int32_t>(wire::read_uint32(bytes, offset));
@@ -37,8 +37,8 @@ InputFault check_count(ByteSpan bytes, std::size_t offset, std::size_t capacity)
   return static_cast<std::size_t>(count) > capacity ? InputFault::kTooMany : InputFault::kNone;
 }
 
-// Generated decoding, then: the whole message was used, and its schema is known. Counts must have
-// been checked before.
+// Runs the generated decoder and checks that it used the whole message and that the schema is
+// known. Precondition: counts have been checked.
 template <typename T>
 InputFault read(ByteSpan bytes, T* message) {
   if (bytes.size() > wire::kMaxMessageBytes) return InputFault::kTooMany;
@@ -47,7 +47,7 @@ InputFault read(ByteSpan bytes, T* message) {
   return message->schema == wire::kSchema ? InputFault::kNone : InputFault::kUnknownSchema;
 }
 
-// As read(), for a message whose one array may hold `capacity` elements.
+// Reads a message whose only array may hold `capacity` elements.
 template <typename T>
 InputFault read_array(ByteSpan bytes, std::size_t capacity, T* message) {
   const InputFault fault = check_count(bytes, wire::kFirstCountOffset, capacity);
@@ -63,7 +63,8 @@ bool before(const SignalObservation& a, const SignalObservation& b) {
   return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
 }
 
-// Sorts, and removes every observation that shares its satellite and code with another.
+// Sorts the observations and removes all that share satellite and signal with another. Returns
+// whether there were any.
 bool sort_and_drop_copies(RawEpoch* epoch) {
   auto& list = epoch->observations;
   if (!std::is_sorted(list.begin(), list.end(), before)) {
@@ -84,7 +85,7 @@ bool sort_and_drop_copies(RawEpoch* epoch) {
 }  // namespace
 
 struct Decoder::Storage {
-  // Kept between calls: their vectors hold their memory.
+  // Messages are kept between calls, so that their vectors keep their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
   antenna_t antenna;

@@ -1,4 +1,4 @@
-// The Decoder converts LCM messages to core structs and treats every byte as hostile.
+// Decoder converts LCM messages to core's values and treats every byte as hostile.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -17,16 +17,17 @@ namespace leonav {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
+// The result of decoding one message.
 struct DecodeResult {
   InputFault fault = InputFault::kNone;  // kNone: the output is valid; otherwise do not use it
-  std::uint64_t sequence = 0;            // the sender's count; 0 when it could not be read
-  // Faults of single observations or states, as bits 1 << InputFault. These were left out; the
-  // rest of the message is valid.
+  std::uint64_t sequence = 0;            // the sender's count; 0 if it could not be read
+  // Faults of single observations or states, as bits 1 << InputFault. These were excluded; the rest
+  // of the message is valid.
   std::uint32_t element_faults = 0;
 };
 
-// A message is either valid as a whole or refused with its fault; no count in a message makes it
-// allocate. All memory is taken at construction. One thread at a time.
+// Decoder accepts a message as a whole or refuses it with its fault. No count in a message makes it
+// allocate: all memory is taken at construction. Only one thread may use it at a time.
 class Decoder {
  public:
   Decoder();
@@ -34,9 +35,10 @@ class Decoder {
   Decoder(Decoder&&) noexcept;
   Decoder& operator=(Decoder&&) noexcept;
 
+  // Every decode() fills its output if the fault is kNone.
   DecodeResult decode(ByteSpan bytes, ImuSample* sample);
-  // Observations are sorted. Copies of one satellite and code are all dropped (kDuplicate), as none
-  // can be trusted.
+  // Observations are sorted. Several observations of one satellite and signal are all dropped
+  // (kDuplicate), because none can be trusted.
   DecodeResult decode(ByteSpan bytes, RawEpoch* epoch);
   DecodeResult decode(ByteSpan bytes, OdometerIncrement* increment);
   DecodeResult decode(ByteSpan bytes, Ephemeris* ephemeris);

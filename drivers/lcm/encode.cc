@@ -33,7 +33,7 @@ void set_header(GpsTime time, std::uint64_t sequence, T* message) {
   message->schema = wire::kSchema;
 }
 
-// System and number of a satellite, in any message that has them.
+// Writes system and number of a satellite into any message that has them.
 template <typename T>
 void set_satellite(SatelliteId satellite, T* message) {
   message->system = static_cast<std::int8_t>(satellite.system);
@@ -124,7 +124,7 @@ void fill(const ConstraintReport& from, constraint_t* to) {
 }  // namespace
 
 struct Encoder::Storage {
-  // Kept between calls: their vectors hold their memory.
+  // Messages are kept between calls, so that their vectors keep their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
   antenna_t antenna;
@@ -135,8 +135,8 @@ struct Encoder::Storage {
   template <typename T>
   ByteSpan write(const T& message) {
     const int size = message.encode(buffer.data(), 0, static_cast<int>(buffer.size()));
-    // Cannot fail: every array is limited by core/base/capacity.h, and the buffer holds the
-    // largest.
+    // Encoding cannot fail: core/base/capacity.h limits every array, and the buffer holds the
+    // largest message.
     return {buffer.data(), static_cast<std::size_t>(std::max(size, 0))};
   }
 };

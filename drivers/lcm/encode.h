@@ -1,4 +1,4 @@
-// The Encoder converts core structs to LCM messages.
+// Encoder converts core's values to LCM messages.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -19,9 +19,9 @@ namespace leonav {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-// The returned span points into the encoder's own buffer and is valid until the next call. All
-// memory is taken at construction. One thread at a time. Satellite names and enums are written as
-// they are: values that the Decoder would refuse must not be encoded.
+// Encoder returns a span into its own buffer, valid until the next call. All memory is taken at
+// construction. Only one thread may use it at a time. Satellite names and enumerations are written
+// unchecked: do not encode values that the Decoder would refuse.
 class Encoder {
  public:
   Encoder();
@@ -29,20 +29,21 @@ class Encoder {
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;
 
-  // Inputs. `sequence` counts the messages of a channel from 1.
+  // These encode inputs. `sequence` counts the messages of a channel from 1.
   ByteSpan encode(const ImuSample& sample, std::uint64_t sequence);
   ByteSpan encode(const RawEpoch& epoch, std::uint64_t sequence);
   ByteSpan encode(const OdometerIncrement& increment, std::uint64_t sequence);
   ByteSpan encode(const Ephemeris& ephemeris, std::uint64_t sequence);
-  // All states have one time; the first gives the time on the wire. At most
-  // kMaxEphemerisSatellites.
+  // Precondition: all states have the same time, and there are at most kMaxEphemerisSatellites. The
+  // time of the first is written.
   ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
   ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const Command& command, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const Checkpoint& checkpoint, std::uint64_t sequence);
 
-  // Outputs.
+  // These encode outputs, which carry their own sequence. encode_constraints() writes the
+  // constraint reports, which encode() omits.
   ByteSpan encode(const Solution& solution);
   ByteSpan encode(const EpochReport& report);
   ByteSpan encode_constraints(const EpochReport& report);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
 constexpr std::size_t kHeaderBytes = 28;
-constexpr std::uint32_t kMaxChannelBytes = 999;  // as liblcm
-// liblcm itself moves at most some megabytes in a message.
+constexpr std::uint32_t kMaxChannelBytes = 999;  // liblcm has the same limit
+// Messages of liblcm have at most some megabytes.
 constexpr std::uint32_t kMaxDataBytes = 64U << 20;
 
 std::uint64_t get(const std::uint8_t* bytes, int count) {
@@ -39,7 +39,7 @@ EventLogReader::EventLogReader(const std::string& path) : path_(path) {
     throw EventLogError(path + ": cannot be opened: " + std::strerror(errno));
   }
   size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (error) size_ = std::numeric_limits<std::int64_t>::max();  // a pipe: unknown
+  if (error) size_ = std::numeric_limits<std::int64_t>::max();  // a pipe has no known size
   if (size_ == 0) throw EventLogError(path + ": is empty; expected an LCM log");
 }
 
@@ -66,7 +66,7 @@ bool EventLogReader::next(LogEvent* event) {
     damaged("event with " + std::to_string(data_bytes) + " bytes of data");
   }
   const auto end = position_ + static_cast<std::int64_t>(kHeaderBytes + channel_bytes + data_bytes);
-  if (end > size_) {  // before anything is allocated by the header's word
+  if (end > size_) {  // checked before the header's lengths allocate anything
     truncated_ = true;
     return false;
   }
@@ -117,7 +117,7 @@ bool EventLogWriter::write(std::int64_t timestamp_us, std::string_view channel,
 bool EventLogWriter::flush(bool sync) {
   if (!error_.empty()) return false;
   if (std::fflush(file_.get()) != 0) return fail();
-  // Pipes and special files cannot be synchronized; that is no loss.
+  // Pipes and special files cannot be synchronized; that is no error.
   if (sync && fsync(fileno(file_.get())) != 0 && errno != EINVAL && errno != EROFS) return fail();
   return true;
 }

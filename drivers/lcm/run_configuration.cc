@@ -11,14 +11,15 @@ namespace {
 
 constexpr std::size_t kStrings = 4;
 
-// The generated decoder believes the lengths of strings: each must be judged before it sees them.
+// Checks the lengths of all strings, because the generated decoder does not.
 bool strings_fit(ByteSpan bytes) {
   std::size_t at = wire::kSchemaOffset + 4;
   for (std::size_t i = 0; i < kStrings; ++i) {
     if (bytes.size() < at + 4) return false;
     const std::size_t length = wire::read_uint32(bytes, at);
     at += 4;
-    if (length == 0 || length > bytes.size() - at) return false;  // the final zero counts
+    // The length includes the final zero.
+    if (length == 0 || length > bytes.size() - at) return false;
     at += length;
   }
   return at == bytes.size();

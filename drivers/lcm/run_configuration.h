@@ -1,4 +1,4 @@
-// A journal begins with the configuration of its run and ends with a message of a clean stop.
+// These functions encode the first and the last message of a journal: configuration and clean stop.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -9,8 +9,9 @@
 
 namespace leonav {
 
+// The configuration of the run that wrote a journal.
 struct RunConfiguration {
-  std::string program;                 // name and version of what wrote the journal
+  std::string program;                 // name and version of the program that wrote the journal
   std::string name;                    // the configuration file, or "preset NAME"
   std::string text;                    // every key with its value, YAML
   std::vector<std::string> overrides;  // group.key=value, without line feeds; of older versions
@@ -18,13 +19,13 @@ struct RunConfiguration {
 
 std::vector<std::uint8_t> encode(const RunConfiguration& configuration);
 
-// nullopt: damaged, or of another schema.
+// Returns the configuration; nullopt: the message is damaged or has another schema.
 std::optional<RunConfiguration> decode_run_configuration(ByteSpan bytes);
 
-// `messages`: number of messages in the journal before this one.
+// Encodes the last message; `messages` is the number of messages before it.
 std::vector<std::uint8_t> encode_journal_end(std::int64_t messages);
 
-// The number of messages; nullopt: damaged, or of another schema.
+// Returns the number of messages; nullopt: the message is damaged or has another schema.
 std::optional<std::int64_t> decode_journal_end(ByteSpan bytes);
 
 }  // namespace leonav

@@ -1,4 +1,5 @@
-// Encoder and Decoder share the schema version, limits, and byte offsets of the messages.
+// Encoder and Decoder share these constants: schema version, limits, and byte offsets of the
+// messages.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,29 +11,34 @@ namespace leonav::wire {
 
 inline constexpr std::int32_t kSchema = 1;
 
-// No message that follows lcmtypes/ is longer: the largest is epoch_t at full capacity (31.4 KiB).
+// Largest message that the Decoder accepts. The longest of lcmtypes/ is epoch_t at full capacity
+// (31.4 KiB).
 inline constexpr std::size_t kMaxMessageBytes = 40 * 1024;
 
-// Times beyond week 10000 (year 2171) are nonsense and would near the end of the 64-bit range.
+// Latest time that is accepted: week 10000 (year 2171). Later ones are wrong and near the end of
+// the 64-bit range.
 inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
 
-// Encoded layout (LCM: fingerprint, then the members in order, big endian, unpadded). The counts
-// come before the arrays, so that they can be checked before the generated decoder, which resizes
-// its vectors by any count in the message, is called.
+// Byte offsets in an encoded message. LCM writes the fingerprint, then the members in order, big
+// endian, without padding. The messages have their counts before their arrays: the Decoder checks
+// them before it calls the generated decoder, which resizes its vectors to any count in the
+// message.
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
 inline constexpr std::size_t kEventStageOffset = 28;
 inline constexpr std::size_t kDecisionMailboxOffset = 36;
 
+// Flags of gnss_observation_t.
 inline constexpr std::uint8_t kFlagLossOfLock = 1;
 inline constexpr std::uint8_t kFlagHalfCycle = 2;
 
+// Flags of precise_state_t.
 inline constexpr std::uint8_t kFlagClockEvent = 1;
 inline constexpr std::uint8_t kFlagManeuver = 2;
 inline constexpr std::uint8_t kFlagClockPredicted = 4;
 inline constexpr std::uint8_t kFlagOrbitPredicted = 8;
 
-// Big endian; `bytes` must hold offset + 4.
+// Reads a big-endian number. Precondition: `bytes` holds at least offset + 4 bytes.
 inline std::uint32_t read_uint32(std::span<const std::uint8_t> bytes, std::size_t offset) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[offset + i];

@@ -1,4 +1,4 @@
-// A Checkpoint holds the position and heading of the vehicle at the end of a run, for the next run.
+// Checkpoint holds what one run leaves for the next: antenna position, heading, and gyro bias.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -9,11 +9,13 @@
 
 namespace leonav {
 
+// Position and heading of the vehicle at one time, with 1 sigma. Positions are in ECEF.
 struct Checkpoint {
   GpsTime time;
-  // At `time`. A checkpoint of a moving vehicle does not state how the vehicle was parked.
+  // The vehicle stood still at `time`. The heading of a moving vehicle does not show how it was
+  // parked later.
   bool standing = false;
-  Eigen::Vector3d antenna_p_e = Eigen::Vector3d::Zero();  // m
+  Eigen::Vector3d antenna_p_e = Eigen::Vector3d::Zero();  // m, phase centre
   double antenna_sigma = 0.0;                             // m, 3D
   double heading = 0.0;                                   // rad, clockwise from north
   double heading_sigma = 0.0;                             // rad
@@ -21,19 +23,22 @@ struct Checkpoint {
   double gyro_bias_sigma = 0.0;                           // rad/s, per axis
 };
 
-// A heading with a larger sigma is not used: the next run finds a better one by itself.
+// Largest sigma (rad) of a heading that the next run accepts. Beyond it the next run finds a better
+// heading by itself.
 inline constexpr double kMaxCheckpointHeadingSigma = 10.0 * std::numbers::pi / 180.0;
 
-// The use that was made of a checkpoint; codes of EventKind::kCheckpoint. On the wire: append only.
+// The use that was made of a checkpoint: the codes of EventKind::kCheckpoint, with the value of the
+// event. On the wire: append only.
 enum class CheckpointUse : std::uint8_t {
-  kUsed = 0,         // the heading gave the attitude; value: m from the position in it
-  kElsewhere = 1,    // the vehicle is not where it was; value: m
-  kOld = 2,          // value: s since
-  kFuture = 3,       // value: s until
+  kUsed = 0,         // the heading gave the attitude; value: distance from its position, m
+  kElsewhere = 1,    // the vehicle is at another place; value: distance, m
+  kOld = 2,          // the checkpoint is too old; value: its age, s
+  kFuture = 3,       // its time has not come yet; value: time until then, s
   kTakenMoving = 4,  // the vehicle did not stand still when it was taken
-  kMoves = 5,        // the vehicle moves, or has turned since the start; value: m/s
-  kNotNeeded = 6,    // there is a heading already
+  kMoves = 5,        // the vehicle moves, or has turned since the start; value: speed, m/s
+  kNotNeeded = 6,    // the filter has a heading already
 };
+// Returns the name of a use as outputs show it, for instance "taken_moving".
 std::string_view to_string(CheckpointUse use);
 
 }  // namespace leonav

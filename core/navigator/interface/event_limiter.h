@@ -1,11 +1,12 @@
-// An event that repeats is published for its first 16 occurrences and then for each 256th.
+// This function thins events that repeat: it admits the first 16 occurrences and then each 256th.
 #pragma once
 #include <cstdint>
 
 namespace leonav {
 
-// `count`: occurrences so far, this one included. A stream that errs at every message must not
-// drown the other events; the counters hold the full number.
+// Returns whether an occurrence is published; `count` is the number so far, this one included. An
+// input that is wrong at every message must not hide the other events; counters hold the full
+// number.
 inline bool is_event_due(std::uint64_t count) { return count <= 16 || count % 256 == 0; }
 
 }  // namespace leonav

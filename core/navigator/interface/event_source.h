@@ -1,4 +1,4 @@
-// EventSource emits the events of one stage, numbered in sequence.
+// EventSource numbers the events of one stage and passes them to the sink.
 #pragma once
 #include <cstdint>
 
@@ -7,6 +7,7 @@
 
 namespace leonav {
 
+// EventNumbering makes the events of one stage, numbered from 1.
 class EventNumbering {
  public:
   explicit EventNumbering(Stage stage) : stage_(stage) {}
@@ -27,7 +28,7 @@ class EventNumbering {
   std::uint64_t next_ = 1;
 };
 
-// For a stage that publishes its events itself.
+// EventSource serves a stage that publishes its events itself. `sink` must outlive it.
 class EventSource {
  public:
   EventSource(Stage stage, OutputSink* sink) : numbering_(stage), sink_(sink) {}

@@ -1,4 +1,4 @@
-// These are the scalars that stages and monitors derive from the filter: sigmas, and its solution.
+// These functions derive from the filter what stages and monitors need: sigmas and a solution.
 #pragma once
 #include <Eigen/Core>
 
@@ -7,17 +7,17 @@
 
 namespace leonav {
 
-// Root of the sum of the position's variances over three axes, m.
+// Returns the 3D sigma of the position, m: the root of the sum of its three variances.
 double position_sigma(const Ekf& filter);
-// Root of the mean of the velocity's variances over three axes, m/s.
+// Returns the velocity's sigma per component, m/s: the root of the mean of its three variances.
 double velocity_sigma(const Ekf& filter);
-// The largest of the three axes, rad/s.
+// Returns the largest sigma of the gyro bias among the three axes, rad/s.
 double gyro_bias_sigma(const Ekf& filter);
 
-// The filter's estimate at the stamp of its epoch; leaves sequence, source, anchor and jump of
-// `solution` to the caller. The filter must be initialized.
+// Fills `solution` with the filter's estimate at the stamp of its epoch, but for sequence, source,
+// anchor and jump. Precondition: the filter is initialized.
 void fill_solution(const Ekf& filter, Solution* solution);
-// 1 sigma of roll, pitch and yaw as published, rad; zero without attitude.
+// Returns 1 sigma of roll, pitch and yaw as published, rad; zero without attitude.
 Eigen::Vector3d sigma_of_euler(const Ekf& filter);
 
 }  // namespace leonav

@@ -1,4 +1,4 @@
-// The NavigatorConfig is the whole configuration of the navigator, in SI units and radians.
+// NavigatorConfig is the whole configuration of the navigator, in SI units and radians.
 #pragma once
 #include <Eigen/Core>
 
@@ -11,44 +11,49 @@
 
 namespace leonav {
 
-// What moves as it likes has no constraints.
+// The kind of vehicle, which determines defaults (vehicle_defaults.h). Boats, UAVs and handheld
+// devices have no motion constraints by default.
 enum class VehicleKind : unsigned char { kCar, kRail, kBoat, kUav, kHandheld };
 
+// The installation of the sensors in the vehicle, and the vehicle's motion constraints.
 struct VehicleConfig {
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  // m, IMU centre to antenna phase centre
-  Eigen::Vector3d mounting_rpy =
-      Eigen::Vector3d::Zero();  // rad; rotates IMU axes into the body frame
+  // Roll, pitch and yaw (rad) of the rotation from the IMU's axes to the body frame.
+  Eigen::Vector3d mounting_rpy = Eigen::Vector3d::Zero();
   VehicleKind kind = VehicleKind::kHandheld;
   MotionAidingConfig motion;
 
   bool operator==(const VehicleConfig&) const = default;
 };
 
+// Deadlines and expected times of arrival. All are data time, so that a replay decides the same.
 struct RealtimeConfig {
-  double deadline_ekf_s = 0.2;            // D_ekf, data time
-  double deadline_smoother_s = 0.5;       // D_smoother, data time
-  double epoch_interval_s = 1.0;          // expected GNSS interval
-  double gnss_latency_allowance_s = 0.5;  // how long after its time an epoch may come in
+  double deadline_ekf_s = 0.2;       // D_ekf, from the issue of an epoch to the filter's deadline
+  double deadline_smoother_s = 0.5;  // D_smoother, the same for the smoother
+  double epoch_interval_s = 1.0;     // expected interval of GNSS epochs
+  // Latency of an epoch up to which no empty epoch replaces it.
+  double gnss_latency_allowance_s = 0.5;
 
   bool operator==(const RealtimeConfig&) const = default;
 };
 
-// Who gives the answer; the filter runs in both cases.
+// The estimator that gives the solution. The filter runs in both cases.
 enum class Estimator : unsigned char { kEkf, kSmoother };
 
+// The configuration of the navigator and all its parts.
 struct NavigatorConfig {
   Estimator estimator = Estimator::kEkf;
   VehicleConfig vehicle;
   MotionModel motion = MotionModel::kInertial;
   ImuErrorModel imu;
-  double imu_time_offset_s = 0.0;  // to be added to the IMU's stamps
+  double imu_time_offset_s = 0.0;  // is added to the IMU's stamps
   AlignmentConfig alignment;
   GnssConfig gnss;
   EkfConfig ekf;
   SmootherConfig smoother;
   RealtimeConfig realtime;
-  double solution_rate_hz = 200.0;               // published at most this often
-  double checkpoint_max_age_s = 30.0 * 86400.0;  // data time; an older one is not begun from
+  double solution_rate_hz = 200.0;  // largest rate of published solutions, by data time
+  double checkpoint_max_age_s = 30.0 * 86400.0;  // an older checkpoint is not used; data time
 
   bool operator==(const NavigatorConfig&) const = default;
 };

@@ -1,4 +1,4 @@
-// The OutputSink receives every output of the navigator, in order.
+// OutputSink receives every output of the navigator, in order.
 #pragma once
 #include "core/navigator/interface/decision.h"
 #include "core/navigator/interface/epoch_report.h"
@@ -8,8 +8,8 @@
 
 namespace leonav {
 
-// The stages call it, each in its own thread where there are threads. A call must not block for
-// long and must not throw.
+// The interface that a program implements to receive outputs. In the daemon each stage calls it
+// from its own thread. A call must not block for long and must not throw.
 class OutputSink {
  public:
   virtual ~OutputSink() = default;

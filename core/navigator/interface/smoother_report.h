@@ -1,4 +1,4 @@
-// A SmootherReport holds the smoother's answer at one keyframe, if it came in time.
+// SmootherReport holds the smoother's result at one keyframe that was delivered in time.
 #pragma once
 #include <cstdint>
 
@@ -7,15 +7,16 @@
 
 namespace leonav {
 
+// The result of one solve.
 struct SmootherReport {
   std::uint64_t sequence = 0;
-  std::uint64_t index = 0;  // k
+  std::uint64_t index = 0;  // index k of the epoch
   SmootherStatus status = SmootherStatus::kNoFilter;
   int iterations = 0;
   bool converged = false;
-  int keyframes = 0;  // in the window
-  int used = 0;       // measurements of this keyframe with a weight
-  Solution solution;  // source kSmoother if the answer is its own, else kNone
+  int keyframes = 0;  // number of keyframes in the window
+  int used = 0;       // measurements of this keyframe with a weight factor above zero
+  Solution solution;  // source kSmoother if the solve gave a state, else kNone
 };
 
 }  // namespace leonav

@@ -12,7 +12,8 @@
 namespace leonav {
 namespace {
 
-// A covariance that rounding has left slightly negative gives zero, never NaN.
+// Returns the roots of the diagonal. A variance that rounding has made slightly negative gives
+// zero, never NaN.
 Eigen::Vector3d sqrt_of_diagonal(const Eigen::Matrix3d& covariance) {
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
@@ -26,8 +27,8 @@ Eigen::Matrix3d rotated_block(const PvaCovariance& covariance, int first,
 
 Eigen::Vector3d sigma_of_euler(const Eigen::Matrix3d& attitude_covariance_n, double pitch,
                                double yaw) {
-  // A small rotation in n is roll about the body's x axis, pitch about the intermediate y axis and
-  // yaw about down; the columns are these axes in n.
+  // A small rotation is the sum of roll about the body's x axis, pitch about the intermediate y
+  // axis and yaw about down. The columns are these axes in n.
   const double limit = std::numbers::pi;
   if (std::abs(std::cos(pitch)) < 1e-6) return Eigen::Vector3d::Constant(limit);
   Eigen::Matrix3d axes;

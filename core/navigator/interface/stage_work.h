@@ -1,4 +1,5 @@
-// The stages exchange these messages, through rings in the daemon and by calls in Navigator.
+// These are the messages that the stages exchange, through rings in the daemon and by calls in
+// Navigator.
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -21,79 +22,84 @@
 
 namespace leonav {
 
-// A GNSS epoch has been issued. At the first IMU sample stamped with a deadline or later, the
-// inertial stage takes the epoch's result from the mailbox of that deadline.
+// An epoch has been issued. At the first IMU sample stamped with a deadline or later, the inertial
+// stage takes the epoch's result from the mailbox of that deadline.
 struct EpochIssued {
-  std::uint64_t index = 0;
+  std::uint64_t index = 0;    // k
   GpsTime time;               // t_k
-  GpsTime deadline_ekf;       // tau + D_ekf
-  GpsTime deadline_smoother;  // tau + D_smoother; unset: there is no smoother
+  GpsTime deadline_ekf;       // tau + D_ekf, with tau the newest IMU time at the issue
+  GpsTime deadline_smoother;  // tau + D_smoother, not before deadline_ekf; unset: no smoother
 };
 
-// The filter starts over: results of epochs issued before this are not used.
+// The filter starts over. Results of epochs that were issued earlier are not used.
 struct Restart {
-  ResetCause cause = ResetCause::kCommand;  // or kTimeBase
+  ResetCause cause = ResetCause::kCommand;  // kCommand or kTimeBase
 };
 
-// Sequencer -> InertialNavigator, in order.
+// Work from the Sequencer to the InertialNavigator, in order.
 using InertialWork = std::variant<ImuSample, EpochIssued, Restart>;
 
 // An epoch with the IMU samples since the one before it, cut exactly at both ends.
 struct EpochWork {
-  std::uint64_t index = 0;
+  std::uint64_t index = 0;  // k
   GpsTime time;
-  bool empty = false;  // no GNSS came in time: predict only
+  bool empty = false;  // no GNSS came in time: the filter only predicts
   RawEpoch raw;
   ImuBlock block;
-  OdometerBlock odometer;  // received since the epoch before, ending by this one
+  OdometerBlock odometer;  // increments received since the epoch before that end by this one
 };
 
+// On the wire: append only.
 enum class CommandKind : std::uint8_t { kRestart = 0, kSetHeading = 1 };
+// A command from outside.
 struct Command {
   CommandKind kind = CommandKind::kRestart;
-  double value = 0.0;
-  double sigma = 0.0;
-  ResetCause cause = ResetCause::kCommand;  // of a restart; set by the Sequencer
+  double value = 0.0;                       // kSetHeading: heading, rad, clockwise from north
+  double sigma = 0.0;                       // kSetHeading: its sigma, rad
+  ResetCause cause = ResetCause::kCommand;  // kRestart: set by the Sequencer
 };
 
-// The states of one message: at most one of each satellite that has a name.
+// The precise states of one message, with room for one of each satellite that has a name.
 using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemerisSatellites>;
 
-// Sequencer -> GnssStage, in order. A message is one piece of work, whatever its length, for the
-// stage may be behind by an epoch.
+// Work from the Sequencer to the GnssStage, in order. A message is one piece of work whatever its
+// length, so that a stage that is an epoch behind needs few slots in its ring.
 using GnssWork = std::variant<Ephemeris, PreciseStates, KlobucharModel, AntennaPattern, Command,
                               Checkpoint, EpochWork>;
 
-// GnssStage -> InertialNavigator, through the mailbox: the anchor to go on from.
+// The state and covariance at an epoch from which the inertial stage propagates the solution. The
+// GnssStage delivers it through a mailbox.
 struct Anchor {
-  std::uint64_t index = 0;
+  std::uint64_t index = 0;    // k
   bool valid = false;         // false: the filter is not initialized yet
-  bool has_attitude = false;  // false: aligning; `state.q_eb` means nothing
+  bool has_attitude = false;  // false: aligning, and `state.q_eb` has no meaning
   NavState state;             // at the epoch
   InertialCovariance covariance = InertialCovariance::Zero();
-  bool gnss_used = false;  // at least one measurement counted in this epoch
-  // Estimated: the state is valid this much later than its stamp.
+  bool gnss_used = false;  // at least one measurement was used in this epoch
+  // The estimated time offset: the state is valid this much later than its stamp.
   double time_offset_s = 0.0;
-  AttitudeRandomWalk random_walk;  // of the filter's process from here on
+  AttitudeRandomWalk random_walk;  // inflated attitude noise of the filter from here on
 };
 
-// SmootherStage -> InertialNavigator, through a mailbox of its own. For an epoch that is no
-// keyframe a result without an answer is delivered.
+// The smoother's result at an epoch. The SmootherStage delivers it through a mailbox of its own.
+// For an epoch that is no keyframe it delivers one whose anchor is not valid.
 struct SmootherAnchor {
-  Anchor anchor;     // valid: the smoother's answer
-  bool due = false;  // false: it follows the last keyframe too soon to be one itself
+  Anchor anchor;     // valid: the smoother has a state
+  bool due = false;  // false: the epoch follows the last keyframe too soon to be one itself
   SmootherStatus status = SmootherStatus::kNoFilter;
   std::int32_t iterations = 0;
 };
 
-// GnssStage -> SmootherStage.
+// KeyframeSink takes keyframes from the GnssStage to the SmootherStage.
 class KeyframeSink {
  public:
   virtual ~KeyframeSink() = default;
-  // The keyframe to write next; nullptr: no room, the epoch is not to be one.
+  // Returns the keyframe to write next; nullptr: there is no room, so the epoch is no keyframe.
   virtual KeyframeInput* next_keyframe(std::uint64_t epoch) = 0;
+  // Passes on the keyframe that next_keyframe() returned.
   virtual void push_keyframe() = 0;
-  // The epoch is no keyframe, because none is due or there is no room. `filter`: its solution.
+  // Reports that the epoch is no keyframe, because none is due or there is no room. `filter` is the
+  // filter's solution at the epoch.
   virtual void no_keyframe(const Solution& filter, bool due) = 0;
 };
 

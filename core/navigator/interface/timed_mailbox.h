@@ -1,4 +1,4 @@
-// A TimedMailbox hands one result per epoch from a worker to the inertial stage before a deadline.
+// TimedMailbox hands one result per epoch from a worker to the inertial stage before a deadline.
 #pragma once
 #include <array>
 #include <atomic>
@@ -9,31 +9,33 @@
 
 namespace leonav {
 
-// Slot k % N serves epoch k. The Sequencer's side opens it, one worker per epoch delivers, the
-// inertial stage takes. A single compare-exchange decides between deliver() and take(), so that a
-// result is either visible at the deadline or never. T is copied; slots are allocated once.
+// Slot k % kMaxMailboxEpochs serves epoch k. The Sequencer's side opens it, one worker delivers,
+// the inertial stage takes. A single compare-exchange decides between deliver() and take(), so that
+// a result is either visible at the deadline or never. Results are copied. Allocates when
+// constructed, not after.
 template <typename T>
 class TimedMailbox {
  public:
   TimedMailbox() : slots_(std::make_unique<Slots>()) {}
 
-  // Sequencer side: opens the slot before the worker is given the epoch. False if the slot is still
-  // under way from N epochs ago.
+  // Opens the slot; call it on the Sequencer's side before the worker gets the epoch. Returns false
+  // if an earlier epoch still occupies the slot: then this epoch is a miss.
   bool open(std::uint64_t epoch);
 
-  // Worker side. False: the deadline has passed (or the slot was never opened); the result is
-  // dropped.
+  // Delivers the worker's result. Returns false and drops it if the deadline has passed or the slot
+  // was never opened.
   bool deliver(std::uint64_t epoch, const T& result);
 
-  // Worker side: the deadline has not passed yet.
+  // Returns, for the worker, whether the deadline has not passed yet.
   bool is_open(std::uint64_t epoch) {
     return slot(epoch).tag.load(std::memory_order_acquire) == tag(epoch, kOpen);
   }
 
-  // Inertial stage, at the deadline. True and *result: committed. False: cancelled, a miss.
+  // Takes the result at the deadline; call it in the inertial stage. True: *result is committed.
+  // False: the epoch is cancelled, a miss.
   bool take(std::uint64_t epoch, T* result);
 
-  // Makes epoch's deliver() fail and its take() report a miss: replay of a recorded miss.
+  // Makes deliver() fail and take() return a miss, to replay a recorded miss.
   void cancel(std::uint64_t epoch);
 
  private:
@@ -62,8 +64,8 @@ bool TimedMailbox<T>::deliver(std::uint64_t epoch, const T& result) {
   Slot& s = slot(epoch);
   std::uint64_t expected = tag(epoch, kOpen);
   if (s.tag.load(std::memory_order_acquire) != expected) return false;
-  // The navigator reads `value` only after it has seen kReady, so writing first is safe even if the
-  // exchange below is then lost to a cancel.
+  // take() reads `value` only after it has seen kReady. Writing first is therefore safe even if a
+  // cancel wins the exchange below.
   s.value = result;
   return s.tag.compare_exchange_strong(expected, tag(epoch, kReady), std::memory_order_acq_rel);
 }

@@ -7,9 +7,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
-// A bracket that settles: a tenth of a degree in an hour.
+// A bracket that settles turns by about a tenth of a degree in an hour.
 constexpr double kTravelDirectionRandomWalk = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)
-// Tyres that get warm: a tenth of a percent in an hour.
+// Tyres that get warm grow by about a tenth of a percent in an hour.
 constexpr double kOdometerScaleRandomWalk = 0.1 * 0.01 / kRootHour;  // 1/sqrt(s)
 // Lever arm and time offset do not move; a centimetre and a tenth of a millisecond in an hour keep
 // the filter able to correct an early error.

@@ -11,15 +11,16 @@ namespace leonav {
 namespace {
 
 constexpr double kRad = std::numbers::pi / 180.0;
-constexpr double kWindow_s = 1.0;       // noise and vibration average out over so long
-constexpr double kGoodPosition_m = 10;  // 1 sigma; a vaguer one could be anywhere
-// Beyond the sigmas: what reflected codes are off by.
+constexpr double kWindow_s = 1.0;       // noise and vibration average out over this time
+constexpr double kGoodPosition_m = 10;  // 1 sigma; a larger one proves nothing
+// Tolerance beyond the sigmas, for the error of reflected codes.
 constexpr double kSamePlace_m = 10.0;
 constexpr double kSigmas = 3.0;
 constexpr double kTurned = 5.0 * kRad;  // in all, beyond the gyros' bias
-// Parked means: on a slope, by a jack, with people getting in. And sigmas of old may flatter.
+// Least sigma of a parked vehicle's heading. It may be moved a little on a slope, by a jack, or by
+// people getting in, and the sigma of the earlier run may be too small.
 constexpr double kLeastSigma = 2.0 * kRad;
-// Clocks of receivers start a little off.
+// The clock of a receiver that has just started is slightly wrong.
 constexpr double kFutureTolerated_s = 1.0;
 
 }  // namespace
@@ -47,7 +48,7 @@ std::string_view to_string(CheckpointUse use) {
 void CheckpointValidityMonitor::take(const Checkpoint& checkpoint) { checkpoint_ = checkpoint; }
 
 void CheckpointValidityMonitor::add(const ImuSample& sample) {
-  // What happened in a hole too long to be bridged nobody knows.
+  // The vehicle may have turned unnoticed in a gap that is too long to be filled.
   if (last_.is_set() && seconds_between(sample.start(), last_) > kMaxImuGap_s) turned_ = true;
   last_ = sample.time;
   window_s_ += sample.interval_s();
@@ -56,7 +57,7 @@ void CheckpointValidityMonitor::add(const ImuSample& sample) {
   window_turn_ += sample.delta_theta_b;
   if (window_s_ < kWindow_s) return;
   turned_ = turned_ || !(window_turn_.norm() < config_.static_gyro_rad_s * window_s_);
-  // Slowly, too: beyond what the gyros' bias makes of standing.
+  // A slow turn shows in the sum over all samples, beyond the effect of the gyros' bias at rest.
   const double drifted = kSigmas * rate_sigma_ * all_s_;
   turned_ = turned_ || 2.0 * std::acos(std::min(1.0, std::abs(all_turn_.w()))) > kTurned + drifted;
   window_s_ = 0.0;
@@ -77,7 +78,7 @@ std::optional<CheckpointValidityMonitor::Verdict> CheckpointValidityMonitor::ver
   if (age_s > max_age_s_) return Verdict{CheckpointUse::kOld, age_s, {}};
   if (age_s < -kFutureTolerated_s) return Verdict{CheckpointUse::kFuture, -age_s, {}};
   if (!checkpoint_->standing) return Verdict{CheckpointUse::kTakenMoving, 0.0, {}};
-  // One velocity of many may lie outside two of its sigmas; none outside four.
+  // The sigma is doubled: one velocity of many may contradict standing by chance.
   const bool moves =
       !may_be_stationary(filter.speed, 2.0 * filter.sigma_v, config_.min_course_speed_m_s);
   if (turned_ || moves) return Verdict{CheckpointUse::kMoves, filter.speed, {}};

@@ -14,15 +14,16 @@ namespace leonav {
 namespace {
 
 constexpr int kMinMeasurementsToTest = 4;  // codes or Dopplers
-// A more uncertain filter adds nothing to a point solution.
+// A filter with a larger sigma adds nothing to a point solution.
 constexpr double kMaxUsefulSigma_m = 500.0;
 constexpr double kMaxUsefulSigmaWithArcs_m = 1e5;
-// A second reset this soon: the attitude is wrong as well.
+// If a second reset follows within this time, the attitude is wrong as well.
 constexpr double kRepeatedReset_s = 60.0;
-// A restart by rejections makes the filter more uncertain by at most so much.
+// A restart by test_rejections() inflates the filter's sigmas by at most these.
 constexpr double kMaxInflation_m = 250.0, kMaxInflation_m_s = 30.0;
-constexpr double kRepeatedRejection_s = 90.0;  // nearly all rejected once more this soon
-// The position test: all codes agree with another position than the filter's.
+// If nearly all measurements are rejected again within this time, the restart has not helped.
+constexpr double kRepeatedRejection_s = 90.0;
+// Limits of test_position(): all codes agree on another position than the filter's.
 constexpr int kMinCodesToMove = 7;
 constexpr int kMinMoveRedundancy = 3;
 constexpr double kInconsistent = 1.5;
@@ -30,7 +31,7 @@ constexpr double kDisplacedPointSigmas = 2.0;  // sigmas of one point solution, 
 constexpr double kDisplacedFilterSigmas = 5.0;
 constexpr double kDisplacementTimeConstant_s = 15.0;
 constexpr double kMaxDisplacementEvidence = 120.0;  // 30 s of eight codes of one system
-constexpr double kMaxTrust = 480.0;                 // a longer past adds no evidence
+constexpr double kMaxTrust = 480.0;                 // a longer agreement adds no evidence
 constexpr double kLongestInterval_s = 10.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,7 +39,7 @@ Eigen::Matrix3d inflated(const Eigen::Matrix3d& covariance, double sigma) {
   return covariance + sigma * sigma * Eigen::Matrix3d::Identity();
 }
 
-// The filter's own estimate as a point solution, more uncertain by these sigmas.
+// Returns the filter's own estimate as a point solution, inflated by these sigmas.
 PointSolution inflated_estimate(const Ekf& filter, double sigma_m, double sigma_m_s) {
   PointSolution own;
   own.p_e = filter.antenna_position_e();
@@ -92,8 +93,8 @@ FilterVerdict FilterMonitor::restart_after_outage(const PointSolution& point, co
   return restart_from(point, ResetCause::kOutage, filter, time);
 }
 
-// The attitude survives, unless it has just had that chance; what has been estimated of the IMU's
-// errors survives with it, and what of the vehicle is lost with an attitude that was wrong.
+// The attitude is kept with the IMU errors, unless it was already kept in a reset shortly before.
+// Then it was wrong, and the vehicle constants that were estimated with it are dropped too.
 FilterVerdict FilterMonitor::restart_from(const PointSolution& point, ResetCause cause,
                                           const Ekf& filter, GpsTime time) const {
   FilterVerdict verdict;
@@ -171,8 +172,8 @@ FilterVerdict FilterMonitor::test_position(const FilterEvidence& evidence,
   return {};
 }
 
-// Nothing decides whether the filter or what it rejects is wrong: it goes on from where it is, as
-// uncertain as the two disagree.
+// Nothing decides whether the filter or the rejected measurements are wrong. The filter therefore
+// continues from its own position, with a sigma as large as the discrepancy.
 FilterVerdict FilterMonitor::test_rejections(const FilterEvidence& evidence) {
   const RejectionVerdict found =
       rejection_monitor_.add(evidence.update, evidence.measurements, evidence.time);
@@ -194,8 +195,9 @@ FilterVerdict FilterMonitor::test_rejections(const FilterEvidence& evidence) {
   return restart_from(own, ResetCause::kLockedOut, evidence.filter, evidence.time);
 }
 
-// Dopplers alone could all be wrong, for one of a receiver with the wrong sign or unit: position
-// and clocks of the codes must have changed as the Dopplers say, rather than as the filter does.
+// Dopplers alone could all be wrong, for instance with the wrong sign or unit. Therefore position
+// and clocks from the codes must have changed as the Dopplers predict, rather than as the filter
+// predicts.
 bool FilterMonitor::motion_supports_point(const PointSolution& point, const Ekf& filter,
                                           GpsTime time) const {
   if (!first_contradiction_time_.is_set() || !(first_contradiction_time_ < time)) return false;
@@ -217,8 +219,8 @@ bool FilterMonitor::motion_supports_point(const PointSolution& point, const Ekf&
   return from_point < from_filter;
 }
 
-// Whether the filter has another position than a point solution; with `motion` also whether it has
-// another velocity or clock drift.
+// Returns whether the filter's position differs from that of a point solution; with `motion` also
+// whether velocity or clock drift differ.
 bool FilterMonitor::contradicts(const PointSolution& point, const Ekf& filter, GpsTime time,
                                 bool motion) const {
   const double distance_m = (point.p_e - filter.antenna_position_e()).norm();

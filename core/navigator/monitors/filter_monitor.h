@@ -1,5 +1,5 @@
-// FilterMonitor decides from the measurements an update rejects, and from independent solutions,
-// whether the filter may go on.
+// FilterMonitor decides whether the filter may go on, from the measurements that an update rejects
+// and from independent solutions.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -14,72 +14,76 @@
 
 namespace leonav {
 
+// The action that a verdict requests.
 enum class FilterAction : unsigned char {
   kKeep,
   kRestartClocks,  // the clock offsets are estimated anew from the next epoch's codes
-  kRestart,        // from FilterVerdict::start
-  kDrop,           // the filter is worth nothing, its attitude included
+  kRestart,        // the filter restarts from FilterVerdict::start
+  kDrop,           // nothing of the filter can be used, not even its attitude
 };
 
+// A verdict on the filter. The caller acts on it.
 struct FilterVerdict {
   FilterAction action = FilterAction::kKeep;
-  // Of kRestart and kDrop: of the event that reports it.
+  // For kRestart and kDrop: code and value of the event that reports the reset (ResetCause).
   ResetCause cause = ResetCause::kPrediction;
   double value = 0.0;
-  // Of kRestart.
+  // For kRestart: position, velocity and clocks to start from.
   PointSolution start;
-  bool keeps_attitude = false;           // less certain of its heading, with the IMU's errors
-  bool keeps_vehicle_constants = false;  // what has been estimated of the vehicle
+  bool keeps_attitude = false;           // with the IMU's errors, and a larger sigma of the heading
+  bool keeps_vehicle_constants = false;  // the estimated vehicle constants are kept
 };
 
-// The evidence of one epoch after the filter's update.
+// The evidence of one epoch after the filter's update. It refers to the caller's objects.
 struct FilterEvidence {
   GpsTime time;
   const EkfUpdateResult& update;
-  const MeasurementEpoch& measurements;  // those of the update
-  const Ekf& filter;
+  const MeasurementEpoch& measurements;  // that the update has used
+  const Ekf& filter;                     // after the update
 };
 
-// Returns verdicts and changes nothing but its own evidence: the caller acts on a verdict, and
-// reports that with filter_restarted() or reset(). The three tests of an update are to be called in
-// the order test_prediction, test_rejections, test_position, until one has restarted the filter: a
-// test may not judge a filter by the update of another one.
+// FilterMonitor returns verdicts and changes nothing but its own evidence. The caller acts on a
+// verdict and then calls clear_evidence() and filter_restarted(). After an update call the three
+// tests in the order test_prediction, test_rejections, test_position, until one has restarted the
+// filter: a test must not judge a filter by the update of another one.
 class FilterMonitor {
  public:
   explicit FilterMonitor(const NavigatorConfig& config);
 
-  // Drops a filter with a number that is not finite.
+  // Returns kDrop if a number of the filter is not finite.
   FilterVerdict test_finite(const Ekf& filter) const;
 
-  // True if the prediction of an initialized filter is worse than a point solution. Carrier arcs
-  // that go on since `last_gnss` are worth more than any position from codes.
+  // Returns whether the prediction of an initialized filter is so uncertain that a point solution
+  // is better: a 3D sigma from 500 m on. While carrier arcs may continue since `last_gnss`, the
+  // limit is 100 km, because they bridge the outage better than any position from codes.
   bool prediction_is_too_uncertain(const Ekf& filter, GpsTime time, GpsTime last_gnss) const;
-  // Returns the restart from `point` after such a prediction.
+  // Returns, after such a prediction, the restart from `point`.
   FilterVerdict restart_after_outage(const PointSolution& point, const Ekf& filter,
                                      GpsTime time) const;
 
-  // Most codes or Dopplers rejected in EkfConfig::reset_epochs epochs in a row: a restart from a
-  // point solution that contradicts the filter and has been checked itself. Where the point
-  // solution agrees with the filter, the measurements are wrong.
+  // Tests whether most codes or Dopplers were rejected in EkfConfig::reset_epochs epochs in a row.
+  // The verdict is then a restart from a point solution, if that has enough redundancy and
+  // contradicts the filter. If it agrees with the filter, the measurements are wrong.
   FilterVerdict test_prediction(const FilterEvidence& evidence, IndependentSolver* solver);
-  // Nearly all rejected with too few satellites for a point solution to decide (see
-  // MeasurementRejectionMonitor): first a restart from the filter's own position, as uncertain as
-  // the two disagree; where that has not helped, or the disagreement is too large, the filter is
-  // dropped.
+  // Tests whether nearly all measurements are rejected while too few satellites are left for a
+  // point solution to decide (MeasurementRejectionMonitor). The first verdict is a restart from the
+  // filter's own position, with a sigma as large as the discrepancy. If that has not helped, or the
+  // discrepancy is too large, the filter is dropped.
   FilterVerdict test_rejections(const FilterEvidence& evidence);
-  // All codes agree on another position, for longer and with more satellites than they have agreed
-  // with the filter's: a restart there. A filter that started between walls stays where its
-  // carriers hold it.
+  // Tests whether all codes agree on another position, for longer and with more satellites than
+  // they have agreed on the filter's. The verdict is then a restart there. This finds a filter that
+  // started from reflected signals and whose carriers now keep it at the wrong position.
   FilterVerdict test_position(const FilterEvidence& evidence, IndependentSolver* solver);
 
-  // Codes, Dopplers: the mean ratio of their innovations to their sigmas, if it has just become
-  // improbable (ConsistencyMonitor).
+  // Adds an update and returns, for codes and for Dopplers, the mean ratio of innovations to sigmas
+  // if it has just become improbable (ConsistencyMonitor), else nullopt.
   std::array<std::optional<double>, 2> add_consistency(const EkfUpdateResult& update);
 
-  // The evidence for and against a filter is void for the next one.
+  // Clears the evidence for and against the filter; it is void for the next one.
   void clear_evidence();
-  // `time`: of the reset; unset: time begins anew.
+  // Records a reset at `time`; unset: time begins anew.
   void filter_restarted(GpsTime time) { last_reset_time_ = time; }
+  // Forgets the last restart by test_rejections().
   void clear_rejection_time() { last_rejection_restart_ = GpsTime(); }
 
  private:
@@ -94,12 +98,14 @@ class FilterMonitor {
   MeasurementRejectionMonitor rejection_monitor_;
   std::array<ConsistencyMonitor, 2> consistency_;  // codes, Dopplers
   int contradicted_epochs_ = 0;                    // in a row
-  GpsTime first_contradiction_time_;  // of the first of them, if there was a point solution
+  // Point solution of the first of them; the time is unset if it was not reliable.
+  GpsTime first_contradiction_time_;
   PointSolution first_contradiction_point_;
   GpsTime last_position_test_time_;
-  // Redundant codes times seconds (s) for another position less those for the filter's.
+  // Redundant codes times seconds for another position, minus those for the filter's. Unit: s.
   double displacement_evidence_ = 0.0;
-  Eigen::Vector3d mean_displacement_e_ = Eigen::Vector3d::Zero();  // of point solutions, m
+  // Mean of point solution minus filter, ECEF, m.
+  Eigen::Vector3d mean_displacement_e_ = Eigen::Vector3d::Zero();
   GpsTime last_reset_time_;
   GpsTime last_rejection_restart_;
 };

@@ -11,15 +11,16 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;
-constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; less the filter finds by itself
+constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
 constexpr int kInARow = 3;
-// Reflected Dopplers agree with each other for some seconds: a filter is not overthrown by courses
-// that a start would be content with.
+// Reflected Dopplers agree with each other for some seconds. A running filter is therefore reset
+// only by courses over a longer window than an alignment needs.
 constexpr double kCourseWindow_s = 10.0;
 constexpr double kMinCourseSpeed = 3.0;                // m/s
 constexpr double kMaxCourseSigma = 5.0 * kPi / 180.0;  // rad
-constexpr double kConfirming = 3.0 * kPi / 180.0;      // rad, sigma of a matching that confirms
-constexpr double kConfirmed = 2.0;                     // sigmas
+// rad; velocity matching with a smaller sigma may confirm the filter's heading.
+constexpr double kConfirming = 3.0 * kPi / 180.0;
+constexpr double kConfirmed = 2.0;  // sigmas
 constexpr double kMaxMisfit = 2.0;
 
 double yaw_of(const Eigen::Quaterniond& q) { return euler_from_rotation(q.toRotationMatrix()).yaw; }
@@ -81,7 +82,8 @@ void HeadingMonitor::add_course(const Eigen::Vector2d& v_n, double sigma_v) {
   last_course_ = Course{yaw, seconds_};
 }
 
-// What the courses say against it: of forward and reverse, where both can be, the nearer.
+// Returns the heading by the courses minus `heading`. If the vehicle may be in reverse, it is the
+// smaller of the differences for forward and reverse.
 std::optional<double> HeadingMonitor::course_innovation(double heading) const {
   const auto agreement = courses_.agreement();
   if (!agreement || !(agreement->sigma < kMaxCourseSigma)) return std::nullopt;
@@ -110,7 +112,7 @@ std::optional<double> HeadingMonitor::add_velocity(const Eigen::Vector2d& v_n, d
   if (match && match->misfit < kMaxMisfit) {
     const double apart = wrap_to_pi(match->heading.heading - heading);
     test_deviation(apart, match->heading.sigma);
-    // What has been confirmed knows its gyros better than when it began.
+    // A filter whose heading is confirmed has a better gyro bias than at the start.
     const double both = std::hypot(match->heading.sigma, filter.heading_sigma);
     if (match->heading.sigma < kConfirming && std::abs(apart) < kConfirmed * both) {
       off = 0.0;

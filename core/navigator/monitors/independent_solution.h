@@ -8,38 +8,42 @@
 
 namespace leonav {
 
+// The solution with the measurements that it used.
 struct IndependentSolution {
   PointSolution point;
   bool accepted = false;  // satellites, PDOP and residuals suffice to start a filter from it
-  // The epoch's measurements with the reasons that the solution gave them; valid until the next
-  // solution is computed.
+  // The epoch's measurements with the reasons from this solution; valid until the next solution is
+  // computed.
   const MeasurementEpoch* measurements = nullptr;
 };
 
-// Computes the solution of the epoch at hand when a test needs it. Each call may update the
-// receiver's code biases, so a test calls it only where its result depends on the solution.
+// IndependentSolver computes the solution of the current epoch when a test needs it. Each call may
+// update the receiver's code biases. A test therefore calls it only if its verdict depends on the
+// solution.
 class IndependentSolver {
  public:
   virtual ~IndependentSolver() = default;
-  // `approximate_p_e`: antenna, ECEF, m; zero: unknown.
+  // Solves the epoch; `approximate_p_e` is the antenna's approximate position, ECEF, m; zero:
+  // unknown.
   virtual IndependentSolution solve(const Eigen::Vector3d& approximate_p_e) = 0;
 };
 
-// Least redundancy of a point solution that overrules a running filter.
+// Smallest redundancy of a point solution that may replace a running filter.
 inline constexpr int kMinResetRedundancy = 2;
 
-// Number of satellites beyond those that the position and one clock per system time need.
+// Returns the number of satellites beyond those that the position and one clock per system time
+// need.
 int redundancy(const PointSolution& point);
 
-// At least two thirds of the codes are used. Any few codes agree with some position; only a
-// majority is more than chance.
+// Returns whether at least two thirds of the codes are used. A few codes always agree on some
+// position; only a majority is more than chance.
 bool most_codes_agree(const MeasurementEpoch& epoch);
 
-// No code is an outlier, and at most a fifth is downweighted.
+// Returns whether no code is an outlier and at most a fifth of the used codes is downweighted.
 bool all_codes_agree(const MeasurementEpoch& epoch);
 
-// The solution has more redundancy than it needs, and much more than it has outliers among the
-// codes or the Dopplers.
+// Returns whether the redundancy is at least kMinResetRedundancy, and at least three times the
+// number of outliers among the codes and among the Dopplers.
 bool is_highly_redundant(const IndependentSolution& solution);
 
 }  // namespace leonav

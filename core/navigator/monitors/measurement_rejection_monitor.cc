@@ -11,13 +11,13 @@ namespace leonav {
 namespace {
 
 constexpr double kLongest_s = 30.0;
-constexpr double kLongestInterval_s = 10.0;    // three epochs at least, whatever their interval
-constexpr double kMaxCodeMultipath_m = 100.0;  // what codes alone are believed to be wrong by
+constexpr double kLongestInterval_s = 10.0;    // so that a verdict needs three epochs at least
+constexpr double kMaxCodeMultipath_m = 100.0;  // largest error that reflections may cause
 constexpr double kMaxSignalDetour_m = 300.0;
-constexpr double kClockShare = 10.0;  // what codes have in common over what they have not
+constexpr double kClockShare = 10.0;  // common innovation of the codes over their discrepancy
 constexpr int kMinCodes = 2;
 constexpr int kMinConfirming = 2;  // carriers
-constexpr int kMinRedundancy = 2;  // with which a point solution checks the filter
+constexpr int kMinRedundancy = 2;  // from which on a point solution can check the filter
 
 using Innovations = boost::container::static_vector<double, kMaxMeasurements>;
 
@@ -28,7 +28,7 @@ struct Kind {
   bool most_rejected() const { return 2 * rejected > offered(); }
 };
 
-// What is left of innovations without what they share; of the second worst.
+// Returns the second largest deviation of the innovations from their median, of two the largest.
 double second_largest_deviation(const Kind& kind) {
   if (kind.offered() < kMinCodes) return 0.0;
   const double shared = median(kind.innovations);

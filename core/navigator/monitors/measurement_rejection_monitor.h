@@ -1,32 +1,41 @@
-// MeasurementRejectionMonitor detects a filter that persistently rejects nearly all measurements
-// while too few satellites are left for a point solution to decide who is right.
+// MeasurementRejectionMonitor finds a filter that keeps rejecting nearly all measurements while too
+// few satellites are left to check it.
 #pragma once
 #include "core/filter/ekf.h"
 
 namespace leonav {
 
+// The part of the filter that the rejected measurements contradict: none, its clocks, or its
+// position.
 enum class RejectionVerdict : unsigned char { kNone, kClocks, kPosition };
 
+// MeasurementRejectionMonitor counts seconds of epochs with evidence against the filter's clocks
+// and against its position.
 class MeasurementRejectionMonitor {
  public:
-  // Adds an epoch with the result of its update. Returns kNone until the evidence against the
-  // filter amounts to half a minute of epochs; then the count starts again.
+  // Adds an epoch and returns kNone until epochs of 30 s in sum are evidence against the filter;
+  // then it returns the verdict and starts anew. `result` is that of the filter's update with
+  // `epoch`.
   //
-  // Only epochs count that no point solution can check: fewer than two codes beyond a position and
-  // the clocks. An epoch is evidence against the filter if it has two or more codes, most of which
-  // are rejected, and
-  // - most Dopplers are rejected too, or there is none and the codes are off by 100 m, and carriers
-  //   of older arcs, if any, do not confirm the filter; or, whatever confirms it,
-  // - the codes are off by more than any detour of a signal, 300 m; or
-  // - their common part explains nearly all: then the clocks are wrong (kClocks).
-  // "Off" is the second largest innovation, with the common part removed. An epoch with most codes
-  // accepted counts back. Reflections alone do not count: they affect codes, but neither carriers
-  // nor the Dopplers of a vehicle at rest.
+  // Only epochs that no point solution could check are evidence: those with fewer than two codes
+  // beyond the number that position and clocks need. An epoch is evidence against the filter if it
+  // has at least two codes, most of them are rejected, and one of these holds:
+  // - The common innovation of the codes exceeds 100 m and ten times their discrepancy. That is
+  //   evidence against the clocks (kClocks).
+  // - The discrepancy of the codes exceeds 300 m, more than any detour of a reflected signal.
+  // - Most Dopplers are rejected as well (or, without Dopplers, the discrepancy exceeds 100 m), and
+  //   carriers of earlier arcs do not confirm the filter.
+  //
+  // The discrepancy is the second largest deviation of the innovations from their median. An epoch
+  // of which most codes are used counts against the evidence. Reflections by buildings that disturb
+  // only codes are not evidence: they affect neither carriers nor the Dopplers of a vehicle at
+  // rest.
   RejectionVerdict add(const EkfUpdateResult& result, const MeasurementEpoch& epoch, GpsTime time);
   void reset() { position_evidence_s_ = clock_evidence_s_ = 0.0; }
-  // True if the last epoch had as many codes as a position and the clocks need.
+  // Returns whether the last epoch of which most codes were rejected had as many codes as position
+  // and clocks need.
   bool enough_to_start() const { return enough_to_start_; }
-  // By how much the codes and the Dopplers of the last epoch were off.
+  // These return the discrepancies of codes and Dopplers in that epoch.
   double code_discrepancy_m() const { return code_discrepancy_m_; }
   double doppler_discrepancy_m_s() const { return doppler_discrepancy_m_s_; }
 

@@ -1,4 +1,4 @@
-// OrbitSourceMonitor detects satellites whose orbit or clock comes from another source than before.
+// OrbitSourceMonitor finds satellites whose orbit or clock comes from another source than before.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,19 +7,22 @@
 
 namespace leonav {
 
+// The change of a satellite's orbit source or clock source.
 enum class OrbitChange : std::uint8_t {
   kNone = 0,
-  kFallback,       // from precise to broadcast
-  kReturn,         // from broadcast to precise, also for the first time
-  kClockFallback,  // precise: from the clocks of a clock file to those of the orbit file
-  kClockReturn,    // the way back, also for the first time
+  kFallback,       // from precise states to broadcast elements
+  kReturn,         // from broadcast elements to precise states, also for the first time
+  kClockFallback,  // with precise states: from a clock file's clocks to the orbit file's
+  kClockReturn,    // from the orbit file's clocks to a clock file's, also for the first time
 };
 
+// OrbitSourceMonitor remembers the last source of every satellite.
 class OrbitSourceMonitor {
  public:
-  // Records the source of `id` in this epoch and compares it with that of the last epoch with this
-  // satellite. A new source steps the range by about a metre; a new clock alone by centimetres to
-  // decimetres. OrbitSource::kNone (no state) changes nothing.
+  // Records the source of satellite `id` in this epoch and returns the change since the satellite
+  // had a state last. Where the orbit source changes, the range steps by about a metre; where only
+  // the clock source changes, by centimetres to decimetres. An epoch without a state (kNone)
+  // changes nothing.
   OrbitChange update(SatelliteId id, OrbitSource source, bool clock_from_file) {
     if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
     const std::size_t place = table_index_of(id);

@@ -6,7 +6,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kOutage_s = 5.0;  // shorter ones are of every street
+constexpr double kOutage_s = 5.0;  // shorter ones are common in every street
 constexpr double kAsBefore = 1.5;
 
 double sigma_of(const Eigen::Matrix3d& covariance) {

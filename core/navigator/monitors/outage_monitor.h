@@ -1,5 +1,5 @@
-// OutageMonitor measures what an outage cost: the step of the position when satellites came back,
-// against its sigma, and the time until the position was as good as before.
+// OutageMonitor measures how far the position stepped after an outage, and how long it took to
+// converge again.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -8,31 +8,35 @@
 
 namespace leonav {
 
+// An outage is an interval of 5 s or more without an update by satellites. Its step is compared
+// with the sigma that the filter had before the update.
 class OutageMonitor {
  public:
+  // An estimate of the antenna's position.
   struct Position {
-    Eigen::Vector3d p_e = Eigen::Vector3d::Zero();         // of the antenna, m
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
+    Eigen::Vector3d p_e = Eigen::Vector3d::Zero();         // m, ECEF
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2, ECEF
   };
+  // The end of an outage.
   struct Over {
     double lasted_s = 0.0;
-    double step_m = 0.0;
-    double step_sigmas = 0.0;  // of the 3D sigma before it
+    double step_m = 0.0;       // change of the position by the first update
+    double step_sigmas = 0.0;  // step over the 3D sigma before that update
   };
 
   void reset() { *this = OutageMonitor(); }
-  // Adds an update by satellites at `time`, with the position before and after. Returns a value if
-  // it ended an outage.
+  // Adds an update by satellites with the positions before and after it. Returns the outage that
+  // has ended with it, if there was one.
   std::optional<Over> add(GpsTime time, const Position& before, const Position& after);
-  // Returns the seconds since the outage's end, once: when the position's sigma has fallen to 1.5
-  // times its value before the outage.
+  // Returns once the seconds from the outage's end until the position's sigma is again at most 1.5
+  // times that before the outage; else nullopt.
   std::optional<double> reconverged();
 
  private:
   GpsTime last_, ended_;
-  double sigma_m_ = 0.0;       // after the last update
-  double sigma_then_m_ = 0.0;  // before the outage
-  bool converging_ = false;
+  double sigma_m_ = 0.0;       // 3D sigma after the last update
+  double sigma_then_m_ = 0.0;  // 3D sigma before the outage
+  bool converging_ = false;    // since an outage the sigma has not become as small as before
 };
 
 }  // namespace leonav

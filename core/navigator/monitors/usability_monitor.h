@@ -1,5 +1,7 @@
-// UsabilityMonitor detects a receiver of which nothing can be used, with the reason: a clock that
-// is 110 ms off, for example, makes every pseudorange implausible.
+// UsabilityMonitor finds that all satellites of a receiver are excluded for one and the same
+// reason.
+//
+// For example, a receiver clock that is off by 110 ms makes every pseudorange implausible.
 #pragma once
 #include <optional>
 #include <span>
@@ -8,20 +10,22 @@
 
 namespace leonav {
 
+// UsabilityMonitor counts consecutive epochs in which one reason excluded all satellites.
 class UsabilityMonitor {
  public:
+  // The common reason, and how many satellites it excluded.
   struct Finding {
     Reason reason = Reason::kUsed;
     int satellites = 0;
   };
 
-  // Adds the satellites of one epoch that had any. Returns a finding when, for the fifth epoch in a
-  // row, all satellites but those below the mask or of disabled systems were left out for the same
-  // reason; again only after another kind of epoch.
+  // Adds the satellites of one epoch with GNSS. Returns a finding in the fifth epoch in a row in
+  // which one reason excluded all satellites, not counting those below the elevation mask or of
+  // disabled systems. It returns another one only after an epoch without this state.
   std::optional<Finding> add(std::span<const SatelliteReport> satellites);
 
  private:
-  static constexpr int kEpochs = 5;  // one or two may be a burst of interference
+  static constexpr int kEpochs = 5;  // one or two epochs may be a burst of interference
 
   Reason reason_ = Reason::kUsed;
   int epochs_ = 0;

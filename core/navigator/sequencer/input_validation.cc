@@ -18,7 +18,7 @@ InputFault check(const ImuSample& sample, const ImuLimits& limits) {
       sample.interval_ns > limits.interval_ns) {
     return InputFault::kOutOfRange;
   }
-  // Gravity, the Earth's rotation and noise: all six are zero only of a sensor that is dead.
+  // Because of gravity, Earth rotation and noise, all six are zero only if the sensor is dead.
   if (sample.delta_theta_b.isZero(0.0) && sample.delta_velocity_b.isZero(0.0))
     return InputFault::kNotSane;
   const double dt = sample.interval_s();
@@ -44,7 +44,8 @@ InputFault check(const PreciseState& state) {
     return InputFault::kNotFinite;
   }
   if (!is_valid(state.satellite) || !is_plausible(state.time)) return InputFault::kOutOfRange;
-  // From the ground to beyond the geosynchronous orbits; a satellite clock stays below a second.
+  // The range is from the ground to beyond the geosynchronous orbits; satellite clocks are off by
+  // less than a second.
   const double radius = state.p_e.norm();
   const bool in_range =
       (clock_only || (radius > 6.3e6 && radius < 1e8)) && !(std::abs(state.clock_s) > 1.0);
@@ -52,8 +53,9 @@ InputFault check(const PreciseState& state) {
 }
 
 InputFault check(const SignalObservation& observation) {
-  // Generous: a receiver's clock may be off by a second, a carrier count may have any start, and a
-  // low orbit's Doppler in the Ku band is 0.3 MHz. NaN is "not measured" and passes.
+  // The limits are wide: a receiver's clock may be off by a second, a carrier count may start at
+  // any number, and the Doppler of a low orbit in the Ku band is 0.3 MHz. NaN means "not measured"
+  // and passes.
   constexpr double kMaxCode = 1e9, kMaxCarrier = 1e11, kMaxDoppler = 1e6, kMaxCn0 = 100.0;
   for (const double value :
        {observation.pseudorange_m, observation.carrier_cycles, observation.doppler_hz,
@@ -101,7 +103,8 @@ InputFault check(const Checkpoint& checkpoint) {
       std::isfinite(checkpoint.antenna_sigma) && std::isfinite(checkpoint.heading) &&
       std::isfinite(checkpoint.heading_sigma) && std::isfinite(checkpoint.gyro_bias_sigma);
   if (!finite) return InputFault::kNotFinite;
-  // From the poles' radius less the deepest valley to the equator's and the highest flight.
+  // From the polar radius minus the deepest valley to the equatorial radius plus the highest
+  // flight.
   constexpr double kMinRadius_m = 6.35e6, kMaxRadius_m = 6.43e6, kMaxSigma_m = 1e5;
   constexpr double kMaxHeading = 6.3, kMaxBias = 1.0;  // rad, rad/s
   const double radius_m = checkpoint.antenna_p_e.norm();

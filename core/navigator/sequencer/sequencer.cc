@@ -73,7 +73,7 @@ bool Sequencer::lay_on_timeline(ImuSample* sample) {
   return true;
 }
 
-// Everything kept belongs to the old time: it goes, and the filter starts over.
+// Removes everything, because it belongs to the old time, and restarts the filter.
 void Sequencer::change_time_base(double jump_s) {
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_.clear();
@@ -98,7 +98,7 @@ void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
   if (!hold(epoch)) accept_epoch(epoch);
 }
 
-// Keeps an epoch that comes after an outage, or has a wild stamp, until the next one decides which.
+// Holds an epoch that follows an outage or has a wrong stamp, until the next one decides which.
 bool Sequencer::hold(const RawEpoch& epoch) {
   const bool gnss_keeps_time = !inertial_ || !imu_.time().is_set();
   if (!gnss_keeps_time || !epochs_.leaps(epoch.time)) return false;
@@ -126,7 +126,7 @@ void Sequencer::accept_epoch(const RawEpoch& epoch) {
   issue_ready_epochs();
 }
 
-// Where an empty epoch was issued for it, the wait was too short.
+// Counts a late epoch. If an empty epoch was issued for it, the wait was too short.
 void Sequencer::drop_late(GpsTime time) {
   if (is_event_due(++counters_.late_epochs)) {
     emit(EventKind::kLateEpoch, 0, seconds_between(epochs_.last_time(), time));
@@ -136,7 +136,8 @@ void Sequencer::drop_late(GpsTime time) {
   if (replaced) empty_epochs_.lengthen_wait(nanoseconds_between(imu_.time(), time));
 }
 
-// issue_ready_epochs() leaves at most kMaxPendingEpochs waiting, so there is room for one.
+// There is room for one epoch, because issue_ready_epochs() leaves at most kMaxPendingEpochs
+// waiting.
 void Sequencer::queue_epoch(const RawEpoch& epoch) {
   if (epochs_.insert(epoch) > 0) reject(InputFault::kNotSane);
 }
@@ -242,7 +243,7 @@ void Sequencer::on_command(const Command& command) {
   push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});
 }
 
-// A restart lies between the same two epochs in the work of both stages.
+// Pushes a restart to both stages, so that it lies between the same two epochs in both.
 void Sequencer::push_command(const Command& command) {
   if (inertial_ && command.kind == CommandKind::kRestart) {
     stages_->push_inertial(Restart{command.cause});

@@ -1,4 +1,4 @@
-// The Sequencer brings all inputs into one total order and cuts the IMU stream at the GNSS epochs.
+// Sequencer brings all inputs into one total order and cuts the IMU stream at the GNSS epochs.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,24 +17,25 @@
 
 namespace leonav {
 
-// The stages take the Sequencer's work through this interface. push_* may wait for room, never
-// drop.
+// StageInputs is the interface through which the stages take the Sequencer's work. push_* may wait
+// for room but must not drop.
 class StageInputs {
  public:
   virtual ~StageInputs() = default;
-  // Called before the epoch's work is pushed to either stage.
+  // Opens the mailboxes of an epoch; called before its work is pushed to any stage.
   virtual void open_epoch(std::uint64_t index) = 0;
   virtual void push_inertial(const InertialWork& work) = 0;
   virtual void push_gnss(const GnssWork& work) = 0;
-  virtual void event(const Event& event) = 0;  // sequencer's own events, sequence counted per stage
+  // Takes an event of the Sequencer, with its number within this stage.
+  virtual void event(const Event& event) = 0;
 };
 
-// Codes of EventKind::kCapacity from this stage.
+// Codes of EventKind::kCapacity from the Sequencer.
 enum class SequencerCapacity : std::uint8_t {
-  kPendingEpochs = 0,  // value: index of the epoch that was issued without its IMU
+  kPendingEpochs = 0,  // value: index of the epoch that was issued without its IMU samples
 };
 
-// Every decision follows from the data alone, so that a replay decides the same. The rules:
+// Sequencer decides from the data alone, so that a replay decides the same. The rules:
 // - An epoch is issued once the IMU has passed its time. Without IMU
 //   (MotionModel::kConstantVelocity) it is issued at once, and nothing goes to the inertial stage.
 // - An epoch whose IMU data are late waits until more than EpochQueue::kMinPending wait and the
@@ -42,60 +43,63 @@ enum class SequencerCapacity : std::uint8_t {
 //   without all of its IMU data, counted, and reported as kCapacity
 //   (SequencerCapacity::kPendingEpochs).
 // - An empty epoch is issued one epoch interval after the last one, when the IMU has run that
-//   interval and the wait for a GNSS latency; so blocks stay bounded. After a hole in the IMU
-//   stream it is issued at the hole's end. The start of the first IMU sample counts as an epoch
-//   here.
+//   interval and the wait for a GNSS latency; so blocks stay bounded. After a gap in the IMU stream
+//   it is issued at the gap's end. The start of the first IMU sample counts as an epoch here.
 // - The wait is the configured allowance, at least half an epoch interval. An epoch that comes
 //   after an empty one was issued for it makes the wait longer, up to
 //   EmptyEpochSchedule::kMaxGnssLatencyNs; so a steady latency costs one epoch and not all.
-// - An epoch not later than the last issued one is late: counted, dropped, reported. One that is
-//   merely out of order is sorted in among those waiting.
+// - An epoch not later than the last issued one is late: it is counted, dropped and reported. One
+//   that is only out of order takes its place among those waiting.
 // - IMU stamps are shifted by the configured time offset before anything else is done.
 // - IMU samples must be finite, in range and increasing (kTimeBackwards). Where their stamps
 //   jitter, ImuTimeline lays them end to end: increments stay, intervals change.
-// - A gap in the IMU stream is reported and left as a hole. After one longer than
+// - A gap in the IMU stream is reported and remains a gap. After one longer than
 //   ImuIntake::kLeapNs, the first sample is held until the next one: if that is later, the gap is
-//   real, else the stamp was wild.
+//   real, else the stamp was wrong.
 // - An IMU stamp more than kMaxStampAheadNs beyond everything seen (kTooFarAhead), or behind, is
 //   rejected, until a run of consistent ones shows that time itself has changed. Then everything
 //   restarts in the new time.
 // - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
 //   intervals where those are longer. While IMU samples arrive, GNSS does not change the time.
 // - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an
-//   outage or has a wild stamp. It is held until the next one: if that is later, there was an
+//   outage or has a wrong stamp. It is held until the next one: if that is later, there was an
 //   outage. So an outage of any length, or an interval other than configured, costs no epoch.
-// - An odometer increment goes with the epoch that it ends by: OdometerQueue.
+// - An odometer increment goes with the first epoch not earlier than its end: OdometerQueue.
 class Sequencer {
  public:
   static constexpr int kImuRunToRestart = ImuIntake::kRunToRestart;
   static constexpr int kEpochRunToRestart = EpochQueue::kRunToRestart;
 
+  // `stages` must outlive the Sequencer.
   Sequencer(const NavigatorConfig& config, StageInputs* stages);
 
-  // None of these allocates or throws.
+  // These functions accept inputs in the order in which they arrive. None allocates or throws.
   void on_imu(const ImuSample& sample);
   void on_raw_epoch(const RawEpoch& epoch);
   void on_odometer(const OdometerIncrement& increment);
   void on_ephemeris(const Ephemeris& ephemeris);
-  void on_precise_states(const PreciseStates& states);  // the good ones among them
+  void on_precise_states(const PreciseStates& states);  // passes on those without a fault
   void on_klobuchar(const KlobucharModel& model);
   void on_antenna(const AntennaPattern& pattern);
   void on_command(const Command& command);
   void on_checkpoint(const Checkpoint& checkpoint);
-  // A message that could not be decoded or failed validation before it got here.
+  // Counts and reports a message that was refused before it reached the Sequencer.
   void on_rejected(InputFault fault);
 
+  // Numbers of inputs and epochs since construction.
   struct Counters {
     std::uint64_t imu = 0, epochs = 0, ephemerides = 0, empty_epochs = 0, late_epochs = 0,
                   imu_gaps = 0;
-    std::uint64_t epochs_without_imu = 0;           // issued before their IMU came
-    std::uint64_t odometer = 0, late_odometer = 0;  // accepted; accepted but not used
-    std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter, see ImuTimeline
+    std::uint64_t epochs_without_imu = 0;           // issued before their IMU samples came
+    std::uint64_t odometer = 0, late_odometer = 0;  // accepted; accepted but too late to be used
+    std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter (ImuTimeline)
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
   };
   const Counters& counters() const { return counters_; }
-  GpsTime imu_time() const { return imu_.time(); }  // end of the last accepted sample; may be unset
-  GpsTime odometer_time() const { return odometer_.last_time(); }  // may be unset
+  // Returns the end of the last accepted IMU sample; may be unset.
+  GpsTime imu_time() const { return imu_.time(); }
+  // Returns the end of the last accepted odometer increment; may be unset.
+  GpsTime odometer_time() const { return odometer_.last_time(); }
 
  private:
   // IMU.

@@ -124,7 +124,8 @@ void GnssStage::update_filter(const EpochWork& work) {
   test_update(work, update);
 }
 
-// Each test in turn, until one has restarted the filter: `update` is of the filter before.
+// Runs the tests in turn, until one has restarted the filter: `update` belongs to the filter before
+// the restart.
 void GnssStage::test_update(const EpochWork& work, const EkfUpdateResult& update) {
   const FilterEvidence evidence = {work.time, update, front_end_.measurements(), ekf_};
   EpochSolver solver(&front_end_, work);
@@ -159,7 +160,7 @@ void GnssStage::initialize_attitude(const EpochWork& work) {
   reporter_.report_checkpoint(attitude_.discard_checkpoint(), work.time);
 }
 
-// Compares the inputs before any filter; changes nothing of what follows.
+// Tests the inputs themselves, independently of the filter, and only reports.
 void GnssStage::check_installation(const EpochWork& work) {
   for (const ImuSample& sample : work.block) installation_monitor_.add(sample);
   if (work.empty || !installation_monitor_.is_due(work.time)) return;
@@ -171,8 +172,8 @@ void GnssStage::check_installation(const EpochWork& work) {
                    finding.value, work.time);
 }
 
-// Tests what is about to be delivered once more as a whole: a finite state can be so far out that
-// its geodetic coordinates are not finite.
+// Tests the solution as a whole once more, because a finite state can be so wrong that its geodetic
+// coordinates are not finite.
 void GnssStage::report_solution(const EpochWork& work) {
   reporter_.add_state(ekf_);
   if (!is_finite(reporter_.report().solution)) {
@@ -192,7 +193,7 @@ void GnssStage::publish(const EpochWork& work) {
                     publishes_solution);
 }
 
-// Last: the smoother may start on it at once.
+// Pushes the keyframe last, because the smoother may start with it at once.
 void GnssStage::push_keyframe(const EpochWork& work) {
   if (keyframes_ == nullptr) return motion_aiding_.clear_instants();
   pending_keyframe_.add(work.block);
@@ -213,7 +214,7 @@ void GnssStage::process_work(const Command& command) {
   reset(kCommandReset, last_epoch_time_, command.cause, 0.0);
 }
 
-// Position, velocity, clocks and IMU errors stay as they are.
+// Replaces only the attitude; position, velocity, clocks and IMU errors do not change.
 void GnssStage::set_heading(double heading, double sigma) {
   const auto turned = attitude_.set_heading(heading, sigma, ekf_);
   if (!turned) return;

@@ -16,28 +16,34 @@
 
 namespace leonav {
 
+// GnssStage owns the filter and everything that decides about it. It allocates when constructed,
+// not after.
 class GnssStage {
  public:
-  // `keyframes` only where the smoother gives the answer, else nullptr.
+  // `keyframes` takes the keyframes if the smoother gives the solution, else it is nullptr. All
+  // pointers must outlive the stage.
   GnssStage(const NavigatorConfig& config, TimedMailbox<Anchor>* ekf_mailbox,
             KeyframeSink* keyframes, OutputSink* sink);
 
-  // Processes one piece of work. An epoch: predict over its block, update with its measurements,
-  // test the filter, initialize the attitude while there is none, report, deliver. Without IMU
-  // (constant-velocity model) the stage also publishes the solution, because no inertial tick does
-  // so, and the mailbox is not used; where there is a smoother, that publishes. While aligning, the
-  // reported position is the antenna's: without attitude the lever arm has no direction. Allocates
-  // nothing, never throws.
+  // Processes one piece of work; it allocates nothing and never throws.
+  //
+  // For an epoch it predicts over the block, updates with the measurements, tests the filter,
+  // initializes the attitude while there is none, reports and delivers. Without IMU
+  // (constant-velocity model) the mailbox is not used, and the stage publishes the solution itself,
+  // because no inertial tick does so; with a smoother that stage publishes. While aligning, the
+  // reported position is the antenna's, because without attitude the lever arm has no direction.
   void process(const GnssWork& work);
 
-  Source source() const;  // of the filter's own answer, after the last work
+  // Returns the source of the filter's own solution after the last work.
+  Source source() const;
   const Ekf& ekf() const { return ekf_; }
   const EphemerisStore& ephemeris_store() const { return front_end_.ephemeris_store(); }
   const AntennaPatternStore& antennas() const { return front_end_.antennas(); }
 
  private:
+  // The progress of the current epoch.
   struct EpochState {
-    bool gnss_used = false;
+    bool gnss_used = false;         // satellites were used
     bool filter_updated = false;    // with the front end's measurements
     bool filter_restarted = false;  // restarted or dropped
   };
@@ -63,7 +69,7 @@ class GnssStage {
   void push_keyframe(const EpochWork& work);
   void set_heading(double heading, double sigma);
 
-  // The only members that drop, restart or re-clock the filter.
+  // The only members that drop or restart the filter or restart its clocks.
   void apply(const FilterVerdict& verdict, GpsTime time);
   void reset(const ResetPlan& plan, GpsTime time, ResetCause cause, double value,
              const PointSolution& start = {});
@@ -81,9 +87,9 @@ class GnssStage {
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;
   InstallationMonitor installation_monitor_;
-  EpochState epoch_;  // of the last epoch
+  EpochState epoch_;  // the current or last epoch
   GpsTime last_epoch_time_;
-  GpsTime last_gnss_time_;  // of the last epoch that used satellites
+  GpsTime last_gnss_time_;  // time of the last epoch that used satellites
 };
 
 }  // namespace leonav

@@ -7,7 +7,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kLongestHole_s = 10.0;  // beyond, the old answer is worth nothing
+constexpr double kLongestHole_s = 10.0;  // after a longer gap the old solution is useless
 constexpr double kJumpEvent_m = 1.0;
 
 std::int64_t to_nanoseconds(double seconds) {
@@ -92,7 +92,8 @@ void InertialNavigator::start_over(GpsTime now) {
   next_solution_due_ = GpsTime();
 }
 
-// Numbers have overflowed: no answer until a filter that is sound delivers the next anchor.
+// Drops the anchor after numbers have overflowed. Nothing is published until a restarted filter
+// delivers the next one.
 void InertialNavigator::drop_anchor(GpsTime now) {
   clear_anchor();
   answer_.clear_samples();
@@ -114,7 +115,7 @@ void InertialNavigator::decide_due_epochs(GpsTime now) {
   }
 }
 
-// Makes the decisions that are left. `usable`: what was committed may become the anchor.
+// Makes the remaining decisions. `usable` states whether a committed result may become the anchor.
 void InertialNavigator::decide(PendingEpoch* epoch, GpsTime now, bool usable) {
   if (!epoch->filter_decided) decide_filter(epoch, now, usable);
   if (epoch->issued.deadline_smoother.is_set()) decide_smoother(epoch, now, usable);
@@ -124,7 +125,7 @@ void InertialNavigator::decide_filter(PendingEpoch* epoch, GpsTime now, bool usa
   Anchor anchor;
   if (!decisions_.take_filter(epoch, now, &anchor)) return;
   if (!usable || !anchor.valid || decisions_.is_invalid(*epoch)) return;
-  // The smoother's answer, also between its keyframes, rests on the same GNSS.
+  // The smoother's anchor, also between its keyframes, uses the same GNSS.
   if (anchor.gnss_used && answer_.has_anchor()) last_gnss_time_ = anchor.state.time;
   const bool smoother_answers = answer_.has_anchor() && anchor_source_ == Source::kSmoother;
   if (epoch->issued.deadline_smoother.is_set() && smoother_answers)
@@ -138,11 +139,11 @@ void InertialNavigator::decide_smoother(PendingEpoch* epoch, GpsTime now, bool u
   const bool taken = decisions_.take_smoother(epoch, now, &result);
   if (!usable || decisions_.is_invalid(*epoch)) return;
   if (taken && result.anchor.valid && commit(result.anchor, Source::kSmoother, now)) return;
-  const bool not_due = taken && !result.due;  // the one before stays the anchor
+  const bool not_due = taken && !result.due;  // the previous anchor remains
   if (epoch->held.valid && !not_due) commit(epoch->held, Source::kEkf, now);
 }
 
-// Goes on from the new anchor. False: it cannot.
+// Continues from the new anchor. Returns false if that is impossible.
 bool InertialNavigator::commit(const Anchor& anchor, Source source, GpsTime now) {
   if (anchor.state.time > now) return false;  // the IMU is behind or gone
   if (answer_.has_discarded_after(anchor.state.time)) {
@@ -181,7 +182,8 @@ Source InertialNavigator::source_at(GpsTime now) const {
   return recent ? anchor_source_ : Source::kInsOnly;
 }
 
-// At most solution_rate_hz on average; a quarter of a period of jitter in the stamps costs nothing.
+// Limits the mean rate to solution_rate_hz. Stamps that jitter by a quarter of a period lose no
+// solution.
 bool InertialNavigator::publication_due(const ImuSample& sample) {
   if (!answer_.has_anchor() || solution_period_ns_ <= 0) return false;
   const GpsTime earliest = next_solution_due_.plus_nanoseconds(-solution_period_ns_ / 4);

@@ -1,4 +1,4 @@
-// The InertialNavigator turns every IMU sample into a published solution, from the newest anchor.
+// InertialNavigator turns every IMU sample into a published solution, from the newest anchor.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -13,38 +13,42 @@
 
 namespace leonav {
 
-// Codes of EventKind::kCapacity from this stage.
+// Codes of EventKind::kCapacity from the inertial stage. The value is the epoch's index.
 enum class InertialCapacity : std::uint8_t {
   kHistory = 0,  // an anchor older than the kept samples could not be used
-  kWaiting = 1,  // too many undecided epochs: the oldest was decided before its deadline
+  kWaiting = 1,  // too many epochs are undecided: the oldest was decided before its deadline
 };
 
-// It decides which result of the filter or the smoother becomes the anchor (PendingDecisions) and
-// publishes that anchor's propagation (AnchorPropagation):
+// InertialNavigator decides which result of the filter or the smoother becomes the anchor
+// (PendingDecisions) and publishes that anchor's propagation (AnchorPropagation):
 // - Before the first valid anchor nothing is published.
-// - While the smoother gives the answer, the filter's anchor of an epoch is held back until the
-//   smoother's deadline. It is used only if the smoother misses it, or has no answer. From then on
+// - While the smoother gives the anchor, the filter's anchor of an epoch is held back until the
+//   smoother's deadline. It is used only if the smoother misses it or has no result. From then on
 //   the filter's anchors are used at once, until the smoother is in time again.
-// - A missed epoch leaves the older anchor in use: the answer goes on, its sigma grows.
-// - When IMU time runs backwards or leaps, everything is dropped. The epochs pending are
-//   decided, so that the journal has one decision for each.
-// - A restart ends the answer until there is an anchor that was issued after it. Epochs issued
-//   before are decided at their deadlines, so that none counts as missed, but not used. The samples
-//   are kept, for the next epoch may be older than the command. Where time changed, everything is
-//   dropped.
+// - After a miss the older anchor remains in use: solutions continue, and their sigmas grow.
+// - When IMU time runs backwards or leaps, everything is dropped. The pending epochs are decided,
+//   so that the journal has one decision for each.
+// - After a restart nothing is published until there is an anchor that was issued after it. Epochs
+//   issued earlier are decided at their deadlines, so that none counts as a miss, but they are not
+//   used. The samples are kept, because the next epoch may be older than the command. After a time
+//   step everything is dropped.
 // - A solution with a number that is not finite is never published: the anchor is dropped, with an
 //   event.
 class InertialNavigator {
  public:
+  // `smoother_mailbox` may be nullptr if no epoch has a smoother deadline. All pointers must
+  // outlive the navigator.
   InertialNavigator(const NavigatorConfig& config, TimedMailbox<Anchor>* ekf_mailbox,
                     TimedMailbox<SmootherAnchor>* smoother_mailbox, OutputSink* sink);
   InertialNavigator(const InertialNavigator&) = delete;
   InertialNavigator& operator=(const InertialNavigator&) = delete;
 
-  // Allocates nothing, never throws.
+  // Processes one piece of work; it allocates nothing and never throws.
   void process(const InertialWork& work);
 
+  // Returns the source of the solution after the last sample.
   Source source() const { return source_; }
+  // These return how many results of the filter and of the smoother missed their deadlines.
   std::uint64_t misses() const { return decisions_.misses(); }
   std::uint64_t smoother_misses() const { return decisions_.smoother_misses(); }
 
@@ -71,14 +75,14 @@ class InertialNavigator {
   OutputSink* sink_;
   EventSource events_;
   std::int64_t solution_period_ns_;
-  std::int64_t ins_only_after_ns_;
+  std::int64_t ins_only_after_ns_;  // without GNSS for longer the source is kInsOnly
   PendingDecisions decisions_;
   AnchorPropagation answer_;
   Source anchor_source_ = Source::kEkf;
   GpsTime imu_time_;        // end of the last sample
-  GpsTime last_gnss_time_;  // of the last anchor that used GNSS
+  GpsTime last_gnss_time_;  // time of the last anchor that used GNSS
   GpsTime next_solution_due_;
-  double pending_jump_m_ = 0.0;  // not published yet
+  double pending_jump_m_ = 0.0;  // largest jump since the last published solution
   Source source_ = Source::kNone;
   std::uint64_t next_solution_ = 1;
 };

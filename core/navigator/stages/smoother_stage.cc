@@ -93,7 +93,7 @@ void SmootherStage::process_non_keyframe(const Solution& filter, bool due) {
     publish(filter);
 }
 
-// Where there is no IMU nobody else does.
+// Publishes a solution; without IMU no other stage does.
 void SmootherStage::publish(Solution solution) {
   if (!is_finite(solution)) return;
   source_ = solution.source;

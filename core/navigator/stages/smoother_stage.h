@@ -1,4 +1,4 @@
-// SmootherStage feeds keyframes to the smoother and delivers its answer before the deadline.
+// SmootherStage feeds keyframes to the smoother and delivers its results as anchors and reports.
 #pragma once
 #include <cstdint>
 
@@ -10,22 +10,27 @@
 
 namespace leonav {
 
+// SmootherStage allocates when constructed, not after.
 class SmootherStage {
  public:
   SmootherStage(const NavigatorConfig& config, TimedMailbox<SmootherAnchor>* mailbox,
                 OutputSink* sink);
 
-  // Adds the keyframe, solves under `budget`, delivers, reports. A keyframe whose deadline has
-  // passed already is added and not solved: the next one's solve catches up. Without IMU there is
-  // no deadline, and the solution is published here. Allocates nothing, never throws.
+  // Adds the keyframe, solves under `budget`, delivers and reports; it allocates nothing and never
+  // throws.
+  //
+  // A keyframe whose deadline has already passed is added but not solved; the next solve includes
+  // it. Without IMU there is no deadline, and this function publishes the solution.
   void process(const KeyframeInput& input, SolveBudget* budget);
 
-  // Handles an epoch that is no keyframe. With IMU this is the only member that may be called in
-  // another thread, that of the filter.
+  // Delivers an empty result for an epoch that is no keyframe; without IMU it publishes the
+  // solution `filter` instead. With IMU it is the only member that may be called in another thread,
+  // that of the GNSS stage.
   void process_non_keyframe(const Solution& filter, bool due);
 
   const Smoother& smoother() const { return smoother_; }
   Smoother& smoother() { return smoother_; }
+  // Returns the source of the last published solution; only without IMU.
   Source source() const { return source_; }
 
  private:

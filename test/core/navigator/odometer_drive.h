@@ -1,4 +1,5 @@
-// Wheel pulses along a synthetic drive, and the drive with them into a pipeline.
+// These functions simulate a wheel's odometer along a synthetic drive and feed both into a
+// Navigator.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,15 +9,17 @@
 
 namespace leonav::test {
 
+// The simulated wheel and its counter.
 struct WheelOptions {
   double rate_hz = 10.0;
-  double scale_error = 0.015;
-  double resolution_m = 0.05;
-  double phase_s = 0.0;  // of the increments' ends
+  double scale_error = 0.015;  // relative error of the counted distance
+  double resolution_m = 0.05;  // distance per pulse
+  double phase_s = 0.0;        // shift of the increments' ends
   bool sign_known = true;
-  double lock_from_s = 1e9, lock_to_s = 1e9;  // it does not turn
+  double lock_from_s = 1e9, lock_to_s = 1e9;  // interval in which the wheel does not turn
 };
 
+// Returns the odometer increments of the wheel along `drive`.
 inline std::vector<OdometerIncrement> wheel_of(const SyntheticDriveOptions& drive,
                                                const WheelOptions& options = {}) {
   const SyntheticPath path(drive);
@@ -38,7 +41,8 @@ inline std::vector<OdometerIncrement> wheel_of(const SyntheticDriveOptions& driv
   return increments;
 }
 
-// Each increment comes `late_s` after its end by the IMU's time. Allocates nothing.
+// Feeds the drive and the increments, each `late_s` after its end by the IMU's time. Allocates
+// nothing.
 inline void feed_with_wheel(const SyntheticDrive& drive,
                             const std::vector<OdometerIncrement>& wheel, double late_s,
                             Navigator* pipeline) {

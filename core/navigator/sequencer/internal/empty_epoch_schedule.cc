@@ -18,13 +18,13 @@ GpsTime EmptyEpochSchedule::due_time(GpsTime imu_time, GpsTime last_epoch,
   const std::int64_t wait_ns = interval_ns_ + wait_ns_;
   if (since_ns < wait_ns) return {};
   const GpsTime nominal = last_epoch.plus_nanoseconds(interval_ns_);
-  // Only a hole gets this far ahead. One epoch bridges it, not a burst of them.
+  // The IMU gets this far ahead only by a gap. One empty epoch at its end replaces a burst of them.
   const GpsTime hole_end = newest_start;
   const bool hole = since_ns > 2 * wait_ns && hole_end > last_epoch;
   return hole ? hole_end : nominal;
 }
 
-// A quarter more than this latency, for latencies vary.
+// The wait becomes a quarter longer than this latency, because latencies vary.
 void EmptyEpochSchedule::lengthen_wait(std::int64_t latency_ns) {
   wait_ns_ = std::max(wait_ns_, std::min(latency_ns + latency_ns / 4, kMaxGnssLatencyNs));
 }

@@ -1,4 +1,4 @@
-// The EmptyEpochSchedule decides when an epoch without GNSS is issued for one that has not come.
+// EmptyEpochSchedule decides when an empty epoch is issued for a GNSS epoch that has not come.
 #pragma once
 #include <cstdint>
 
@@ -15,13 +15,16 @@ class EmptyEpochSchedule {
 
   explicit EmptyEpochSchedule(const RealtimeConfig& config);
 
-  // Time of the empty epoch that is due; unset: none. One interval after the last epoch, or where
-  // the IMU stream has a hole there, at the hole's end. `newest_start`: of the newest IMU sample.
+  // Returns the time of the empty epoch that is due; unset: none is. It lies one interval after the
+  // last epoch or, where the IMU stream has a gap there, at the gap's end. `newest_start` is the
+  // start of the newest IMU sample.
   GpsTime due_time(GpsTime imu_time, GpsTime last_epoch, GpsTime newest_start) const;
 
-  // An epoch came so long after its time, and an empty one had been issued for it.
+  // Lengthens the wait for an epoch that came with this latency after an empty one had been issued
+  // for it.
   void lengthen_wait(std::int64_t latency_ns);
-  std::int64_t wait_ns() const { return wait_ns_; }  // for an epoch after its time
+  // Returns how long after its time an epoch is waited for.
+  std::int64_t wait_ns() const { return wait_ns_; }
 
  private:
   std::int64_t interval_ns_, wait_ns_;

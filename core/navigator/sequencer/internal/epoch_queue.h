@@ -1,4 +1,4 @@
-// The EpochQueue keeps the raw GNSS epochs that wait for their IMU data, in order of time.
+// EpochQueue keeps the raw GNSS epochs that wait for their IMU samples, in order of time.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,53 +11,63 @@
 
 namespace leonav {
 
-// It also holds the time of the last epoch issued, against which an epoch is late or known, and one
-// epoch that came after an outage and is not confirmed yet. It allocates when constructed, not
-// after.
+// EpochQueue also keeps the time of the last issued epoch, which decides whether an epoch is late
+// or a duplicate, and one epoch whose leap in time is not confirmed yet. Allocates when
+// constructed, not after.
 class EpochQueue {
  public:
-  static constexpr double kMaxAheadIntervals = 3.0;  // of epochs, where that is more than 10 s
-  static constexpr double kMaxStepS = 3600.0;        // between epochs of a run in a new time
-  static constexpr int kRunToRestart = 5;            // epochs that agree on a new time
+  // An epoch may be this many epoch intervals ahead, where that is more than kMaxStampAheadNs.
+  static constexpr double kMaxAheadIntervals = 3.0;
+  static constexpr double kMaxStepS = 3600.0;  // longest interval in a run of epochs in a new time
+  static constexpr int kRunToRestart = 5;      // epochs that must agree on a new time
+  // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
+  // kMaxImuLatencyNs later.
   static constexpr std::size_t kMinPending = 4;
   static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;
 
   explicit EpochQueue(double epoch_interval_s);
 
-  // `imu_time`: end of the last accepted IMU sample; may be unset. A late epoch is accepted here.
+  // Decides whether the stamp of an epoch fits. `imu_time` is the end of the last accepted IMU
+  // sample; may be unset. A late epoch passes here; is_late() finds it.
   StampDecision evaluate(GpsTime time, GpsTime imu_time);
-  // The IMU keeps time, or the epoch fits: epochs rejected so far are no run towards a new time.
+  // Ends the run of rejected epochs, because an IMU sample or an epoch has fitted.
   void clear_rejected_run() { time_monitor_.clear(); }
   bool is_late(GpsTime time) const { return time <= last_time_; }
-  // By so much later than the newest epoch that it may be wild, or come after an outage.
+  // Returns whether the stamp is so much later than the newest epoch that it is wrong or follows an
+  // outage.
   bool leaps(GpsTime time) const;
 
-  // Copies the epoch's valid observations in; returns how many were left out. There must be room
-  // for one epoch beyond kMaxPendingEpochs, which is_overdue() reports.
+  // Adds an epoch with its valid observations and returns how many were excluded. Precondition: at
+  // most kMaxPendingEpochs wait. One more makes the oldest overdue.
   std::size_t insert(const RawEpoch& epoch);
   bool empty() const { return count_ == 0; }
+  // Returns the oldest epoch waiting; the queue must not be empty.
   const RawEpoch& oldest() const { return *pending_[0]; }
   void remove_oldest();
-  // The oldest epoch has waited long enough: its IMU data are late, or have stopped.
+  // Returns whether the oldest epoch has waited long enough: its IMU samples are late, or have
+  // stopped.
   bool is_overdue() const;
-  // Of the epochs waiting, or else of the last one issued; may be unset.
+  // Returns the time of the newest epoch waiting, else of the last one issued; may be unset.
   GpsTime newest_time() const;
 
-  // One epoch is held apart until the next input confirms its stamp.
+  // Holds one epoch apart until the next input confirms its stamp.
   void hold(const RawEpoch& epoch);
   bool has_held() const { return has_held_; }
-  // The epoch held, from now on held no more; valid until the next hold().
+  // Returns the held epoch and ends its hold; the reference is valid until the next hold().
   const RawEpoch& release_held();
 
-  // The last epoch issued.
+  // Records the last issued epoch.
   void set_issued(GpsTime time, bool empty);
-  // The IMU stream begins here; this counts as an epoch for the interval to the first empty one.
+  // Records the start of the IMU stream, which counts as an epoch for the first empty one.
   void set_start(GpsTime time) { last_time_ = time; }
-  GpsTime last_time() const { return last_time_; }          // may be unset
-  GpsTime last_raw_time() const { return last_raw_time_; }  // of the last that was not empty
+  // These return the times of the last issued epoch and of the last one that was not empty; they
+  // may be unset.
+  GpsTime last_time() const { return last_time_; }
+  GpsTime last_raw_time() const { return last_raw_time_; }
   bool last_is_empty() const { return last_is_empty_; }
 
-  void clear();  // a new time has begun
+  // Removes everything, after a time step.
+  void clear();
 
  private:
   bool is_known(GpsTime time) const;

@@ -1,4 +1,4 @@
-// The ImuIntake turns received IMU samples into one stream of accepted samples in body axes.
+// ImuIntake turns received IMU samples into one stream of accepted samples in body axes.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -12,47 +12,52 @@
 
 namespace leonav {
 
-// For each sample, in this order: shift_stamp(), check(), leaps() and hold(), evaluate_stamp(),
-// lay_on_timeline(), accept(). The caller counts, reports and restarts in between.
+// Call for each sample, in this order: shift_stamp(), check(), leaps() and hold(),
+// evaluate_stamp(), lay_on_timeline(), accept(), rotate_to_body(). The caller counts, reports and
+// restarts in between.
 class ImuIntake {
  public:
   static constexpr std::int64_t kLeapNs = 200'000'000;       // twice the longest interval
-  static constexpr std::int64_t kMaxStepNs = 1'000'000'000;  // in a run in a new time
-  static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice what a vehicle's IMU measures
+  static constexpr std::int64_t kMaxStepNs = 1'000'000'000;  // longest step in a run in a new time
+  static constexpr double kMaxRotationRate = 35.0;    // rad/s, twice the range of a vehicle's IMU
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxIntervalNs = 100'000'000;
-  static constexpr int kRunToRestart = 20;  // samples that agree on a new time
+  static constexpr int kRunToRestart = 20;  // samples that must agree on a new time
 
   explicit ImuIntake(const NavigatorConfig& config);
 
-  // Adds the configured time offset to the stamp as received.
+  // Returns the sample with the configured time offset added to its stamp.
   ImuSample shift_stamp(const ImuSample& received) const;
-  // Of the sample by itself, whatever came before it.
+  // Checks the values of the sample by itself, regardless of earlier samples.
   static InputFault check(const ImuSample& sample);
 
-  // The stamp lies so far ahead that it is a hole in the stream, or one wild stamp; the sample
-  // after this one decides which.
+  // Returns whether the stamp lies so far ahead that it follows a gap or is wrong. The next sample
+  // decides which.
   bool leaps(const ImuSample& sample) const;
   void hold(const ImuSample& sample) { held_ = sample; }
-  std::optional<ImuSample> release_held();  // nullopt: none was held
+  // Returns the held sample and ends its hold; nullopt: none was held.
+  std::optional<ImuSample> release_held();
 
-  // Of the stamp against the stream so far. `newest_epoch`: may be unset.
+  // Decides whether the stamp fits the stream so far. `newest_epoch` may be unset.
   StampDecision evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch);
-  // Moves the sample to where it lies on the timeline, unless the timeline refuses it.
+  // Moves the sample to its time on the timeline, unless the timeline refuses it.
   ImuTimeline::Placement lay_on_timeline(ImuSample* sample) {
     return timeline_.place(time_, sample);
   }
+  // Records that the sample was accepted.
   void accept(const ImuSample& sample);
   // Rotates the increments from IMU axes to body axes.
   void rotate_to_body(ImuSample* sample) const;
 
-  GpsTime time() const { return time_; }  // end of the last accepted sample; may be unset
-  void clear();                           // a new time has begun
+  // Returns the end of the last accepted sample; may be unset.
+  GpsTime time() const { return time_; }
+  // Removes everything, after a time step.
+  void clear();
 
  private:
-  Eigen::Matrix3d C_b_imu_;  // IMU axes to body
+  Eigen::Matrix3d C_b_imu_;  // IMU axes to body axes
   bool mounting_is_identity_;
-  std::int64_t offset_ns_;  // to be added to the stamps
+  std::int64_t offset_ns_;  // is added to the stamps
   ImuTimeline timeline_;
   TimeStepMonitor time_monitor_{kRunToRestart, kMaxStepNs};
   std::optional<ImuSample> held_;

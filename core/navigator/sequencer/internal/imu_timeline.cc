@@ -11,7 +11,8 @@ bool ImuTimeline::follows(const ImuSample& sample) const {
 }
 
 bool ImuTimeline::comes_too_late(const ImuSample& sample, std::int64_t overlap_ns) const {
-  if (overlap_ns > kMaxJitterNs + sample.interval_ns) return true;  // the rate is not as declared
+  // Samples come more often than their intervals allow.
+  if (overlap_ns > kMaxJitterNs + sample.interval_ns) return true;
   const std::int64_t usual_ns = std::max(sample.interval_ns / 4, jitter_ns_);
   return bridged_ns_ >= sample.interval_ns && overlap_ns > usual_ns;
 }

@@ -1,4 +1,4 @@
-// A configured interval is converted from seconds to nanoseconds here.
+// This function converts a configured interval from seconds to nanoseconds.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace leonav {
 
-// At least 50 ms, so that an interval configured as zero is still one.
+// Returns at least 50 ms, because an interval must not be zero.
 inline std::int64_t interval_in_nanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(std::max(seconds, 0.05) * 1e9));
 }

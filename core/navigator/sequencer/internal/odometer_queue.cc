@@ -16,7 +16,7 @@ InputFault OdometerQueue::add(const OdometerIncrement& increment, GpsTime imu_ti
     if (!time_monitor_.reject(time)) return InputFault::kTimeBackwards;
     waiting_.clear();
   }
-  // One sum over a sliding interval after the other would count the same way many times.
+  // Sums over a sliding interval would count the same distance many times.
   const bool overlaps =
       last_.is_set() && nanoseconds_between(last_, increment.start()) > increment.interval_ns / 4;
   if (overlaps && time > last_) return InputFault::kOverlap;

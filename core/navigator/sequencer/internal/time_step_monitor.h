@@ -1,4 +1,4 @@
-// The TimeStepMonitor separates a stray time stamp from a clock that has been set.
+// TimeStepMonitor distinguishes a stray time stamp from a clock that has been set.
 #pragma once
 #include <cstdint>
 
@@ -6,16 +6,20 @@
 
 namespace leonav {
 
-// It follows the rejected stamps of one stream. A single wild stamp changes nothing; a run of them,
-// each a little later than the one before and with no accepted stamp between, is a new time.
+// TimeStepMonitor follows the rejected stamps of one stream. A single wrong stamp changes nothing.
+// A run of them, each a little later than the one before and with no accepted stamp between, is a
+// new time.
 class TimeStepMonitor {
  public:
+  // `run_to_accept` is the length of a run that is accepted, `max_step_ns` the longest step within
+  // it.
   TimeStepMonitor(int run_to_accept, std::int64_t max_step_ns)
       : run_to_accept_(run_to_accept), max_step_ns_(max_step_ns) {}
 
+  // Ends the run, because a stamp was accepted.
   void clear() { run_ = 0; }
 
-  // Adds a stamp that does not fit. True: it completes a run and is to be accepted.
+  // Adds a stamp that does not fit. Returns true if it completes a run and is to be accepted.
   bool reject(GpsTime stamp) {
     const std::int64_t step = nanoseconds_between(stamp, last_);
     run_ = run_ > 0 && step > 0 && step <= max_step_ns_ ? run_ + 1 : 1;

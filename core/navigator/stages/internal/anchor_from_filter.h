@@ -1,4 +1,4 @@
-// anchor_from_filter() writes what the inertial stage goes on from: the filter's state at an epoch.
+// This function makes the anchor of an epoch from the filter's state after it.
 #pragma once
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace leonav {
 
-// Of epoch `index`; not valid while the filter is not initialized.
+// Returns the anchor of epoch `index`, which is not valid while the filter is not initialized.
 Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used);
 
 }  // namespace leonav

@@ -7,8 +7,10 @@
 namespace leonav {
 namespace {
 
-constexpr double kHoleAcceleration = 3.0;  // (m/s^2)/sqrt(Hz), of a vehicle that is not observed
-constexpr double kHoleRotation = 0.5;      // rad/sqrt(s), of the same
+// White acceleration, (m/s^2)/sqrt(Hz), and rotation, rad/sqrt(s), of a vehicle without IMU
+// samples.
+constexpr double kHoleAcceleration = 3.0;
+constexpr double kHoleRotation = 0.5;
 
 }  // namespace
 
@@ -70,7 +72,7 @@ void AnchorPropagation::step(const ImuSample& sample) {
   last_sample_ = sample;
 }
 
-// Moves the mechanization to the start of `next` over a hole in the stream.
+// Moves the mechanization over a gap in the stream, to the start of `next`.
 void AnchorPropagation::fill_gap(const ImuSample& next) {
   const GpsTime from = mechanization_.state().time;
   const double hole_s = seconds_between(next.start(), from);
@@ -101,7 +103,7 @@ PvaCovariance AnchorPropagation::covariance(GpsTime now) const {
     return constant_velocity_covariance(anchor_, acceleration_noise_, elapsed_s);
   }
   const NavState& state = mechanization_.state();
-  // Mean specific force since the anchor: what changed the velocity, less gravity.
+  // The mean specific force since the anchor is the mean acceleration minus gravity.
   Eigen::Vector3d f_e = -gravity_e(state.p_e);
   if (elapsed_s > 0.0) f_e += (state.v_e - anchor_.state.v_e) / elapsed_s;
   PvaCovariance covariance =

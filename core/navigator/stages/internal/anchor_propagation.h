@@ -1,4 +1,4 @@
-// AnchorPropagation carries the state and covariance of an anchor forward with the IMU samples.
+// AnchorPropagation propagates the state and covariance of an anchor with the IMU samples.
 #pragma once
 #include <Eigen/Core>
 #include <boost/circular_buffer.hpp>
@@ -11,31 +11,31 @@
 
 namespace leonav {
 
-// With attitude the state follows by strapdown mechanization, without (aligning) at constant
-// velocity. Short holes in the IMU stream are filled as in the filter
-// (core/inertial/strapdown/imu_gap_fill.h), longer ones at constant velocity and attitude with
-// grown sigma. The samples since the anchor are kept, so that a newer anchor, which is of an
-// earlier time than the newest sample, can be propagated over them again. Allocates when
-// constructed, not after.
+// With attitude the state is propagated by strapdown mechanization, without (aligning) at constant
+// velocity. Short gaps in the IMU stream are filled as in the filter
+// (core/inertial/strapdown/imu_gap_fill.h). Over longer ones velocity and attitude stay constant
+// and the sigmas grow. The samples since the anchor are kept: a newer anchor is earlier than the
+// newest sample and is propagated over them again. Allocates when constructed, not after.
 class AnchorPropagation {
  public:
-  // `config`: copied.
+  // Copies what it needs of `config`.
   explicit AnchorPropagation(const NavigatorConfig& config);
 
   bool has_anchor() const { return anchor_.valid; }
   const Anchor& anchor() const { return anchor_; }
 
-  // The next sample; when the store is full, the oldest sample is discarded.
+  // Adds the next sample; when the store is full, the oldest sample is discarded.
   void add_sample(const ImuSample& sample);
-  // Samples after `time` have been discarded because the store was full.
+  // Returns whether samples after `time` have been discarded because the store was full.
   bool has_discarded_after(GpsTime time) const;
-  // Goes on from `anchor`, over all samples since. `needed_from`: an anchor yet to come may be as
-  // early as this; samples before it are removed.
+  // Continues from `anchor`, over all samples since then. Samples before `needed_from` are removed;
+  // a later anchor may be as early as that.
   void restart_from(const Anchor& anchor, GpsTime needed_from);
   void clear_anchor();
   void clear_samples();
 
-  // At the end of the newest sample, `now`; there must be an anchor.
+  // These return state and covariance at the end of the newest sample, `now`. Precondition: there
+  // is an anchor.
   NavState state(GpsTime now) const;
   PvaCovariance covariance(GpsTime now) const;
 
@@ -49,9 +49,10 @@ class AnchorPropagation {
   boost::circular_buffer<ImuSample> samples_;  // since the anchor
   Mechanization mechanization_;
   Anchor anchor_;            // valid: there is one
-  ImuSample last_sample_;    // before the mechanization's time
-  double unfilled_s_ = 0.0;  // of constant velocity since the anchor
-  double gap_angle_variance_ = 0.0, gap_velocity_variance_ = 0.0;  // of filled gaps since then
+  ImuSample last_sample_;    // the last one up to the mechanization's time
+  double unfilled_s_ = 0.0;  // length of unfilled gaps since the anchor
+  // Variances from filled gaps since the anchor, rad^2 and (m/s)^2 per axis.
+  double gap_angle_variance_ = 0.0, gap_velocity_variance_ = 0.0;
 };
 
 }  // namespace leonav

@@ -1,4 +1,5 @@
-// AttitudeCarryOver takes the attitude from a filter before its restart and gives it back after.
+// AttitudeCarryOver takes the attitude from a filter before its restart and gives it back
+// afterwards.
 #pragma once
 #include <Eigen/Geometry>
 
@@ -6,13 +7,14 @@
 
 namespace leonav {
 
-// What has been estimated of the IMU's errors goes with the attitude. Roll and pitch come back with
-// at least `levelling_sigma`, the heading with twice its sigma and at least 0.1 rad.
+// The estimated IMU errors are carried over with the attitude. Roll and pitch return with a sigma
+// of at least `levelling_sigma`, the heading with twice its sigma and at least 0.1 rad.
 class AttitudeCarryOver {
  public:
-  // `levelling_sigma`: AlignmentConfig, rad. `filter` has an attitude.
+  // `levelling_sigma` is that of AlignmentConfig, rad. Precondition: `filter` has an attitude.
   AttitudeCarryOver(const Ekf& filter, double levelling_sigma);
-  // `filter`: initialized at `time`, without attitude.
+  // Sets attitude and IMU errors. Precondition: `filter` is initialized at `time`, without
+  // attitude.
   void give_to(Ekf* filter, GpsTime time) const;
 
  private:

@@ -39,8 +39,8 @@ bool AttitudeInitializer::is_due(const EpochWork& work, const Ekf& filter) const
   return inertial_ && !filter.has_attitude() && block_ends_at_epoch(work);
 }
 
-// Only once the attitude follows at once: a heading from a checkpoint must not wait unmonitored. A
-// heading given on purpose is better.
+// Waits until the levelling is done, so that the attitude follows at once: a heading from a
+// checkpoint must not wait unmonitored. A heading from configuration or command has priority.
 std::optional<AttitudeInitializer::CheckpointVerdict> AttitudeInitializer::evaluate_checkpoint(
     GpsTime time, const Ekf& filter) {
   if (!checkpoint_monitor_.pending() || !alignment_.levelled()) return std::nullopt;

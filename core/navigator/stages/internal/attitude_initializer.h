@@ -1,4 +1,4 @@
-// AttitudeInitializer finds the filter's first attitude, and decides later whether its heading is
+// AttitudeInitializer finds the filter's first attitude and later decides whether its heading is
 // still right.
 #pragma once
 #include <Eigen/Geometry>
@@ -15,9 +15,9 @@
 
 namespace leonav {
 
-// Reads the filter and changes nothing of it: the caller gives the attitudes that it returns to the
-// filter and reports the verdicts on a checkpoint. Sources of a heading: a given one (configuration
-// or command), an earlier run's checkpoint, and alignment. Without an inertial model it does
+// AttitudeInitializer only reads the filter. The caller sets the attitudes that it returns and
+// reports the verdicts on a checkpoint. A heading comes from outside (configuration or command),
+// from an earlier run's checkpoint, or from alignment. Without an inertial motion model it does
 // nothing.
 class AttitudeInitializer {
  public:
@@ -25,50 +25,54 @@ class AttitudeInitializer {
 
   explicit AttitudeInitializer(const NavigatorConfig& config);
 
-  // The samples of an epoch before the prediction over them.
+  // Adds the samples of an epoch, before the filter's prediction over them.
   void add(const ImuBlock& block, const Ekf& filter);
 
-  // Whether the epoch's block ends at its time and the filter still lacks an attitude.
+  // Returns whether the epoch's block ends at its time and the filter still has no attitude.
   bool is_due(const EpochWork& work, const Ekf& filter) const;
-  // If due, first: the verdict on a pending checkpoint, once there is one. A checkpoint that may be
-  // used gives its heading to the attitude of this epoch.
+  // If due, call this first. It returns the verdict on a pending checkpoint, once there is one. The
+  // heading of a checkpoint that may be used then serves first_attitude() in the same epoch.
   std::optional<CheckpointVerdict> evaluate_checkpoint(GpsTime time, const Ekf& filter);
-  // If due: the attitude, once there is one.
+  // The first attitude and whether its heading came from outside.
   struct FirstAttitude {
     AlignedAttitude aligned;
     bool heading_given = false;
   };
+  // If due, call this second. It returns the attitude once it is found.
   std::optional<FirstAttitude> first_attitude(const Ekf& filter);
-  // The filter has the attitude now: its heading is monitored from here, and a checkpoint that is
-  // still pending is not needed (the verdict).
+  // Call both once the filter has the attitude. The heading is monitored from then on.
+  // discard_checkpoint() returns the verdict kNotNeeded on a checkpoint that is still pending, else
+  // nullopt.
   void start_heading_monitor(const Ekf& filter);
   std::optional<CheckpointVerdict> discard_checkpoint();
 
   void take_checkpoint(const Checkpoint& checkpoint) { checkpoint_monitor_.take(checkpoint); }
 
-  // A heading and its sigma, rad, by command: kept for the alignment, or, where the filter has an
-  // attitude, the attitude turned about the vertical.
+  // The filter's attitude, turned about the vertical.
   struct TurnedAttitude {
     Eigen::Quaterniond q_eb;
     Eigen::Vector3d sigma_rpy;  // rad
   };
+  // Takes a heading and its sigma, rad, from a command. If the filter has an attitude, it returns
+  // that attitude turned to the heading; else it keeps the heading for the alignment and returns
+  // nullopt.
   std::optional<TurnedAttitude> set_heading(double heading, double sigma, const Ekf& filter);
 
-  // The heading monitor takes the epoch's samples; true: it needs an independent velocity now.
-  // `updated`: the filter has had this epoch's measurements.
+  // Adds the epoch's samples to the heading monitor and returns whether it needs an independent
+  // velocity now. `updated` states whether the filter was updated with this epoch's measurements.
   bool monitor_heading(const EpochWork& work, const Ekf& filter, bool updated);
-  // By how much the filter's heading is wrong, rad, once that is beyond chance.
+  // Returns the error of the filter's heading, rad, once it is significant (HeadingMonitor).
   std::optional<double> heading_error(const IndependentSolution& solution, const Ekf& filter);
 
-  // After the epoch's update: a given heading that has been used remains valid only while the
-  // vehicle has not moved since.
+  // Call it after the epoch's update. A heading from outside that was used remains valid only while
+  // the vehicle has not moved since.
   void monitor_motion(const EpochWork& work, const Ekf& filter);
 
-  // `latitude`: rad, of the filter.
+  // Returns what the alignment still lacks. `latitude` is the filter's, rad.
   AlignmentNeed need(const Ekf& filter, double latitude) const;
 
   void reset_alignment() { alignment_.reset(); }
-  // A heading that has proved wrong is not used again.
+  // Stops the heading monitor and drops a heading from outside that has proved wrong.
   void forget_heading();
 
  private:

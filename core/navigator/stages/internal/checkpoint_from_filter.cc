@@ -7,7 +7,7 @@
 namespace leonav {
 namespace {
 
-// m/s, 1 sigma; a more uncertain velocity may hide that the vehicle rolls.
+// m/s, 1 sigma; with a larger one the vehicle may roll unnoticed.
 constexpr double kMaxStandstillVelocitySigma = 0.1;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// checkpoint_from_filter() writes what one run leaves for the next from the filter at an epoch.
+// This function makes the checkpoint for the next run from the filter at an epoch.
 #pragma once
 #include "core/filter/ekf.h"
 #include "core/inertial/alignment/alignment.h"
@@ -8,9 +8,10 @@
 
 namespace leonav {
 
-// `solution`: that of `filter`, which is initialized. The vehicle stands where the filter's
-// velocity is that of standing, and certain, and the mean rate of the block's gyros is still.
-// Without attitude the heading's sigma is pi.
+// Returns the checkpoint; `solution` is that of `filter`. Precondition: `filter` is initialized.
+// The vehicle counts as standing if the velocity agrees with zero, its sigma is below 0.1 m/s, and
+// the mean rate of the gyros over the block is below AlignmentConfig::static_gyro_rad_s. Without
+// attitude the heading's sigma is pi.
 Checkpoint checkpoint_from_filter(const EpochWork& work, const Ekf& filter,
                                   const Solution& solution, const AlignmentConfig& config);
 

@@ -10,9 +10,10 @@ namespace {
 
 using namespace ekf_index;
 
-// White noise of the attitude's rate in the first `wanders` of the `t` seconds that end now,
-// density in rad/sqrt(s), with what the specific force makes of it: velocity' = F attitude,
-// position' = velocity. Integrals over its age, from t - wanders to t.
+// Adds the random walk of the attitude, of density `noise` in rad/sqrt(s), which acts during the
+// first `wanders` seconds of the `t` seconds that end now. With velocity' = F attitude and
+// position' = velocity it spreads to velocity and position. The integrals are over the age of the
+// noise, from t - wanders to t.
 void add_attitude_random_walk(double noise, double wanders, double t, const Eigen::Matrix3d& F,
                               PvaCovariance* P) {
   const double density = noise * noise, from = t - wanders;
@@ -37,9 +38,10 @@ using namespace ekf_index;
 PvaCovariance inertial_covariance(const Anchor& anchor, const ImuErrorModel& imu,
                                   const Eigen::Vector3d& f_e, const Eigen::Matrix3d& C_eb,
                                   double elapsed_s) {
-  // Errors "true minus estimate" (ekf.h): attitude' = -C_eb gyro_bias, velocity' = attitude x f_e -
-  // C_eb accel_bias, position' = velocity (Groves 2013, 14.2.3, Earth rate left out: 1e-4 of the
-  // angle per second). Integrated for constant coefficients.
+  // Errors are true minus estimate. Groves 2013, 14.2.3, without the Earth's rate, which changes
+  // the angle by 1e-4 of it per second, and integrated for constant coefficients:
+  //   attitude' = -C_eb gyro_bias,  velocity' = attitude x f_e - C_eb accel_bias,
+  //   position' = velocity
   const double t = elapsed_s;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d F = -skew(f_e);

@@ -26,8 +26,8 @@ AidingReport start_aiding(const MeasurementEpoch& epoch, const Measurement& meas
   return aiding;
 }
 
-// A satellite is used if any of its measurements counted; else the reason of its first measurement
-// tells why, and where it has none, preprocessing has told.
+// Reports the satellites. A satellite is used if any of its measurements was used. Otherwise it
+// gets the reason of its first measurement or, without measurements, that from preprocessing.
 void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
   for (const SatelliteInView& in_view : epoch.satellites) {
     SatelliteReport satellite;
@@ -55,8 +55,8 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
   }
 }
 
-// The geometry of what counted in the end: the filter's verdicts stand in the report alone. Its
-// aiding holds the epoch's measurements in order, or fewer.
+// Reports the DOP of the satellites that were used in the end. The filter's reasons are only in the
+// report, whose `aiding` holds the epoch's measurements in the same order, or the first of them.
 void report_dop(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_e,
                 EpochReport* report) {
   std::bitset<kMaxSatellites> used;

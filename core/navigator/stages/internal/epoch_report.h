@@ -5,19 +5,20 @@
 
 namespace leonav {
 
-// Clears `report` for an epoch of which nothing is known yet; keeps nothing but the storage.
+// Clears `report` for a new epoch and keeps only its storage.
 void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* report);
 
-// Satellites, measurements and DOP of an epoch the filter has been updated with.
+// Reports satellites, measurements and DOP of an epoch with which the filter was updated.
 void report_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,
                    const Eigen::Vector3d& antenna_p_e, EpochReport* report);
 
-// The same where a point solution, or the attempt at one, took the filter's place. Where `solved`
-// is false, what would have been used is reported as kNotSolved.
+// Reports the same for an epoch with a point solution, or an attempt at one, instead of an update.
+// If `solved` is false, measurements that would have been used get the reason kNotSolved.
 void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vector3d& antenna_p_e,
                   EpochReport* report);
 
-// The filter's estimate at the epoch: solution (without sequence, source and anchor) and clocks.
+// Reports the filter's estimate at the epoch: clocks, wet delay, and the solution without sequence,
+// source and anchor.
 void report_state(const Ekf& ekf, EpochReport* report);
 
 }  // namespace leonav

@@ -23,7 +23,8 @@ EventKind event_of(OrbitChange change) {
   return EventKind::kOrbitFallback;
 }
 
-// The event's code: side 1, vertical 2, standing's velocity 4 and rate 8, odometer 16.
+// Returns the code of the event: the sum of side 1, vertical 2, velocity at standstill 4, rate at
+// standstill 8, odometer 16.
 std::uint8_t constraint_groups(MotionComponents components) {
   const auto bits = [&](MotionComponent first, unsigned count) {
     return (components >> static_cast<unsigned>(first)) & ((1u << count) - 1u);
@@ -91,7 +92,7 @@ void EpochReporter::publish(Source source, const AlignmentNeed& alignment,
   sink_->on_epoch(*report_);
 }
 
-// A filter that is less accurate than it states, for long, needs attention even where no
+// A filter that is less accurate than its sigmas for a long time needs attention, even if no
 // measurement is an outlier.
 void EpochReporter::report_consistency(const std::array<std::optional<double>, 2>& improbable,
                                        GpsTime time) {
@@ -100,8 +101,9 @@ void EpochReporter::report_consistency(const std::array<std::optional<double>, 2
       emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), *improbable[i], time);
 }
 
-// A step that the clocks have taken up loses nothing; but users of the receiver's time need it, and
-// it explains why arcs ended. Some receivers' clocks step every second.
+// A step that the clock states have taken up costs no accuracy. But users of the receiver's time
+// need to know it, and it explains why arcs ended. The clocks of some receivers step every second,
+// so the event is thinned.
 void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime time) {
   const auto report_step = [&](std::size_t code, double step_m) {
     if (step_m == 0.0) return;

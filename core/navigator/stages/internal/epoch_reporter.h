@@ -19,29 +19,31 @@
 
 namespace leonav {
 
-// Reads what others have decided and computes nothing for them. The report is one buffer that each
-// epoch begins anew: start() first, publish() last. Allocates when constructed, not after.
+// EpochReporter reports the decisions of others and computes nothing for them. Its report is one
+// buffer that each epoch begins anew: call start() first and publish() last. Allocates when
+// constructed, not after.
 class EpochReporter {
  public:
   explicit EpochReporter(OutputSink* sink);
 
+  // Begins the report of an epoch.
   void start(const EpochWork& work);
-  // The constraints that acted on the prediction since `last_epoch`, and whether they contradict
-  // the motion.
+  // Adds the motion constraints since `last_epoch` and emits an event if they contradict the
+  // filter.
   void add_prediction(GpsTime last_epoch, MotionAiding* motion);
-  // The measurements of a point solution from which the filter has started, or, where it is not
-  // accepted, would have.
+  // Adds the measurements of a point solution from which the filter has started, or would have
+  // started had it been accepted.
   void add_point(const IndependentSolution& solution);
-  // The measurements of an update, with the filter after it.
+  // Adds the measurements of an update; `filter` is the filter after it.
   void add_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result, const Ekf& filter);
-  // After add_point() or add_update(): whether any satellite can be used.
+  // Emits an event if no satellite can be used; call it after add_point() or add_update().
   void monitor_usability();
-  // The filter's solution and clocks. Clocks that the filter does not estimate stay in the report
-  // as an earlier call of this epoch has left them.
+  // Adds the filter's solution and clocks. Clocks that the filter does not estimate keep the values
+  // of an earlier call in the same epoch.
   void add_state(const Ekf& filter);
-  // Replaces a solution that may not be published.
+  // Replaces a solution that must not be published by an empty one.
   void clear_solution();
-  // Completes the report and passes it on; `publishes_solution`: its solution as well.
+  // Completes the report and passes it to the sink, with `publishes_solution` its solution too.
   void publish(Source source, const AlignmentNeed& alignment,
                const std::optional<Checkpoint>& checkpoint, bool publishes_solution);
 
@@ -50,19 +52,21 @@ class EpochReporter {
   void emit(EventKind kind, std::uint8_t code, double value, GpsTime time) {
     events_.emit(kind, code, value, time);
   }
-  // Of FilterMonitor::add_consistency().
+  // Emits events for the result of FilterMonitor::add_consistency().
   void report_consistency(const std::array<std::optional<double>, 2>& improbable, GpsTime time);
   void report_clock_steps(const EkfUpdateResult& result, GpsTime time);
-  // An update with satellites has moved the position from `before` to `after`.
+  // Emits events about outages. An update with satellites has moved the position from `before` to
+  // `after`.
   void report_outage(const OutageMonitor::Position& before, const OutageMonitor::Position& after,
                      GpsTime time);
   void reset_outage() { outage_monitor_.reset(); }
-  // nullopt: no verdict yet.
+  // Emits an event for a verdict on a checkpoint; nullopt: there is none yet.
   void report_checkpoint(const std::optional<CheckpointValidityMonitor::Verdict>& verdict,
                          GpsTime time);
-  // Satellites of this report whose orbit or clock comes from another source than before.
+  // Emits events for satellites of this report whose orbit or clock comes from another source than
+  // before.
   void report_orbit_changes();
-  // A keyframe was due and had no room.
+  // Records the decision that a keyframe was due but had no room.
   void report_skipped_keyframe(const EpochWork& work);
 
  private:
@@ -74,7 +78,7 @@ class EpochReporter {
   UsabilityMonitor usability_monitor_;
   OutageMonitor outage_monitor_;
   std::uint64_t clock_steps_ = 0;
-  std::array<std::uint64_t, 5> orbit_changes_{};  // per OrbitChange
+  std::array<std::uint64_t, 5> orbit_changes_{};  // occurrences per OrbitChange
 };
 
 }  // namespace leonav

@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kMinSatellites = 4;
 constexpr double kMaxPdop = 15.0;
-// A more certain prediction corrects delays to a centimetre.
+// At a prediction with a smaller sigma, delays are correct to a centimetre.
 constexpr double kMaxLinearizationSigma_m = 20.0;
 constexpr double kMaxResidualRms_m = 60.0;
 
-// A start has nothing to compare its measurements with but each other: it always excludes faults,
-// also where the filter is configured to trust everything.
+// A start can compare its measurements only with each other. It therefore always excludes faults,
+// even if robust weighting is off in the filter.
 RobustConfig robust_start(RobustConfig config) {
   config.enabled = true;
   return config;
@@ -70,7 +70,8 @@ PreprocessAids MeasurementFrontEnd::aids(const Ekf& filter) {
   aids.biases = &code_biases_;
   aids.antennas = &antennas_;
   if (use_carrier_) aids.carriers = &carriers_;
-  // One to three satellites carry neither a start nor an alignment.
+  // Satellite caps do not apply before the alignment: one to three satellites suffice for neither a
+  // start nor an alignment.
   aids.caps = !inertial_ || filter.has_attitude();
   if (filter.has_attitude()) {
     C_er_ = filter.state().q_eb.toRotationMatrix();
@@ -79,9 +80,9 @@ PreprocessAids MeasurementFrontEnd::aids(const Ekf& filter) {
   return aids;
 }
 
-// How far the antenna has moved since the last epoch. The velocity's covariance grows over the
-// interval, so its value at the end bounds that of the change; the antenna swings about the IMU as
-// accurately as the gyro bias is known.
+// Returns how well the antenna's motion since the last epoch is predicted. The velocity's
+// covariance grows over the interval, so its value at the end bounds that of the change. The
+// antenna's rotation about the IMU is as uncertain as the gyro bias.
 RangeChangePrior MeasurementFrontEnd::change_prior(const Ekf& filter, bool predicted) const {
   RangeChangePrior prior;
   prior.position_covariance = last_position_covariance_;
@@ -98,8 +99,8 @@ RangeChangePrior MeasurementFrontEnd::change_prior(const Ekf& filter, bool predi
   return prior;
 }
 
-// Where the measurements are corrected and linearized: the predicted position, or where that is too
-// uncertain for centimetres, the codes' own.
+// Returns the position at which the measurements are corrected and linearized: the predicted one
+// or, if that is too uncertain for centimetres, that of a point solution.
 Eigen::Vector3d MeasurementFrontEnd::approximate_position(const EpochWork& work,
                                                           const Ekf& filter) {
   const Eigen::Vector3d predicted_p_e = filter.antenna_position_e();

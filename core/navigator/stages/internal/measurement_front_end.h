@@ -1,5 +1,5 @@
-// MeasurementFrontEnd turns a raw epoch into the measurements of the filter, and computes point
-// solutions beside it.
+// MeasurementFrontEnd turns a raw epoch into the filter's measurements and computes point solutions
+// of the same epoch.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -19,10 +19,10 @@
 
 namespace leonav {
 
-// Holds what belongs to satellites and receiver: orbits, antenna patterns, the receiver's code
-// biases, and what carriers need from one epoch to the next. The filter's measurements and those of
-// a point solution have a buffer each. Reads the filter, never changes it. Positions are the
-// antenna's, ECEF, m. Allocates when constructed, not after.
+// MeasurementFrontEnd holds the orbits, the antenna patterns, the receiver's code biases, and the
+// state of the carriers from epoch to epoch. The filter's measurements and those of a point
+// solution have separate buffers. It only reads the filter. Positions are the antenna's, ECEF, m.
+// Allocates when constructed, not after.
 class MeasurementFrontEnd {
  public:
   explicit MeasurementFrontEnd(const NavigatorConfig& config);
@@ -32,26 +32,31 @@ class MeasurementFrontEnd {
   void add(const KlobucharModel& klobuchar) { ephemeris_store_.set_klobuchar(klobuchar); }
   void add(const AntennaPattern& antenna) { antennas_.add(antenna); }
 
-  // Preprocesses the epoch where `filter` is predicted to be (or, where that is too uncertain to
-  // correct carriers, where the codes alone are) and tests the carriers against the prediction.
+  // Preprocesses the epoch at the filter's predicted position and tests the carriers against the
+  // prediction. If the prediction is too uncertain to correct carriers, the position of a point
+  // solution takes its place.
   void measure(const EpochWork& work, const Ekf& filter);
-  // Of the last measure().
+  // Returns the result of the last measure().
   const MeasurementEpoch& measurements() const { return *measurements_; }
-  // Horizontal speed of the antenna, m/s, from time-differenced carriers; nullopt: not known.
-  // Between measure() and store_update(), at most once an epoch.
+  // Returns the horizontal speed of the antenna, m/s, from time-differenced carriers; nullopt:
+  // unknown. Call it between measure() and store_update(), at most once per epoch.
   std::optional<double> update_carrier_speed();
-  // After the filter's update with measurements(): what the next epoch's carriers are compared
-  // with. Ends the arcs that the update found to have slipped.
+  // Keeps what the carriers of the next epoch are compared with, and ends the arcs that the update
+  // found to have slipped. Call it after the filter's update with measurements().
   void store_update(const EkfUpdateResult& result, const Ekf& filter);
 
-  // The epoch's point solution; fills a buffer of its own.
+  // Returns the epoch's point solution; it fills a buffer of its own and may update the receiver's
+  // code biases.
   IndependentSolution solve(const EpochWork& work, const Eigen::Vector3d& approximate_p_e);
-  // The same with code biases of this epoch alone: those of the receiver stay as they are.
+  // Returns the epoch's point solution with code biases of this epoch alone; those of the receiver
+  // do not change.
   IndependentSolution solve_without_biases(const EpochWork& work,
                                            const Eigen::Vector3d& approximate_p_e);
 
+  // Ends all carrier arcs.
   void reset_carriers() { carriers_.reset(); }
-  // The position of the last epoch is unknown: the next epoch's carriers are not tested against it.
+  // Marks the position of the last epoch as unknown: the next epoch's carriers are not tested
+  // against it.
   void reset_position() { carriers_.reset_position(); }
 
   const EphemerisStore& ephemeris_store() const { return ephemeris_store_; }
@@ -73,14 +78,15 @@ class MeasurementFrontEnd {
   ReceiverCodeBiases code_biases_;
   CarrierPreprocessor carriers_;
   CarrierSpeed carrier_speed_;
-  Eigen::Matrix3d C_er_ = Eigen::Matrix3d::Identity();                  // of the last measure()
+  // Receiver's body axes to ECEF at the last measure().
+  Eigen::Matrix3d C_er_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d last_position_covariance_ = Eigen::Matrix3d::Zero();  // after the last update
-  RangeChangePrior change_prior_;                                       // of the last measure()
+  RangeChangePrior change_prior_;  // used by the last measure()
   std::unique_ptr<MeasurementEpoch> measurements_;
-  std::unique_ptr<MeasurementEpoch> point_measurements_;  // of the last point solution
+  std::unique_ptr<MeasurementEpoch> point_measurements_;  // used by the last point solution
 };
 
-// The point solutions of one epoch, for a monitor.
+// EpochSolver computes the point solutions of one epoch for a monitor.
 class EpochSolver : public IndependentSolver {
  public:
   EpochSolver(MeasurementFrontEnd* front_end, const EpochWork& work)

@@ -6,7 +6,8 @@
 namespace leonav {
 namespace {
 
-// Half of the mailbox: the slots of epochs already decided are free long before they come round.
+// This is half of the mailbox, so that the slots of decided epochs are free long before they are
+// used again.
 constexpr std::size_t kMaxPending = kMaxMailboxEpochs / 2;
 
 }  // namespace

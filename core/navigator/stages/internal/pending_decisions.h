@@ -9,31 +9,34 @@
 
 namespace leonav {
 
-// An issued epoch whose decisions are not all made.
+// An issued epoch whose decisions have not all been made.
 struct PendingEpoch {
   EpochIssued issued;
   bool filter_decided = false;
   Anchor held;  // valid: the filter's anchor waits for the smoother's deadline
 };
 
-// A decision is made by taking an epoch's result from a mailbox: committed, or a miss. Each is
-// reported to the sink, a miss also as an event. Allocates when constructed, not after.
+// PendingDecisions makes a decision by taking an epoch's result from a mailbox: it is committed or
+// a miss. It reports each decision to the sink, and a miss also as an event. Allocates when
+// constructed, not after.
 class PendingDecisions {
  public:
-  // `events`: of the stage that decides; must outlive this object, as the others must.
+  // `events` belongs to the stage that decides. All pointers must outlive this object.
   PendingDecisions(TimedMailbox<Anchor>* filter_mailbox,
                    TimedMailbox<SmootherAnchor>* smoother_mailbox, OutputSink* sink,
                    EventSource* events);
 
-  boost::circular_buffer<PendingEpoch>& epochs() { return epochs_; }  // oldest first
-  // The oldest epoch time that is still to be decided, or `time` if that is earlier.
+  // Returns the undecided epochs, oldest first.
+  boost::circular_buffer<PendingEpoch>& epochs() { return epochs_; }
+  // Returns the earliest time of an undecided epoch, or `time` if that is earlier.
   GpsTime earliest_needed(GpsTime time) const;
 
-  // Decides at `now`. True and *anchor: committed.
+  // These decide at `now`. True: the result is committed and in *anchor. False: a miss.
   bool take_filter(PendingEpoch* epoch, GpsTime now, Anchor* anchor);
   bool take_smoother(PendingEpoch* epoch, GpsTime now, SmootherAnchor* anchor);
 
-  // A restart: the epochs issued so far are decided as usual, but give no anchor any more.
+  // Marks the epochs issued so far as invalid, after a restart: they are decided as usual, but give
+  // no anchor.
   void invalidate_issued();
   bool is_invalid(const PendingEpoch& epoch) const {
     return epoch.issued.index <= last_invalid_epoch_;

@@ -1,4 +1,4 @@
-// PendingKeyframe collects what the smoother's next keyframe needs, from the filter and the IMU.
+// PendingKeyframe collects the IMU samples of the next keyframe and fills it from the filter.
 #pragma once
 #include <memory>
 
@@ -9,28 +9,30 @@
 
 namespace leonav {
 
+// PendingKeyframe lives in the GNSS stage. Allocates when constructed, not after.
 class PendingKeyframe {
  public:
+  // `interval_s` is the smallest interval between keyframes.
   explicit PendingKeyframe(double interval_s) : interval_s_(interval_s) {}
 
-  // Adds the IMU samples since the epoch before; to be called for every epoch, keyframe or not.
+  // Adds the IMU samples since the epoch before; call it at every epoch, keyframe or not.
   void add(const ImuBlock& block);
-  // True if an epoch is to be a keyframe: not too soon after the last one, unless the filter has
-  // started over since then.
+  // Returns whether an epoch is to be a keyframe: it is not too soon after the last one, or the
+  // filter has started over since.
   bool is_due(const Ekf& ekf, GpsTime time) const;
-  // Writes the keyframe and begins the filter's process to the next one. `measurements`: the epoch
-  // as the filter's update used it; nullptr: there was none. The keyframe takes the constraint
-  // instants of `motion`.
+  // Fills `keyframe` and begins the filter's process to the next one. `measurements` is the epoch
+  // as the filter's update used it; nullptr: there was no update. The constraint instants of
+  // `motion` move into the keyframe.
   void make(const EpochWork& work, const MeasurementEpoch* measurements, MotionAiding* motion,
             Ekf* ekf, KeyframeInput* keyframe);
 
  private:
   double interval_s_;
   GpsTime last_time_;
-  FilterState last_state_;  // the filter's, at the last keyframe
-  // The IMU samples since the last keyframe, incomplete if there was no room.
+  FilterState last_state_;  // the filter's at last_time_
+  // Samples since the last keyframe. Not complete if they exceeded the capacity.
   std::unique_ptr<ImuBlock> block_ = std::make_unique<ImuBlock>();
-  ImuSample before_block_, newest_;
+  ImuSample before_block_, newest_;  // the last sample before the block, and of all
   bool block_complete_ = true;
 };
 

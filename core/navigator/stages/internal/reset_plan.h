@@ -1,38 +1,41 @@
-// A ResetPlan lists what a reset of the filter clears, keeps and marks in the GNSS stage; there are
-// four presets.
+// ResetPlan lists what a reset of the filter clears and keeps in the GNSS stage; there are four
+// presets.
 #pragma once
 
 namespace leonav {
 
+// The filter's part of a reset.
 enum class FilterReset : unsigned char {
-  kReset,    // nothing remains but the configuration; a later point solution starts it
-  kRestart,  // starts at once from a point solution
+  kReset,    // only the configuration remains; a later point solution starts the filter
+  kRestart,  // the filter starts at once from a point solution
 };
+// The carriers' part of a reset.
 enum class CarrierReset : unsigned char {
-  kPosition,  // the arcs go on; the next epoch is not tested against the last one
-  kAll,
+  kPosition,  // the arcs continue; the next epoch is not tested against the last one
+  kAll,       // all arcs end
 };
 
-// Every reset clears the evidence for and against the filter (FilterMonitor::clear_evidence): it is
-// void for the next one. What is false here stays as it is.
+// A part that is marked false is not cleared. In addition every reset clears the evidence for
+// and against the filter (FilterMonitor::clear_evidence), because it is void for the next one.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
-  // Of kRestart.
+  // For kRestart only.
   bool keeps_vehicle_constants = false;
   bool keeps_attitude = false;  // see AttitudeCarryOver
   CarrierReset carriers = CarrierReset::kPosition;
   bool alignment = false;
-  bool external_heading = false;  // it is forgotten, and the heading monitor stops
+  bool external_heading = false;  // it is dropped, and the heading monitor stops
   bool motion_aiding = false;
   bool outage_monitor = false;
   bool installation_monitor = false;
-  // The times of the last GNSS, the last reset and the last restart by rejections are unset. Else
-  // they are kept, and this is the last reset.
+  // The times of the last GNSS, the last reset and the last restart by rejections become unset.
+  // Otherwise they are kept, and this reset becomes the last one.
   bool times = false;
-  bool gnss_used = false;  // whether the epoch of the reset counts as one with satellites
+  bool gnss_used = false;  // the epoch of the reset counts as one with satellites
 };
 
-// A command, or new GPS time: time may begin anew, so nothing that holds a time remains.
+// Reset by a command or after a time step. Time may begin anew, so nothing that holds a time
+// remains.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
                                             .alignment = true,
@@ -41,23 +44,24 @@ inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .installation_monitor = true,
                                             .times = true};
 
-// The filter is worth nothing and nothing replaces it: the stage has no position, hence no outage,
-// until the next point solution; time goes on, and with it the vehicle's motion.
+// Reset that drops the filter without a replacement. The stage has no position, hence no outage,
+// until the next point solution. Time continues, and with it the vehicle's motion.
 inline constexpr ResetPlan kDropReset = {.filter = FilterReset::kReset,
                                          .carriers = CarrierReset::kPosition,
                                          .alignment = true,
                                          .outage_monitor = true};
 
-// The heading was wrong from the start or has become so: all that the filter has estimated with it
-// is void, and so is the heading it was given; a point solution of this epoch replaces it.
+// Reset after a wrong heading. Everything that the filter has estimated with it is void, and so is
+// a heading from outside. A point solution of this epoch replaces the filter.
 inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .carriers = CarrierReset::kPosition,
                                             .alignment = true,
                                             .external_heading = true,
                                             .gnss_used = true};
 
-// Position and velocity are wrong: the filter starts there anew, and a good attitude, which took a
-// drive to find, survives with what has been estimated of the IMU; without one it is aligned anew.
+// Returns the reset after a wrong position or velocity: the filter restarts from a point solution.
+// A good attitude, which took a drive to find, is kept with the estimated IMU errors; otherwise the
+// alignment starts anew.
 constexpr ResetPlan restart_reset(bool keeps_attitude, bool keeps_vehicle_constants) {
   return {.filter = FilterReset::kRestart,
           .keeps_vehicle_constants = keeps_vehicle_constants,

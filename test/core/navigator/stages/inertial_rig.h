@@ -1,4 +1,5 @@
-// An InertialNavigator whose anchors are the truth, or a given distance from it.
+// InertialRig runs an InertialNavigator whose anchors are the truth or lie a given distance from
+// it.
 #pragma once
 #include <cstdint>
 
@@ -8,6 +9,7 @@
 
 namespace leonav::test {
 
+// InertialRig has no filter: a test delivers the anchors through the mailbox itself.
 struct InertialRig {
   NavigatorConfig config;
   SyntheticDrive drive;
@@ -28,7 +30,7 @@ struct InertialRig {
     drive.imu = synthetic_imu(options);
     return drive;
   }
-  // An anchor at the truth `t` seconds after the start, moved by `offset` metres.
+  // Returns an anchor at the truth `t` seconds after the start, moved by `offset_m` along ECEF x.
   Anchor anchor(std::uint64_t index, double t, double offset_m = 0.0) const {
     Anchor update;
     update.index = index;
@@ -40,12 +42,13 @@ struct InertialRig {
     update.covariance.diagonal().segment<3>(6).setConstant(1e-6);
     return update;
   }
-  // Epoch at `t`, issued now with its deadline `deadline_s` after it.
+  // Issues an epoch of time `t` now, with its deadline `deadline_s` after `t`.
   void issue(std::uint64_t index, double t, double deadline_s) {
     mailbox.open(index);
     const GpsTime time = kSkyEpoch.plus_seconds(t);
     navigator.process(EpochIssued{index, time, time.plus_seconds(deadline_s), {}});
   }
+  // Feeds the IMU samples with stamps in (from_s, to_s], in seconds after the start.
   void feed(double from_s, double to_s) {
     for (const ImuSample& sample : drive.imu) {
       const double t = seconds_between(sample.time, kSkyEpoch);
