@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/earth/ellipsoid.h"
-#include "core/navigator/stages/internal/reset_plan.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -181,38 +180,6 @@ TEST_CASE("a prediction too uncertain for codes is good enough while carrier arc
   CHECK(monitor.prediction_is_too_uncertain(vague, now, GpsTime()));  // no arc goes on
   CHECK_FALSE(monitor.prediction_is_too_uncertain(vague, now, kStart));
   CHECK(monitor.prediction_is_too_uncertain(lost, now, kStart));
-}
-
-TEST_CASE("the four resets clear what their presets list, and nothing else") {
-  struct Row {
-    ResetPlan plan;
-    FilterReset filter;
-    CarrierReset carriers;
-    bool alignment, external_heading, motion_aiding, outage, installation, times;
-  };
-  const auto kReset = FilterReset::kReset;
-  const auto kRestart = FilterReset::kRestart;
-  const auto kPosition = CarrierReset::kPosition;
-  const Row rows[] = {
-      {kCommandReset, kReset, CarrierReset::kAll, true, false, true, true, true, true},
-      {kDropReset, kReset, kPosition, true, false, false, true, false, false},
-      {kHeadingReset, kRestart, kPosition, true, true, false, false, false, false},
-      {restart_reset(true, true), kRestart, kPosition, false, false, false, false, false, false},
-      {restart_reset(false, false), kRestart, kPosition, true, false, false, false, false, false},
-  };
-  for (const Row& row : rows) {
-    CHECK(row.plan.filter == row.filter);
-    CHECK(row.plan.carriers == row.carriers);
-    CHECK(row.plan.alignment == row.alignment);
-    CHECK(row.plan.external_heading == row.external_heading);
-    CHECK(row.plan.motion_aiding == row.motion_aiding);
-    CHECK(row.plan.outage_monitor == row.outage);
-    CHECK(row.plan.installation_monitor == row.installation);
-    CHECK(row.plan.times == row.times);
-  }
-  CHECK(restart_reset(true, true).keeps_attitude);
-  CHECK_FALSE(restart_reset(false, true).keeps_attitude);
-  CHECK(restart_reset(false, true).keeps_vehicle_constants);
 }
 
 }  // namespace
