@@ -82,8 +82,8 @@ void Ekf::replace_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma
   prediction_test_.forget_consistency();
 }
 
-void Ekf::inflate_attitude_noise(double noise, double seconds) {
-  estimate_.inflate_attitude_noise(noise, seconds);
+void Ekf::raise_attitude_noise(double noise, double seconds) {
+  estimate_.raise_attitude_noise(noise, seconds);
 }
 
 void Ekf::predict(std::span<const ImuSample> block, GpsTime time, SpeedHistory* speeds) {
@@ -142,7 +142,7 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   InnovationTables tables = clock_removed_by_observable(measurements, covariance());
   result->code_ratio = consistency_ratio(table_of(tables, Observable::kCode));
   result->doppler_ratio = consistency_ratio(table_of(tables, Observable::kDoppler));
-  // A wider prior without weights would follow every outlier.
+  // An inflated prior without weights would follow every outlier.
   if (!config_.robust.enabled) return;
 
   const PredictionTest::Evidence evidence = {measurements, tables,         filter_state(),

@@ -95,7 +95,7 @@ class Ekf {
   void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
   // For `seconds` from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside that
   // of the gyros.
-  void inflate_attitude_noise(double noise, double seconds);
+  void raise_attitude_noise(double noise, double seconds);
   bool has_attitude() const { return estimate_.has_attitude(); }
 
   // --- epoch ---
@@ -140,7 +140,7 @@ class Ekf {
   AntennaMotion antenna() const;
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
-  // Widens the covariance as the verdict says; where codes contradict the carriers' position, the
+  // Inflates the covariance as the verdict says; where codes contradict the carriers' position, the
   // ambiguities start anew. Returns whether they did.
   bool inflate(double variance, Observable observable, const MeasurementEpoch& epoch,
                const AntennaMotion& antenna);

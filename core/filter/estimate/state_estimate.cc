@@ -178,7 +178,7 @@ void StateEstimate::apply_attitude(const AntennaMotion& before, const Eigen::Qua
   process_.continuous = false;
 }
 
-void StateEstimate::inflate_attitude_noise(double noise, double seconds) {
+void StateEstimate::raise_attitude_noise(double noise, double seconds) {
   state_.random_walk = {noise, state_.nav.time.plus_seconds(seconds)};
 }
 

@@ -64,7 +64,7 @@ class StateEstimate {
                         const AntennaModel& model, const BodyMotion& body);
   // Until `seconds` from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside
   // that of the gyros.
-  void inflate_attitude_noise(double noise, double seconds);
+  void raise_attitude_noise(double noise, double seconds);
 
   // --- time update ---
   // Sets the mechanized inertial state.
@@ -92,7 +92,7 @@ class StateEstimate {
   MotionComponents constrain(MotionMeasurements* measurements, double gate);
 
   // --- inflation ---
-  // Widens what an observable sees first (inflate_covariance in prediction_consistency.h), m^2 or
+  // Inflates what an observable sees first (inflate_covariance in prediction_consistency.h), m^2 or
   // (m/s)^2.
   void inflate(Observable observable, double variance, double interval_s);
   void inflate_position(double sigma_m);

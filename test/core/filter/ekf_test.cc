@@ -235,7 +235,7 @@ TEST_CASE("an attitude that wanders is as much less certain, for as long as it w
   config.keep_process = true;
   Drive drive(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
   Drive plain(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
-  drive.filter().inflate_attitude_noise(kNoise, 3.0);
+  drive.filter().raise_attitude_noise(kNoise, 3.0);
   for (Drive* one : {&drive, &plain}) one->filter().begin_process();
   for (int second = 1; second <= 5; ++second) {
     for (Drive* one : {&drive, &plain}) one->predict(slalom(second));

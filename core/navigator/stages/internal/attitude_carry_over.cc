@@ -25,7 +25,7 @@ AttitudeCarryOver::AttitudeCarryOver(const Ekf& filter, double levelling_sigma)
 void AttitudeCarryOver::give_to(Ekf* filter, GpsTime time) const {
   filter->set_attitude(q_eb_, sigma_rpy_, errors_, error_covariance_);
   if (random_walk_.noise > 0.0)  // the convergence of the attitude continues
-    filter->inflate_attitude_noise(random_walk_.noise, seconds_between(random_walk_.until, time));
+    filter->raise_attitude_noise(random_walk_.noise, seconds_between(random_walk_.until, time));
 }
 
 }  // namespace leonav
