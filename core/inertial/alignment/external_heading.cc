@@ -13,7 +13,7 @@ bool may_be_stationary(double speed_3d, double sigma_v, double min_speed) {
   return speed_3d < kStandingSpeed_m_s + 2.0 * sigma_v && speed_3d < min_speed;
 }
 
-void ExternalHeading::tell(const Heading& heading) {
+void ExternalHeading::set(const Heading& heading) {
   heading_ = heading;
   used_ = false;
   window_ = ImuSample();
@@ -23,11 +23,11 @@ std::optional<ExternalHeading::Heading> ExternalHeading::get() const { return he
 
 void ExternalHeading::use() { used_ = true; }
 
-void ExternalHeading::watch(const ImuSample& sample, double still_rate) {
+void ExternalHeading::end_on_motion(const ImuSample& sample, double still_rate) {
   if (!heading_ || !used_) return;
-  const bool hole =
+  const bool gap =
       window_.time.is_set() && seconds_between(sample.start(), window_.time) > kMaxImuGap_s;
-  if (hole) return heading_.reset();
+  if (gap) return heading_.reset();
   window_.time = sample.time;
   window_.interval_ns += sample.interval_ns;
   window_.delta_theta_b += sample.delta_theta_b;
@@ -36,7 +36,7 @@ void ExternalHeading::watch(const ImuSample& sample, double still_rate) {
   window_ = ImuSample{.time = sample.time};
 }
 
-void ExternalHeading::watch(double speed_3d, double sigma_v, double min_speed) {
+void ExternalHeading::end_on_motion(double speed_3d, double sigma_v, double min_speed) {
   if (!heading_ || !used_) return;
   if (!may_be_stationary(speed_3d, sigma_v, min_speed) || !(sigma_v < min_speed)) heading_.reset();
 }

@@ -19,7 +19,7 @@ class ExternalHeading {
   };
 
   // Replaces the heading; the new one is valid for one alignment regardless of motion.
-  void tell(const Heading& heading);
+  void set(const Heading& heading);
   // Returns the heading, or nullopt if none was given or it is no longer valid.
   std::optional<Heading> get() const;
   // Marks the heading as used: from now on motion ends its validity.
@@ -33,8 +33,8 @@ class ExternalHeading {
   // A mean rate over a second above `still_rate` (rad/s) is a turn. A speed beyond standing, or one
   // too uncertain to confirm standing, is a drive. A gap in the samples that cannot be filled may
   // hide either. `speed_3d`, `sigma_v` (per component) and `min_speed` are in m/s.
-  void watch(const ImuSample& sample, double still_rate);
-  void watch(double speed_3d, double sigma_v, double min_speed);
+  void end_on_motion(const ImuSample& sample, double still_rate);
+  void end_on_motion(double speed_3d, double sigma_v, double min_speed);
 
  private:
   static constexpr double kTurnWindow_s = 1.0;  // noise and vibration average out over this long

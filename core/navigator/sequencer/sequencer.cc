@@ -49,7 +49,7 @@ void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
   const StampDecision stamp = imu_.evaluate_stamp(sample, epochs_.newest_time());
   if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
-  if (stamp.starts_new_time) change_time_base(stamp.jump_s);
+  if (stamp.starts_new_time) start_new_time(stamp.jump_s);
   if (!lay_on_timeline(&sample)) return reject(InputFault::kTimeBackwards);
 
   ++counters_.imu;
@@ -67,14 +67,14 @@ bool Sequencer::lay_on_timeline(ImuSample* sample) {
   const ImuTimeline::Placement placement = imu_.lay_on_timeline(sample);
   if (!placement.accepted) return false;
   if (placement.smoothed) ++counters_.imu_smoothed;
-  if (placement.hole_ns > 0 && is_event_due(++counters_.imu_gaps)) {
-    emit(EventKind::kImuGap, 0, static_cast<double>(placement.hole_ns) * 1e-9);
+  if (placement.gap_ns > 0 && is_event_due(++counters_.imu_gaps)) {
+    emit(EventKind::kImuGap, 0, static_cast<double>(placement.gap_ns) * 1e-9);
   }
   return true;
 }
 
 // Removes everything, because it belongs to the old time, and restarts the filter.
-void Sequencer::change_time_base(double jump_s) {
+void Sequencer::start_new_time(double jump_s) {
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_.clear();
   epochs_.clear();
@@ -117,7 +117,7 @@ void Sequencer::resolve_held_epoch(GpsTime next) {
 
 void Sequencer::accept_epoch(const RawEpoch& epoch) {
   const StampDecision stamp = epochs_.evaluate(epoch.time, imu_.time());
-  if (stamp.starts_new_time) change_time_base(stamp.jump_s);
+  if (stamp.starts_new_time) start_new_time(stamp.jump_s);
   if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
   if (epochs_.is_late(epoch.time)) return drop_late(epoch.time);
   epochs_.clear_rejected_run();

@@ -121,7 +121,7 @@ class Sequencer {
   // All inputs.
   template <typename Input>
   void check_and_push(const Input& input);
-  void change_time_base(double jump_s);
+  void start_new_time(double jump_s);
   void push_command(const Command& command);
   void reject(InputFault fault);
   void report_finding(const ConventionFinding& finding);

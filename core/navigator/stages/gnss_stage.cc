@@ -152,8 +152,7 @@ void GnssStage::initialize_attitude(const EpochWork& work) {
   const AlignedAttitude& aligned = first->aligned;
   ekf_.set_attitude(aligned.q_eb, aligned.sigma_rpy, aligned.gyro_bias_b, aligned.gyro_bias_sigma);
   if (!first->heading_given)
-    ekf_.raise_attitude_noise(config_.alignment.settling_random_walk,
-                                config_.alignment.settling_s);
+    ekf_.raise_attitude_noise(config_.alignment.settling_random_walk, config_.alignment.settling_s);
   attitude_.start_heading_monitor(ekf_);
   reporter_.emit(EventKind::kAligned, aligned.gyro_bias_known ? 1 : 0, aligned.sigma_rpy.z(),
                  work.time);

@@ -7,7 +7,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kLongestHole_s = 10.0;  // after a longer gap the old solution is useless
+constexpr double kLongestGap_s = 10.0;  // after a longer gap the old solution is useless
 constexpr double kJumpEvent_m = 1.0;
 
 std::int64_t to_nanoseconds(double seconds) {
@@ -55,7 +55,7 @@ void InertialNavigator::on_epoch(const EpochIssued& issued) {
 void InertialNavigator::on_sample(const ImuSample& sample) {
   const bool first = !imu_time_.is_set();
   if (!first &&
-      (sample.time <= imu_time_ || seconds_between(sample.start(), imu_time_) > kLongestHole_s)) {
+      (sample.time <= imu_time_ || seconds_between(sample.start(), imu_time_) > kLongestGap_s)) {
     start_over(sample.time);
   }
   imu_time_ = sample.time;

@@ -19,9 +19,9 @@ GpsTime EmptyEpochSchedule::due_time(GpsTime imu_time, GpsTime last_epoch,
   if (since_ns < wait_ns) return {};
   const GpsTime nominal = last_epoch.plus_nanoseconds(interval_ns_);
   // The IMU gets this far ahead only by a gap. One empty epoch at its end replaces a burst of them.
-  const GpsTime hole_end = newest_start;
-  const bool hole = since_ns > 2 * wait_ns && hole_end > last_epoch;
-  return hole ? hole_end : nominal;
+  const GpsTime gap_end = newest_start;
+  const bool gap = since_ns > 2 * wait_ns && gap_end > last_epoch;
+  return gap ? gap_end : nominal;
 }
 
 // The wait becomes a quarter longer than this latency, because latencies vary.

@@ -32,14 +32,14 @@ ImuTimeline::Placement ImuTimeline::place(GpsTime end, ImuSample* sample) {
   jitter_ns_ = std::max(jitter_ns_ - jitter_ns_ / kDecaySamples, std::min(-late_ns, kMaxJitterNs));
   place.smoothed = jitter_ns_ > half_ns;
   if (late_ns > jitter_ns_ + half_ns) {
-    place.hole_ns = place.smoothed ? (late_ns + half_ns) / interval_ns * interval_ns : late_ns;
+    place.gap_ns = place.smoothed ? (late_ns + half_ns) / interval_ns * interval_ns : late_ns;
   } else if (place.smoothed) {
     sample->interval_ns += std::clamp(late_ns / kSmoothing, -half_ns, half_ns);
   } else {
     sample->interval_ns += late_ns;
   }
-  sample->time = end.plus_nanoseconds(place.hole_ns + sample->interval_ns);
-  bridged_ns_ = place.hole_ns;
+  sample->time = end.plus_nanoseconds(place.gap_ns + sample->interval_ns);
+  bridged_ns_ = place.gap_ns;
   return place;
 }
 

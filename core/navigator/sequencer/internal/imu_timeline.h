@@ -33,9 +33,9 @@ class ImuTimeline {
 
   // The result of place().
   struct Placement {
-    bool accepted = true;      // false: the sample's time has been integrated already
-    bool smoothed = false;     // the stamps jitter, so this one had a small weight
-    std::int64_t hole_ns = 0;  // length of the gap before the sample
+    bool accepted = true;     // false: the sample's time has been integrated already
+    bool smoothed = false;    // the stamps jitter, so this one had a small weight
+    std::int64_t gap_ns = 0;  // length of the gap before the sample
   };
   // Moves sample->time from its stamp to the sample's end on the timeline and sets its interval,
   // unless the sample is not accepted. `end` is the end of the previous sample, unset if there is

@@ -9,8 +9,8 @@ namespace {
 
 // White acceleration, (m/s^2)/sqrt(Hz), and rotation, rad/sqrt(s), of a vehicle without IMU
 // samples.
-constexpr double kHoleAcceleration = 3.0;
-constexpr double kHoleRotation = 0.5;
+constexpr double kGapAcceleration = 3.0;
+constexpr double kGapRotation = 0.5;
 
 }  // namespace
 
@@ -112,8 +112,8 @@ PvaCovariance AnchorPropagation::covariance(GpsTime now) const {
   covariance.diagonal().segment<3>(3).array() += gap_velocity_variance_;
   covariance.diagonal().tail<3>().array() += gap_angle_variance_;
   if (unfilled_s_ > 0.0) {
-    add_acceleration_noise(kHoleAcceleration, unfilled_s_, &covariance);
-    covariance.diagonal().tail<3>().array() += kHoleRotation * kHoleRotation * unfilled_s_;
+    add_acceleration_noise(kGapAcceleration, unfilled_s_, &covariance);
+    covariance.diagonal().tail<3>().array() += kGapRotation * kGapRotation * unfilled_s_;
   }
   return covariance;
 }

@@ -24,7 +24,7 @@ AttitudeInitializer::AttitudeInitializer(const NavigatorConfig& config)
       checkpoint_monitor_(config.alignment, config.imu.gyro_bias.sigma,
                           config.checkpoint_max_age_s) {
   if (config_.initial_heading)
-    external_heading_.tell({*config_.initial_heading, config_.initial_heading_sigma});
+    external_heading_.set({*config_.initial_heading, config_.initial_heading_sigma});
 }
 
 void AttitudeInitializer::add(const ImuBlock& block, const Ekf& filter) {
@@ -48,7 +48,7 @@ std::optional<AttitudeInitializer::CheckpointVerdict> AttitudeInitializer::evalu
   const auto verdict =
       checkpoint_monitor_.evaluate({time, filter.antenna_position_e(), position_sigma(filter),
                                     filter.antenna_velocity_e().norm(), velocity_sigma(filter)});
-  if (verdict && verdict->use == CheckpointUse::kUsed) external_heading_.tell(verdict->heading);
+  if (verdict && verdict->use == CheckpointUse::kUsed) external_heading_.set(verdict->heading);
   return verdict;
 }
 
@@ -75,7 +75,7 @@ std::optional<AttitudeInitializer::CheckpointVerdict> AttitudeInitializer::disca
 std::optional<AttitudeInitializer::TurnedAttitude> AttitudeInitializer::set_heading(
     double heading, double sigma, const Ekf& filter) {
   if (!inertial_) return std::nullopt;
-  external_heading_.tell({heading, sigma});
+  external_heading_.set({heading, sigma});
   if (!filter.has_attitude()) return std::nullopt;
   external_heading_.use();
   const NavState& state = filter.state();
@@ -114,10 +114,10 @@ std::optional<double> AttitudeInitializer::heading_error(const IndependentSoluti
 
 void AttitudeInitializer::monitor_motion(const EpochWork& work, const Ekf& filter) {
   for (const ImuSample& sample : work.block)
-    external_heading_.watch(sample, config_.static_gyro_rad_s);
+    external_heading_.end_on_motion(sample, config_.static_gyro_rad_s);
   if (!filter.initialized()) return;
-  external_heading_.watch(filter.antenna_velocity_e().norm(), velocity_sigma(filter),
-                          config_.min_course_speed_m_s);
+  external_heading_.end_on_motion(filter.antenna_velocity_e().norm(), velocity_sigma(filter),
+                                  config_.min_course_speed_m_s);
 }
 
 AlignmentNeed AttitudeInitializer::need(const Ekf& filter, double latitude) const {

@@ -11,19 +11,19 @@ namespace {
 using namespace ekf_index;
 
 // Adds the random walk of the attitude, of density `noise` in rad/sqrt(s), which acts during the
-// first `wanders` seconds of the `t` seconds that end now. With velocity' = F attitude and
+// first `duration` seconds of the `t` seconds that end now. With velocity' = F attitude and
 // position' = velocity it spreads to velocity and position. The integrals are over the age of the
-// noise, from t - wanders to t.
-void add_attitude_random_walk(double noise, double wanders, double t, const Eigen::Matrix3d& F,
+// noise, from t - duration to t.
+void add_attitude_random_walk(double noise, double duration, double t, const Eigen::Matrix3d& F,
                               PvaCovariance* P) {
-  const double density = noise * noise, from = t - wanders;
+  const double density = noise * noise, from = t - duration;
   const Eigen::Matrix3d FF = F * F.transpose();
   const auto integral = [&](int power) { return std::pow(t, power) - std::pow(from, power); };
   const auto add = [&](int row, int column, const Eigen::Matrix3d& block) {
     P->block<3, 3>(row, column) += density * block;
     if (row != column) P->block<3, 3>(column, row) += density * block.transpose();
   };
-  add(kAttitude, kAttitude, wanders * Eigen::Matrix3d::Identity());
+  add(kAttitude, kAttitude, duration * Eigen::Matrix3d::Identity());
   add(kVelocity, kAttitude, integral(2) / 2.0 * F);
   add(kVelocity, kVelocity, integral(3) / 3.0 * FF);
   add(kPosition, kAttitude, integral(3) / 6.0 * F);

@@ -16,7 +16,7 @@ GpsTime turn(ExternalHeading* given, double rate, double seconds, GpsTime start)
     start = start.plus_nanoseconds(sample.interval_ns);
     sample.time = start;
     sample.delta_theta_b.z() = rate * 0.01;
-    given->watch(sample, kStillRate);
+    given->end_on_motion(sample, kStillRate);
   }
   return start;
 }
@@ -25,7 +25,7 @@ const GpsTime kStart = GpsTime::from_week_and_tow(2400, 0.0);
 
 ExternalHeading used_heading() {
   ExternalHeading given;
-  given.tell({1.0, 0.1});
+  given.set({1.0, 0.1});
   given.use();
   return given;
 }
@@ -35,8 +35,8 @@ ExternalHeading used_heading() {
 TEST_CASE("A told heading waits for its first use, whatever moves before", "[ins]") {
   ExternalHeading given;
   CHECK_FALSE(given.get());
-  given.tell({1.0, 0.1});
-  given.watch(10.0, 0.1, kMinSpeed);
+  given.set({1.0, 0.1});
+  given.end_on_motion(10.0, 0.1, kMinSpeed);
   turn(&given, 1.0, 5.0, kStart);
   REQUIRE(given.get());
   CHECK(given.get()->heading == 1.0);
@@ -46,17 +46,17 @@ TEST_CASE("A told heading waits for its first use, whatever moves before", "[ins
 TEST_CASE("A used heading is good again only while the vehicle stands", "[ins]") {
   ExternalHeading standing = used_heading();
   GpsTime time = turn(&standing, 0.02, 10.0, kStart);  // a gyro bias
-  standing.watch(0.1, 0.05, kMinSpeed);
+  standing.end_on_motion(0.1, 0.05, kMinSpeed);
   CHECK(standing.get());
-  SECTION("driven") { standing.watch(2.0, 0.05, kMinSpeed); }
-  SECTION("driven, for all one knows") { standing.watch(0.1, 2.0, kMinSpeed); }
-  SECTION("speed is no number") { standing.watch(std::nan(""), 0.1, kMinSpeed); }
+  SECTION("driven") { standing.end_on_motion(2.0, 0.05, kMinSpeed); }
+  SECTION("driven, for all one knows") { standing.end_on_motion(0.1, 2.0, kMinSpeed); }
+  SECTION("speed is no number") { standing.end_on_motion(std::nan(""), 0.1, kMinSpeed); }
   SECTION("turned on the spot") { turn(&standing, 0.5, 2.0, time); }
   SECTION("nobody knows what it did for a second") {
     turn(&standing, 0.0, 0.5, time.plus_seconds(1.0));
   }
   CHECK_FALSE(standing.get());
-  standing.tell({2.0, 0.1});
+  standing.set({2.0, 0.1});
   REQUIRE(standing.get());
   CHECK(standing.get()->heading == 2.0);
 }

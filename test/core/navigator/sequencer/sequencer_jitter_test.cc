@@ -55,10 +55,10 @@ struct JitterRun {
     std::int64_t sum = 0;
     const auto& samples = rig.stages.samples;
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      const std::int64_t hole_ns =
+      const std::int64_t gap_ns =
           samples[i].start().nanoseconds() - samples[i - 1].time.nanoseconds();
-      REQUIRE(hole_ns >= 0);
-      sum += hole_ns;
+      REQUIRE(gap_ns >= 0);
+      sum += gap_ns;
     }
     return static_cast<double>(sum) / kInterval;
   }
