@@ -1,0 +1,34 @@
+// IntegrityConfig holds the integrity risk, the model of the errors, and the alert limits.
+#pragma once
+
+namespace leonav {
+
+// Overbound is the heavy-tailed distribution that stands for an error of 1 sigma `sigma`:
+//   (1 - tail_share) N(0, (sigma_factor sigma)^2)
+//     + tail_share N(0, (tail_factor sigma_factor sigma)^2)
+// A symmetric distribution of this form bounds the error on both sides (paired overbound: Rife,
+// Pullen, Enge, Pervan, "Paired overbounding for nonideal LAAS and WAAS error distributions", IEEE
+// TAES 42(4), 2006).
+struct Overbound {
+  double sigma_factor = 1.0;  // inflates the stated sigma
+  double tail_share = 0.05;   // share of the errors that come from the wider distribution
+  double tail_factor = 3.0;   // its sigma in sigmas of the core
+
+  bool operator==(const Overbound&) const = default;
+};
+
+// The configuration of the protection levels.
+struct IntegrityConfig {
+  // Probability per hour that an error exceeds its level without a warning; for each of the
+  // horizontal, vertical and heading level alone.
+  double risk_per_hour = 1e-5;
+  // Time after which errors are independent. The shorter, the more often an hour tries its luck.
+  double error_correlation_s = 30.0;
+  Overbound overbound;
+  // Levels above these make the health DEGRADED, m; 0: no limit.
+  double horizontal_alert_limit_m = 0.0, vertical_alert_limit_m = 0.0;
+
+  bool operator==(const IntegrityConfig&) const = default;
+};
+
+}  // namespace leonav
