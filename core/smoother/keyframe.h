@@ -15,6 +15,7 @@
 #include "core/filter/update/motion_constraint.h"
 #include "core/gnss/measurement/measurement.h"
 #include "core/inertial/strapdown/imu.h"
+#include "core/integrity/fault_hypothesis.h"
 
 namespace leonav {
 
@@ -55,6 +56,7 @@ struct KeyframeInput {
   bool block_complete = false;    // no sample is missing
   ImuSample sample_before_block;  // the last measured sample before the block; interval 0: none
   ConstraintInstants instants;    // motion constraints within the block
+  FaultHypotheses fault_hypotheses;
 };
 
 // The states that are estimated: the core states (before the ambiguities) whose variance is not

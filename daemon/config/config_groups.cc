@@ -187,6 +187,17 @@ void read_robust(ConfigReader& group, RobustConfig* config) {
   if (config->k1 <= config->k0) group.fail("k1", "must be greater than k0");
 }
 
+void read_integrity(ConfigReader& group, IntegrityConfig* config) {
+  constexpr Bounds kAlertLimit = {0.0, 1e6};
+  group.number("risk_per_hour", {1e-12, 0.1}, &config->risk_per_hour);
+  group.number("error_correlation_s", {0.01, 3600.0}, &config->error_correlation_s);
+  group.number("sigma_factor", {0.1, 100.0}, &config->overbound.sigma_factor);
+  group.number("tail_share", {0.0, 0.5}, &config->overbound.tail_share);
+  group.number("tail_factor", {1.0, 100.0}, &config->overbound.tail_factor);
+  group.number("horizontal_alert_limit_m", kAlertLimit, &config->horizontal_alert_limit_m);
+  group.number("vertical_alert_limit_m", kAlertLimit, &config->vertical_alert_limit_m);
+}
+
 void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads) {
   RealtimeConfig& realtime = navigator->realtime;
   group.number("deadline_ekf_ms", {1.0, 1e4}, &realtime.deadline_ekf_s, kMillisecond);

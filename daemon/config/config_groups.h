@@ -17,6 +17,7 @@ void read_ground(ConfigReader& group, GnssConfig* config);
 void read_ekf(ConfigReader& group, NavigatorConfig* config);
 void read_smoother(ConfigReader& group, SmootherConfig* config);
 void read_robust(ConfigReader& group, RobustConfig* config);
+void read_integrity(ConfigReader& group, IntegrityConfig* config);
 // Deadlines and rates belong to the navigator, priorities and processors to the threads.
 void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads);
 void read_drill(ConfigReader& group, DrillConfig* config);

@@ -42,6 +42,7 @@ DaemonConfig read_root(ConfigReader& root) {
   root.group("ekf", [&](ConfigReader& r) { read_ekf(r, &navigator); });
   root.group("smoother", [&](ConfigReader& r) { read_smoother(r, &navigator.smoother); });
   root.group("robust", [&](ConfigReader& r) { read_robust(r, &navigator.ekf.robust); });
+  root.group("integrity", [&](ConfigReader& r) { read_integrity(r, &navigator.integrity); });
   root.group("realtime", [&](ConfigReader& r) { read_realtime(r, &navigator, &config.threads); });
   root.group("drill", [&](ConfigReader& r) { read_drill(r, &config.drill); });
   root.group("lcm", [&](ConfigReader& r) {

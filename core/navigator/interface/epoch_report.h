@@ -10,6 +10,7 @@
 #include "core/filter/update/motion_constraint.h"
 #include "core/gnss/measurement/measurement.h"
 #include "core/inertial/alignment/alignment_need.h"
+#include "core/integrity/fault_hypothesis.h"
 #include "core/navigator/interface/checkpoint.h"
 #include "core/navigator/interface/solution.h"
 #include "core/vehicle/constraint_report.h"
@@ -66,6 +67,8 @@ struct EpochReport {
   int nis_degrees = 0;  // degrees of freedom of `nis`: the number of those measurements
   boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
+  // Faults that the protection levels allow for, beside none. Not on the wire.
+  FaultHypotheses fault_hypotheses;
   ConstraintInstants constraints;  // instants since the last epoch; not on the wire
   ConstraintReports constraint_reports;
   // Checkpoint for the next run. nullopt: the filter is not initialized, or there is no IMU.

@@ -27,6 +27,10 @@ void fill_solution(const Ekf& filter, Solution* solution) {
   fill_solution(at_stamp(filter.state(), offset_s), covariance, filter.has_attitude(), solution);
 }
 
+NominalError nominal_error(const Ekf& filter, const Solution& solution) {
+  return nominal_error(PvaCovariance(filter.covariance().topLeftCorner<9, 9>()), solution);
+}
+
 Eigen::Vector3d sigma_of_euler(const Ekf& filter) {
   Solution solution;
   fill_solution(filter, &solution);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/filter/ekf.h"
+#include "core/integrity/protection_levels.h"
 #include "core/navigator/interface/solution.h"
 
 namespace leonav {
@@ -15,8 +16,11 @@ double velocity_sigma(const Ekf& filter);
 double gyro_bias_sigma(const Ekf& filter);
 
 // Fills `solution` with the filter's estimate at the stamp of its epoch, but for sequence, source,
-// anchor and jump. Precondition: the filter is initialized.
+// anchor, jump and protection levels. Precondition: the filter is initialized.
 void fill_solution(const Ekf& filter, Solution* solution);
+// Returns the error of the filter's solution, as the protection levels need it. Precondition:
+// `solution` is from fill_solution().
+NominalError nominal_error(const Ekf& filter, const Solution& solution);
 // Returns 1 sigma of roll, pitch and yaw as published, rad; zero without attitude.
 Eigen::Vector3d sigma_of_euler(const Ekf& filter);
 

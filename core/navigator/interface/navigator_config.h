@@ -6,6 +6,7 @@
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/inertial/alignment/alignment.h"
 #include "core/inertial/strapdown/imu_error_model.h"
+#include "core/integrity/integrity_config.h"
 #include "core/smoother/smoother_config.h"
 #include "core/vehicle/motion_aiding_config.h"
 
@@ -51,6 +52,7 @@ struct NavigatorConfig {
   GnssConfig gnss;
   EkfConfig ekf;
   SmootherConfig smoother;
+  IntegrityConfig integrity;
   RealtimeConfig realtime;
   double solution_rate_hz = 200.0;  // largest rate of published solutions, by data time
   double checkpoint_max_age_s = 30.0 * 86400.0;  // an older checkpoint is not used; data time

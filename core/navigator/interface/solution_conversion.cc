@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/filter/ekf.h"
@@ -87,6 +88,21 @@ void fill_solution(const NavState& state, const PvaCovariance& covariance, bool 
   solution->yaw = euler.yaw;
   solution->sigma_rpy =
       sigma_of_euler(rotated_block(covariance, ekf_index::kAttitude, C_ne), euler.pitch, euler.yaw);
+}
+
+NominalError nominal_error(const PvaCovariance& covariance, const Solution& solution) {
+  NominalError error;
+  const Eigen::Matrix3d C_ne =
+      rotation_ecef_to_ned({solution.latitude, solution.longitude, solution.height});
+  error.position_covariance_n = rotated_block(covariance, ekf_index::kPosition, C_ne);
+  if (solution.has_attitude) error.heading_variance = square(solution.sigma_rpy.z());
+  return error;
+}
+
+void set_levels(const ProtectionLevels& levels, Solution* solution) {
+  solution->horizontal_protection_m = levels.horizontal_m;
+  solution->vertical_protection_m = levels.vertical_m;
+  solution->heading_protection = levels.heading;
 }
 
 }  // namespace leonav

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/inertial/strapdown/nav_state.h"
+#include "core/integrity/protection_levels.h"
 #include "core/navigator/interface/solution.h"
 
 namespace leonav {
@@ -16,10 +17,15 @@ using PvaCovariance = Eigen::Matrix<double, 9, 9>;
 NavState at_stamp(const NavState& state, double time_offset_s);
 
 // Fills time, position, velocity, attitude, their sigmas and the IMU errors of `solution`. The
-// caller fills the rest: sequence, source, anchor, jump. Without attitude the angles and their
-// sigmas are zero.
+// caller fills the rest: sequence, source, anchor, jump, protection levels. Without attitude the
+// angles and their sigmas are zero.
 void fill_solution(const NavState& state, const PvaCovariance& covariance, bool has_attitude,
                    Solution* solution);
+
+// Returns the error of a solution that fill_solution() has made of `covariance`, as the protection
+// levels need it.
+NominalError nominal_error(const PvaCovariance& covariance, const Solution& solution);
+void set_levels(const ProtectionLevels& levels, Solution* solution);
 
 // Returns the root of the sum of the three variances; 0 if the sum is negative, NaN if it is NaN.
 double norm_of_sigmas(const Eigen::Matrix3d& covariance);

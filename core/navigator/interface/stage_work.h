@@ -14,6 +14,7 @@
 #include "core/gnss/signals/observation.h"
 #include "core/inertial/strapdown/imu.h"
 #include "core/inertial/strapdown/odometer.h"
+#include "core/integrity/level_growth.h"
 #include "core/navigator/interface/checkpoint.h"
 #include "core/navigator/interface/event.h"
 #include "core/navigator/interface/solution.h"
@@ -79,6 +80,7 @@ struct Anchor {
   // The estimated time offset: the state is valid this much later than its stamp.
   double time_offset_s = 0.0;
   AttitudeRandomWalk random_walk;  // inflated attitude noise of the filter from here on
+  LevelGrowth levels;              // protection levels from here on
 };
 
 // The smoother's result at an epoch. The SmootherStage delivers it through a mailbox of its own.

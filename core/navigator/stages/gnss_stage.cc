@@ -64,7 +64,7 @@ void GnssStage::process_work(const EpochWork& work) {
   check_installation(work);
   report_solution(work);
   if (inertial_)
-    mailbox_->deliver(work.index, anchor_from_filter(work.index, ekf_, epoch_.gnss_used));
+    mailbox_->deliver(work.index, anchor_from_filter(work.index, ekf_, epoch_.gnss_used, levels_));
   reporter_.report_orbit_changes();
   publish(work);
   push_keyframe(work);
@@ -179,6 +179,7 @@ void GnssStage::report_solution(const EpochWork& work) {
     reset(kDropReset, work.time, ResetCause::kNotFinite, 0.0);
     reporter_.clear_solution();
   }
+  levels_ = reporter_.add_levels(ekf_, config_.integrity);
   motion_aiding_.set_satellites_used(reporter_.report().satellites_used);
 }
 
@@ -205,6 +206,7 @@ void GnssStage::push_keyframe(const EpochWork& work) {
   pending_keyframe_.make(work, epoch_.filter_updated ? &front_end_.measurements() : nullptr,
                          &motion_aiding_, &ekf_, keyframe);
   keyframe->has_gnss = source() != Source::kInsOnly;
+  keyframe->fault_hypotheses = reporter_.report().fault_hypotheses;
   keyframes_->push_keyframe();
 }
 

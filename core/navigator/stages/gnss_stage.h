@@ -87,7 +87,8 @@ class GnssStage {
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;
   InstallationMonitor installation_monitor_;
-  EpochState epoch_;  // the current or last epoch
+  EpochState epoch_;    // the current or last epoch
+  LevelGrowth levels_;  // protection levels from that epoch on
   GpsTime last_epoch_time_;
   GpsTime last_gnss_time_;  // time of the last epoch that used satellites
 };

@@ -197,9 +197,10 @@ bool InertialNavigator::publication_due(const ImuSample& sample) {
 
 void InertialNavigator::publish(GpsTime now) {
   Solution solution;
-  fill_solution(answer_.state(now), answer_.covariance(now), answer_.anchor().has_attitude,
-                &solution);
+  const PvaCovariance covariance = answer_.covariance(now);
+  fill_solution(answer_.state(now), covariance, answer_.anchor().has_attitude, &solution);
   if (!is_finite(solution)) return drop_anchor(now);
+  set_levels(answer_.anchor().levels.at(nominal_error(covariance, solution)), &solution);
   solution.sequence = next_solution_++;
   solution.source = source_;
   solution.anchor_epoch = answer_.anchor().index;

@@ -8,8 +8,10 @@ namespace {
 
 Solution solution_of(const Anchor& anchor, Source source) {
   Solution solution;
-  fill_solution(at_stamp(anchor.state, anchor.time_offset_s),
-                anchor.covariance.topLeftCorner<9, 9>(), anchor.has_attitude, &solution);
+  const PvaCovariance covariance = anchor.covariance.topLeftCorner<9, 9>();
+  fill_solution(at_stamp(anchor.state, anchor.time_offset_s), covariance, anchor.has_attitude,
+                &solution);
+  set_levels(anchor.levels.at(nominal_error(covariance, solution)), &solution);
   solution.source = source;
   solution.anchor_epoch = anchor.index;
   return solution;
@@ -23,6 +25,7 @@ SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<Smoothe
       sink_(sink),
       events_(Stage::kSmoother, sink),
       inertial_(config.motion == MotionModel::kInertial),
+      integrity_(config.integrity),
       smoother_(config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
                 {config.ekf, config.imu, config.vehicle.motion.constraints}) {}
 
@@ -34,6 +37,14 @@ void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   const bool delivered = !inertial_ || mailbox_->deliver(input.index, update);
   smoother_.commit_or_roll_back(delivered);
   if (delivered) report(input, result, update);
+}
+
+// Adds the protection levels for the fault hypotheses of the keyframe.
+void SmootherStage::add_levels(const KeyframeInput& input, Anchor* anchor) const {
+  const Solution solution = solution_of(*anchor, Source::kSmoother);
+  const NominalError error = nominal_error(anchor->covariance.topLeftCorner<9, 9>(), solution);
+  const FaultHypotheses& faults = input.fault_hypotheses;
+  anchor->levels = LevelGrowth(error, {faults.data(), faults.size()}, integrity_);
 }
 
 SmootherAnchor SmootherStage::answer(const KeyframeInput& input,
@@ -52,6 +63,7 @@ SmootherAnchor SmootherStage::answer(const KeyframeInput& input,
   update.anchor.random_walk = input.state.random_walk;
   update.anchor.gnss_used = result.used > 0;
   update.anchor.valid = is_finite(solution_of(update.anchor, Source::kSmoother));
+  if (update.anchor.valid) add_levels(input, &update.anchor);
   return update;
 }
 
@@ -78,6 +90,7 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
     filter.index = input.index;
     filter.state = input.state.nav;
     filter.covariance = inertial_covariance(input.covariance);
+    add_levels(input, &filter);
     solution = solution_of(filter, Source::kEkf);
   }
   if (!input.has_gnss) solution.source = Source::kInsOnly;

@@ -34,6 +34,7 @@ class SmootherStage {
   Source source() const { return source_; }
 
  private:
+  void add_levels(const KeyframeInput& input, Anchor* anchor) const;
   SmootherAnchor answer(const KeyframeInput& input, const SmootherResult& result) const;
   void publish(Solution solution);
   void report(const KeyframeInput& input, const SmootherResult& result,
@@ -43,6 +44,7 @@ class SmootherStage {
   OutputSink* sink_;
   EventSource events_;
   bool inertial_;
+  IntegrityConfig integrity_;
   Smoother smoother_;
   Source source_ = Source::kNone;
   std::uint64_t next_report_ = 1, next_solution_ = 1;

@@ -4,7 +4,8 @@
 
 namespace leonav {
 
-Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used) {
+Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used,
+                          const LevelGrowth& levels) {
   Anchor anchor;
   anchor.index = index;
   anchor.valid = filter.initialized();
@@ -14,6 +15,7 @@ Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used
   anchor.covariance = inertial_covariance(filter.covariance());
   anchor.gnss_used = gnss_used;
   anchor.random_walk = filter.filter_state().random_walk;
+  anchor.levels = levels;
   anchor.time_offset_s =
       filter.has_attitude() ? time_offset_of(filter.filter_state().vehicle) : 0.0;
   return anchor;

@@ -8,6 +8,7 @@
 namespace leonav {
 
 // Returns the anchor of epoch `index`, which is not valid while the filter is not initialized.
-Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used);
+Anchor anchor_from_filter(std::uint64_t index, const Ekf& filter, bool gnss_used,
+                          const LevelGrowth& levels);
 
 }  // namespace leonav

@@ -90,6 +90,7 @@ void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* re
   report->nis_degrees = 0;
   report->satellites.clear();
   report->aiding.clear();
+  report->fault_hypotheses.clear();
   report->constraints.clear();
   report->constraint_reports.clear();
 }
@@ -142,6 +143,15 @@ void report_state(const Ekf& ekf, EpochReport* report) {
     report->wet_delay_m = ekf.filter_state().wet_delay_m;
     report->wet_delay_sigma_m = std::sqrt(wet_variance);
   }
+}
+
+LevelGrowth report_levels(const Ekf& ekf, const IntegrityConfig& config, EpochReport* report) {
+  if (!ekf.initialized()) return {};
+  const NominalError error = nominal_error(ekf, report->solution);
+  const FaultHypotheses& faults = report->fault_hypotheses;
+  const LevelGrowth levels(error, {faults.data(), faults.size()}, config);
+  set_levels(levels.at(error), &report->solution);
+  return levels;
 }
 
 }  // namespace leonav

@@ -1,6 +1,7 @@
 // These functions fill an EpochReport: every satellite and every measurement, with its reason.
 #pragma once
 #include "core/filter/ekf.h"
+#include "core/integrity/level_growth.h"
 #include "core/navigator/interface/epoch_report.h"
 
 namespace leonav {
@@ -20,5 +21,9 @@ void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vecto
 // Reports the filter's estimate at the epoch: clocks, wet delay, and the solution without sequence,
 // source and anchor.
 void report_state(const Ekf& ekf, EpochReport* report);
+
+// Adds the protection levels to a reported estimate of the filter, for the fault hypotheses of the
+// report. Returns the levels from this epoch on; without estimate there are none.
+LevelGrowth report_levels(const Ekf& ekf, const IntegrityConfig& config, EpochReport* report);
 
 }  // namespace leonav

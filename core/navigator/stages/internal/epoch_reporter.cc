@@ -73,6 +73,10 @@ void EpochReporter::monitor_usability() {
 
 void EpochReporter::add_state(const Ekf& filter) { report_state(filter, report_.get()); }
 
+LevelGrowth EpochReporter::add_levels(const Ekf& filter, const IntegrityConfig& config) {
+  return report_levels(filter, config, report_.get());
+}
+
 void EpochReporter::clear_solution() {
   report_->solution = Solution();
   report_->solution.time = report_->time;
