@@ -1,6 +1,7 @@
 #include "drivers/csv/solution_csv.h"
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace leonav {
@@ -14,6 +15,11 @@ void write_vector(CsvWriter& writer, const std::optional<Eigen::Vector3d>& vecto
   for (int i = 0; i < 3; ++i) {
     writer.number(vector ? std::optional((*vector)[i] / unit) : std::nullopt, decimals);
   }
+}
+
+// Returns a protection level of a solution, which is NaN where none is known.
+std::optional<double> known(double level) {
+  return std::isnan(level) ? std::nullopt : std::optional(level);
 }
 
 Source read_source(CsvRows& rows, int column) {
@@ -45,6 +51,9 @@ SolutionRow to_solution_row(const Solution& solution, std::optional<int> satelli
   row.source = solution.source;
   row.satellites = satellites;
   row.pdop = pdop;
+  row.horizontal_protection_m = known(solution.horizontal_protection_m);
+  row.vertical_protection_m = known(solution.vertical_protection_m);
+  row.heading_protection = known(solution.heading_protection);
   return row;
 }
 
@@ -58,6 +67,10 @@ void SolutionCsvWriter::write(const SolutionRow& row) {
   writer_.text(to_string(row.source));
   writer_.text(row.satellites ? std::to_string(*row.satellites) : std::string());
   writer_.number(row.pdop, 2);
+  writer_.number(row.horizontal_protection_m, 4);
+  writer_.number(row.vertical_protection_m, 4);
+  writer_.number(
+      row.heading_protection ? std::optional(*row.heading_protection / kDegree) : std::nullopt, 6);
   writer_.end_row();
   ++rows_;
 }
@@ -73,7 +86,9 @@ SolutionCsv read_solution_csv(const std::string& path) {
   std::array<int, 9> sigma{};
   for (std::size_t i = 0; i < sigma.size(); ++i) sigma[i] = rows.column(kSigmaNames[i]);
   const int source = rows.column("source"), satellites = rows.column("satellites"),
-            pdop = rows.column("pdop");
+            pdop = rows.column("pdop"), horizontal = rows.column("protection_horizontal_m"),
+            vertical = rows.column("protection_vertical_m"),
+            heading = rows.column("protection_heading_deg");
 
   SolutionCsv solution;
   while (rows.next()) {
@@ -87,6 +102,10 @@ SolutionCsv read_solution_csv(const std::string& path) {
     row.satellites = parse_int(rows.text(satellites));
     if (!row.satellites && !rows.blank(satellites)) rows.mark_bad("satellites is no whole number");
     row.pdop = rows.number(pdop);
+    row.horizontal_protection_m = rows.number(horizontal);
+    row.vertical_protection_m = rows.number(vertical);
+    row.heading_protection = rows.number(heading);
+    if (row.heading_protection) *row.heading_protection *= kDegree;
     if (rows.bad()) {
       rows.skip();
     } else {

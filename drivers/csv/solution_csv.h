@@ -16,7 +16,8 @@ namespace leonav {
 inline constexpr std::string_view kSolutionCsvHeader =
     "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m,v_north_m_s,v_east_m_s,v_down_m_s,"
     "roll_deg,pitch_deg,yaw_deg,std_north_m,std_east_m,std_down_m,std_v_north_m_s,std_v_east_m_s,"
-    "std_v_down_m_s,std_roll_deg,std_pitch_deg,std_yaw_deg,source,satellites,pdop";
+    "std_v_down_m_s,std_roll_deg,std_pitch_deg,std_yaw_deg,source,satellites,pdop,"
+    "protection_horizontal_m,protection_vertical_m,protection_heading_deg";
 
 // One row, in the frames of the truth file.
 struct SolutionRow {
@@ -27,13 +28,16 @@ struct SolutionRow {
   Source source = Source::kNone;
   std::optional<int> satellites;
   std::optional<double> pdop;
+  std::optional<double> horizontal_protection_m, vertical_protection_m;
+  std::optional<double> heading_protection;  // rad
 };
 
 // Converts a solution to a row; satellites and pdop come from the epoch on which it is based.
 SolutionRow to_solution_row(const Solution& solution, std::optional<int> satellites,
                             std::optional<double> pdop);
 
-// Writes the digits of truth.csv; sigmas 1e-4 m and m/s, 1e-6 deg; pdop 1e-2.
+// Writes the digits of truth.csv; sigmas and protection levels 1e-4 m and m/s, 1e-6 deg;
+// pdop 1e-2.
 class SolutionCsvWriter {
  public:
   explicit SolutionCsvWriter(const std::string& path);  // throws FileError

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <limits>
 
 #include "drivers/csv/imu_csv.h"
 #include "drivers/csv/solution_csv.h"
@@ -176,11 +177,15 @@ TEST_CASE("solution.csv: written and read again", "[csv]") {
   solution.sigma_v_n << 0.1, 0.2, 0.3;
   solution.sigma_rpy << 0.001, 0.002, 0.03;
   solution.source = Source::kSmoother;
+  solution.horizontal_protection_m = 1.25;
+  solution.vertical_protection_m = 2.5;
+  solution.heading_protection = 0.1;
   SolutionCsvWriter writer(path_of("solution"));
   writer.write(to_solution_row(solution, 17, 1.234));
   solution.time = solution.time.plus_seconds(1.0);
   solution.has_attitude = false;
   solution.source = Source::kAligning;
+  solution.heading_protection = std::numeric_limits<double>::quiet_NaN();
   writer.write(to_solution_row(solution, std::nullopt, std::nullopt));
   writer.close();
 
@@ -197,6 +202,11 @@ TEST_CASE("solution.csv: written and read again", "[csv]") {
   CHECK(row.source == Source::kSmoother);
   CHECK(row.satellites == 17);
   CHECK(*row.pdop == Approx(1.23));
+  CHECK(*row.horizontal_protection_m == 1.25);
+  CHECK(*row.vertical_protection_m == 2.5);
+  CHECK(*row.heading_protection == Approx(0.1).epsilon(1e-7));
+  CHECK(*again.rows[1].vertical_protection_m == 2.5);
+  CHECK_FALSE(again.rows[1].heading_protection);
   CHECK_FALSE(again.rows[1].pva.yaw);
   CHECK_FALSE(again.rows[1].satellites);
   CHECK(again.rows[1].source == Source::kAligning);
