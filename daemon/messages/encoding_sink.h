@@ -16,7 +16,9 @@ class MessageTarget {
 // One per thread; allocates only at construction.
 class EncodingSink : public OutputSink {
  public:
-  explicit EncodingSink(MessageTarget* target) : target_(target) {}
+  // `schema`: the version of the messages; an older one to compare with an older journal.
+  explicit EncodingSink(MessageTarget* target, OutputSchema schema = OutputSchema::kNewest)
+      : target_(target), encoder_(schema) {}
   void on_solution(const Solution& solution) override {
     target_->take(Channel::kSolution, encoder_.encode(solution));
   }

@@ -13,8 +13,10 @@
 #include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
+#include <leonav/smoother_v1_t.hpp>
 
 #include "drivers/lcm/convert.h"
+#include "drivers/lcm/output_schema.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
@@ -37,6 +39,14 @@ InputFault check_count(ByteSpan bytes, std::size_t offset, std::size_t capacity)
   return static_cast<std::size_t>(count) > capacity ? InputFault::kTooMany : InputFault::kNone;
 }
 
+template <typename T>
+constexpr std::int32_t schema_of(const T&) {
+  return wire::kSchema;
+}
+constexpr std::int32_t schema_of(const smoother_t&) {
+  return static_cast<std::int32_t>(OutputSchema::kNewest);
+}
+
 // Runs the generated decoder and checks that it used the whole message and that the schema is
 // known. Precondition: counts have been checked.
 template <typename T>
@@ -44,7 +54,7 @@ InputFault read(ByteSpan bytes, T* message) {
   if (bytes.size() > wire::kMaxMessageBytes) return InputFault::kTooMany;
   const int size = static_cast<int>(bytes.size());
   if (message->decode(bytes.data(), 0, size) != size) return InputFault::kUndecodable;
-  return message->schema == wire::kSchema ? InputFault::kNone : InputFault::kUnknownSchema;
+  return message->schema == schema_of(*message) ? InputFault::kNone : InputFault::kUnknownSchema;
 }
 
 // Reads a message whose only array may hold `capacity` elements.
@@ -80,6 +90,22 @@ bool sort_and_drop_copies(RawEpoch* epoch) {
   const bool had_copies = kept != list.size();
   list.resize(kept);
   return had_copies;
+}
+
+// Reads a result of the smoother in one of its versions.
+template <typename T>
+DecodeResult decode_smoother(ByteSpan bytes, SmootherReport* report) {
+  T message{};
+  InputFault fault = read(bytes, &message);
+  if (fault != InputFault::kNone) return result_of(message, fault);
+  if (!is_time(message.time_ns) || message.epoch <= 0 || message.iterations < 0) {
+    fault = InputFault::kOutOfRange;
+  } else {
+    report->sequence = static_cast<std::uint64_t>(message.sequence);
+    report->index = static_cast<std::uint64_t>(message.epoch);
+    report->iterations = message.iterations;
+  }
+  return result_of(message, fault);
 }
 
 }  // namespace
@@ -262,17 +288,9 @@ DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, SmootherReport* report) {
-  smoother_t message{};
-  InputFault fault = read(bytes, &message);
-  if (fault != InputFault::kNone) return result_of(message, fault);
-  if (!is_time(message.time_ns) || message.epoch <= 0 || message.iterations < 0) {
-    fault = InputFault::kOutOfRange;
-  } else {
-    report->sequence = static_cast<std::uint64_t>(message.sequence);
-    report->index = static_cast<std::uint64_t>(message.epoch);
-    report->iterations = message.iterations;
-  }
-  return result_of(message, fault);
+  if (output_schema_of(Channel::kSmoother, bytes) == OutputSchema::kFirst)
+    return decode_smoother<smoother_v1_t>(bytes, report);
+  return decode_smoother<smoother_t>(bytes, report);
 }
 
 }  // namespace leonav

@@ -9,6 +9,7 @@
 #include <leonav/decision_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/epoch_t.hpp>
+#include <leonav/epoch_v1_t.hpp>
 #include <leonav/event_t.hpp>
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
@@ -16,6 +17,7 @@
 #include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
+#include <leonav/smoother_v1_t.hpp>
 
 #include "drivers/lcm/wire.h"
 
@@ -53,8 +55,16 @@ void fill(const SignalObservation& from, gnss_observation_t* to) {
                                        (from.half_cycle_ambiguous ? wire::kFlagHalfCycle : 0));
 }
 
-void fill(const Solution& from, solution_t* to) {
-  set_header(from.time, from.sequence, to);
+// Sets the header of an output that has versions.
+template <typename T>
+void set_header(GpsTime time, std::uint64_t sequence, OutputSchema schema, T* message) {
+  set_header(time, sequence, message);
+  message->schema = static_cast<std::int32_t>(schema);
+}
+
+// Fills what all versions have.
+template <typename T>
+void fill_all_versions(const Solution& from, T* to) {
   to->source = static_cast<std::int8_t>(from.source);
   to->has_attitude = from.has_attitude ? 1 : 0;
   copy(from.p_e, to->p_e);
@@ -72,6 +82,19 @@ void fill(const Solution& from, solution_t* to) {
   copy(from.errors.accel_scale, to->accel_scale);
   to->anchor_epoch = static_cast<std::int64_t>(from.anchor_epoch);
   to->jump_m = from.jump_m;
+}
+
+void fill(const Solution& from, solution_v1_t* to) {
+  set_header(from.time, from.sequence, OutputSchema::kFirst, to);
+  fill_all_versions(from, to);
+}
+
+void fill(const Solution& from, solution_t* to) {
+  set_header(from.time, from.sequence, OutputSchema::kNewest, to);
+  fill_all_versions(from, to);
+  to->horizontal_protection_m = from.horizontal_protection_m;
+  to->vertical_protection_m = from.vertical_protection_m;
+  to->heading_protection_rad = from.heading_protection;
 }
 
 std::int8_t flags_of(const PreciseState& state) {
@@ -121,14 +144,64 @@ void fill(const ConstraintReport& from, constraint_t* to) {
   to->residual = from.residual;
 }
 
+template <typename T>
+void fill_all_versions(const EpochReport& from, T* to) {
+  to->n_satellites = static_cast<std::int32_t>(from.satellites.size());
+  to->n_aiding = static_cast<std::int32_t>(from.aiding.size());
+  to->index = static_cast<std::int64_t>(from.index);
+  to->empty = from.empty ? 1 : 0;
+  fill(from.solution, &to->solution);
+  to->satellites_used = from.satellites_used;
+  to->pdop = from.pdop;
+  to->hdop = from.hdop;
+  to->vdop = from.vdop;
+  std::copy(from.clock_m.begin(), from.clock_m.end(), to->clock_m);
+  std::copy(from.clock_drift_m_s.begin(), from.clock_drift_m_s.end(), to->clock_drift_m_s);
+  to->wet_delay_m = from.wet_delay_m;
+  to->wet_delay_sigma_m = from.wet_delay_sigma_m;
+  to->nis = from.nis;
+  to->nis_degrees = from.nis_degrees;
+  to->satellites.resize(from.satellites.size());
+  for (std::size_t i = 0; i < from.satellites.size(); ++i) {
+    fill(from.satellites[i], &to->satellites[i]);
+  }
+  to->aiding.resize(from.aiding.size());
+  for (std::size_t i = 0; i < from.aiding.size(); ++i) fill(from.aiding[i], &to->aiding[i]);
+}
+
+void fill(const EpochReport& from, epoch_v1_t* to) {
+  set_header(from.time, from.sequence, OutputSchema::kFirst, to);
+  fill_all_versions(from, to);
+}
+
+void fill(const EpochReport& from, epoch_t* to) {
+  set_header(from.time, from.sequence, OutputSchema::kNewest, to);
+  fill_all_versions(from, to);
+  to->fault_hypotheses = static_cast<std::int32_t>(from.fault_hypotheses.size());
+}
+
+template <typename T>
+void fill(const SmootherReport& from, OutputSchema schema, T* to) {
+  set_header(from.solution.time, from.sequence, schema, to);
+  to->epoch = static_cast<std::int64_t>(from.index);
+  to->status = static_cast<std::int8_t>(from.status);
+  to->iterations = from.iterations;
+  to->converged = from.converged ? 1 : 0;
+  to->keyframes = from.keyframes;
+  to->used = from.used;
+  fill(from.solution, &to->solution);
+}
+
 }  // namespace
 
 struct Encoder::Storage {
+  OutputSchema schema = OutputSchema::kNewest;
   // Messages are kept between calls, so that their vectors keep their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
   antenna_t antenna;
   epoch_t epoch;
+  epoch_v1_t epoch_v1;
   constraints_t constraints;
   std::array<std::uint8_t, wire::kMaxMessageBytes> buffer;
 
@@ -141,12 +214,15 @@ struct Encoder::Storage {
   }
 };
 
-Encoder::Encoder() : storage_(std::make_unique<Storage>()) {
+Encoder::Encoder(OutputSchema schema) : storage_(std::make_unique<Storage>()) {
+  storage_->schema = schema;
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
   storage_->antenna.values_m.reserve(kMaxAntennaValues);
   storage_->epoch.satellites.reserve(kMaxSatellites);
   storage_->epoch.aiding.reserve(kMaxMeasurements);
+  storage_->epoch_v1.satellites.reserve(kMaxSatellites);
+  storage_->epoch_v1.aiding.reserve(kMaxMeasurements);
   storage_->constraints.components.reserve(kMaxConstraintReports);
 }
 Encoder::~Encoder() = default;
@@ -282,36 +358,20 @@ ByteSpan Encoder::encode(const Checkpoint& checkpoint, std::uint64_t sequence) {
 }
 
 ByteSpan Encoder::encode(const Solution& solution) {
-  solution_t message;
-  fill(solution, &message);
-  return storage_->write(message);
+  const auto write = [&](auto message) {
+    fill(solution, &message);
+    return storage_->write(message);
+  };
+  return storage_->schema == OutputSchema::kFirst ? write(solution_v1_t()) : write(solution_t());
 }
 
-ByteSpan Encoder::encode(const EpochReport& from) {
-  epoch_t& to = storage_->epoch;
-  set_header(from.time, from.sequence, &to);
-  to.n_satellites = static_cast<std::int32_t>(from.satellites.size());
-  to.n_aiding = static_cast<std::int32_t>(from.aiding.size());
-  to.index = static_cast<std::int64_t>(from.index);
-  to.empty = from.empty ? 1 : 0;
-  fill(from.solution, &to.solution);
-  to.satellites_used = from.satellites_used;
-  to.pdop = from.pdop;
-  to.hdop = from.hdop;
-  to.vdop = from.vdop;
-  std::copy(from.clock_m.begin(), from.clock_m.end(), to.clock_m);
-  std::copy(from.clock_drift_m_s.begin(), from.clock_drift_m_s.end(), to.clock_drift_m_s);
-  to.wet_delay_m = from.wet_delay_m;
-  to.wet_delay_sigma_m = from.wet_delay_sigma_m;
-  to.nis = from.nis;
-  to.nis_degrees = from.nis_degrees;
-  to.satellites.resize(from.satellites.size());
-  for (std::size_t i = 0; i < from.satellites.size(); ++i) {
-    fill(from.satellites[i], &to.satellites[i]);
-  }
-  to.aiding.resize(from.aiding.size());
-  for (std::size_t i = 0; i < from.aiding.size(); ++i) fill(from.aiding[i], &to.aiding[i]);
-  return storage_->write(to);
+ByteSpan Encoder::encode(const EpochReport& report) {
+  const auto write = [&](auto& message) {
+    fill(report, &message);
+    return storage_->write(message);
+  };
+  const bool first = storage_->schema == OutputSchema::kFirst;
+  return first ? write(storage_->epoch_v1) : write(storage_->epoch);
 }
 
 ByteSpan Encoder::encode_constraints(const EpochReport& from) {
@@ -346,16 +406,11 @@ ByteSpan Encoder::encode(const Decision& decision) {
 }
 
 ByteSpan Encoder::encode(const SmootherReport& report) {
-  smoother_t message;
-  set_header(report.solution.time, report.sequence, &message);
-  message.epoch = static_cast<std::int64_t>(report.index);
-  message.status = static_cast<std::int8_t>(report.status);
-  message.iterations = report.iterations;
-  message.converged = report.converged ? 1 : 0;
-  message.keyframes = report.keyframes;
-  message.used = report.used;
-  fill(report.solution, &message.solution);
-  return storage_->write(message);
+  const auto write = [&](auto message) {
+    fill(report, storage_->schema, &message);
+    return storage_->write(message);
+  };
+  return storage_->schema == OutputSchema::kFirst ? write(smoother_v1_t()) : write(smoother_t());
 }
 
 }  // namespace leonav

@@ -14,6 +14,7 @@
 #include "core/navigator/interface/smoother_report.h"
 #include "core/navigator/interface/solution.h"
 #include "core/navigator/interface/stage_work.h"
+#include "drivers/lcm/output_schema.h"
 
 namespace leonav {
 
@@ -24,7 +25,8 @@ using ByteSpan = std::span<const std::uint8_t>;
 // unchecked: do not encode values that the Decoder would refuse.
 class Encoder {
  public:
-  Encoder();
+  // `schema`: the version of the outputs SOLUTION, EPOCH and SMOOTHER.
+  explicit Encoder(OutputSchema schema = OutputSchema::kNewest);
   ~Encoder();
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;

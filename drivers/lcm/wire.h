@@ -10,6 +10,8 @@
 namespace leonav::wire {
 
 inline constexpr std::int32_t kSchema = 1;
+// Of HEALTH. SOLUTION, EPOCH and SMOOTHER: output_schema.h.
+inline constexpr std::int32_t kHealthSchema = 2;
 
 // Largest message that the Decoder accepts. The longest of lcmtypes/ is epoch_t at full capacity
 // (31.4 KiB).

@@ -1,5 +1,7 @@
 #include "tools/replay/journal_scan.h"
 
+#include <optional>
+
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
@@ -42,6 +44,7 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   Decoder decoder;
   JournalScan scan;
   LogEvent event;
+  std::optional<OutputSchema> schema;
   for (std::int64_t before = 0; log.next(&event); ++before) {
     const auto channel = channel_from_name(event.channel, prefix);
     if (!channel) {
@@ -51,6 +54,7 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
     }
     ++scan.messages[index_of(*channel)];
     scan.stopped_cleanly = *channel == Channel::kEnd && decode_journal_end(event.data) == before;
+    if (!schema) schema = output_schema_of(*channel, event.data);
     if (*channel == Channel::kSmoother) note_answer(event.data, &decoder, &scan);
     if (*channel != Channel::kDecision) continue;
     Decision decision;
@@ -60,6 +64,7 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
       scan.decisions.push_back(decision);
     }
   }
+  scan.output_schema = schema.value_or(OutputSchema::kNewest);
   scan.truncated = log.truncated();
   return scan;
 }

@@ -8,6 +8,7 @@
 
 #include "daemon/messages/output_groups.h"
 #include "drivers/lcm/channels.h"
+#include "drivers/lcm/output_schema.h"
 
 namespace leonav {
 
@@ -19,7 +20,8 @@ struct JournalScan {
   std::vector<Decision> decisions;
   // Results of the smoother with their iterations; the last epochs have no decision yet.
   std::vector<Decision> delivered;
-  bool truncated = false;        // the last event is cut short
+  OutputSchema output_schema = OutputSchema::kNewest;  // of the first output that has one
+  bool truncated = false;                              // the last event is cut short
   bool stopped_cleanly = false;  // its last message is the end mark, and none is missing
 
   std::uint64_t inputs() const;

@@ -14,7 +14,7 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       options_(options),
       scan_(scan),
       files_(options.out_folder, options.rate_hz),
-      encoder_(this),
+      encoder_(this, scan.output_schema),
       pipeline_(config.navigator, this),
       dispatch_(&pipeline_.sequencer()) {
   if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
@@ -101,6 +101,10 @@ void ReplayRun::print_summary(std::ostream& out) {
   out << "solution.csv rows: " << files_.solution_rows() << "\n";
   for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
     out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
+  }
+  if (scan_.output_schema != OutputSchema::kNewest) {
+    out << "outputs in schema " << static_cast<int>(scan_.output_schema)
+        << ", as the journal holds them: without protection levels\n";
   }
   out << "output hash: " << digest_.hex_digest() << "\n";
 }
