@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "core/navigator/interface/solution.h"
@@ -38,6 +39,8 @@ std::int64_t sum(const auto& gauges) {
 HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
     : engine_(engine),
       alignment_(config.alignment),
+      horizontal_alert_limit_m_(config.integrity.horizontal_alert_limit_m),
+      vertical_alert_limit_m_(config.integrity.vertical_alert_limit_m),
       expects_imu_(config.motion == MotionModel::kInertial),
       uses_odometer_(expects_imu_ && config.vehicle.motion.constraints.odometer),
       imu_{"usable IMU", kImuSilence_s, kNever_s},
@@ -121,6 +124,22 @@ void HealthMonitor::evaluate_solution(double now_s) {
   if (source == Source::kInsOnly) {
     worsen("DEGRADED", expects_imu_ ? "INS only" : "prediction without GNSS");
   }
+  evaluate_levels();
+}
+
+// A solution that may be further off than its user allows.
+void HealthMonitor::evaluate_levels() {
+  const EngineCounters& counters = engine_->counters();
+  const auto compare = [&](const char* name, const Gauge& level, double limit_m) {
+    const double level_m = static_cast<double>(level.get()) * 1e-6;
+    if (limit_m == 0.0 || level_m <= limit_m) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "%s protection level %.2f m above %.2f m", name, level_m,
+                  limit_m);
+    worsen("DEGRADED", text);
+  };
+  compare("horizontal", counters.horizontal_protection_micro, horizontal_alert_limit_m_);
+  compare("vertical", counters.vertical_protection_micro, vertical_alert_limit_m_);
 }
 
 void HealthMonitor::evaluate_stream(std::int64_t number, double now_s, Stream* stream) {

@@ -38,12 +38,14 @@ class HealthMonitor {
   void evaluate(double now_s);
   void evaluate_solution(double now_s);
   void evaluate_stream(std::int64_t number, double now_s, Stream* stream);
+  void evaluate_levels();
   void evaluate_conventions();
   void evaluate_count(std::int64_t count, const char* reason, std::int64_t* last);
   void worsen(const char* status, const std::string& reason);
 
   Engine* engine_;
   AlignmentConfig alignment_;
+  double horizontal_alert_limit_m_, vertical_alert_limit_m_;  // 0: none
   bool expects_imu_, uses_odometer_;
   Stream imu_, gnss_, odometer_, solution_;
   Stopwatch uptime_;

@@ -49,6 +49,8 @@ struct EngineCounters {
   Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps, imu_smoothed,
       epochs_without_imu;
   // ins, or gnss where that publishes
+  // Protection levels of the last solution, 1e-6 m and 1e-6 rad; -1: none is known.
+  Gauge horizontal_protection_micro, vertical_protection_micro, heading_protection_micro;
   Gauge solution_time_ns, source, commits, misses, smoother_commits, smoother_misses, worst_tick_ns;
   // gnss
   std::array<Gauge, kSystemCount> satellites_used;

@@ -8,7 +8,19 @@
 
 namespace leonav {
 
+namespace {
+
+// Returns a protection level as its gauge holds it.
+std::int64_t micro(double level) {
+  return std::isnan(level) ? -1 : std::llround(std::min(level * 1e6, 1e15));
+}
+
+}  // namespace
+
 void StageSink::on_solution(const Solution& solution) {
+  counters_->horizontal_protection_micro.set(micro(solution.horizontal_protection_m));
+  counters_->vertical_protection_micro.set(micro(solution.vertical_protection_m));
+  counters_->heading_protection_micro.set(micro(solution.heading_protection));
   counters_->solution_time_ns.set(solution.time.nanoseconds());
   encoder_.on_solution(solution);
 }

@@ -29,10 +29,19 @@ void add_count(const std::string& name, std::int64_t value, health_t* message) {
   message->counts.push_back(count);
 }
 
-// NaN for the -1 of "none in use".
-double age_s(const Gauge& age_ms) {
-  const std::int64_t value = age_ms.get();
-  return value < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * 1e-3;
+// Returns the value of a gauge in its unit; NaN for the -1 of "none".
+double scaled(const Gauge& gauge, double unit) {
+  const std::int64_t value = gauge.get();
+  return value < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * unit;
+}
+double age_s(const Gauge& age_ms) { return scaled(age_ms, 1e-3); }
+
+// Without a solution there is no level, though that of the last one is still there.
+void add_levels(const EngineCounters& counters, Source source, health_t* message) {
+  const double unit = source == Source::kNone ? std::numeric_limits<double>::quiet_NaN() : 1e-6;
+  message->horizontal_protection_m = scaled(counters.horizontal_protection_micro, unit);
+  message->vertical_protection_m = scaled(counters.vertical_protection_micro, unit);
+  message->heading_protection_rad = scaled(counters.heading_protection_micro, unit);
 }
 
 void add_counts(EngineCounters* counters, health_t* message) {
@@ -74,7 +83,7 @@ void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std
   health_t message{};
   message.time_ns = counters.solution_time_ns.get();
   message.sequence = static_cast<std::int64_t>(summary.sequence);
-  message.schema = wire::kSchema;
+  message.schema = wire::kHealthSchema;
   message.status = summary.status;
   message.why = summary.why;
   message.source = std::string(to_string(summary.source));
@@ -99,6 +108,7 @@ void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std
   message.odometer_age_s = age_s(counters.odometer_age_ms);
   message.memory_mb = resident_megabytes();
   message.uptime_s = summary.uptime_s;
+  add_levels(counters, summary.source, &message);
   add_counts(&counters, &message);
   bytes->resize(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes->data(), 0, static_cast<int>(bytes->size()));

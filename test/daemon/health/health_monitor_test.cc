@@ -2,6 +2,7 @@
 #include "daemon/health/health_monitor.h"
 
 #include <cmath>
+#include <cstdio>
 #include <leonav/health_t.hpp>
 #include <thread>
 
@@ -19,8 +20,10 @@ struct Discard final : MessageTarget {
 // An engine and its health, fed in step.
 class Watched {
  public:
-  explicit Watched(MotionModel motion, bool odometer = false) {
+  explicit Watched(MotionModel motion, bool odometer = false,
+                   const IntegrityConfig& integrity = {}) {
     DaemonConfig config = test::drive_config();
+    config.navigator.integrity = integrity;
     config.navigator.vehicle.motion.constraints.odometer = odometer;
     config.navigator.motion = motion;
     REQUIRE(config.navigator.realtime.epoch_interval_s == 1.0);
@@ -171,6 +174,32 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
                : "OK: ekf"));
     CHECK(watched.at(60.0) + watched.message().source == "OK: ekf");
   }
+}
+
+TEST_CASE("levels are in HEALTH, and those above their alert limits degrade it") {
+  IntegrityConfig integrity;
+  integrity.horizontal_alert_limit_m = 1000.0;
+  integrity.vertical_alert_limit_m = 0.01;
+  Watched watched(MotionModel::kInertial, false, integrity);
+  watched.at(0.5);
+  CHECK(std::isnan(watched.message().horizontal_protection_m));
+  watched.feed(everything);
+  const std::string said = watched.at(60.0);
+  const double vertical_m = watched.message().vertical_protection_m;
+  CHECK(watched.message().schema == 2);
+  CHECK(watched.message().horizontal_protection_m > 0.01);
+  CHECK(watched.message().horizontal_protection_m < 1000.0);
+  CHECK(vertical_m > 0.01);
+  CHECK(watched.message().heading_protection_rad > 0.0);
+  CHECK(watched.message().heading_protection_rad <= 3.15);
+  char expected[96];
+  std::snprintf(expected, sizeof expected,
+                "DEGRADED: vertical protection level %.2f m above 0.01 m", vertical_m);
+  CHECK(said == expected);
+  // An answer that has ended has no level.
+  watched.at(75.0);
+  CHECK(watched.message().source == "none");
+  CHECK(std::isnan(watched.message().vertical_protection_m));
 }
 
 TEST_CASE("an input that does not follow a convention stays a reason, with the remedy") {
