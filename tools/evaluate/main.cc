@@ -7,6 +7,7 @@
 
 #include "drivers/csv/imu_csv.h"
 #include "tools/common/arguments.h"
+#include "tools/evaluate/integrity_mode.h"
 #include "tools/evaluate/internal/gyro_heading.h"
 #include "tools/evaluate/internal/residuals.h"
 #include "tools/evaluate/quality_mode.h"
@@ -20,10 +21,16 @@ int body(int argc, char** argv) {
   Arguments arguments(
       "leonav-eval",
       "--truth truth.csv [options] [LABEL=]solution.csv ...\n"
+      "       leonav-eval --integrity --truth truth.csv [--alert-limit-m 1,3,10] [--json FILE] "
+      "[--plots DIR]\n"
+      "               [LABEL=]solution.csv ...\n"
       "       leonav-eval --residuals measurements.csv\n"
       "       leonav-eval --quality [--json FILE] [--plots DIR] run.lcmlog",
       "Compares solutions (solution.csv of leonav-replay, or RTKLIB .pos files) with a truth:\n"
       "RMSE, mean, percentiles per component, availability, convergence, attitude.\n"
+      "With --integrity: how often the errors exceed the protection levels and alert limits, how "
+      "often\n"
+      "the levels are within the limits; of all runs together too.\n"
       "With --residuals: what the estimator left of its measurements, by system and elevation.\n"
       "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
       "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
@@ -46,13 +53,25 @@ int body(int argc, char** argv) {
       .option("--to", "WEEK:TOW", "judge up to this GPS time")
       .option("--residuals", "FILE", "measurements.csv of leonav-replay; needs no truth")
       .flag("--quality", "judge the measurements of an LCM log instead of solutions")
-      .option("--plots", "DIR", "with --quality: PNG plots, index.html and the tables behind them")
+      .option("--plots", "DIR",
+              "with --quality: PNG plots, index.html and the tables behind them; with --integrity: "
+              "Stanford diagrams and their table")
+      .flag("--integrity", "hold the errors against the protection levels of solution.csv")
+      .option("--alert-limit-m", "M,M,...", "with --integrity: alert limits", "1,3,10")
+      .option("--block-s", "S",
+              "with --integrity: epochs closer together than this count as one trial", "60")
       .option("--mask", "DEG", "with --quality: elevation from which a satellite is usable", "15")
       .option("--prefix", "PREFIX", "with --quality: of the log's channels", "LEONAV_");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.has("--quality")) return leonav::run_quality(arguments);
+  const bool integrity = arguments.has("--integrity");
   for (const char* name : {"--plots", "--mask", "--prefix"}) {
+    if (integrity && name == std::string("--plots")) continue;
     if (arguments.has(name)) throw leonav::UsageError(std::string(name) + " needs --quality");
+  }
+  for (const char* name : {"--alert-limit-m", "--block-s"}) {
+    if (arguments.has(name) && !integrity)
+      throw leonav::UsageError(std::string(name) + " needs --integrity");
   }
   if (arguments.has("--residuals")) {
     std::cout << leonav::to_table(leonav::read_residuals(arguments.get("--residuals")));
@@ -85,6 +104,7 @@ int body(int argc, char** argv) {
         leonav::evaluate(label, solution, truth, options, arguments.number("--convergence-bound")));
     evaluations.back().skipped = of_solution;
   }
+  if (integrity) return leonav::run_integrity(arguments, evaluations);
   std::cout << leonav::to_table(evaluations);
   if (arguments.has("--imu")) {
     const leonav::ImuCsv imu = leonav::read_imu_csv(arguments.get("--imu"));

@@ -1,14 +1,12 @@
 #include "tools/evaluate/quality_mode.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <numbers>
 #include <stdexcept>
 
+#include "tools/evaluate/internal/plot_script.h"
 #include "tools/quality/quality.h"
 
 namespace leonav {
@@ -17,26 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kPlotEpochs = 5000;
-
-// Runs the plot script in the folder of this program, with the program's output streams.
-void draw(const fs::path& folder) {
-  const fs::path script = fs::read_symlink("/proc/self/exe").parent_path() / "leonav-quality-plots";
-  std::cout.flush();
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("no process for the plots");
-  if (child == 0) {
-    ::execl(script.c_str(), script.c_str(), folder.c_str(), static_cast<char*>(nullptr));
-    ::_exit(127);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw std::runtime_error(script.string() + " cannot be run; the tables are in " +
-                             folder.string());
-  throw std::runtime_error("the plots failed; the tables are in " + folder.string());
-}
 
 }  // namespace
 
@@ -54,13 +32,7 @@ int run_quality(const Arguments& arguments) {
   options.elevation_mask = mask_deg * std::numbers::pi / 180.0;
   const bool plots = arguments.has("--plots");
   if (plots) options.plot_epochs = kPlotEpochs;
-  const fs::path folder = arguments.get("--plots");
-  if (plots) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-      throw std::runtime_error(folder.string() + ": no folder, and cannot be made");
-  }
+  const fs::path folder = plots ? make_plot_folder(arguments.get("--plots")) : fs::path();
   const Quality quality = analyse_quality(arguments.positional()[0], options, &std::cerr);
   std::cout << to_table(quality);
   if (arguments.has("--json")) {
@@ -70,7 +42,7 @@ int run_quality(const Arguments& arguments) {
   }
   if (plots) {
     write_plot_tables(quality, folder.string());
-    draw(folder);
+    run_plot_script("leonav-quality-plots", {folder.string()}, folder);
   }
   return 0;
 }

@@ -11,6 +11,11 @@
 
 namespace leonav {
 
+// What the errors of a row do not exceed, as the solution states it.
+struct StatedLevels {
+  std::optional<double> horizontal_m, vertical_m, heading;  // m, m, rad
+};
+
 // One row.
 struct TrackPoint {
   GpsTime time;
@@ -18,6 +23,7 @@ struct TrackPoint {
   std::optional<Eigen::Vector3d> v_n;        // m/s, north east down
   std::array<std::optional<double>, 3> rpy;  // rad: roll, pitch, yaw
   std::optional<Eigen::Vector3d> sigma_neu;  // m, 1 sigma
+  StatedLevels levels;
 };
 
 using Track = std::vector<TrackPoint>;  // times strictly increasing
