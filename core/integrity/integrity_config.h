@@ -12,7 +12,7 @@ namespace leonav {
 struct Overbound {
   double sigma_factor = 1.0;  // inflates the stated sigma
   double tail_share = 0.05;   // share of the errors that come from the wider distribution
-  double tail_factor = 3.0;   // its sigma in sigmas of the core
+  double tail_factor = 2.0;   // its sigma in sigmas of the core
 
   bool operator==(const Overbound&) const = default;
 };
@@ -23,7 +23,7 @@ struct IntegrityConfig {
   // horizontal, vertical and heading level alone.
   double risk_per_hour = 1e-5;
   // Time after which errors are independent. The shorter, the more often an hour tries its luck.
-  double error_correlation_s = 30.0;
+  double error_correlation_s = 10.0;
   Overbound overbound;
   // Levels above these make the health DEGRADED, m; 0: no limit.
   double horizontal_alert_limit_m = 0.0, vertical_alert_limit_m = 0.0;

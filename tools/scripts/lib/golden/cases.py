@@ -438,6 +438,9 @@ def programs():
                        "--convergence-bound", "0.5", "in/results/urban/solution.csv"]], ["urban", "results"], quick=True)
     add("eval/walk", [[*evaluate, "--truth", "data/walk/truth.csv", "--remove-offset", "--max-course-rate", "10", "--imu",
                        "data/walk/imu.csv", "in/walk-result/walk/solution.csv"]], ["walk-result"], ["walk"])
+    add("eval/integrity", [["leonav-eval", "--integrity", "--json", "{out}/counts.json", "--truth", "in/urban/truth.csv",
+                            "--alert-limit-m", "0.5,5", "all=in/results/urban/solution.csv",
+                            "GPS=in/results/urban-gps/solution.csv"]], ["urban", "results"], quick=True)
     for name in ("urban", "noisy", "walk", "drive", "station", "drive-leo"):
         add(f"quality/{name}", [["leonav-eval", "--quality", "--json", "{out}/quality.json", log_of(name)]], [name],
             quick=name == "urban")
