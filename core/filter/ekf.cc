@@ -41,6 +41,7 @@ void Ekf::reset() {
   initialize(GpsTime(), PointSolution());
   propagator_.reset();
   estimate_.forget_clocks();
+  assembler_.forget_errors();
   initialized_ = false;
 }
 
@@ -165,6 +166,11 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
     tables = clock_removed_by_observable(measurements, covariance());
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
+  if (!result->prediction_suspect) {
+    for (const Observable observable : {Observable::kCode, Observable::kDoppler})
+      assembler_.learn(epoch, table_of(tables, observable));
+    assembler_.finish_learning(epoch.time);
+  }
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }

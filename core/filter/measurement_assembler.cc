@@ -57,11 +57,19 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
     entry.variance = square(measurement.sigma);
     entry.gain_variance = entry.variance;
     entry.row = prediction.row;
-    const double lasts = correlation_time_ratio(satellite, antenna.p_e);
-    if (measurement.observable == Observable::kCode)
-      code_model_.weigh(epoch, measurement, lasts, dt, &entry);
-    if (measurement.observable == Observable::kDoppler)
-      entry.gain_variance *= correlation_inflation(lasts * config_.doppler_correlation_time_s, dt);
+    if (!carrier) {
+      const ErrorClass of = error_class(measurement, satellite);
+      const double lasts = correlation_time_ratio(satellite, antenna.p_e);
+      CorrelationModel correlation = errors_.correlation(of);
+      correlation.time_s *= lasts;
+      const double inflation = variance_inflation(correlation, dt);
+      const double modelled =
+          std::min(square(measurement.correlated_sigma), entry.variance);
+      entry.variance = modelled + (entry.variance - modelled) * square(errors_.sigma_scale(of));
+      entry.gain_variance = inflation * entry.variance;
+      if (measurement.observable == Observable::kCode)
+        code_model_.weigh(epoch, measurement, inflation, lasts, &entry);
+    }
     if (carrier) {
       entry.ambiguity =
           find_or_add_ambiguity(measurement, satellite.satellite, entry, epoch.time, estimate);
