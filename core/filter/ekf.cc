@@ -45,7 +45,10 @@ void Ekf::reset() {
   initialized_ = false;
 }
 
-void Ekf::initialize(GpsTime time, const PointSolution& point) {
+void Ekf::initialize(GpsTime time, const PointSolution& given) {
+  PointSolution point = given;
+  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();

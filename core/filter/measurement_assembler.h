@@ -38,7 +38,7 @@ class MeasurementAssembler {
 
   // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
   void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
-    errors_.add(epoch, measurements_, innovations);
+    errors_.add(epoch, measurements_, innovations, standing_);
   }
   void finish_learning(GpsTime time) { errors_.end_epoch(time); }
   const LearnedErrors& errors() const { return errors_; }
@@ -53,6 +53,9 @@ class MeasurementAssembler {
   void exclude_ranges();
 
  private:
+  // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
+  void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
+             double correlation_time_ratio, double dt, FilterMeasurement* entry);
   template <typename Predicate>
   void exclude_if(Predicate predicate);
 
@@ -61,7 +64,8 @@ class MeasurementAssembler {
   LearnedErrors errors_;
   FilterMeasurements measurements_;
   ExcludedMeasurements excluded_;
-  GpsTime epoch_time_;  // of measurements_
+  bool standing_ = false;  // the vehicle, at measurements_
+  GpsTime epoch_time_;     // of measurements_
   int arcs_without_capacity_ = 0;
 };
 

@@ -122,19 +122,27 @@ void ReplayRun::print_odometer(std::ostream& out) {
 void ReplayRun::print_learned_errors(std::ostream& out) {
   constexpr std::array kElevations = {"below 20", "20 to 35", "35 to 50", "above 50"};
   const LearnedErrors& errors = pipeline_.gnss().ekf().learned_errors();
-  for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
+  if (!errors.learns()) return;
+  for (const Observable observable :
+       {Observable::kCode, Observable::kDoppler, Observable::kCarrier}) {
     for (std::size_t elevation = 0; elevation < kElevationClasses; ++elevation) {
       ErrorClass of;
       of.observable = static_cast<std::size_t>(observable);
       of.elevation = elevation;
-      out << "errors of " << (observable == Observable::kCode ? "codes, " : "Dopplers, ")
+      out << "errors of "
+          << (observable == Observable::kCode      ? "codes, "
+              : observable == Observable::kDoppler ? "Dopplers, "
+                                                   : "carriers, ")
           << kElevations[elevation] << " deg: sigma times";
       for (of.system = 0; of.system < kSystemCount; ++of.system)
         for (of.signal = 0; of.signal < kSignalClasses; ++of.signal)
           out << " " << std::setprecision(2) << errors.sigma_scale(of);
       const CorrelationModel& correlation = errors.correlation(of);
       out << ", " << std::setprecision(2) << 100.0 * correlation.share << " % alike for "
-          << correlation.time_s << " s\n";
+          << correlation.time_s << " s";
+      of.motion = 1;
+      const CorrelationModel& standing = errors.correlation(of);
+      out << ", standing " << 100.0 * standing.share << " % for " << standing.time_s << " s\n";
     }
   }
 }

@@ -19,7 +19,7 @@ struct CorrelationModel {
 
 // Returns by how much the variance of a long mean exceeds that of the mean of white errors of the
 // same size, when one error is seen every `dt` seconds:
-//   1 + 2 sum_n rho(n dt) = 1 + 2 share r / (1 - r),   r = exp(-dt / time_s)
+//   1 + 2 sum_n rho(n dt) = (1 + (2 share - 1) r) / (1 - r),   r = exp(-dt / time_s)
 // (Brockwell and Davis, Introduction to Time Series and Forecasting, 2016, 2.4.1).
 double variance_inflation(const CorrelationModel& model, double dt);
 
@@ -40,27 +40,37 @@ class ErrorCorrelation {
     double predicted_ratio = 0.0;  // h P h^T / sigma^2
   };
 
-  // `prior`: by Observable.
-  explicit ErrorCorrelation(const std::array<CorrelationModel, kObservables>& prior);
+  // By observable and motion.
+  using Priors = std::array<std::array<CorrelationModel, kMotionClasses>, kObservables>;
+  explicit ErrorCorrelation(const Priors& priors);
   void reset();
   // Adds to the epoch at `time`.
   void add(const Sample& sample, GpsTime time);
   // Ends the epoch, `interval_s` after the one before, and fits the models.
   void end_epoch(double interval_s);
   const CorrelationModel& model(const ErrorClass& of) const {
-    return models_[of.observable][of.elevation];
+    return models_[of.observable][of.motion][of.elevation];
   }
 
  private:
-  static constexpr std::size_t kLags = 9;       // bins: 0; about 1, 2, 4, ... 128 s
-  static constexpr std::size_t kHistory = 48;   // samples kept of a signal
+  static constexpr std::size_t kLags = 9;      // bins: 0; about 1, 2, 4, ... 128 s
+  static constexpr std::size_t kHistory = 48;  // samples kept of a signal
   struct Lag {
-    double count = 0.0, product = 0.0, lag_s = 0.0;
+    double count = 0.0, product = 0.0, lag_s = 0.0;  // sums
+    Lag& operator+=(const Lag& other) {
+      count += other.count, product += other.product, lag_s += other.lag_s;
+      return *this;
+    }
+    Lag& operator*=(double factor) {
+      count *= factor, product *= factor, lag_s *= factor;
+      return *this;
+    }
   };
   using Lags = std::array<Lag, kLags>;
   struct Past {
     GpsTime time;
     double ratio = 0.0, predicted_ratio = 0.0;
+    std::size_t motion = 0;
   };
   struct History {
     SatelliteId satellite;
@@ -75,11 +85,14 @@ class ErrorCorrelation {
   };
 
   History* history_of(const Sample& sample, GpsTime time);
-  Lags prior_lags(std::size_t observable) const;
 
-  std::array<CorrelationModel, kObservables> prior_;
-  std::array<std::array<Lags, kElevationClasses>, kObservables> lags_;
-  std::array<std::array<CorrelationModel, kElevationClasses>, kObservables> models_;
+  template <typename T>
+  using ByClass =
+      std::array<std::array<std::array<T, kElevationClasses>, kMotionClasses>, kObservables>;
+
+  Priors priors_;
+  ByClass<Lags> lags_;
+  ByClass<CorrelationModel> models_;
   std::unique_ptr<Histories> histories_;
 };
 

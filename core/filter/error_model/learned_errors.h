@@ -15,20 +15,21 @@ class LearnedErrors {
   // Returns to what is configured.
   void reset();
 
-  // Adds one observable of an epoch.
+  bool learns() const { return learns_; }
+  // Adds one observable of an epoch. `standing`: the vehicle stands.
   void add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-           const ClockRemovedInnovations& innovations);
+           const ClockRemovedInnovations& innovations, bool standing);
   // Ends the epoch.
   void end_epoch(GpsTime time);
 
   // Returns by how much the sigma of a measurement is larger than configured.
-  double sigma_scale(const ErrorClass& of) const {
-    return learns_ ? scale_.scale(of) : 1.0;
+  double sigma_scale(const ErrorClass& of) const { return learns_ ? scale_.scale(of) : 1.0; }
+  // The same of an observable, without regard to the class.
+  double mean_scale(Observable observable) const {
+    return learns_ ? scale_.mean_scale(observable) : 1.0;
   }
   // Returns how its errors are correlated in time, at a satellite in medium orbit.
-  const CorrelationModel& correlation(const ErrorClass& of) const {
-    return correlation_.model(of);
-  }
+  const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }
 
  private:
   bool learns_;

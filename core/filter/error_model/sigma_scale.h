@@ -7,8 +7,8 @@
 
 namespace leonav {
 
-// The scale s of a class is log-linear in its properties (multiplicative heteroskedasticity, Harvey,
-// Econometrica 44(3), 1976):
+// The scale s of a class is log-linear in its properties (multiplicative heteroskedasticity,
+// Harvey, Econometrica 44(3), 1976):
 //   log s = base(observable) + system + elevation + signal
 // Each term follows the score of its own class, with innovations limited as in Huber's proposal 2
 // (Huber and Ronchetti, Robust Statistics, 2009, 6.4): with z the standardized innovation and w the
@@ -25,11 +25,14 @@ class SigmaScale {
     double measured_share = 0.0;  // w, 0 to 1
   };
 
+  SigmaScale();
   void reset() { *this = SigmaScale(); }
   // Adds to the epoch under way.
   void add(const Sample& sample);
   // Ends the epoch: moves every term by what `interval_s` of its samples say.
   void end_epoch(double interval_s);
+  // Returns s without regard to the class.
+  double mean_scale(Observable observable) const;
   // Returns s of a class.
   double scale(const ErrorClass& of) const;
 
@@ -37,6 +40,7 @@ class SigmaScale {
   struct Term {
     double value = 0.0;
     double score = 0.0;
+    double age_s = 0.0;
     int count = 0;
   };
   struct Terms {  // of one observable
