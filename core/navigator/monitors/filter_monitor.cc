@@ -247,11 +247,13 @@ std::array<std::optional<double>, 2> FilterMonitor::add_consistency(const EkfUpd
   return improbable;
 }
 
-void FilterMonitor::clear_evidence() {
+void FilterMonitor::filter_restarted(GpsTime time, bool time_begins_anew) {
   contradicted_epochs_ = 0;
   rejection_monitor_.reset();
   displacement_evidence_ = 0.0;
   mean_displacement_e_.setZero();
+  last_reset_time_ = time_begins_anew ? GpsTime() : time;
+  if (time_begins_anew) last_rejection_restart_ = GpsTime();
 }
 
 }  // namespace leonav

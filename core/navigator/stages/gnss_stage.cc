@@ -254,12 +254,8 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.motion_aiding) motion_aiding_.reset();
   if (plan.outage_monitor) reporter_.reset_outage();
   if (plan.installation_monitor) installation_monitor_.clear();
-  filter_monitor_.clear_evidence();
-  filter_monitor_.filter_restarted(plan.times ? GpsTime() : time);
-  if (plan.times) {
-    filter_monitor_.clear_rejection_time();
-    last_gnss_time_ = GpsTime();
-  }
+  filter_monitor_.filter_restarted(time, plan.times);
+  if (plan.times) last_gnss_time_ = GpsTime();
   epoch_.gnss_used = plan.gnss_used;
   epoch_.filter_restarted = true;
   reporter_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
