@@ -245,18 +245,18 @@ void GnssStage::apply(const FilterVerdict& verdict, GpsTime time) {
 
 void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, double value,
                       const PointSolution& start) {
-  if (plan.external_heading) attitude_.forget_heading();
+  if (plan.clears_external_heading) attitude_.forget_heading();
   if (plan.filter == FilterReset::kReset) ekf_.reset();
   if (plan.filter == FilterReset::kRestart) restart_filter(plan, time, start);
   if (plan.carriers == CarrierReset::kAll) front_end_.reset_carriers();
   if (plan.carriers == CarrierReset::kPosition) front_end_.reset_position();
-  if (plan.alignment) attitude_.reset_alignment();
-  if (plan.motion_aiding) motion_aiding_.reset();
-  if (plan.outage_monitor) reporter_.reset_outage();
-  if (plan.installation_monitor) installation_monitor_.clear();
-  filter_monitor_.filter_restarted(time, plan.times);
-  if (plan.times) last_gnss_time_ = GpsTime();
-  epoch_.gnss_used = plan.gnss_used;
+  if (plan.clears_alignment) attitude_.reset_alignment();
+  if (plan.clears_motion_aiding) motion_aiding_.reset();
+  if (plan.clears_outage_monitor) reporter_.reset_outage();
+  if (plan.clears_installation_monitor) installation_monitor_.clear();
+  filter_monitor_.filter_restarted(time, plan.clears_times);
+  if (plan.clears_times) last_gnss_time_ = GpsTime();
+  epoch_.gnss_used = plan.counts_as_gnss_epoch;
   epoch_.filter_restarted = true;
   reporter_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
 }

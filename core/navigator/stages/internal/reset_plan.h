@@ -23,41 +23,42 @@ struct ResetPlan {
   bool keeps_vehicle_constants = false;
   bool keeps_attitude = false;  // see AttitudeCarryOver
   CarrierReset carriers = CarrierReset::kPosition;
-  bool alignment = false;
-  bool external_heading = false;  // it is dropped, and the heading monitor stops
-  bool motion_aiding = false;
-  bool outage_monitor = false;
-  bool installation_monitor = false;
+  bool clears_alignment = false;
+  bool clears_external_heading = false;  // the heading monitor stops as well
+  bool clears_motion_aiding = false;
+  bool clears_outage_monitor = false;
+  bool clears_installation_monitor = false;
   // The times of the last GNSS, the last reset and the last restart by rejections become unset.
   // Otherwise they are kept, and this reset becomes the last one.
-  bool times = false;
-  bool gnss_used = false;  // the epoch of the reset counts as one with satellites
+  bool clears_times = false;
+  // Not a part of the stage: the epoch of the reset counts as one that used satellites.
+  bool counts_as_gnss_epoch = false;
 };
 
 // Reset by a command or after a time step. Time may begin anew, so nothing that holds a time
 // remains.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
-                                            .alignment = true,
-                                            .motion_aiding = true,
-                                            .outage_monitor = true,
-                                            .installation_monitor = true,
-                                            .times = true};
+                                            .clears_alignment = true,
+                                            .clears_motion_aiding = true,
+                                            .clears_outage_monitor = true,
+                                            .clears_installation_monitor = true,
+                                            .clears_times = true};
 
 // Reset that drops the filter without a replacement. The stage has no position, hence no outage,
 // until the next point solution. Time continues, and with it the vehicle's motion.
 inline constexpr ResetPlan kDropReset = {.filter = FilterReset::kReset,
                                          .carriers = CarrierReset::kPosition,
-                                         .alignment = true,
-                                         .outage_monitor = true};
+                                         .clears_alignment = true,
+                                         .clears_outage_monitor = true};
 
 // Reset after a wrong heading. Everything that the filter has estimated with it is void, and so is
 // a heading from outside. A point solution of this epoch replaces the filter.
 inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .carriers = CarrierReset::kPosition,
-                                            .alignment = true,
-                                            .external_heading = true,
-                                            .gnss_used = true};
+                                            .clears_alignment = true,
+                                            .clears_external_heading = true,
+                                            .counts_as_gnss_epoch = true};
 
 // Returns the reset after a wrong position or velocity: the filter restarts from a point solution.
 // A good attitude, which took a drive to find, is kept with the estimated IMU errors; otherwise the
@@ -67,8 +68,8 @@ constexpr ResetPlan restart_reset(bool keeps_attitude, bool keeps_vehicle_consta
           .keeps_vehicle_constants = keeps_vehicle_constants,
           .keeps_attitude = keeps_attitude,
           .carriers = CarrierReset::kPosition,
-          .alignment = !keeps_attitude,
-          .gnss_used = true};
+          .clears_alignment = !keeps_attitude,
+          .counts_as_gnss_epoch = true};
 }
 
 }  // namespace leonav
