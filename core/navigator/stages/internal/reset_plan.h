@@ -1,4 +1,4 @@
-// ResetPlan lists what a reset of the filter clears and keeps in the GNSS stage; there are four
+// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are four
 // presets.
 #pragma once
 
@@ -15,8 +15,20 @@ enum class CarrierReset : unsigned char {
   kAll,       // all arcs end
 };
 
-// A part that is marked false is not cleared. In addition every reset clears the evidence for
-// and against the filter (FilterMonitor::clear_evidence), because it is void for the next one.
+// A part that is marked false is not cleared. In addition every reset clears the evidence of
+// FilterMonitor's tests (FilterMonitor::filter_restarted), because it is void for the next filter.
+//
+// Every reset keeps what is no estimate of the filter:
+// - orbits, antenna patterns and the receiver's code biases,
+// - the means of FilterMonitor::add_consistency(), from which test_position() learns whether codes
+//   have been consistent,
+// - a checkpoint without a verdict, and whether the vehicle has turned since the start,
+// - the last source of each satellite's orbit, and how long no satellite has been usable,
+// - the numbers and the thinning of events.
+//
+// Other parts end by themselves. The heading monitor stops at the next epoch whose filter has no
+// attitude. CarrierSpeed starts anew, because the carriers give no displacement over a reset. The
+// next epoch is a keyframe, because the filter's process does not continue.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
   // For kRestart only.
@@ -35,8 +47,14 @@ struct ResetPlan {
   bool counts_as_gnss_epoch = false;
 };
 
-// Reset by a command or after a time step. Time may begin anew, so nothing that holds a time
-// remains.
+// Reset by a command or after a time step. Time may begin anew: the times that decide whether a
+// reset is the second one soon after another are cleared. Some times of before remain:
+// - those that are replaced before they are compared: of the last epoch, of the last keyframe, of
+//   the first epoch that contradicted the filter;
+// - those whose difference is limited, so that a leap counts as one interval: in test_position(),
+//   MeasurementRejectionMonitor and ReceiverCodeBiases;
+// - those whose leap ahead counts as a gap in the IMU samples, which ends trust in a heading of
+//   before: in CheckpointValidityMonitor and ExternalHeading.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
                                             .clears_alignment = true,
