@@ -41,15 +41,13 @@ void InertialNavigator::process(const InertialWork& work) {
 }
 
 void InertialNavigator::on_epoch(const EpochIssued& issued) {
-  auto& epochs = decisions_.epochs();
-  if (epochs.full()) {  // the IMU has stopped, so no deadline is ever reached
-    PendingEpoch oldest = epochs.front();
-    epochs.pop_front();
+  // There is no room where the IMU has stopped, so that no deadline is ever reached.
+  if (auto oldest = decisions_.make_room()) {
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
-                 static_cast<double>(oldest.issued.index), imu_time_);
-    decide(&oldest, imu_time_, true);
+                 static_cast<double>(oldest->issued.index), imu_time_);
+    decide(&*oldest, imu_time_, true);
   }
-  epochs.push_back({issued, false, {}});
+  decisions_.push(issued);
 }
 
 void InertialNavigator::on_sample(const ImuSample& sample) {
@@ -82,10 +80,9 @@ void InertialNavigator::clear_anchor() {
 }
 
 void InertialNavigator::start_over(GpsTime now) {
-  auto& epochs = decisions_.epochs();
-  while (!epochs.empty()) {
-    decide(&epochs.front(), now, false);
-    epochs.pop_front();
+  while (PendingEpoch* oldest = decisions_.oldest()) {
+    decide(oldest, now, false);
+    decisions_.pop();
   }
   clear_anchor();
   answer_.clear_samples();
@@ -103,15 +100,10 @@ void InertialNavigator::drop_anchor(GpsTime now) {
 }
 
 void InertialNavigator::decide_due_epochs(GpsTime now) {
-  auto& epochs = decisions_.epochs();
-  for (PendingEpoch& epoch : epochs)
-    if (!epoch.filter_decided && epoch.issued.deadline_ekf <= now) decide_filter(&epoch, now, true);
-  while (!epochs.empty() && epochs.front().filter_decided) {
-    PendingEpoch& oldest = epochs.front();
-    const GpsTime deadline = oldest.issued.deadline_smoother;
-    if (deadline.is_set() && deadline > now) return;
-    if (deadline.is_set()) decide_smoother(&oldest, now, true);
-    epochs.pop_front();
+  while (PendingEpoch* due = decisions_.next_filter_due(now)) decide_filter(due, now, true);
+  while (PendingEpoch* oldest = decisions_.next_complete(now)) {
+    if (oldest->issued.deadline_smoother.is_set()) decide_smoother(oldest, now, true);
+    decisions_.pop();
   }
 }
 
