@@ -275,7 +275,7 @@ Source GnssStage::source() const {
   if (!ekf_.initialized()) return Source::kNone;
   if (inertial_ && !ekf_.has_attitude()) return Source::kAligning;
   const double since_s = seconds_between(last_epoch_time_, last_gnss_time_);
-  const bool recent = since_s <= 2.5 * config_.realtime.epoch_interval_s;
+  const bool recent = since_s <= config_.realtime.ins_only_after_s();
   return recent ? Source::kEkf : Source::kInsOnly;
 }
 

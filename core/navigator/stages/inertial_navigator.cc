@@ -24,7 +24,7 @@ InertialNavigator::InertialNavigator(const NavigatorConfig& config,
       events_(Stage::kInertial, sink),
       solution_period_ns_(
           config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
-      ins_only_after_ns_(to_nanoseconds(2.5 * config.realtime.epoch_interval_s +
+      ins_only_after_ns_(to_nanoseconds(config.realtime.ins_only_after_s() +
                                         config.realtime.gnss_latency_allowance_s +
                                         config.realtime.deadline_ekf_s)),
       decisions_(ekf_mailbox, smoother_mailbox, sink, &events_),
