@@ -75,7 +75,8 @@ void GnssStage::predict(const EpochWork& work) {
   motion_aiding_.predict({work.block.data(), work.block.size()},
                          {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
   motion_aiding_.set_carrier_speed(std::nullopt);  // it holds for one prediction only
-  reporter_.add_prediction(last_epoch_time_, &motion_aiding_);
+  const auto contradiction = motion_aiding_.contradiction();
+  reporter_.add_prediction(last_epoch_time_, motion_aiding_, contradiction);
   last_epoch_time_ = work.time;
 }
 
