@@ -209,11 +209,8 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     // Without weights nothing is excluded, but innovations too large still show a lost filter.
     const bool rejected = measurement.factor <= 0.0 ||
                           (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
-    if (measurement.ambiguity >= 0) {
-      Ambiguity* ambiguity = estimate_.ambiguity_of_state(measurement.ambiguity);
-      if (record_carrier(measurement, epoch.time, ambiguity))
-        result->slipped.push_back(ambiguity->satellite);
-    }
+    if (measurement.ambiguity >= 0 && record_carrier(measurement, epoch.time, &estimate_))
+      result->slipped.push_back(estimate_.ambiguity_of_state(measurement.ambiguity).satellite);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
     if (rejected) ++result->rejected[kind];

@@ -139,7 +139,7 @@ void ReceiverClocks::apply_clock_step(const MeasurementEpoch& epoch, int system,
     const bool begins = m.ambiguity >= 0 && estimate->covariance()(m.ambiguity, m.ambiguity) >=
                                                 kUnknownAmbiguityVariance;
     if (begins)
-      estimate->ambiguity_of_state(m.ambiguity)->value_m -= step.value_m;
+      estimate->shift_ambiguity(m.ambiguity, -step.value_m);
     else
       m.innovation -= step.value_m;
   }

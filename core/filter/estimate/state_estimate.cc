@@ -376,8 +376,26 @@ void StateEstimate::shift_codes_against_carriers(int system, double step_m, doub
     *covariance += square(sigma_m) * direction * direction.transpose();
 }
 
-Ambiguity* StateEstimate::ambiguity_of_state(int state) {
-  return &state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+const Ambiguity& StateEstimate::ambiguity_of_state(int state) const {
+  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+}
+
+Ambiguity& StateEstimate::mutable_ambiguity_of_state(int state) {
+  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+}
+
+void StateEstimate::shift_ambiguity(int state, double shift_m) {
+  mutable_ambiguity_of_state(state).value_m += shift_m;
+}
+
+void StateEstimate::set_ambiguity_random_walk(int state, double random_walk) {
+  mutable_ambiguity_of_state(state).random_walk = random_walk;
+}
+
+void StateEstimate::record_carrier(int state, GpsTime time, bool used) {
+  Ambiguity& ambiguity = mutable_ambiguity_of_state(state);
+  ambiguity.last_used = time;
+  ambiguity.rejected = used ? 0 : ambiguity.rejected + 1;
 }
 
 void StateEstimate::add_ambiguity(const Ambiguity& ambiguity, double sigma_m) {

@@ -109,10 +109,14 @@ class StateEstimate {
   // Shifts them by a step of the codes alone: ambiguities make up for it. `sigma_m` 0: exact.
   void shift_codes_against_carriers(int system, double step_m, double sigma_m);
 
-  // --- ambiguities; `index` into FilterState::ambiguities ---
-  // The ambiguity with this index in the error state; its value and bookkeeping may be changed,
-  // which leaves the covariance as it is.
-  Ambiguity* ambiguity_of_state(int state);
+  // --- ambiguities; `state` is an index of the error state, `index` one of
+  // FilterState::ambiguities ---
+  const Ambiguity& ambiguity_of_state(int state) const;
+  // These leave the covariance as it is.
+  void shift_ambiguity(int state, double shift_m);
+  void set_ambiguity_random_walk(int state, double random_walk);
+  // Records that the update at `time` used the ambiguity's carrier, or rejected it.
+  void record_carrier(int state, GpsTime time, bool used);
   void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
   void remove_ambiguity(int index);
 
@@ -130,6 +134,7 @@ class StateEstimate {
   void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
                       const AntennaModel& model, const BodyMotion& body);
+  Ambiguity& mutable_ambiguity_of_state(int state);
   void apply_antenna_transform(const AntennaMotion& antenna, double direction);
 
   EkfConfig config_;
