@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "core/filter/ekf.h"
-#include "core/filter/innovation_tests/consistency_monitor.h"
 #include "core/navigator/interface/event.h"
 #include "core/navigator/interface/navigator_config.h"
+#include "core/navigator/monitors/consistency_monitor.h"
 #include "core/navigator/monitors/independent_solution.h"
 #include "core/navigator/monitors/measurement_rejection_monitor.h"
 
