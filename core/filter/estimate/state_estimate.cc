@@ -7,10 +7,10 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/filter/innovation_tests/clock_steps.h"
-#include "core/filter/innovation_tests/prediction_consistency.h"
 #include "core/filter/process/constant_velocity.h"
 #include "core/filter/state/ambiguities.h"
 #include "core/filter/state/clock_model.h"
+#include "core/filter/update/covariance_inflation.h"
 
 namespace leonav {
 namespace {
