@@ -1,4 +1,4 @@
-// StateEstimate holds what the filter believes: nominal state, covariance of its error, and which
+// StateEstimate holds the filter's estimate: nominal state, covariance of its error, and which
 // clocks are known.
 #pragma once
 #include <Eigen/Core>
@@ -21,8 +21,10 @@
 namespace leonav {
 
 // StateEstimate is the only class that writes the filter's covariance. Every step of the filter
-// that changes the Gaussian is one of its functions; the equations themselves are in process/,
-// update/ and innovation_tests/, as functions of a matrix.
+// that changes the Gaussian is one of its functions. The equations of models and updates are in
+// state/, process/ and update/, as functions of a matrix; those of the steps between them (antenna
+// transform, attitude from outside, noise of gaps and coasting, clock steps, scalar constraints,
+// vehicle constants) are in state_estimate.cc.
 //
 // Beside the covariance it records the process F, N since begin_process() for the smoother
 // (core/filter/state/filter_process.h). What adds noise to the covariance adds it to N too.
