@@ -20,7 +20,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
-constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
+// A point solution states no sigma of its clocks. They start with this 1 sigma, m and m/s, and so
+// many times that of its position or velocity (3D) beside.
+constexpr double kStartClockSigma = 10.0, kStartDriftSigma = 1.0, kStartClockShare = 3.0;
+constexpr double kUnknownDrift = 300.0;  // m/s, 1 sigma: an oscillator off by 1 ppm
 
 double gauss_markov_decay(const GaussMarkov& process, double dt) {
   return std::exp(-dt / process.correlation_time_s);
@@ -99,8 +102,10 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
         point.has_velocity ? point.covariance_v_e
                            : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
   }
-  const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
-  const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
+  const double clock_sigma =
+      kStartClockSigma + kStartClockShare * std::sqrt(point.covariance_p_e.trace());
+  const double drift_sigma =
+      kStartDriftSigma + kStartClockShare * std::sqrt(point.covariance_v_e.trace());
   for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (!std::isfinite(point.clock_m[system])) continue;
     leonav::start_clock_offset(system, point.clock_m[system], clock_sigma, &state_.clocks,

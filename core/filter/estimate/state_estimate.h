@@ -94,8 +94,8 @@ class StateEstimate {
   MotionComponents constrain(MotionMeasurements* measurements, double gate);
 
   // --- inflation ---
-  // Inflates what an observable sees first (inflate_covariance() in core/filter/update/covariance_inflation.h), m^2 or
-  // (m/s)^2.
+  // Inflates what an observable sees first (inflate_covariance() in
+  // core/filter/update/covariance_inflation.h), m^2 or (m/s)^2.
   void inflate(Observable observable, double variance, double interval_s);
   void inflate_position(double sigma_m);
   void inflate_ambiguity(int state, double sigma_m);

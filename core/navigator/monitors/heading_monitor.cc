@@ -10,9 +10,9 @@ namespace leonav {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSigmas = 5.0;
+constexpr double kSigmas = 5.0;                   // of the difference of the two headings
 constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
-constexpr int kInARow = 3;
+constexpr int kInARow = 3;                        // velocities that must contradict the heading
 // Reflected Dopplers agree with each other for some seconds. A running filter is therefore reset
 // only by courses over a longer window than an alignment needs.
 constexpr double kCourseWindow_s = 10.0;

@@ -3,6 +3,8 @@
 namespace leonav {
 namespace {
 
+constexpr int kEpochs = 5;  // one or two epochs may be a burst of interference
+
 bool is_expected(Reason reason) {
   return reason == Reason::kSystemDisabled || reason == Reason::kLowElevation;
 }
