@@ -21,8 +21,7 @@ std::optional<UsabilityMonitor::Finding> UsabilityMonitor::add(
     alike = alike && satellite.reason == finding.reason;
     ++finding.satellites;
   }
-  const bool used = finding.reason == Reason::kUsed || finding.reason == Reason::kDownweighted;
-  if (finding.satellites == 0 || !alike || used) {
+  if (finding.satellites == 0 || !alike || is_used(finding.reason)) {
     epochs_ = 0;
     return std::nullopt;
   }
