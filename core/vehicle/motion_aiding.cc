@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/duration.h"
 #include "core/earth/ellipsoid.h"
 #include "core/filter/state/covariance_blocks.h"
 
@@ -20,7 +21,7 @@ constexpr double kMaxCarrierSpeed = 0.02;  // m/s, mean of a few seconds
 
 // Returns the next multiple of the interval after `time`.
 GpsTime next_instant(GpsTime time, double interval_s) {
-  const auto interval = std::llround(interval_s * 1e9);
+  const std::int64_t interval = rounded_nanoseconds(interval_s);
   return GpsTime::from_nanoseconds((time.nanoseconds() / interval + 1) * interval);
 }
 

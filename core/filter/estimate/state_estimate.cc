@@ -23,7 +23,6 @@ constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solut
 // A point solution states no sigma of its clocks. They start with this 1 sigma, m and m/s, and so
 // many times that of its position or velocity (3D) beside.
 constexpr double kStartClockSigma = 10.0, kStartDriftSigma = 1.0, kStartClockShare = 3.0;
-constexpr double kUnknownDrift = 300.0;  // m/s, 1 sigma: an oscillator off by 1 ppm
 
 double gauss_markov_decay(const GaussMarkov& process, double dt) {
   return std::exp(-dt / process.correlation_time_s);
@@ -61,10 +60,6 @@ EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& ant
   correction.segment<3>(kPosition) -= antenna.d_p_d_constants * constants;
   correction.segment<3>(kVelocity) -= antenna.d_v_d_constants * constants;
   return correction;
-}
-
-bool is_of(std::size_t system, int wanted) {
-  return wanted == kAllSystems || static_cast<int>(system) == wanted;
 }
 
 double start_variance(const VehicleConstantsConfig& config, int constant) {
@@ -113,7 +108,7 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
     known_clocks_.offset[system] = true;
     const bool has_drift = point.has_velocity && std::isfinite(point.clock_drift_m_s[system]);
     leonav::start_clock_drift(system, has_drift ? point.clock_drift_m_s[system] : 0.0,
-                              has_drift ? drift_sigma : kUnknownDrift, &state_.clocks,
+                              has_drift ? drift_sigma : kUnknownDriftSigma, &state_.clocks,
                               &covariance_);
     known_clocks_.drift[system] = true;
   }
@@ -355,7 +350,8 @@ void StateEstimate::copy_clock_drift(std::size_t from, std::size_t to, double si
 void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
   EkfVector direction = EkfVector::Zero();
   for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
-    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(static_cast<int>(i), system))
+      direction(kClock + static_cast<int>(i)) = 1.0;
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
   for (EkfCovariance* covariance : covariance_and_noise())
     covariance->topLeftCorner<kSize, kSize>() +=
@@ -367,9 +363,10 @@ void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
 void StateEstimate::shift_codes_against_carriers(int system, double step_m, double sigma_m) {
   EkfCorrection direction = EkfCorrection::Zero(covariance_.rows());
   for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
-    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(static_cast<int>(i), system))
+      direction(kClock + static_cast<int>(i)) = 1.0;
   for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
-    if (is_of(index_of(state_.ambiguities[i].satellite.system), system))
+    if (is_of(static_cast<int>(index_of(state_.ambiguities[i].satellite.system)), system))
       direction(state_.first_ambiguity() + static_cast<int>(i)) = -1.0;
   }
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <variant>
 
+#include "core/base/duration.h"
+
 namespace leonav {
 namespace {
 
 constexpr double kLongestGap_s = 10.0;  // after a longer gap the old solution is useless
 constexpr double kJumpEvent_m = 1.0;
-
-std::int64_t to_nanoseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
-}
 
 }  // namespace
 
@@ -23,10 +21,10 @@ InertialNavigator::InertialNavigator(const NavigatorConfig& config,
     : sink_(sink),
       events_(Stage::kInertial, sink),
       solution_period_ns_(
-          config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
-      ins_only_after_ns_(to_nanoseconds(config.realtime.ins_only_after_s() +
-                                        config.realtime.gnss_latency_allowance_s +
-                                        config.realtime.deadline_ekf_s)),
+          config.solution_rate_hz > 0.0 ? rounded_nanoseconds(1.0 / config.solution_rate_hz) : 0),
+      ins_only_after_ns_(rounded_nanoseconds(config.realtime.ins_only_after_s() +
+                                             config.realtime.gnss_latency_allowance_s +
+                                             config.realtime.deadline_ekf_s)),
       decisions_(ekf_mailbox, smoother_mailbox, sink, &events_),
       answer_(config) {}
 
