@@ -29,7 +29,6 @@ class SmootherStage {
   void process_non_keyframe(const Solution& filter, bool due);
 
   const Smoother& smoother() const { return smoother_; }
-  Smoother& smoother() { return smoother_; }
   // Returns the source of the last published solution; only without IMU.
   Source source() const { return source_; }
 
