@@ -1,8 +1,8 @@
 // RobustUpdate applies the measurements of one epoch to a covariance, with IGG-III weights.
 #pragma once
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
-#include <memory>
 
 #include "core/filter/state/ekf_state.h"
 #include "core/filter/update/filter_measurement.h"
@@ -46,15 +46,15 @@ class RobustUpdate {
 
  private:
   using FactorLimits = boost::container::static_vector<double, kMaxMeasurements>;
-  void weigh(const RobustConfig& config, FactorLimits* limits, FilterMeasurements* measurements,
-             RobustUpdateResult* result);
+  // `worst_excluded`: rule 5 has been applied.
+  void weigh(const RobustConfig& config, FactorLimits* limits, bool* worst_excluded,
+             FilterMeasurements* measurements, RobustUpdateResult* result);
   void exclude_worst_first(const RobustConfig& config, const RobustUpdateResult& weighed,
                            FactorLimits* limits, FilterMeasurements* measurements);
   void weigh_with_inflated_sigmas(const RobustConfig& config, FactorLimits* limits,
                                   FilterMeasurements* measurements, RobustUpdateResult* result);
 
   WeightedLeastSquares least_squares_;
-  bool worst_excluded_ = false;  // rule 5 has been applied in this epoch
 };
 
 }  // namespace leonav
