@@ -38,9 +38,8 @@ class RobustUpdate {
   // 4. If that scale still exceeds three at the end, codes or Dopplers contradict each other: their
   //    variances are multiplied by its square and all are weighed again.
   // 5. Carriers whose weights do not converge are excluded worst first. If fewer than three
-  // quarters
-  //    of them remain, or if the codes contradict each other as well, no carrier is used: any four
-  //    agree about some position.
+  //    quarters of them remain, or if the codes contradict each other as well, no carrier is used:
+  //    any four agree about some position.
   RobustUpdateResult operator()(const RobustConfig& config, FilterMeasurements* measurements,
                                 EkfCovariance* covariance);
 
