@@ -10,7 +10,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kAlike_s = 10.0;
+constexpr double kCorrelationTime_s = 10.0;  // of the error of the speed
 // m/s, 1 sigma: usual with satellites, whose errors change soon
 constexpr double kSatellitesSpeed = 0.3;
 constexpr double kFewSatellites = 3.0;  // factor of the sigma
@@ -150,17 +150,17 @@ void MotionAiding::constrain(Ekf* ekf) {
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-  const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
+  const double sigma_factor = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
   standing_ = config_.constraints.zero_velocity && carriers_agree() &&
               !odometer_.moved(state.time) &&
-              detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
+              detector_.stands(rest_b, forward.speed, sigma_factor * forward.sigma);
   instant.standing = standing_;
   // The error of the speed lasts long, so that many instants together hold no more information than
   // one.
-  const double adrift = std::max(0.0, forward.sigma - kSatellitesSpeed);
-  const double alike = kAlike_s / constraints.interval_s * adrift * adrift;
-  instant.side_second_order_variance = alike * forward.side_variance;
-  instant.vertical_second_order_variance = alike * forward.down_variance;
+  const double excess = std::max(0.0, forward.sigma - kSatellitesSpeed);
+  const double second_order = kCorrelationTime_s / constraints.interval_s * excess * excess;
+  instant.side_second_order_variance = second_order * forward.side_variance;
+  instant.vertical_second_order_variance = second_order * forward.down_variance;
   motion_measurements(config_.constraints, instant, ekf->filter_state(),
                       ekf->body().measured_rate_b, &measurements_);
   instant.used = ekf->constrain(&measurements_, config_.constraints.gate);

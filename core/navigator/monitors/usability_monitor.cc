@@ -14,14 +14,14 @@ bool is_expected(Reason reason) {
 std::optional<UsabilityMonitor::Finding> UsabilityMonitor::add(
     std::span<const SatelliteReport> satellites) {
   Finding finding;
-  bool alike = true;
+  bool one_reason = true;
   for (const SatelliteReport& satellite : satellites) {
     if (is_expected(satellite.reason)) continue;
     if (finding.satellites == 0) finding.reason = satellite.reason;
-    alike = alike && satellite.reason == finding.reason;
+    one_reason = one_reason && satellite.reason == finding.reason;
     ++finding.satellites;
   }
-  if (finding.satellites == 0 || !alike || is_used(finding.reason)) {
+  if (finding.satellites == 0 || !one_reason || is_used(finding.reason)) {
     epochs_ = 0;
     return std::nullopt;
   }

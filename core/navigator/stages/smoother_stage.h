@@ -33,7 +33,7 @@ class SmootherStage {
   Source source() const { return source_; }
 
  private:
-  SmootherAnchor answer(const KeyframeInput& input, const SmootherResult& result) const;
+  SmootherAnchor anchor_of(const KeyframeInput& input, const SmootherResult& result) const;
   void publish(Solution solution);
   void report(const KeyframeInput& input, const SmootherResult& result,
               const SmootherAnchor& update);
