@@ -151,7 +151,8 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   bool doppler_excluded = false;
   for (const Observable observable :
        {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
-    const PredictionVerdict verdict = prediction_test_.judge(observable, evidence, &robust_update_);
+    const PredictionVerdict verdict =
+        prediction_test_.evaluate(observable, evidence, &robust_update_);
     if (verdict.action == Action::kUse) continue;
     result->prediction_suspect = true;
     if (verdict.action == Action::kExcludeRanges) return assembler_.exclude_ranges();

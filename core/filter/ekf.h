@@ -65,7 +65,7 @@ struct EkfUpdateResult {
 //   predict    InertialPropagator integrates the IMU, or coasts without attitude
 //   constrain  StateEstimate applies motion constraints
 //   update     MeasurementAssembler, ReceiverClocks, PredictionTest, then the robust update
-// Everything it believes is in its StateEstimate. It neither allocates after construction nor
+// Its estimate is in its StateEstimate. It neither allocates after construction nor
 // throws.
 class Ekf {
  public:
@@ -113,7 +113,7 @@ class Ekf {
   // nothing where it is estimated already. For the smoother the filter has then started over.
   void estimate_constant(int constant);
 
-  // --- what it believes ---
+  // --- estimate ---
   const StateEstimate& estimate() const { return estimate_; }
   const FilterState& filter_state() const { return estimate_.state(); }
   const NavState& state() const { return estimate_.state().nav; }

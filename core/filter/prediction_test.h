@@ -55,8 +55,8 @@ class PredictionTest {
   void begin_epoch();
   // To be asked for Dopplers, then carriers, then codes: where carriers agree on a movement, the
   // codes then agree with it too.
-  PredictionVerdict judge(Observable observable, const Evidence& evidence,
-                          RobustUpdate* robust_update);
+  PredictionVerdict evaluate(Observable observable, const Evidence& evidence,
+                             RobustUpdate* robust_update);
   // After the verdicts: records whether the codes agreed with the prediction. `suspect`: one
   // verdict was not kUse.
   void finish_epoch(const Evidence& evidence, bool suspect);

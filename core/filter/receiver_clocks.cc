@@ -167,7 +167,7 @@ void ReceiverClocks::compensate_jump(const MeasurementEpoch& epoch,
 
 // Of one system against the others. A step that its carriers do not make is the codes' and certain
 // at once, and so is one far beyond what reflections shared by all its satellites make. Any other
-// may be such a fault of this epoch: the weights of the update judge it, and the next epoch
+// may be such a fault of this epoch: the weights of the update decide, and the next epoch
 // confirms it or not. Where the prediction is vague there is no waiting: such a fault would move
 // the position by its size, and a system that is free of the others does not.
 void ReceiverClocks::compensate_inter_system_steps(const MeasurementEpoch& epoch,

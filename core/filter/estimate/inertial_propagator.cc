@@ -112,7 +112,7 @@ bool InertialPropagator::fill_gap(GpsTime time, const ImuSample& next, StateEsti
                             ? fill_imu_gap(last_sample_, estimate->state().nav.time, time, next)
                             : std::nullopt;
   if (!gap_fill) return coast(time, estimate);
-  advance(gap_fill->filler, estimate);
+  advance(gap_fill->sample, estimate);
   finish_sub_block(estimate);
   estimate->add_gap_noise(*gap_fill);
   return false;

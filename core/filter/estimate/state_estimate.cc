@@ -189,7 +189,7 @@ void StateEstimate::propagate(const InsTransition& transition) {
 
 void StateEstimate::add_gap_noise(const ImuGapFill& gap_fill) {
   const Matrix3d C_eb = state_.nav.q_eb.toRotationMatrix();
-  const double half = 0.5 * gap_fill.filler.interval_s();
+  const double half = 0.5 * gap_fill.sample.interval_s();
   const Matrix3d V = C_eb * gap_fill.sigma_velocity_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
   for (EkfCovariance* covariance : covariance_and_noise()) {
     covariance->block<3, 3>(kPosition, kPosition) += half * half * V;

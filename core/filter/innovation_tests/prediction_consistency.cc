@@ -115,7 +115,7 @@ double unmodelled_prior_variance(const RobustConfig& robust, const FilterMeasure
   // Twice: along a line of sight, and less what the satellites share, only part of it is seen.
   const double variance = std::clamp(2.0 * median(missing), 0.0, kMaxMissing);
 
-  // Few measurements are soon fitted: they are tested as if nothing stayed alike in time.
+  // Few measurements are soon fitted: they are tested as if their errors did not last.
   if (!many)
     for (FilterMeasurement& measurement : offered) measurement.gain_variance = measurement.variance;
   // Would they agree?

@@ -21,7 +21,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // Residuals that are this much larger, the worst of them left out, are of measurements that
 // contradict each other.
 constexpr double kMaxScale = 3.0;
-constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not tell their scale
+constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not show their scale
 
 double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios,
                 Observable observable) {

@@ -77,7 +77,7 @@ void AnchorPropagation::fill_gap(const ImuSample& next) {
   const GpsTime from = mechanization_.state().time;
   const double gap_s = seconds_between(next.start(), from);
   if (const auto gap_fill = fill_imu_gap(last_sample_, from, next.start(), next)) {
-    mechanization_.advance(gap_fill->filler);
+    mechanization_.advance(gap_fill->sample);
     gap_angle_variance_ += gap_fill->sigma_theta_b.cwiseAbs2().maxCoeff();
     gap_velocity_variance_ += gap_fill->sigma_velocity_b.cwiseAbs2().maxCoeff();
     return;
