@@ -33,13 +33,13 @@ class StateEstimate {
   explicit StateEstimate(const EkfConfig& config);
 
   const FilterState& state() const { return state_; }
-  // In the order of ekf_index; SI units.
+  // Returns the covariance of the error state, in the order of ekf_index; SI units.
   const EkfCovariance& covariance() const { return covariance_; }
   const ClockFlags& known_clocks() const { return known_clocks_; }
   bool has_attitude() const { return has_attitude_; }
-  // False once a number has overflowed: only a new filter helps then.
+  // Returns false once a number has overflowed: only a new filter helps then.
   bool is_finite() const;
-  // The process since begin_process(); kept only if EkfConfig::keep_process.
+  // Returns the process since begin_process(); it is recorded only if EkfConfig::keep_process.
   const FilterProcess& process() const { return process_; }
   void begin_process();
 
@@ -130,7 +130,7 @@ class StateEstimate {
   void restart_vehicle_constants(const AntennaMotion& antenna);
 
  private:
-  // The covariance and, if it is recorded, the process's noise.
+  // Returns the covariance and, if it is recorded, the process's noise.
   boost::container::static_vector<EkfCovariance*, 2> covariance_and_noise();
   void start_vehicle_constants();
   void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,

@@ -31,8 +31,8 @@ class RobustUpdate {
   // 1. The tested residual is that against the prediction from the prior and all *other*
   //    measurements, over its standard deviation. In the first pass, when none is used yet, this is
   //    the standardized innovation; afterwards it also finds outliers that a poor prior hides.
-  // 2. What the innovation test excludes stays excluded. Whether the prior is wrong was
-  //    decided before (core/filter/prediction_test.h).
+  // 2. What the innovation test excludes stays excluded. Whether the prior is wrong was decided
+  //    before (core/filter/prediction_test.h).
   // 3. If the median residual of an observable is larger than it should be, all its residuals are
   //    scaled down first, so that the many are not excluded for the sake of the few.
   // 4. If that scale still exceeds three at the end, codes or Dopplers contradict each other: their
