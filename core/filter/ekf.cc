@@ -4,7 +4,6 @@
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
-#include "core/earth/rotation.h"
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"

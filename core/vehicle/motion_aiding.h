@@ -4,11 +4,9 @@
 // Constraints are non-holonomic motion, zero velocity, zero angular rate and the odometer
 // (core/filter/update/motion_constraint.h; Groves 2013, 15.1).
 #pragma once
-#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <span>
 
-#include "core/base/capacity.h"
 #include "core/filter/ekf.h"
 #include "core/inertial/strapdown/imu_error_model.h"
 #include "core/vehicle/constraint_monitor.h"
@@ -55,7 +53,7 @@ class MotionAiding {
   }
 
  private:
-  static constexpr int kEnoughSatellites = 5;
+  static constexpr int kEnoughSatellites = 5;  // as many as unknowns of a velocity, and one more
   bool enabled() const { return config_.enabled() || odometer_.received(); }
   bool carriers_agree() const;
   void constrain(Ekf* ekf);

@@ -2,7 +2,6 @@
 // clocks are known.
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
 

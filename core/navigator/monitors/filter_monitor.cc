@@ -7,7 +7,6 @@
 
 #include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/filter_estimate.h"
-#include "core/navigator/interface/solution.h"
 #include "core/navigator/interface/solution_conversion.h"
 
 namespace leonav {

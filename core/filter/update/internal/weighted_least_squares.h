@@ -19,11 +19,11 @@ class WeightedLeastSquares {
   using Ratios = boost::container::static_vector<double, kMaxMeasurements>;
 
   void begin(const FilterMeasurements& measurements, const EkfCovariance& covariance);
-  // With the measurements' factors as they are now.
+  // Solves with the measurements' factors as they are now.
   void solve(const FilterMeasurements& measurements);
-  // |residual against all others| over its standard deviation, per measurement.
+  // Writes |residual against all others| over its standard deviation, per measurement.
   void standardize(const FilterMeasurements& measurements, Ratios* ratios);
-  // Normalized innovation squared of all measurements together.
+  // Returns the normalized innovation squared of all measurements together.
   double nis(const FilterMeasurements& measurements) const;
   void finish(EkfCorrection* correction, EkfCovariance* covariance) const;
 
