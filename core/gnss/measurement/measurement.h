@@ -34,6 +34,9 @@ enum class Reason : std::uint8_t {
   kNotSolved = 14,      // epoch had too few satellites for a solution
 };
 std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
+constexpr bool is_used(Reason reason) {
+  return reason == Reason::kUsed || reason == Reason::kDownweighted;
+}
 
 // One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
 // Earth's rotation during the flight of the signal has been applied.

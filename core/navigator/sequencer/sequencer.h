@@ -68,9 +68,6 @@ enum class SequencerCapacity : std::uint8_t {
 // - An odometer increment goes with the first epoch not earlier than its end: OdometerQueue.
 class Sequencer {
  public:
-  static constexpr int kImuRunToRestart = ImuIntake::kRunToRestart;
-  static constexpr int kEpochRunToRestart = EpochQueue::kRunToRestart;
-
   // `stages` must outlive the Sequencer.
   Sequencer(const NavigatorConfig& config, StageInputs* stages);
 
