@@ -70,9 +70,8 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
         continue;
       }
       // The random walk comes from the orbit, which may be another by now.
-      Ambiguity* ambiguity = estimate->ambiguity_of_state(entry.ambiguity);
-      ambiguity->random_walk = measurement.random_walk;
-      entry.innovation -= ambiguity->value_m;
+      estimate->set_ambiguity_random_walk(entry.ambiguity, measurement.random_walk);
+      entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
     }
     measurements_.push_back(entry);
   }

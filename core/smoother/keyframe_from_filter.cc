@@ -26,10 +26,10 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
     satellite = static_cast<std::uint16_t>(slot[satellite]);
     if (used.ambiguity >= 0)
       measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
-    const double relaxed = square(filter.sigma_inflation(used.observable));
-    measurement.variance = used.variance * relaxed;
-    measurement.gain_variance = used.gain_variance * relaxed;
-    measurement.factor = std::min(1.0, used.factor * relaxed);
+    const double inflation = square(filter.sigma_inflation(used.observable));
+    measurement.variance = used.variance * inflation;
+    measurement.gain_variance = used.gain_variance * inflation;
+    measurement.factor = std::min(1.0, used.factor * inflation);
     input->measurements.push_back(measurement);
   }
 }

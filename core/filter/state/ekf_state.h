@@ -69,7 +69,7 @@ struct Ambiguity {
   std::uint32_t arc = 0;
   SatelliteId satellite;
   double value_m = 0.0;
-  double random_walk = 0.0;  // m/sqrt(s), random walk
+  double random_walk = 0.0;  // m/sqrt(s)
   GpsTime started, last_used;
   int rejected = 0;  // in so many epochs in a row
 };

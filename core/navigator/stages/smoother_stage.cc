@@ -30,14 +30,14 @@ void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   smoother_.add(input);
   if (inertial_ && !mailbox_->is_open(input.index)) return;
   const SmootherResult result = smoother_.solve(budget);
-  const SmootherAnchor update = answer(input, result);
+  const SmootherAnchor update = anchor_of(input, result);
   const bool delivered = !inertial_ || mailbox_->deliver(input.index, update);
   smoother_.commit_or_roll_back(delivered);
   if (delivered) report(input, result, update);
 }
 
-SmootherAnchor SmootherStage::answer(const KeyframeInput& input,
-                                     const SmootherResult& result) const {
+SmootherAnchor SmootherStage::anchor_of(const KeyframeInput& input,
+                                        const SmootherResult& result) const {
   SmootherAnchor update;
   update.due = true;
   update.status = result.status;

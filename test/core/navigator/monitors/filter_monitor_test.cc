@@ -148,7 +148,7 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
   CHECK(first.cause == ResetCause::kOutage);
   CHECK(first.keeps_attitude);
   CHECK(first.keeps_vehicle_constants);
-  monitor.filter_restarted(kStart);
+  monitor.filter_restarted(kStart, false);
   const FilterVerdict second =
       monitor.restart_after_outage(point, filter, kStart.plus_seconds(1.0));
   CHECK_FALSE(second.keeps_attitude);
