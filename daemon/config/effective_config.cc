@@ -52,6 +52,14 @@ std::string grouped(const std::vector<ConfigKey>& keys,
   return text;
 }
 
+// A value that follows from another key stays a default, so that the other key can be overridden.
+std::string effective_value(const ConfigKey& key) { return key.given ? key.value : key.built_in; }
+
+std::string origin_text(const ConfigKey& key) {
+  const std::string origin = "from: " + key.origin;
+  return effective_value(key) == key.value ? origin : key.value + ", " + origin;
+}
+
 const ConfigKey* preset_of(const ConfigOrigin& source) {
   const auto preset = std::find_if(source.keys.begin(), source.keys.end(),
                                    [](const ConfigKey& one) { return one.path == "preset"; });
@@ -73,9 +81,7 @@ std::string effective_text(const ConfigOrigin& source, Extent extent) {
   }
   title += extent == Extent::kAllKeys ? ": every key\n" : ": keys that differ from the defaults\n";
   if (keys.empty()) return title + "{}\n";
-  return title + grouped(
-                     keys, [](const ConfigKey& key) { return key.value; },
-                     [](const ConfigKey& key) { return "from: " + key.origin; });
+  return title + grouped(keys, effective_value, origin_text);
 }
 
 std::string reference_keys() {
