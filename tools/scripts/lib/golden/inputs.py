@@ -15,6 +15,7 @@ from golden import edits
 
 # Configuration -> its preset.
 CONFIGS = {"walk": "walk", "drive": "phone", "drive_ins": "phone_imu", "station": "station", "urban": "urban", "demo": "demo"}
+PRESETS = ("car", "demo", "phone", "phone_imu", "realtime", "station", "urban", "walk")
 SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay")
 
 DATASETS = {
