@@ -17,8 +17,4 @@ enum class Extent : unsigned char {
 // bit for bit; with kAllKeys even where presets and the defaults of single keys have changed.
 std::string effective_text(const ConfigOrigin& source, Extent extent = Extent::kAllKeys);
 
-// Returns every key at its default with its allowed values in a comment: config/reference.yaml
-// without its explanations.
-std::string reference_keys();
-
 }  // namespace leonav
