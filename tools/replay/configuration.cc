@@ -24,6 +24,16 @@ const ConfigKey* find_key(const ConfigOrigin& source, const std::string& path) {
   return found == source.keys.end() ? nullptr : &*found;
 }
 
+// In single quotes where a shell would take it apart.
+std::string shell_word(const std::string& text) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+=:/,";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 // " --set KEY=VALUE" for every key that the journal's run had otherwise.
 std::string different_keys(const ConfigOrigin& recorded, const ConfigOrigin& used) {
   constexpr int kMostListed = 8;
@@ -35,7 +45,7 @@ std::string different_keys(const ConfigOrigin& recorded, const ConfigOrigin& use
     if (now != nullptr && now->value == key.value) continue;
     // Both follow from another key, which is listed itself.
     if (now != nullptr && !now->given && !key.given) continue;
-    if (++different <= kMostListed) list += " --set " + key.path + "=" + key.value;
+    if (++different <= kMostListed) list += " --set " + shell_word(key.path + "=" + key.value);
   }
   if (different > kMostListed) {
     list += " and " + std::to_string(different - kMostListed) + " more keys";

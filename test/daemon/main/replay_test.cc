@@ -114,9 +114,9 @@ TEST_CASE("--set acts on a journal's configuration as on a file; a preset beneat
   INFO(car.out << car.err);
   CHECK(car.exit_code == 0);
   CHECK(std::filesystem::exists(folder.beside("out/constraints.csv")));
-  // The way back; what follows from the kind is not listed.
-  CHECK(has(car.out, "the journal was written with --set vehicle.lever_arm_b_m=["));
-  CHECK(has(car.out, "] --set vehicle.kind=handheld"));
+  // The way back, for a shell; what follows from the kind is not listed.
+  CHECK(has(car.out, "the journal was written with --set 'vehicle.lever_arm_b_m=["));
+  CHECK(has(car.out, "]' --set vehicle.kind=handheld"));
   CHECK_FALSE(has(car.out, "non_holonomic"));
   const auto preset = replay("--set preset=car");
   CHECK(preset.exit_code == 2);
