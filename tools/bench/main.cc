@@ -148,9 +148,9 @@ int body(int argc, char** argv) {
   arguments.option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
       .option("--max-imu-us", "US",
               "fail unless 99 % of the IMU samples take at most so much processor time")
-      .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
+      .option("--max-epoch-ms", "MS", "the same of the GNSS epochs")
       .option("--max-solve-ms", "MS",
-              "likewise of the smoother's solves (--set estimator=smoother)")
+              "the same of the smoother's solves (--set estimator=smoother)")
       .flag("--growth",
             "instead: an hour's log or a day's once through the smoother; prints after ten minutes "
             "and every hour what it\n                   needs, and fails where that grows")
