@@ -57,7 +57,7 @@ TEST_CASE("the effective text of unusual values loads as the same configuration"
   check_identity(config);
 }
 
-TEST_CASE("the effective text tells where each value is from") {
+TEST_CASE("the effective text states where each value is from") {
   const std::string text =
       effective_text(load_config_text("preset: car\nimu:\n  gyro_bias_deg_per_h: 50\n",
                                       "vehicle.yaml", {"gnss.systems=[gps]"})

@@ -124,7 +124,7 @@ TEST_CASE("--set acts on a journal's configuration as on a file; a preset beneat
   CHECK(has(preset.err, "--preset NAME replaces that configuration"));
 }
 
-TEST_CASE("leonav-replay --help tells its exit codes") {
+TEST_CASE("leonav-replay --help states its exit codes") {
   if (!test::have_programs("leonav-replay")) return;
   const auto help = test::run_program("leonav-replay", "--help");
   CHECK(help.exit_code == 0);
