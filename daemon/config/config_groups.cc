@@ -4,6 +4,7 @@
 
 #include "core/base/capacity.h"
 #include "core/navigator/interface/vehicle_defaults.h"
+#include "daemon/config/lcm_url.h"
 
 namespace leonav {
 namespace {
@@ -219,6 +220,10 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
     group.fail("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
   }
   if (config->url.empty()) group.fail("url", "must not be empty");
+  if (const auto to = udpm_address(config->url); to && !is_multicast(to->group)) {
+    group.fail("url",
+               "'" + to->group + "' is not a multicast address (224.0.0.0 to 239.255.255.255)");
+  }
 }
 
 void read_journal(ConfigReader& group, JournalConfig* config) {

@@ -17,11 +17,11 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       scan_(scan),
       files_(options.out_folder, options.rate_hz),
       encoder_(this),
-      pipeline_(config.navigator, this),
-      dispatch_(&pipeline_.sequencer()) {
+      navigator_(config.navigator, this),
+      dispatch_(&navigator_.sequencer()) {
   if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
-  for (const Decision& delivered : scan_.delivered) pipeline_.record(delivered);
-  for (const Decision& decision : scan_.decisions) pipeline_.record(decision);
+  for (const Decision& delivered : scan_.delivered) navigator_.record(delivered);
+  for (const Decision& decision : scan_.decisions) navigator_.record(decision);
 }
 
 void ReplayRun::run() {
@@ -93,7 +93,7 @@ void ReplayRun::print_summary(std::ostream& out) {
           << "\n";
     }
   }
-  const auto& rejected = pipeline_.sequencer().counters().rejected;
+  const auto& rejected = navigator_.sequencer().counters().rejected;
   for (std::size_t i = 0; i < rejected.size(); ++i) {
     if (rejected[i] == 0) continue;
     out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << rejected[i] << "\n";
@@ -111,7 +111,7 @@ void ReplayRun::print_summary(std::ostream& out) {
 // Prints the odometer's scale factor that the filter has estimated at the end.
 void ReplayRun::print_odometer(std::ostream& out) {
   using ekf_index::kOdometerScale, ekf_index::kSize;
-  const Ekf& ekf = pipeline_.gnss().ekf();
+  const Ekf& ekf = navigator_.gnss().ekf();
   if (ekf.filter_state().vehicle.size() <= kOdometerScale) return;
   const double sigma = std::sqrt(ekf.covariance()(kSize + kOdometerScale, kSize + kOdometerScale));
   out << "odometer scale: " << 100.0 * ekf.filter_state().vehicle[kOdometerScale] << " % (1 sigma "
@@ -148,7 +148,7 @@ void ReplayRun::print_learned_errors(std::ostream& out) {
 }
 
 std::vector<std::string> ReplayRun::warnings() const {
-  return run_warnings(dispatch_.counters(), pipeline_.sequencer().counters(), statistics_,
+  return run_warnings(dispatch_.counters(), navigator_.sequencer().counters(), statistics_,
                       alignment_);
 }
 

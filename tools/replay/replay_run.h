@@ -63,7 +63,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   OutputDigest digest_;
   std::unique_ptr<Verifier> verifier_;
   EncodingSink encoder_;
-  Navigator pipeline_;
+  Navigator navigator_;
   InputDispatch dispatch_;
 };
 

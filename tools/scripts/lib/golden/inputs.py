@@ -15,6 +15,7 @@ from golden import edits
 
 # Configuration -> its preset.
 CONFIGS = {"walk": "walk", "drive": "phone", "drive_ins": "phone_imu", "station": "station", "urban": "urban", "demo": "demo"}
+PRESETS = ("car", "demo", "phone", "phone_imu", "realtime", "station", "urban", "walk")
 SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay")
 
 DATASETS = {
@@ -235,10 +236,21 @@ def make_texts(folder, names):
 
 
 def make_configs(maker, out):
-    """Every key of each preset: what it says stays as it was when the inputs were made."""
+    """What each preset changes. Not every key: there `by_kind` is resolved already, and vehicle.kind=car would change nothing."""
     for name, preset in CONFIGS.items():
         with open(os.path.join(maker.scratch, out, f"{name}.yaml"), "w") as file:
-            file.write(maker.call(["leonavd", "--check", "--preset", preset]))
+            file.write(maker.call(["leonavd", "--check", "--changes", "--preset", preset]))
+    if fault := fault_of_configs(os.path.join(maker.scratch, out)):
+        raise InputError(fault)
+
+
+def fault_of_configs(folder):
+    """Why the cases of a car would drive no car with these configurations; empty: they do."""
+    for name in CONFIGS:
+        with open(os.path.join(folder, f"{name}.yaml")) as file:
+            if found := re.search(r"(?m)^ *non_holonomic: (true|false)", file.read()):
+                return f"{name}.yaml fixes {found[0].strip()}, so that vehicle.kind=car does not constrain the motion"
+    return ""
 
 
 def make_parking(maker, out):
