@@ -4,6 +4,7 @@ import os
 import select
 import shlex
 import shutil
+import signal
 import subprocess
 
 POLL_S = 0.5
@@ -14,7 +15,7 @@ class ProgramError(Exception):
 
 
 class Stopped(Exception):
-    """The call was ended by its user while a program ran."""
+    """The call, or a program of it, was ended by the user, who will call again."""
 
 
 def shell_line(words):
@@ -48,17 +49,19 @@ class Caller:
     def stopped(self):
         return not os.path.exists(self.running)
 
-    def call(self, command, folder, hide=None):
-        """Returns what the program printed. Its words are in folder/PROGRAM.log; the error's text has OUT for `hide`."""
+    def call(self, command, folder, shown="OUT"):
+        """Returns what the program printed; its words are in folder/PROGRAM.log. An error's text has `shown` for `folder`."""
         log = os.path.join(folder, os.path.basename(command[0]) + ".log")
-        # A terminal's Ctrl-C is for leonav-fleet alone, and the kernel ends a program whose worker has died.
+        # A terminal's Ctrl-C is for the caller alone, and the kernel ends a program whose worker has died.
         guarded = ["setpriv", "--pdeathsig", "KILL", "--", *command] if shutil.which("setpriv") else command
         with open(log, "w") as file:
             process = subprocess.Popen(guarded, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, start_new_session=True)
         code = self.wait(process)
+        if self.stopped() or code in (-signal.SIGINT, -signal.SIGTERM):
+            raise Stopped()
         if code != 0:
             text = f"{shell_line(command)}: " + (f"ended by signal {-code}" if code < 0 else f"exit code {code}: {last_words(log)}")
-            raise ProgramError(text.replace(hide, "OUT") if hide else text)
+            raise ProgramError(text.replace(folder, shown))
         with open(log, errors="replace") as file:
             return file.read()
 
@@ -70,14 +73,10 @@ class Caller:
             while not ended.poll(POLL_S * 1000):
                 if self.stopped():
                     process.kill()
-                    process.wait()
-                    raise Stopped()
+                    break
         finally:
             os.close(handle)
-        code = process.wait()
-        if self.stopped():
-            raise Stopped()
-        return code
+        return process.wait()
 
 
 def write_atomically(path, text):

@@ -120,7 +120,7 @@ def store(bench, name, result, digest):
 
 
 def measured(bench, estimator, folder, log, truth):
-    bench.caller.call([os.path.join(bench.bin, "leonav-replay"), *estimator.words(), log, "--out", folder], folder, hide=folder)
+    bench.caller.call([os.path.join(bench.bin, "leonav-replay"), *estimator.words(), log, "--out", folder], folder)
     with open(os.path.join(folder, "summary.txt"), errors="replace") as file:
         result = measure.counted(file.read())
     if truth is None:
@@ -130,7 +130,7 @@ def measured(bench, estimator, folder, log, truth):
         week, tow = measure.start_of(truth)
         span, words = (bench.settle_s, span[1]), ["--from", f"{week}:{tow + bench.settle_s:.3f}", *words]
     solution, numbers = os.path.join(folder, "solution.csv"), os.path.join(folder, "errors.json")
-    bench.caller.call([os.path.join(bench.bin, "leonav-eval"), "--truth", truth, *words, "--json", numbers, solution], folder, hide=folder)
+    bench.caller.call([os.path.join(bench.bin, "leonav-eval"), "--truth", truth, *words, "--json", numbers, solution], folder)
     result |= {"judged": True, **measure.evaluated(numbers)}
     errors, stated = measure.errors_of(solution, truth, span)
     if errors.shape[1] != result["epochs"] and not bench.evaluation:

@@ -15,7 +15,7 @@ def simulate(bench, scene, seed, advance_s, target):
     try:
         command = [os.path.join(bench.bin, "leonav-sim"), scene.scenario, *programs.with_settings(scene.settings_of(seed, advance_s)), "-o",
                    os.path.join(folder, "run.lcmlog")]
-        bench.caller.call(command, folder, hide=folder)
+        bench.caller.call(command, folder)
         os.makedirs(os.path.dirname(target), exist_ok=True)
         os.rename(folder, target)
     except programs.ProgramError as error:
