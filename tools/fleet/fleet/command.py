@@ -2,8 +2,10 @@
 import argparse
 import json
 import os
+import re
 import shutil
 import signal
+import subprocess
 import sys
 import time
 
@@ -54,24 +56,29 @@ def parser_of_words():
     parser.add_argument("--config", metavar="FILE", help="of leonav-replay: configuration; with --matrix instead of the file's")
     parser.add_argument("--set", action="append", default=[], dest="settings", metavar="KEY=VALUE",
                         help="of leonav-replay: one key of the configuration; may be repeated; with --matrix after the file's")
-    parser.add_argument("--settle", type=at_least(0, float), metavar="S", help="epochs of the first S seconds do not count [0, or the matrix's]")
+    parser.add_argument("--settle", type=at_least(0, float), metavar="S",
+                        help="epochs of the first S seconds do not count [0, or the matrix's]")
     parser.add_argument("--resume", action="store_true", help="take what an earlier call finished, if programs, configuration and log are "
                         "the same (by their digests), and run the rest")
     parser.add_argument("--keep", action="store_true", help="keep every run's tables in OUT/runs/NAME, and simulated logs in OUT/logs "
                         "(some 50 and 110 MB an hour of log)")
-    parser.add_argument("--bin", metavar="DIR", help="folder of leonav-replay, leonav-eval and leonav-sim [where leonav-fleet is, else build/release/bin]")
+    parser.add_argument("--bin", metavar="DIR", help="folder of leonav-replay, leonav-eval and leonav-sim [where leonav-fleet is, else "
+                        "build/release/bin]")
     only_logs = parser.add_argument_group("logs")
     only_logs.add_argument("--truth", metavar="FILE", help="truth.csv of every log, instead of the one beside it")
+    only_logs.add_argument("--remove-offset", action="store_true", help="remove each run's mean error first (truths of unknown datum)")
     only_matrix = parser.add_argument_group("matrix")
     only_matrix.add_argument("--seeds", type=at_least(1), metavar="N", help="seeds 1 to N [the matrix's]")
     only_matrix.add_argument("--duration", type=at_least(1, float), metavar="S", help="of every simulated run [the matrix's]")
-    only_matrix.add_argument("--rows", action="append", metavar="PATTERN", help="only rows whose name matches, as in 'correlated/*'; may be repeated")
+    only_matrix.add_argument("--rows", action="append", metavar="PATTERN",
+                             help="only rows whose name matches, as in 'correlated/*'; may be repeated")
     only_matrix.add_argument("--list", action="store_true", help="print the names of the rows and leave")
     workers = parser.add_argument_group("workers")
     workers.add_argument("--workers", type=at_least(1), metavar="N", help="worker processes on this machine [processors]")
-    workers.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler, as in tcp://10.0.0.1:8786; they must see "
-                         "the same files under the same names")
-    workers.add_argument("--dashboard", type=at_least(1), metavar="PORT", help="serve Dask's pages on 127.0.0.1:PORT while it runs [no port]")
+    workers.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler, as in tcp://10.0.0.1:8786; they must "
+                         "see the same files under the same names")
+    workers.add_argument("--dashboard", type=at_least(1), metavar="PORT",
+                         help="serve Dask's pages on 127.0.0.1:PORT while it runs [no port]")
     return parser
 
 
@@ -80,8 +87,8 @@ def arguments(words):
     options = parser.parse_args(words)
     if bool(options.logs) == bool(options.matrix):
         parser.error("give either logs or --matrix (--help)")
-    for name in ("truth",) if options.matrix else ("seeds", "duration", "rows", "list"):
-        if getattr(options, name):
+    for name in ("truth", "remove-offset") if options.matrix else ("seeds", "duration", "rows", "list"):
+        if getattr(options, name.replace("-", "_")):
             parser.error(f"--{name}: not with {'--matrix' if options.matrix else 'logs'}")
     if options.preset and options.config:
         parser.error("--preset and --config: only one of them")
@@ -118,8 +125,14 @@ def engine_of(options):
 
 
 def bench_of(options, fleet, folder, digest, settle_s):
-    return replays.Bench(folder, os.path.abspath(options.out), fleet.work, digest, settle_s=settle_s, keep=options.keep, resume=options.resume,
-                         caller=fleet.caller)
+    return replays.Bench(folder, os.path.abspath(options.out), fleet.work, digest, integrity_words(folder), settle_s, options.remove_offset,
+                         options.keep, options.resume, fleet.caller)
+
+
+def integrity_words(folder):
+    """--integrity, if this leonav-eval counts how often its protection levels fail."""
+    told = subprocess.run([os.path.join(folder, "leonav-eval"), "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    return ("--integrity",) if re.search(r"^  --integrity(  .*)?$", told.stdout, re.MULTILINE) else ()
 
 
 def results_of(fleet, groups):
@@ -145,7 +158,8 @@ def run_logs(options):
         bench = bench_of(options, fleet, folder, digest, options.settle or 0.0)
         # The largest first: no worker begins the longest run when the others are through.
         by_size = sorted(found, key=lambda name: (-os.path.getsize(found[name]), name))
-        groups = [engine.Group(name, [engine.Job(name, replays.replay, bench, estimator, name, found[name], truths[name])]) for name in by_size]
+        jobs = [engine.Job(name, replays.replay, bench, estimator, name, found[name], truths[name]) for name in by_size]
+        groups = [engine.Group(job.name, [job]) for job in jobs]
         results = [result for _, _, result in results_of(fleet, groups)]
     path = report.write(options.out, programs.shell_line(["leonav-replay", *estimator.words()]), results)
     failed = sum(r["failure"] is not None for r in results)
@@ -212,8 +226,11 @@ def main(words):
     except KeyboardInterrupt:
         print(f"\n{PROGRAM}: stopped; the same call with --resume goes on from here", file=sys.stderr)
         return 130
+    except engine.EngineError as error:
+        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        return 1
     except OSError as error:
-        print(f"{PROGRAM}: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
+        print(f"{PROGRAM}: {f'{error.filename}: {error.strerror}' if error.filename else error}", file=sys.stderr)
         return 1
     if not options.list:
         times = json.dumps({"wall_s": round(time.time() - begun, 1)}) + "\n"

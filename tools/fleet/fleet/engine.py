@@ -11,13 +11,14 @@ import sys
 import tempfile
 import uuid
 
-import dask
-import distributed
-
 from . import programs
 
 LOST_SO_OFTEN = 4  # then the work is taken for what ends the workers
-LOCAL = "127.0.0.1"
+LOCAL, CONNECT = "127.0.0.1", "20s"
+
+
+class EngineError(Exception):
+    """There are no workers; the text says why."""
 
 
 class Failed:
@@ -39,7 +40,17 @@ class Group:
         self.name, self.jobs, self.prepare, self.finish = name, jobs, prepare, finish
 
 
-def equip(folders, ours):
+def packages():
+    """Dask, which takes a second or two to import: not for a line of help."""
+    try:
+        import dask
+        import distributed
+    except ImportError as missing:
+        raise EngineError(f"{missing}; install python3-distributed and python3-cryptography") from None
+    return dask, distributed
+
+
+def equip(distributed, folders, ours):
     """What each worker is told when it starts, also one that comes later."""
 
     class Equipment(distributed.WorkerPlugin):  # local, so that it travels by value
@@ -51,7 +62,8 @@ def equip(folders, ours):
                 return
             worker.http_server.stop()
             try:
-                signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C: whoever started the worker ends it
+                # Ctrl-C: who started the worker ends it. Not ignored, or its programs would ignore it too.
+                signal.signal(signal.SIGINT, lambda *_: None)
             except ValueError:
                 pass  # not in its main thread
 
@@ -82,6 +94,7 @@ class Engine:
         return self
 
     def connect(self):
+        dask, distributed = packages()
         dask.config.set({"distributed.scheduler.allowed-failures": LOST_SO_OFTEN - 1, "distributed.worker.profile.enabled": False,
                          "distributed.admin.log-format": "%(message)s"})
         if self.scheduler is None:
@@ -94,8 +107,11 @@ class Engine:
                 silence_logs="CRITICAL")
             if self.dashboard is None:
                 self.cluster.scheduler.http_server.stop()
-        self.client = distributed.Client(self.cluster or self.scheduler, timeout="60s")
-        self.client.register_worker_plugin(equip(self.folders, self.cluster is not None), name="leonav-fleet")
+        try:
+            self.client = distributed.Client(self.cluster or self.scheduler, timeout=CONNECT)
+        except (OSError, ValueError) as error:
+            raise EngineError(f"{self.scheduler or 'the workers'}: {error}") from None
+        self.client.register_worker_plugin(equip(distributed, self.folders, self.cluster is not None), name="leonav-fleet")
 
     def __exit__(self, kind, error, trace):
         if os.path.exists(self.running):
@@ -119,6 +135,7 @@ class Engine:
 
     def run(self, groups):
         """Yields (group, job, result or Failed) as jobs end."""
+        _, distributed = packages()
         waiting, open_jobs, owners, kept = iter(groups), {}, {}, {}
         ended = distributed.as_completed(with_results=False, raise_errors=False)
         order = itertools.count()
@@ -161,6 +178,7 @@ class Engine:
 
     @staticmethod
     def result_of(future):
+        _, distributed = packages()
         try:
             return future.result()
         except distributed.scheduler.KilledWorker:

@@ -153,8 +153,8 @@ class Reader:
         for group, where in zip(groups, wheres):
             if "preset" in group or "config" in group:
                 preset, config = group.get("preset"), group.get("config")
-                if preset and config:
-                    self.fail(where or "preset", "preset and config: only one of them")
+                if (preset is None) == (config is None) or not isinstance(preset or config, str):
+                    self.fail(where or "preset", "preset names a preset, or config a file, and only one of them")
                 config = self.file(config, f"{where}.config") if config else None
             settings += self.words(group, where)
         if given.preset or given.config:
@@ -204,7 +204,8 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
     except OSError as error:
         raise MatrixError(f"{path}: {error.strerror}") from None
     except yaml.YAMLError as error:
-        raise MatrixError(f"{path}: {str(error).splitlines()[0]}, line {getattr(error, 'problem_mark', None) and error.problem_mark.line + 1}") from None
+        mark = getattr(error, "problem_mark", None)
+        raise MatrixError(f"{path}{f':{mark.line + 1}' if mark else ''}: {getattr(error, 'problem', None) or error}") from None
     top = reader.group(content, "", KEYS)
     scenes, skipped = [], []
     for name, value in reader.group(top.get("scenes"), "scenes", None).items():
@@ -231,8 +232,9 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
     further = [(axis, name, replays.Estimator(group.get("preset"), group.get("config"), reader.words(group, where)).words())
                for axis, values in zip(axes, choices) for name, group, where in values]
     further += [("command", "line", programs.with_settings(given.settings))] if given.settings else []
+    settle_s = reader.number(top, "settle_s", "", 0) if settle_s is None else settle_s
     matrix = Matrix(path, str(top.get("title", "Matrix")), [str(a) for a in axes], scenes, variants, reader.seeds(top.get("seeds", 1), seeds),
-                    reader.number(top, "advance_s_per_seed", "", 0), reader.number(top, "settle_s", "", 0) if settle_s is None else settle_s, common.words(), further, skipped)
+                    reader.number(top, "advance_s_per_seed", "", 0), settle_s, common.words(), further, skipped)
     return chosen(matrix, patterns, reader)
 
 

@@ -89,7 +89,8 @@ def verdict_lines(matrix, rows):
     limited = [row for row in rows if row.scene.limits]
     if not limited:
         return []
-    lines = [f"{sum(row.verdict() == 'met' for row in limited)} of {len(limited)} rows keep to every limit.", "", "| limit | rows that keep to it |", "|---|---|"]
+    lines = [f"{sum(row.verdict() == 'met' for row in limited)} of {len(limited)} rows keep to every limit.", "",
+             "| limit | rows that keep to it |", "|---|---|"]
     for limit in dict.fromkeys(limit for row in limited for limit in row.scene.limits):
         held = [row for row in limited if limit in row.scene.limits]
         lines.append(f"| {limit.text} | {sum(limit.holds(row.values(limit.measure)) for row in held)} of {len(held)} |")
@@ -100,27 +101,31 @@ def verdict_lines(matrix, rows):
 def markdown(matrix, rows):
     seeds = ", ".join(map(str, matrix.seeds))
     lines = [f"# {matrix.title}", "", f"Seeds {seeds}; the first {matrix.settle_s:g} s of each run do not count. RMSE: mean of the seeds. "
-             "Within 3 sigma: of the epochs of all seeds together, and of the worst seed. Sigma / RMSE: mean stated sigma over RMSE, all seeds together.", ""]
+             "Within 3 sigma: of the epochs of all seeds together, and of the worst seed. Sigma / RMSE: mean stated sigma over RMSE, all "
+             "seeds together.", ""]
     lines += [f"Skipped: {name}: {why}." for name, why in matrix.skipped] + ([""] if matrix.skipped else [])
     lines += verdict_lines(matrix, rows)
     with_integrity = any(row.pooled and row.pooled["integrity"] for row in rows)
-    header = ["scene", *matrix.axes, "seeds", "RMSE N / E / U, m", "3D, m", "worst seed 3D, m", "within 3 sigma N / E / U, %", "worst seed, %",
-              "sigma / RMSE N / E / U", "available, %", *(["integrity"] if with_integrity else []), "verdict"]
+    header = ["scene", *matrix.axes, "seeds", "RMSE N / E / U, m", "3D, m", "worst seed 3D, m", "within 3 sigma N / E / U, %",
+              "worst seed, %", "sigma / RMSE N / E / U", "available, %", *(["integrity"] if with_integrity else []), "verdict"]
     lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
     failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
     lines += report.failed_lines(failed)
     lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]
-    lines += [programs.shell_line(["leonav-sim", os.path.relpath(s.scenario), *programs.with_settings(s.settings_of(matrix.seeds[0], matrix.advance_s)), "-o", "run.lcmlog"])
-              for s in matrix.scenes]
+    for scene in matrix.scenes:
+        settings = programs.with_settings(scene.settings_of(matrix.seeds[0], matrix.advance_s))
+        lines.append(programs.shell_line(["leonav-sim", os.path.relpath(scene.scenario), *settings, "-o", "run.lcmlog"]))
     lines += [programs.shell_line(["leonav-replay", *matrix.common, "run.lcmlog", "--out", "."]), "```", "", "with, for", ""]
-    lines += [f"- {axis} {name}: " + (f"`{programs.shell_line(words)}`" if words else "nothing else") for axis, name, words in matrix.choices]
+    lines += [f"- {axis} {name}: " + (f"`{programs.shell_line(words)}`" if words else "nothing else")
+              for axis, name, words in matrix.choices]
     return "\n".join(lines) + "\n"
 
 
 def write(out, matrix, results):
     """Returns the path of report.md and the rows."""
     rows = rows_of(matrix, results)
-    plain = {"title": matrix.title, "seeds": matrix.seeds, "settle_s": matrix.settle_s, "skipped": matrix.skipped, "rows": [row.plain() for row in rows]}
+    plain = {"title": matrix.title, "seeds": matrix.seeds, "settle_s": matrix.settle_s, "skipped": matrix.skipped,
+             "rows": [row.plain() for row in rows]}
     programs.write_atomically(os.path.join(out, "report.json"), json.dumps(plain, indent=1, sort_keys=True) + "\n")
     path = os.path.join(out, "report.md")
     programs.write_atomically(path, markdown(matrix, rows))

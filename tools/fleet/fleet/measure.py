@@ -57,20 +57,22 @@ def north_east_down(latitude, longitude):
     """Rows north, east, down of each point's rotation from ECEF, [point, 3, 3]."""
     sn, cn, se, ce = np.sin(latitude), np.cos(latitude), np.sin(longitude), np.cos(longitude)
     zero = np.zeros_like(sn)
-    return np.stack([np.stack([-sn * ce, -sn * se, cn], -1), np.stack([-se, ce, zero], -1), np.stack([-cn * ce, -cn * se, -sn], -1)], -2)
+    rows = [-sn * ce, -sn * se, cn], [-se, ce, zero], [-cn * ce, -cn * se, -sn]
+    return np.stack([np.stack(row, -1) for row in rows], -2)
 
 
 def ecef(latitude, longitude, height):
     normal = SEMI_MAJOR_AXIS / np.sqrt(1.0 - ECCENTRICITY_SQUARED * np.sin(latitude) ** 2)
-    return np.stack([(normal + height) * np.cos(latitude) * np.cos(longitude), (normal + height) * np.cos(latitude) * np.sin(longitude),
-                     (normal * (1.0 - ECCENTRICITY_SQUARED) + height) * np.sin(latitude)], -1)
+    level = (normal + height) * np.cos(latitude)
+    z = (normal * (1.0 - ECCENTRICITY_SQUARED) + height) * np.sin(latitude)
+    return np.stack([level * np.cos(longitude), level * np.sin(longitude), z], -1)
 
 
-def errors_of(solution_path, truth_path, span=(-math.inf, math.inf)):
+def errors_of(solution_path, truth_path, settle_s=0.0):
     """Errors and stated sigmas north, east, up of the judged epochs, [3, epoch], m, as leonav-eval compares them.
 
-    The truth is interpolated: a cubic where both neighbours have a velocity, a line otherwise. `span` is in seconds from
-    the truth's first row on.
+    The truth is interpolated: a cubic where both neighbours have a velocity, a line otherwise. Epochs of the first
+    `settle_s` seconds after the truth's first row are not judged.
     """
     solution, truth = columns(solution_path, POSITION + SIGMA), columns(truth_path, POSITION + VELOCITY)
     if not solution.shape[1] or not truth.shape[1]:
@@ -79,7 +81,7 @@ def errors_of(solution_path, truth_path, span=(-math.inf, math.inf)):
     t, known = seconds(solution, week), seconds(truth, week)
     first = known[0]
     after = np.searchsorted(known, t - SAME_TIME_S)
-    good = (after < len(known)) & (t >= first + span[0] - SAME_TIME_S) & (t <= first + span[1] + SAME_TIME_S)
+    good = (after < len(known)) & (t >= first + settle_s - SAME_TIME_S)
     good[good] &= (after[good] > 0) | (np.abs(known[after[good]] - t[good]) <= SAME_TIME_S)
     b = after[good]
     same = np.abs(known[b] - t[good]) <= SAME_TIME_S
@@ -108,15 +110,15 @@ def rounded(value):
 
 
 def sigmas(errors, stated):
-    """Per axis: epochs with a sigma, those within three of them, mean sigma, and sums to pool runs by."""
+    """Per axis: epochs with a sigma, those within three of them, the mean sigma, and that over the RMSE of these epochs."""
     result = {}
     for axis, error, sigma in zip(AXES, errors, stated):
         known = np.isfinite(sigma)
         error, sigma = error[known], sigma[known]
-        count = int(len(error))
+        count = len(error)
         mean, rmse = (float(np.mean(sigma)), float(np.sqrt(np.mean(error ** 2)))) if count else (math.nan, math.nan)
-        result[axis] = {"count": count, "within": int(np.count_nonzero(np.abs(error) <= 3.0 * sigma)), "mean_sigma_m": rounded(mean),
-                        "sigma_over_rmse": rounded(mean / rmse) if count and rmse > 0.0 else None}
+        result[axis] = {"count": count, "within": int(np.count_nonzero(np.abs(error) <= 3.0 * sigma)),
+                        "mean_sigma_m": rounded(mean), "sigma_over_rmse": rounded(mean / rmse) if rmse > 0.0 else None}
     return result
 
 
@@ -125,10 +127,10 @@ def evaluated(path):
     try:
         with open(path) as file:
             read = json.load(file)[0]
-        errors = {key: {name: float(read[key + "_m"][name]) for name in ("rmse", "p95", "worst")} for key in (*AXES, "horizontal", "3d")}
-        result = {"errors": errors, **{key: read[key] for key in ("epochs", "answered", "expected", "expected_in_truth")},
-                  "availability": read["availability"], "convergence_s": read["convergence_s"],
-                  "within_three_sigma": read["within_three_sigma"]}
+        errors = {key: {name: float(read[key + "_m"][name]) for name in ("rmse", "p95", "worst")}
+                  for key in (*AXES, "horizontal", "3d")}
+        result = {"errors": errors, **{key: read[key] for key in ("epochs", "answered", "expected", "expected_in_truth",
+                                                                  "availability", "convergence_s", "within_three_sigma")}}
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise MeasureError(f"{path}: {type(error).__name__}: {error}; not what leonav-eval --json writes") from None
     result["integrity"] = read["integrity"] if isinstance(read.get("integrity"), dict) else None

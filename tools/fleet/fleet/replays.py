@@ -36,10 +36,15 @@ class Bench:
     work: str  # folder for what is deleted in the end
     programs_digest: str
     evaluation: tuple = ()  # further words for leonav-eval
-    settle_s: float = 0.0   # epochs before it are not judged
+    settle_s: float = 0.0  # epochs before it are not judged
+    remove_offset: bool = False  # the truths' datum is unknown
     keep: bool = False
     resume: bool = False
     caller: programs.Caller = None
+
+    def judged_by(self):
+        """What decides about numbers, and is the same for all runs."""
+        return [FORMAT, self.programs_digest, list(self.evaluation), self.settle_s, self.remove_offset]
 
     def result_path(self, name):
         return os.path.join(self.out, "runs", name + ".json")
@@ -61,8 +66,7 @@ def digest_of_programs(folder, names):
 
 def definition(bench, estimator, log, truth):
     """Digest of all that decides about a run's numbers."""
-    parts = [FORMAT, bench.programs_digest, estimator.text(), list(bench.evaluation), bench.settle_s, programs.file_digest(log),
-             programs.file_digest(truth) if truth else None]
+    parts = [*bench.judged_by(), estimator.text(), programs.file_digest(log), programs.file_digest(truth) if truth else None]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 
@@ -125,14 +129,16 @@ def measured(bench, estimator, folder, log, truth):
         result = measure.counted(file.read())
     if truth is None:
         return {**result, "judged": False}
-    span, words = (0.0, float("inf")), list(bench.evaluation)
+    words = [*bench.evaluation, *(["--remove-offset"] if bench.remove_offset else [])]
     if bench.settle_s:
         week, tow = measure.start_of(truth)
-        span, words = (bench.settle_s, span[1]), ["--from", f"{week}:{tow + bench.settle_s:.3f}", *words]
+        words += ["--from", f"{week}:{tow + bench.settle_s:.3f}"]
     solution, numbers = os.path.join(folder, "solution.csv"), os.path.join(folder, "errors.json")
     bench.caller.call([os.path.join(bench.bin, "leonav-eval"), "--truth", truth, *words, "--json", numbers, solution], folder)
     result |= {"judged": True, **measure.evaluated(numbers)}
-    errors, stated = measure.errors_of(solution, truth, span)
-    if errors.shape[1] != result["epochs"] and not bench.evaluation:
+    errors, stated = measure.errors_of(solution, truth, bench.settle_s)
+    if errors.shape[1] != result["epochs"]:
         result["warnings"].append(f"leonav-eval compares {result['epochs']} epochs, the sigmas are of {errors.shape[1]}")
+    if bench.remove_offset and errors.shape[1]:
+        errors = errors - errors.mean(axis=1, keepdims=True)
     return {**result, "sigmas": measure.sigmas(errors, stated)}

@@ -31,8 +31,7 @@ def simulate(bench, scene, seed, advance_s, target):
 def definition(bench, estimator, scene, seed, advance_s):
     """Digest of all that decides about the numbers of a simulated run."""
     files = [programs.file_digest(path) for path in matrix.files_of(scene.scenario)]
-    parts = [replays.FORMAT, bench.programs_digest, estimator.text(), list(bench.evaluation), bench.settle_s, files,
-             scene.settings_of(seed, advance_s)]
+    parts = [*bench.judged_by(), estimator.text(), files, scene.settings_of(seed, advance_s)]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 

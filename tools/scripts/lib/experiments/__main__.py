@@ -20,8 +20,9 @@ try:
     import matrix
     import report
     import runner as running
+    from fleet import engine
 except ImportError as missing:
-    fail(f"{missing}; install python3-distributed, python3-cryptography, python3-numpy and python3-matplotlib")
+    fail(f"{missing}; install python3-numpy and python3-matplotlib")
 
 QUICK_ROWS = ["code-gps-leo", "carrier-gps-ins", "carrier-gps-leo-ins", "sets-gps-leo-ins",
               "convergence-static-gps-leo320"]
@@ -96,7 +97,7 @@ def main():
         site = running.Site(ROOT, os.path.abspath(options.bin), out, options.keep)
         results, failures = running.run(site, rows, seeds_of, options.jobs, options.scheduler)
         path = report.write(out, rows, results, site, seeds_of)
-    except running.RunError as error:
+    except (running.RunError, engine.EngineError) as error:
         fail(str(error))
     except KeyboardInterrupt:
         fail("stopped; the same call goes on from here", 130)
