@@ -148,6 +148,35 @@ if __name__ == "__main__":
   check_same(theirs, ours);
 }
 
+TEST_CASE("Integrity is counted where leonav-eval can, and its lack of levels is no failure",
+          "[tools][fleet]") {
+  if (!have_fleet()) return;
+  const TemporaryFile place("unused", "");
+  const std::string bin = place.beside("bin"), out = place.beside("out");
+  std::filesystem::create_directories(bin);
+  std::filesystem::create_symlink(LEONAV_BIN_DIR "/leonav-replay", bin + "/leonav-replay");
+  const std::string real = "exec '" LEONAV_BIN_DIR "/leonav-eval' \"$@\"\n";
+  // Knows --integrity; of the log called two its solution states no level.
+  write_program(bin + "/leonav-eval", R"(case "$*" in
+  --help) echo '  --integrity        counts'; exit 0 ;;
+  *two*--integrity*) echo 'leonav-eval: solution.csv: states no protection level where there is a truth'; exit 1 ;;
+  *--integrity*)
+    while [ "$1" != --json ]; do shift; done
+    echo '[{"label": "x", "block_s": 60, "horizontal": {"epochs": 58, "misleading": 3, "largest_ratio": 1.2, "limits": [{"limit_m": 3, "hazardous": 1}]}}]' >"$2"
+    exit 0 ;;
+esac
+)" + real);
+  const ProgramRun run = fleet(words(bin, out));
+  INFO(run.err);
+  const std::string report = text_of(out + "/report.md");
+  INFO(report);
+  CHECK(has(report,
+            "Errors beyond their protection levels: horizontal 3 of 58; "
+            "horizontal.limits.3_m.hazardous 1."));
+  CHECK(has(report, "0 warnings"));
+  CHECK(has(report, "4 runs, 1 failed"));
+}
+
 TEST_CASE("Wrong words to the fleet are named", "[tools][fleet]") {
   if (!have_fleet()) return;
   const TemporaryFile place("unused", "");

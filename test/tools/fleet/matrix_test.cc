@@ -124,6 +124,7 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
     CHECK_FALSE(has(run.err, "Traceback"));
   };
   says("seeds: 2", "seed: 2", "seed: no such key; there are ");
+  says("settle_s: 20", "settle_s: 60", "its 60 s are over before the 60 s that do not count");
   says("seeds: 2", "seeds: none", "must be a number of seeds, or a list of them");
   says("preset: urban", "preset: urban\nconfig: x.yaml", "only one of them");
   says("available >= 50", "shares >= 50", "'shares >= 50': must be one of share, ");
@@ -154,8 +155,9 @@ both = row(["share >= 98", "sigma_over_rmse <= 2", "worst_share >= 85"], result(
 print(both.line(False))
 print(row(["share >= 92", "worst_3d <= 3"], result(1.0, 99, 100, 2.0), result(3.0, 270, 300, 1.0)).verdict())
 print(row(["share >= 92"], result(1.0, 99, 100, 2.0), {"name": "n", "failure": "no disk"}).verdict())
-counted = row([], result(1.0, 9, 10, 1.0, {"misleading": 2, "share": 0.5, "up": {"epochs": 3}}), result(1.0, 9, 10, 1.0, {"misleading": 5}))
+counted = row([], result(1.0, 9, 10, 1.0, {"horizontal": {"misleading": 2, "epochs": 10, "largest_ratio": 1.5, "limits": [{"limit_m": 1, "hazardous": 1}]}}), result(1.0, 9, 10, 1.0, {"horizontal": {"misleading": 3, "epochs": 10, "limits": [{"limit_m": 1, "hazardous": 4}]}}))
 print(counted.pooled["integrity"], "|", counted.line(True))
+print("limit", counted.values("misleading"))
 )");
   INFO(said);
   // 369 of 400 epochs; mean sigma (100 x 2 + 300 x 3) / 400 over the root of (100 + 300 x 9) / 400.
@@ -164,8 +166,9 @@ print(counted.pooled["integrity"], "|", counted.line(True))
             "92.2 | 90.0 / 90.0 / 90.0 | 1.04 / 1.04 / 1.04 | 100.0 | MISSED: share >= 98: 92.25"));
   CHECK(has(said, "\nmet\n"));
   CHECK(has(said, "\nFAILED in 1 of 2 seeds\n"));
-  CHECK(has(said, "{'misleading': 7, 'up.epochs': 3} | "));
-  CHECK(has(said, "| misleading 7, up.epochs 3 | - |"));
+  CHECK(has(said, "'horizontal.limits.1_m.hazardous': 5, 'horizontal.misleading': 5} | "));
+  CHECK(has(said, "| horizontal 5 of 20 | - |"));
+  CHECK(has(said, "limit [25.0]"));
 }
 
 TEST_CASE("The streets' matrix can be read, and its script says what it does", "[tools][fleet]") {

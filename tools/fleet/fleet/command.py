@@ -125,14 +125,14 @@ def engine_of(options):
 
 
 def bench_of(options, fleet, folder, digest, settle_s):
-    return replays.Bench(folder, os.path.abspath(options.out), fleet.work, digest, integrity_words(folder), settle_s, options.remove_offset,
+    return replays.Bench(folder, os.path.abspath(options.out), fleet.work, digest, counts_integrity(folder), settle_s, options.remove_offset,
                          options.keep, options.resume, fleet.caller)
 
 
-def integrity_words(folder):
-    """--integrity, if this leonav-eval counts how often its protection levels fail."""
+def counts_integrity(folder):
+    """Whether this leonav-eval can count how often errors exceed their protection levels."""
     told = subprocess.run([os.path.join(folder, "leonav-eval"), "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-    return ("--integrity",) if re.search(r"^  --integrity(  .*)?$", told.stdout, re.MULTILINE) else ()
+    return re.search(r"^  --integrity(  .*)?$", told.stdout, re.MULTILINE) is not None
 
 
 def results_of(fleet, groups):

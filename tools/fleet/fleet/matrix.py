@@ -22,6 +22,7 @@ MEASURES = {
     "rmse_horizontal": "mean horizontal RMSE, m",
     "rmse_3d": "mean 3D RMSE, m",
     "worst_3d": "3D RMSE of the worst seed, m",
+    "misleading": "errors beyond their protection level, % of the epochs of every quantity that has one",
     "available": "answered epochs, % of those in the truth's span",
 }
 
@@ -134,7 +135,7 @@ class Reader:
         except ValueError:
             self.fail(where, f"{text!r}: {found[3]} is no number")
 
-    def scene(self, name, value, matrix, duration_s):
+    def scene(self, name, value, matrix, duration_s, settle_s):
         where = f"scenes.{name}"
         group = self.group(value, where, SCENE_KEYS)
         if "scenario" not in group:
@@ -143,6 +144,8 @@ class Reader:
         own = self.number(group, "duration_s", where, matrix.get("duration_s", 0))
         length = duration_s or own
         settings = (*common, *self.words(group, where), *((f"duration_s={length:g}",) if length else ()))
+        if length and length <= settle_s:
+            self.fail(where, f"its {length:g} s are over before the {settle_s:g} s that do not count")
         limits = self.limits(group if "limits" in group else matrix, f"{where}.limits" if "limits" in group else "limits")
         return Scene(str(name), self.file(group["scenario"], f"{where}.scenario"), settings, limits), bool(group.get("optional"))
 
@@ -207,9 +210,10 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
         mark = getattr(error, "problem_mark", None)
         raise MatrixError(f"{path}{f':{mark.line + 1}' if mark else ''}: {getattr(error, 'problem', None) or error}") from None
     top = reader.group(content, "", KEYS)
+    settle_s = reader.number(top, "settle_s", "", 0) if settle_s is None else settle_s
     scenes, skipped = [], []
     for name, value in reader.group(top.get("scenes"), "scenes", None).items():
-        scene, optional = reader.scene(name, value, top, duration_s)
+        scene, optional = reader.scene(name, value, top, duration_s, settle_s)
         missing = missing_file(scene.scenario)
         if missing is None:
             scenes.append(scene)
@@ -232,7 +236,6 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
     further = [(axis, name, replays.Estimator(group.get("preset"), group.get("config"), reader.words(group, where)).words())
                for axis, values in zip(axes, choices) for name, group, where in values]
     further += [("command", "line", programs.with_settings(given.settings))] if given.settings else []
-    settle_s = reader.number(top, "settle_s", "", 0) if settle_s is None else settle_s
     matrix = Matrix(path, str(top.get("title", "Matrix")), [str(a) for a in axes], scenes, variants, reader.seeds(top.get("seeds", 1), seeds),
                     reader.number(top, "advance_s_per_seed", "", 0), settle_s, common.words(), further, skipped)
     return chosen(matrix, patterns, reader)

@@ -37,6 +37,13 @@ class Row:
     def available(self):
         return self.pooled["availability"] if self.pooled else None
 
+    def integrity(self):
+        return self.pooled["integrity"] if self.pooled else None
+
+    def misleading(self):
+        """Share of each quantity's epochs that is beyond its level; of those that have an epoch."""
+        return [count / epochs for count, epochs in report.misleading(self.integrity()).values() if epochs] or [None]
+
     def values(self, measure_name):
         """Of a limit's measure, in its units: one number, or one of each axis."""
         def in_percent(values):
@@ -44,7 +51,7 @@ class Row:
         return {"share": lambda: in_percent(self.shares()), "worst_share": lambda: in_percent(self.worst_shares()),
                 "sigma_over_rmse": self.ratios, "rmse": lambda: [self.mean(axis) for axis in AXES],
                 "rmse_horizontal": lambda: [self.mean("horizontal")], "rmse_3d": lambda: [self.mean("3d")],
-                "worst_3d": lambda: [self.worst()[0]], "available": lambda: in_percent([self.available()])}[measure_name]()
+                "misleading": lambda: in_percent(self.misleading()), "worst_3d": lambda: [self.worst()[0]], "available": lambda: in_percent([self.available()])}[measure_name]()
 
     def missed(self):
         """The limits that it does not keep to, with its values."""
@@ -65,8 +72,7 @@ class Row:
                  "-" if worst is None else f"{worst:.2f} (seed {seed})", " / ".join(report.percent(v) for v in self.shares()),
                  " / ".join(report.percent(v) for v in self.worst_shares()), report.triple(self.ratios()), report.percent(self.available())]
         if with_integrity:
-            sums = (self.pooled or {}).get("integrity") or {}
-            cells.append(", ".join(f"{key} {value}" for key, value in sums.items()) or "-")
+            cells.append(report.integrity_text(self.integrity()))
         return "| " + " | ".join([*cells, self.verdict()]) + " |"
 
     def plain(self):
@@ -107,7 +113,7 @@ def markdown(matrix, rows):
     lines += verdict_lines(matrix, rows)
     with_integrity = any(row.pooled and row.pooled["integrity"] for row in rows)
     header = ["scene", *matrix.axes, "seeds", "RMSE N / E / U, m", "3D, m", "worst seed 3D, m", "within 3 sigma N / E / U, %",
-              "worst seed, %", "sigma / RMSE N / E / U", "available, %", *(["integrity"] if with_integrity else []), "verdict"]
+              "worst seed, %", "sigma / RMSE N / E / U", "available, %", *(["misleading"] if with_integrity else []), "verdict"]
     lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
     failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
     lines += report.failed_lines(failed)

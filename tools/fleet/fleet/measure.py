@@ -137,6 +137,16 @@ def evaluated(path):
     return result
 
 
+def integrity_of(path):
+    """The quantities (horizontal, ...) that leonav-eval --integrity counted of the one solution that it was given."""
+    try:
+        with open(path) as file:
+            read = json.load(file)[0]
+        return {key: value for key, value in read.items() if isinstance(value, dict)}
+    except (OSError, ValueError, LookupError, AttributeError) as error:
+        raise MeasureError(f"{path}: {type(error).__name__}: {error}; not what leonav-eval --integrity --json writes") from None
+
+
 def counted(summary):
     """What leonav-replay's summary.txt says: counts, and its warnings."""
     def count(name):

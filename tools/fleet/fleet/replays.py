@@ -8,6 +8,7 @@ import tempfile
 
 from . import measure, programs
 
+NO_LEVEL = "states no protection level"  # leonav-eval's words
 FORMAT = 1  # of the results' files: one more where their content changes
 
 
@@ -35,7 +36,7 @@ class Bench:
     out: str
     work: str  # folder for what is deleted in the end
     programs_digest: str
-    evaluation: tuple = ()  # further words for leonav-eval
+    integrity: bool = False  # leonav-eval has the option
     settle_s: float = 0.0  # epochs before it are not judged
     remove_offset: bool = False  # the truths' datum is unknown
     keep: bool = False
@@ -44,7 +45,7 @@ class Bench:
 
     def judged_by(self):
         """What decides about numbers, and is the same for all runs."""
-        return [FORMAT, self.programs_digest, list(self.evaluation), self.settle_s, self.remove_offset]
+        return [FORMAT, self.programs_digest, self.integrity, self.settle_s, self.remove_offset]
 
     def result_path(self, name):
         return os.path.join(self.out, "runs", name + ".json")
@@ -129,16 +130,31 @@ def measured(bench, estimator, folder, log, truth):
         result = measure.counted(file.read())
     if truth is None:
         return {**result, "judged": False}
-    words = [*bench.evaluation, *(["--remove-offset"] if bench.remove_offset else [])]
+    words = ["--remove-offset"] if bench.remove_offset else []
     if bench.settle_s:
         week, tow = measure.start_of(truth)
         words += ["--from", f"{week}:{tow + bench.settle_s:.3f}"]
     solution, numbers = os.path.join(folder, "solution.csv"), os.path.join(folder, "errors.json")
-    bench.caller.call([os.path.join(bench.bin, "leonav-eval"), "--truth", truth, *words, "--json", numbers, solution], folder)
+    evaluate = [os.path.join(bench.bin, "leonav-eval"), "--truth", truth, *words, solution, "--json"]
+    bench.caller.call([*evaluate, numbers], folder)
     result |= {"judged": True, **measure.evaluated(numbers)}
+    if bench.integrity and result["integrity"] is None:
+        result["integrity"] = integrity(bench, evaluate, folder, result["warnings"])
     errors, stated = measure.errors_of(solution, truth, bench.settle_s)
     if errors.shape[1] != result["epochs"]:
         result["warnings"].append(f"leonav-eval compares {result['epochs']} epochs, the sigmas are of {errors.shape[1]}")
     if bench.remove_offset and errors.shape[1]:
         errors = errors - errors.mean(axis=1, keepdims=True)
     return {**result, "sigmas": measure.sigmas(errors, stated)}
+
+
+def integrity(bench, evaluate, folder, warnings):
+    """The counts of leonav-eval --integrity; None: it made none, most often because the solution states no levels."""
+    path = os.path.join(folder, "integrity.json")
+    try:
+        bench.caller.call([*evaluate, path, "--integrity"], folder)
+        return measure.integrity_of(path)
+    except (programs.ProgramError, measure.MeasureError) as error:
+        if NO_LEVEL not in str(error):
+            warnings.append(f"no integrity: {error}")
+        return None

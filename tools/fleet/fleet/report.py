@@ -43,19 +43,40 @@ def pooled(results):
 
 
 def integrity(results):
-    """Sums of the whole numbers that leonav-eval counts under "integrity"; None: it counts none."""
+    """Sums of the whole numbers that leonav-eval counts, named by their places as in horizontal.misleading; None: none.
+
+    In a list, each group is named by its limit_m.
+    """
     sums = {}
 
-    def add(values, prefix):
-        for key, value in values.items():
-            if isinstance(value, dict):
-                add(value, f"{prefix}{key}.")
-            elif isinstance(value, int) and not isinstance(value, bool):
-                sums[prefix + key] = sums.get(prefix + key, 0) + value
+    def add(value, name):
+        if isinstance(value, dict):
+            for key, inner in value.items():
+                if key != "limit_m":
+                    add(inner, f"{name}.{key}" if name else key)
+        elif isinstance(value, list):
+            for place, inner in enumerate(value):
+                limit = inner.get("limit_m") if isinstance(inner, dict) else None
+                add(inner, f"{name}.{place}" if limit is None else f"{name}.{limit:g}_m")
+        elif isinstance(value, int) and not isinstance(value, bool):
+            sums[name] = sums.get(name, 0) + value
 
     for result in results:
         add(result.get("integrity") or {}, "")
     return dict(sorted(sums.items())) or None
+
+
+def misleading(sums):
+    """{quantity: (epochs beyond their level, epochs)} of the sums."""
+    ending = ".misleading"
+    names = [key[:-len(ending)] for key in sums or {} if key.endswith(ending) and key.count(".") == 1]
+    return {name: (sums[name + ending], sums.get(f"{name}.epochs")) for name in names}
+
+
+def integrity_text(sums):
+    """Misleading epochs of each quantity, or else all that is counted."""
+    parts = [f"{name} {count}" + (f" of {epochs}" if epochs is not None else "") for name, (count, epochs) in misleading(sums).items()]
+    return ", ".join(parts or [f"{key} {value}" for key, value in (sums or {}).items()]) or "-"
 
 
 def totals(results):
@@ -111,7 +132,8 @@ def totals_lines(sums):
               "| mean sigma / RMSE | " + " | ".join(number(sigmas[a]["sigma_over_rmse"]) for a in AXES) + " | | |", "",
               f"{all_['epochs']} epochs judged; answered {percent(all_['availability'])} % of those in the truths' spans."]
     if all_["integrity"]:
-        lines += ["", "Integrity, sums: " + ", ".join(f"{key} {value}" for key, value in all_["integrity"].items()) + "."]
+        hazardous = [f"{key} {value}" for key, value in all_["integrity"].items() if key.endswith("hazardous")]
+        lines += ["", f"Errors beyond their protection levels: {integrity_text(all_['integrity'])}" + "".join(f"; {h}" for h in hazardous) + "."]
     return lines
 
 
