@@ -5,10 +5,12 @@ given; it is finished off when its last job has ended. Only so many groups are b
 what preparations leave on the disk stays small. What a lost worker had in hand is done again by another.
 """
 import itertools
+import math
 import os
 import shutil
 import sys
 import tempfile
+import time
 import uuid
 
 from . import programs
@@ -78,6 +80,7 @@ class Engine:
         self.workers = workers or len(os.sched_getaffinity(0))
         self.folders = [os.path.dirname(os.path.dirname(os.path.abspath(__file__))), *folders]
         self.cluster = self.client = self.scratch = None
+        self.counted, self.counted_s = 1, -math.inf
         self.work = os.path.join(os.path.abspath(shared), "work", uuid.uuid4().hex)
         self.running = os.path.join(self.work, "running")
         self.caller = programs.Caller(self.running)
@@ -131,7 +134,11 @@ class Engine:
             pass  # another call works there too
 
     def worker_count(self):
-        return max(1, len(self.client.scheduler_info()["workers"]))
+        """As of a second ago at most: to ask takes longer than a short run."""
+        now = time.monotonic()
+        if now > self.counted_s + 1.0:
+            self.counted, self.counted_s = max(1, len(self.client.scheduler_info()["workers"])), now
+        return self.counted
 
     def run(self, groups):
         """Yields (group, job, result or Failed) as jobs end."""
