@@ -71,7 +71,7 @@ void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario
   root.group("atmosphere", [&](ConfigReader& r) { read_atmosphere(r, &scenario->atmosphere); });
   read_places(root, &scenario->places);
   root.group("street_errors",
-             [&](ConfigReader& r) { read_street_errors(r, &scenario->street_errors); });
+             [&](ConfigReader& r) { read_street_errors(r, folder, &scenario->street_errors); });
   root.groups("faults", [&](ConfigReader& r) { read_fault(r, &scenario->faults); });
   root.boolean("ideal", &scenario->ideal);
   remove_what_is_off(scenario);

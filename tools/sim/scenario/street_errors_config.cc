@@ -52,17 +52,41 @@ void read_slips(ConfigReader& group, StreetSlipsConfig* slips) {
   group.integer("max_cycles", 1, 1'000'000, &slips->max_cycles);
 }
 
+// The file is read only by the family that needs it: a scenario may name one and be run with
+// another family.
+void read_library(ConfigReader& group, const std::filesystem::path& folder,
+                  StreetErrorsConfig* street) {
+  group.text("file", &street->file);
+  group.list("recordings", &street->recordings);
+  if (street->family != StreetFamily::kRecorded) return;
+  if (street->file.empty()) {
+    group.fail("file",
+               "must name a library of residuals; tools/validate street-residuals makes one");
+  }
+  street->file = (folder / street->file).string();
+  try {
+    street->library = std::make_shared<const ResidualLibrary>(street->file, street->recordings);
+  } catch (const FileError& error) {
+    group.fail("file", error.what());
+  }
+}
+
 }  // namespace
 
-void read_street_errors(ConfigReader& group, StreetErrorsConfig* street) {
-  group.choice<StreetFamily>(
-      "family", {{"rays", StreetFamily::kRays}, {"correlated", StreetFamily::kCorrelated}},
-      &street->family);
+void read_street_errors(ConfigReader& group, const std::filesystem::path& folder,
+                        StreetErrorsConfig* street) {
+  group.choice<StreetFamily>("family",
+                             {{"rays", StreetFamily::kRays},
+                              {"correlated", StreetFamily::kCorrelated},
+                              {"recorded", StreetFamily::kRecorded}},
+                             &street->family);
   group.number("limit_elevation_deg", {0.0, 90.0}, &street->limit_elevation, kDegree);
   group.group("multipath", [&](ConfigReader& r) { read_multipath(r, &street->multipath); });
   group.group("reflected", [&](ConfigReader& r) { read_reflected(r, &street->reflected); });
   group.group("blocked", [&](ConfigReader& r) { read_blocked(r, &street->blocked); });
   group.group("slips", [&](ConfigReader& r) { read_slips(r, &street->slips); });
+  group.number("block_s", {0.1, 1e5}, &street->block_s);
+  read_library(group, folder, street);
 }
 
 void replace_by_family(const StreetErrorsConfig& street, ReceiverConfig* receiver) {
@@ -77,6 +101,7 @@ void remove_errors(StreetErrorsConfig* street) {
   multipath.carrier_low_m = multipath.carrier_high_m = {};
   street->reflected.share = 0.0;
   street->slips.interval_s = 1e9;
+  if (street->family == StreetFamily::kRecorded) street->family = StreetFamily::kRays;
 }
 
 }  // namespace leonav::sim

@@ -1,9 +1,13 @@
 // StreetErrorsConfig chooses the family of errors that streets cause, and holds their sizes.
 #pragma once
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "daemon/config/config_reader.h"
 #include "tools/sim/scenario/receiver_config.h"
+#include "tools/sim/scenario/residual_library.h"
 
 namespace leonav::sim {
 
@@ -11,6 +15,7 @@ namespace leonav::sim {
 enum class StreetFamily {
   kRays,        // rays against the houses of `places`
   kCorrelated,  // random processes in time, without any geometry of houses
+  kRecorded,    // pieces of the residuals of recorded runs
 };
 
 // A value is drawn from least to most.
@@ -43,9 +48,9 @@ struct StreetBlockedConfig {
 
 // Slips of a satellite's carriers.
 struct StreetSlipsConfig {
-  double interval_s = 300.0;        // mean
-  double single_share = 1.0 / 3.0;  // by one cycle on one signal
-  double pair_share = 1.0 / 3.0;    // by the same cycle on both; the rest is random
+  double interval_s = 300.0;     // mean
+  double single_share = 0.3333;  // by one cycle on one signal
+  double pair_share = 0.3333;    // by the same cycle on both; the rest is random
   double told_share = 0.5;
   int max_cycles = 10;  // of the random ones
 };
@@ -58,9 +63,15 @@ struct StreetErrorsConfig {
   StreetReflectedConfig reflected;
   StreetBlockedConfig blocked;
   StreetSlipsConfig slips;
+  std::string file;                                // of the library
+  std::vector<std::string> recordings;             // of those in it; none: all
+  double block_s = 60.0;                           // at most, of one piece that is drawn from it
+  std::shared_ptr<const ResidualLibrary> library;  // of the family recorded
 };
 
-void read_street_errors(ConfigReader& group, StreetErrorsConfig* street);
+// Reads the group, including street_errors.file, whose path is relative to `folder`.
+void read_street_errors(ConfigReader& group, const std::filesystem::path& folder,
+                        StreetErrorsConfig* street);
 
 // Switches off those errors of the receiver that the family has of its own.
 void replace_by_family(const StreetErrorsConfig& street, ReceiverConfig* receiver);

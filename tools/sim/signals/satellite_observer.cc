@@ -113,16 +113,18 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
       random_stream(world_.scenario.seed, "noise", instant_number(number, now.t_tag));
   const NoiseConfig& noise = receiver.noise[index_of(system)];
   const double factor = noise_factor(arrival.loss_db);
-  const double code_noise_m = noise.code_m * factor * random.draw();
-  const double carrier_noise_m = noise.carrier_m * factor * random.draw();
-  const double doppler_noise_m_s = noise.doppler_m_s * factor * random.draw();
+  const StreetSignalError& street = g.street.signals[s];
+  const double code_noise_m = noise.code_m * factor * random.draw() * street.code_noise;
+  const double carrier_noise_m = noise.carrier_m * factor * random.draw() * street.carrier_noise;
+  const double doppler_noise_m_s =
+      noise.doppler_m_s * factor * random.draw() * street.doppler_noise;
   const double scatter_db = receiver.cn0.scatter_db * random.draw();
   MultipathError reflected = world_.multipath.error(
       satellite_.id, s, g.path.direction.elevation, age_, now.place.travelled_m,
       now.place.speed_m_s, now.place.place->multipath);
-  reflected.code_m += g.street.signals[s].code_m;
-  reflected.carrier_m += g.street.signals[s].carrier_m;
-  reflected.doppler_m_s += g.street.signals[s].doppler_m_s;
+  reflected.code_m += street.code_m;
+  reflected.carrier_m += street.carrier_m;
+  reflected.doppler_m_s += street.doppler_m_s;
 
   const ClockTable::Value base = world_.clock.time_base_m(system, now.clock.t);
   const double common =

@@ -1,6 +1,7 @@
 #include "tools/sim/street/street_errors.h"
 
 #include "tools/sim/street/correlated_street.h"
+#include "tools/sim/street/recorded_street.h"
 
 namespace leonav::sim {
 
@@ -9,6 +10,9 @@ std::unique_ptr<StreetErrors> make_street_errors(const Scenario& scenario, Satel
     case StreetFamily::kCorrelated:
       return std::make_unique<CorrelatedStreet>(scenario.street_errors, scenario.seed,
                                                 table_index_of(satellite));
+    case StreetFamily::kRecorded:
+      return std::make_unique<RecordedStreet>(scenario.street_errors, scenario.seed,
+                                              table_index_of(satellite));
     case StreetFamily::kRays:
       break;
   }

@@ -17,9 +17,11 @@ struct SatelliteSight {
   double turn = 0.0;       // of the direction, rad/s
 };
 
-// Errors of one signal, m and m/s. The Doppler's is the rate of the carrier's.
+// Errors of one signal, m and m/s.
 struct StreetSignalError {
   double code_m = 0.0, carrier_m = 0.0, doppler_m_s = 0.0;
+  // Factors of the receiver's noise; 0 where it is in the error already.
+  double code_noise = 1.0, carrier_noise = 1.0, doppler_noise = 1.0;
 };
 
 // What happens to the satellite's signals at that instant.

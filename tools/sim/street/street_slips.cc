@@ -3,6 +3,25 @@
 #include <cmath>
 
 namespace leonav::sim {
+namespace {
+
+void add(double cycles, bool told, CycleSlip* slip) {
+  slip->cycles += cycles;
+  slip->told = slip->told || told;
+}
+
+}  // namespace
+
+void add_random_slip(int max_cycles, bool told, GaussianGenerator* random,
+                     std::array<CycleSlip, kTrackedSignals>* slips) {
+  const double which = random->uniform();
+  for (std::size_t s = 0; s < kTrackedSignals; ++s) {
+    const double size = std::ceil(random->uniform() * max_cycles);
+    const double sign = random->uniform() <= 0.5 ? -1.0 : 1.0;
+    const bool hit = s == 0 ? which <= 2.0 / 3.0 : which > 1.0 / 3.0;
+    if (hit) add(sign * size, told, &(*slips)[s]);
+  }
+}
 
 StreetSlips::StreetSlips(const StreetSlipsConfig& config, std::uint64_t key)
     : config_(config), random_(key) {
@@ -16,18 +35,13 @@ void StreetSlips::draw_next(double after_s) {
 void StreetSlips::add_slip(std::array<CycleSlip, kTrackedSignals>* slips) {
   const double kind = random_.uniform(), which = random_.uniform();
   const bool told = random_.uniform() <= config_.told_share;
-  const double sign = random_.uniform() <= 0.5 ? -1.0 : 1.0;
+  const double cycle = random_.uniform() <= 0.5 ? -1.0 : 1.0;
   const bool single = kind <= config_.single_share;
-  const bool pair = !single && kind <= config_.single_share + config_.pair_share;
+  if (!single && kind > config_.single_share + config_.pair_share) {
+    return add_random_slip(config_.max_cycles, told, &random_, slips);
+  }
   for (std::size_t s = 0; s < kTrackedSignals; ++s) {
-    const double size = std::ceil(random_.uniform() * config_.max_cycles);
-    const double own_sign = random_.uniform() <= 0.5 ? -1.0 : 1.0;
-    const bool is_first = s == 0;
-    const bool hit = pair || (single ? is_first == (which <= 0.5)
-                                     : (is_first ? which <= 2.0 / 3.0 : which > 1.0 / 3.0));
-    if (!hit) continue;
-    (*slips)[s].cycles += single || pair ? sign : own_sign * size;
-    (*slips)[s].told = (*slips)[s].told || told;
+    if (!single || (s == 0) == (which <= 0.5)) add(cycle, told, &(*slips)[s]);
   }
 }
 

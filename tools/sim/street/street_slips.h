@@ -10,6 +10,11 @@
 
 namespace leonav::sim {
 
+// Adds a slip of 1 to max_cycles cycles, up or down, to one signal or to both, with equal
+// probability.
+void add_random_slip(int max_cycles, bool told, GaussianGenerator* random,
+                     std::array<CycleSlip, kTrackedSignals>* slips);
+
 // Slips arrive as a Poisson process in time. Of three kinds one is drawn: one cycle on one signal;
 // the same one cycle on both, which cancels in the difference of the signals' cycles; and a random
 // number of cycles on one signal or on both.
