@@ -25,7 +25,7 @@ class CorrelatedMultipath {
 
  private:
   struct Sigmas {
-    double code_m = 0.0, carrier_m = 0.0;
+    double code_m = 0.0, carrier_m = 0.0, carrier_m_s = 0.0;  // with the carrier's rate
   };
   // Gauss-Markov processes of code or carrier.
   struct Processes {
@@ -33,6 +33,7 @@ class CorrelatedMultipath {
     std::array<GaussMarkov, kTrackedSignals> own;
   };
   void begin_episode(double t, bool is_low);
+  Sigmas sigmas(double t) const;
   GaussMarkov::Value mixed(Processes* processes, std::size_t signal) const;
 
   StreetErrorsConfig config_;
