@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kNoIndex = -1;
 
-// What the filter has used, with the variances that it gave: codes and Dopplers that contradicted
-// each other weigh less.
+// What was offered to the filter's update, with the variances that it gave: codes and Dopplers that
+// contradicted each other weigh less, and what it rejected has the factor 0.
 void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, KeyframeInput* input) {
   std::array<int, kMaxSatellites> slot;
   slot.fill(kNoIndex);
