@@ -40,10 +40,14 @@ void Ekf::reset() {
   initialize(GpsTime(), PointSolution());
   propagator_.reset();
   estimate_.forget_clocks();
+  assembler_.forget_errors();
   initialized_ = false;
 }
 
-void Ekf::initialize(GpsTime time, const PointSolution& point) {
+void Ekf::initialize(GpsTime time, const PointSolution& given) {
+  PointSolution point = given;
+  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();
@@ -165,6 +169,11 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
     tables = clock_removed_by_observable(measurements, covariance());
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
+  if (!result->prediction_suspect) {
+    for (const Observable observable : {Observable::kCode, Observable::kDoppler})
+      assembler_.learn(epoch, table_of(tables, observable));
+    assembler_.finish_learning(epoch.time);
+  }
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }

@@ -126,6 +126,8 @@ class Ekf {
   // Returns the vector from the estimated point to the antenna while there is no attitude, ECEF, m;
   // otherwise zero.
   Eigen::Vector3d vertical_antenna_offset_e() const;
+  // What has been learned of the errors of its measurements.
+  const LearnedErrors& learned_errors() const { return assembler_.errors(); }
 
   // --- for the smoother ---
   void begin_process() { estimate_.begin_process(); }

@@ -164,6 +164,7 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
                &ekf.clock.inter_system_drift_noise);
   group.number("code_correlation_time_s", {0.0, 1e4}, &ekf.code_correlation_time_s);
   group.number("doppler_correlation_time_s", {0.0, 1e4}, &ekf.doppler_correlation_time_s);
+  group.boolean("learn_errors", &ekf.learn_errors);
   group.number("hole_attitude_noise_rad_per_sqrt_s", {0.0, 10.0}, &ekf.gap_attitude_noise);
   group.number("prediction_suspect_ratio", {1.0, 100.0}, &ekf.prediction_suspect_ratio);
   group.number("reset_ratio", {0.1, 1.0}, &ekf.reset_ratio);

@@ -209,14 +209,14 @@ def mismatch_table(rows, results, lines):
         lines.append(f"| {row.title} (`{row.matched}`) | {len(seeds)} | {cells[0]} | {cells[1]} | {shares[0]} → {shares[1]} |")
 
 
-def write(out, rows, results, runner, seeds_of):
+def write(out, rows, results, site, seeds_of):
     lines = ["# The papers' experiments", "",
              f"{published.A} (code and Doppler) and {published.B} (carriers too), repeated on leonav's EKF and smoother with "
              "simulated drives. Mean ± standard deviation over the seeds; each seed is another drive, another sky and other noise. RMSE "
              "over all epochs after the first 1,000. The papers drove a real car through Beijing: their errors hold what their "
              "receiver and their streets did, ours what the simulator knows of it; compare the improvements before the metres.",
              ""]
-    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results) + motion.verdict_lines(rows, results, runner)
+    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results) + motion.verdict_lines(rows, results, site)
     for group, title in TITLES.items():
         chosen = [row for row in rows if row.group == group]
         if not chosen:
@@ -228,7 +228,7 @@ def write(out, rows, results, runner, seeds_of):
         elif group == "mismatch":
             mismatch_table(chosen, results, lines)
         elif group in motion.TITLES:
-            motion.table(chosen, results, runner, lines)
+            motion.table(chosen, results, site, lines)
         elif group.startswith("convergence"):
             convergence_table(chosen, results, lines)
         else:
@@ -238,7 +238,7 @@ def write(out, rows, results, runner, seeds_of):
             lines += smoother_verdicts.study_lines(chosen, results)
         if notes:
             lines += [""] + [f"- {note}" for note in notes]
-        for picture in plots.draw(group, chosen, results, runner):
+        for picture in plots.draw(group, chosen, results, site):
             lines += ["", f"![{title}]({picture})"]
         lines.append("")
     lines = wrapped(lines + sky_lines(rows, results))
@@ -249,7 +249,7 @@ def write(out, rows, results, runner, seeds_of):
     lines += wrapped(["", "## One row alone", "", "From the project's folder; the first seed as an example. Others differ in "
                       "`seed` and `satellites.advance_s`, and with LEO 320 and 640 in the scenario's file.", ""])
     for row in rows:
-        lines += [f"`{row.name}`", "", "```sh", *runner.alone(row, seeds_of(row)[0]), "```", ""]
+        lines += [f"`{row.name}`", "", "```sh", *site.alone(row, seeds_of(row)[0]), "```", ""]
     path = os.path.join(out, "report.md")
     with open(path, "w") as file:
         file.write("\n".join(lines) + "\n")

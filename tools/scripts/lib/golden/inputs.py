@@ -16,7 +16,7 @@ from golden import edits
 # Configuration -> its preset.
 CONFIGS = {"walk": "walk", "drive": "phone", "drive_ins": "phone_imu", "station": "station", "urban": "urban", "demo": "demo"}
 PRESETS = ("car", "demo", "phone", "phone_imu", "realtime", "station", "urban", "walk")
-SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay")
+SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay", "correlated")
 
 DATASETS = {
     "walk": "name: walk\nobservations: [../data/walk/gnss.ubx]\nnavigation: [../data/walk/gnss.nav]\n"
@@ -133,6 +133,7 @@ SIMULATIONS = {
         f"faults=[{{kind: outage, from_s: 60, to_s: 200, {ALL}}}, {{kind: outage, from_s: 230, to_s: 370, {ALL}}}]", seed=23),
     "fast-imu": Simulation("open_sky", "duration_s=180", "route.standing_s=10", "imu.rate_hz=500", "receiver.interval_s=10",
                            "satellites.beidou.enabled=false", seed=24),
+    "correlated": Simulation("correlated", "duration_s=300", "route.standing_s=20", seed=25),
     "files": Simulation("open_sky", "duration_s=120", "route.standing_s=10", seed=20, options=["--export", "{out}"]),
     "files-as-gps": Simulation("open_sky", "duration_s=60", "route.standing_s=10", "imu.enabled=false", seed=21,
                                options=["--export", "{out}", "--leo-as-gps"]),
