@@ -11,8 +11,8 @@ namespace leonav {
 
 // While carriers keep the position from epoch to epoch, the codes of a satellite are weighed
 // jointly (core/filter/update/colored_code_weighting.h). Otherwise each is inflated by
-// variance_inflation() of its errors' correlation. Carriers do not keep the position where many arcs end (a phone, a
-// receiver among trees): then the codes hold it, and it follows their errors.
+// variance_inflation() of its errors' correlation. Carriers do not keep the position where many
+// arcs end (a phone, a receiver among trees): then the codes hold it, and it follows their errors.
 class CodeVarianceModel {
  public:
   explicit CodeVarianceModel(const EkfConfig& config) : is_static_(config.static_point) {}

@@ -75,7 +75,8 @@ struct EkfConfig {
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
   // Size and correlation of the errors of codes and Dopplers are learned on the way
-  // (core/filter/error_model); the configured ones are where it begins, 20 s and 3 s where none are.
+  // (core/filter/error_model); the configured ones are where it begins, 20 s and 3 s where none
+  // are.
   bool learn_errors = false;
   // Median standardized innovation of code, carrier or Doppler, clocks removed (0.67 when all is
   // well). Above it, and if the measurements agree with each other, the prediction is taken to be
