@@ -63,7 +63,10 @@ void read_library(ConfigReader& group, const std::filesystem::path& folder,
     group.fail("file",
                "must name a library of residuals; tools/validate street-residuals makes one");
   }
-  street->file = (folder / street->file).string();
+  street->file = (folder / street->file).lexically_normal().string();
+  if (!std::filesystem::exists(street->file)) {
+    group.fail("file", street->file + " is not there; tools/validate street-residuals makes it");
+  }
   try {
     street->library = std::make_shared<const ResidualLibrary>(street->file, street->recordings);
   } catch (const FileError& error) {

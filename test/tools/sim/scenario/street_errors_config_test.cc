@@ -45,7 +45,8 @@ TEST_CASE("Street errors that make no sense are refused", "[sim][street]") {
   CHECK_THROWS_WITH(with("slips: {single_share: 0.6, pair_share: 0.6}"),
                     Catch::Contains("more than 1"));
   CHECK_THROWS_WITH(with("family: recorded"), Catch::Contains("street-residuals"));
-  CHECK_THROWS_WITH(with("family: recorded, file: none.csv"), Catch::Contains("none.csv"));
+  CHECK_THROWS_WITH(with("family: recorded, file: none.csv"),
+                    Catch::Contains("none.csv is not there; tools/validate"));
 }
 
 TEST_CASE("Another family replaces the receiver's own multipath and slips", "[sim][street]") {
