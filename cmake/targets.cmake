@@ -126,14 +126,14 @@ function(leonav_catch2)
                          PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# leonav_test(target folder [DEPENDS ...] [EXCLUDE folder]): one Catch2 program per folder, without
-# a folder in it that has a program of its own; skipped while empty.
+# leonav_test(target folder [DEPENDS ...] [EXCLUDE folder...]): one Catch2 program per folder,
+# without the folders in it that have a program of their own; skipped while empty.
 function(leonav_test target folder)
-  cmake_parse_arguments(ARG "" "EXCLUDE" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;EXCLUDE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
-  if(ARG_EXCLUDE)
-    list(FILTER sources EXCLUDE REGEX "^${CMAKE_SOURCE_DIR}/${ARG_EXCLUDE}/")
-  endif()
+  foreach(excluded ${ARG_EXCLUDE})
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_SOURCE_DIR}/${excluded}/")
+  endforeach()
   if(NOT sources)
     return()
   endif()

@@ -99,10 +99,9 @@ void inflate_disturbed_states(const MeasurementEpoch& epoch, StateEstimate* esti
   }
 }
 
-bool record_carrier(const FilterMeasurement& carrier, GpsTime time, Ambiguity* ambiguity) {
-  ambiguity->last_used = time;
-  ambiguity->rejected = carrier.factor > 0.0 ? 0 : ambiguity->rejected + 1;
-  return ambiguity->rejected >= kMaxRejectedEpochs;
+bool record_carrier(const FilterMeasurement& carrier, GpsTime time, StateEstimate* estimate) {
+  estimate->record_carrier(carrier.ambiguity, time, carrier.factor > 0.0);
+  return estimate->ambiguity_of_state(carrier.ambiguity).rejected >= kMaxRejectedEpochs;
 }
 
 }  // namespace leonav

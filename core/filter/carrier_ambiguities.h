@@ -29,6 +29,6 @@ void inflate_disturbed_states(const MeasurementEpoch& epoch, StateEstimate* esti
 
 // Records whether the update used a carrier. Returns true if it was rejected so often in a row that
 // the arc counts as slipped, whatever the slip tests found.
-bool record_carrier(const FilterMeasurement& carrier, GpsTime time, Ambiguity* ambiguity);
+bool record_carrier(const FilterMeasurement& carrier, GpsTime time, StateEstimate* estimate);
 
 }  // namespace leonav

@@ -17,12 +17,6 @@ constexpr double kNewArcs_s = 5.0;
 
 }  // namespace
 
-double correlation_inflation(double correlation_time_s, double dt) {
-  if (correlation_time_s <= 0.0 || dt <= 0.0) return 1.0;
-  const double r = std::exp(-dt / correlation_time_s);
-  return (1.0 + r) / (1.0 - r);
-}
-
 void CodeVarianceModel::reset() {
   weighting_.clear();
   new_arcs_until_ = frequent_arc_breaks_until_ = GpsTime();
@@ -67,11 +61,9 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
 }
 
 void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& code,
-                              double correlation_time_ratio, double seconds_since_update,
+                              double inflation, double correlation_time_ratio,
                               FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
-  const double inflation =
-      correlation_inflation(correlation_time_ratio * correlation_time_s_, seconds_since_update);
   const double correlated = square(code.correlated_sigma);
   if (continuity_ == CarrierContinuity::kNone || !(correlated > 0.0) ||
       !(code.correlation_time_s > 0.0)) {

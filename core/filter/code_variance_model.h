@@ -9,18 +9,13 @@
 
 namespace leonav {
 
-// Returns the factor by which white noise must be inflated to average like an error of the given
-// correlation time, seen every `dt` seconds: (1 + r) / (1 - r), r = exp(-dt / correlation_time_s).
-double correlation_inflation(double correlation_time_s, double dt);
-
 // While carriers keep the position from epoch to epoch, the codes of a satellite are weighed
 // jointly (core/filter/update/colored_code_weighting.h). Otherwise each is inflated by
-// correlation_inflation(). Carriers do not keep the position where many arcs end (a phone, a
-// receiver among trees): then the codes hold it, and it follows their errors.
+// variance_inflation() of its errors' correlation. Carriers do not keep the position where many
+// arcs end (a phone, a receiver among trees): then the codes hold it, and it follows their errors.
 class CodeVarianceModel {
  public:
-  explicit CodeVarianceModel(const EkfConfig& config)
-      : correlation_time_s_(config.code_correlation_time_s), is_static_(config.static_point) {}
+  explicit CodeVarianceModel(const EkfConfig& config) : is_static_(config.static_point) {}
 
   void reset();
   // Forgets the codes used so far.
@@ -31,9 +26,10 @@ class CodeVarianceModel {
   void begin_epoch(const MeasurementEpoch& epoch, const Ambiguities& ambiguities,
                    GpsTime last_update);
   // Sets gain_variance, and code_weighting_entry for accept(), of `entry` from its variance.
-  // `correlation_time_ratio`: of this satellite's correlation times to the configured ones.
-  void weigh(const MeasurementEpoch& epoch, const Measurement& code, double correlation_time_ratio,
-             double seconds_since_update, FilterMeasurement* entry);
+  // `inflation`: variance_inflation() of its noise. `correlation_time_ratio`: of this satellite's
+  // correlation times to those of one in medium orbit.
+  void weigh(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
+             double correlation_time_ratio, FilterMeasurement* entry);
 
  private:
   // kNewArcs: whether the arcs last is not known yet.
@@ -42,7 +38,6 @@ class CodeVarianceModel {
                                                 const Ambiguities& ambiguities,
                                                 GpsTime last_update);
 
-  double correlation_time_s_;
   bool is_static_;
   ColoredCodeWeighting weighting_;
   CarrierContinuity continuity_ = CarrierContinuity::kNone;

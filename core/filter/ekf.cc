@@ -4,7 +4,6 @@
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
-#include "core/earth/rotation.h"
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
@@ -41,10 +40,14 @@ void Ekf::reset() {
   initialize(GpsTime(), PointSolution());
   propagator_.reset();
   estimate_.forget_clocks();
+  assembler_.forget_errors();
   initialized_ = false;
 }
 
-void Ekf::initialize(GpsTime time, const PointSolution& point) {
+void Ekf::initialize(GpsTime time, const PointSolution& given) {
+  PointSolution point = given;
+  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();
@@ -151,7 +154,8 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   bool doppler_excluded = false;
   for (const Observable observable :
        {Observable::kDoppler, Observable::kCarrier, Observable::kCode}) {
-    const PredictionVerdict verdict = prediction_test_.judge(observable, evidence, &robust_update_);
+    const PredictionVerdict verdict =
+        prediction_test_.evaluate(observable, evidence, &robust_update_);
     if (verdict.action == Action::kUse) continue;
     result->prediction_suspect = true;
     if (verdict.action == Action::kExcludeRanges) return assembler_.exclude_ranges();
@@ -165,6 +169,11 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
     tables = clock_removed_by_observable(measurements, covariance());
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
+  if (!result->prediction_suspect) {
+    for (const Observable observable : {Observable::kCode, Observable::kDoppler})
+      assembler_.learn(epoch, table_of(tables, observable));
+    assembler_.finish_learning(epoch.time);
+  }
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }
@@ -209,11 +218,8 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     // Without weights nothing is excluded, but innovations too large still show a lost filter.
     const bool rejected = measurement.factor <= 0.0 ||
                           (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
-    if (measurement.ambiguity >= 0) {
-      Ambiguity* ambiguity = estimate_.ambiguity_of_state(measurement.ambiguity);
-      if (record_carrier(measurement, epoch.time, ambiguity))
-        result->slipped.push_back(ambiguity->satellite);
-    }
+    if (measurement.ambiguity >= 0 && record_carrier(measurement, epoch.time, &estimate_))
+      result->slipped.push_back(estimate_.ambiguity_of_state(measurement.ambiguity).satellite);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
     if (rejected) ++result->rejected[kind];

@@ -34,7 +34,7 @@ struct InnovationReport {
   Reason reason = Reason::kUsed;
 };
 
-// What one update did.
+// The effects of one update.
 struct EkfUpdateResult {
   int used = 0;  // measurements with a factor above zero
   // Per Observable. Rejected: without weight or, where weights are switched off, with an innovation
@@ -60,13 +60,12 @@ struct EkfUpdateResult {
   boost::container::static_vector<InnovationReport, kMaxMeasurements> innovations;
 };
 
-// An indirect EKF of the error state in core/filter/state/ekf_state.h (Groves 2013, chapters 3 and
-// 14). Ekf only orders the steps of an epoch:
+// Ekf is an indirect filter of the error state in core/filter/state/ekf_state.h (Groves 2013,
+// chapters 3 and 14). It only orders the steps of an epoch:
 //   predict    InertialPropagator integrates the IMU, or coasts without attitude
 //   constrain  StateEstimate applies motion constraints
 //   update     MeasurementAssembler, ReceiverClocks, PredictionTest, then the robust update
-// Everything it believes is in its StateEstimate. It neither allocates after construction nor
-// throws.
+// Its estimate is in its StateEstimate. It neither allocates after construction nor throws.
 class Ekf {
  public:
   // `lever_arm_b`: from the IMU to the antenna in body axes, m.
@@ -78,7 +77,7 @@ class Ekf {
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but the configuration.
   void reset();
-  // To be called before initialize(), if the vehicle constants are not to survive it.
+  // Call it before initialize(), if the vehicle constants are not to survive that.
   void reset_vehicle_constants();
   bool initialized() const { return initialized_; }
 
@@ -113,24 +112,27 @@ class Ekf {
   // nothing where it is estimated already. For the smoother the filter has then started over.
   void estimate_constant(int constant);
 
-  // --- what it believes ---
+  // --- estimate ---
   const StateEstimate& estimate() const { return estimate_; }
   const FilterState& filter_state() const { return estimate_.state(); }
   const NavState& state() const { return estimate_.state().nav; }
   const EkfCovariance& covariance() const { return estimate_.covariance(); }
   const BodyMotion& body() const { return propagator_.body(); }
-  // Position and velocity of the antenna, ECEF, m and m/s.
+  // These return position and velocity of the antenna, ECEF, m and m/s.
   Eigen::Vector3d antenna_position_e() const { return antenna().p_e; }
   Eigen::Vector3d antenna_velocity_e() const { return antenna().v_e; }
   Eigen::Matrix3d antenna_position_covariance_e() const;  // m^2
   Eigen::Matrix3d antenna_velocity_covariance_e() const;  // (m/s)^2
-  // From the estimated point to the antenna while there is no attitude, ECEF, m; otherwise zero.
+  // Returns the vector from the estimated point to the antenna while there is no attitude, ECEF, m;
+  // otherwise zero.
   Eigen::Vector3d vertical_antenna_offset_e() const;
+  // What has been learned of the errors of its measurements.
+  const LearnedErrors& learned_errors() const { return assembler_.errors(); }
 
   // --- for the smoother ---
   void begin_process() { estimate_.begin_process(); }
-  // The measurements of the last update as it treated them, and the factor by which it raised the
-  // sigmas of an observable whose measurements contradicted each other.
+  // These return the measurements of the last update as it treated them, and the factor by which it
+  // raised the sigmas of an observable whose measurements contradicted each other.
   const FilterMeasurements& measurements() const { return assembler_.measurements(); }
   double sigma_inflation(Observable observable) const {
     return sigma_inflation_[static_cast<std::size_t>(observable)];

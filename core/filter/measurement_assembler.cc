@@ -13,6 +13,10 @@ namespace leonav {
 using namespace ekf_index;
 using Eigen::Vector3d;
 
+namespace {
+constexpr double kStandingSpeed_m_s = 0.3;
+}
+
 void MeasurementAssembler::reset() {
   code_model_.reset();
   measurements_.clear();
@@ -29,6 +33,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - antenna.p_e;
   antenna.p_e += off_e;
   const double dt = seconds_between(epoch.time, last_update);
+  standing_ = config_.static_point || antenna.v_e.norm() < kStandingSpeed_m_s;
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
@@ -54,14 +59,8 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
     entry.observable = measurement.observable;
     entry.innovation =
         measurement.value - prediction.value + prediction.row.segment<3>(kPosition).dot(off_e);
-    entry.variance = square(measurement.sigma);
-    entry.gain_variance = entry.variance;
     entry.row = prediction.row;
-    const double lasts = correlation_time_ratio(satellite, antenna.p_e);
-    if (measurement.observable == Observable::kCode)
-      code_model_.weigh(epoch, measurement, lasts, dt, &entry);
-    if (measurement.observable == Observable::kDoppler)
-      entry.gain_variance *= correlation_inflation(lasts * config_.doppler_correlation_time_s, dt);
+    weigh(epoch, measurement, correlation_time_ratio(satellite, antenna.p_e), dt, &entry);
     if (carrier) {
       entry.ambiguity =
           find_or_add_ambiguity(measurement, satellite.satellite, entry, epoch.time, estimate);
@@ -71,12 +70,32 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
         continue;
       }
       // The random walk comes from the orbit, which may be another by now.
-      Ambiguity* ambiguity = estimate->ambiguity_of_state(entry.ambiguity);
-      ambiguity->random_walk = measurement.random_walk;
-      entry.innovation -= ambiguity->value_m;
+      estimate->set_ambiguity_random_walk(entry.ambiguity, measurement.random_walk);
+      entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
     }
     measurements_.push_back(entry);
   }
+}
+
+// What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are
+// modelled.
+void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
+                                 double correlation_time_ratio, double dt,
+                                 FilterMeasurement* entry) {
+  const ErrorClass of =
+      error_class(measurement, epoch.satellites[measurement.satellite_index], standing_);
+  const double scale = errors_.sigma_scale(of);
+  entry->variance = square(measurement.sigma);
+  if (scale != 1.0) {
+    const double modelled = std::min(square(measurement.correlated_sigma), entry->variance);
+    entry->variance = modelled + square(scale) * (entry->variance - modelled);
+  }
+  CorrelationModel correlation = errors_.correlation(of);
+  correlation.time_s *= correlation_time_ratio;
+  const double inflation = variance_inflation(correlation, dt);
+  entry->gain_variance = inflation * entry->variance;
+  if (measurement.observable == Observable::kCode)
+    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio, entry);
 }
 
 template <typename Predicate>

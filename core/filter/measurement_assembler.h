@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/filter/code_variance_model.h"
+#include "core/filter/error_model/learned_errors.h"
 #include "core/filter/estimate/state_estimate.h"
 #include "core/filter/update/filter_measurement.h"
 #include "core/gnss/measurement/measurement.h"
@@ -24,7 +25,8 @@ using ExcludedMeasurements = boost::container::static_vector<ExcludedMeasurement
 // epoch, because the smoother reads them and the code variances depend on which were used.
 class MeasurementAssembler {
  public:
-  explicit MeasurementAssembler(const EkfConfig& config) : config_(config), code_model_(config) {}
+  explicit MeasurementAssembler(const EkfConfig& config)
+      : config_(config), code_model_(config), errors_(config) {}
 
   void reset();
   // Forgets the codes used so far: the position they were weighed for no longer holds.
@@ -33,6 +35,14 @@ class MeasurementAssembler {
   // measurements. Adds the ambiguities of new arcs to `estimate`.
   void assemble(const MeasurementEpoch& epoch, AntennaMotion antenna, GpsTime last_update,
                 StateEstimate* estimate);
+
+  // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
+  void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
+    errors_.add(epoch, measurements_, innovations, standing_);
+  }
+  void finish_learning(GpsTime time) { errors_.end_epoch(time); }
+  const LearnedErrors& errors() const { return errors_; }
+  void forget_errors() { errors_.reset(); }
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }
   const FilterMeasurements& measurements() const { return measurements_; }
@@ -43,14 +53,19 @@ class MeasurementAssembler {
   void exclude_ranges();
 
  private:
+  // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
+  void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
+             double correlation_time_ratio, double dt, FilterMeasurement* entry);
   template <typename Predicate>
   void exclude_if(Predicate predicate);
 
   EkfConfig config_;
   CodeVarianceModel code_model_;
+  LearnedErrors errors_;
   FilterMeasurements measurements_;
   ExcludedMeasurements excluded_;
-  GpsTime epoch_time_;  // of measurements_
+  bool standing_ = false;  // the vehicle, at measurements_
+  GpsTime epoch_time_;     // of measurements_
   int arcs_without_capacity_ = 0;
 };
 

@@ -39,8 +39,8 @@ double PredictionTest::missing_variance(Observable observable, const Evidence& e
                                    suspect_ratio_, robust_update);
 }
 
-PredictionVerdict PredictionTest::judge(Observable observable, const Evidence& evidence,
-                                        RobustUpdate* robust_update) {
+PredictionVerdict PredictionTest::evaluate(Observable observable, const Evidence& evidence,
+                                           RobustUpdate* robust_update) {
   const double variance = missing_variance(observable, evidence, robust_update);
   if (variance <= 0.0) return {};
   const bool doppler = observable == Observable::kDoppler;
@@ -68,8 +68,8 @@ void PredictionTest::finish_epoch(const Evidence& evidence, bool suspect) {
 
 // Signals reflected by the same wall agree with each other on a wrong position. Where codes agreed
 // with an IMU's prediction until a moment ago, and all that was measured of the motion since then
-// confirms it, they are not believed at once: for 20 s, about what it takes to pass a house or two,
-// and for at most the detour of such a reflection. Against codes and Dopplers, the carriers of
+// confirms it, the prediction is kept at first: for 20 s, about what it takes to pass a house or
+// two, and for at most the detour of such a reflection. Against codes and Dopplers, the carriers of
 // older arcs confirm it; against codes, the Dopplers too: an IMU that fails contradicts both. Three
 // or four carriers must all agree to the centimetre: at a corner half of the Dopplers are reflected
 // as well.

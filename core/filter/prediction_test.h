@@ -42,7 +42,7 @@ class PredictionTest {
   // set.
   void forget_consistency() { last_consistent_time_ = GpsTime(); }
 
-  // What a verdict is derived from, as it is after the verdicts before have been carried out.
+  // A verdict is derived from this, as it is after the verdicts before have been carried out.
   struct Evidence {
     const FilterMeasurements& measurements;
     const InnovationTables& tables;
@@ -51,14 +51,14 @@ class PredictionTest {
     bool has_attitude = false;
     GpsTime time;
   };
-  // Once per epoch, before its verdicts.
+  // Call it once per epoch, before its verdicts.
   void begin_epoch();
-  // To be asked for Dopplers, then carriers, then codes: where carriers agree on a movement, the
-  // codes then agree with it too.
-  PredictionVerdict judge(Observable observable, const Evidence& evidence,
-                          RobustUpdate* robust_update);
-  // After the verdicts: records whether the codes agreed with the prediction. `suspect`: one
-  // verdict was not kUse.
+  // Returns the verdict on one observable. Call it for Dopplers, then carriers, then codes: where
+  // carriers agree on a movement, the codes then agree with it too.
+  PredictionVerdict evaluate(Observable observable, const Evidence& evidence,
+                             RobustUpdate* robust_update);
+  // Records, after the verdicts, whether the codes agreed with the prediction. `suspect` states
+  // whether a verdict was not kUse.
   void finish_epoch(const Evidence& evidence, bool suspect);
 
  private:

@@ -11,6 +11,7 @@
 #include "core/filter/innovation_tests/clock_removed_innovations.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
+#include "core/filter/state/clock_model.h"
 
 namespace leonav {
 namespace {
@@ -21,7 +22,6 @@ using SmallTable = boost::container::static_vector<double, kMaxMeasurements>;
 // twice.
 constexpr double kStartClockSigma = 100.0;
 constexpr double kStartDriftSigma = 10.0;       // m/s, for the same reason
-constexpr double kUnknownDrift = 300.0;         // m/s, an oscillator off by 1 ppm
 constexpr double kInterSystemDriftSigma = 1.0;  // m/s, between the drifts of two systems
 constexpr double kMaxJumpSigma = 100.0;         // m, inflation of the clocks after a jump
 constexpr double kMadToSigma = 1.4826;
@@ -61,8 +61,6 @@ std::optional<Start> start_from(const FilterMeasurements& measurements,
   return start;
 }
 
-bool is_of(int system, int wanted) { return wanted == kAllSystems || system == wanted; }
-
 // The step may be off by as much as it is large, up to what no noise of codes reaches: it was found
 // in the measurements that the update is to use, and its value is theirs to find.
 double step_sigma(const CommonStep& step) {
@@ -97,7 +95,7 @@ bool ReceiverClocks::start(const MeasurementEpoch& epoch, const FilterMeasuremen
         estimate->start_clock_drift(system, clocks.drift_m_s(i) + doppler->value,
                                     kStartDriftSigma + doppler->sigma);
       else
-        estimate->start_clock_drift(system, 0.0, kUnknownDrift);
+        estimate->start_clock_drift(system, 0.0, kUnknownDriftSigma);
       started = true;
     }
     if (code) {
@@ -139,7 +137,7 @@ void ReceiverClocks::apply_clock_step(const MeasurementEpoch& epoch, int system,
     const bool begins = m.ambiguity >= 0 && estimate->covariance()(m.ambiguity, m.ambiguity) >=
                                                 kUnknownAmbiguityVariance;
     if (begins)
-      estimate->ambiguity_of_state(m.ambiguity)->value_m -= step.value_m;
+      estimate->shift_ambiguity(m.ambiguity, -step.value_m);
     else
       m.innovation -= step.value_m;
   }
@@ -169,7 +167,7 @@ void ReceiverClocks::compensate_jump(const MeasurementEpoch& epoch,
 
 // Of one system against the others. A step that its carriers do not make is the codes' and certain
 // at once, and so is one far beyond what reflections shared by all its satellites make. Any other
-// may be such a fault of this epoch: the weights of the update judge it, and the next epoch
+// may be such a fault of this epoch: the weights of the update decide, and the next epoch
 // confirms it or not. Where the prediction is vague there is no waiting: such a fault would move
 // the position by its size, and a system that is free of the others does not.
 void ReceiverClocks::compensate_inter_system_steps(const MeasurementEpoch& epoch,

@@ -1,7 +1,5 @@
 #include "core/navigator/navigator.h"
 
-#include <variant>
-
 namespace leonav {
 
 Navigator::Navigator(const NavigatorConfig& config, OutputSink* sink)

@@ -8,7 +8,7 @@
 //     void on_decision(const Decision&) override {}
 //     void on_smoother(const SmootherReport&) override {}
 //   };
-//   NavigatorConfig config;  // SI units and radians
+//   NavigatorConfig config = default_navigator_config(VehicleKind::kCar);  // SI units, radians
 //   config.vehicle.lever_arm_b = {0.3, 0.0, -1.2};
 //   Printer sink;
 //   Navigator navigator(config, &sink);
@@ -16,6 +16,8 @@
 //   for (const Ephemeris& ephemeris : ephemerides) navigator.sequencer().on_ephemeris(ephemeris);
 //   navigator.sequencer().on_imu(sample);       // each as it arrives,
 //   navigator.sequencer().on_raw_epoch(epoch);  // in any order that follows time roughly
+//
+// A NavigatorConfig() made without default_navigator_config() uses no satellite system.
 //
 // The stages (core/navigator/stages) run in the caller's thread, inside the call that feeds an
 // input. Sequencer lists the conditions on inputs, OutputSink the outputs.
@@ -27,6 +29,7 @@
 #include "core/navigator/interface/decision.h"
 #include "core/navigator/interface/navigator_config.h"
 #include "core/navigator/interface/output_sink.h"
+#include "core/navigator/interface/vehicle_defaults.h"
 #include "core/navigator/sequencer/sequencer.h"
 #include "core/navigator/stages/gnss_stage.h"
 #include "core/navigator/stages/inertial_navigator.h"

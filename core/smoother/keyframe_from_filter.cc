@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kNoIndex = -1;
 
-// What the filter has used, with the variances that it gave: codes and Dopplers that contradicted
-// each other weigh less.
+// What was offered to the filter's update, with the variances that it gave: codes and Dopplers that
+// contradicted each other weigh less, and what it rejected has the factor 0.
 void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, KeyframeInput* input) {
   std::array<int, kMaxSatellites> slot;
   slot.fill(kNoIndex);
@@ -26,10 +26,10 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
     satellite = static_cast<std::uint16_t>(slot[satellite]);
     if (used.ambiguity >= 0)
       measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
-    const double relaxed = square(filter.sigma_inflation(used.observable));
-    measurement.variance = used.variance * relaxed;
-    measurement.gain_variance = used.gain_variance * relaxed;
-    measurement.factor = std::min(1.0, used.factor * relaxed);
+    const double inflation = square(filter.sigma_inflation(used.observable));
+    measurement.variance = used.variance * inflation;
+    measurement.gain_variance = used.gain_variance * inflation;
+    measurement.factor = std::min(1.0, used.factor * inflation);
     input->measurements.push_back(measurement);
   }
 }

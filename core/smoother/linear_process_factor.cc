@@ -22,12 +22,12 @@ void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
   *gradient = at_gradient;
   gradient->noalias() -= at_information * moved;
   const AttitudeJacobian change = attitude_jacobian(keyframe.active, keyframe.state, at);
-  if (change.place < 0) return;
-  auto rows = information->middleRows<3>(change.place);
+  if (change.index < 0) return;
+  auto rows = information->middleRows<3>(change.index);
   rows = (change.of_error.transpose() * rows).eval();
-  auto columns = information->middleCols<3>(change.place);
+  auto columns = information->middleCols<3>(change.index);
   columns = (columns * change.of_error).eval();
-  auto slope = gradient->segment<3>(change.place);
+  auto slope = gradient->segment<3>(change.index);
   slope = (change.of_error.transpose() * slope).eval();
 }
 
@@ -36,9 +36,9 @@ void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
 AttitudeJacobian attitude_jacobian(const ActiveStates& active, const FilterState& estimate,
                                    const FilterState& linearized_at) {
   AttitudeJacobian change;
-  const auto place = std::find(active.core.begin(), active.core.end(), ekf_index::kAttitude);
-  if (place == active.core.end()) return change;
-  change.place = place - active.core.begin();
+  const auto found = std::find(active.core.begin(), active.core.end(), ekf_index::kAttitude);
+  if (found == active.core.end()) return change;
+  change.index = found - active.core.begin();
   const Vector3d turned =
       rotation_vector_from_quaternion(estimate.nav.q_eb * linearized_at.nav.q_eb.conjugate());
   const double angle = turned.norm();
@@ -67,20 +67,20 @@ void linearize_process_factor(const Keyframe& before, const Keyframe& keyframe,
   linear->noise = process_factor.noise;
   linear->offset = process_error(before, keyframe);
   const AttitudeJacobian then = attitude_jacobian(before.active, before.state, process_factor.from);
-  if (then.place >= 0) {
-    auto columns = linear->F.middleCols<3>(then.place);
+  if (then.index >= 0) {
+    auto columns = linear->F.middleCols<3>(then.index);
     columns = (columns * then.of_error).eval();
   }
   const AttitudeJacobian now =
       attitude_jacobian(keyframe.active, keyframe.state, process_factor.to);
-  if (now.place < 0) return;
-  auto rows = linear->F.middleRows<3>(now.place);
+  if (now.index < 0) return;
+  auto rows = linear->F.middleRows<3>(now.index);
   rows = (now.to_error * rows).eval();
-  auto noise_rows = linear->noise.middleRows<3>(now.place);
+  auto noise_rows = linear->noise.middleRows<3>(now.index);
   noise_rows = (now.to_error * noise_rows).eval();
-  auto noise_columns = linear->noise.middleCols<3>(now.place);
+  auto noise_columns = linear->noise.middleCols<3>(now.index);
   noise_columns = (noise_columns * now.to_error.transpose()).eval();
-  auto offset = linear->offset.segment<3>(now.place);
+  auto offset = linear->offset.segment<3>(now.index);
   offset = (now.to_error * offset).eval();
 }
 
@@ -93,11 +93,11 @@ void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrec
 void add_process_information(const Keyframe& before, const ProcessFactor& process_factor,
                              EkfCovariance* information, EkfCorrection* gradient) {
   if (!process_factor.has_information) return;
-  EkfCovariance told;
+  EkfCovariance added;
   EkfCorrection slope;
   linearize_quadratic(before, process_factor.from, process_factor.information,
-                      process_factor.gradient, &told, &slope);
-  *information += told;
+                      process_factor.gradient, &added, &slope);
+  *information += added;
   *gradient += slope;
 }
 

@@ -14,7 +14,7 @@ namespace leonav {
 //   log(exp([error x]) C) = log(C) + J^-1 error,
 // with J the left Jacobian of SO(3) (Barfoot, State Estimation for Robotics, 2017, 7.1.5).
 struct AttitudeJacobian {
-  Eigen::Index place = -1;  // of the attitude among the active states; -1: not active
+  Eigen::Index index = -1;  // of the attitude among the active states; -1: not active
   Eigen::Matrix3d of_error = Eigen::Matrix3d::Identity();  // J^-1
   Eigen::Matrix3d to_error = Eigen::Matrix3d::Identity();  // J
 };

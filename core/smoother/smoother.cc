@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/smoother/linearization.h"
-
 namespace leonav {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "core/vehicle/carrier_speed.h"
 
 #include "core/earth/ellipsoid.h"
-#include "core/earth/rotation.h"
 
 namespace leonav {
 

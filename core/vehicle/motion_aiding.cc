@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/duration.h"
 #include "core/earth/ellipsoid.h"
 #include "core/filter/state/covariance_blocks.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kWatched_s = 10.0;
-constexpr double kAlike_s = 10.0;
+constexpr double kCorrelationTime_s = 10.0;  // of the error of the speed
 // m/s, 1 sigma: usual with satellites, whose errors change soon
 constexpr double kSatellitesSpeed = 0.3;
 constexpr double kFewSatellites = 3.0;  // factor of the sigma
@@ -18,11 +18,10 @@ constexpr double kFewSatellites = 3.0;  // factor of the sigma
 // standstill detector compares, it may hide a gentle start.
 constexpr double kMaxRandomWalk = 0.005, kCompared_s = 4.0;
 constexpr double kMaxCarrierSpeed = 0.02;  // m/s, mean of a few seconds
-constexpr double kContradicted = 0.5, kAgain = 0.25;
 
 // Returns the next multiple of the interval after `time`.
 GpsTime next_instant(GpsTime time, double interval_s) {
-  const auto interval = std::llround(interval_s * 1e9);
+  const std::int64_t interval = rounded_nanoseconds(interval_s);
   return GpsTime::from_nanoseconds((time.nanoseconds() / interval + 1) * interval);
 }
 
@@ -73,7 +72,10 @@ ForwardMotion any_motion(const Ekf& ekf) {
 
 MotionAiding::MotionAiding(const MotionAidingConfig& config, const GaussMarkov& accel_bias,
                            bool carriers)
-    : config_(config), detector_(config.standstill), odometer_(config.constraints) {
+    : config_(config),
+      detector_(config.standstill),
+      odometer_(config.constraints),
+      constraint_monitor_(config.constraints.interval_s) {
   const double random_walk =
       accel_bias.sigma * std::sqrt(2.0 * kCompared_s / accel_bias.correlation_time_s);
   requires_carrier_speed_ =
@@ -89,8 +91,8 @@ void MotionAiding::reset() {
   detector_.reset();
   odometer_.reset();
   next_ = GpsTime();
-  offered_ = left_out_ = 0.0;
-  contradicted_ = standing_ = false;
+  constraint_monitor_.reset();
+  standing_ = false;
   few_satellites_ = true;
   carrier_speed_.reset();
   clear_instants();
@@ -101,16 +103,6 @@ void MotionAiding::clear_instants() {
   instants_complete_ = true;
 }
 
-void MotionAiding::count(MotionComponents used) {
-  const double keep = std::exp(-config_.constraints.interval_s / kWatched_s);
-  unsigned left_out = 0;
-  for (const MotionMeasurement& m : measurements_) left_out |= 1u << m.component;
-  left_out &= ~static_cast<unsigned>(used);
-  offered_ = keep * offered_ + 1.0;
-  left_out_ = keep * left_out_ + (left_out != 0 ? 1.0 : 0.0);
-  if (left_out != 0) last_left_out_ = static_cast<MotionComponents>(left_out);
-}
-
 void MotionAiding::report(GpsTime time) {
   for (const MotionMeasurement& m : measurements_) {
     if (reports_.size() == reports_.capacity()) return;
@@ -118,15 +110,6 @@ void MotionAiding::report(GpsTime time) {
     reports_.push_back({time, m.component, m.observation, m.innovation, m.innovation_variance,
                         sigma > 0.0 ? std::abs(m.innovation) / sigma : 0.0, m.used, m.left});
   }
-}
-
-std::optional<MotionAiding::Contradiction> MotionAiding::contradiction() {
-  const double enough = 0.5 * kWatched_s / config_.constraints.interval_s;
-  const double share = offered_ > enough ? left_out_ / offered_ : 0.0;
-  if (share < kAgain) contradicted_ = false;
-  if (contradicted_ || share < kContradicted) return std::nullopt;
-  contradicted_ = true;
-  return Contradiction{share, last_left_out_};
 }
 
 void MotionAiding::predict(std::span<const ImuSample> block,
@@ -167,22 +150,22 @@ void MotionAiding::constrain(Ekf* ekf) {
   const Eigen::Vector3d rest_b =
       state.errors.gyro_bias_b +
       state.q_eb.conjugate() * Eigen::Vector3d(0.0, 0.0, kEarthRotationRate);
-  const double doubt = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
+  const double sigma_factor = few_satellites_ && !standing_ ? kFewSatellites : 1.0;
   standing_ = config_.constraints.zero_velocity && carriers_agree() &&
               !odometer_.moved(state.time) &&
-              detector_.stands(rest_b, forward.speed, doubt * forward.sigma);
+              detector_.stands(rest_b, forward.speed, sigma_factor * forward.sigma);
   instant.standing = standing_;
   // The error of the speed lasts long, so that many instants together hold no more information than
   // one.
-  const double adrift = std::max(0.0, forward.sigma - kSatellitesSpeed);
-  const double alike = kAlike_s / constraints.interval_s * adrift * adrift;
-  instant.side_second_order_variance = alike * forward.side_variance;
-  instant.vertical_second_order_variance = alike * forward.down_variance;
+  const double excess = std::max(0.0, forward.sigma - kSatellitesSpeed);
+  const double second_order = kCorrelationTime_s / constraints.interval_s * excess * excess;
+  instant.side_second_order_variance = second_order * forward.side_variance;
+  instant.vertical_second_order_variance = second_order * forward.down_variance;
   motion_measurements(config_.constraints, instant, ekf->filter_state(),
                       ekf->body().measured_rate_b, &measurements_);
   instant.used = ekf->constrain(&measurements_, config_.constraints.gate);
   report(instant.time);
-  count(instant.used);
+  constraint_monitor_.add(measurements_, instant.used);
   if (instants_.size() == instants_.capacity()) {
     instants_complete_ = false;
     return;

@@ -4,13 +4,12 @@
 // Constraints are non-holonomic motion, zero velocity, zero angular rate and the odometer
 // (core/filter/update/motion_constraint.h; Groves 2013, 15.1).
 #pragma once
-#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <span>
 
-#include "core/base/capacity.h"
 #include "core/filter/ekf.h"
 #include "core/inertial/strapdown/imu_error_model.h"
+#include "core/vehicle/constraint_monitor.h"
 #include "core/vehicle/constraint_report.h"
 #include "core/vehicle/internal/odometer_aiding.h"
 #include "core/vehicle/motion_aiding_config.h"
@@ -48,21 +47,16 @@ class MotionAiding {
   // Returns whether no instant was dropped for lack of capacity.
   bool instants_complete() const { return instants_complete_; }
   void clear_instants();
-  // The gate has excluded a constraint at more than half of the last ten seconds' instants: the
-  // vehicle slides, or is not what the configuration describes.
-  struct Contradiction {
-    double share = 0.0;             // share of the instants
-    MotionComponents left_out = 0;  // at the last instant that excluded something
-  };
-  // Returns a contradiction once; again only after the share was below a quarter.
-  std::optional<Contradiction> contradiction();
+  // Returns, once, that the filter leaves the constraints out most of the time.
+  std::optional<ConstraintMonitor::Contradiction> contradiction() {
+    return constraint_monitor_.contradiction();
+  }
 
  private:
-  static constexpr int kEnoughSatellites = 5;
+  static constexpr int kEnoughSatellites = 5;  // as many as unknowns of a velocity, and one more
   bool enabled() const { return config_.enabled() || odometer_.received(); }
   bool carriers_agree() const;
   void constrain(Ekf* ekf);
-  void count(MotionComponents used);
   void report(GpsTime time);
 
   MotionAidingConfig config_;
@@ -72,9 +66,7 @@ class MotionAiding {
   MotionMeasurements measurements_;
   ConstraintReports reports_;
   GpsTime next_;
-  double offered_ = 0.0, left_out_ = 0.0;  // fading sums
-  MotionComponents last_left_out_ = 0;
-  bool contradicted_ = false;
+  ConstraintMonitor constraint_monitor_;
   bool requires_carrier_speed_ = false;
   std::optional<double> carrier_speed_;
   bool standing_ = false, few_satellites_ = true, instants_complete_ = true;

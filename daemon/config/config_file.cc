@@ -6,23 +6,17 @@
 #include <fstream>
 #include <sstream>
 
+#include "daemon/config/internal/key_path.h"
 #include "daemon/config/load_config.h"
 
 namespace leonav {
 namespace {
 
-std::vector<std::string> split_path(const std::string& path) {
-  std::vector<std::string> parts;
-  std::istringstream stream(path);
-  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  return parts;
-}
-
 void apply_override(const std::string& text, YAML::Node root) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
-  const std::vector<std::string> keys = split_path(path);
-  bool good = equals != std::string::npos && !keys.empty();
+  const std::vector<std::string> keys = split_key_path(path);
+  bool good = equals != std::string::npos;
   for (const std::string& key : keys) good = good && !key.empty();
   if (!good) throw ConfigError("--set " + text + ": expected group.key=value");
   // A journal holds one override in a line.

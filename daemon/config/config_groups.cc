@@ -4,6 +4,7 @@
 
 #include "core/base/capacity.h"
 #include "core/navigator/interface/vehicle_defaults.h"
+#include "daemon/config/lcm_url.h"
 
 namespace leonav {
 namespace {
@@ -163,6 +164,7 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
                &ekf.clock.inter_system_drift_noise);
   group.number("code_correlation_time_s", {0.0, 1e4}, &ekf.code_correlation_time_s);
   group.number("doppler_correlation_time_s", {0.0, 1e4}, &ekf.doppler_correlation_time_s);
+  group.boolean("learn_errors", &ekf.learn_errors);
   group.number("hole_attitude_noise_rad_per_sqrt_s", {0.0, 10.0}, &ekf.gap_attitude_noise);
   group.number("prediction_suspect_ratio", {1.0, 100.0}, &ekf.prediction_suspect_ratio);
   group.number("reset_ratio", {0.1, 1.0}, &ekf.reset_ratio);
@@ -229,6 +231,10 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
     group.fail("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
   }
   if (config->url.empty()) group.fail("url", "must not be empty");
+  if (const auto to = udpm_address(config->url); to && !is_multicast(to->group)) {
+    group.fail("url",
+               "'" + to->group + "' is not a multicast address (224.0.0.0 to 239.255.255.255)");
+  }
 }
 
 void read_journal(ConfigReader& group, JournalConfig* config) {

@@ -1,25 +1,14 @@
 #include "daemon/config/effective_config.h"
 
 #include <algorithm>
-#include <functional>
 #include <vector>
 
-#include "daemon/config/load_config.h"
+#include "daemon/config/internal/key_path.h"
 
 namespace leonav {
 namespace {
 
 constexpr std::size_t kCommentColumn = 46;
-
-std::vector<std::string> split(const std::string& path) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    parts.push_back(path.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 // A comment ends with its line, and no file's name may end it earlier.
 std::string one_line(std::string text) {
@@ -29,14 +18,20 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// Keys of one group stand together; `value_of` and `comment_of` make the two parts of a line.
-std::string grouped(const std::vector<ConfigKey>& keys,
-                    const std::function<std::string(const ConfigKey&)>& value_of,
-                    const std::function<std::string(const ConfigKey&)>& comment_of) {
+// A value that follows from another key stays a default, so that the other key can be overridden.
+std::string effective_value(const ConfigKey& key) { return key.given ? key.value : key.built_in; }
+
+std::string origin_text(const ConfigKey& key) {
+  const std::string origin = "from: " + key.origin;
+  return effective_value(key) == key.value ? origin : key.value + ", " + origin;
+}
+
+// Keys of one group stand together.
+std::string grouped(const std::vector<ConfigKey>& keys) {
   std::string text;
   std::vector<std::string> open;  // groups
   for (const ConfigKey& key : keys) {
-    std::vector<std::string> groups = split(key.path);
+    std::vector<std::string> groups = split_key_path(key.path);
     const std::string name = groups.back();
     groups.pop_back();
     std::size_t same = 0;
@@ -45,9 +40,10 @@ std::string grouped(const std::vector<ConfigKey>& keys,
       text += (i == 0 && !text.empty() ? "\n" : "") + std::string(2 * i, ' ') + groups[i] + ":\n";
     }
     open = groups;
-    const std::string line = std::string(2 * groups.size(), ' ') + name + ": " + value_of(key);
+    const std::string line =
+        std::string(2 * groups.size(), ' ') + name + ": " + effective_value(key);
     const std::size_t padding = line.size() + 2 < kCommentColumn ? kCommentColumn - line.size() : 2;
-    text += line + std::string(padding, ' ') + "# " + one_line(comment_of(key)) + "\n";
+    text += line + std::string(padding, ' ') + "# " + one_line(origin_text(key)) + "\n";
   }
   return text;
 }
@@ -73,16 +69,7 @@ std::string effective_text(const ConfigOrigin& source, Extent extent) {
   }
   title += extent == Extent::kAllKeys ? ": every key\n" : ": keys that differ from the defaults\n";
   if (keys.empty()) return title + "{}\n";
-  return title + grouped(
-                     keys, [](const ConfigKey& key) { return key.value; },
-                     [](const ConfigKey& key) { return "from: " + key.origin; });
-}
-
-std::string reference_keys() {
-  return grouped(
-      load_config_text("{}", "defaults").source.keys,
-      [](const ConfigKey& key) { return key.built_in; },
-      [](const ConfigKey& key) { return key.allowed; });
+  return title + grouped(keys);
 }
 
 }  // namespace leonav

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/navigator/interface/vehicle_defaults.h"
 #include "daemon/config/config_file.h"
 #include "daemon/config/config_groups.h"
 #include "daemon/config/config_reader.h"
@@ -24,8 +25,8 @@ void check_prefix(const ConfigReader& group, const std::string& prefix) {
 DaemonConfig read_root(ConfigReader& root) {
   DaemonConfig config;
   NavigatorConfig& navigator = config.navigator;
-  navigator.gnss = default_gnss_config();
-  navigator.imu = consumer_mems_errors();
+  // What depends on the kind of vehicle is replaced once the kind has been read.
+  navigator = default_navigator_config(navigator.vehicle.kind);
   std::optional<std::string> preset;  // its layers are among those that are read
   root.text("preset", &preset, "~ or one of " + preset_names());
   root.choice<Estimator>("estimator",

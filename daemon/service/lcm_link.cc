@@ -6,15 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
+
+#include "daemon/config/lcm_url.h"
 
 namespace leonav {
 namespace {
-
-constexpr std::string_view kUdpm = "udpm://";
-constexpr const char* kDefaultGroup = "239.255.76.67";
-constexpr std::uint16_t kDefaultPort = 7667;
 
 std::unique_ptr<lcm::LCM> open_lcm(const std::string& url) {
   if (url.empty()) throw LcmError("the LCM URL is empty; udpm://239.255.76.67:7667?ttl=0 is usual");
@@ -33,22 +30,15 @@ std::unique_ptr<lcm::LCM> open_lcm(const std::string& url) {
 }  // namespace
 
 std::optional<std::string> multicast_problem(const std::string& url) {
-  if (!url.starts_with(kUdpm)) return std::nullopt;
-  std::string group = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
-  std::uint16_t port = kDefaultPort;
-  if (const auto colon = group.find(':'); colon != std::string::npos) {
-    const std::string digits = group.substr(colon + 1);
-    std::from_chars(digits.data(), digits.data() + digits.size(), port);
-    group.resize(colon);
-  }
-  if (group.empty()) group = kDefaultGroup;
+  const auto to = udpm_address(url);
+  if (!to) return std::nullopt;
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  if (inet_pton(AF_INET, group.c_str(), &address.sin_addr) != 1 ||
-      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
-    return "lcm.url '" + url + "': '" + group + "' is not a multicast address";
+  address.sin_port = htons(to->port);
+  if (!is_multicast(to->group)) {
+    return "lcm.url '" + url + "': '" + to->group + "' is not a multicast address";
   }
+  inet_pton(AF_INET, to->group.c_str(), &address.sin_addr);
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::nullopt;
   const bool reached =
@@ -56,7 +46,7 @@ std::optional<std::string> multicast_problem(const std::string& url) {
   const int error = errno;
   close(descriptor);
   if (reached) return std::nullopt;
-  return "no multicast route to " + group + " (" + std::strerror(error) +
+  return "no multicast route to " + to->group + " (" + std::strerror(error) +
          "); mend it as root with: ip link set lo up multicast on && "
          "ip route add 224.0.0.0/4 dev lo";
 }

@@ -20,7 +20,6 @@ class ServiceManager {
 
   // The setting of the environment that cannot be followed; empty: none.
   const std::string& problem() const { return problem_; }
-  bool has_watchdog() const { return watchdog_; }
 
   // None of these blocks; a message that finds no room is lost.
   void ready() const { notify("READY=1"); }

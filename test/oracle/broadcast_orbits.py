@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What RTKLIB computes from broadcast elements, as an oracle for core/gnss/satellite_state.
+"""What RTKLIB computes from broadcast elements, as an oracle for core/gnss/orbits/satellite_state.
 
 Needs the PyPI package pyrtklib (RTKLIB's own functions, callable from Python), in a virtual
 environment; nothing else in the project does. Use:

@@ -19,13 +19,13 @@ struct Run final : OutputSink {
   std::vector<Solution> solutions;
   std::vector<EpochReport> epochs;
   std::vector<Event> events;
-  Navigator pipeline;
+  Navigator navigator;
   InputDispatch dispatch;
   Encoder encoder;
   std::uint64_t count = 0;
 
   explicit Run(const NavigatorConfig& config)
-      : pipeline(config, this), dispatch(&pipeline.sequencer()) {}
+      : navigator(config, this), dispatch(&navigator.sequencer()) {}
   void on_solution(const Solution& s) override { solutions.push_back(s); }
   void on_epoch(const EpochReport& e) override { epochs.push_back(e); }
   void on_event(const Event& e) override { events.push_back(e); }
@@ -43,7 +43,7 @@ struct Run final : OutputSink {
     dispatch.dispatch(Channel::kOdometer, encoder.encode(o, ++count));
   }
   std::uint64_t rejected(InputFault fault) const {
-    return pipeline.sequencer().counters().rejected[static_cast<std::size_t>(fault)];
+    return navigator.sequencer().counters().rejected[static_cast<std::size_t>(fault)];
   }
 };
 
@@ -118,9 +118,9 @@ TEST_CASE("NaN in IMU, GNSS and ephemeris messages is counted, and costs the sol
       });
   CHECK(run.rejected(InputFault::kNotFinite) + run.rejected(InputFault::kNotSane) >=
         static_cast<std::uint64_t>(bad_imu) + bad_ephemerides);
-  CHECK(run.pipeline.sequencer().counters().imu == static_cast<std::uint64_t>(bad_imu));
-  CHECK(run.pipeline.sequencer().counters().epochs == static_cast<std::uint64_t>(bad_epochs));
-  CHECK(run.pipeline.sequencer().counters().ephemerides == bad_ephemerides);
+  CHECK(run.navigator.sequencer().counters().imu == static_cast<std::uint64_t>(bad_imu));
+  CHECK(run.navigator.sequencer().counters().epochs == static_cast<std::uint64_t>(bad_epochs));
+  CHECK(run.navigator.sequencer().counters().ephemerides == bad_ephemerides);
   CHECK(worst_error(run, drive, 40.0, 80.0) < 0.2);
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("an odometer that sends nonsense is counted by its reasons and costs n
         run.dispatch.dispatch(Channel::kImu, bytes);
       },
       [&](const RawEpoch& r) { run.send(r); });
-  const auto& counters = run.pipeline.sequencer().counters();
+  const auto& counters = run.navigator.sequencer().counters();
   CHECK(counters.odometer == sent);
   CHECK(counters.imu == samples);
   CHECK(run.rejected(InputFault::kDuplicate) == sent);
@@ -196,7 +196,7 @@ TEST_CASE("an IMU gap of three seconds is reported, and some seconds later all i
         run.send(s);
       },
       [&](const RawEpoch& r) { run.send(r); });
-  CHECK(run.pipeline.sequencer().counters().imu_gaps == 1);
+  CHECK(run.navigator.sequencer().counters().imu_gaps == 1);
   const auto gap = std::find_if(run.events.begin(), run.events.end(),
                                 [](const Event& e) { return e.kind == EventKind::kImuGap; });
   REQUIRE(gap != run.events.end());
@@ -229,7 +229,7 @@ TEST_CASE("IMU time that goes backwards is refused, sample by sample") {
       [&](const RawEpoch& r) { run.send(r); });
   CHECK(run.rejected(InputFault::kTimeBackwards) == 3u * static_cast<unsigned>(sent / 50));
   CHECK(run.rejected(InputFault::kDuplicate) == static_cast<unsigned>(sent / 50));
-  CHECK(run.pipeline.sequencer().counters().imu == static_cast<unsigned>(sent));
+  CHECK(run.navigator.sequencer().counters().imu == static_cast<unsigned>(sent));
   CHECK(worst_error(run, drive, 40.0, 80.0) < 0.1);
 }
 
@@ -250,7 +250,7 @@ TEST_CASE("GNSS time that goes backwards is refused, epoch by epoch") {
           if (sent % 3 == 0) old.time = r.time.plus_seconds(-3600.0 - 10.0 * (sent % 2));
           run.send(old);
         });
-    const Sequencer::Counters& counters = run.pipeline.sequencer().counters();
+    const Sequencer::Counters& counters = run.navigator.sequencer().counters();
     // Behind by less than ten seconds is late, by more is another time.
     CHECK(run.rejected(InputFault::kTimeBackwards) == sent / 3);
     CHECK(counters.late_epochs == 2 * sent - sent / 3);

@@ -69,7 +69,7 @@ bool tells(const std::string& warning, const std::string& name, const std::strin
   return true;
 }
 
-TEST_CASE("mistakes of a first run are told with their remedies, a correct run passes in silence") {
+TEST_CASE("mistakes of a first run are reported with their remedies, a correct run has no report") {
   if (!have_programs("leonav-sim", "leonav-replay")) return;
   const TemporaryFile place("conventions", "");
   const std::string log = simulated(place);

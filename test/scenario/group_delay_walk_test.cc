@@ -38,7 +38,7 @@ void gather(const MeasurementEpoch& epoch, Pair* pair) {
 
 }  // namespace
 
-TEST_CASE("walk: group delays that are not told are within their sigmas") {
+TEST_CASE("walk: group delays that are not broadcast are within their sigmas") {
   if (!have_shared_data("walk/gnss.ubx")) return;
   const Dataset walk = read_walk();
   GnssConfig config = default_gnss_config();

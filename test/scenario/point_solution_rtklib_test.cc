@@ -123,7 +123,7 @@ void compare_models(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
 bool same_satellites(const MeasurementEpoch& epoch, const RtklibEpoch& rtklib) {
   std::size_t used = 0;
   for (const SatelliteInView& view : epoch.satellites) {
-    if (view.reason != Reason::kUsed && view.reason != Reason::kDownweighted) continue;
+    if (!is_used(view.reason)) continue;
     if (rtklib.find(view.satellite) == nullptr) return false;
     ++used;
   }

@@ -128,7 +128,7 @@ TEST_CASE("broadcast orbits alone, and one frequency: carriers make nobody too s
   CHECK(single.within > 0.99);
 }
 
-TEST_CASE("holes in the clock file are told") {
+TEST_CASE("holes in the clock file are reported") {
   if (!ready()) return;
   const TemporaryFile place("unused", "");
   const std::string log = imported(place, "station"), holes = place.beside("holes.lcmlog");

@@ -1,4 +1,4 @@
-// A recorded data set in memory, and a ephemeris_store that is fed as a live receiver would be.
+// A recorded data set in memory, and an ephemeris store that is fed as a live receiver would be.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -101,7 +101,7 @@ inline Eigen::Vector3d station_antenna() {
   return to_ecef(geodetic);
 }
 
-// Feeds a ephemeris_store, which holds only a few issues and nodes per satellite, as time goes on.
+// Feeds an ephemeris store, which holds only a few issues and nodes per satellite, as time goes on.
 class Feed {
  public:
   Feed(const Dataset& data, const EphemerisConfig& options)

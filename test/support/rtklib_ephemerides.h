@@ -1,4 +1,4 @@
-// Which broadcast elements RTKLIB 2.4.3 b34 uses at a time, put into a ephemeris_store of leonav,
+// Which broadcast elements RTKLIB 2.4.3 b34 uses at a time, put into an ephemeris store of leonav,
 // so that the two can be compared with nothing but the models between them. The rules were read in
 // RTKLIB's ephemeris.c, rtkcmn.c and pntpos.c; where they differ from leonav's they are Galileo's:
 //  - I/NAV alone, and only with a reference time before the epoch (leonav: the nearest one);

@@ -40,7 +40,7 @@ inline Prediction predicted_range(const SatelliteState& state, double flight_s,
   return prediction;
 }
 
-// From a ephemeris_store as of now and the tag and pseudorange, whose errors in the receiver's
+// From an ephemeris store as of now and the tag and pseudorange, whose errors in the receiver's
 // clock cancel.
 inline std::optional<Prediction> predict_by_catalog(const EphemerisStore& ephemeris_store,
                                                     SatelliteId id, GpsTime tag,

@@ -50,12 +50,12 @@ class ProductNodes {
   double interval_s_, ahead_s_, next_s_;
 };
 
-// The drive's messages into a pipeline, as a live system would receive them, with
+// The drive's messages into a Navigator, as a live system would receive them, with
 // before_epoch(raw, &sequencer) ahead of each epoch. Allocates nothing.
 template <typename BeforeEpoch>
-void feed(const SyntheticDrive& drive, Navigator* pipeline, BeforeEpoch before_epoch) {
+void feed(const SyntheticDrive& drive, Navigator* navigator, BeforeEpoch before_epoch) {
   constexpr double kEpochLatency_s = 0.06;
-  Sequencer& sequencer = pipeline->sequencer();
+  Sequencer& sequencer = navigator->sequencer();
   feed(
       drive, kEpochLatency_s, [&](const Ephemeris& e) { sequencer.on_ephemeris(e); },
       [&](const ImuSample& s) { sequencer.on_imu(s); },
@@ -65,17 +65,17 @@ void feed(const SyntheticDrive& drive, Navigator* pipeline, BeforeEpoch before_e
       });
 }
 
-inline void feed(const SyntheticDrive& drive, Navigator* pipeline) {
-  feed(drive, pipeline, [](const RawEpoch&, Sequencer*) {});
+inline void feed(const SyntheticDrive& drive, Navigator* navigator) {
+  feed(drive, navigator, [](const RawEpoch&, Sequencer*) {});
 }
 
 inline RecordingSink run(const SyntheticDrive& drive, const NavigatorConfig& config) {
   RecordingSink sink;
-  Navigator pipeline(config, &sink);
+  Navigator navigator(config, &sink);
   if (config.motion == MotionModel::kInertial) {
-    feed(drive, &pipeline);
+    feed(drive, &navigator);
   } else {
-    Sequencer& sequencer = pipeline.sequencer();
+    Sequencer& sequencer = navigator.sequencer();
     for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
     for (const RawEpoch& r : drive.epochs) sequencer.on_raw_epoch(r);
   }

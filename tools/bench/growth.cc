@@ -35,8 +35,8 @@ Row row_of(double seconds, TimedStages* stages) {
   if (times.empty()) throw std::runtime_error("the log gave the smoother no keyframe");
   row.solves = times.size();
   std::sort(times.begin(), times.end());
-  row.solve_ms = 1e3 * quantile(times, 0.5);
-  row.slow_solve_ms = 1e3 * quantile(times, 0.99);
+  row.solve_ms = 1e3 * quantile_below(times, 0.5);
+  row.slow_solve_ms = 1e3 * quantile_below(times, 0.99);
   const Window& window = *stages->window();
   row.keyframes = window.size();
   row.residual_blocks = row.keyframes;  // the prior and the process factors

@@ -62,10 +62,10 @@ double print_rows(const char* name, const char* unit, double per_second, const T
     for (double& value : values) value *= per_second;
     std::sort(values.begin(), values.end());
     std::printf("%-22s %8zu  median %9.3f  99 %% %9.3f  99.9 %% %9.3f  worst %9.3f %s\n",
-                wall ? name : "  processor time", values.size(), leonav::quantile(values, 0.5),
-                leonav::quantile(values, 0.99), leonav::quantile(values, 0.999), values.back(),
-                unit);
-    processor = leonav::quantile(values, 0.99);
+                wall ? name : "  processor time", values.size(),
+                leonav::quantile_below(values, 0.5), leonav::quantile_below(values, 0.99),
+                leonav::quantile_below(values, 0.999), values.back(), unit);
+    processor = leonav::quantile_below(values, 0.99);
   }
   return processor;
 }
@@ -88,8 +88,8 @@ double print_solves(const Bench& bench) {
   std::printf(
       "%-22s median %.0f, 99 %% %.0f, most %.0f; keyframes at most %d; allocations per solve "
       "%.3f\n",
-      "  iterations", leonav::quantile(bench.iterations, 0.5),
-      leonav::quantile(bench.iterations, 0.99), bench.iterations.back(), bench.keyframes,
+      "  iterations", leonav::quantile_below(bench.iterations, 0.5),
+      leonav::quantile_below(bench.iterations, 0.99), bench.iterations.back(), bench.keyframes,
       static_cast<double>(bench.solve_allocations) / solves);
   return solve_ms;
 }
@@ -148,9 +148,9 @@ int body(int argc, char** argv) {
   arguments.option("--repeat", "N", "runs over the log; times of all runs are pooled", "3")
       .option("--max-imu-us", "US",
               "fail unless 99 % of the IMU samples take at most so much processor time")
-      .option("--max-epoch-ms", "MS", "likewise of the GNSS epochs")
+      .option("--max-epoch-ms", "MS", "the same of the GNSS epochs")
       .option("--max-solve-ms", "MS",
-              "likewise of the smoother's solves (--set estimator=smoother)")
+              "the same of the smoother's solves (--set estimator=smoother)")
       .flag("--growth",
             "instead: an hour's log or a day's once through the smoother; prints after ten minutes "
             "and every hour what it\n                   needs, and fails where that grows")
@@ -175,7 +175,7 @@ int body(int argc, char** argv) {
   const Bench bench = run(config.navigator, recording, static_cast<int>(repeats));
 
   const double epochs = static_cast<double>(bench.satellites.size());
-  const double satellites = leonav::quantile(bench.satellites, 0.5);
+  const double satellites = leonav::quantile_below(bench.satellites, 0.5);
   std::printf("%zu inputs over %.1f s, %.0f runs\n", recording.messages.size(), recording.span_s,
               repeats);
   std::printf(

@@ -7,8 +7,9 @@
 
 namespace leonav {
 
-// Returns the quantile `share` (0 to 1) of sorted values. Precondition: `sorted` is not empty.
-inline double quantile(const std::vector<double>& sorted, double share) {
+// Returns the quantile `share` (0 to 1) of sorted values: of the two between which it falls, the
+// lower one. Precondition: `sorted` is not empty.
+inline double quantile_below(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 

@@ -68,8 +68,8 @@ NavigatorConfig with_installation_states(NavigatorConfig config, const Installat
 CalibrationRun::CalibrationRun(const NavigatorConfig& config, const InstallationPrior& prior)
     : prior_(prior),
       wheeled_(config.vehicle.motion.constraints.non_holonomic),
-      pipeline_(config, this),
-      dispatch_(&pipeline_.sequencer()) {}
+      navigator_(config, this),
+      dispatch_(&navigator_.sequencer()) {}
 
 void CalibrationRun::on_epoch(const EpochReport& report) {
   const Solution& now = report.solution;
@@ -77,7 +77,7 @@ void CalibrationRun::on_epoch(const EpochReport& report) {
   last_epoch_ = report.time;
   if (!now.has_attitude) return;
   aligned_ = true;
-  const Ekf& ekf = pipeline_.gnss().ekf();
+  const Ekf& ekf = navigator_.gnss().ekf();
   const Eigen::Vector3d rate_b = ekf.body().measured_rate_b - ekf.state().errors.gyro_bias_b;
   const bool straight = now.v_n.head<2>().norm() > kDriving_m_s &&
                         std::abs(rate_b.z()) < kStraight_rad_s &&
@@ -92,7 +92,7 @@ void CalibrationRun::on_epoch(const EpochReport& report) {
 // of the mounting.
 void CalibrationRun::estimate_lean(Finding* finding) const {
   if (!wheeled_ || straight_s_ < kShortest_s) return;
-  const Eigen::Matrix3d C_bv = travel_axes(pipeline_.gnss().ekf().filter_state().vehicle).C_bv;
+  const Eigen::Matrix3d C_bv = travel_axes(navigator_.gnss().ekf().filter_state().vehicle).C_bv;
   double sum = 0.0, squares = 0.0, sigma = 0.0;
   for (const StraightEpoch& upright : straight_) {
     const double roll = euler_from_rotation(upright.C_nb * C_bv).roll;
@@ -113,7 +113,7 @@ void CalibrationRun::estimate_lean(Finding* finding) const {
 
 Finding CalibrationRun::finding() const {
   Finding finding;
-  const Ekf& ekf = pipeline_.gnss().ekf();
+  const Ekf& ekf = navigator_.gnss().ekf();
   const VehicleConstants& found = ekf.filter_state().vehicle;
   if (!aligned_ || found.size() < kMaxVehicle) return finding;
   const auto take = [&](Quantity quantity, int state, double prior, double doubt = 1.0) {

@@ -56,7 +56,7 @@ class CalibrationRun final : private OutputSink {
   double straight_s_ = 0.0;
   GpsTime last_epoch_;
   std::vector<StraightEpoch> straight_;
-  Navigator pipeline_;
+  Navigator navigator_;
   InputDispatch dispatch_;
 };
 

@@ -24,6 +24,16 @@ const ConfigKey* find_key(const ConfigOrigin& source, const std::string& path) {
   return found == source.keys.end() ? nullptr : &*found;
 }
 
+// In single quotes where a shell would take it apart.
+std::string shell_word(const std::string& text) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+=:/,";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 // " --set KEY=VALUE" for every key that the journal's run had otherwise.
 std::string different_keys(const ConfigOrigin& recorded, const ConfigOrigin& used) {
   constexpr int kMostListed = 8;
@@ -33,12 +43,25 @@ std::string different_keys(const ConfigOrigin& recorded, const ConfigOrigin& use
     const ConfigKey* now = find_key(used, key.path);
     if (key.path == "preset" || changes_no_answer(key.path)) continue;
     if (now != nullptr && now->value == key.value) continue;
-    if (++different <= kMostListed) list += " --set " + key.path + "=" + key.value;
+    // Both follow from another key, which is listed itself.
+    if (now != nullptr && !now->given && !key.given) continue;
+    if (++different <= kMostListed) list += " --set " + shell_word(key.path + "=" + key.value);
   }
   if (different > kMostListed) {
     list += " and " + std::to_string(different - kMostListed) + " more keys";
   }
   return list;
+}
+
+// A preset is beneath the text of the journal, which holds every key.
+void refuse_preset(const std::vector<std::string>& overrides) {
+  for (const std::string& one : overrides) {
+    if (one.starts_with("preset=")) {
+      throw UsageError("--set " + one +
+                       ": a preset is beneath the journal's own configuration and changes none of "
+                       "its keys; --preset NAME replaces that configuration");
+    }
+  }
 }
 
 DaemonConfig load_recorded(const RunConfiguration& recorded, const std::string& name,
@@ -86,6 +109,7 @@ ReplayConfiguration choose_configuration(const std::string& log, const Arguments
     chosen.config = load_configuration(arguments);
     chosen.origin = chosen.config.source.name;
   } else if (recorded) {
+    refuse_preset(arguments.all("--set"));
     chosen.origin = recorded_name;
     chosen.config = load_recorded(*recorded, recorded_name, arguments.all("--set"));
   } else {

@@ -21,7 +21,8 @@ struct ReplayConfiguration {
 std::optional<RunConfiguration> recorded_configuration(const std::string& log);
 
 // Chooses the configuration of the command line (configuration_options.h), else the one that the
-// log holds, with the overrides of --set. Throws ConfigError, and UsageError if there is neither.
+// log holds, with the overrides of --set. Throws ConfigError, and UsageError if there is neither or
+// if --set names a preset over the one that the log holds.
 ReplayConfiguration choose_configuration(const std::string& log, const Arguments& arguments);
 
 }  // namespace leonav

@@ -1,6 +1,8 @@
 #include "tools/replay/replay_run.h"
 
+#include <array>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 
 #include "drivers/lcm/event_log.h"
@@ -15,11 +17,11 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       scan_(scan),
       files_(options.out_folder, options.rate_hz),
       encoder_(this, scan.output_schema),
-      pipeline_(config.navigator, this),
-      dispatch_(&pipeline_.sequencer()) {
+      navigator_(config.navigator, this),
+      dispatch_(&navigator_.sequencer()) {
   if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
-  for (const Decision& delivered : scan_.delivered) pipeline_.record(delivered);
-  for (const Decision& decision : scan_.decisions) pipeline_.record(decision);
+  for (const Decision& delivered : scan_.delivered) navigator_.record(delivered);
+  for (const Decision& decision : scan_.decisions) navigator_.record(decision);
 }
 
 void ReplayRun::run() {
@@ -91,13 +93,14 @@ void ReplayRun::print_summary(std::ostream& out) {
           << "\n";
     }
   }
-  const auto& rejected = pipeline_.sequencer().counters().rejected;
+  const auto& rejected = navigator_.sequencer().counters().rejected;
   for (std::size_t i = 0; i < rejected.size(); ++i) {
     if (rejected[i] == 0) continue;
     out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << rejected[i] << "\n";
   }
   statistics_.print(out);
   print_odometer(out);
+  print_learned_errors(out);
   out << "solution.csv rows: " << files_.solution_rows() << "\n";
   for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
     out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
@@ -112,15 +115,44 @@ void ReplayRun::print_summary(std::ostream& out) {
 // Prints the odometer's scale factor that the filter has estimated at the end.
 void ReplayRun::print_odometer(std::ostream& out) {
   using ekf_index::kOdometerScale, ekf_index::kSize;
-  const Ekf& ekf = pipeline_.gnss().ekf();
+  const Ekf& ekf = navigator_.gnss().ekf();
   if (ekf.filter_state().vehicle.size() <= kOdometerScale) return;
   const double sigma = std::sqrt(ekf.covariance()(kSize + kOdometerScale, kSize + kOdometerScale));
   out << "odometer scale: " << 100.0 * ekf.filter_state().vehicle[kOdometerScale] << " % (1 sigma "
       << 100.0 * sigma << ")\n";
 }
 
+// Prints the errors of codes and Dopplers as the filter knew them at the end.
+void ReplayRun::print_learned_errors(std::ostream& out) {
+  constexpr std::array kElevations = {"below 20", "20 to 35", "35 to 50", "above 50"};
+  const LearnedErrors& errors = pipeline_.gnss().ekf().learned_errors();
+  if (!errors.learns()) return;
+  for (const Observable observable :
+       {Observable::kCode, Observable::kDoppler, Observable::kCarrier}) {
+    for (std::size_t elevation = 0; elevation < kElevationClasses; ++elevation) {
+      ErrorClass of;
+      of.observable = static_cast<std::size_t>(observable);
+      of.elevation = elevation;
+      out << "errors of "
+          << (observable == Observable::kCode      ? "codes, "
+              : observable == Observable::kDoppler ? "Dopplers, "
+                                                   : "carriers, ")
+          << kElevations[elevation] << " deg: sigma times";
+      for (of.system = 0; of.system < kSystemCount; ++of.system)
+        for (of.signal = 0; of.signal < kSignalClasses; ++of.signal)
+          out << " " << std::setprecision(2) << errors.sigma_scale(of);
+      const CorrelationModel& correlation = errors.correlation(of);
+      out << ", " << std::setprecision(2) << 100.0 * correlation.share << " % alike for "
+          << correlation.time_s << " s";
+      of.motion = 1;
+      const CorrelationModel& standing = errors.correlation(of);
+      out << ", standing " << 100.0 * standing.share << " % for " << standing.time_s << " s\n";
+    }
+  }
+}
+
 std::vector<std::string> ReplayRun::warnings() const {
-  return run_warnings(dispatch_.counters(), pipeline_.sequencer().counters(), statistics_,
+  return run_warnings(dispatch_.counters(), navigator_.sequencer().counters(), statistics_,
                       alignment_);
 }
 

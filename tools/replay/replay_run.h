@@ -44,6 +44,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
  private:
   void note_time(Channel channel, std::int64_t stamp_us);
   void print_odometer(std::ostream& out);
+  void print_learned_errors(std::ostream& out);
   void on_solution(const Solution& solution) override;
   void on_epoch(const EpochReport& report) override;
   void on_event(const Event& event) override;
@@ -62,7 +63,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   OutputDigest digest_;
   std::unique_ptr<Verifier> verifier_;
   EncodingSink encoder_;
-  Navigator pipeline_;
+  Navigator navigator_;
   InputDispatch dispatch_;
 };
 

@@ -70,8 +70,6 @@ double elevation_of(const EpochReport& report, SatelliteId satellite) {
   return 0.0;
 }
 
-bool is_used(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
-
 }  // namespace
 
 ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_hz)

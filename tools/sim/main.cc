@@ -65,6 +65,7 @@ void refuse_ignored_options(const Arguments& arguments) {
 std::vector<std::string> inputs_of(const std::string& file, const leonav::sim::Scenario& scenario) {
   std::vector<std::string> inputs{file};
   if (!scenario.route.file.empty()) inputs.push_back(scenario.route.file);
+  if (!scenario.street_errors.file.empty()) inputs.push_back(scenario.street_errors.file);
   for (const auto& constellation : scenario.constellations) {
     if (!constellation.file.empty()) inputs.push_back(constellation.file);
   }

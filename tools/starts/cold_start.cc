@@ -91,8 +91,8 @@ bool find_north(const NavigatorConfig& config, const Track& truth, GpsTime start
 ColdStart::ColdStart(const NavigatorConfig& config, const Track& truth, GpsTime start,
                      std::span<const Product> products, std::optional<double> given_heading_error)
     : truth_(truth),
-      pipeline_(told(config, truth, start, given_heading_error), this),
-      dispatch_(&pipeline_.sequencer()) {
+      navigator_(told(config, truth, start, given_heading_error), this),
+      dispatch_(&navigator_.sequencer()) {
   result_.start = start;
   result_.way = initial_motion_at(truth, start);
   result_.given_heading_error = given_heading_error;

@@ -76,7 +76,7 @@ class ColdStart final : private OutputSink {
   const Track& truth_;
   StartResult result_;
   GpsTime last_;  // time of the last epoch
-  Navigator pipeline_;
+  Navigator navigator_;
   InputDispatch dispatch_;
 };
 

@@ -45,8 +45,8 @@ int run(int argc, char** argv) {
         "vehicle.zero_velocity is off: nothing asks whether it stands; --set vehicle.kind=car");
   const Track truth = load_truth(arguments.required("--truth"));
   StopsRecorder recorder;
-  Navigator pipeline(config.navigator, &recorder);
-  InputDispatch dispatch(&pipeline.sequencer());
+  Navigator navigator(config.navigator, &recorder);
+  InputDispatch dispatch(&navigator.sequencer());
   EventLogReader log(arguments.positional().front());
   LogEvent event;
   ProgressBar progress(&std::cerr, "leonav-stops", is_stderr_terminal());

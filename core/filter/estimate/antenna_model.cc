@@ -1,7 +1,6 @@
 #include "core/filter/estimate/antenna_model.h"
 
 #include "core/earth/ellipsoid.h"
-#include "core/earth/rotation.h"
 
 namespace leonav {
 

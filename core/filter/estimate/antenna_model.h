@@ -7,7 +7,7 @@
 
 namespace leonav {
 
-// How the body moves, by the last IMU samples.
+// The motion of the body by the last IMU samples.
 struct BodyMotion {
   // Angular rate of the last IMU sample in body axes, sensor errors not removed, rad/s: it turns
   // the lever arm.
@@ -26,9 +26,10 @@ class AntennaModel {
   AntennaModel(const Eigen::Vector3d& lever_arm_b, bool vertical_arm)
       : lever_arm_b_(lever_arm_b), vertical_arm_(vertical_arm) {}
 
-  // Antenna and its derivatives, ECEF, m and m/s.
+  // Returns position and velocity of the antenna with their derivatives, ECEF, m and m/s.
   AntennaMotion motion(const FilterState& state, bool has_attitude, const BodyMotion& body) const;
-  // From the estimated point at `p_e` to the antenna while there is no attitude, ECEF, m.
+  // Returns the vector from the estimated point at `p_e` to the antenna while there is no attitude,
+  // ECEF, m.
   Eigen::Vector3d offset_without_attitude_e(const Eigen::Vector3d& p_e) const;
 
  private:
@@ -36,8 +37,8 @@ class AntennaModel {
   bool vertical_arm_;
 };
 
-// Covariance of the antenna's position (m^2) and velocity ((m/s)^2), ECEF, with the uncertainty of
-// its lever arm and of the IMU's time, from that of the filter's state.
+// These return the covariance of the antenna's position (m^2) and velocity ((m/s)^2), ECEF, with
+// the uncertainty of its lever arm and of the IMU's time, from that of the filter's state.
 Eigen::Matrix3d antenna_position_covariance_e(const AntennaMotion& antenna, const EkfCovariance& P);
 Eigen::Matrix3d antenna_velocity_covariance_e(const AntennaMotion& antenna, const EkfCovariance& P);
 

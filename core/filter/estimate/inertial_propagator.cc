@@ -38,7 +38,7 @@ void InertialPropagator::remember(std::span<const ImuSample> block) {
 
 bool InertialPropagator::predict(std::span<const ImuSample> block, GpsTime time,
                                  StateEstimate* estimate, SpeedHistory* speeds) {
-  uninterrupted_ = true;
+  bool uninterrupted = true;
   const bool inertial = estimate->has_attitude();
   const NavState& nav = estimate->state().nav;
   const GpsTime start = nav.time;
@@ -50,24 +50,26 @@ bool InertialPropagator::predict(std::span<const ImuSample> block, GpsTime time,
     if (sample.interval_ns <= 0 || sample.time > time) continue;
     if (sample.time <= nav.time) continue;  // already behind the estimate
     if (inertial)
-      advance_to_sample(sample, estimate);
+      uninterrupted &= advance_to_sample(sample, estimate);
     else
       body_.measured_rate_b = sample.delta_theta_b / sample.interval_s();
     last_sample_ = sample;
     if (speeds != nullptr && inertial) speeds->add(estimate->state(), body_.measured_rate_b);
   }
-  if (time > nav.time) fill_gap(time, ImuSample{}, estimate);
+  if (time > nav.time) uninterrupted &= fill_gap(time, ImuSample{}, estimate);
   if (inertial) finish_sub_block(estimate);
 
   const double dt = seconds_between(nav.time, start);
   if (dt > 0.0) estimate->propagate_slow_states(imu_, dt);
-  return uninterrupted_;
+  return uninterrupted;
 }
 
-void InertialPropagator::advance_to_sample(const ImuSample& sample, StateEstimate* estimate) {
+bool InertialPropagator::advance_to_sample(const ImuSample& sample, StateEstimate* estimate) {
   const NavState& nav = estimate->state().nav;
-  if (sample.start() > nav.time) fill_gap(sample.start(), sample, estimate);
+  bool uninterrupted = true;
+  if (sample.start() > nav.time) uninterrupted = fill_gap(sample.start(), sample, estimate);
   advance(sample.start() < nav.time ? split(sample, nav.time).after : sample, estimate);
+  return uninterrupted;
 }
 
 void InertialPropagator::advance(const ImuSample& sample, StateEstimate* estimate) {
@@ -105,25 +107,23 @@ void InertialPropagator::finish_sub_block(StateEstimate* estimate) {
 }
 
 // A short gap is a sample that was not measured and adds its own uncertainty.
-void InertialPropagator::fill_gap(GpsTime time, const ImuSample& next, StateEstimate* estimate) {
+bool InertialPropagator::fill_gap(GpsTime time, const ImuSample& next, StateEstimate* estimate) {
   const auto gap_fill = estimate->has_attitude()
                             ? fill_imu_gap(last_sample_, estimate->state().nav.time, time, next)
                             : std::nullopt;
   if (!gap_fill) return coast(time, estimate);
-  uninterrupted_ = false;
-  advance(gap_fill->filler, estimate);
+  advance(gap_fill->sample, estimate);
   finish_sub_block(estimate);
   estimate->add_gap_noise(*gap_fill);
+  return false;
 }
 
-void InertialPropagator::coast(GpsTime time, StateEstimate* estimate) {
-  if (estimate->has_attitude()) {
-    uninterrupted_ = false;
-    finish_sub_block(estimate);
-  }
+bool InertialPropagator::coast(GpsTime time, StateEstimate* estimate) {
+  if (estimate->has_attitude()) finish_sub_block(estimate);
   body_.acceleration_e.setZero();
   estimate->coast(time);
   if (estimate->has_attitude() && !is_static_) mechanization_.reset(estimate->state().nav);
+  return !estimate->has_attitude();
 }
 
 }  // namespace leonav

@@ -38,10 +38,11 @@ class InertialPropagator {
   const BodyMotion& body() const { return body_; }
 
  private:
-  void advance_to_sample(const ImuSample& sample, StateEstimate* estimate);
+  // These three return false if IMU data were missing for an inertial prediction.
+  bool advance_to_sample(const ImuSample& sample, StateEstimate* estimate);
+  bool fill_gap(GpsTime time, const ImuSample& next, StateEstimate* estimate);
+  bool coast(GpsTime time, StateEstimate* estimate);
   void advance(const ImuSample& sample, StateEstimate* estimate);
-  void fill_gap(GpsTime time, const ImuSample& next, StateEstimate* estimate);
-  void coast(GpsTime time, StateEstimate* estimate);
   void begin_sub_block(const StateEstimate& estimate);
   void finish_sub_block(StateEstimate* estimate);
   void average_acceleration(const Eigen::Vector3d& change_e, double interval_s);
@@ -53,7 +54,6 @@ class InertialPropagator {
   InsTransition transition_;
   ImuSample last_sample_;  // the last one measured, not one filled in; interval 0: none yet
   BodyMotion body_;
-  bool uninterrupted_ = true;  // in the prediction under way
 };
 
 }  // namespace leonav

@@ -7,10 +7,10 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/filter/innovation_tests/clock_steps.h"
-#include "core/filter/innovation_tests/prediction_consistency.h"
 #include "core/filter/process/constant_velocity.h"
 #include "core/filter/state/ambiguities.h"
 #include "core/filter/state/clock_model.h"
+#include "core/filter/update/covariance_inflation.h"
 
 namespace leonav {
 namespace {
@@ -20,7 +20,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solution has none
-constexpr double kUnknownDrift = 300.0;    // m/s, 1 sigma: an oscillator off by 1 ppm
+// A point solution states no sigma of its clocks. They start with this 1 sigma, m and m/s, and so
+// many times that of its position or velocity (3D) beside.
+constexpr double kStartClockSigma = 10.0, kStartDriftSigma = 1.0, kStartClockShare = 3.0;
 
 double gauss_markov_decay(const GaussMarkov& process, double dt) {
   return std::exp(-dt / process.correlation_time_s);
@@ -60,10 +62,6 @@ EkfCorrection of_state(const EkfCorrection& of_antenna, const AntennaMotion& ant
   return correction;
 }
 
-bool is_of(std::size_t system, int wanted) {
-  return wanted == kAllSystems || static_cast<int>(system) == wanted;
-}
-
 double start_variance(const VehicleConstantsConfig& config, int constant) {
   return square(config.sigma[static_cast<std::size_t>(constant)]);
 }
@@ -99,8 +97,10 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
         point.has_velocity ? point.covariance_v_e
                            : Matrix3d(square(kUnknownVelocity) * Matrix3d::Identity());
   }
-  const double clock_sigma = 10.0 + 3.0 * std::sqrt(point.covariance_p_e.trace());
-  const double drift_sigma = 1.0 + 3.0 * std::sqrt(point.covariance_v_e.trace());
+  const double clock_sigma =
+      kStartClockSigma + kStartClockShare * std::sqrt(point.covariance_p_e.trace());
+  const double drift_sigma =
+      kStartDriftSigma + kStartClockShare * std::sqrt(point.covariance_v_e.trace());
   for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (!std::isfinite(point.clock_m[system])) continue;
     leonav::start_clock_offset(system, point.clock_m[system], clock_sigma, &state_.clocks,
@@ -108,7 +108,7 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
     known_clocks_.offset[system] = true;
     const bool has_drift = point.has_velocity && std::isfinite(point.clock_drift_m_s[system]);
     leonav::start_clock_drift(system, has_drift ? point.clock_drift_m_s[system] : 0.0,
-                              has_drift ? drift_sigma : kUnknownDrift, &state_.clocks,
+                              has_drift ? drift_sigma : kUnknownDriftSigma, &state_.clocks,
                               &covariance_);
     known_clocks_.drift[system] = true;
   }
@@ -189,7 +189,7 @@ void StateEstimate::propagate(const InsTransition& transition) {
 
 void StateEstimate::add_gap_noise(const ImuGapFill& gap_fill) {
   const Matrix3d C_eb = state_.nav.q_eb.toRotationMatrix();
-  const double half = 0.5 * gap_fill.filler.interval_s();
+  const double half = 0.5 * gap_fill.sample.interval_s();
   const Matrix3d V = C_eb * gap_fill.sigma_velocity_b.cwiseAbs2().asDiagonal() * C_eb.transpose();
   for (EkfCovariance* covariance : covariance_and_noise()) {
     covariance->block<3, 3>(kPosition, kPosition) += half * half * V;
@@ -350,7 +350,8 @@ void StateEstimate::copy_clock_drift(std::size_t from, std::size_t to, double si
 void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
   EkfVector direction = EkfVector::Zero();
   for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
-    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(static_cast<int>(i), system))
+      direction(kClock + static_cast<int>(i)) = 1.0;
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
   for (EkfCovariance* covariance : covariance_and_noise())
     covariance->topLeftCorner<kSize, kSize>() +=
@@ -362,9 +363,10 @@ void StateEstimate::shift_clocks(int system, double step_m, double sigma_m) {
 void StateEstimate::shift_codes_against_carriers(int system, double step_m, double sigma_m) {
   EkfCorrection direction = EkfCorrection::Zero(covariance_.rows());
   for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
-    if (known_clocks_.offset[i] && is_of(i, system)) direction(kClock + static_cast<int>(i)) = 1.0;
+    if (known_clocks_.offset[i] && is_of(static_cast<int>(i), system))
+      direction(kClock + static_cast<int>(i)) = 1.0;
   for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
-    if (is_of(index_of(state_.ambiguities[i].satellite.system), system))
+    if (is_of(static_cast<int>(index_of(state_.ambiguities[i].satellite.system)), system))
       direction(state_.first_ambiguity() + static_cast<int>(i)) = -1.0;
   }
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
@@ -376,8 +378,26 @@ void StateEstimate::shift_codes_against_carriers(int system, double step_m, doub
     *covariance += square(sigma_m) * direction * direction.transpose();
 }
 
-Ambiguity* StateEstimate::ambiguity_of_state(int state) {
-  return &state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+const Ambiguity& StateEstimate::ambiguity_of_state(int state) const {
+  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+}
+
+Ambiguity& StateEstimate::mutable_ambiguity_of_state(int state) {
+  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+}
+
+void StateEstimate::shift_ambiguity(int state, double shift_m) {
+  mutable_ambiguity_of_state(state).value_m += shift_m;
+}
+
+void StateEstimate::set_ambiguity_random_walk(int state, double random_walk) {
+  mutable_ambiguity_of_state(state).random_walk = random_walk;
+}
+
+void StateEstimate::record_carrier(int state, GpsTime time, bool used) {
+  Ambiguity& ambiguity = mutable_ambiguity_of_state(state);
+  ambiguity.last_used = time;
+  ambiguity.rejected = used ? 0 : ambiguity.rejected + 1;
 }
 
 void StateEstimate::add_ambiguity(const Ambiguity& ambiguity, double sigma_m) {

@@ -1,8 +1,7 @@
-// StateEstimate holds what the filter believes: nominal state, covariance of its error, and which
+// StateEstimate holds the filter's estimate: nominal state, covariance of its error, and which
 // clocks are known.
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
 
@@ -21,8 +20,10 @@
 namespace leonav {
 
 // StateEstimate is the only class that writes the filter's covariance. Every step of the filter
-// that changes the Gaussian is one of its functions; the equations themselves are in process/,
-// update/ and innovation_tests/, as functions of a matrix.
+// that changes the Gaussian is one of its functions. The equations of models and updates are in
+// state/, process/ and update/, as functions of a matrix; those of the steps between them (antenna
+// transform, attitude from outside, noise of gaps and coasting, clock steps, scalar constraints,
+// vehicle constants) are in state_estimate.cc.
 //
 // Beside the covariance it records the process F, N since begin_process() for the smoother
 // (core/filter/state/filter_process.h). What adds noise to the covariance adds it to N too.
@@ -31,13 +32,13 @@ class StateEstimate {
   explicit StateEstimate(const EkfConfig& config);
 
   const FilterState& state() const { return state_; }
-  // In the order of ekf_index; SI units.
+  // Returns the covariance of the error state, in the order of ekf_index; SI units.
   const EkfCovariance& covariance() const { return covariance_; }
   const ClockFlags& known_clocks() const { return known_clocks_; }
   bool has_attitude() const { return has_attitude_; }
-  // False once a number has overflowed: only a new filter helps then.
+  // Returns false once a number has overflowed: only a new filter helps then.
   bool is_finite() const;
-  // The process since begin_process(); kept only if EkfConfig::keep_process.
+  // Returns the process since begin_process(); it is recorded only if EkfConfig::keep_process.
   const FilterProcess& process() const { return process_; }
   void begin_process();
 
@@ -92,8 +93,8 @@ class StateEstimate {
   MotionComponents constrain(MotionMeasurements* measurements, double gate);
 
   // --- inflation ---
-  // Inflates what an observable sees first (inflate_covariance in prediction_consistency.h), m^2 or
-  // (m/s)^2.
+  // Inflates what an observable sees first (inflate_covariance() in
+  // core/filter/update/covariance_inflation.h), m^2 or (m/s)^2.
   void inflate(Observable observable, double variance, double interval_s);
   void inflate_position(double sigma_m);
   void inflate_ambiguity(int state, double sigma_m);
@@ -109,10 +110,14 @@ class StateEstimate {
   // Shifts them by a step of the codes alone: ambiguities make up for it. `sigma_m` 0: exact.
   void shift_codes_against_carriers(int system, double step_m, double sigma_m);
 
-  // --- ambiguities; `index` into FilterState::ambiguities ---
-  // The ambiguity with this index in the error state; its value and bookkeeping may be changed,
-  // which leaves the covariance as it is.
-  Ambiguity* ambiguity_of_state(int state);
+  // --- ambiguities; `state` is an index of the error state, `index` one of
+  // FilterState::ambiguities ---
+  const Ambiguity& ambiguity_of_state(int state) const;
+  // These leave the covariance as it is.
+  void shift_ambiguity(int state, double shift_m);
+  void set_ambiguity_random_walk(int state, double random_walk);
+  // Records that the update at `time` used the ambiguity's carrier, or rejected it.
+  void record_carrier(int state, GpsTime time, bool used);
   void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
   void remove_ambiguity(int index);
 
@@ -124,12 +129,13 @@ class StateEstimate {
   void restart_vehicle_constants(const AntennaMotion& antenna);
 
  private:
-  // The covariance and, if it is recorded, the process's noise.
+  // Returns the covariance and, if it is recorded, the process's noise.
   boost::container::static_vector<EkfCovariance*, 2> covariance_and_noise();
   void start_vehicle_constants();
   void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
                       const AntennaModel& model, const BodyMotion& body);
+  Ambiguity& mutable_ambiguity_of_state(int state);
   void apply_antenna_transform(const AntennaMotion& antenna, double direction);
 
   EkfConfig config_;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace ekf_index;
 
-// Fewer are mostly what their own median is: they tell nothing.
+// Fewer are mostly what their own median is, and show nothing.
 constexpr std::size_t kMinOfSystem = 4;
 
 // H_a P H_b^T of two measurements.

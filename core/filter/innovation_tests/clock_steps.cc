@@ -15,14 +15,14 @@ using namespace ekf_index;
 constexpr double kFreeClock_m2 = 1e12;  // of a clock that may be anywhere
 using Samples = boost::container::static_vector<StepSample, kMaxSatellites>;
 
-// The first code of each satellite, others of its bands being no witnesses of their own.
+// The first code of each satellite: those of its other bands share its errors.
 using Codes = std::array<const FilterMeasurement*, kMaxSatellites>;
 
 Codes codes_of(const FilterMeasurements& measurements, const MeasurementEpoch& epoch, int system) {
   Codes codes{};
   for (const FilterMeasurement& m : measurements) {
     if (m.observable != Observable::kCode) continue;
-    if (system != kAllSystems && system_of(m, epoch) != system) continue;
+    if (!is_of(system_of(m, epoch), system)) continue;
     const FilterMeasurement*& code = codes[epoch.measurements[m.index].satellite_index];
     if (code == nullptr) code = &m;
   }

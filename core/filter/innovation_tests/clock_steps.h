@@ -11,6 +11,9 @@ namespace leonav {
 
 inline constexpr int kAllSystems = -1;
 
+// Returns whether `system` is `wanted`, or all systems are.
+inline bool is_of(int system, int wanted) { return wanted == kAllSystems || system == wanted; }
+
 // Returns the system of a measurement's satellite, as an index of System.
 int system_of(const FilterMeasurement& measurement, const MeasurementEpoch& epoch);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/median.h"
+#include "core/filter/update/covariance_inflation.h"
 
 namespace leonav {
 namespace {
@@ -114,7 +115,7 @@ double unmodelled_prior_variance(const RobustConfig& robust, const FilterMeasure
   // Twice: along a line of sight, and less what the satellites share, only part of it is seen.
   const double variance = std::clamp(2.0 * median(missing), 0.0, kMaxMissing);
 
-  // Few measurements are soon fitted: they are tested as if nothing stayed alike in time.
+  // Few measurements are soon fitted: they are tested as if their errors did not last.
   if (!many)
     for (FilterMeasurement& measurement : offered) measurement.gain_variance = measurement.variance;
   // Would they agree?
@@ -129,25 +130,6 @@ double unmodelled_prior_variance(const RobustConfig& robust, const FilterMeasure
   if (!many) agree = agree && redundancy(offered) >= kMinRedundancy;
   agree = agree && fit.nis < largest_probable(kept);
   return agree ? variance : 0.0;
-}
-
-void inflate_covariance(Observable observable, double variance, double interval_s,
-                        EkfCovariance* covariance) {
-  const bool rates = observable == Observable::kDoppler;
-  const double half_s = rates ? 0.5 * interval_s : 0.0;
-  const auto add = [&](int first, int first_rate, int count) {
-    for (int i = 0; i < count; ++i) {
-      double& state = (*covariance)(first + i, first + i);
-      double& rate = (*covariance)(first_rate + i, first_rate + i);
-      if (!rates && state > 0.0) state += variance;
-      if (!rates || !(rate > 0.0)) continue;
-      rate += variance;
-      if (!(state > 0.0)) continue;
-      state += half_s * half_s * variance;
-    }
-  };
-  add(kPosition, kVelocity, 3);
-  add(kClock, kClockDrift, static_cast<int>(kMaxSystemTimes));
 }
 
 }  // namespace leonav

@@ -9,7 +9,7 @@
 
 namespace leonav {
 
-// What the error equations need from one IMU sample.
+// The input of the error equations from one IMU sample.
 struct InsSample {
   Eigen::Matrix3d C_eb;        // at the middle of the interval
   Eigen::Vector3d f_b;         // mean specific force, errors removed, m/s^2

@@ -8,6 +8,9 @@
 
 namespace leonav {
 
+// 1 sigma of a drift that nothing has measured, m/s: an oscillator off by 1 ppm.
+inline constexpr double kUnknownDriftSigma = 300.0;
+
 // Propagates the covariance of the systems observed so far by `dt` seconds; the caller moves the
 // offsets by their drifts. The oscillator's noise is common to all systems (fully correlated), and
 // each system has its own noise against it.

@@ -30,7 +30,7 @@ struct VehicleConstantsConfig {
   // The first `count` constants, each from zero. Others join with their first measurement.
   int count = 0;
   std::array<double, ekf_index::kMaxVehicle> sigma{};        // at the start; 0: not estimated
-  std::array<double, ekf_index::kMaxVehicle> random_walk{};  // random walk, per sqrt(s)
+  std::array<double, ekf_index::kMaxVehicle> random_walk{};  // per sqrt(s)
 
   // The constants keep their values but get their start variances again, whenever the attitude's
   // sigma (tilt or heading) has fallen to this share of what it was (AttitudeConvergence). While an
@@ -74,11 +74,15 @@ struct EkfConfig {
   // r = exp(-dt / correlation time), which gives a long mean the variance that it really has.
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
+  // Size and correlation of the errors of codes and Dopplers are learned on the way
+  // (core/filter/error_model); the configured ones are where it begins, 20 s and 3 s where none
+  // are.
+  bool learn_errors = false;
   // Median standardized innovation of code, carrier or Doppler, clocks removed (0.67 when all is
   // well). Above it, and if the measurements agree with each other, the prediction is taken to be
   // wrong: the filter inflates its covariance instead of rejecting them all (PredictionTest).
   double prediction_suspect_ratio = 3.0;
-  // Share of code measurements rejected in one epoch that counts as suspect.
+  // Share of the codes, or of the Dopplers, rejected in one epoch that makes the epoch suspect.
   double reset_ratio = 0.7;
   // Keeps the recorded process (FilterProcess) for the smoother.
   bool keep_process = false;

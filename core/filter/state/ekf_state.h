@@ -28,6 +28,9 @@ inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9,
                      kWetDelay = 29, kCarrierClock = 30,
                      kSize = 31;  // states that come and go follow
 inline constexpr int kInsSize = 21;
+static_assert(kClockDrift == kClock + static_cast<int>(kMaxSystemTimes) &&
+                  kWetDelay == kClockDrift + static_cast<int>(kMaxSystemTimes),
+              "one clock offset and drift per system time, here and wherever blocks of four stand");
 // The vehicle constants follow from kSize on, as many as are estimated: the direction of travel in
 // body axes (yaw and pitch, rad), the relative scale error of the odometer, the antenna's lever arm
 // in body axes beyond the configured one (3, m), and by how much later than its corrected stamp the
@@ -69,7 +72,7 @@ struct Ambiguity {
   std::uint32_t arc = 0;
   SatelliteId satellite;
   double value_m = 0.0;
-  double random_walk = 0.0;  // m/sqrt(s), random walk
+  double random_walk = 0.0;  // m/sqrt(s)
   GpsTime started, last_used;
   int rejected = 0;  // in so many epochs in a row
 };

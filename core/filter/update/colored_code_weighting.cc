@@ -8,7 +8,7 @@
 namespace leonav {
 namespace {
 
-// A code that tells nothing new weighs next to nothing.
+// A code that adds nothing to the earlier ones weighs next to nothing.
 constexpr double kMostInflation = 1e6;
 
 }  // namespace

@@ -68,7 +68,8 @@ AntennaMotion antenna_motion(const NavState& state, const Vector3d& measured_rat
 
 namespace {
 
-// What the antenna's motion tells: the slopes by its position and velocity, and by way of them.
+// Adds the derivatives by way of the antenna's position and velocity; `by_p` and `by_v` are those
+// by the latter.
 void add_by_antenna(const RowVector3d& by_p, const RowVector3d& by_v, const AntennaMotion& antenna,
                     MeasurementPrediction* prediction) {
   // A position of another time follows the velocity.

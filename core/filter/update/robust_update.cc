@@ -21,7 +21,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // Residuals that are this much larger, the worst of them left out, are of measurements that
 // contradict each other.
 constexpr double kMaxScale = 3.0;
-constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not tell their scale
+constexpr std::size_t kMinScaleCount = 5;  // fewer residuals do not show their scale
 
 double scale_of(const FilterMeasurements& measurements, const SmallTable& ratios,
                 Observable observable) {
@@ -111,7 +111,7 @@ double reweight(const RobustConfig& config, const SmallTable& ratios, double max
 
 // Iterates the weights; least_squares_ then holds the solution. `limits`: what the prior excludes,
 // 0; that of an earlier call stays out.
-void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
+void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits, bool* worst_excluded,
                          FilterMeasurements* measurements, RobustUpdateResult* result) {
   for (FilterMeasurement& measurement : *measurements) measurement.factor = 0.0;
   least_squares_.solve(*measurements);
@@ -131,9 +131,10 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits,
     least_squares_.solve(*measurements);
     if (change < kFactorTolerance) return;
   }
-  if (change < kUnconvergedChange || config.max_iterations < 3 || worst_excluded_) return;
+  if (change < kUnconvergedChange || config.max_iterations < 3 || *worst_excluded) return;
   exclude_worst_first(config, *result, limits, measurements);
-  weigh(config, limits, measurements, result);
+  *worst_excluded = true;
+  weigh(config, limits, worst_excluded, measurements, result);
 }
 
 // Where many carriers contradict each other they go out together, fit the codes, come in together,
@@ -164,7 +165,6 @@ void RobustUpdate::exclude_worst_first(const RobustConfig& config,
         (*limits)[i] = (*measurements)[i].factor = 0.0;
   }
   exclude_few_carriers(*measurements, limits);
-  worst_excluded_ = true;
 }
 
 // Weighs; where measurements contradict each other, once more with the variance they then have.
@@ -172,21 +172,21 @@ void RobustUpdate::exclude_worst_first(const RobustConfig& config,
 void RobustUpdate::weigh_with_inflated_sigmas(const RobustConfig& config, FactorLimits* limits,
                                               FilterMeasurements* measurements,
                                               RobustUpdateResult* result) {
-  worst_excluded_ = false;
-  weigh(config, limits, measurements, result);
+  bool worst_excluded = false;
+  weigh(config, limits, &worst_excluded, measurements, result);
   auto scale = result->scale;
   if (!inflate_contradicting_sigmas(scale, measurements)) return;
-  worst_excluded_ = false;
-  weigh(config, limits, measurements, result);
+  worst_excluded = false;
+  weigh(config, limits, &worst_excluded, measurements, result);
   if (exclude_few_carriers(*measurements, limits)) {
-    weigh(config, limits, measurements, result);
+    weigh(config, limits, &worst_excluded, measurements, result);
     auto more = result->scale;
     for (std::size_t kind = 0; kind < kObservables; ++kind) {
       const bool found = scale[kind] <= kMaxScale && more[kind] > kMaxScale;
       (found ? scale[kind] : more[kind]) = found ? more[kind] : 1.0;
     }
     if (inflate_contradicting_sigmas(more, measurements))
-      weigh(config, limits, measurements, result);
+      weigh(config, limits, &worst_excluded, measurements, result);
   }
   result->scale = scale;
 }

@@ -1,8 +1,8 @@
 // RobustUpdate applies the measurements of one epoch to a covariance, with IGG-III weights.
 #pragma once
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
-#include <memory>
 
 #include "core/filter/state/ekf_state.h"
 #include "core/filter/update/filter_measurement.h"
@@ -31,30 +31,29 @@ class RobustUpdate {
   // 1. The tested residual is that against the prediction from the prior and all *other*
   //    measurements, over its standard deviation. In the first pass, when none is used yet, this is
   //    the standardized innovation; afterwards it also finds outliers that a poor prior hides.
-  // 2. What the innovation test excludes stays excluded. Whether the prior can be believed was
-  //    decided before (core/filter/prediction_test.h).
+  // 2. What the innovation test excludes stays excluded. Whether the prior is wrong was decided
+  //    before (core/filter/prediction_test.h).
   // 3. If the median residual of an observable is larger than it should be, all its residuals are
   //    scaled down first, so that the many are not excluded for the sake of the few.
   // 4. If that scale still exceeds three at the end, codes or Dopplers contradict each other: their
   //    variances are multiplied by its square and all are weighed again.
   // 5. Carriers whose weights do not converge are excluded worst first. If fewer than three
-  // quarters
-  //    of them remain, or if the codes contradict each other as well, no carrier is used: any four
-  //    agree about some position.
+  //    quarters of them remain, or if the codes contradict each other as well, no carrier is used:
+  //    any four agree about some position.
   RobustUpdateResult operator()(const RobustConfig& config, FilterMeasurements* measurements,
                                 EkfCovariance* covariance);
 
  private:
   using FactorLimits = boost::container::static_vector<double, kMaxMeasurements>;
-  void weigh(const RobustConfig& config, FactorLimits* limits, FilterMeasurements* measurements,
-             RobustUpdateResult* result);
+  // `worst_excluded`: rule 5 has been applied.
+  void weigh(const RobustConfig& config, FactorLimits* limits, bool* worst_excluded,
+             FilterMeasurements* measurements, RobustUpdateResult* result);
   void exclude_worst_first(const RobustConfig& config, const RobustUpdateResult& weighed,
                            FactorLimits* limits, FilterMeasurements* measurements);
   void weigh_with_inflated_sigmas(const RobustConfig& config, FactorLimits* limits,
                                   FilterMeasurements* measurements, RobustUpdateResult* result);
 
   WeightedLeastSquares least_squares_;
-  bool worst_excluded_ = false;  // rule 5 has been applied in this epoch
 };
 
 }  // namespace leonav

@@ -1,4 +1,4 @@
-// This header holds every threshold of the cycle slip detectors.
+// This header holds the thresholds of the cycle slip detectors; few others stand beside their use.
 #pragma once
 namespace leonav {
 

@@ -43,9 +43,7 @@ double trace_of_clocks(const Normal& normal, const Normal& covariance) {
 Dop dilution_of_precision(const MeasurementEpoch& epoch, const Eigen::Vector3d& p_a_e) {
   std::bitset<kMaxSatellites> used;
   for (const Measurement& measurement : epoch.measurements) {
-    if (measurement.observable != Observable::kCode) continue;
-    if (measurement.reason != Reason::kUsed && measurement.reason != Reason::kDownweighted)
-      continue;
+    if (measurement.observable != Observable::kCode || !is_used(measurement.reason)) continue;
     used.set(measurement.satellite_index);
   }
   return dilution_of_precision(epoch, used, p_a_e);

@@ -26,14 +26,17 @@ enum class Reason : std::uint8_t {
   kUnhealthy = 6,
   kLowElevation = 7,
   kLowCn0 = 8,
-  kNoUsableSignal = 9,  // no configured signal has a pseudorange
-  kImplausible = 10,    // pseudorange or Doppler out of physical range
+  kNoUsableSignal = 9,  // no signal of a known frequency has a pseudorange
+  kImplausible = 10,    // pseudorange out of physical range
   kSatelliteCap = 11,   // the configured number of satellites per system is reached
   kCapacity = 12,       // a fixed table was full
-  kNoPosition = 13,     // no approximate position yet, so nothing can be predicted
+  kNoPosition = 13,     // not used any more
   kNotSolved = 14,      // epoch had too few satellites for a solution
 };
 std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
+constexpr bool is_used(Reason reason) {
+  return reason == Reason::kUsed || reason == Reason::kDownweighted;
+}
 
 // One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
 // Earth's rotation during the flight of the signal has been applied.
@@ -83,8 +86,8 @@ struct Measurement {
   SignalCode second_code;  // set for an ionosphere-free combination
   double value = 0.0;
   double sigma = 0.0;
-  // Code only: the part of sigma that is correlated from epoch to epoch (orbit, clock, group delay,
-  // modelled ionosphere), and its correlation time.
+  // Code only: the part of sigma that is correlated from epoch to epoch (orbit, clock, modelled
+  // ionosphere), and its correlation time.
   double correlated_sigma = 0.0;
   double correlation_time_s = 0.0;
   // Carrier only.

@@ -70,7 +70,7 @@ struct Polynomial {
 // nearest nodes enter first, so that the terms shrink while they describe the orbit, and the last
 // term shows the cost of leaving out the next one. Near the ends of the nodes the terms grow again,
 // because high degrees amplify the nodes' rounding there: the polynomial stops at its smallest
-// term. The size of a term is judged as if `t` were at least a quarter interval from the nearest
+// term. The size of a term is taken as if `t` were at least a quarter interval from the nearest
 // node, where every term vanishes.
 Polynomial newton_at_zero(const std::array<double, kPolynomialNodes>& t,
                           std::array<Eigen::Vector3d, kPolynomialNodes>& y, std::size_t n) {

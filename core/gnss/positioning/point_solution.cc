@@ -98,14 +98,12 @@ void mark_not_solved(MeasurementEpoch* epoch, Observable observable) {
   }
 }
 
-bool in_use(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
-
 // A satellite has the reason of its best code.
 int summarize_satellites(MeasurementEpoch* epoch) {
   std::array<bool, kMaxSatellites> used{};
   for (const Measurement& code : epoch->measurements) {
     if (code.observable != Observable::kCode) continue;
-    if (in_use(code.reason)) used[code.satellite_index] = true;
+    if (is_used(code.reason)) used[code.satellite_index] = true;
   }
   int count = 0;
   for (const Measurement& code : epoch->measurements) {
@@ -113,7 +111,7 @@ int summarize_satellites(MeasurementEpoch* epoch) {
     SatelliteInView& satellite = epoch->satellites[code.satellite_index];
     if (!used[code.satellite_index]) satellite.reason = code.reason;
   }
-  for (const bool is_used : used) count += is_used ? 1 : 0;
+  for (const bool one : used) count += one ? 1 : 0;
   return count;
 }
 
@@ -124,7 +122,7 @@ void take_position(const PositionFit& position, MeasurementEpoch* epoch, PointSo
   double sum = 0.0;
   int rows_used = 0;
   for (const FitRow& row : position.rows) {
-    if (!in_use(reason_of(row))) continue;
+    if (!is_used(reason_of(row))) continue;
     solution->clock_m[static_cast<std::size_t>(row.group)] = position.state(3 + row.group);
     sum += row.residual * row.residual;
     ++rows_used;
@@ -146,7 +144,7 @@ void add_velocity(const Problem& problem, MeasurementEpoch* epoch, PointSolution
   solution->v_e = velocity.state.head<3>();
   solution->covariance_v_e = velocity.fit.covariance.topLeftCorner<3, 3>();
   for (const FitRow& row : velocity.rows) {
-    if (!in_use(reason_of(row))) continue;
+    if (!is_used(reason_of(row))) continue;
     const std::size_t measured = epoch->measurements[row.source].satellite_index;
     solution->clock_drift_m_s[index_of(epoch->satellites[measured].satellite.system)] =
         velocity.state(3);

@@ -93,7 +93,7 @@ double ReceiverCodeBiases::delay_m(System system, char band) const {
   return bias != nullptr ? bias->value_m : 0.0;
 }
 
-// The clock of the usual pair is delayed by gamma times the delay of its partner.
+// The clock of the reference pair is delayed by gamma times the delay of its partner.
 double ReceiverCodeBiases::offset_m(System system, char band) const {
   const SystemBiases& biases = systems_[index_of(system)];
   return delay_m(system, band) - biases.partner_gamma * delay_m(system, biases.partner);

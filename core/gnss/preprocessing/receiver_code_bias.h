@@ -22,8 +22,8 @@ struct InterBandDifferences {
 // a satellite enter: the position matters only through the atmosphere.
 //
 // The correction is noisy and drifts with the error of the ionosphere model. So where codes are
-// combined in pairs, the clock is that of the usual pair, which then needs no correction at all,
-// and other pairs are corrected to it.
+// combined in pairs, the clock is that of the reference pair, which then needs no correction at
+// all, and other pairs are corrected to it.
 class ReceiverCodeBiases {
  public:
   // Opens an epoch. The same `time` again (another pass over it) starts from the state before it.
@@ -31,15 +31,15 @@ class ReceiverCodeBiases {
   // Sets the band with which the others of `system` are compared; a change discards their delays.
   void set_reference(System system, char band);
   char reference(System system) const { return systems_[index_of(system)].reference; }
-  // Sets the band that forms the usual pair with the reference band; 0: the clock is that of the
-  // reference band alone. `gamma` is its factor in the ionosphere-free combination.
+  // Sets the band that forms the reference pair with the reference band; 0: the clock is that of
+  // the reference band alone. `gamma` is its factor in the ionosphere-free combination.
   void set_partner(System system, char band, double gamma);
   char partner(System system) const { return systems_[index_of(system)].partner; }
   bool is_reference_pair(System system, char first, char second) const;
   void update(System system, char band, const InterBandDifferences& differences);
 
   // Return the metres to subtract from the code of `band`, and the variance; both are zero where
-  // nothing is known. They do not apply to the two codes of the usual pair in combination.
+  // nothing is known. They do not apply to the two codes of the reference pair in combination.
   double offset_m(System system, char band) const;
   double variance_m2(System system, char band) const;
 

@@ -26,7 +26,7 @@ const KlobucharModel& default_klobuchar() { return kMediumActivity; }
 double klobuchar_delay_m(const KlobucharModel& model, const Geodetic& antenna,
                          const LookAngles& direction, GpsTime time, double frequency_hz) {
   if (!(direction.elevation >= 0.0) || !(frequency_hz > 0.0)) return 0.0;
-  const KlobucharModel& used = model.valid ? model : kMediumActivity;
+  const KlobucharModel& used = model.valid ? model : default_klobuchar();
 
   const double elevation = direction.elevation / kPi;
   const double psi = 0.0137 / (elevation + 0.11) - 0.022;

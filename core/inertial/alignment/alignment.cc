@@ -64,7 +64,7 @@ bool Alignment::levelled() const { return levelled_for_s_ > 0.0; }
 void Alignment::add(const ImuSample& sample) {
   if (last_sample_.interval_ns > 0 && sample.start() > last_sample_.time) {
     const auto gap_fill = fill_imu_gap(last_sample_, last_sample_.time, sample.start(), sample);
-    gap_fill ? propagate(gap_fill->filler) : reset();
+    gap_fill ? propagate(gap_fill->sample) : reset();
   }
   propagate(sample);
   last_sample_ = sample;

@@ -40,10 +40,10 @@ std::optional<ImuGapFill> fill_imu_gap(const ImuSample& previous, GpsTime from, 
   const Vector3d force_change = after.delta_velocity_b / after.interval_s() - force;
 
   ImuGapFill gap_fill;
-  gap_fill.filler.time = to;
-  gap_fill.filler.interval_ns = to.nanoseconds() - from.nanoseconds();
-  gap_fill.filler.delta_theta_b = dt * (rate + share * rate_change);
-  gap_fill.filler.delta_velocity_b = dt * (force + share * force_change);
+  gap_fill.sample.time = to;
+  gap_fill.sample.interval_ns = to.nanoseconds() - from.nanoseconds();
+  gap_fill.sample.delta_theta_b = dt * (rate + share * rate_change);
+  gap_fill.sample.delta_velocity_b = dt * (force + share * force_change);
   const double unseen = 0.5 * dt * dt * (has_previous && has_next ? 1.0 : kOneSided);
   gap_fill.sigma_theta_b =
       0.5 * dt * rate_change.cwiseAbs().array() + unseen * kAngularAcceleration;

@@ -12,10 +12,10 @@ namespace leonav {
 // neighbouring samples give no information about the motion in between.
 inline constexpr double kMaxImuGap_s = 0.2;
 
-// A filler for a gap, with its uncertainty.
+// What is integrated over a gap, with its uncertainty.
 struct ImuGapFill {
-  ImuSample filler;  // from the beginning of the gap to its end, sensor errors not removed
-  // 1 sigma of the filler's increments beyond the sensor's noise, body axes.
+  ImuSample sample;  // from the beginning of the gap to its end, sensor errors not removed
+  // 1 sigma of the sample's increments beyond the sensor's noise, body axes.
   Eigen::Vector3d sigma_theta_b = Eigen::Vector3d::Zero();     // rad
   Eigen::Vector3d sigma_velocity_b = Eigen::Vector3d::Zero();  // m/s
 };

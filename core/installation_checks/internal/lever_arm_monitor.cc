@@ -91,13 +91,13 @@ bool LeverArmMonitor::is_known() const {
 ConventionFinding LeverArmMonitor::evaluate() const {
   if (seconds_ < kMinSeconds) return {};
   const Fit found = fit();
-  const Eigen::Vector2d told = lever_arm_b_.head<2>(), measured = found.arm_b.head<2>();
-  const double off_m = (measured - told).norm();
+  const Eigen::Vector2d configured = lever_arm_b_.head<2>(), measured = found.arm_b.head<2>();
+  const double off_m = (measured - configured).norm();
   const bool clear = off_m > kMinOff_m && off_m > kClear * found.sigma;
   if (!clear) return {};
   for (const Eigen::Vector2d& signs :
        {Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(-1.0, 1.0), Eigen::Vector2d(1.0, -1.0)}) {
-    if ((measured - signs.cwiseProduct(told)).norm() < kSignShare * off_m)
+    if ((measured - signs.cwiseProduct(configured)).norm() < kSignShare * off_m)
       return {Convention::kLeverArmSign, off_m};
   }
   // A mistake of the signs may still become certain.

@@ -19,9 +19,8 @@ bool most_codes_agree(const MeasurementEpoch& epoch) {
   int used = 0, thrown_out = 0;
   for (const Measurement& measurement : epoch.measurements) {
     if (measurement.observable != Observable::kCode) continue;
-    const Reason reason = measurement.reason;
-    used += reason == Reason::kUsed || reason == Reason::kDownweighted ? 1 : 0;
-    thrown_out += reason == Reason::kOutlier ? 1 : 0;
+    used += is_used(measurement.reason) ? 1 : 0;
+    thrown_out += measurement.reason == Reason::kOutlier ? 1 : 0;
   }
   return used > 2 * thrown_out;
 }

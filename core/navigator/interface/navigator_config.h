@@ -35,6 +35,10 @@ struct RealtimeConfig {
   // Latency of an epoch up to which no empty epoch replaces it.
   double gnss_latency_allowance_s = 0.5;
 
+  // Returns after how long without satellites a solution is that of the IMU alone
+  // (Source::kInsOnly). Two epochs in a row may be missing; the half is for times that jitter.
+  double ins_only_after_s() const { return 2.5 * epoch_interval_s; }
+
   bool operator==(const RealtimeConfig&) const = default;
 };
 

@@ -7,7 +7,6 @@
 
 #include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/filter_estimate.h"
-#include "core/navigator/interface/solution.h"
 #include "core/navigator/interface/solution_conversion.h"
 
 namespace leonav {
@@ -23,15 +22,19 @@ constexpr double kRepeatedReset_s = 60.0;
 constexpr double kMaxInflation_m = 250.0, kMaxInflation_m_s = 30.0;
 // If nearly all measurements are rejected again within this time, the restart has not helped.
 constexpr double kRepeatedRejection_s = 90.0;
+// A difference of more 3D sigmas of the point solution contradicts the filter.
+constexpr double kContradictingSigmas = 3.0;
 // Limits of test_position(): all codes agree on another position than the filter's.
 constexpr int kMinCodesToMove = 7;
 constexpr int kMinMoveRedundancy = 3;
-constexpr double kInconsistent = 1.5;
+// Mean consistency ratio up to which codes agree with the filter.
+constexpr double kMaxAgreeingRatio = 1.5;
 constexpr double kDisplacedPointSigmas = 2.0;  // sigmas of one point solution, in the mean of many
 constexpr double kDisplacedFilterSigmas = 5.0;
 constexpr double kDisplacementTimeConstant_s = 15.0;
-constexpr double kMaxDisplacementEvidence = 120.0;  // 30 s of eight codes of one system
-constexpr double kMaxTrust = 480.0;                 // a longer agreement adds no evidence
+// Evidence is redundant codes times seconds.
+constexpr double kDisplacementEvidenceToMove_s = 120.0;  // 30 s of eight codes of one system
+constexpr double kMaxTrust_s = 480.0;                    // a longer agreement adds no evidence
 constexpr double kLongestInterval_s = 10.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -148,10 +151,10 @@ FilterVerdict FilterMonitor::test_position(const FilterEvidence& evidence,
       seconds_between(evidence.time, std::exchange(last_position_test_time_, evidence.time));
   const double interval_s = std::clamp(passed_s, 0.0, kLongestInterval_s);
   if (update.offered[code] < kMinCodesToMove) return {};
-  if (update.rejected[code] == 0 && consistency_[0].mean() < kInconsistent) {
+  if (update.rejected[code] == 0 && consistency_[0].mean() < kMaxAgreeingRatio) {
     const int redundant = update.offered[code] - 3 - static_cast<int>(kMaxSystemTimes);
     displacement_evidence_ =
-        std::max(-kMaxTrust, displacement_evidence_ - std::max(redundant, 1) * interval_s);
+        std::max(-kMaxTrust_s, displacement_evidence_ - std::max(redundant, 1) * interval_s);
     return {};
   }
   const IndependentSolution solution = solver->solve(evidence.filter.antenna_position_e());
@@ -166,8 +169,9 @@ FilterVerdict FilterMonitor::test_position(const FilterEvidence& evidence,
   const double limit_m = std::max(kDisplacedPointSigmas * norm_of_sigmas(point.covariance_p_e),
                                   kDisplacedFilterSigmas * position_sigma(evidence.filter));
   const bool away = mean_displacement_e_.norm() > limit_m;
-  displacement_evidence_ = std::max(-kMaxTrust, displacement_evidence_ + (away ? weight : -weight));
-  if (away && displacement_evidence_ > kMaxDisplacementEvidence)
+  displacement_evidence_ =
+      std::max(-kMaxTrust_s, displacement_evidence_ + (away ? weight : -weight));
+  if (away && displacement_evidence_ > kDisplacementEvidenceToMove_s)
     return restart_from(point, ResetCause::kPrediction, evidence.filter, evidence.time);
   return {};
 }
@@ -224,9 +228,9 @@ bool FilterMonitor::motion_supports_point(const PointSolution& point, const Ekf&
 bool FilterMonitor::contradicts(const PointSolution& point, const Ekf& filter, GpsTime time,
                                 bool motion) const {
   const double distance_m = (point.p_e - filter.antenna_position_e()).norm();
-  if (distance_m > 3.0 * norm_of_sigmas(point.covariance_p_e)) return true;
+  if (distance_m > kContradictingSigmas * norm_of_sigmas(point.covariance_p_e)) return true;
   if (!motion || !point.has_velocity) return false;
-  const double limit_m_s = 3.0 * norm_of_sigmas(point.covariance_v_e);
+  const double limit_m_s = kContradictingSigmas * norm_of_sigmas(point.covariance_v_e);
   bool differs = (point.v_e - filter.antenna_velocity_e()).norm() > limit_m_s;
   for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     if (!filter.estimate().known_clocks().drift[system] ||
@@ -247,11 +251,13 @@ std::array<std::optional<double>, 2> FilterMonitor::add_consistency(const EkfUpd
   return improbable;
 }
 
-void FilterMonitor::clear_evidence() {
+void FilterMonitor::filter_restarted(GpsTime time, bool time_begins_anew) {
   contradicted_epochs_ = 0;
   rejection_monitor_.reset();
   displacement_evidence_ = 0.0;
   mean_displacement_e_.setZero();
+  last_reset_time_ = time_begins_anew ? GpsTime() : time;
+  if (time_begins_anew) last_rejection_restart_ = GpsTime();
 }
 
 }  // namespace leonav

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "core/filter/ekf.h"
-#include "core/filter/innovation_tests/consistency_monitor.h"
 #include "core/navigator/interface/event.h"
 #include "core/navigator/interface/navigator_config.h"
+#include "core/navigator/monitors/consistency_monitor.h"
 #include "core/navigator/monitors/independent_solution.h"
 #include "core/navigator/monitors/measurement_rejection_monitor.h"
 
@@ -43,9 +43,9 @@ struct FilterEvidence {
 };
 
 // FilterMonitor returns verdicts and changes nothing but its own evidence. The caller acts on a
-// verdict and then calls clear_evidence() and filter_restarted(). After an update call the three
-// tests in the order test_prediction, test_rejections, test_position, until one has restarted the
-// filter: a test must not judge a filter by the update of another one.
+// verdict and then calls filter_restarted(). After an update call the three tests in the order
+// test_prediction, test_rejections, test_position, until one has restarted the filter: a test must
+// not decide about a filter by the update of another one.
 class FilterMonitor {
  public:
   explicit FilterMonitor(const NavigatorConfig& config);
@@ -79,12 +79,11 @@ class FilterMonitor {
   // if it has just become improbable (ConsistencyMonitor), else nullopt.
   std::array<std::optional<double>, 2> add_consistency(const EkfUpdateResult& update);
 
-  // Clears the evidence for and against the filter; it is void for the next one.
-  void clear_evidence();
-  // Records a reset at `time`; unset: time begins anew.
-  void filter_restarted(GpsTime time) { last_reset_time_ = time; }
-  // Forgets the last restart by test_rejections().
-  void clear_rejection_time() { last_rejection_restart_ = GpsTime(); }
+  // Records that the filter was restarted or dropped at `time`, and clears the evidence of the
+  // three tests, which is void for the next filter. With `time_begins_anew` it forgets this reset
+  // and the last restart by test_rejections(), because the times to come cannot be compared with
+  // theirs. The means of add_consistency() go on: wrong sigmas of a receiver outlive a filter.
+  void filter_restarted(GpsTime time, bool time_begins_anew);
 
  private:
   FilterVerdict restart_from(const PointSolution& point, ResetCause cause, const Ekf& filter,

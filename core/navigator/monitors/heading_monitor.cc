@@ -10,9 +10,9 @@ namespace leonav {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSigmas = 5.0;
+constexpr double kSigmas = 5.0;                   // of the difference of the two headings
 constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
-constexpr int kInARow = 3;
+constexpr int kInARow = 3;                        // velocities that must contradict the heading
 // Reflected Dopplers agree with each other for some seconds. A running filter is therefore reset
 // only by courses over a longer window than an alignment needs.
 constexpr double kCourseWindow_s = 10.0;
@@ -110,11 +110,11 @@ std::optional<double> HeadingMonitor::add_velocity(const Eigen::Vector2d& v_n, d
   }
   const auto match = matching_.match(gyro_bias_sigma_);
   if (match && match->misfit < kMaxMisfit) {
-    const double apart = wrap_to_pi(match->heading.heading - heading);
-    test_deviation(apart, match->heading.sigma);
+    const double difference = wrap_to_pi(match->heading.heading - heading);
+    test_deviation(difference, match->heading.sigma);
     // A filter whose heading is confirmed has a better gyro bias than at the start.
     const double both = std::hypot(match->heading.sigma, filter.heading_sigma);
-    if (match->heading.sigma < kConfirming && std::abs(apart) < kConfirmed * both) {
+    if (match->heading.sigma < kConfirming && std::abs(difference) < kConfirmed * both) {
       off = 0.0;
       gyro_bias_b_ = filter.gyro_bias_b;
       gyro_bias_sigma_ = std::min(gyro_bias_sigma_, 3.0 * filter.gyro_bias_sigma);

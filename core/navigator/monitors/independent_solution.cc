@@ -28,8 +28,7 @@ bool most_codes_agree(const MeasurementEpoch& epoch) {
   for (const Measurement& measurement : epoch.measurements) {
     if (measurement.observable != Observable::kCode) continue;
     ++offered;
-    const Reason reason = measurement.reason;
-    used += reason == Reason::kUsed || reason == Reason::kDownweighted ? 1 : 0;
+    used += is_used(measurement.reason) ? 1 : 0;
   }
   return 3 * used >= 2 * offered;
 }

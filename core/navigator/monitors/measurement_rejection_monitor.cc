@@ -10,7 +10,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kLongest_s = 30.0;
+constexpr double kRequiredEvidence_s = 30.0;   // epochs against the filter, in sum
 constexpr double kLongestInterval_s = 10.0;    // so that a verdict needs three epochs at least
 constexpr double kMaxCodeMultipath_m = 100.0;  // largest error that reflections may cause
 constexpr double kMaxSignalDetour_m = 300.0;
@@ -78,9 +78,10 @@ RejectionVerdict MeasurementRejectionMonitor::add(const EkfUpdateResult& result,
     clock_evidence_s_ += interval_s;
   else if (code_discrepancy_m_ > kMaxSignalDetour_m || (moves_otherwise && !confirmed))
     position_evidence_s_ += interval_s;
-  const RejectionVerdict found = position_evidence_s_ >= kLongest_s ? RejectionVerdict::kPosition
-                                 : clock_evidence_s_ >= kLongest_s  ? RejectionVerdict::kClocks
-                                                                    : RejectionVerdict::kNone;
+  const RejectionVerdict found =
+      position_evidence_s_ >= kRequiredEvidence_s ? RejectionVerdict::kPosition
+      : clock_evidence_s_ >= kRequiredEvidence_s  ? RejectionVerdict::kClocks
+                                                  : RejectionVerdict::kNone;
   if (found != RejectionVerdict::kNone) reset();
   return found;
 }

@@ -25,9 +25,9 @@ class OrbitSourceMonitor {
   // changes nothing.
   OrbitChange update(SatelliteId id, OrbitSource source, bool clock_from_file) {
     if (!is_valid(id) || source == OrbitSource::kNone) return OrbitChange::kNone;
-    const std::size_t place = table_index_of(id);
-    if (place >= last_.size()) return OrbitChange::kNone;
-    Last& last = last_[place];
+    const std::size_t index = table_index_of(id);
+    if (index >= last_.size()) return OrbitChange::kNone;
+    Last& last = last_[index];
     const Last before = last;
     last = {source, clock_from_file};
     if (before.source == OrbitSource::kNone) return OrbitChange::kNone;

@@ -3,6 +3,8 @@
 namespace leonav {
 namespace {
 
+constexpr int kEpochs = 5;  // one or two epochs may be a burst of interference
+
 bool is_expected(Reason reason) {
   return reason == Reason::kSystemDisabled || reason == Reason::kLowElevation;
 }
@@ -12,15 +14,14 @@ bool is_expected(Reason reason) {
 std::optional<UsabilityMonitor::Finding> UsabilityMonitor::add(
     std::span<const SatelliteReport> satellites) {
   Finding finding;
-  bool alike = true;
+  bool one_reason = true;
   for (const SatelliteReport& satellite : satellites) {
     if (is_expected(satellite.reason)) continue;
     if (finding.satellites == 0) finding.reason = satellite.reason;
-    alike = alike && satellite.reason == finding.reason;
+    one_reason = one_reason && satellite.reason == finding.reason;
     ++finding.satellites;
   }
-  const bool used = finding.reason == Reason::kUsed || finding.reason == Reason::kDownweighted;
-  if (finding.satellites == 0 || !alike || used) {
+  if (finding.satellites == 0 || !one_reason || is_used(finding.reason)) {
     epochs_ = 0;
     return std::nullopt;
   }

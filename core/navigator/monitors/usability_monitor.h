@@ -25,8 +25,6 @@ class UsabilityMonitor {
   std::optional<Finding> add(std::span<const SatelliteReport> satellites);
 
  private:
-  static constexpr int kEpochs = 5;  // one or two epochs may be a burst of interference
-
   Reason reason_ = Reason::kUsed;
   int epochs_ = 0;
 };

@@ -46,8 +46,9 @@ enum class SequencerCapacity : std::uint8_t {
 //   interval and the wait for a GNSS latency; so blocks stay bounded. After a gap in the IMU stream
 //   it is issued at the gap's end. The start of the first IMU sample counts as an epoch here.
 // - The wait is the configured allowance, at least half an epoch interval. An epoch that comes
-//   after an empty one was issued for it makes the wait longer, up to
-//   EmptyEpochSchedule::kMaxGnssLatencyNs; so a steady latency costs one epoch and not all.
+//   while the empty one issued for it is still the last makes the wait longer, up to
+//   EmptyEpochSchedule::kMaxGnssLatencyNs; so a steady latency costs the epochs that are under way
+//   until then, and not all.
 // - An epoch not later than the last issued one is late: it is counted, dropped and reported. One
 //   that is only out of order takes its place among those waiting.
 // - IMU stamps are shifted by the configured time offset before anything else is done.
@@ -67,9 +68,6 @@ enum class SequencerCapacity : std::uint8_t {
 // - An odometer increment goes with the first epoch not earlier than its end: OdometerQueue.
 class Sequencer {
  public:
-  static constexpr int kImuRunToRestart = ImuIntake::kRunToRestart;
-  static constexpr int kEpochRunToRestart = EpochQueue::kRunToRestart;
-
   // `stages` must outlive the Sequencer.
   Sequencer(const NavigatorConfig& config, StageInputs* stages);
 

@@ -75,7 +75,8 @@ void GnssStage::predict(const EpochWork& work) {
   motion_aiding_.predict({work.block.data(), work.block.size()},
                          {work.odometer.data(), work.odometer.size()}, work.time, &ekf_);
   motion_aiding_.set_carrier_speed(std::nullopt);  // it holds for one prediction only
-  reporter_.add_prediction(last_epoch_time_, &motion_aiding_);
+  const auto contradiction = motion_aiding_.contradiction();
+  reporter_.add_prediction(last_epoch_time_, motion_aiding_, contradiction);
   last_epoch_time_ = work.time;
 }
 
@@ -247,22 +248,18 @@ void GnssStage::apply(const FilterVerdict& verdict, GpsTime time) {
 
 void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, double value,
                       const PointSolution& start) {
-  if (plan.external_heading) attitude_.forget_heading();
+  if (plan.clears_external_heading) attitude_.forget_heading();
   if (plan.filter == FilterReset::kReset) ekf_.reset();
   if (plan.filter == FilterReset::kRestart) restart_filter(plan, time, start);
   if (plan.carriers == CarrierReset::kAll) front_end_.reset_carriers();
   if (plan.carriers == CarrierReset::kPosition) front_end_.reset_position();
-  if (plan.alignment) attitude_.reset_alignment();
-  if (plan.motion_aiding) motion_aiding_.reset();
-  if (plan.outage_monitor) reporter_.reset_outage();
-  if (plan.installation_monitor) installation_monitor_.clear();
-  filter_monitor_.clear_evidence();
-  filter_monitor_.filter_restarted(plan.times ? GpsTime() : time);
-  if (plan.times) {
-    filter_monitor_.clear_rejection_time();
-    last_gnss_time_ = GpsTime();
-  }
-  epoch_.gnss_used = plan.gnss_used;
+  if (plan.clears_alignment) attitude_.reset_alignment();
+  if (plan.clears_motion_aiding) motion_aiding_.reset();
+  if (plan.clears_outage_monitor) reporter_.reset_outage();
+  if (plan.clears_installation_monitor) installation_monitor_.clear();
+  filter_monitor_.filter_restarted(time, plan.clears_times);
+  if (plan.clears_times) last_gnss_time_ = GpsTime();
+  epoch_.gnss_used = plan.counts_as_gnss_epoch;
   epoch_.filter_restarted = true;
   reporter_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(cause), value, time);
 }
@@ -281,7 +278,7 @@ Source GnssStage::source() const {
   if (!ekf_.initialized()) return Source::kNone;
   if (inertial_ && !ekf_.has_attitude()) return Source::kAligning;
   const double since_s = seconds_between(last_epoch_time_, last_gnss_time_);
-  const bool recent = since_s <= 2.5 * config_.realtime.epoch_interval_s;
+  const bool recent = since_s <= config_.realtime.ins_only_after_s();
   return recent ? Source::kEkf : Source::kInsOnly;
 }
 

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <variant>
 
+#include "core/base/duration.h"
+
 namespace leonav {
 namespace {
 
 constexpr double kLongestGap_s = 10.0;  // after a longer gap the old solution is useless
 constexpr double kJumpEvent_m = 1.0;
-
-std::int64_t to_nanoseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
-}
 
 }  // namespace
 
@@ -23,12 +21,12 @@ InertialNavigator::InertialNavigator(const NavigatorConfig& config,
     : sink_(sink),
       events_(Stage::kInertial, sink),
       solution_period_ns_(
-          config.solution_rate_hz > 0.0 ? to_nanoseconds(1.0 / config.solution_rate_hz) : 0),
-      ins_only_after_ns_(to_nanoseconds(2.5 * config.realtime.epoch_interval_s +
-                                        config.realtime.gnss_latency_allowance_s +
-                                        config.realtime.deadline_ekf_s)),
+          config.solution_rate_hz > 0.0 ? rounded_nanoseconds(1.0 / config.solution_rate_hz) : 0),
+      ins_only_after_ns_(rounded_nanoseconds(config.realtime.ins_only_after_s() +
+                                             config.realtime.gnss_latency_allowance_s +
+                                             config.realtime.deadline_ekf_s)),
       decisions_(ekf_mailbox, smoother_mailbox, sink, &events_),
-      answer_(config) {}
+      propagation_(config) {}
 
 void InertialNavigator::process(const InertialWork& work) {
   if (const auto* sample = std::get_if<ImuSample>(&work)) {
@@ -41,15 +39,13 @@ void InertialNavigator::process(const InertialWork& work) {
 }
 
 void InertialNavigator::on_epoch(const EpochIssued& issued) {
-  auto& epochs = decisions_.epochs();
-  if (epochs.full()) {  // the IMU has stopped, so no deadline is ever reached
-    PendingEpoch oldest = epochs.front();
-    epochs.pop_front();
+  // There is no room where the IMU has stopped, so that no deadline is ever reached.
+  if (auto oldest = decisions_.make_room()) {
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
-                 static_cast<double>(oldest.issued.index), imu_time_);
-    decide(&oldest, imu_time_, true);
+                 static_cast<double>(oldest->issued.index), imu_time_);
+    decide(&*oldest, imu_time_, true);
   }
-  epochs.push_back({issued, false, {}});
+  decisions_.push(issued);
 }
 
 void InertialNavigator::on_sample(const ImuSample& sample) {
@@ -59,7 +55,7 @@ void InertialNavigator::on_sample(const ImuSample& sample) {
     start_over(sample.time);
   }
   imu_time_ = sample.time;
-  answer_.add_sample(sample);
+  propagation_.add_sample(sample);
   decide_due_epochs(sample.time);
   source_ = source_at(sample.time);
   if (publication_due(sample)) publish(sample.time);
@@ -76,19 +72,18 @@ void InertialNavigator::on_restart(const Restart& restart) {
 }
 
 void InertialNavigator::clear_anchor() {
-  answer_.clear_anchor();
+  propagation_.clear_anchor();
   pending_jump_m_ = 0.0;
   last_gnss_time_ = GpsTime();
 }
 
 void InertialNavigator::start_over(GpsTime now) {
-  auto& epochs = decisions_.epochs();
-  while (!epochs.empty()) {
-    decide(&epochs.front(), now, false);
-    epochs.pop_front();
+  while (PendingEpoch* oldest = decisions_.oldest()) {
+    decide(oldest, now, false);
+    decisions_.pop();
   }
   clear_anchor();
-  answer_.clear_samples();
+  propagation_.clear_samples();
   next_solution_due_ = GpsTime();
 }
 
@@ -96,22 +91,17 @@ void InertialNavigator::start_over(GpsTime now) {
 // delivers the next one.
 void InertialNavigator::drop_anchor(GpsTime now) {
   clear_anchor();
-  answer_.clear_samples();
+  propagation_.clear_samples();
   source_ = Source::kNone;
   events_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kNotFinite), 0.0,
                now);
 }
 
 void InertialNavigator::decide_due_epochs(GpsTime now) {
-  auto& epochs = decisions_.epochs();
-  for (PendingEpoch& epoch : epochs)
-    if (!epoch.filter_decided && epoch.issued.deadline_ekf <= now) decide_filter(&epoch, now, true);
-  while (!epochs.empty() && epochs.front().filter_decided) {
-    PendingEpoch& oldest = epochs.front();
-    const GpsTime deadline = oldest.issued.deadline_smoother;
-    if (deadline.is_set() && deadline > now) return;
-    if (deadline.is_set()) decide_smoother(&oldest, now, true);
-    epochs.pop_front();
+  while (PendingEpoch* due = decisions_.next_filter_due(now)) decide_filter(due, now, true);
+  while (PendingEpoch* oldest = decisions_.next_complete(now)) {
+    if (oldest->issued.deadline_smoother.is_set()) decide_smoother(oldest, now, true);
+    decisions_.pop();
   }
 }
 
@@ -126,9 +116,10 @@ void InertialNavigator::decide_filter(PendingEpoch* epoch, GpsTime now, bool usa
   if (!decisions_.take_filter(epoch, now, &anchor)) return;
   if (!usable || !anchor.valid || decisions_.is_invalid(*epoch)) return;
   // The smoother's anchor, also between its keyframes, uses the same GNSS.
-  if (anchor.gnss_used && answer_.has_anchor()) last_gnss_time_ = anchor.state.time;
-  const bool smoother_answers = answer_.has_anchor() && anchor_source_ == Source::kSmoother;
-  if (epoch->issued.deadline_smoother.is_set() && smoother_answers)
+  if (anchor.gnss_used && propagation_.has_anchor()) last_gnss_time_ = anchor.state.time;
+  const bool smoother_gives_anchor =
+      propagation_.has_anchor() && anchor_source_ == Source::kSmoother;
+  if (epoch->issued.deadline_smoother.is_set() && smoother_gives_anchor)
     epoch->held = anchor;
   else
     commit(anchor, Source::kEkf, now);
@@ -146,27 +137,29 @@ void InertialNavigator::decide_smoother(PendingEpoch* epoch, GpsTime now, bool u
 // Continues from the new anchor. Returns false if that is impossible.
 bool InertialNavigator::commit(const Anchor& anchor, Source source, GpsTime now) {
   if (anchor.state.time > now) return false;  // the IMU is behind or gone
-  if (answer_.has_discarded_after(anchor.state.time)) {
+  if (propagation_.has_discarded_after(anchor.state.time)) {
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kHistory),
                  static_cast<double>(anchor.index), now);
     return false;
   }
-  const bool had_answer = answer_.has_anchor();
-  const Eigen::Vector3d old_p_e = had_answer ? answer_.state(now).p_e : Eigen::Vector3d::Zero();
-  const PvaCovariance old_covariance = had_answer ? answer_.covariance(now) : PvaCovariance::Zero();
-  if (had_answer && source != anchor_source_)
+  const bool had_anchor = propagation_.has_anchor();
+  const Eigen::Vector3d old_p_e =
+      had_anchor ? propagation_.state(now).p_e : Eigen::Vector3d::Zero();
+  const PvaCovariance old_covariance =
+      had_anchor ? propagation_.covariance(now) : PvaCovariance::Zero();
+  if (had_anchor && source != anchor_source_)
     events_.emit(EventKind::kSourceChange, static_cast<std::uint8_t>(source),
                  static_cast<double>(anchor.index), now);
   anchor_source_ = source;
   if (anchor.gnss_used) last_gnss_time_ = anchor.state.time;
-  answer_.restart_from(anchor, decisions_.earliest_needed(anchor.state.time));
-  if (had_answer) report_jump(old_p_e, old_covariance, now);
+  propagation_.restart_from(anchor, decisions_.earliest_needed(anchor.state.time));
+  if (had_anchor) report_jump(old_p_e, old_covariance, now);
   return true;
 }
 
 void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
                                     const PvaCovariance& old_covariance, GpsTime now) {
-  const double jump_m = (answer_.state(now).p_e - old_p_e).norm();
+  const double jump_m = (propagation_.state(now).p_e - old_p_e).norm();
   pending_jump_m_ = std::max(pending_jump_m_, jump_m);
   const double sigma_m = std::sqrt(std::max(0.0, old_covariance.topLeftCorner<3, 3>().trace()));
   if (jump_m > kJumpEvent_m || jump_m > 3.0 * sigma_m) {
@@ -175,8 +168,8 @@ void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
 }
 
 Source InertialNavigator::source_at(GpsTime now) const {
-  if (!answer_.has_anchor()) return Source::kNone;
-  if (!answer_.anchor().has_attitude) return Source::kAligning;
+  if (!propagation_.has_anchor()) return Source::kNone;
+  if (!propagation_.anchor().has_attitude) return Source::kAligning;
   const bool recent =
       last_gnss_time_.is_set() && nanoseconds_between(now, last_gnss_time_) <= ins_only_after_ns_;
   return recent ? anchor_source_ : Source::kInsOnly;
@@ -185,7 +178,7 @@ Source InertialNavigator::source_at(GpsTime now) const {
 // Limits the mean rate to solution_rate_hz. Stamps that jitter by a quarter of a period lose no
 // solution.
 bool InertialNavigator::publication_due(const ImuSample& sample) {
-  if (!answer_.has_anchor() || solution_period_ns_ <= 0) return false;
+  if (!propagation_.has_anchor() || solution_period_ns_ <= 0) return false;
   const GpsTime earliest = next_solution_due_.plus_nanoseconds(-solution_period_ns_ / 4);
   if (next_solution_due_.is_set() && sample.time < earliest) return false;
   next_solution_due_ = next_solution_due_.plus_nanoseconds(solution_period_ns_);
@@ -197,13 +190,13 @@ bool InertialNavigator::publication_due(const ImuSample& sample) {
 
 void InertialNavigator::publish(GpsTime now) {
   Solution solution;
-  const PvaCovariance covariance = answer_.covariance(now);
-  fill_solution(answer_.state(now), covariance, answer_.anchor().has_attitude, &solution);
+  const PvaCovariance covariance = propagation_.covariance(now);
+  fill_solution(propagation_.state(now), covariance, propagation_.anchor().has_attitude, &solution);
   if (!is_finite(solution)) return drop_anchor(now);
-  set_levels(answer_.anchor().levels.at(nominal_error(covariance, solution)), &solution);
+  set_levels(propagation_.anchor().levels.at(nominal_error(covariance, solution)), &solution);
   solution.sequence = next_solution_++;
   solution.source = source_;
-  solution.anchor_epoch = answer_.anchor().index;
+  solution.anchor_epoch = propagation_.anchor().index;
   solution.jump_m = pending_jump_m_;
   pending_jump_m_ = 0.0;
   sink_->on_solution(solution);

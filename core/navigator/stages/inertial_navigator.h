@@ -77,7 +77,7 @@ class InertialNavigator {
   std::int64_t solution_period_ns_;
   std::int64_t ins_only_after_ns_;  // without GNSS for longer the source is kInsOnly
   PendingDecisions decisions_;
-  AnchorPropagation answer_;
+  AnchorPropagation propagation_;
   Source anchor_source_ = Source::kEkf;
   GpsTime imu_time_;        // end of the last sample
   GpsTime last_gnss_time_;  // time of the last anchor that used GNSS

@@ -33,7 +33,7 @@ void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   smoother_.add(input);
   if (inertial_ && !mailbox_->is_open(input.index)) return;
   const SmootherResult result = smoother_.solve(budget);
-  const SmootherAnchor update = answer(input, result);
+  const SmootherAnchor update = anchor_of(input, result);
   const bool delivered = !inertial_ || mailbox_->deliver(input.index, update);
   smoother_.commit_or_roll_back(delivered);
   if (delivered) report(input, result, update);
@@ -47,8 +47,8 @@ void SmootherStage::add_levels(const KeyframeInput& input, Anchor* anchor) const
   anchor->levels = LevelGrowth(error, {faults.data(), faults.size()}, integrity_);
 }
 
-SmootherAnchor SmootherStage::answer(const KeyframeInput& input,
-                                     const SmootherResult& result) const {
+SmootherAnchor SmootherStage::anchor_of(const KeyframeInput& input,
+                                        const SmootherResult& result) const {
   SmootherAnchor update;
   update.due = true;
   update.status = result.status;

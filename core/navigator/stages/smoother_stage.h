@@ -29,13 +29,12 @@ class SmootherStage {
   void process_non_keyframe(const Solution& filter, bool due);
 
   const Smoother& smoother() const { return smoother_; }
-  Smoother& smoother() { return smoother_; }
   // Returns the source of the last published solution; only without IMU.
   Source source() const { return source_; }
 
  private:
   void add_levels(const KeyframeInput& input, Anchor* anchor) const;
-  SmootherAnchor answer(const KeyframeInput& input, const SmootherResult& result) const;
+  SmootherAnchor anchor_of(const KeyframeInput& input, const SmootherResult& result) const;
   void publish(Solution solution);
   void report(const KeyframeInput& input, const SmootherResult& result,
               const SmootherAnchor& update);

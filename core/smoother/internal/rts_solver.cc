@@ -41,15 +41,15 @@ bool move(const EkfCovariance& root, const LinearProcessFactor& process_factor,
 RtsSolver::RtsSolver(int capacity)
     : blocks_(std::make_unique<Block[]>(static_cast<std::size_t>(capacity))),
       information_(std::make_unique<MeasurementInformation>()),
-      link_(std::make_unique<LinearProcessFactor>()) {}
+      process_factor_(std::make_unique<LinearProcessFactor>()) {}
 
 // Computes the prediction of `keyframe`, the i-th, from all keyframes before it.
 bool RtsSolver::predict(const Keyframe& before, const Keyframe& keyframe, int i) {
   Block& own = block(i);
-  linearize_process_factor(before, keyframe, link_.get());
-  if (!move(block(i - 1).root, *link_, &own.spread, &own.predicted)) return false;
-  own.predicted_error = -link_->offset;
-  own.predicted_error.noalias() += link_->F * block(i - 1).filtered;
+  linearize_process_factor(before, keyframe, process_factor_.get());
+  if (!move(block(i - 1).root, *process_factor_, &own.spread, &own.predicted)) return false;
+  own.predicted_error = -process_factor_->offset;
+  own.predicted_error.noalias() += process_factor_->F * block(i - 1).filtered;
   return true;
 }
 

@@ -47,7 +47,7 @@ class RtsSolver final : public WindowSolver {
   std::unique_ptr<Block[]> blocks_;
   int size_ = 0;
   std::unique_ptr<MeasurementInformation> information_;
-  std::unique_ptr<LinearProcessFactor> link_;
+  std::unique_ptr<LinearProcessFactor> process_factor_;
 };
 
 // Marginalizes the oldest keyframe: computes the prior that it leaves on the next one.

@@ -17,8 +17,8 @@ namespace leonav {
 // For codes the factor is at most IGG-III of the mean residual of one satellite's codes over the
 // window: a signal that is reflected for many seconds gives errors that are small one by one but of
 // one sign. With n codes over times n dt, `T` the correlation time, v the variance of the errors
-// that change and c of those that last, the variance of the mean is taken as (c + v / min(n, n dt /
-// T)) / n.
+// that change and c of those that last, the variance of the mean is taken as
+//   c + v / min(n, max(1, n dt / T))
 class WindowWeights {
  public:
   // Errors of a code less than `correlation_time_s` apart count as one; 0: means are not tested.

@@ -62,7 +62,7 @@ void SmootherWorker::process(const KeyframeInput& keyframe) {
   counters_->worst_solve_ns.raise_to(solve_watch_.nanoseconds());
 }
 
-// Time decides here and nowhere else; how many iterations came of it is in the journal.
+// Elapsed time ends the solve here; how many iterations came of it is in the journal.
 bool SmootherWorker::may_iterate(int) {
   if (inertial_ && !mailbox_.is_open(epoch_)) return false;
   if (inertial_ && time_limit_ns_ > 0 && solve_watch_.nanoseconds() > time_limit_ns_) return false;

@@ -35,7 +35,7 @@ void StageSink::on_epoch(const EpochReport& report) {
                                                             satellite.clock_from_file);
     if (change == OrbitChange::kFallback) counters_->orbit_fallbacks.add(1);
     if (change == OrbitChange::kReturn) counters_->orbit_returns.add(1);
-    if (satellite.reason != Reason::kUsed && satellite.reason != Reason::kDownweighted) continue;
+    if (!is_used(satellite.reason)) continue;
     const std::size_t system = index_of(satellite.satellite.system);
     ++used[system];
     const auto age_ms = static_cast<std::int64_t>(satellite.ephemeris_age_s * 1e3);

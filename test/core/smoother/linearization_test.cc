@@ -193,7 +193,7 @@ TEST_CASE("both ways between an attitude's error and its difference undo each ot
   ActiveStates active;
   for (int i = 0; i < kInsSize; ++i) active.core.push_back(i);
   const AttitudeJacobian change = attitude_jacobian(active, estimate, linearized_at);
-  CHECK(change.place == kAttitude);
+  CHECK(change.index == kAttitude);
   CHECK((change.of_error * change.to_error - Eigen::Matrix3d::Identity()).norm() < 1e-11);
 }
 

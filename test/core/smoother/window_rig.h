@@ -48,7 +48,7 @@ inline Eigen::MatrixXd change_of_difference(const ActiveStates& active, const Fi
                                             const FilterState& linearized_at) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Identity(active.size(), active.size());
   const AttitudeJacobian change = attitude_jacobian(active, estimate, linearized_at);
-  if (change.place >= 0) J.block<3, 3>(change.place, change.place) = change.of_error;
+  if (change.index >= 0) J.block<3, 3>(change.index, change.index) = change.of_error;
   return J;
 }
 

@@ -197,7 +197,7 @@ TEST_CASE("without a heading the file stays while the vehicle stands and goes wh
   }
 }
 
-TEST_CASE("what keeps a checkpoint from being written is told") {
+TEST_CASE("what keeps a checkpoint from being written is reported") {
   const test::TemporaryFile folder("unused", "");
   CheckpointWriter keeper({folder.beside("absent/checkpoint.yaml"), 10.0});
   keeper.start();

@@ -107,6 +107,15 @@ TEST_CASE("a text given as an override arrives as it is, and is judged") {
   }
   CHECK(error_of(text, {text_override("lcm.url", "tcpq://host")}).find("--set lcm.url: tcpq") == 0);
   CHECK(error_of(text, {text_override("lcm.url", "")}) == "--set lcm.url: must not be empty");
+  for (const char* url : {"udpm://10.0.0.1:7667", "udpm://host?ttl=1", "udpm://240.0.0.1"}) {
+    INFO(url);
+    CHECK_THAT(
+        error_of(text, {text_override("lcm.url", url)}),
+        Catch::StartsWith("--set lcm.url: '") && Catch::Contains("is not a multicast address"));
+  }
+  for (const char* url : {"udpm://", "udpm://?ttl=0", "udpm://239.1.2.3", "memq://"}) {
+    CHECK(load_config_text(text, "x", {text_override("lcm.url", url)}).lcm.url == url);
+  }
   CHECK(error_of(text, {"gnss.systems=[gps,\ngalileo]"}) == "--set gnss.systems: more than a line");
 }
 

@@ -57,7 +57,7 @@ TEST_CASE("the effective text of unusual values loads as the same configuration"
   check_identity(config);
 }
 
-TEST_CASE("the effective text tells where each value is from") {
+TEST_CASE("the effective text states where each value is from") {
   const std::string text =
       effective_text(load_config_text("preset: car\nimu:\n  gyro_bias_deg_per_h: 50\n",
                                       "vehicle.yaml", {"gnss.systems=[gps]"})
@@ -67,7 +67,8 @@ TEST_CASE("the effective text tells where each value is from") {
   CHECK(has(text, "  gyro_bias_deg_per_h: 50                     # from: vehicle.yaml:3\n"));
   CHECK(has(text, "  systems: [gps]                              # from: --set\n"));
   CHECK(
-      has(text, "  non_holonomic: true                         # from: default of vehicle.kind\n"));
+      has(text,
+          "  non_holonomic: by_kind                      # true, from: default of vehicle.kind\n"));
   CHECK(has(text, "  kind: car                                   # from: preset car:"));
   CHECK_FALSE(has(text, "preset:"));
   const std::string changes =
@@ -80,6 +81,17 @@ TEST_CASE("the effective text tells where each value is from") {
         "  gyro_bias_deg_per_h: 50                     # from: vehicle.yaml:1\n");
   CHECK(effective_text(load_config_text("{}", "x").source, Extent::kChanges) ==
         "# x: keys that differ from the defaults\n{}\n");
+}
+
+TEST_CASE("what depends on another key follows an override of that key in the effective text") {
+  const DaemonConfig handheld = load_config_text("vehicle: {odometer: false}", "x");
+  const std::string text = effective_text(handheld.source);
+  CHECK(has(text, "  odometer: false                             # from: x:1\n"));
+  const DaemonConfig car = load_config_text(text, "dump", {"vehicle.kind=car"});
+  CHECK(test::same_config(car, load_config_text("vehicle: {kind: car, odometer: false}", "x")));
+  CHECK_FALSE(car.navigator.vehicle.motion.constraints.odometer);
+  const auto moved = load_config_text(text, "dump", {"vehicle.constraint_point_b_m=[1, 2, 3]"});
+  CHECK(moved.navigator.vehicle.motion.constraints.odometer_point_b == Eigen::Vector3d(1, 2, 3));
 }
 
 TEST_CASE("a number is the shortest decimal of the same bits, in the unit of the file too") {

@@ -69,7 +69,7 @@ TEST_CASE("an unknown preset is refused with its line, the nearest name and all 
   CHECK_THROWS_WITH(load_preset("wlak"), Catch::StartsWith("--preset: unknown preset 'wlak'"));
 }
 
-TEST_CASE("an error in the file is told at the file, on a preset as well") {
+TEST_CASE("an error in the file is reported at the file, on a preset as well") {
   CHECK(error_of("preset: car\ngnss:\n  gps: {code_sigma_m: ten}\n") ==
         "car.yaml:3: gnss.gps.code_sigma_m: 'ten' is not a number");
   CHECK(error_of("preset: car\ngnss:\n  sistems: [gps]\n").find("car.yaml:3: gnss.sistems") == 0);

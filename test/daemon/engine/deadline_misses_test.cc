@@ -86,7 +86,7 @@ void run_with_misses(const DaemonConfig& config, Observer* observer) {
 
 }  // namespace
 
-TEST_CASE("a third of the epochs miss: answers go on, all is told, and it replays") {
+TEST_CASE("a third of the epochs miss: answers go on, all is reported, and it replays") {
   const test::TemporaryFile folder("unused", "");
   const std::string journal = folder.beside("journal.lcmlog");
   DaemonConfig config = load_preset("phone_imu", {"vehicle.lever_arm_b_m=[0.4, -0.2, -1.1]"});

@@ -97,8 +97,8 @@ TEST_CASE("a run from a checkpoint is aligned at once and replays from its journ
   REQUIRE(journaled.size() == list.size() + 1);
   CHECK(journaled.front().channel == Channel::kCheckpoint);
   REQUIRE(test::missed_epochs(live).empty());
-  check_same(live, test::run_pipeline(config.navigator, journaled, {}));
-  const auto without = test::run_pipeline(config.navigator, list, {});
+  check_same(live, test::run_navigator(config.navigator, journaled, {}));
+  const auto without = test::run_navigator(config.navigator, list, {});
   CHECK(without.groups[0] != live.groups[0]);  // it did count
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("an old or a hostile checkpoint is counted and changes nothing of the 
   const auto old = live_with(checkpoint, 1, 0);
   checkpoint.heading_sigma = -1.0;
   const auto hostile = live_with(checkpoint, 0, 1);
-  const auto without = test::run_pipeline(config.navigator, list, {});
+  const auto without = test::run_navigator(config.navigator, list, {});
   CHECK(old.groups[0] == without.groups[0]);
   CHECK(hostile.groups[0] == without.groups[0]);
 }

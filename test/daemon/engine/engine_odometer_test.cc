@@ -64,7 +64,7 @@ TEST_CASE("a run with an odometer replays from its journal bit for bit") {
   const auto journaled = test::read_journal_inputs(config.journal.path);
   REQUIRE(journaled.size() == list.size());
   REQUIRE(test::missed_epochs(live).empty());
-  check_same(live, test::run_pipeline(config.navigator, journaled, {}));
-  const auto without = test::run_pipeline(car(estimator, false), journaled, {});
+  check_same(live, test::run_navigator(config.navigator, journaled, {}));
+  const auto without = test::run_navigator(car(estimator, false), journaled, {});
   CHECK(without.groups[0] != live.groups[0]);  // it did count
 }

@@ -70,15 +70,15 @@ Collector run_held(const std::vector<Input>& list, const std::string& journal) {
 
 }  // namespace
 
-TEST_CASE("a restart behind an epoch under way: live, Pipeline and replay answer alike") {
+TEST_CASE("a restart behind an epoch under way: live, Navigator and replay answer alike") {
   const test::TemporaryFile folder("unused", "");
   const std::string journal = folder.beside("journal.lcmlog");
   const std::vector<Input> list = inputs_with_restart();
   const Collector live = run_held(list, journal);
   CHECK(test::missed_epochs(live).empty());
   CHECK(live.groups[1].size() == 59);
-  test::check_same(test::run_pipeline(list, {}), live);
-  test::check_same(test::run_pipeline(test::read_journal_inputs(journal), {}), live);
+  test::check_same(test::run_navigator(list, {}), live);
+  test::check_same(test::run_navigator(test::read_journal_inputs(journal), {}), live);
 
   // Whole seconds are those of the epochs; the restart came with the held one, behind the
   // IMU sample of 65 ms after.

@@ -38,22 +38,22 @@ inline std::vector<std::uint64_t> missed_epochs(const Collector& outputs) {
 }
 
 // As a replay does it.
-inline Collector run_pipeline(const NavigatorConfig& config, const std::vector<Input>& list,
-                              const std::vector<Decision>& recorded) {
+inline Collector run_navigator(const NavigatorConfig& config, const std::vector<Input>& list,
+                               const std::vector<Decision>& recorded) {
   Collector outputs;
   EncodingSink sink(&outputs);
-  Navigator pipeline(config, &sink);
-  for (const Decision& decision : recorded) pipeline.record(decision);
-  InputDispatch dispatch(&pipeline.sequencer());
+  Navigator navigator(config, &sink);
+  for (const Decision& decision : recorded) navigator.record(decision);
+  InputDispatch dispatch(&navigator.sequencer());
   for (const Input& input : list) dispatch.dispatch(input.channel, input.bytes);
   return outputs;
 }
 
-inline Collector run_pipeline(const std::vector<Input>& list,
-                              const std::vector<std::uint64_t>& missed) {
+inline Collector run_navigator(const std::vector<Input>& list,
+                               const std::vector<std::uint64_t>& missed) {
   std::vector<Decision> decisions(missed.size());
   for (std::size_t i = 0; i < missed.size(); ++i) decisions[i].epoch = missed[i];
-  return run_pipeline(drive_config().navigator, list, decisions);
+  return run_navigator(drive_config().navigator, list, decisions);
 }
 
 // A minute's drive as messages; `keep` may leave one out.

@@ -58,7 +58,7 @@ std::vector<Decision> decisions_of(const Collector& outputs) {
 }
 
 Collector replay(const std::vector<Decision>& decisions) {
-  return test::run_pipeline(smoother_config().navigator, inputs(), decisions);
+  return test::run_navigator(smoother_config().navigator, inputs(), decisions);
 }
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }

@@ -18,7 +18,7 @@ using test::Collector;
 using test::Input;
 using test::missed_epochs;
 using test::read_journal_inputs;
-using test::run_pipeline;
+using test::run_navigator;
 
 // A drive with an outage of two seconds, and now and then a message that is damaged.
 const std::vector<Input>& inputs() {
@@ -64,7 +64,7 @@ TEST_CASE("threads in step give the bytes of the single thread, without a miss")
   const test::TemporaryFile folder("unused", "");
   const Collector threaded = run_engine(Pace::kStepByStep, "");
   CHECK(missed_epochs(threaded).empty());
-  check_same(run_pipeline(inputs(), {}), threaded);
+  check_same(run_navigator(inputs(), {}), threaded);
   CHECK(threaded.groups[0].size() > 10'000);
   CHECK(threaded.groups[2].size() > 50);
   CHECK(threaded.groups[3].size() > 5);  // the damaged messages
@@ -79,14 +79,14 @@ TEST_CASE("flat out, with whatever misses that gives, the journal gives the same
             << " epochs missed\n";
   const std::vector<Input> journaled = read_journal_inputs(path);
   CHECK(journaled.size() == inputs().size());
-  const Collector first = run_pipeline(journaled, missed);
+  const Collector first = run_navigator(journaled, missed);
   check_same(first, threaded);
-  for (int i = 0; i < 9; ++i) check_same(run_pipeline(journaled, missed), first);
+  for (int i = 0; i < 9; ++i) check_same(run_navigator(journaled, missed), first);
 }
 
-TEST_CASE("a journal on a full disk is told, and costs no output") {
+TEST_CASE("a journal on a full disk is reported, and costs no output") {
   if (!std::filesystem::exists("/dev/full")) return;
-  const Collector reference = run_pipeline(inputs(), {});
+  const Collector reference = run_navigator(inputs(), {});
   DaemonConfig config = test::drive_config();
   config.journal.path = "/dev/full";
   Collector outputs;

@@ -108,15 +108,15 @@ TEST_CASE("whatever a journal holds, the inputs before it regenerate") {
   record(folder.beside("journal.lcmlog"), 30.0);
   Queues regenerated;
   EncodingSink sink(&regenerated);
-  Navigator pipeline(test::drive_config().navigator, &sink);
-  InputDispatch dispatch(&pipeline.sequencer());
+  Navigator navigator(test::drive_config().navigator, &sink);
+  InputDispatch dispatch(&navigator.sequencer());
   const std::vector<Recorded> journal = read(folder.beside("journal.lcmlog"));
   Decoder decoder;
   for (const Recorded& one : journal) {
     if (one.channel != Channel::kDecision) continue;
     Decision decision;
     REQUIRE(decoder.decode(one.data, &decision).fault == InputFault::kNone);
-    pipeline.record(decision);
+    navigator.record(decision);
   }
   std::uint64_t outputs = 0, without_cause = 0, different = 0;
   for (const Recorded& one : journal) {
@@ -280,8 +280,8 @@ TEST_CASE("antenna models are in the journal and reach the stage that replays it
   }
   Queues outputs;
   EncodingSink sink(&outputs);
-  Navigator pipeline(config.navigator, &sink);
-  InputDispatch dispatch(&pipeline.sequencer());
+  Navigator navigator(config.navigator, &sink);
+  InputDispatch dispatch(&navigator.sequencer());
   std::uint64_t inputs = 0;
   for (const Recorded& one : read(config.journal.path)) {
     if (!is_input(one.channel)) continue;
@@ -289,7 +289,7 @@ TEST_CASE("antenna models are in the journal and reach the stage that replays it
     ++inputs;
   }
   CHECK(inputs == 2);
-  const AntennaPatternStore& antennas = pipeline.gnss().antennas();
+  const AntennaPatternStore& antennas = navigator.gnss().antennas();
   CHECK(antennas.counters().added == 2);  // the LEO satellite's is one of them
   const AntennaRange up = antennas.receiver_range(System::kGps, '2', Eigen::Vector3d(0, 0, -1));
   CHECK(up.status == AntennaStatus::kOk);

@@ -106,7 +106,7 @@ TEST_CASE("an IMU that dies: degraded after a second, a fault when the answer is
         "FAULT: no solution for 11 s; no usable IMU for 11 s; no usable GNSS for 11 s");
 }
 
-TEST_CASE("GNSS that dies beside an IMU is told, by its own name; the answer goes on degraded") {
+TEST_CASE("GNSS that dies beside an IMU is reported by its own name; the answer goes on degraded") {
   Watched watched(MotionModel::kInertial);
   int epochs = 0, samples = 0;
   std::string at_30_s, at_34_s, at_59_s;
@@ -128,7 +128,7 @@ TEST_CASE("GNSS that dies beside an IMU is told, by its own name; the answer goe
   CHECK(watched.message().source == "ins");
 }
 
-TEST_CASE("an odometer that falls silent is told, one that never spoke is not missed") {
+TEST_CASE("an odometer that falls silent is reported, one that never sent is not missed") {
   Watched watched(MotionModel::kInertial, true);
   CHECK(watched.at(1.0).find("odometer") == std::string::npos);
   CHECK(std::isnan(watched.message().odometer_age_s));

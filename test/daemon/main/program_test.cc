@@ -27,18 +27,25 @@ TEST_CASE("--lcm-url is judged like lcm.url") {
   const auto empty = test::run_program("leonavd", kConfig + "--lcm-url ''");
   CHECK(empty.exit_code == 3);
   CHECK(empty.err.find("--set lcm.url: must not be empty") != std::string::npos);
+  // What every start would refuse, the examination refuses too.
+  for (const char* examine : {"", "--check "}) {
+    const auto unicast =
+        test::run_program("leonavd", examine + kConfig + "--lcm-url udpm://10.0.0.1:7667");
+    CHECK(unicast.exit_code == 3);
+    CHECK(unicast.err.find("'10.0.0.1' is not a multicast address") != std::string::npos);
+  }
 }
 
 TEST_CASE("a daemon without LCM touches no journal") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile journal("journal", "the evidence");
   const auto run = test::run_program(
-      "leonavd", kConfig + "--lcm-url udpm://10.0.0.1:7667 --journal '" + journal.path() + "'");
+      "leonavd", kConfig + "--lcm-url nowhere:// --journal '" + journal.path() + "'");
   CHECK(run.exit_code == 4);
   CHECK(test::text_of(journal.path()) == "the evidence");
   CHECK_FALSE(std::filesystem::exists(journal.path() + ".1"));
-  test::run_program("leonavd", kConfig + "--lcm-url udpm://10.0.0.1:7667 --journal '" +
-                                   journal.beside("new") + "'");
+  test::run_program("leonavd",
+                    kConfig + "--lcm-url nowhere:// --journal '" + journal.beside("new") + "'");
   CHECK_FALSE(std::filesystem::exists(journal.beside("new")));
 }
 

@@ -2,7 +2,10 @@
 #include <filesystem>
 #include <string>
 
+#include "daemon/config/effective_config.h"
+#include "daemon/config/load_config.h"
 #include "drivers/lcm/event_log.h"
+#include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
 #include "support/drive_inputs.h"
 #include "support/program_run.h"
@@ -11,9 +14,14 @@ namespace {
 
 using namespace leonav;
 
-// 30 s of a drive without one of its channels.
-void write_log_without(Channel channel, const std::string& path) {
+// 30 s of a drive without one of its channels, begun by a configuration if there is one.
+void write_log_without(Channel channel, const std::string& path,
+                       const std::string& configuration = "") {
   EventLogWriter log(path);
+  if (!configuration.empty()) {
+    REQUIRE(log.write(1, channel_name(Channel::kConfig),
+                      encode(RunConfiguration{"leonavd", "a.yaml", configuration, {}})));
+  }
   test::feed_messages(test::synthetic_drive(test::noisy_drive(30.0)),
                       [&](Channel one, ByteSpan bytes) {
                         if (one != channel) REQUIRE(log.write(1, channel_name(one), bytes));
@@ -91,7 +99,32 @@ TEST_CASE("the summary of a log that is cut short says so, and that it is no jou
   CHECK_FALSE(has(summary, "the journal was cut"));
 }
 
-TEST_CASE("leonav-replay --help tells its exit codes") {
+TEST_CASE("--set acts on a journal's configuration as on a file; a preset beneath it is refused") {
+  if (!test::have_programs("leonav-replay")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string log = folder.beside("log");
+  write_log_without(Channel::kCommand, log, effective_text(load_preset("phone_imu").source));
+  const auto replay = [&](const std::string& options) {
+    return test::run_program("leonav-replay",
+                             options + " --out '" + folder.beside("out") + "' '" + log + "'");
+  };
+  CHECK(replay("--preset phone_imu").exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder.beside("out/constraints.csv")));
+  const auto car = replay("--set vehicle.kind=car --set 'vehicle.lever_arm_b_m=[0, 0, -1]'");
+  INFO(car.out << car.err);
+  CHECK(car.exit_code == 0);
+  CHECK(std::filesystem::exists(folder.beside("out/constraints.csv")));
+  // The way back, for a shell; what follows from the kind is not listed.
+  CHECK(has(car.out, "the journal was written with --set 'vehicle.lever_arm_b_m=["));
+  CHECK(has(car.out, "]' --set vehicle.kind=handheld"));
+  CHECK_FALSE(has(car.out, "non_holonomic"));
+  const auto preset = replay("--set preset=car");
+  CHECK(preset.exit_code == 2);
+  CHECK(has(preset.err, "--set preset=car: a preset is beneath"));
+  CHECK(has(preset.err, "--preset NAME replaces that configuration"));
+}
+
+TEST_CASE("leonav-replay --help states its exit codes") {
   if (!test::have_programs("leonav-replay")) return;
   const auto help = test::run_program("leonav-replay", "--help");
   CHECK(help.exit_code == 0);

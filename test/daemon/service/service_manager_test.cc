@@ -80,7 +80,7 @@ void wait_until_idle(const Engine& engine) {
 
 }  // namespace
 
-TEST_CASE("leonavd tells a service manager of its start, its life and its end") {
+TEST_CASE("leonavd notifies a service manager of its start, its life and its end") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile folder("unused", "");
   for (const std::string& name : {folder.beside("notify"), abstract_name()}) {
@@ -97,7 +97,7 @@ TEST_CASE("leonavd tells a service manager of its start, its life and its end") 
   }
 }
 
-TEST_CASE("the watchdog is fed only where it is asked for, and what cannot be obeyed is told") {
+TEST_CASE("the watchdog is fed only where it is asked for, and what cannot be obeyed is reported") {
   const ManagerSocket manager(abstract_name());
   const Variable socket_name("NOTIFY_SOCKET", abstract_name());
   const auto fed = [&] {

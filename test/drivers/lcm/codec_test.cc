@@ -229,7 +229,7 @@ TEST_CASE("precise states come back with flags, clocks without positions, and no
   CHECK(back[0].maneuver);
 }
 
-TEST_CASE("event logs agree with liblcm's, both ways; damage is told") {
+TEST_CASE("event logs agree with liblcm's, both ways; damage is reported") {
   const std::string path = std::filesystem::temp_directory_path() / "leonav_event_log_test.lcmlog";
   const Bytes data = {1, 2, 3, 0xED, 0xA1};
   {

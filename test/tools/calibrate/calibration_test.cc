@@ -108,7 +108,7 @@ TEST_CASE("what only one half has observed is not compared, and the table says s
                        "lever_arm_forward_m\n") != std::string::npos);
 }
 
-TEST_CASE("a simulated drive tells how the IMU is built in, and a hand does not") {
+TEST_CASE("a simulated drive shows how the IMU is built in, and a hand does not") {
   if (!have_programs("leonav-sim", "leonav-calibrate")) return;
   const TemporaryFile place("unused", "");
   const std::string log = place.beside("run.lcmlog"), json = place.beside("found.json");
@@ -142,7 +142,7 @@ TEST_CASE("a simulated drive tells how the IMU is built in, and a hand does not"
   CHECK(hand.out.find("mounting_yaw_deg: nothing tells how the vehicle goes") != std::string::npos);
 }
 
-TEST_CASE("a log of a parked vehicle tells nothing of the installation: an error") {
+TEST_CASE("a log of a parked vehicle shows nothing of the installation: an error") {
   if (!have_programs("leonav-sim", "leonav-calibrate")) return;
   const TemporaryFile place("unused", "");
   const std::string log = place.beside("run.lcmlog");

@@ -45,7 +45,7 @@ TEST_CASE("wrong words name the nearest right one") {
   CHECK_THROWS_AS(a.required("--out"), UsageError);
 }
 
-TEST_CASE("a time is a week and its seconds, or what is wrong with it is told") {
+TEST_CASE("a time is a week and its seconds, or what is wrong with it is reported") {
   const auto time_of = [](const std::string& text) {
     Arguments a("tool", "FILE", "Does a thing.");
     a.option("--from", "WEEK:SECONDS", "since");

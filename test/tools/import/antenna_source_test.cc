@@ -85,7 +85,7 @@ TEST_CASE("of several antenna files the first that has an antenna counts", "[imp
   CHECK(loaded.report.warnings.empty());
 }
 
-TEST_CASE("a missing antenna model is told with what will be worse", "[import]") {
+TEST_CASE("a missing antenna model is reported with what will be worse", "[import]") {
   const std::string satellite = antenna(kG05, "   1000.00");
   CHECK_THAT(warnings(load({}, "TRM59800.00")), Catch::Contains("no antenna_models"));
   CHECK_THAT(warnings(load({satellite}, "")), Catch::Contains("ANT # / TYPE"));

@@ -1,4 +1,4 @@
-// Orbit products of different intervals in one schedule, through the ephemeris_store that they
+// Orbit products of different intervals in one schedule, through the ephemeris store that they
 // feed.
 #include "tools/import/product_schedule.h"
 

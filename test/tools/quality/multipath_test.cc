@@ -44,7 +44,7 @@ TEST_CASE("the combination holds the code's multipath and a constant, and nothin
   }
 }
 
-TEST_CASE("each arc gets its own level; a slip that is not told spoils the rms") {
+TEST_CASE("each arc gets its own level; a slip that is not detected spoils the rms") {
   MultipathLevels levels, untold;
   double squares = 0.0;
   for (int k = 0; k < 400; ++k) {

@@ -106,7 +106,7 @@ TEST_CASE("A row's own commands give its numbers", "[tools]") {
   CHECK(has(result, alone.substr(at, 6)));
 }
 
-TEST_CASE("What fails is told, and tried again; what is stopped goes on", "[tools]") {
+TEST_CASE("What fails is reported, and tried again; what is stopped goes on", "[tools]") {
   if (!have_programs("leonav-sim", "leonav-replay", "leonav-eval")) return;
   const TemporaryFile place("unused", "");
   const std::string bin = place.beside("bin"), out = place.beside("experiments");
@@ -159,7 +159,7 @@ TEST_CASE("Wrong words to the experiments are named", "[tools]") {
   CHECK(experiments("--bin '" LEONAV_BIN_DIR "' --list").exit_code == 0);
 }
 
-TEST_CASE("A drive that is not simulated is told row by row", "[tools]") {
+TEST_CASE("A drive that is not simulated is reported row by row", "[tools]") {
   if (!have_programs("leonav-sim", "leonav-replay", "leonav-eval")) return;
   const TemporaryFile place("unused", "");
   const std::string bin = place.beside("bin"), out = place.beside("experiments");

@@ -77,7 +77,7 @@ TEST_CASE("one false at the speed of traffic, one barely moving, one stop missed
   CHECK(out.str().find("1 of ") != std::string::npos);
 }
 
-TEST_CASE("instants in a gap of the truth and stops before the first question are told") {
+TEST_CASE("instants in a gap of the truth and stops before the first question are reported") {
   Track truth;
   go(&truth, 5.0, 0.0);
   go(&truth, 5.0, 5.0);
@@ -97,7 +97,7 @@ TEST_CASE("instants in a gap of the truth and stops before the first question ar
   CHECK(result.stops.size() == 1);
 }
 
-TEST_CASE("a run without a stop says that it tells nothing of missed ones") {
+TEST_CASE("a run without a stop states that it shows nothing of missed ones") {
   Track truth;
   go(&truth, 20.0, 5.0);
   std::vector<DetectorInstant> asked;

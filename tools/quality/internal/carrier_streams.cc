@@ -42,10 +42,10 @@ bool is_flagged_by_receiver(SlipCauses causes) {
 // so that effects common to all satellites (clock jumps, geometry) are detected as well as in the
 // first stream.
 struct CarrierStreams::Stream {
-  explicit Stream(const CycleSlipConfig& config) : arcs(config), check(config) {}
+  explicit Stream(const CycleSlipConfig& config) : arcs(config), range_test(config) {}
 
   CarrierArcs arcs;
-  RangeTest check;
+  RangeTest range_test;
   std::vector<CarrierInput> inputs;
   std::vector<bool> own;
   ArcEpoch epoch;
@@ -92,9 +92,9 @@ const std::vector<ArcBreak>& CarrierStreams::process(const RawEpoch& raw, const 
     Stream& stream = *streams_[place];
     stream.arcs.process(raw.time, stream.inputs, &stream.epoch);
     if (place == 0 && stream.epoch.clock_jump.any()) ++clock_jumps_;
-    const auto results = stream.check.test(stream.inputs, stream.epoch, sky);
+    const auto results = stream.range_test.test(stream.inputs, stream.epoch, sky);
     stream.arcs.apply_range_change(results, &stream.epoch);
-    stream.check.remember(stream.inputs, stream.epoch, sky);
+    stream.range_test.remember(stream.inputs, stream.epoch, sky);
     for (const auto& [satellite, i] : stream.place) {
       const CarrierStatus& status = stream.epoch.satellites[i];
       if (!status.started || !status.causes.any()) continue;

@@ -11,7 +11,7 @@
 
 #include "core/gnss/cycle_slips/carrier_arcs.h"
 #include "tools/quality/internal/census.h"
-#include "tools/quality/internal/range_check.h"
+#include "tools/quality/internal/range_test.h"
 #include "tools/quality/internal/sky.h"
 
 namespace leonav {

@@ -24,8 +24,7 @@ bool is_believable(const PointSolution& point) {
 }  // namespace
 
 bool is_usable(Reason reason) {
-  return reason == Reason::kUsed || reason == Reason::kDownweighted || reason == Reason::kOutlier ||
-         reason == Reason::kNotSolved;
+  return is_used(reason) || reason == Reason::kOutlier || reason == Reason::kNotSolved;
 }
 
 bool has_direction(const SatelliteInView& satellite, bool has_position) {

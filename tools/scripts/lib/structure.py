@@ -136,19 +136,23 @@ def configuration(root):
         keys = [os.path.join(folder, "urban.yaml")]
     total = unexplained = 0
     for path in keys:
-        before = ""
+        above, repeats = "", None  # indentation of a group whose keys have their meaning in another group
         for line in open(path, encoding="utf-8"):
-            match = re.match(r"\s*([a-z0-9_]+):\s*\S", line)
             comment = line.split("#", 1)[1] if "#" in line else ""
-            if match:
+            if line.strip().startswith("#"):
+                above += comment
+                continue
+            indent = len(line) - len(line.lstrip())
+            if line.strip() and repeats is not None and indent <= repeats:
+                repeats = None
+            if re.match(r"\s*[a-z0-9_]+:\s*[^\s#]", line):
                 total += 1
-                meaning = re.sub(r"\[[^\]]*\]", "", comment) + before
-                unexplained += len(re.findall(r"[A-Za-z]{3,}", meaning)) < 2
-                before = ""
-            elif line.strip().startswith("#"):
-                before += comment
-            else:
-                before = ""
+                # Behind a key of the reference are only its allowed values.
+                meaning = above if path == reference else re.sub(r"\[[^\]]*\]", "", comment) + above
+                unexplained += repeats is None and len(re.findall(r"[A-Za-z]{3,}", meaning)) < 2
+            elif re.match(r"\s*[a-z0-9_]+:", line) and "the keys are those of" in above:
+                repeats = indent
+            above = ""
     return lines, total, unexplained
 
 

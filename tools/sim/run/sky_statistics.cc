@@ -68,7 +68,8 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double quantile(std::vector<double> values, double share) {
+// Returns the value nearest to the quantile `share` (0 to 1). Precondition: there is one.
+double nearest_quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
@@ -97,14 +98,16 @@ void print_table(const std::vector<SystemCombination>& names, const std::vector<
        "mean", "min", "50 %", "75 %", "95 %", "max");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::vector<double>&n = series[i].satellites, &p = series[i].pdop;
-    if (n.empty() || quantile(n, 1.0) == 0.0) continue;
-    line("  %-16s%6.1f%6.0f%6.0f%6.0f%6.0f", names[i].name.c_str(), mean(n), quantile(n, 0.0),
-         quantile(n, 0.05), quantile(n, 0.95), quantile(n, 1.0));
+    if (n.empty() || nearest_quantile(n, 1.0) == 0.0) continue;
+    line("  %-16s%6.1f%6.0f%6.0f%6.0f%6.0f", names[i].name.c_str(), mean(n),
+         nearest_quantile(n, 0.0), nearest_quantile(n, 0.05), nearest_quantile(n, 0.95),
+         nearest_quantile(n, 1.0));
     if (p.empty()) {
       line("  %38s", "-");
     } else {
-      line("  %7.1f%7.1f%6.1f%6.1f%6.1f%6.0f", mean(p), quantile(p, 0.0), quantile(p, 0.5),
-           quantile(p, 0.75), quantile(p, 0.95), quantile(p, 1.0));
+      line("  %7.1f%7.1f%6.1f%6.1f%6.1f%6.0f", mean(p), nearest_quantile(p, 0.0),
+           nearest_quantile(p, 0.5), nearest_quantile(p, 0.75), nearest_quantile(p, 0.95),
+           nearest_quantile(p, 1.0));
     }
     const double without = 1.0 - static_cast<double>(p.size()) / static_cast<double>(n.size());
     line("  %5.1f %%   %s\n", 100.0 * without, with_papers ? published(names[i].name).c_str() : "");

@@ -2,11 +2,15 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "core/gnss/signals/satellite.h"
 #include "daemon/config/config_reader.h"
 
 namespace leonav::sim {
+
+// Signals of a satellite that the receiver tracks.
+inline constexpr std::size_t kTrackedSignals = 2;
 
 // 1 sigma on one frequency at the C/N0 of the zenith; it grows as the C/N0 falls.
 struct NoiseConfig {

@@ -14,6 +14,7 @@
 #include "tools/sim/scenario/places_config.h"
 #include "tools/sim/scenario/receiver_config.h"
 #include "tools/sim/scenario/route_config.h"
+#include "tools/sim/scenario/street_errors_config.h"
 
 namespace leonav::sim {
 
@@ -31,6 +32,7 @@ struct Scenario {
   ReceiverConfig receiver;
   AtmosphereConfig atmosphere;
   PlacesConfig places;
+  StreetErrorsConfig street_errors;
   std::vector<Fault> faults;
   bool ideal = false;              // everything that a navigator cannot model is removed
   std::vector<std::string> given;  // the keys that were given

@@ -31,7 +31,10 @@ void remove_what_is_off(Scenario* scenario) {
       c.clock.noise_s_per_sqrt_s = c.clock.drift_walk_per_sqrt_s = 0.0;
     }
   }
-  if (scenario->receiver.ideal) remove_errors(&scenario->receiver);
+  replace_by_family(scenario->street_errors, &scenario->receiver);
+  if (!scenario->receiver.ideal) return;
+  remove_errors(&scenario->receiver);
+  remove_errors(&scenario->street_errors);
 }
 
 void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario* scenario) {
@@ -67,6 +70,8 @@ void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario
   root.group("receiver", [&](ConfigReader& r) { read_receiver(r, &scenario->receiver); });
   root.group("atmosphere", [&](ConfigReader& r) { read_atmosphere(r, &scenario->atmosphere); });
   read_places(root, &scenario->places);
+  root.group("street_errors",
+             [&](ConfigReader& r) { read_street_errors(r, folder, &scenario->street_errors); });
   root.groups("faults", [&](ConfigReader& r) { read_fault(r, &scenario->faults); });
   root.boolean("ideal", &scenario->ideal);
   remove_what_is_off(scenario);

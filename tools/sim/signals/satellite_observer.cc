@@ -16,7 +16,10 @@
 namespace leonav::sim {
 
 SatelliteObserver::SatelliteObserver(const ObserverWorld& world, const TrueSatellite& satellite)
-    : world_(world), satellite_(satellite), tracking_(world.scenario, satellite.id) {}
+    : world_(world),
+      satellite_(satellite),
+      tracking_(world.scenario, satellite.id),
+      street_(make_street_errors(world.scenario, satellite.id)) {}
 
 bool SatelliteObserver::is_above_mask(const EpochInstant& now) const {
   const double t = now.clock.t;
@@ -25,7 +28,7 @@ bool SatelliteObserver::is_above_mask(const EpochInstant& now) const {
          world_.scenario.receiver.elevation_mask;
 }
 
-SatelliteObserver::Geometry SatelliteObserver::geometry(const EpochInstant& now) const {
+SatelliteObserver::Geometry SatelliteObserver::geometry(const EpochInstant& now) {
   Geometry g;
   g.path = signal_path(satellite_, now.antenna, world_.atmosphere);
   std::array<double, 4> range{}, tecu{};
@@ -43,6 +46,11 @@ SatelliteObserver::Geometry SatelliteObserver::geometry(const EpochInstant& now)
   g.direction_rates.azimuth = wrap_to_pi(direction[2].azimuth - direction[1].azimuth) / across_s;
   g.reception =
       world_.surroundings.reception(now.place, satellite_.id, g.path.direction, g.direction_rates);
+  if (!street_) return g;
+  const double elevation = g.path.direction.elevation;
+  const double turn =
+      std::hypot(g.direction_rates.elevation, g.direction_rates.azimuth * std::cos(elevation));
+  g.street = street_->at({now.clock.t, elevation, turn});
   return g;
 }
 
@@ -50,15 +58,17 @@ Arrival SatelliteObserver::arrival(const EpochInstant& now, const Geometry& g,
                                    const Pull& pull) const {
   const Cn0Config& cn0 = world_.scenario.receiver.cn0;
   Arrival arrival;
-  arrival.present = g.reception.possible;
+  arrival.present = g.reception.possible && g.street.possible;
   arrival.loss_db = elevation_loss_db(cn0, g.path.direction.elevation) + g.reception.loss_db +
+                    g.street.loss_db +
                     world_.atmosphere.ionosphere().fading_db(now.clock.t, satellite_.id);
   for (std::size_t s = 0; s < kTrackedSignals; ++s) {
     arrival.cn0_dbhz[s] = zenith_cn0_dbhz(cn0, satellite_.id.system, s) - arrival.loss_db;
   }
   arrival.slip_factor = now.place.place->slips;
   // The end of spoofing breaks the lock, as another way of the signal does.
-  arrival.route = g.reception.route + 0x9E3779B9U * pull.breaks;
+  arrival.route = g.reception.route + g.street.route + 0x9E3779B9U * pull.breaks;
+  arrival.slips = g.street.slips;
   return arrival;
 }
 
@@ -103,18 +113,24 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
       random_stream(world_.scenario.seed, "noise", instant_number(number, now.t_tag));
   const NoiseConfig& noise = receiver.noise[index_of(system)];
   const double factor = noise_factor(arrival.loss_db);
-  const double code_noise_m = noise.code_m * factor * random.draw();
-  const double carrier_noise_m = noise.carrier_m * factor * random.draw();
-  const double doppler_noise_m_s = noise.doppler_m_s * factor * random.draw();
+  const StreetSignalError& street = g.street.signals[s];
+  const double code_noise_m = noise.code_m * factor * random.draw() * street.code_noise;
+  const double carrier_noise_m = noise.carrier_m * factor * random.draw() * street.carrier_noise;
+  const double doppler_noise_m_s =
+      noise.doppler_m_s * factor * random.draw() * street.doppler_noise;
   const double scatter_db = receiver.cn0.scatter_db * random.draw();
-  const MultipathError reflected = world_.multipath.error(
+  MultipathError reflected = world_.multipath.error(
       satellite_.id, s, g.path.direction.elevation, age_, now.place.travelled_m,
       now.place.speed_m_s, now.place.place->multipath);
+  reflected.code_m += street.code_m;
+  reflected.carrier_m += street.carrier_m;
+  reflected.doppler_m_s += street.doppler_m_s;
 
   const ClockTable::Value base = world_.clock.time_base_m(system, now.clock.t);
-  const double common = g.path.range_m + base.offset_s + g.reception.extra_m + pull.range_m;
+  const double common =
+      g.path.range_m + base.offset_s + g.reception.extra_m + g.street.extra_m + pull.range_m;
   const double rate = g.rate_m_s + kSpeedOfLight * now.clock.drift + base.drift +
-                      g.reception.extra_m_s + pull.rate_m_s;
+                      g.reception.extra_m_s + g.street.extra_m_s + pull.rate_m_s;
   SignalObservation o;
   o.satellite = satellite_.id;
   o.code = signals_of(system)[s];

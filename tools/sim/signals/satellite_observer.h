@@ -1,10 +1,13 @@
 // SatelliteObserver produces the observations of one satellite, epoch by epoch.
 #pragma once
+#include <memory>
+
 #include "core/gnss/signals/observation.h"
 #include "tools/sim/faults/fault_script.h"
 #include "tools/sim/signals/epoch_instant.h"
 #include "tools/sim/signals/multipath.h"
 #include "tools/sim/signals/tracking.h"
+#include "tools/sim/street/street_errors.h"
 
 namespace leonav::sim {
 
@@ -33,9 +36,10 @@ class SatelliteObserver {
     double rate_m_s = 0.0, tecu_rate = 0.0;
     LookAngles direction_rates;
     Reception reception;
+    StreetEffect street;
   };
   bool is_above_mask(const EpochInstant& now) const;
-  Geometry geometry(const EpochInstant& now) const;
+  Geometry geometry(const EpochInstant& now);
   Arrival arrival(const EpochInstant& now, const Geometry& geometry, const Pull& pull) const;
   void turn(const EpochInstant& now, const SignalPath& path);
   void measure(const EpochInstant& now, const Geometry& geometry, const Arrival& arrival,
@@ -46,6 +50,7 @@ class SatelliteObserver {
   Tracking tracking_;
   double wind_up_ = 0.0, wind_up_rate_ = 0.0;  // cycles, and cycles per second
   MultipathAge age_;
+  std::unique_ptr<StreetErrors> street_;  // null: by places alone
 };
 
 }  // namespace leonav::sim

@@ -28,6 +28,7 @@ void Tracking::step(double t, const Arrival& arrival) {
     follow(i, t, arrival);
   }
   if (arrival.present) slip(t, arrival, interval_s);
+  for (std::size_t i = 0; i < kTrackedSignals; ++i) apply(i, t, arrival.slips[i]);
   running_ = true;
   last_t_ = t;
 }
@@ -84,14 +85,18 @@ void Tracking::slip(double t, const Arrival& arrival, double interval_s) {
   for (std::size_t i = 0; i < kTrackedSignals; ++i) {
     const double size = std::ceil(random.uniform() * config_.max_slip_cycles);
     const double sign = random.uniform() <= 0.5 ? -1.0 : 1.0;
-    SignalTrack& track = signals_[i].now;
     const bool hit = i == 0 ? which <= 2.0 / 3.0 : which > 1.0 / 3.0;
-    if (!slips || !hit || !track.carrier || track.locked_since == t) continue;
-    track.cycles += sign * size;
-    if (!told) continue;
-    track.loss_of_lock = true;
-    track.locked_since = t;
+    if (slips && hit) apply(i, t, {sign * size, told});
   }
+}
+
+void Tracking::apply(std::size_t i, double t, const CycleSlip& slip) {
+  SignalTrack& track = signals_[i].now;
+  if (slip.cycles == 0.0 || !track.carrier || track.locked_since == t) return;
+  track.cycles += slip.cycles;
+  if (!slip.told) return;
+  track.loss_of_lock = true;
+  track.locked_since = t;
 }
 
 }  // namespace leonav::sim

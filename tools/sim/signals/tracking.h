@@ -7,10 +7,9 @@
 
 #include "core/gnss/signals/satellite.h"
 #include "tools/sim/scenario/scenario.h"
+#include "tools/sim/street/cycle_slip.h"
 
 namespace leonav::sim {
-
-inline constexpr std::size_t kTrackedSignals = 2;
 
 // The signals of a satellite as they arrive at one epoch.
 struct Arrival {
@@ -19,6 +18,7 @@ struct Arrival {
   double loss_db = 0.0;      // of the first signal, relative to the zenith
   double slip_factor = 1.0;  // of the place
   unsigned route = 0;        // way of the signal; another one breaks the carrier
+  std::array<CycleSlip, kTrackedSignals> slips;  // since the epoch before, by the street
 };
 
 // The state of one signal.
@@ -52,6 +52,7 @@ class Tracking {
   void follow(std::size_t i, double t, const Arrival& arrival);
   void start_carrier(std::size_t i, double t);
   void slip(double t, const Arrival& arrival, double interval_s);
+  void apply(std::size_t i, double t, const CycleSlip& slip);
 
   TrackingConfig config_;
   std::uint64_t seed_;

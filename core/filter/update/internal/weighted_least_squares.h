@@ -1,4 +1,5 @@
-// One epoch's measurements and the prior as a weighted least-squares problem.
+// WeightedLeastSquares solves one epoch's measurements and the prior as a weighted least-squares
+// problem.
 #pragma once
 #include <Eigen/Cholesky>
 #include <boost/container/static_vector.hpp>
@@ -9,20 +10,20 @@
 
 namespace leonav {
 
-// In the coordinates z = L^-1 x with P = L L^T, where the prior is the identity. The solution's
-// covariance is P+ = L (I + L^T H^T R^-1 H L)^-1 L^T: like Joseph's form symmetric and positive
-// semidefinite whatever the rounding, and states with zero variance stay untouched. (Bierman,
-// Factorization Methods for Discrete Sequential Estimation, 1977, ch. 5.)
+// It works in the coordinates z = L^-1 x with P = L L^T, where the prior is the identity. The
+// solution's covariance is P+ = L (I + L^T H^T R^-1 H L)^-1 L^T: like Joseph's form symmetric and
+// positive semidefinite whatever the rounding, and states with zero variance stay untouched.
+// (Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, ch. 5.)
 class WeightedLeastSquares {
  public:
   using Ratios = boost::container::static_vector<double, kMaxMeasurements>;
 
   void begin(const FilterMeasurements& measurements, const EkfCovariance& covariance);
-  // With the measurements' factors as they are now.
+  // Solves with the measurements' factors as they are now.
   void solve(const FilterMeasurements& measurements);
-  // |residual against all others| over its standard deviation, per measurement.
+  // Writes |residual against all others| over its standard deviation, per measurement.
   void standardize(const FilterMeasurements& measurements, Ratios* ratios);
-  // Normalized innovation squared of all measurements together.
+  // Returns the normalized innovation squared of all measurements together.
   double nis(const FilterMeasurements& measurements) const;
   void finish(EkfCorrection* correction, EkfCovariance* covariance) const;
 

@@ -1,16 +1,15 @@
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/base/duration.h"
 #include "core/navigator/sequencer/internal/interval.h"
 
 namespace leonav {
 
 EmptyEpochSchedule::EmptyEpochSchedule(const RealtimeConfig& config)
     : interval_ns_(interval_in_nanoseconds(config.epoch_interval_s)),
-      wait_ns_(std::max(interval_ns_ / 2, static_cast<std::int64_t>(std::llround(
-                                              config.gnss_latency_allowance_s * 1e9)))) {}
+      wait_ns_(std::max(interval_ns_ / 2, rounded_nanoseconds(config.gnss_latency_allowance_s))) {}
 
 GpsTime EmptyEpochSchedule::due_time(GpsTime imu_time, GpsTime last_epoch,
                                      GpsTime newest_start) const {

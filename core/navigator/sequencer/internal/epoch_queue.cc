@@ -1,7 +1,6 @@
 #include "core/navigator/sequencer/internal/epoch_queue.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"

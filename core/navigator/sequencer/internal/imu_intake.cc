@@ -1,9 +1,9 @@
 #include "core/navigator/sequencer/internal/imu_intake.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "core/base/duration.h"
 #include "core/earth/rotation.h"
 #include "core/navigator/sequencer/input_validation.h"
 
@@ -14,7 +14,7 @@ ImuIntake::ImuIntake(const NavigatorConfig& config)
           rotation_from_euler({config.vehicle.mounting_rpy.x(), config.vehicle.mounting_rpy.y(),
                                config.vehicle.mounting_rpy.z()})),
       mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
-      offset_ns_(static_cast<std::int64_t>(std::llround(config.imu_time_offset_s * 1e9))) {}
+      offset_ns_(rounded_nanoseconds(config.imu_time_offset_s)) {}
 
 ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
   ImuSample sample = received;

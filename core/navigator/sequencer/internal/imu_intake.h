@@ -12,9 +12,10 @@
 
 namespace leonav {
 
-// Call for each sample, in this order: shift_stamp(), check(), leaps() and hold(),
-// evaluate_stamp(), lay_on_timeline(), accept(), rotate_to_body(). The caller counts, reports and
-// restarts in between.
+// Call for each sample, in this order: shift_stamp(), check(), release_held(), leaps(); then hold()
+// if it leaps, else evaluate_stamp(), lay_on_timeline(), accept(), rotate_to_body(). A sample that
+// release_held() returns is either refused or goes through the last four as well, ahead of the new
+// one. The caller counts, reports and restarts in between.
 class ImuIntake {
  public:
   static constexpr std::int64_t kLeapNs = 200'000'000;       // twice the longest interval

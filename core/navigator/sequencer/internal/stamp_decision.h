@@ -1,5 +1,8 @@
 // StampDecision states whether the stamp of an input fits the time of the inputs before it.
 #pragma once
+#include <cstdint>
+
+#include "core/base/gps_time.h"
 #include "core/navigator/interface/input_fault.h"
 
 namespace leonav {

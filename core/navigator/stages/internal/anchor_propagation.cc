@@ -75,18 +75,18 @@ void AnchorPropagation::step(const ImuSample& sample) {
 // Moves the mechanization over a gap in the stream, to the start of `next`.
 void AnchorPropagation::fill_gap(const ImuSample& next) {
   const GpsTime from = mechanization_.state().time;
-  const double hole_s = seconds_between(next.start(), from);
+  const double gap_s = seconds_between(next.start(), from);
   if (const auto gap_fill = fill_imu_gap(last_sample_, from, next.start(), next)) {
-    mechanization_.advance(gap_fill->filler);
+    mechanization_.advance(gap_fill->sample);
     gap_angle_variance_ += gap_fill->sigma_theta_b.cwiseAbs2().maxCoeff();
     gap_velocity_variance_ += gap_fill->sigma_velocity_b.cwiseAbs2().maxCoeff();
     return;
   }
   NavState state = mechanization_.state();
-  state.p_e += hole_s * state.v_e;
+  state.p_e += gap_s * state.v_e;
   state.time = next.start();
   mechanization_.reset(state);
-  unfilled_s_ += hole_s;
+  unfilled_s_ += gap_s;
 }
 
 NavState AnchorPropagation::state(GpsTime now) const {

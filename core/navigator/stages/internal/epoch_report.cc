@@ -13,8 +13,6 @@
 namespace leonav {
 namespace {
 
-bool counts(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
-
 AidingReport start_aiding(const MeasurementEpoch& epoch, const Measurement& measurement) {
   AidingReport aiding;
   aiding.satellite = epoch.satellites[measurement.satellite_index].satellite;
@@ -47,7 +45,7 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
     for (const AidingReport& aiding : report->aiding) {
       if (aiding.satellite != in_view.satellite) continue;
       if (first == nullptr) first = &aiding;
-      used = used || counts(aiding.reason);
+      used = used || is_used(aiding.reason);
     }
     if (first != nullptr) satellite.reason = used ? Reason::kUsed : first->reason;
     if (used) ++report->satellites_used;
@@ -62,7 +60,7 @@ void report_dop(const MeasurementEpoch& epoch, const Eigen::Vector3d& antenna_p_
   std::bitset<kMaxSatellites> used;
   for (std::size_t i = 0; i < report->aiding.size(); ++i) {
     const AidingReport& aiding = report->aiding[i];
-    if (aiding.observable != Observable::kCode || !counts(aiding.reason)) continue;
+    if (aiding.observable != Observable::kCode || !is_used(aiding.reason)) continue;
     used.set(epoch.measurements[i].satellite_index);
   }
   const Dop dop = dilution_of_precision(epoch, used, antenna_p_e);
@@ -120,8 +118,8 @@ void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vecto
   for (const Measurement& measurement : epoch.measurements) {
     AidingReport aiding = start_aiding(epoch, measurement);
     aiding.innovation_variance = measurement.sigma * measurement.sigma;
-    if (!solved && counts(aiding.reason)) aiding.reason = Reason::kNotSolved;
-    if (!counts(aiding.reason)) aiding.weight_factor = 0.0;
+    if (!solved && is_used(aiding.reason)) aiding.reason = Reason::kNotSolved;
+    if (!is_used(aiding.reason)) aiding.weight_factor = 0.0;
     report->aiding.push_back(aiding);
   }
   report_satellites(epoch, report);

@@ -45,13 +45,15 @@ void EpochReporter::start(const EpochWork& work) {
   start_report(work.index, work.time, work.empty, report_.get());
 }
 
-void EpochReporter::add_prediction(GpsTime last_epoch, MotionAiding* motion) {
-  if (const auto found = motion->contradiction())
-    emit(EventKind::kConstraintsLeftOut, constraint_groups(found->left_out), found->share,
-         report_->time);
-  for (const ConstraintInstant& instant : motion->instants())
+void EpochReporter::add_prediction(
+    GpsTime last_epoch, const MotionAiding& motion,
+    const std::optional<ConstraintMonitor::Contradiction>& contradiction) {
+  if (contradiction)
+    emit(EventKind::kConstraintsLeftOut, constraint_groups(contradiction->left_out),
+         contradiction->share, report_->time);
+  for (const ConstraintInstant& instant : motion.instants())
     if (!last_epoch.is_set() || instant.time > last_epoch) report_->constraints.push_back(instant);
-  report_->constraint_reports = motion->reports();
+  report_->constraint_reports = motion.reports();
 }
 
 void EpochReporter::add_point(const IndependentSolution& solution) {

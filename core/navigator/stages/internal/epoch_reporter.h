@@ -19,18 +19,18 @@
 
 namespace leonav {
 
-// EpochReporter reports the decisions of others and computes nothing for them. Its report is one
-// buffer that each epoch begins anew: call start() first and publish() last. Allocates when
-// constructed, not after.
+// EpochReporter reports the decisions of others, and what three monitors find in its reports; none
+// of the latter decides anything. Its report is one buffer that each epoch begins anew: call
+// start() first and publish() last. Allocates when constructed, not after.
 class EpochReporter {
  public:
   explicit EpochReporter(OutputSink* sink);
 
   // Begins the report of an epoch.
   void start(const EpochWork& work);
-  // Adds the motion constraints since `last_epoch` and emits an event if they contradict the
-  // filter.
-  void add_prediction(GpsTime last_epoch, MotionAiding* motion);
+  // Adds the motion constraints since `last_epoch` and emits an event for `contradiction`.
+  void add_prediction(GpsTime last_epoch, const MotionAiding& motion,
+                      const std::optional<ConstraintMonitor::Contradiction>& contradiction);
   // Adds the measurements of a point solution from which the filter has started, or would have
   // started had it been accepted.
   void add_point(const IndependentSolution& solution);

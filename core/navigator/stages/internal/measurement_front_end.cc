@@ -120,7 +120,6 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
 }
 
 std::optional<double> MeasurementFrontEnd::update_carrier_speed() {
-  if (!use_carrier_) return std::nullopt;
   carrier_speed_.add(carriers_.antenna_change(change_prior_));
   return carrier_speed_.horizontal(measurements_->approximate_p_e);
 }

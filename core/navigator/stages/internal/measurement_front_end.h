@@ -39,7 +39,8 @@ class MeasurementFrontEnd {
   // Returns the result of the last measure().
   const MeasurementEpoch& measurements() const { return *measurements_; }
   // Returns the horizontal speed of the antenna, m/s, from time-differenced carriers; nullopt:
-  // unknown. Call it between measure() and store_update(), at most once per epoch.
+  // unknown. Call it where carriers are used, between measure() and store_update(), at most once
+  // per epoch.
   std::optional<double> update_carrier_speed();
   // Keeps what the carriers of the next epoch are compared with, and ends the arcs that the update
   // found to have slipped. Call it after the filter's update with measurements().

@@ -21,6 +21,25 @@ PendingDecisions::PendingDecisions(TimedMailbox<Anchor>* filter_mailbox,
       events_(events),
       epochs_(kMaxPending) {}
 
+std::optional<PendingEpoch> PendingDecisions::make_room() {
+  if (!epochs_.full()) return std::nullopt;
+  PendingEpoch oldest = epochs_.front();
+  epochs_.pop_front();
+  return oldest;
+}
+
+PendingEpoch* PendingDecisions::next_filter_due(GpsTime now) {
+  for (PendingEpoch& epoch : epochs_)
+    if (!epoch.filter_decided && epoch.issued.deadline_ekf <= now) return &epoch;
+  return nullptr;
+}
+
+PendingEpoch* PendingDecisions::next_complete(GpsTime now) {
+  if (epochs_.empty() || !epochs_.front().filter_decided) return nullptr;
+  const GpsTime deadline = epochs_.front().issued.deadline_smoother;
+  return deadline.is_set() && deadline > now ? nullptr : &epochs_.front();
+}
+
 GpsTime PendingDecisions::earliest_needed(GpsTime time) const {
   for (const PendingEpoch& epoch : epochs_) time = std::min(time, epoch.issued.time);
   return time;

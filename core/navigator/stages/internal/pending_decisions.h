@@ -2,6 +2,7 @@
 #pragma once
 #include <boost/circular_buffer.hpp>
 #include <cstdint>
+#include <optional>
 
 #include "core/navigator/interface/event_source.h"
 #include "core/navigator/interface/stage_work.h"
@@ -17,8 +18,8 @@ struct PendingEpoch {
 };
 
 // PendingDecisions makes a decision by taking an epoch's result from a mailbox: it is committed or
-// a miss. It reports each decision to the sink, and a miss also as an event. Allocates when
-// constructed, not after.
+// a miss. It reports each decision to the sink, and a miss also as an event. The caller asks which
+// decision is due, makes it, and uses the result. Allocates when constructed, not after.
 class PendingDecisions {
  public:
   // `events` belongs to the stage that decides. All pointers must outlive this object.
@@ -26,8 +27,20 @@ class PendingDecisions {
                    TimedMailbox<SmootherAnchor>* smoother_mailbox, OutputSink* sink,
                    EventSource* events);
 
-  // Returns the undecided epochs, oldest first.
-  boost::circular_buffer<PendingEpoch>& epochs() { return epochs_; }
+  // Removes and returns the oldest epoch if there is no room for another one. Call it before
+  // push(), and make its decisions.
+  std::optional<PendingEpoch> make_room();
+  void push(const EpochIssued& issued) { epochs_.push_back({issued, false, {}}); }
+
+  // Returns the oldest epoch whose filter's deadline has come and is not decided; nullptr: none.
+  PendingEpoch* next_filter_due(GpsTime now);
+  // Returns the oldest epoch if its filter is decided and the smoother's deadline has come, or
+  // there is none; else nullptr. Make that decision, then call pop().
+  PendingEpoch* next_complete(GpsTime now);
+  // Returns the oldest epoch, whatever its deadlines; nullptr: there is none.
+  PendingEpoch* oldest() { return epochs_.empty() ? nullptr : &epochs_.front(); }
+  // Removes the oldest epoch.
+  void pop() { epochs_.pop_front(); }
   // Returns the earliest time of an undecided epoch, or `time` if that is earlier.
   GpsTime earliest_needed(GpsTime time) const;
 

@@ -1,4 +1,4 @@
-// ResetPlan lists what a reset of the filter clears and keeps in the GNSS stage; there are four
+// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are four
 // presets.
 #pragma once
 
@@ -15,49 +15,68 @@ enum class CarrierReset : unsigned char {
   kAll,       // all arcs end
 };
 
-// A part that is marked false is not cleared. In addition every reset clears the evidence for
-// and against the filter (FilterMonitor::clear_evidence), because it is void for the next one.
+// A part that is marked false is not cleared. In addition every reset clears the evidence of
+// FilterMonitor's tests (FilterMonitor::filter_restarted), because it is void for the next filter.
+//
+// Every reset keeps what is no estimate of the filter:
+// - orbits, antenna patterns and the receiver's code biases,
+// - the means of FilterMonitor::add_consistency(), from which test_position() learns whether codes
+//   have been consistent,
+// - a checkpoint without a verdict, and whether the vehicle has turned since the start,
+// - the last source of each satellite's orbit, and how long no satellite has been usable,
+// - the numbers and the thinning of events.
+//
+// Other parts end by themselves. The heading monitor stops at the next epoch whose filter has no
+// attitude. CarrierSpeed starts anew, because the carriers give no displacement over a reset. The
+// next epoch is a keyframe, because the filter's process does not continue.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
   // For kRestart only.
   bool keeps_vehicle_constants = false;
   bool keeps_attitude = false;  // see AttitudeCarryOver
   CarrierReset carriers = CarrierReset::kPosition;
-  bool alignment = false;
-  bool external_heading = false;  // it is dropped, and the heading monitor stops
-  bool motion_aiding = false;
-  bool outage_monitor = false;
-  bool installation_monitor = false;
+  bool clears_alignment = false;
+  bool clears_external_heading = false;  // the heading monitor stops as well
+  bool clears_motion_aiding = false;
+  bool clears_outage_monitor = false;
+  bool clears_installation_monitor = false;
   // The times of the last GNSS, the last reset and the last restart by rejections become unset.
   // Otherwise they are kept, and this reset becomes the last one.
-  bool times = false;
-  bool gnss_used = false;  // the epoch of the reset counts as one with satellites
+  bool clears_times = false;
+  // Not a part of the stage: the epoch of the reset counts as one that used satellites.
+  bool counts_as_gnss_epoch = false;
 };
 
-// Reset by a command or after a time step. Time may begin anew, so nothing that holds a time
-// remains.
+// Reset by a command or after a time step. Time may begin anew: the times that decide whether a
+// reset is the second one soon after another are cleared. Some times of before remain:
+// - those that are replaced before they are compared: of the last epoch, of the last keyframe, of
+//   the first epoch that contradicted the filter;
+// - those whose difference is limited, so that a leap counts as one interval: in test_position(),
+//   MeasurementRejectionMonitor and ReceiverCodeBiases;
+// - those whose leap ahead counts as a gap in the IMU samples, which ends trust in a heading of
+//   before: in CheckpointValidityMonitor and ExternalHeading.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
-                                            .alignment = true,
-                                            .motion_aiding = true,
-                                            .outage_monitor = true,
-                                            .installation_monitor = true,
-                                            .times = true};
+                                            .clears_alignment = true,
+                                            .clears_motion_aiding = true,
+                                            .clears_outage_monitor = true,
+                                            .clears_installation_monitor = true,
+                                            .clears_times = true};
 
 // Reset that drops the filter without a replacement. The stage has no position, hence no outage,
 // until the next point solution. Time continues, and with it the vehicle's motion.
 inline constexpr ResetPlan kDropReset = {.filter = FilterReset::kReset,
                                          .carriers = CarrierReset::kPosition,
-                                         .alignment = true,
-                                         .outage_monitor = true};
+                                         .clears_alignment = true,
+                                         .clears_outage_monitor = true};
 
 // Reset after a wrong heading. Everything that the filter has estimated with it is void, and so is
 // a heading from outside. A point solution of this epoch replaces the filter.
 inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .carriers = CarrierReset::kPosition,
-                                            .alignment = true,
-                                            .external_heading = true,
-                                            .gnss_used = true};
+                                            .clears_alignment = true,
+                                            .clears_external_heading = true,
+                                            .counts_as_gnss_epoch = true};
 
 // Returns the reset after a wrong position or velocity: the filter restarts from a point solution.
 // A good attitude, which took a drive to find, is kept with the estimated IMU errors; otherwise the
@@ -67,8 +86,8 @@ constexpr ResetPlan restart_reset(bool keeps_attitude, bool keeps_vehicle_consta
           .keeps_vehicle_constants = keeps_vehicle_constants,
           .keeps_attitude = keeps_attitude,
           .carriers = CarrierReset::kPosition,
-          .alignment = !keeps_attitude,
-          .gnss_used = true};
+          .clears_alignment = !keeps_attitude,
+          .counts_as_gnss_epoch = true};
 }
 
 }  // namespace leonav

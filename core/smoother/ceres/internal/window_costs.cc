@@ -22,8 +22,8 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 void to_difference(const ActiveStates& active, const FilterState& state,
                    const FilterState& reference, MatrixXd* jacobian) {
   const AttitudeJacobian change = attitude_jacobian(active, state, reference);
-  if (change.place < 0) return;
-  auto columns = jacobian->middleCols<3>(change.place);
+  if (change.index < 0) return;
+  auto columns = jacobian->middleCols<3>(change.index);
   columns = (columns * change.to_error).eval();
 }
 
@@ -31,8 +31,8 @@ void to_difference(const ActiveStates& active, const FilterState& state,
 void to_change(const ActiveStates& active, const FilterState& state, const FilterState& reference,
                MatrixXd* jacobian) {
   const AttitudeJacobian change = attitude_jacobian(active, state, reference);
-  if (change.place < 0) return;
-  auto columns = jacobian->middleCols<3>(change.place);
+  if (change.index < 0) return;
+  auto columns = jacobian->middleCols<3>(change.index);
   columns = (columns * change.of_error).eval();
 }
 
@@ -42,8 +42,8 @@ WindowCost::WindowCost(const Window& window, const WindowUnknowns& unknowns,
                        std::vector<int> keyframes)
     : window_(window), keyframes_(std::move(keyframes)), unknowns_(unknowns) {
   for (const int k : keyframes_)
-    for (const WindowUnknowns::BlockEntry& place : unknowns.entries(k))
-      blocks_.push_back(place.block);
+    for (const WindowUnknowns::BlockEntry& entry : unknowns.entries(k))
+      blocks_.push_back(entry.block);
   std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   slot_.assign(static_cast<std::size_t>(blocks_.back()) + 1, -1);
@@ -62,9 +62,9 @@ bool WindowCost::Evaluate(double const* const* parameters, double* residuals,
     const WindowUnknowns::BlockEntries& entries = unknowns_.entries(keyframes_[i]);
     at[i].error.resize(keyframe.active.size());
     for (Index j = 0; j < at[i].error.size(); ++j) {
-      const WindowUnknowns::BlockEntry& place = entries[static_cast<std::size_t>(j)];
-      const int slot = slot_[static_cast<std::size_t>(place.block)];
-      at[i].error(j) = parameters[slot][place.offset] + place.constant;
+      const WindowUnknowns::BlockEntry& entry = entries[static_cast<std::size_t>(j)];
+      const int slot = slot_[static_cast<std::size_t>(entry.block)];
+      at[i].error(j) = parameters[slot][entry.offset] + entry.constant;
     }
     at[i].state = keyframe.state;
     add(full_error(keyframe.active, at[i].error), keyframe.has_attitude, &at[i].state);
@@ -89,11 +89,11 @@ bool WindowCost::Evaluate(double const* const* parameters, double* residuals,
 void WindowCost::scatter(const MatrixXd& of_error, const WindowUnknowns::BlockEntries& entries,
                          double** jacobians) const {
   for (Index j = 0; j < of_error.cols(); ++j) {
-    const WindowUnknowns::BlockEntry& place = entries[static_cast<std::size_t>(j)];
-    double* jacobian = jacobians[slot_[static_cast<std::size_t>(place.block)]];
+    const WindowUnknowns::BlockEntry& entry = entries[static_cast<std::size_t>(j)];
+    double* jacobian = jacobians[slot_[static_cast<std::size_t>(entry.block)]];
     if (jacobian == nullptr) continue;
-    Eigen::Map<RowMajor>(jacobian, num_residuals(), unknowns_.size_of(place.block))
-        .col(place.offset) += of_error.col(j);
+    Eigen::Map<RowMajor>(jacobian, num_residuals(), unknowns_.size_of(entry.block))
+        .col(entry.offset) += of_error.col(j);
   }
 }
 

@@ -30,17 +30,17 @@ bool WindowUnknowns::assign_blocks(const Window& window) {
 
 bool WindowUnknowns::assign_keyframe(const Window& window, int k) {
   const Keyframe& keyframe = window.at(k);
-  EkfCorrection apart;  // the estimate minus the prediction by the process factor
-  if (k > 0) apart = process_error(window.at(k - 1), keyframe);
+  EkfCorrection prediction_error;  // the estimate minus the prediction by the process factor
+  if (k > 0) prediction_error = process_error(window.at(k - 1), keyframe);
   BlockEntries entries(static_cast<std::size_t>(keyframe.active.size()));
   int block = -1;
   for (Index i = 0; i < keyframe.active.size(); ++i) {
-    BlockEntry& place = entries[static_cast<std::size_t>(i)];
+    BlockEntry& entry = entries[static_cast<std::size_t>(i)];
     if (k > 0 && !is_moved(keyframe.process_factor, i)) {
       const Index from = origin(keyframe.process_factor, i);
       if (from < 0) return false;
-      place = entries_.back()[static_cast<std::size_t>(from)];
-      place.constant -= apart(i);
+      entry = entries_.back()[static_cast<std::size_t>(from)];
+      entry.constant -= prediction_error(i);
       continue;
     }
     const bool first_ambiguity =
@@ -50,7 +50,7 @@ bool WindowUnknowns::assign_keyframe(const Window& window, int k) {
       values_.emplace_back();
     }
     std::vector<double>& values = values_[static_cast<std::size_t>(block)];
-    place = {block, static_cast<Index>(values.size()), 0.0};
+    entry = {block, static_cast<Index>(values.size()), 0.0};
     values.push_back(0.0);
   }
   entries_.push_back(entries);
@@ -79,10 +79,10 @@ EkfCorrection WindowUnknowns::error(int keyframe) const {
   const BlockEntries& entries = this->entries(keyframe);
   EkfCorrection error(static_cast<Index>(entries.size()));
   for (Index i = 0; i < error.size(); ++i) {
-    const BlockEntry& place = entries[static_cast<std::size_t>(i)];
+    const BlockEntry& entry = entries[static_cast<std::size_t>(i)];
     error(i) =
-        values_[static_cast<std::size_t>(place.block)][static_cast<std::size_t>(place.offset)] +
-        place.constant;
+        values_[static_cast<std::size_t>(entry.block)][static_cast<std::size_t>(entry.offset)] +
+        entry.constant;
   }
   return error;
 }

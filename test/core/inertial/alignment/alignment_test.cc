@@ -327,7 +327,7 @@ TEST_CASE("A hole in the samples costs no turn if short, and a new start if long
     CHECK((*waited >= 4) == !bridged);
     const auto aligned = alignment.attitude(kPosition, ride.v_e(), 0.05);
     REQUIRE(aligned);
-    // Bridged: the window may still hold courses of before, and the filler is an estimate. Anew:
+    // Bridged: the window may still hold courses of before, and the gap fill is an estimate. Anew:
     // the gyro bias is unknown, and the mean course is two seconds old.
     CHECK(heading_error(*aligned, ride) < (bridged ? 0.01 : 2.5 * kGyroBias.norm()));
     CHECK(aligned->gyro_bias_known == bridged);

@@ -37,10 +37,10 @@ TEST_CASE("A hole between linear rates is filled exactly, in one part or several
     const auto gap_fill = fill_imu_gap(previous, at_ms(from), at_ms(to), next);
     REQUIRE(gap_fill);
     const ImuSample expected = linear_sample(from, to);
-    CHECK(gap_fill->filler.time == expected.time);
-    CHECK(gap_fill->filler.start() == expected.start());
-    CHECK((gap_fill->filler.delta_theta_b - expected.delta_theta_b).norm() < 1e-12);
-    CHECK((gap_fill->filler.delta_velocity_b - expected.delta_velocity_b).norm() < 1e-12);
+    CHECK(gap_fill->sample.time == expected.time);
+    CHECK(gap_fill->sample.start() == expected.start());
+    CHECK((gap_fill->sample.delta_theta_b - expected.delta_theta_b).norm() < 1e-12);
+    CHECK((gap_fill->sample.delta_velocity_b - expected.delta_velocity_b).norm() < 1e-12);
   }
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("The stated sigma of a bridge covers a rate that stays as before or is
   REQUIRE(gap_fill);
   for (const ImuSample& neighbour : {previous, next}) {
     const Vector3d held = 0.050 / 0.005 * neighbour.delta_theta_b;
-    const Vector3d error = (held - gap_fill->filler.delta_theta_b).cwiseAbs();
+    const Vector3d error = (held - gap_fill->sample.delta_theta_b).cwiseAbs();
     for (int i = 0; i < 3; ++i) CHECK(error(i) <= gap_fill->sigma_theta_b(i));
   }
   // One lost sample of a steady vehicle costs next to nothing: 0.1 rad/sqrt(s) would be 7e-3 rad.
@@ -71,10 +71,10 @@ TEST_CASE(
   const auto held = fill_imu_gap(previous, at_ms(5), at_ms(25), ImuSample{});
   const auto taken = fill_imu_gap(ImuSample{}, at_ms(5), at_ms(25), next);
   REQUIRE((both && held && taken));
-  CHECK((held->filler.delta_theta_b - 4.0 * previous.delta_theta_b).norm() < 1e-15);
-  CHECK((taken->filler.delta_velocity_b - 4.0 * next.delta_velocity_b).norm() < 1e-15);
+  CHECK((held->sample.delta_theta_b - 4.0 * previous.delta_theta_b).norm() < 1e-15);
+  CHECK((taken->sample.delta_velocity_b - 4.0 * next.delta_velocity_b).norm() < 1e-15);
   CHECK(held->sigma_theta_b.x() >
-        0.5 * std::abs(both->filler.delta_theta_b.x() - held->filler.delta_theta_b.x()));
+        0.5 * std::abs(both->sample.delta_theta_b.x() - held->sample.delta_theta_b.x()));
   CHECK_FALSE(fill_imu_gap(ImuSample{}, at_ms(5), at_ms(25), ImuSample{}));
 }
 

@@ -148,7 +148,7 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
   CHECK(first.cause == ResetCause::kOutage);
   CHECK(first.keeps_attitude);
   CHECK(first.keeps_vehicle_constants);
-  monitor.filter_restarted(kStart);
+  monitor.filter_restarted(kStart, false);
   const FilterVerdict second =
       monitor.restart_after_outage(point, filter, kStart.plus_seconds(1.0));
   CHECK_FALSE(second.keeps_attitude);
@@ -156,6 +156,39 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
   const FilterVerdict later =
       monitor.restart_after_outage(point, filter, kStart.plus_seconds(3600.0));
   CHECK(later.keeps_attitude);
+}
+
+TEST_CASE("a filter 15 m off where its carriers hold it restarts at what all codes agree on") {
+  const Vector3d up = place().normalized();
+  const Ekf filter = filter_at(place(), 0.5);
+  FilterMonitor monitor{NavigatorConfig()};
+  FakeSolver solver;
+  solver.point = point_at(place() + 15.0 * up);
+  const MeasurementEpoch measurements = codes_all_used();
+  const EkfUpdateResult update = update_with(2);
+  FilterVerdict verdict;
+  int epochs = 0;
+  while (verdict.action == FilterAction::kKeep && epochs < 120)
+    verdict = monitor.test_position({kStart.plus_seconds(++epochs), update, measurements, filter},
+                                    &solver);
+  CHECK(verdict.action == FilterAction::kRestart);
+  CHECK(verdict.cause == ResetCause::kPrediction);
+  CHECK(verdict.value == Approx(15.0).margin(0.1));
+  // A mean that exceeds the limit after 10 s, and evidence for the other position of 20 s more.
+  CHECK(epochs > 20);
+  CHECK(epochs < 60);
+}
+
+TEST_CASE("a filter whose codes agree with it stays, however many of them are rejected") {
+  const Ekf filter = filter_at(place(), 0.5);
+  FilterMonitor monitor{NavigatorConfig()};
+  FakeSolver solver;
+  solver.point = point_at(place());
+  const MeasurementEpoch measurements = codes_all_used();
+  const EkfUpdateResult update = update_with(2);
+  for (int i = 1; i < 300; ++i)
+    CHECK(monitor.test_position({kStart.plus_seconds(i), update, measurements, filter}, &solver)
+              .action == FilterAction::kKeep);
 }
 
 TEST_CASE("a filter with a number that is not finite is dropped, and another one is not") {

@@ -26,9 +26,9 @@ TEST_CASE("a stray stamp changes nothing; a clock that was set restarts everythi
     REQUIRE(rig.stages.blocks.size() == blocks + 1);
     CHECK(rig.stages.blocks.back().time == at_ms(base + 1000));
     // Of 200 samples all but the run it took.
-    CHECK(rig.stages.blocks.back().samples.size() == 200 - (Sequencer::kImuRunToRestart - 1));
+    CHECK(rig.stages.blocks.back().samples.size() == 200 - (ImuIntake::kRunToRestart - 1));
   }
-  CHECK(rig.rejected(InputFault::kTimeBackwards) == Sequencer::kImuRunToRestart - 1);
+  CHECK(rig.rejected(InputFault::kTimeBackwards) == ImuIntake::kRunToRestart - 1);
 }
 
 TEST_CASE("a restart reaches both stages between the same two epochs, with its cause") {

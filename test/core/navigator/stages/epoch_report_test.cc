@@ -11,8 +11,6 @@
 namespace leonav::test {
 namespace {
 
-bool counts(Reason reason) { return reason == Reason::kUsed || reason == Reason::kDownweighted; }
-
 TEST_CASE("the reported DOP leaves out what the filter rejected") {
   const SimulatedReceiver receiver;
   SimulatedSky sky;
@@ -50,7 +48,7 @@ TEST_CASE("the reported DOP leaves out what the filter rejected") {
   CHECK(report->vdop == Approx(without.vdop).epsilon(1e-9));
   for (const SatelliteReport& satellite : report->satellites) {
     if (satellite.satellite == outlier) CHECK(satellite.reason == Reason::kOutlier);
-    if (satellite.satellite != outlier && counts(satellite.reason)) CHECK(satellite.elevation > 0);
+    if (satellite.satellite != outlier && is_used(satellite.reason)) CHECK(satellite.elevation > 0);
   }
 }
 

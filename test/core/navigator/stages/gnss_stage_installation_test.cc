@@ -1,5 +1,5 @@
-// Events of inputs that do not follow a convention, through the whole pipeline. Each mistake by
-// itself is tested with core/conventions.
+// Events of inputs that do not follow a convention, through all stages. Each mistake by itself is
+// tested in test/core/installation_checks.
 #include <utility>
 
 #include "support/catch.h"

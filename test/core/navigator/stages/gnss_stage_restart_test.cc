@@ -164,5 +164,77 @@ TEST_CASE("an outage that ends in faults does not start anew from them") {
   CHECK(worst_error(sink, drive, 806.0, 830.0) < 3.0);
 }
 
+const EpochReport& report_at(const RecordingSink& sink, double t) {
+  const auto found = std::find_if(sink.epochs.begin(), sink.epochs.end(), [&](const auto& report) {
+    return std::abs(seconds(report.time) - t) < 0.5;
+  });
+  REQUIRE(found != sink.epochs.end());
+  return *found;
+}
+
+// Satellites with a carrier arc at `t`, and how many of them are still on it two epochs later.
+struct Arcs {
+  int all = 0, continued = 0;
+};
+Arcs arcs_over(const RecordingSink& sink, double t) {
+  Arcs arcs;
+  for (const SatelliteReport& before : report_at(sink, t - 1.0).satellites) {
+    if (before.arc == 0) continue;
+    ++arcs.all;
+    for (const SatelliteReport& after : report_at(sink, t + 1.0).satellites)
+      arcs.continued += after.satellite == before.satellite && after.arc == before.arc ? 1 : 0;
+  }
+  return arcs;
+}
+
+TEST_CASE("a wrong heading costs the attitude alone; a command ends arcs and outages as well") {
+  constexpr double kCommand_s = 40.0, kBeforeGap_s = 50.0, kAfterGap_s = 58.0;
+  SyntheticDriveOptions options;
+  options.duration_s = 70.0;
+  options.doppler_sigma_m_s = 0.03;
+  options.code_sigma_m = 0.5;
+  options.carrier_sigma_m = 0.002;
+  SyntheticDrive drive = synthetic_drive(options);
+  std::erase_if(drive.epochs, [&](const RawEpoch& raw) {
+    return seconds(raw.time) > kBeforeGap_s + 0.5 && seconds(raw.time) < kAfterGap_s - 0.5;
+  });
+  NavigatorConfig config = drive_navigator_config(options);
+  config.ekf.use_carrier = true;
+  config.alignment.velocity_matching = config.alignment.heading_watch = true;
+  config.alignment.max_reverse_speed_m_s = 5.0;
+  config.alignment.lever_arm_b = options.lever_arm_b;
+  const SyntheticPath path(options);
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(options.start);
+  const double heading = euler_from_rotation(C_ne * path.state(0.0).q_eb.toRotationMatrix()).yaw;
+  config.alignment.initial_heading = wrap_to_pi(heading + 1.57);
+  for (const bool commands : {false, true}) {
+    CAPTURE(commands);
+    RecordingSink sink;
+    Navigator pipeline(config, &sink);
+    feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+      for (const double t : {kCommand_s, kBeforeGap_s})
+        if (commands && std::abs(seconds(raw.time) - t) < 0.5)
+          sequencer->on_command({CommandKind::kRestart, 0.0, 0.0});
+    });
+    const auto causes = resets(sink);
+    REQUIRE(causes.size() == (commands ? 3u : 1u));
+    CHECK(causes[0] == ResetCause::kHeading);
+    const auto event = std::find_if(sink.events.begin(), sink.events.end(), [](const Event& e) {
+      return e.kind == EventKind::kFilterReset;
+    });
+    CHECK(report_at(sink, seconds(event->time) - 1.0).solution.has_attitude);
+    CHECK_FALSE(report_at(sink, seconds(event->time)).solution.has_attitude);
+    const Arcs heading_reset = arcs_over(sink, seconds(event->time));
+    CHECK(heading_reset.all >= 8);
+    CHECK(heading_reset.continued == heading_reset.all);
+    const Arcs command = arcs_over(sink, kCommand_s);
+    CHECK(command.all >= 8);
+    CHECK(command.continued == (commands ? 0 : command.all));
+    CHECK(report_at(sink, kCommand_s).solution.has_attitude == !commands);
+    CHECK(sink.count(EventKind::kOutageOver) == (commands ? 0u : 1u));
+    CHECK(worst_error(sink, drive, 65.0, 70.0) < 5.0);
+  }
+}
+
 }  // namespace
 }  // namespace leonav::test

@@ -26,12 +26,12 @@ TEST_CASE("the four resets clear what their presets list, and nothing else") {
   for (const Row& row : rows) {
     CHECK(row.plan.filter == row.filter);
     CHECK(row.plan.carriers == row.carriers);
-    CHECK(row.plan.alignment == row.alignment);
-    CHECK(row.plan.external_heading == row.external_heading);
-    CHECK(row.plan.motion_aiding == row.motion_aiding);
-    CHECK(row.plan.outage_monitor == row.outage);
-    CHECK(row.plan.installation_monitor == row.installation);
-    CHECK(row.plan.times == row.times);
+    CHECK(row.plan.clears_alignment == row.alignment);
+    CHECK(row.plan.clears_external_heading == row.external_heading);
+    CHECK(row.plan.clears_motion_aiding == row.motion_aiding);
+    CHECK(row.plan.clears_outage_monitor == row.outage);
+    CHECK(row.plan.clears_installation_monitor == row.installation);
+    CHECK(row.plan.clears_times == row.times);
   }
   CHECK(restart_reset(true, true).keeps_attitude);
   CHECK_FALSE(restart_reset(false, true).keeps_attitude);

@@ -96,7 +96,7 @@ TEST_CASE("A truth file lies beside the scenario, as files of satellites do", "[
   CHECK(load_scenario(scenario.path()).route.file == scenario.beside("drive.csv"));
 }
 
-TEST_CASE("A truth file that leaps is refused; rows that are not read are told", "[sim]") {
+TEST_CASE("A truth file that leaps is refused; rows that are not read are reported", "[sim]") {
   const TemporaryFile file("truth.csv", "");
   std::vector<TruthPoint> points = points_of(original(), false);
   std::vector<TruthPoint> leaping = points;

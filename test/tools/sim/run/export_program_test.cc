@@ -101,7 +101,7 @@ TEST_CASE("RTKLIB reads the files, and positions by each system of GPS, Galileo 
   }
 }
 
-TEST_CASE("Files of orbits say whether they hold what the receiver is told") {
+TEST_CASE("Files of orbits state whether they hold what the receiver gets") {
   if (!test::have_programs("leonav-sim")) return;
   const test::TemporaryFile place("scenario.yaml", "name: short\nduration_s: 20\n");
   for (const bool renamed : {false, true}) {

@@ -161,7 +161,7 @@ TEST_CASE("Duplicates come twice and alike", "[sim][faults]") {
   }
 }
 
-TEST_CASE("A bad orbit is told, by as much as scripted and only then", "[sim][faults]") {
+TEST_CASE("A bad orbit is sent, by as much as scripted and only then", "[sim][faults]") {
   const Content with =
       run(kShort +
           "faults: [{kind: bad_orbit, to_s: 20, satellites: [L05], along_m: 3, radial_m: -4}]");

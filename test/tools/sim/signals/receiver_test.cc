@@ -205,7 +205,7 @@ TEST_CASE("The ionosphere delays codes, advances carriers, and goes by the frequ
   REQUIRE(most > 2.0);
 }
 
-TEST_CASE("Slips: whole cycles, at the rate asked for, told as often as asked for", "[sim]") {
+TEST_CASE("Slips: whole cycles, at the rate asked for, flagged as often as asked for", "[sim]") {
   const std::string yaml = "duration_s: 600\nroute: {standing_s: 600}\n";
   const Keys base = {"receiver.multipath.carrier_m=0", "receiver.cn0.horizon_loss_db=0",
                      "receiver.tracking.told_share=0.6"};

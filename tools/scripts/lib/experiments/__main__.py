@@ -13,14 +13,17 @@ def fail(message, code=1):
     sys.exit(code)
 
 
+ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", "..", "..", ".."))
+sys.path.insert(1, os.path.join(ROOT, "tools", "fleet"))
+
 try:
     import matrix
     import report
     import runner as running
+    from fleet import engine
 except ImportError as missing:
     fail(f"{missing}; install python3-numpy and python3-matplotlib")
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", "..", "..", ".."))
 QUICK_ROWS = ["code-gps-leo", "carrier-gps-ins", "carrier-gps-leo-ins", "sets-gps-leo-ins",
               "convergence-static-gps-leo320"]
 
@@ -46,7 +49,9 @@ def arguments():
     parser.add_argument("--seeds", type=at_least(1), default=5,
                         help=f"so many seeds of every row, {CONVERGENCE_FACTOR} times as many for convergence [5]")
     parser.add_argument("--first-seed", type=at_least(1), default=1, help="the first of them; the sets are always 1 to 4 [1]")
-    parser.add_argument("--jobs", type=at_least(1), default=os.cpu_count() or 1, help="runs at a time [processors]")
+    parser.add_argument("--jobs", type=at_least(1), help="runs at a time [processors]")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler instead; they must see the same files "
+                        "under the same names")
     parser.add_argument("--epochs", type=at_least(1100), default=3600, help="of each drive but those of the motion rows, 1 s each; the first 1000 do not "
                         "count [3600]")
     parser.add_argument("--quick", action="store_true", help="a smoke run: few rows, two seeds, short")
@@ -89,10 +94,10 @@ def main():
     out = os.path.abspath(options.out)
     try:
         os.makedirs(out, exist_ok=True)
-        runner = running.Runner(ROOT, os.path.abspath(options.bin), out, options.jobs, options.keep)
-        results = runner.run(rows, seeds_of)
-        path = report.write(out, rows, results, runner, seeds_of)
-    except running.RunError as error:
+        site = running.Site(ROOT, os.path.abspath(options.bin), out, options.keep)
+        results, failures = running.run(site, rows, seeds_of, options.jobs, options.scheduler)
+        path = report.write(out, rows, results, site, seeds_of)
+    except (running.RunError, engine.EngineError) as error:
         fail(str(error))
     except KeyboardInterrupt:
         fail("stopped; the same call goes on from here", 130)
@@ -101,7 +106,7 @@ def main():
     print(path)
     failed = [r for by_seed in results.values() for r in by_seed.values() if r is None or "failure" in r]
     if failed:
-        for text in runner.failures[:5]:
+        for text in failures[:5]:
             print(f"experiments: {text}", file=sys.stderr)
         fail(f"{len(failed)} runs failed; {path} names them")
     return 0

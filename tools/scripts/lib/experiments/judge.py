@@ -109,7 +109,9 @@ def after_convergence(t, error, convergence_s):
 
 
 def save_series(source, target):
-    shutil.copyfile(source, target)
+    temporary = f"{target}.{os.getpid()}.part"
+    shutil.copyfile(source, temporary)
+    os.replace(temporary, target)
 
 
 def one_line(result):

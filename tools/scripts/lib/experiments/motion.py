@@ -106,14 +106,14 @@ def few_lines(rows_, series_of):
     return lines
 
 
-def table(rows_, results, runner, lines):
+def table(rows_, results, site, lines):
     lines += ["North, east, up and horizontal RMSE after ten minutes, the horizontal 95 %; the worst horizontal error in a tunnel of "
               f"{SHORT_TUNNEL[1] - SHORT_TUNNEL[0]} s and in one of {LONG_TUNNEL[1] - LONG_TUNNEL[0]} s, and at its end; RMSE and worst in "
               f"{(FEW[1] - FEW[0]) // 60} minutes with those satellites alone that stand higher than {HIGH} degrees (how many: below). Mean ± standard deviation over the seeds, m; "
               "in brackets the seeds that answer there throughout, where not all do.", "",
               "| | seeds | N | E | U | horizontal | 95 % | 30 s, worst | 60 s, worst | 60 s, end | few, RMSE | few, worst |",
               "|---|---|---|---|---|---|---|---|---|---|---|---|"]
-    series_of = {row.name: plots.all_series(row, results, runner) for row in rows_}
+    series_of = {row.name: plots.all_series(row, results, site) for row in rows_}
     for row in rows_:
         every = [numbers_of(row, s) for s in series_of[row.name]]
         cells = [cell([one[i] for one in every]) for i in range(10)] if every else ["-"] * 10
@@ -135,7 +135,7 @@ def verdict(values, limit, seeds):
     return f"{spread.text(spread.mean_spread(values))} | {worst} | {limit:g} m: " + ("met" if kept == seeds else f"MISSED in {seeds - kept} of {seeds}")
 
 
-def verdict_lines(rows_, results, runner):
+def verdict_lines(rows_, results, site):
     """Of the rows with everything on: whether they keep to the limits, seed by seed."""
     chosen = [row for row in rows_ if row.name.startswith(("motion-tactical-car-", "motion-tactical-odometer-")) and results[row.name]]
     if not chosen:
@@ -146,7 +146,7 @@ def verdict_lines(rows_, results, runner):
              "| | seeds | horizontal, m | worst | limit | 60 s, end, m | worst | limit |", "|---|---|---|---|---|---|---|---|"]
     for row in chosen:
         seeds = len(results[row.name])
-        every = [numbers_of(row, s) for s in plots.all_series(row, results, runner)]
+        every = [numbers_of(row, s) for s in plots.all_series(row, results, site)]
         cells = [verdict([one[i] for one in every], limit, seeds) for i, limit in ((HORIZONTAL, LIMIT), (TUNNEL_END, TUNNEL_LIMIT))]
         lines.append(f"| `{row.name}` | {len(every)} of {seeds} | " + " | ".join(cells) + " |")
     return lines + [""]

@@ -13,26 +13,26 @@ import spread
 WIDE_M = 20.0
 
 
-def save(figure, runner, name):
+def save(figure, site, name):
     figure.tight_layout()
-    figure.savefig(os.path.join(runner.out, name), dpi=100)
+    figure.savefig(os.path.join(site.out, name), dpi=100)
     plt.close(figure)
     return name
 
 
-def series(row, seed, runner):
+def series(row, seed, site):
     try:
-        return np.load(runner.result_path(row, seed)[:-5] + ".npz")
+        return np.load(site.result_path(row, seed)[:-5] + ".npz")
     except OSError:
         return None
 
 
-def all_series(row, results, runner):
-    loaded = [series(row, seed, runner) for seed in spread.good(results[row.name])]
+def all_series(row, results, site):
+    loaded = [series(row, seed, site) for seed in spread.good(results[row.name])]
     return [data for data in loaded if data is not None]
 
 
-def bars(group, rows, results, runner):
+def bars(group, rows, results, site):
     figure, axis = plt.subplots(figsize=(max(6.0, 1.1 * len(rows)), 4.0))
     x = np.arange(len(rows))
     for i, name in enumerate(("north", "east", "up")):
@@ -44,14 +44,14 @@ def bars(group, rows, results, runner):
     axis.set_ylabel("RMSE, m")
     axis.grid(axis="y", alpha=0.3)
     axis.legend(fontsize=8)
-    return save(figure, runner, f"{group}-rmse.png")
+    return save(figure, site, f"{group}-rmse.png")
 
 
-def distributions(group, rows, results, runner):
+def distributions(group, rows, results, site):
     figure, axes = plt.subplots(1, 4, figsize=(13.0, 3.6), sharey=True)
     top = 0.0
     for row in rows:
-        runs = all_series(row, results, runner)
+        runs = all_series(row, results, site)
         if not runs:
             continue
         error = np.concatenate([d["error"][:, d["t"] >= row.settle_epochs] for d in runs], axis=1)
@@ -70,18 +70,18 @@ def distributions(group, rows, results, runner):
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("epochs, %")
     axes[3].legend(fontsize=7)
-    return save(figure, runner, f"{group}-cdf.png")
+    return save(figure, site, f"{group}-cdf.png")
 
 
-def errors_in_time(group, rows, results, runner):
+def errors_in_time(group, rows, results, site):
     figure, axes = plt.subplots(3, 1, figsize=(10.0, 6.0), sharex=True)
     for row in rows:
-        runs = all_series(row, results, runner)
+        runs = all_series(row, results, site)
         if not runs:
             continue
         for axis, values in zip(axes, runs[0]["error"]):
             axis.plot(runs[0]["t"], values, lw=0.7, label=row.title)
-    settled = [d["error"][:, d["t"] >= row.settle_epochs] for row in rows for d in all_series(row, results, runner)[:1]]
+    settled = [d["error"][:, d["t"] >= row.settle_epochs] for row in rows for d in all_series(row, results, site)[:1]]
     for i, (axis, name) in enumerate(zip(axes, ("north", "east", "up"))):
         limits = [np.quantile(np.abs(e[i]), 0.99) for e in settled if e.shape[1]]
         top = max(1.0, 1.5 * float(max(limits))) if limits else 1.0
@@ -90,13 +90,13 @@ def errors_in_time(group, rows, results, runner):
         axis.grid(alpha=0.3)
     axes[2].set_xlabel("s from the start (first seed)")
     axes[0].legend(fontsize=7, ncol=3)
-    return save(figure, runner, f"{group}-errors.png")
+    return save(figure, site, f"{group}-errors.png")
 
 
-def sky(group, rows, results, runner):
+def sky(group, rows, results, site):
     figure, axes = plt.subplots(2, 1, figsize=(10.0, 4.5), sharex=True)
     for row in rows:
-        runs = all_series(row, results, runner)
+        runs = all_series(row, results, site)
         if not runs or ("INS" in row.title) != (group.removeprefix("fgo-") != "code"):
             continue
         axes[0].plot(runs[0]["t_epoch"], runs[0]["satellites"], lw=0.7, label=row.title)
@@ -108,14 +108,14 @@ def sky(group, rows, results, runner):
     for axis in axes:
         axis.grid(alpha=0.3)
     axes[0].legend(fontsize=7, ncol=3)
-    return save(figure, runner, f"{group}-sky.png")
+    return save(figure, site, f"{group}-sky.png")
 
 
-def converging(group, rows, results, runner):
+def converging(group, rows, results, site):
     """The 3D error over time, median of the seeds."""
     figure, axis = plt.subplots(figsize=(9.0, 4.5))
     for row in rows:
-        runs = all_series(row, results, runner)
+        runs = all_series(row, results, site)
         if not runs:
             continue
         t = np.arange(0.0, max(d["t"][-1] for d in runs) + 1.0, 1.0)
@@ -127,10 +127,10 @@ def converging(group, rows, results, runner):
     axis.set_ylabel("3D error, m (median of the seeds)")
     axis.grid(alpha=0.3, which="both")
     axis.legend(fontsize=8)
-    return save(figure, runner, f"{group}-convergence.png")
+    return save(figure, site, f"{group}-convergence.png")
 
 
-def windows(group, rows, results, runner):
+def windows(group, rows, results, site):
     """3D RMSE over the length of the window."""
     figure, axis = plt.subplots(figsize=(7.0, 4.0))
     for studied in dict.fromkeys(row.studied for row in rows):
@@ -148,20 +148,20 @@ def windows(group, rows, results, runner):
     axis.set_ylim(bottom=0.0)
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8)
-    return save(figure, runner, f"{group}-windows.png")
+    return save(figure, site, f"{group}-windows.png")
 
 
-def draw(group, rows, results, runner):
+def draw(group, rows, results, site):
     """File names of the pictures, in the report's folder."""
     if group == "mismatch" or not any(spread.good(results[row.name]) for row in rows):
         return []
     if group == "study":
-        return [windows(group, rows, results, runner)]
+        return [windows(group, rows, results, site)]
     if group.startswith("convergence"):
-        return [converging(group, rows, results, runner)]
+        return [converging(group, rows, results, site)]
     if group.endswith("sets"):
-        return [converging(group, rows, results, runner), bars(group, rows, results, runner)]
-    pictures = [bars(group, rows, results, runner), distributions(group, rows, results, runner)]
+        return [converging(group, rows, results, site), bars(group, rows, results, site)]
+    pictures = [bars(group, rows, results, site), distributions(group, rows, results, site)]
     if group.removeprefix("fgo-") in ("code", "carrier", "low"):
-        pictures += [errors_in_time(group, rows, results, runner), sky(group, rows, results, runner)]
+        pictures += [errors_in_time(group, rows, results, site), sky(group, rows, results, site)]
     return pictures

@@ -1,5 +1,6 @@
 """report.md: our numbers, the published ones beside them, and how to run each row alone."""
 import os
+import textwrap
 
 import constellation
 import motion
@@ -35,7 +36,22 @@ TITLES = {
     "open-leo": "LEO as the papers simulate it: over the same drives without their houses, all masked at 5 degrees",
     **motion.TITLES,
 }
+WIDTH = 110  # characters of a line of prose
 TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
+
+
+def wrapped(lines):
+    """Prose broken into lines; tables, headings, pictures and code stay as they are."""
+    result, in_code = [], False
+    for line in lines:
+        if line.startswith("```"):
+            in_code = not in_code
+        if in_code or line.startswith(("|", "#", "!", "```")):
+            result.append(line)
+        else:
+            result += textwrap.wrap(line, WIDTH, subsequent_indent="  " if line.startswith("- ") else "",
+                                    break_long_words=False, break_on_hyphens=False) or [""]
+    return result
 
 
 def published_text(p):
@@ -131,9 +147,9 @@ def in_view_lines():
     means = ", ".join(f"{m:.1f} above {mask}°" for m, mask in zip(constellation.mean_in_view(1, masks), masks))
     return ["", "Why they differ. Of the papers' 160 LEO satellites, geometry alone shows a receiver at 39.9° north "
             f"{means} on the mean of a day with nothing in the way. The published 9.5 (Electronics) fits a horizon of about "
-            "zero, and 6.9 (Remote Sensing: 13.4 with LEO, 6.5 without) is more than the 15° that its table 2 names can show "
-            "even in the open: their simulated LEO was hardly masked, neither by elevation nor by houses. Ours is masked at "
-            "15° and by the same houses as the rest, so it adds fewer satellites and the PDOP stays higher.",
+            "zero. 6.9 (Remote Sensing: 13.4 with LEO, 6.5 without) is more than a mask of 15°, which its table 2 names, shows "
+            "even in the open. Their simulated LEO was hardly masked, neither by elevation nor by houses. Ours is masked at "
+            "15° and by the same houses as the rest, so it adds fewer satellites and the PDOP stays higher.", "",
             "GPS and BDS: the papers' streets are not known; ours are drawn. BeiDou has 45 satellites today, geostationary and "
             "inclined ones that stay over Beijing among them, and had fewer when the papers drove; at low observability it is "
             "held to six."]
@@ -173,8 +189,8 @@ def convergence_table(rows, results, lines):
 
 
 def mismatch_table(rows, results, lines):
-    lines += ["Beside each the row whose drives are as the estimator takes them to be, over the seeds that both have: the median "
-              "time to 10 cm, or the mean 3D RMSE; and the share of components within three stated sigma (mean).", "",
+    lines += ["Beside each stands the row whose drives are as the estimator takes them to be, over the seeds that both have. Numbers "
+              "are the median time to 10 cm or the mean 3D RMSE, and the mean share of components within three stated sigma.", "",
               "| | seeds | matched | mismatched | within three sigma, matched → mismatched |", "|---|---|---|---|---|"]
     for row in rows:
         both = results.get(row.matched, {}), results[row.name]
@@ -193,14 +209,14 @@ def mismatch_table(rows, results, lines):
         lines.append(f"| {row.title} (`{row.matched}`) | {len(seeds)} | {cells[0]} | {cells[1]} | {shares[0]} → {shares[1]} |")
 
 
-def write(out, rows, results, runner, seeds_of):
+def write(out, rows, results, site, seeds_of):
     lines = ["# The papers' experiments", "",
              f"{published.A} (code and Doppler) and {published.B} (carriers too), repeated on leonav's EKF and smoother with "
              "simulated drives. Mean ± standard deviation over the seeds; each seed is another drive, another sky and other noise. RMSE "
              "over all epochs after the first 1,000. The papers drove a real car through Beijing: their errors hold what their "
              "receiver and their streets did, ours what the simulator knows of it; compare the improvements before the metres.",
              ""]
-    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results) + motion.verdict_lines(rows, results, runner)
+    lines += verdicts.lines(rows, results) + smoother_verdicts.lines(rows, results) + motion.verdict_lines(rows, results, site)
     for group, title in TITLES.items():
         chosen = [row for row in rows if row.group == group]
         if not chosen:
@@ -212,7 +228,7 @@ def write(out, rows, results, runner, seeds_of):
         elif group == "mismatch":
             mismatch_table(chosen, results, lines)
         elif group in motion.TITLES:
-            motion.table(chosen, results, runner, lines)
+            motion.table(chosen, results, site, lines)
         elif group.startswith("convergence"):
             convergence_table(chosen, results, lines)
         else:
@@ -222,18 +238,18 @@ def write(out, rows, results, runner, seeds_of):
             lines += smoother_verdicts.study_lines(chosen, results)
         if notes:
             lines += [""] + [f"- {note}" for note in notes]
-        for picture in plots.draw(group, chosen, results, runner):
+        for picture in plots.draw(group, chosen, results, site):
             lines += ["", f"![{title}]({picture})"]
         lines.append("")
-    lines += sky_lines(rows, results)
+    lines = wrapped(lines + sky_lines(rows, results))
     failed = [f"{row.name}, seed {s}: {r['failure']}" for row in rows for s, r in results[row.name].items()
               if r and "failure" in r]
     if failed:
         lines += ["", "## Runs that failed", ""] + [f"- {text}" for text in failed]
-    lines += ["", "## One row alone", "", "From the project's folder; the first seed as an example. Others differ in `seed` "
-              "and `satellites.advance_s`, and with LEO 320 and 640 in the scenario's file.", ""]
+    lines += wrapped(["", "## One row alone", "", "From the project's folder; the first seed as an example. Others differ in "
+                      "`seed` and `satellites.advance_s`, and with LEO 320 and 640 in the scenario's file.", ""])
     for row in rows:
-        lines += [f"`{row.name}`", "", "```sh", *runner.alone(row, seeds_of(row)[0]), "```", ""]
+        lines += [f"`{row.name}`", "", "```sh", *site.alone(row, seeds_of(row)[0]), "```", ""]
     path = os.path.join(out, "report.md")
     with open(path, "w") as file:
         file.write("\n".join(lines) + "\n")

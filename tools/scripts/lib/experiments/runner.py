@@ -1,42 +1,30 @@
 """Runs rows: one simulated log for each scene and seed, replayed and judged once for each row that uses it."""
-import concurrent.futures
+import contextlib
 import hashlib
 import json
 import os
-import shlex
 import shutil
-import signal
-import subprocess
 import sys
-import threading
-import time
+import tempfile
+
+from fleet import engine, programs, progress
 
 import judge
 import scenes
+
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 class RunError(Exception):
     pass
 
 
-class Stopped(Exception):
-    """A program was ended by the user, who will call again."""
+class Site:
+    """Where programs, files and results are, and the commands of each run. Workers get a copy of it."""
 
-
-def shell_line(words):
-    return " ".join(shlex.quote(w) for w in words)
-
-
-def with_settings(settings):
-    return [w for s in settings for w in ("--set", s)]
-
-
-class Runner:
-    def __init__(self, root, bin_folder, out, jobs, keep_logs):
-        self.root, self.bin, self.out, self.jobs, self.keep_logs = root, bin_folder, out, jobs, keep_logs
-        self.lock, self.done, self.total, self.failures = threading.Lock(), 0, 0, []
-        self.stopped = False
-        self.begun = time.monotonic()
+    def __init__(self, root, bin_folder, out, keep_logs):
+        self.root, self.bin, self.out, self.keep_logs = root, bin_folder, out, keep_logs
+        self.work = self.caller = None  # while an engine runs
         self.fingerprint = self.digest_files([os.path.join(bin_folder, p) for p in
                                               ("leonav-sim", "leonav-replay", "leonav-eval")])
 
@@ -58,26 +46,23 @@ class Runner:
             return os.path.join(self.root, scene.file)
         path = os.path.join(self.out, "scenarios", f"{scene.name}-seed{seed}.yaml")
         text = f"# leonav-sim: an open sky; all else is its defaults or said with --set.\nsatellites:\n  leo:\n    shells: {shells}\n"
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        temporary = f"{path}.{threading.get_ident()}"
-        with open(temporary, "w") as file:
-            file.write(text)
-        os.replace(temporary, path)
+        programs.write_atomically(path, text)
         return path
 
     def sim_commands(self, scene, seed, folder):
         program, log = os.path.join(self.bin, "leonav-sim"), os.path.join(folder, "run.lcmlog")
         settings = scene.settings(seed)
         if not scene.open_leo:
-            return [[program, self.scene_file(scene, seed), *with_settings(settings), "-o", log]]
+            return [[program, self.scene_file(scene, seed), *programs.with_settings(settings), "-o", log]]
         drive = os.path.join(folder, "drive.lcmlog")
         leo = [*settings[:2], "receiver.lever_arm_b_m=[0, 0, -1.2]", "places=none"]
-        return [[program, self.scene_file(scene, seed), *with_settings([*settings, "satellites.leo.enabled=false"]), "-o", drive],
-                [program, os.path.join(self.root, "config/scenario/open_sky.yaml"), *with_settings(leo), "--overlay", drive,
+        return [[program, self.scene_file(scene, seed), *programs.with_settings([*settings, "satellites.leo.enabled=false"]), "-o", drive],
+                [program, os.path.join(self.root, "config/scenario/open_sky.yaml"), *programs.with_settings(leo), "--overlay", drive,
                  "--truth", os.path.join(folder, "truth.csv"), "-o", log]]
 
     def replay_command(self, row, folder, out):
-        return [os.path.join(self.bin, "leonav-replay"), "--preset", "urban", *with_settings(row.settings), os.path.join(folder, "run.lcmlog"), "--out", out]
+        return [os.path.join(self.bin, "leonav-replay"), "--preset", "urban", *programs.with_settings(row.settings),
+                os.path.join(folder, "run.lcmlog"), "--out", out]
 
     def eval_command(self, row, folder, out):
         judged_from = []
@@ -89,11 +74,11 @@ class Runner:
 
     def alone(self, row, seed):
         folder = "alone"
-        lines = [shell_line(["mkdir", "-p", folder])]
+        lines = [programs.shell_line(["mkdir", "-p", folder])]
         for command in (*self.sim_commands(row.scene, seed, folder), self.replay_command(row, folder, folder),
                         self.eval_command(row, folder, folder)):
-            lines.append(shell_line([os.path.relpath(w, self.root) if os.path.isabs(w) and w.startswith(self.root + "/")
-                                     else w for w in command]))
+            lines.append(programs.shell_line([os.path.relpath(w, self.root) if os.path.isabs(w) and w.startswith(self.root + "/")
+                                              else w for w in command]))
         return lines
 
     def result_path(self, row, seed):
@@ -115,95 +100,100 @@ class Runner:
         ours = isinstance(result, dict) and result.get("definition") == self.definition(row, seed)
         return result if ours else None
 
-    def call(self, command, folder):
-        log = os.path.join(folder, os.path.basename(command[0]) + ".log")
-        with open(log, "w") as file:
-            code = subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                  cwd=self.root).returncode
-        if self.stopped or code in (-signal.SIGINT, -signal.SIGTERM):
-            raise Stopped()
-        if code != 0:
-            with open(log, errors="replace") as file:
-                words = [line for line in file.read().replace("\r", "\n").split("\n") if line.strip()]
-            raise RunError(f"{shell_line(command)}: exit code {code}: {words[-1] if words else 'no words'}")
+    def log_folder(self, scene, seed):
+        return os.path.join(self.out, "work", f"{scene.name}-seed{seed}")
+
+    @contextlib.contextmanager
+    def own_folder(self, target, keep):
+        """A new one for every attempt of every worker; it becomes `target` in the end, if that is not there and `keep`."""
+        folder = tempfile.mkdtemp(prefix="run-", dir=self.work)
+        try:
+            yield folder
+            if keep and not os.path.isdir(target):
+                os.makedirs(os.path.dirname(target), exist_ok=True)
+                try:
+                    os.rename(folder, target)
+                except OSError:
+                    if not os.path.isdir(target):  # by another worker meanwhile
+                        raise
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
 
     def store(self, row, seed, result, folder=None):
         path = self.result_path(row, seed)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
         if folder is not None:
+            os.makedirs(os.path.dirname(path), exist_ok=True)
             judge.save_series(os.path.join(folder, "series.npz"), path[:-5] + ".npz")
         result.update(definition=self.definition(row, seed), row=row.name, seed=seed)
-        with open(path + ".part", "w") as file:
-            json.dump(result, file, indent=1)
-        os.replace(path + ".part", path)
+        programs.write_atomically(path, json.dumps(result, indent=1))
+        return result
 
-    def tell(self, text):
-        with self.lock:
-            self.done += 1
-            seconds = time.monotonic() - self.begun
-            left = seconds / self.done * (self.total - self.done)
-            print(f"[{self.done}/{self.total}, {left / 60.0:.0f} min left] {text}", file=sys.stderr, flush=True)
 
-    def one_log(self, scene, seed, rows):
-        if self.stopped:
-            return
-        folder = os.path.join(self.out, "work", f"{scene.name}-seed{seed}")
-        shutil.rmtree(folder, ignore_errors=True)
-        os.makedirs(folder)
+# The work of a worker.
+def simulate(site, scene, seed):
+    """Returns why the log is not there; None: it is."""
+    target = site.log_folder(scene, seed)
+    if os.path.isdir(target):
+        return None  # by a worker that was lost afterwards
+    try:
+        with site.own_folder(target, keep=True) as folder:
+            for command in site.sim_commands(scene, seed, folder):
+                site.caller.call(command, folder, shown=target)
+    except programs.ProgramError as error:
+        return str(error)
+    return None
+
+
+def run_row(not_simulated, site, row, seed):
+    """The result of one row of a log that is there; it is in its file before it is returned."""
+    if not_simulated is not None:
+        return site.store(row, seed, {"failure": f"not simulated: {not_simulated}"})
+    log = site.log_folder(row.scene, seed)
+    target = os.path.join(log, row.name)
+    with site.own_folder(target, site.keep_logs) as out:
         try:
-            self.rows_of_log(scene, seed, rows, folder)
-        except Stopped:
-            self.stopped = True
-        if not self.keep_logs:
-            shutil.rmtree(folder, ignore_errors=True)
+            site.caller.call(site.replay_command(row, log, out), out, shown=target)
+            site.caller.call(site.eval_command(row, log, out), out, shown=target)
+            return site.store(row, seed, judge.judge(row, log, out), out)
+        except (programs.ProgramError, judge.JudgeError) as error:
+            return site.store(row, seed, {"failure": str(error).replace(out, target)})
 
-    def rows_of_log(self, scene, seed, rows, folder):
-        try:
-            for command in self.sim_commands(scene, seed, folder):
-                self.call(command, folder)
-        except RunError as error:
-            with self.lock:
-                self.failures.append(str(error))
-                self.done += len(rows) - 1
-            for row in rows:
-                self.store(row, seed, {"failure": f"not simulated: {error}"})
-            self.tell(f"{scene.name}, seed {seed}: NOT SIMULATED")
-            return
-        for row in rows:
-            out = os.path.join(folder, row.name)
-            os.makedirs(out)
-            try:
-                self.call(self.replay_command(row, folder, out), out)
-                self.call(self.eval_command(row, folder, out), out)
-                result = judge.judge(row, folder, out)
-                self.store(row, seed, result, out)
-                self.tell(f"{row.name}, seed {seed}: " + judge.one_line(result))
-            except (RunError, judge.JudgeError) as error:
-                with self.lock:
-                    self.failures.append(str(error))
-                self.store(row, seed, {"failure": str(error)})
-                self.tell(f"{row.name}, seed {seed}: FAILED")
-            if not self.keep_logs:
-                shutil.rmtree(out, ignore_errors=True)
 
-    def run(self, rows, seeds_of):
-        """Everything that is not there yet. Returns {row name: {seed: result}}."""
-        tasks = {}
-        for row in rows:
-            for seed in seeds_of(row):
-                # What failed is tried again: perhaps the disk was full.
-                if "failure" in (self.finished(row, seed) or {"failure": "not run"}):
-                    tasks.setdefault((row.scene.name, seed), (row.scene, seed, []))[2].append(row)
-        self.total = sum(len(rows_) for _, _, rows_ in tasks.values())
+def groups_of(site, rows, seeds_of):
+    """One for each log, of the rows that are not there yet."""
+    jobs = {}
+    for row in rows:
+        for seed in seeds_of(row):
+            # What failed is tried again: perhaps the disk was full.
+            if "failure" in (site.finished(row, seed) or {"failure": "not run"}):
+                jobs.setdefault((row.scene.name, seed), (row.scene, []))[1].append((row, engine.Job(f"{row.name}, seed {seed}", run_row, site, row, seed)))
+    groups = []
+    for (_, seed), (scene, rows_and_jobs) in jobs.items():
+        folder = site.log_folder(scene, seed)
+        shutil.rmtree(folder, ignore_errors=True)  # of an earlier call
+        finish = None if site.keep_logs else lambda folder=folder: shutil.rmtree(folder, ignore_errors=True)
+        for row, job in rows_and_jobs:
+            job.row, job.seed = row, seed
+        groups.append(engine.Group(scene.name, [job for _, job in rows_and_jobs], (simulate, site, scene, seed), finish))
+    return groups
+
+
+def run(site, rows, seeds_of, jobs, scheduler=None):
+    """Everything that is not there yet. Returns {row name: {seed: result}} and what failed, in words."""
+    failures = []
+    with engine.Engine(site.out, jobs, scheduler, folders=[HERE]) as workers:
+        site.work, site.caller = workers.work, workers.caller
+        groups = groups_of(site, rows, seeds_of)
+        total = sum(len(group.jobs) for group in groups)
         everything = sum(len(seeds_of(row)) for row in rows)
-        print(f"{self.total} runs to do, {everything - self.total} already there", file=sys.stderr)
-        with concurrent.futures.ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            try:
-                for future in [pool.submit(self.one_log, *task) for task in tasks.values()]:
-                    future.result()
-            except BaseException:
-                self.stopped = True  # what has begun ends, the rest does not begin
-                raise
-        if self.stopped:
-            raise KeyboardInterrupt
-        return {row.name: {seed: self.finished(row, seed) for seed in seeds_of(row)} for row in rows}
+        print(f"{total} runs to do, {everything - total} already there", file=sys.stderr)
+        shown = progress.Progress(total)
+        for _, job, result in workers.run(groups):
+            if isinstance(result, engine.Failed):
+                result = site.store(job.row, job.seed, {"failure": result.text})
+            failed = "failure" in result
+            if failed and result["failure"] not in failures:
+                failures.append(result["failure"])
+            shown.tell(f"{job.name}: " + ("FAILED" if failed else judge.one_line(result)), failed)
+        shown.end()
+    return {row.name: {seed: site.finished(row, seed) for seed in seeds_of(row)} for row in rows}, failures

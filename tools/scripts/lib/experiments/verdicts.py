@@ -164,7 +164,7 @@ def lines(rows, results):
             f"LEO improves {sum(v.improves for v in judged)} of {len(judged)} rows, and reaches {sum(v.reached for v in compared)} "
             f"of {len(compared)} published improvements.", "",
             "Every row with LEO against the same drives without. Mean 3D RMSE over the seeds that both rows have (of the sets: from "
-            "3 m on); of convergence the median time to 10 cm. Published: the improvement of the 3D error, where it is not printed of "
-            "the root of the squares of N, E and U.", "",
+            "3 m on); of convergence the median time to 10 cm. Published: the improvement of the 3D error; where that is not printed, "
+            "the improvement of the root of the squares of N, E and U.", "",
             "| without LEO → with LEO | without | with | seeds | better in | verdict | published | cause |",
             "|---|---|---|---|---|---|---|---|"] + [v.line(results, verdicts) for v in verdicts] + [""]

@@ -449,6 +449,14 @@ def programs():
     refusals()
 
 
+def presets():
+    """The presets as the programs have them; the other cases have the text of when the inputs were made."""
+    add("configuration/presets", [["leonavd", "--check", "--preset", name] for name in inputs.PRESETS], quick=True)
+    for name, log in (("car", "short"), ("demo", "open"), ("phone", "drive"), ("phone_imu", "drive-ins"), ("station", "station"),
+                      ("urban", "urban"), ("walk", "walk")):
+        add(f"replay/preset/{name}", [["leonav-replay", "--preset", name, log_of(log), "--out", "{out}"]], [log], quick=name == "car")
+
+
 def refusals():
     """Inputs that programs refuse, with their messages and exit codes."""
     def replay_of(log, *words):
@@ -479,4 +487,5 @@ def refusals():
 recorded()
 simulated()
 edited()
+presets()
 programs()

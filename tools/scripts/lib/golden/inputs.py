@@ -15,7 +15,8 @@ from golden import edits
 
 # Configuration -> its preset.
 CONFIGS = {"walk": "walk", "drive": "phone", "drive_ins": "phone_imu", "station": "station", "urban": "urban", "demo": "demo"}
-SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay")
+PRESETS = ("car", "demo", "phone", "phone_imu", "realtime", "station", "urban", "walk")
+SCENARIOS = ("open_sky", "urban", "leo_320", "leo_640", "creeping", "drive_overlay", "correlated")
 
 DATASETS = {
     "walk": "name: walk\nobservations: [../data/walk/gnss.ubx]\nnavigation: [../data/walk/gnss.nav]\n"
@@ -132,6 +133,7 @@ SIMULATIONS = {
         f"faults=[{{kind: outage, from_s: 60, to_s: 200, {ALL}}}, {{kind: outage, from_s: 230, to_s: 370, {ALL}}}]", seed=23),
     "fast-imu": Simulation("open_sky", "duration_s=180", "route.standing_s=10", "imu.rate_hz=500", "receiver.interval_s=10",
                            "satellites.beidou.enabled=false", seed=24),
+    "correlated": Simulation("correlated", "duration_s=300", "route.standing_s=20", seed=25),
     "files": Simulation("open_sky", "duration_s=120", "route.standing_s=10", seed=20, options=["--export", "{out}"]),
     "files-as-gps": Simulation("open_sky", "duration_s=60", "route.standing_s=10", "imu.enabled=false", seed=21,
                                options=["--export", "{out}", "--leo-as-gps"]),
@@ -235,10 +237,21 @@ def make_texts(folder, names):
 
 
 def make_configs(maker, out):
-    """Every key of each preset: what it says stays as it was when the inputs were made."""
+    """What each preset changes. Not every key: there `by_kind` is resolved already, and vehicle.kind=car would change nothing."""
     for name, preset in CONFIGS.items():
         with open(os.path.join(maker.scratch, out, f"{name}.yaml"), "w") as file:
-            file.write(maker.call(["leonavd", "--check", "--preset", preset]))
+            file.write(maker.call(["leonavd", "--check", "--changes", "--preset", preset]))
+    if fault := fault_of_configs(os.path.join(maker.scratch, out)):
+        raise InputError(fault)
+
+
+def fault_of_configs(folder):
+    """Why the cases of a car would drive no car with these configurations; empty: they do."""
+    for name in CONFIGS:
+        with open(os.path.join(folder, f"{name}.yaml")) as file:
+            if found := re.search(r"(?m)^ *non_holonomic: (true|false)", file.read()):
+                return f"{name}.yaml fixes {found[0].strip()}, so that vehicle.kind=car does not constrain the motion"
+    return ""
 
 
 def make_parking(maker, out):

@@ -171,6 +171,11 @@ class Inputs:
     def has(self, name):
         return name in self.listed and os.path.isdir(os.path.join(self.place.inputs, name))
 
+    def fault(self):
+        """Why nothing should be recorded or compared with these inputs; empty: they are good."""
+        folder = os.path.join(self.place.inputs, "config")
+        return recipes.fault_of_configs(folder) if self.has("config") else ""
+
     def why_not(self, name):
         """The reason why an input cannot be made here; empty: it exists or can be made."""
         if self.has(name):

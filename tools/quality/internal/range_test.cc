@@ -1,4 +1,4 @@
-#include "tools/quality/internal/range_check.h"
+#include "tools/quality/internal/range_test.h"
 
 #include <cmath>
 

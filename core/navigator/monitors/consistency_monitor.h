@@ -16,10 +16,6 @@ class ConsistencyMonitor {
   double mean() const { return mean_; }
 
  private:
-  static constexpr double kEpochs = 30.0;
-  static constexpr double kInconsistent = 2.0;
-  static constexpr double kRecovered = 1.5;
-
   double mean_ = 1.0;
   bool inconsistent_ = false;
 };

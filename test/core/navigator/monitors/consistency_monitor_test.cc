@@ -1,4 +1,4 @@
-#include "core/filter/innovation_tests/consistency_monitor.h"
+#include "core/navigator/monitors/consistency_monitor.h"
 
 #include <cmath>
 

@@ -1,0 +1,41 @@
+// LearnedErrors is what the filter has learned about the errors of its measurements.
+#pragma once
+#include "core/filter/error_model/error_correlation.h"
+#include "core/filter/error_model/sigma_scale.h"
+#include "core/filter/innovation_tests/clock_removed_innovations.h"
+#include "core/filter/state/ekf_config.h"
+
+namespace leonav {
+
+// It takes the clock-removed innovations of codes and Dopplers, epoch by epoch, and gives scale and
+// correlation of the errors of each class. It outlives restarts of the filter: the street stays.
+class LearnedErrors {
+ public:
+  explicit LearnedErrors(const EkfConfig& config);
+  // Returns to what is configured.
+  void reset();
+
+  bool learns() const { return learns_; }
+  // Adds one observable of an epoch. `standing`: the vehicle stands.
+  void add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+           const ClockRemovedInnovations& innovations, bool standing);
+  // Ends the epoch.
+  void end_epoch(GpsTime time);
+
+  // Returns by how much the sigma of a measurement is larger than configured.
+  double sigma_scale(const ErrorClass& of) const { return learns_ ? scale_.scale(of) : 1.0; }
+  // The same of an observable, without regard to the class.
+  double mean_scale(Observable observable) const {
+    return learns_ ? scale_.mean_scale(observable) : 1.0;
+  }
+  // Returns how its errors are correlated in time, at a satellite in medium orbit.
+  const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }
+
+ private:
+  bool learns_;
+  SigmaScale scale_;
+  ErrorCorrelation correlation_;
+  GpsTime last_time_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,84 @@
+// The learned scale of sigmas against errors of known size.
+#include "core/filter/error_model/sigma_scale.h"
+
+#include <cmath>
+#include <random>
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+ErrorClass code_at(std::size_t elevation) {
+  ErrorClass of;
+  of.observable = static_cast<std::size_t>(Observable::kCode);
+  of.elevation = elevation;
+  return of;
+}
+
+// Ten codes of one class a second, `times` as large as their sigma as scaled.
+void drive(SigmaScale* scale, const ErrorClass& of, double times, double seconds,
+           std::mt19937_64* random, double gross_share = 0.0) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  for (int t = 0; t < seconds; ++t) {
+    for (int i = 0; i < 10; ++i) {
+      const double gross = uniform(*random) < gross_share ? 30.0 : 1.0;
+      const double z = gross * times * normal(*random) / scale->scale(of);
+      scale->add({of, z * z, 1.0});
+    }
+    scale->end_epoch(1.0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the scale of sigmas comes to what the errors are, from either side") {
+  for (const double times : {0.5, 1.0, 3.0, 6.0}) {
+    std::mt19937_64 random(1);
+    SigmaScale scale;
+    drive(&scale, code_at(1), times, 300.0, &random);
+    CHECK(scale.scale(code_at(1)) == Approx(times).epsilon(0.15));
+  }
+}
+
+TEST_CASE("a street is entered within half a minute, and left within a minute") {
+  std::mt19937_64 random(2);
+  SigmaScale scale;
+  drive(&scale, code_at(1), 1.0, 300.0, &random);
+  drive(&scale, code_at(1), 5.0, 30.0, &random);
+  CHECK(scale.scale(code_at(1)) > 3.5);
+  drive(&scale, code_at(1), 1.0, 60.0, &random);
+  CHECK(scale.scale(code_at(1)) < 1.6);
+}
+
+TEST_CASE("one gross error in twenty does not double the scale") {
+  std::mt19937_64 random(3);
+  SigmaScale scale;
+  drive(&scale, code_at(1), 1.0, 300.0, &random, 0.05);
+  CHECK(scale.scale(code_at(1)) < 1.4);
+}
+
+TEST_CASE("a class that is not seen has the scale that all share") {
+  std::mt19937_64 random(4);
+  SigmaScale scale;
+  for (int i = 0; i < 300; ++i) {
+    drive(&scale, code_at(0), 6.0, 1.0, &random);
+    drive(&scale, code_at(3), 2.0, 1.0, &random);
+  }
+  CHECK(scale.scale(code_at(0)) > 2.0 * scale.scale(code_at(3)));
+  const double unseen = scale.scale(code_at(2));
+  CHECK(unseen > scale.scale(code_at(3)));
+  CHECK(unseen < scale.scale(code_at(0)));
+}
+
+TEST_CASE("innovations that the prediction's variance explains leave the scale as it is") {
+  SigmaScale scale;
+  const double before = scale.scale(code_at(1));
+  for (int t = 0; t < 100; ++t) {
+    for (int i = 0; i < 10; ++i) scale.add({code_at(1), 4.0, 0.0});
+    scale.end_epoch(1.0);
+  }
+  CHECK(scale.scale(code_at(1)) == Approx(before));
+}

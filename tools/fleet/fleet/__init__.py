@@ -1,0 +1,1 @@
+"""Many runs of leonav's programs, spread over worker processes: the modules of leonav-fleet."""

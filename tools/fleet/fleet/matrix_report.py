@@ -1,0 +1,138 @@
+"""report.md and report.json of a matrix: a row for each scene and estimator, over its seeds."""
+import json
+import os
+import statistics
+
+from . import matrix as matrices
+from . import measure, programs, report
+
+AXES = measure.AXES
+
+
+class Row:
+    """One scene and variant over the seeds; `results` by seed."""
+
+    def __init__(self, scene, variant, results):
+        self.scene, self.variant, self.results = scene, variant, results
+        self.name = matrices.row_name(scene, variant)
+        self.good = {seed: r for seed, r in results.items() if r["failure"] is None}
+        self.pooled = report.pooled(self.good.values())
+
+    def mean(self, key):
+        return statistics.fmean(r["errors"][key]["rmse"] for r in self.good.values()) if self.good else None
+
+    def worst(self):
+        """(3D RMSE, seed) of the seed with the largest."""
+        return max(((r["errors"]["3d"]["rmse"], seed) for seed, r in self.good.items()), default=(None, None))
+
+    def shares(self):
+        return [report.share(self.pooled["sigmas"][axis]) if self.pooled else None for axis in AXES]
+
+    def worst_shares(self):
+        return [min((s for r in self.good.values() if (s := report.share(r["sigmas"][axis])) is not None), default=None) for axis in AXES]
+
+    def ratios(self):
+        return [self.pooled["sigmas"][axis]["sigma_over_rmse"] if self.pooled else None for axis in AXES]
+
+    def available(self):
+        return self.pooled["availability"] if self.pooled else None
+
+    def integrity(self):
+        return self.pooled["integrity"] if self.pooled else None
+
+    def misleading(self):
+        """Share of each quantity's epochs that is beyond its level; of those that have an epoch."""
+        return [count / epochs for count, epochs in report.misleading(self.integrity()).values() if epochs] or [None]
+
+    def values(self, measure_name):
+        """Of a limit's measure, in its units: one number, or one of each axis."""
+        def in_percent(values):
+            return [None if v is None else 100.0 * v for v in values]
+        return {"share": lambda: in_percent(self.shares()), "worst_share": lambda: in_percent(self.worst_shares()),
+                "sigma_over_rmse": self.ratios, "rmse": lambda: [self.mean(axis) for axis in AXES],
+                "rmse_horizontal": lambda: [self.mean("horizontal")], "rmse_3d": lambda: [self.mean("3d")],
+                "misleading": lambda: in_percent(self.misleading()), "worst_3d": lambda: [self.worst()[0]], "available": lambda: in_percent([self.available()])}[measure_name]()
+
+    def missed(self):
+        """The limits that it does not keep to, with its values."""
+        return [(limit, values) for limit in self.scene.limits if not limit.holds(values := self.values(limit.measure))]
+
+    def verdict(self):
+        failed = len(self.results) - len(self.good)
+        parts = [f"FAILED in {failed} of {len(self.results)} seeds"] if failed else []
+        missed = self.missed()
+        if missed:
+            parts.append("MISSED: " + "; ".join(f"{limit.text}: {report.triple(values)}" for limit, values in missed))
+        return "; ".join(parts) or ("met" if self.scene.limits else "-")
+
+    def line(self, with_integrity):
+        worst, seed = self.worst()
+        cells = [self.scene.name, *self.variant.values, f"{len(self.good)} of {len(self.results)}",
+                 report.triple(self.mean(axis) for axis in AXES), report.number(self.mean("3d")),
+                 "-" if worst is None else f"{worst:.2f} (seed {seed})", " / ".join(report.percent(v) for v in self.shares()),
+                 " / ".join(report.percent(v) for v in self.worst_shares()), report.triple(self.ratios()), report.percent(self.available())]
+        if with_integrity:
+            cells.append(report.integrity_text(self.integrity()))
+        return "| " + " | ".join([*cells, self.verdict()]) + " |"
+
+    def plain(self):
+        worst, seed = self.worst()
+        return {"name": self.name, "scene": self.scene.name, "variant": list(self.variant.values), "verdict": self.verdict(),
+                "mean_rmse": {key: measure.rounded(self.mean(key)) for key in (*AXES, "horizontal", "3d")},
+                "worst_3d": measure.rounded(worst), "worst_seed": seed, "pooled": self.pooled,
+                "share": [measure.rounded(v) for v in self.shares()], "worst_share": [measure.rounded(v) for v in self.worst_shares()],
+                "limits_missed": [limit.text for limit, _ in self.missed()],
+                "runs": [{"seed": seed, **{k: v for k, v in r.items() if k != "definition"}} for seed, r in sorted(self.results.items())]}
+
+
+def rows_of(matrix, results):
+    """`results` by (row's name, seed)."""
+    return [Row(scene, variant, {seed: results[matrices.row_name(scene, variant), seed] for seed in matrix.seeds})
+            for scene, variant in matrix.rows()]
+
+
+def verdict_lines(matrix, rows):
+    limited = [row for row in rows if row.scene.limits]
+    if not limited:
+        return []
+    lines = [f"{sum(row.verdict() == 'met' for row in limited)} of {len(limited)} rows keep to every limit.", "",
+             "| limit | rows that keep to it |", "|---|---|"]
+    for limit in dict.fromkeys(limit for row in limited for limit in row.scene.limits):
+        held = [row for row in limited if limit in row.scene.limits]
+        lines.append(f"| {limit.text} | {sum(limit.holds(row.values(limit.measure)) for row in held)} of {len(held)} |")
+    meanings = {limit.measure: matrices.MEASURES[limit.measure] for row in limited for limit in row.scene.limits}
+    return [*lines, "", "; ".join(f"{name}: {text}" for name, text in meanings.items()) + ".", ""]
+
+
+def markdown(matrix, rows):
+    seeds = ", ".join(map(str, matrix.seeds))
+    lines = [f"# {matrix.title}", "", f"Seeds {seeds}; the first {matrix.settle_s:g} s of each run do not count. RMSE: mean of the seeds. "
+             "Within 3 sigma: of the epochs of all seeds together, and of the worst seed. Sigma / RMSE: mean stated sigma over RMSE, all "
+             "seeds together.", ""]
+    lines += [f"Skipped: {name}: {why}." for name, why in matrix.skipped] + ([""] if matrix.skipped else [])
+    lines += verdict_lines(matrix, rows)
+    with_integrity = any(row.pooled and row.pooled["integrity"] for row in rows)
+    header = ["scene", *matrix.axes, "seeds", "RMSE N / E / U, m", "3D, m", "worst seed 3D, m", "within 3 sigma N / E / U, %",
+              "worst seed, %", "sigma / RMSE N / E / U", "available, %", *(["misleading"] if with_integrity else []), "verdict"]
+    lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
+    failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
+    lines += report.failed_lines(failed)
+    lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]
+    for scene in matrix.scenes:
+        settings = programs.with_settings(scene.settings_of(matrix.seeds[0], matrix.advance_s))
+        lines.append(programs.shell_line(["leonav-sim", os.path.relpath(scene.scenario), *settings, "-o", "run.lcmlog"]))
+    lines += [programs.shell_line(["leonav-replay", *matrix.common, "run.lcmlog", "--out", "."]), "```", "", "with, for", ""]
+    lines += [f"- {axis} {name}: " + (f"`{programs.shell_line(words)}`" if words else "nothing else")
+              for axis, name, words in matrix.choices]
+    return "\n".join(lines) + "\n"
+
+
+def write(out, matrix, results):
+    """Returns the path of report.md and the rows."""
+    rows = rows_of(matrix, results)
+    plain = {"title": matrix.title, "seeds": matrix.seeds, "settle_s": matrix.settle_s, "skipped": matrix.skipped,
+             "rows": [row.plain() for row in rows]}
+    programs.write_atomically(os.path.join(out, "report.json"), json.dumps(plain, indent=1, sort_keys=True) + "\n")
+    path = os.path.join(out, "report.md")
+    programs.write_atomically(path, markdown(matrix, rows))
+    return path, rows
