@@ -121,7 +121,7 @@ void ReplayRun::print_odometer(std::ostream& out) {
 // Prints the errors of codes and Dopplers as the filter knew them at the end.
 void ReplayRun::print_learned_errors(std::ostream& out) {
   constexpr std::array kElevations = {"below 20", "20 to 35", "35 to 50", "above 50"};
-  const LearnedErrors& errors = pipeline_.gnss().ekf().learned_errors();
+  const LearnedErrors& errors = navigator_.gnss().ekf().learned_errors();
   if (!errors.learns()) return;
   for (const Observable observable :
        {Observable::kCode, Observable::kDoppler, Observable::kCarrier}) {
