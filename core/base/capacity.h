@@ -1,5 +1,5 @@
-// This header holds every fixed capacity of leonav in one place. The wire types in lcmtypes/ carry
-// the same limits: a message that claims more is rejected before it is decoded.
+// This header holds the capacities of data that enter from outside. The wire types in lcmtypes/
+// carry the same limits: a message that claims more is rejected before it is decoded.
 #pragma once
 #include <cstddef>
 

@@ -8,7 +8,8 @@
 namespace leonav {
 namespace {
 
-constexpr std::array<double, 8> kTimes_s = {1.5, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0, 192.0};
+constexpr std::array<double, 15> kTimes_s = {1.5,  2.1,  3.0,  4.2,  6.0,  8.5,   12.0, 17.0,
+                                             24.0, 34.0, 48.0, 68.0, 96.0, 136.0, 192.0};
 constexpr double kMemory_s = 240.0;
 constexpr double kSpacing_s = 0.9;  // samples of a signal that are kept are this far apart
 constexpr double kLimit = 3.0;      // of a standardized innovation

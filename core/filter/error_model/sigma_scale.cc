@@ -7,7 +7,7 @@ namespace leonav {
 namespace {
 
 // Until something has been seen, errors are taken to be larger than configured: a street is more
-// usual than an open place, and what the state believes too early it does not forget.
+// usual than an open place, and information with too small a variance stays in the state.
 constexpr double kStartScale = 2.0;
 constexpr double kLimit = 2.5;         // k
 constexpr double kExpected = 0.97756;  // beta: of a standard normal z
