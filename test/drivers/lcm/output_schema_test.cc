@@ -8,6 +8,7 @@
 #include <leonav/solution_v1_t.hpp>
 #include <memory>
 
+#include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
 
