@@ -1,5 +1,6 @@
 #include "core/filter/ekf.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/base/square.h"
@@ -117,6 +118,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   ClockSteps steps;
   if (clocks_.start(epoch, assembler_.measurements(), &estimate_, &steps))
     assembler_.assemble(epoch, antenna, last_update_, &estimate_);
+  if (start_errors(epoch)) assembler_.assemble(epoch, antenna, last_update_, &estimate_);
   result.arcs_without_capacity = assembler_.arcs_without_capacity();
   clocks_.compensate_steps(epoch, &robust_update_, assembler_.mutable_measurements(), &estimate_,
                            &steps);
@@ -136,6 +138,22 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
       attitude_convergence_.advance(attitude_sigma_n(state().p_e, covariance()), share))
     estimate_.restart_vehicle_constants(this->antenna());
   return result;
+}
+
+bool Ekf::start_errors(const MeasurementEpoch& epoch) {
+  if (!learned_errors().unseen(Observable::kCode)) return false;
+  const auto scales = [this] {
+    return std::array{learned_errors().mean_scale(Observable::kCode),
+                      learned_errors().mean_scale(Observable::kDoppler)};
+  };
+  const auto before = scales();
+  const InnovationTables tables =
+      clock_removed_by_observable(assembler_.measurements(), covariance());
+  bool started = assembler_.start_errors(epoch, table_of(tables, Observable::kCode));
+  started |= assembler_.start_errors(epoch, table_of(tables, Observable::kDoppler));
+  const auto after = scales();
+  if (started) estimate_.scale_sigmas(after[0] / before[0], after[1] / before[1]);
+  return started;
 }
 
 void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,

@@ -140,6 +140,9 @@ class Ekf {
 
  private:
   AntennaMotion antenna() const;
+  // Fits the size of errors to the first epoch; returns whether its measurements are to be weighed
+  // anew.
+  bool start_errors(const MeasurementEpoch& epoch);
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
   // Inflates the covariance as the verdict says; where codes contradict the carriers' position, the

@@ -13,10 +13,6 @@ namespace leonav {
 using namespace ekf_index;
 using Eigen::Vector3d;
 
-namespace {
-constexpr double kStandingSpeed_m_s = 0.3;
-}
-
 void MeasurementAssembler::reset() {
   code_model_.reset();
   measurements_.clear();
@@ -33,7 +29,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - antenna.p_e;
   antenna.p_e += off_e;
   const double dt = seconds_between(epoch.time, last_update);
-  standing_ = config_.static_point || antenna.v_e.norm() < kStandingSpeed_m_s;
+  speed_ = config_.static_point ? 0.0 : antenna.v_e.norm();
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
@@ -83,14 +79,16 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
                                  double correlation_time_ratio, double dt,
                                  FilterMeasurement* entry) {
   const ErrorClass of =
-      error_class(measurement, epoch.satellites[measurement.satellite_index], standing_);
+      error_class(measurement, epoch.satellites[measurement.satellite_index], standing());
   const double scale = errors_.sigma_scale(of);
   entry->variance = square(measurement.sigma);
   if (scale != 1.0) {
     const double modelled = std::min(square(measurement.correlated_sigma), entry->variance);
     entry->variance = modelled + square(scale) * (entry->variance - modelled);
   }
-  CorrelationModel correlation = errors_.correlation(of);
+  CorrelationModel correlation = measurement.observable == Observable::kCarrier
+                                     ? errors_.carrier_correlation(speed_)
+                                     : errors_.correlation(of);
   correlation.time_s *= correlation_time_ratio;
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;

@@ -36,9 +36,14 @@ class MeasurementAssembler {
   void assemble(const MeasurementEpoch& epoch, AntennaMotion antenna, GpsTime last_update,
                 StateEstimate* estimate);
 
+  // Fits the size of errors to the innovations of codes or Dopplers of a first epoch
+  // (LearnedErrors::start()); measurements() are not weighed anew.
+  bool start_errors(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
+    return errors_.start(epoch, measurements_, innovations, standing());
+  }
   // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
   void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
-    errors_.add(epoch, measurements_, innovations, standing_);
+    errors_.add(epoch, measurements_, innovations, standing());
   }
   void finish_learning(GpsTime time) { errors_.end_epoch(time); }
   const LearnedErrors& errors() const { return errors_; }
@@ -53,9 +58,11 @@ class MeasurementAssembler {
   void exclude_ranges();
 
  private:
+  static constexpr double kStandingSpeed_m_s = 0.3;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
              double correlation_time_ratio, double dt, FilterMeasurement* entry);
+  bool standing() const { return speed_ < kStandingSpeed_m_s; }
   template <typename Predicate>
   void exclude_if(Predicate predicate);
 
@@ -64,8 +71,8 @@ class MeasurementAssembler {
   LearnedErrors errors_;
   FilterMeasurements measurements_;
   ExcludedMeasurements excluded_;
-  bool standing_ = false;  // the vehicle, at measurements_
-  GpsTime epoch_time_;     // of measurements_
+  double speed_ = 0.0;  // of the antenna, m/s, at measurements_
+  GpsTime epoch_time_;  // of measurements_
   int arcs_without_capacity_ = 0;
 };
 

@@ -2,14 +2,17 @@
 #pragma once
 #include "core/navigator/interface/navigator_config.h"
 #include "support/synthetic_drive.h"
+#include "support/white_errors.h"
 
 namespace leonav::test {
 
-// All systems on, the drive's lever arm, an IMU of good tactical grade; else the defaults.
+// All systems on, the drive's lever arm, an IMU of good tactical grade, errors of measurements
+// white as in the drive; else the defaults.
 inline NavigatorConfig drive_navigator_config(const SyntheticDriveOptions& options,
                                               MotionModel motion = MotionModel::kInertial) {
   NavigatorConfig config;
   config.motion = motion;
+  config.ekf = white_error_config();
   config.gnss = default_gnss_config();
   for (SystemConfig& system : config.gnss.systems) system.enabled = true;
   config.vehicle.lever_arm_b = options.lever_arm_b;

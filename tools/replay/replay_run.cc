@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 
 #include "drivers/lcm/event_log.h"
 #include "tools/replay/run_warnings.h"
@@ -127,26 +128,25 @@ void ReplayRun::print_learned_errors(std::ostream& out) {
   constexpr std::array kElevations = {"below 20", "20 to 35", "35 to 50", "above 50"};
   const LearnedErrors& errors = navigator_.gnss().ekf().learned_errors();
   if (!errors.learns()) return;
-  for (const Observable observable :
-       {Observable::kCode, Observable::kDoppler, Observable::kCarrier}) {
+  out << std::setprecision(2);
+  for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
     for (std::size_t elevation = 0; elevation < kElevationClasses; ++elevation) {
       ErrorClass of;
       of.observable = static_cast<std::size_t>(observable);
       of.elevation = elevation;
-      out << "errors of "
-          << (observable == Observable::kCode      ? "codes, "
-              : observable == Observable::kDoppler ? "Dopplers, "
-                                                   : "carriers, ")
-          << kElevations[elevation] << " deg: sigma times";
+      double least = std::numeric_limits<double>::max(), most = 0.0;
       for (of.system = 0; of.system < kSystemCount; ++of.system)
-        for (of.signal = 0; of.signal < kSignalClasses; ++of.signal)
-          out << " " << std::setprecision(2) << errors.sigma_scale(of);
-      const CorrelationModel& correlation = errors.correlation(of);
-      out << ", " << std::setprecision(2) << 100.0 * correlation.share << " % alike for "
-          << correlation.time_s << " s";
+        for (of.signal = 0; of.signal < kSignalClasses; ++of.signal) {
+          least = std::min(least, errors.sigma_scale(of));
+          most = std::max(most, errors.sigma_scale(of));
+        }
+      const CorrelationModel moving = errors.correlation(of);
       of.motion = 1;
-      const CorrelationModel& standing = errors.correlation(of);
-      out << ", standing " << 100.0 * standing.share << " % for " << standing.time_s << " s\n";
+      const CorrelationModel standing = errors.correlation(of);
+      out << "learned errors of " << (observable == Observable::kCode ? "codes " : "Dopplers ")
+          << kElevations[elevation] << " deg: configured sigma times " << least << " to " << most
+          << ", " << 100.0 * moving.share << " % of the variance correlated over " << moving.time_s
+          << " s, standing " << 100.0 * standing.share << " % over " << standing.time_s << " s\n";
     }
   }
 }

@@ -15,6 +15,9 @@ constexpr double kSpacing_s = 0.9;  // samples of a signal that are kept are thi
 constexpr double kLimit = 3.0;      // of a standardized innovation
 // Pairs that what is known beforehand counts as.
 constexpr double kPriorPairs = 150.0;
+// With a larger part of the prediction's variance an innovation is not used: while a filter starts,
+// its prediction rests on the very errors that are to be seen, and what it says is no part of them.
+constexpr double kMostPredicted = 0.1;
 constexpr double kLeastVariance = 0.05;
 
 // Returns the bin of a lag: 1, 2, 3-4, 5-8, ... s.
@@ -81,6 +84,12 @@ CorrelationModel fit(const Correlogram<kBins>& correlogram) {
   return best;
 }
 
+// Returns the model by which a second's errors are more alike.
+const CorrelationModel& longer_lasting(const CorrelationModel& prior,
+                                       const CorrelationModel& seen) {
+  return variance_inflation(seen, 1.0) > variance_inflation(prior, 1.0) ? seen : prior;
+}
+
 }  // namespace
 
 double variance_inflation(const CorrelationModel& model, double dt) {
@@ -126,6 +135,7 @@ ErrorCorrelation::History* ErrorCorrelation::history_of(const Sample& sample, Gp
 }
 
 void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
+  if (sample.predicted_ratio > kMostPredicted) return;
   History* history = history_of(sample, time);
   if (history == nullptr) return;
   if (history->last.is_set() && seconds_between(time, history->last) < kSpacing_s) return;
@@ -158,7 +168,8 @@ void ErrorCorrelation::end_epoch(double interval_s) {
       const auto of_observable = updated(correlogram_of<kLags>(priors_[kind][motion]), all);
       for (std::size_t elevation = 0; elevation < kElevationClasses; ++elevation) {
         Lags& own = lags_[kind][motion][elevation];
-        models_[kind][motion][elevation] = fit(updated(of_observable, own));
+        models_[kind][motion][elevation] =
+            longer_lasting(priors_[kind][motion], fit(updated(of_observable, own)));
         for (Lag& lag : own) lag *= keep;
       }
     }

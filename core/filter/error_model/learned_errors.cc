@@ -11,36 +11,34 @@ namespace {
 
 // Fewer innovations are mostly what their own median is.
 constexpr std::size_t kMinInnovations = 5;
+constexpr std::size_t kSolved = 4;  // unknowns of a point solution
 constexpr double kLongestInterval_s = 10.0;
 
 // Where errors are learned, this share of the variance is taken as correlated at first; otherwise
-// the whole error is.
-constexpr double kCodeShare = 0.9, kDopplerShare = 0.5, kCarrierShare = 0.5;
+// the whole error is. Of a correlation time that is not configured these are taken.
+constexpr double kCodeShare = 0.9, kDopplerShare = 0.5;
+constexpr double kCodeTime_s = 10.0, kDopplerTime_s = 3.0;
 // The filter follows carriers so closely that their innovations do not show how they are
-// correlated: multipath of some millimetres lasts as long as that of the codes does. It is
-// therefore not learned.
-constexpr double kCodeTime_s = 20.0, kDopplerTime_s = 3.0;
-constexpr double kCarrierTime_s = 10.0;
+// correlated, so this is not learned: multipath of some millimetres lasts while the antenna moves
+// by some metres, and no longer than the satellites take in front of a standing one.
+constexpr double kCarrierShare = 0.5, kCarrierDistance_m = 10.0;
+constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 50.0;
 // In front of a standing vehicle reflections change with the satellites alone.
 constexpr double kStandingTimes = 5.0;
 
+using OfMotion = std::array<CorrelationModel, kMotionClasses>;
+
 ErrorCorrelation::Priors configured(const EkfConfig& config) {
-  const auto prior = [&](double share, double time_s) {
-    const double standing = config.learn_errors ? kStandingTimes : 1.0;
-    return std::array<CorrelationModel, kMotionClasses>{
-        {{config.learn_errors ? share : 1.0, time_s},
-         {config.learn_errors ? share : 1.0, standing * time_s}}};
+  const auto prior = [&](double configured_s, const CorrelationModel& usual) -> OfMotion {
+    if (!config.learn_errors) return {{{1.0, configured_s}, {1.0, configured_s}}};
+    const double time_s = configured_s > 0.0 ? configured_s : usual.time_s;
+    return {{{usual.share, time_s}, {usual.share, kStandingTimes * time_s}}};
   };
   ErrorCorrelation::Priors priors;
-  const auto time_or = [&](double configured_s, double usual_s) {
-    return config.learn_errors && configured_s <= 0.0 ? usual_s : configured_s;
-  };
   priors[static_cast<std::size_t>(Observable::kCode)] =
-      prior(kCodeShare, time_or(config.code_correlation_time_s, kCodeTime_s));
+      prior(config.code_correlation_time_s, {kCodeShare, kCodeTime_s});
   priors[static_cast<std::size_t>(Observable::kDoppler)] =
-      prior(kDopplerShare, time_or(config.doppler_correlation_time_s, kDopplerTime_s));
-  priors[static_cast<std::size_t>(Observable::kCarrier)] =
-      prior(kCarrierShare, config.learn_errors ? kCarrierTime_s : 0.0);
+      prior(config.doppler_correlation_time_s, {kDopplerShare, kDopplerTime_s});
   return priors;
 }
 
@@ -53,6 +51,30 @@ void LearnedErrors::reset() {
   scale_.reset();
   correlation_.reset();
   last_time_ = GpsTime();
+}
+
+CorrelationModel LearnedErrors::carrier_correlation(double speed) const {
+  if (!learns_) return {0.0, 0.0};
+  return {kCarrierShare, std::clamp(kCarrierDistance_m / std::max(speed, 1e-3),
+                                    kShortestCarrierTime_s, kLongestCarrierTime_s)};
+}
+
+bool LearnedErrors::start(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                          const ClockRemovedInnovations& innovations, bool standing) {
+  if (!learns_ || innovations.size() <= kSolved) return false;
+  boost::container::static_vector<SigmaScale::Sample, kMaxMeasurements> samples;
+  const auto count = static_cast<double>(innovations.size());
+  const double share_left = (count - static_cast<double>(kSolved)) / count;
+  Observable observable = Observable::kCode;
+  for (const ClockRemovedInnovation& entry : innovations) {
+    const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
+    const ErrorClass of =
+        error_class(measurement, epoch.satellites[measurement.satellite_index], standing);
+    observable = measurement.observable;
+    const double configured = entry.measured_variance / square(scale_.scale(of));
+    samples.push_back({of, square(entry.innovation) / (configured * share_left), 1.0});
+  }
+  return scale_.start(observable, {samples.data(), samples.size()});
 }
 
 void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,

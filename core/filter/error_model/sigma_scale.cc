@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/square.h"
+
 namespace leonav {
 namespace {
 
@@ -16,7 +18,10 @@ constexpr double kYoungest_s = 3.0;
 constexpr double kReturnTime_s = 1200.0;
 constexpr double kFewSamples = 2.0;  // count half
 constexpr double kLargestStep = 0.2;
-constexpr double kSmallestLog = -1.1, kLargestLog = 2.3;  // a third to ten times
+constexpr std::size_t kMinToStart = 8;
+constexpr int kStartPasses = 30;
+constexpr double kStartShrinkage = 4.0;  // samples at the value a term has beforehand
+constexpr double kSmallestLog = 0.0, kLargestLog = 2.3;  // one to ten times
 
 // While a term is young its time is its age: it then is the plain mean of what was seen.
 template <typename Term>
@@ -28,7 +33,7 @@ void advance(double interval_s, double time_s, double return_s, Term* term) {
     term->value += std::clamp(step, -kLargestStep, kLargestStep);
   }
   if (return_s > 0.0) term->value *= std::exp(-interval_s / return_s);
-  term->value = std::clamp(term->value, kSmallestLog, kLargestLog);
+  term->value = std::clamp(term->value, -kLargestLog, kLargestLog);
   term->score = 0.0;
   term->count = 0;
 }
@@ -39,6 +44,42 @@ SigmaScale::SigmaScale() {
   for (std::size_t kind = 0; kind < kObservables; ++kind)
     if (kind != static_cast<std::size_t>(Observable::kCarrier))
       terms_[kind].base.value = std::log(kStartScale);
+}
+
+bool SigmaScale::start(Observable observable, std::span<const Sample> samples) {
+  if (samples.size() < kMinToStart) return false;
+  Terms& terms = terms_[static_cast<std::size_t>(observable)];
+  struct Sum {
+    double score = 0.0, count = 0.0;
+  };
+  // Returns the step of a scoring iteration (Fisher information of log s: 2 per sample).
+  const auto step = [](const Sum& sum, double value, double prior) {
+    return 0.5 * (sum.score - 2.0 * kStartShrinkage * (value - prior)) /
+           (sum.count + kStartShrinkage);
+  };
+  const double start = terms.base.value;
+  terms.base.age_s = kYoungest_s;
+  for (int pass = 0; pass < kStartPasses; ++pass) {
+    Sum all;
+    std::array<Sum, kElevationClasses> of_elevation{};
+    for (const Sample& sample : samples) {
+      const double ratio = sample.squared_ratio / square(scale(sample.of));
+      const double score = std::min(ratio, kLimit * kLimit) - kExpected;
+      for (Sum* sum : {&all, &of_elevation[sample.of.elevation]}) {
+        sum->score += score;
+        sum->count += 1.0;
+      }
+    }
+    // Alternately, because what one term explains is not for the other.
+    if (pass % 2 == 0) {
+      terms.base.value += step(all, terms.base.value, start);
+    } else {
+      for (std::size_t i = 0; i < kElevationClasses; ++i)
+        terms.elevation[i].value += step(of_elevation[i], terms.elevation[i].value, 0.0);
+    }
+  }
+  terms.base.value = std::clamp(terms.base.value, kSmallestLog, kLargestLog);
+  return true;
 }
 
 void SigmaScale::add(const Sample& sample) {
@@ -55,6 +96,7 @@ void SigmaScale::add(const Sample& sample) {
 void SigmaScale::end_epoch(double interval_s) {
   for (Terms& terms : terms_) {
     advance(interval_s, kBaseTime_s, 0.0, &terms.base);
+    terms.base.value = std::max(terms.base.value, kSmallestLog);
     for (Term& term : terms.system) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
     for (Term& term : terms.elevation) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
     for (Term& term : terms.signal) advance(interval_s, kTermTime_s, kReturnTime_s, &term);

@@ -1,6 +1,7 @@
 // SigmaScale learns by how much errors are larger or smaller than their configured sigmas.
 #pragma once
 #include <array>
+#include <span>
 
 #include "core/filter/error_model/error_class.h"
 #include "core/filter/update/robust_update.h"
@@ -27,6 +28,14 @@ class SigmaScale {
 
   SigmaScale();
   void reset() { *this = SigmaScale(); }
+  // Fits the observable's term and those of elevation to the first errors that are seen, so that
+  // already these are weighed as large as they are. `squared_ratio` of `samples`: over the
+  // configured variance. Without eight samples it does nothing and returns false.
+  bool start(Observable observable, std::span<const Sample> samples);
+  // Returns whether nothing has been seen of an observable.
+  bool unseen(Observable observable) const {
+    return terms_[static_cast<std::size_t>(observable)].base.age_s <= 0.0;
+  }
   // Adds to the epoch under way.
   void add(const Sample& sample);
   // Ends the epoch: moves every term by what `interval_s` of its samples say.

@@ -315,6 +315,16 @@ void StateEstimate::inflate_position(double sigma_m) {
     covariance->diagonal().segment<3>(kPosition).array() += square(sigma_m);
 }
 
+void StateEstimate::scale_sigmas(double of_position, double of_velocity) {
+  EkfCorrection scales = EkfCorrection::Ones(covariance_.rows());
+  scales.segment<3>(kPosition).setConstant(of_position);
+  scales.segment<3>(kVelocity).setConstant(of_velocity);
+  for (Eigen::Index i = 0; i < covariance_.rows(); ++i) {
+    covariance_.row(i) *= scales(i);
+    covariance_.col(i) *= scales(i);
+  }
+}
+
 void StateEstimate::inflate_ambiguity(int state, double sigma_m) {
   for (EkfCovariance* covariance : covariance_and_noise())
     (*covariance)(state, state) += square(sigma_m);

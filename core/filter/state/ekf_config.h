@@ -74,9 +74,8 @@ struct EkfConfig {
   // r = exp(-dt / correlation time), which gives a long mean the variance that it really has.
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
-  // Size and correlation of the errors of codes and Dopplers are learned on the way
-  // (core/filter/error_model); the configured ones are where it begins, 20 s and 3 s where none
-  // are.
+  // Errors of codes and Dopplers that are larger than configured, or last longer, are learned on
+  // the way (core/filter/error_model); times that are 0 are then 10 s and 3 s.
   bool learn_errors = false;
   // Median standardized innovation of code, carrier or Doppler, clocks removed (0.67 when all is
   // well). Above it, and if the measurements agree with each other, the prediction is taken to be

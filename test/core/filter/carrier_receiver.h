@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/filter/ekf.h"
+#include "support/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav::synthetic {
@@ -75,7 +76,7 @@ class Receiver {
 };
 
 inline EkfConfig static_config() {
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.static_point = true;
   config.use_carrier = true;
   config.robust.enabled = false;

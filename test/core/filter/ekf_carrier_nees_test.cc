@@ -5,6 +5,7 @@
 #include "core/filter/ekf.h"
 #include "nees.h"
 #include "support/catch.h"
+#include "support/white_errors.h"
 
 namespace leonav {
 namespace {
@@ -22,7 +23,7 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
   const bool moving = GENERATE(false, true);
   constexpr double kCode = 1.0, kDoppler = 0.05, kCarrier = 0.005, kWet = 0.1;
   constexpr int kEpochs = 100;
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.use_carrier = true;
   config.static_point = !moving;
   config.robust.enabled = false;

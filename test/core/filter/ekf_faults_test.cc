@@ -4,6 +4,7 @@
 
 #include "core/filter/ekf.h"
 #include "support/catch.h"
+#include "support/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav {
@@ -162,7 +163,7 @@ TEST_CASE("one epoch whose ranges are all wrong leaves no trace") {
 }
 
 TEST_CASE("a jump of the receiver clock goes to the clock without robust weights, too") {
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.robust.enabled = false;
   Walk walk(22, config);
   walk.run(15);
@@ -219,7 +220,7 @@ TEST_CASE("most codes bad in different ways do not carry the filter away") {
 }
 
 TEST_CASE("robust weights cost little where nothing is wrong, and save the day where it is") {
-  EkfConfig robust, plain;
+  EkfConfig robust = white_error_config(), plain = robust;
   plain.robust.enabled = false;
   for (const bool contaminated : {false, true}) {
     double square[2] = {0.0, 0.0};
@@ -250,7 +251,7 @@ TEST_CASE("robust weights cost little where nothing is wrong, and save the day w
 TEST_CASE("codes whose errors stay alike do not make the filter overconfident") {
   // Multipath of 3 m, correlated over 10 s: the real error against the variance the filter states.
   for (const double correlation_time : {0.0, 10.0}) {
-    EkfConfig config;
+    EkfConfig config = white_error_config();
     config.robust.enabled = false;
     config.code_correlation_time_s = correlation_time;
     double ratio = 0.0;

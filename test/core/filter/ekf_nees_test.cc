@@ -8,6 +8,7 @@
 #include "core/filter/update/measurement_model.h"
 #include "nees.h"
 #include "support/catch.h"
+#include "support/white_errors.h"
 
 namespace leonav {
 namespace {
@@ -54,7 +55,7 @@ void check_band(const char* what, double sum, const RobustConfig& robust) {
 }  // namespace
 
 TEST_CASE("constant-velocity filter: errors are as large as its covariance says") {
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.robust.enabled = GENERATE(false, true);  // as shipped: true
   config.clock.inter_system_drift_noise = 0.01;
   const auto sky = synthetic::eight_satellites();
@@ -91,7 +92,7 @@ TEST_CASE("constant-velocity filter: errors are as large as its covariance says"
 }
 
 TEST_CASE("inertial filter: errors are as large as its covariance says, with carriers too") {
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.use_carrier = GENERATE(false, true);
   config.robust.enabled = GENERATE(false, true);  // as shipped: true
   const ImuErrorModel model = synthetic::mems();

@@ -7,6 +7,7 @@
 
 #include "core/filter/update/measurement_model.h"
 #include "support/catch.h"
+#include "support/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav {
@@ -97,8 +98,8 @@ synthetic::Maneuver slalom(int second) {
 TEST_CASE("twenty degrees of heading error converge in turns, and not on the straight") {
   const Vector3d error{0.0, 0.0, 20.0 * M_PI / 180.0};
   const Vector3d sigma{0.02, 0.02, 0.35};
-  Drive turning(EkfConfig{}, error, sigma, 1);
-  Drive straight(EkfConfig{}, error, sigma, 1);
+  Drive turning(white_error_config(), error, sigma, 1);
+  Drive straight(white_error_config(), error, sigma, 1);
   CHECK(std::abs(turning.yaw_error()) == Approx(error.z()).epsilon(0.01));
   for (int second = 0; second < 60; ++second) {
     turning.predict(slalom(second));
@@ -120,9 +121,9 @@ TEST_CASE("twenty degrees of heading error converge in turns, and not on the str
 }
 
 TEST_CASE("setting the attitude leaves the antenna where it was") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 2);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 2);
   Generator noise(3);
-  Ekf filter(EkfConfig{}, synthetic::mems(), {2.0, 1.0, -1.5});
+  Ekf filter(white_error_config(), synthetic::mems(), {2.0, 1.0, -1.5});
   filter.initialize(synthetic::kStart, synthetic::point_near(drive.truth(), 2.0, 0.1, &noise));
   const Vector3d p = filter.antenna_position_e();
   const Vector3d v = filter.antenna_velocity_e();
@@ -158,7 +159,7 @@ TEST_CASE("setting the attitude leaves the antenna where it was") {
 }
 
 TEST_CASE("started anew in a turn, the IMU's velocity is the antenna's less the arm's swing") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
   for (int second = 0; second < 3; ++second) drive.predict({.yaw_rate = 1.0});
   Generator noise(7);
   const ImuErrors errors = drive.filter().state().errors;
@@ -170,7 +171,7 @@ TEST_CASE("started anew in a turn, the IMU's velocity is the antenna's less the 
 }
 
 TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as they are") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
   for (int second = 0; second < 60; ++second) {
     drive.predict(slalom(second));
     drive.update();
@@ -202,7 +203,7 @@ TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as the
 TEST_CASE("corrections between blocks do not interrupt coning and sculling") {
   // A sensor that shakes: in one block, and in blocks of two samples.
   const auto run = [](int per_block) {
-    Ekf filter(EkfConfig{}, synthetic::mems(), Vector3d::Zero());
+    Ekf filter(white_error_config(), synthetic::mems(), Vector3d::Zero());
     Generator noise(9);
     synthetic::Truth truth;
     truth.p_antenna_e = synthetic::start_position();
@@ -231,7 +232,7 @@ TEST_CASE("corrections between blocks do not interrupt coning and sculling") {
 
 TEST_CASE("an attitude that wanders is as much less certain, for as long as it was told to") {
   constexpr double kNoise = 0.01;  // rad/sqrt(s)
-  EkfConfig config;
+  EkfConfig config = white_error_config();
   config.keep_process = true;
   Drive drive(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
   Drive plain(config, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
@@ -262,7 +263,7 @@ TEST_CASE("an attitude that wanders is as much less certain, for as long as it w
 }
 
 TEST_CASE("a hole in the IMU data widens the covariance and the filter comes back") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 4);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 4);
   for (int second = 0; second < 20; ++second) {
     drive.predict(slalom(second));
     drive.update();
@@ -282,8 +283,8 @@ TEST_CASE("a hole in the IMU data widens the covariance and the filter comes bac
 }
 
 TEST_CASE("samples that overlap, repeat or lie beyond the epoch do no harm") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 5);
-  Drive other(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 5);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 5);
+  Drive other(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 5);
   const auto sample = [](int from_ms, int to_ms) {
     ImuSample s;
     s.interval_ns = (to_ms - from_ms) * 1'000'000LL;
@@ -308,7 +309,7 @@ TEST_CASE("samples that overlap, repeat or lie beyond the epoch do no harm") {
 }
 
 TEST_CASE("an hour of inertial filtering keeps the covariance positive") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 6);
   double smallest = 1.0;
   double worst = 0.0;
   for (int second = 0; second < 3600; ++second) {
@@ -339,7 +340,7 @@ TEST_CASE("an hour of inertial filtering keeps the covariance positive") {
 }
 
 TEST_CASE("cost of prediction and update") {
-  Drive drive(EkfConfig{}, Vector3d::Zero(), {0.02, 0.02, 0.1}, 7);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 7);
   const auto now = [] { return std::chrono::steady_clock::now(); };
   std::vector<ImuSample> block;
   Mechanization mechanization;

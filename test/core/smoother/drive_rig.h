@@ -11,6 +11,7 @@
 #include "core/filter/synthetic.h"
 #include "core/filter/update/measurement_model.h"
 #include "core/smoother/keyframe_from_filter.h"
+#include "support/white_errors.h"
 
 namespace leonav::synthetic {
 
@@ -101,7 +102,7 @@ class Drive {
 
  private:
   static EkfConfig make_config(const DriveOptions& options) {
-    EkfConfig config;
+    EkfConfig config = white_error_config();
     config.keep_process = true;
     config.use_carrier = options.carriers;
     config.robust.enabled = options.robust;

@@ -75,12 +75,12 @@ TEST_CASE("without a sample the correlation is the configured one") {
   CHECK(correlation.model({}).time_s == 12.0);
 }
 
-TEST_CASE("the correlation comes to that of the errors, whatever was configured") {
+TEST_CASE("the correlation comes to that of the errors where these last longer than configured") {
   struct Case {
     double share, time_s;
   };
-  for (const Case of : {Case{0.0, 5.0}, {0.9, 12.0}, {0.6, 24.0}, {1.0, 3.0}}) {
-    for (const double configured_s : {3.0, 60.0}) {
+  for (const Case of : {Case{0.9, 12.0}, {0.6, 24.0}, {1.0, 3.0}}) {
+    for (const double configured_s : {0.0, 0.5}) {
       ErrorCorrelation correlation(priors(0.9, configured_s));
       const CorrelationModel model = learned(of.share, of.time_s, 600.0, &correlation);
       CAPTURE(of.share, of.time_s, configured_s, model.share, model.time_s);
@@ -90,6 +90,13 @@ TEST_CASE("the correlation comes to that of the errors, whatever was configured"
       CHECK(found > 0.55 * expected - 0.5);
     }
   }
+}
+
+TEST_CASE("errors that last shorter than configured leave the configured correlation") {
+  ErrorCorrelation correlation(priors(0.9, 60.0));
+  const CorrelationModel model = learned(0.9, 5.0, 600.0, &correlation);
+  CHECK(model.share == 0.9);
+  CHECK(model.time_s == 60.0);
 }
 
 TEST_CASE("what the position is off is no error of the measurements") {

@@ -1,8 +1,10 @@
 // The learned scale of sigmas against errors of known size.
 #include "core/filter/error_model/sigma_scale.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "support/catch.h"
 
@@ -34,12 +36,12 @@ void drive(SigmaScale* scale, const ErrorClass& of, double times, double seconds
 
 }  // namespace
 
-TEST_CASE("the scale of sigmas comes to what the errors are, from either side") {
+TEST_CASE("the scale of sigmas comes to what the errors are, but not below one") {
   for (const double times : {0.5, 1.0, 3.0, 6.0}) {
     std::mt19937_64 random(1);
     SigmaScale scale;
     drive(&scale, code_at(1), times, 300.0, &random);
-    CHECK(scale.scale(code_at(1)) == Approx(times).epsilon(0.15));
+    CHECK(scale.scale(code_at(1)) == Approx(std::max(times, 1.0)).epsilon(0.15));
   }
 }
 
@@ -81,4 +83,32 @@ TEST_CASE("innovations that the prediction's variance explains leave the scale a
     scale.end_epoch(1.0);
   }
   CHECK(scale.scale(code_at(1)) == Approx(before));
+}
+
+TEST_CASE(
+    "the first epoch says at once how large errors are, low satellites apart from high ones") {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  SigmaScale scale;
+  std::vector<SigmaScale::Sample> samples;
+  for (int i = 0; i < 60; ++i) {
+    const bool low = i % 2 == 0;
+    double error = (low ? 6.0 : 1.5) * normal(random);
+    if (i % 20 == 0) error += 80.0;  // reflected
+    samples.push_back({code_at(low ? 0 : 3), error * error, 1.0});
+  }
+  REQUIRE(scale.unseen(Observable::kCode));
+  REQUIRE(scale.start(Observable::kCode, samples));
+  CHECK_FALSE(scale.unseen(Observable::kCode));
+  CHECK(scale.scale(code_at(0)) == Approx(6.0).epsilon(0.4));
+  CHECK(scale.scale(code_at(3)) == Approx(1.5).epsilon(0.4));
+  CHECK(scale.unseen(Observable::kDoppler));
+}
+
+TEST_CASE("seven errors are too few to begin with") {
+  SigmaScale scale;
+  const double before = scale.scale(code_at(0));
+  const std::vector<SigmaScale::Sample> samples(7, {code_at(0), 100.0, 1.0});
+  CHECK_FALSE(scale.start(Observable::kCode, samples));
+  CHECK(scale.scale(code_at(0)) == before);
 }
