@@ -34,7 +34,8 @@ Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& leve
       propagator_(config, imu),
       assembler_(config),
       clocks_(config.robust),
-      prediction_test_(config.robust, config.prediction_suspect_ratio) {}
+      prediction_test_(config.robust, config.prediction_suspect_ratio),
+      errors_unknown_(config.learn_errors) {}
 
 void Ekf::reset() {
   reset_vehicle_constants();
@@ -42,6 +43,7 @@ void Ekf::reset() {
   propagator_.reset();
   estimate_.forget_clocks();
   assembler_.forget_errors();
+  errors_unknown_ = learned_errors().learns();
   initialized_ = false;
 }
 
@@ -118,7 +120,9 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   ClockSteps steps;
   if (clocks_.start(epoch, assembler_.measurements(), &estimate_, &steps))
     assembler_.assemble(epoch, antenna, last_update_, &estimate_);
-  if (start_errors(epoch)) assembler_.assemble(epoch, antenna, last_update_, &estimate_);
+  if (errors_unknown_ && fit_first_errors(epoch))
+    assembler_.assemble(epoch, antenna, last_update_, &estimate_);
+  errors_unknown_ = false;
   result.arcs_without_capacity = assembler_.arcs_without_capacity();
   clocks_.compensate_steps(epoch, &robust_update_, assembler_.mutable_measurements(), &estimate_,
                            &steps);
@@ -140,8 +144,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   return result;
 }
 
-bool Ekf::start_errors(const MeasurementEpoch& epoch) {
-  if (!learned_errors().unseen(Observable::kCode)) return false;
+bool Ekf::fit_first_errors(const MeasurementEpoch& epoch) {
   const auto scales = [this] {
     return std::array{learned_errors().mean_scale(Observable::kCode),
                       learned_errors().mean_scale(Observable::kDoppler)};
@@ -149,11 +152,11 @@ bool Ekf::start_errors(const MeasurementEpoch& epoch) {
   const auto before = scales();
   const InnovationTables tables =
       clock_removed_by_observable(assembler_.measurements(), covariance());
-  bool started = assembler_.start_errors(epoch, table_of(tables, Observable::kCode));
-  started |= assembler_.start_errors(epoch, table_of(tables, Observable::kDoppler));
+  bool fitted = assembler_.fit_first_errors(epoch, table_of(tables, Observable::kCode));
+  fitted |= assembler_.fit_first_errors(epoch, table_of(tables, Observable::kDoppler));
   const auto after = scales();
-  if (started) estimate_.scale_sigmas(after[0] / before[0], after[1] / before[1]);
-  return started;
+  if (fitted) estimate_.scale_sigmas(after[0] / before[0], after[1] / before[1]);
+  return fitted;
 }
 
 void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,

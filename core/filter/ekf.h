@@ -140,9 +140,9 @@ class Ekf {
 
  private:
   AntennaMotion antenna() const;
-  // Fits the size of errors to the first epoch; returns whether its measurements are to be weighed
-  // anew.
-  bool start_errors(const MeasurementEpoch& epoch);
+  // Fits the size of errors to the first epoch after the point solution, and the latter's sigmas
+  // with it. Returns whether the measurements must be assembled again, with these sizes.
+  bool fit_first_errors(const MeasurementEpoch& epoch);
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
   // Inflates the covariance as the verdict says; where codes contradict the carriers' position, the
@@ -164,6 +164,7 @@ class Ekf {
   AttitudeConvergence attitude_convergence_;
   RobustUpdate robust_update_;
   std::array<double, kObservables> sigma_inflation_ = {1.0, 1.0, 1.0};  // in the last update
+  bool errors_unknown_;  // of measurements: no epoch has been seen since reset()
   GpsTime last_update_;
   bool initialized_ = false;
 };

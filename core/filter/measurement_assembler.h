@@ -36,10 +36,10 @@ class MeasurementAssembler {
   void assemble(const MeasurementEpoch& epoch, AntennaMotion antenna, GpsTime last_update,
                 StateEstimate* estimate);
 
-  // Fits the size of errors to the innovations of codes or Dopplers of a first epoch
-  // (LearnedErrors::start()); measurements() are not weighed anew.
-  bool start_errors(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
-    return errors_.start(epoch, measurements_, innovations, standing());
+  // Fits the size of errors to the codes or Dopplers of a first epoch (LearnedErrors::fit_first()).
+  // measurements() keep the variances that they have.
+  bool fit_first_errors(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
+    return errors_.fit_first(epoch, measurements_, innovations, standing());
   }
   // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
   void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {

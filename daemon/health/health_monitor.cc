@@ -127,16 +127,18 @@ void HealthMonitor::evaluate_solution(double now_s) {
   evaluate_levels();
 }
 
-// A solution that may be further off than its user allows.
+// A solution that may be further off than its user allows. The level itself is a field of HEALTH:
+// in the reason it would change, and be logged, every second.
 void HealthMonitor::evaluate_levels() {
   const EngineCounters& counters = engine_->counters();
-  const auto compare = [&](const char* name, const Gauge& level, double limit_m) {
-    const double level_m = static_cast<double>(level.get()) * 1e-6;
-    if (limit_m == 0.0 || level_m <= limit_m) return;
-    char text[96];
-    std::snprintf(text, sizeof text, "%s protection level %.2f m above %.2f m", name, level_m,
-                  limit_m);
-    worsen("DEGRADED", text);
+  const auto compare = [&](const std::string& name, const Gauge& level, double limit_m) {
+    if (limit_m == 0.0) return;
+    const std::int64_t micro = level.get();
+    if (micro < 0) return worsen("DEGRADED", name + " protection level unknown");
+    if (static_cast<double>(micro) * 1e-6 <= limit_m) return;
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%.2f m", limit_m);
+    worsen("DEGRADED", name + " protection level above its alert limit of " + limit);
   };
   compare("horizontal", counters.horizontal_protection_micro, horizontal_alert_limit_m_);
   compare("vertical", counters.vertical_protection_micro, vertical_alert_limit_m_);

@@ -15,8 +15,8 @@ constexpr double kSpacing_s = 0.9;  // samples of a signal that are kept are thi
 constexpr double kLimit = 3.0;      // of a standardized innovation
 // Pairs that what is known beforehand counts as.
 constexpr double kPriorPairs = 150.0;
-// With a larger part of the prediction's variance an innovation is not used: while a filter starts,
-// its prediction rests on the very errors that are to be seen, and what it says is no part of them.
+// An innovation is not used where the predicted variance exceeds this share of the measurement's:
+// while a filter starts, its prediction contains the very errors that are to be seen.
 constexpr double kMostPredicted = 0.1;
 constexpr double kLeastVariance = 0.05;
 
@@ -84,7 +84,7 @@ CorrelationModel fit(const Correlogram<kBins>& correlogram) {
   return best;
 }
 
-// Returns the model by which a second's errors are more alike.
+// Returns the one with the larger inflation of variance at 1 Hz.
 const CorrelationModel& longer_lasting(const CorrelationModel& prior,
                                        const CorrelationModel& seen) {
   return variance_inflation(seen, 1.0) > variance_inflation(prior, 1.0) ? seen : prior;

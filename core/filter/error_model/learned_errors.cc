@@ -59,8 +59,8 @@ CorrelationModel LearnedErrors::carrier_correlation(double speed) const {
                                     kShortestCarrierTime_s, kLongestCarrierTime_s)};
 }
 
-bool LearnedErrors::start(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                          const ClockRemovedInnovations& innovations, bool standing) {
+bool LearnedErrors::fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                              const ClockRemovedInnovations& innovations, bool standing) {
   if (!learns_ || innovations.size() <= kSolved) return false;
   boost::container::static_vector<SigmaScale::Sample, kMaxMeasurements> samples;
   const auto count = static_cast<double>(innovations.size());
@@ -74,7 +74,7 @@ bool LearnedErrors::start(const MeasurementEpoch& epoch, const FilterMeasurement
     const double configured = entry.measured_variance / square(scale_.scale(of));
     samples.push_back({of, square(entry.innovation) / (configured * share_left), 1.0});
   }
-  return scale_.start(observable, {samples.data(), samples.size()});
+  return scale_.fit_first(observable, {samples.data(), samples.size()});
 }
 
 void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
@@ -85,9 +85,7 @@ void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements&
     const Measurement& measurement = epoch.measurements[used.index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
     const ErrorClass of = error_class(measurement, satellite, standing);
-    // The innovation of a carrier contains that of another one, too.
-    const double measured =
-        (measurement.observable == Observable::kCarrier ? 2.0 : 1.0) * entry.measured_variance;
+    const double measured = entry.measured_variance;
     const double predicted = std::max(entry.variance - measured, 0.0);
     scale_.add(
         {of, square(entry.innovation) / entry.variance, std::min(measured / entry.variance, 1.0)});

@@ -16,12 +16,10 @@ class LearnedErrors {
   void reset();
 
   bool learns() const { return learns_; }
-  // Returns whether no innovation of an observable has been seen.
-  bool unseen(Observable observable) const { return learns_ && scale_.unseen(observable); }
   // Fits the size of one observable's errors to the first epoch, whose innovations are residuals of
   // the point solution that the filter starts from. Returns false if they are too few.
-  bool start(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-             const ClockRemovedInnovations& innovations, bool standing);
+  bool fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                 const ClockRemovedInnovations& innovations, bool standing);
   // Adds one observable of an epoch. `standing`: the vehicle stands.
   void add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
            const ClockRemovedInnovations& innovations, bool standing);
@@ -34,7 +32,7 @@ class LearnedErrors {
   double mean_scale(Observable observable) const {
     return learns_ ? scale_.mean_scale(observable) : 1.0;
   }
-  // Returns how the errors of carriers are, at a `speed` of the antenna in m/s.
+  // Returns how the errors of a carrier are correlated, at a `speed` of the antenna in m/s.
   CorrelationModel carrier_correlation(double speed) const;
   // Returns how those of a code or Doppler are correlated in time, at a satellite in medium orbit.
   const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }

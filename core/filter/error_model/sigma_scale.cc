@@ -46,7 +46,7 @@ SigmaScale::SigmaScale() {
       terms_[kind].base.value = std::log(kStartScale);
 }
 
-bool SigmaScale::start(Observable observable, std::span<const Sample> samples) {
+bool SigmaScale::fit_first(Observable observable, std::span<const Sample> samples) {
   if (samples.size() < kMinToStart) return false;
   Terms& terms = terms_[static_cast<std::size_t>(observable)];
   struct Sum {
@@ -58,15 +58,14 @@ bool SigmaScale::start(Observable observable, std::span<const Sample> samples) {
            (sum.count + kStartShrinkage);
   };
   const double start = terms.base.value;
-  terms.base.age_s = kYoungest_s;
+  terms.base.age_s = kYoungest_s;  // what the fit counts as
   for (int pass = 0; pass < kStartPasses; ++pass) {
     Sum all;
     std::array<Sum, kElevationClasses> of_elevation{};
     for (const Sample& sample : samples) {
       const double ratio = sample.squared_ratio / square(scale(sample.of));
-      const double score = std::min(ratio, kLimit * kLimit) - kExpected;
       for (Sum* sum : {&all, &of_elevation[sample.of.elevation]}) {
-        sum->score += score;
+        sum->score += score(sample.of, ratio);
         sum->count += 1.0;
       }
     }
@@ -84,11 +83,10 @@ bool SigmaScale::start(Observable observable, std::span<const Sample> samples) {
 
 void SigmaScale::add(const Sample& sample) {
   Terms& terms = terms_[sample.of.observable];
-  const double score =
-      sample.measured_share * (std::min(sample.squared_ratio, kLimit * kLimit) - kExpected);
+  const double weighted = sample.measured_share * score(sample.of, sample.squared_ratio);
   for (Term* term : {&terms.base, &terms.system[sample.of.system],
                      &terms.elevation[sample.of.elevation], &terms.signal[sample.of.signal]}) {
-    term->score += score;
+    term->score += weighted;
     ++term->count;
   }
 }
@@ -107,11 +105,19 @@ double SigmaScale::mean_scale(Observable observable) const {
   return std::exp(terms_[static_cast<std::size_t>(observable)].base.value);
 }
 
-double SigmaScale::scale(const ErrorClass& of) const {
+double SigmaScale::sum_of_terms(const ErrorClass& of) const {
   const Terms& terms = terms_[of.observable];
-  const double sum = terms.base.value + terms.system[of.system].value +
-                     terms.elevation[of.elevation].value + terms.signal[of.signal].value;
-  return std::exp(std::clamp(sum, kSmallestLog, kLargestLog));
+  return terms.base.value + terms.system[of.system].value + terms.elevation[of.elevation].value +
+         terms.signal[of.signal].value;
+}
+
+double SigmaScale::score(const ErrorClass& of, double squared_ratio) const {
+  const double score = std::min(squared_ratio, kLimit * kLimit) - kExpected;
+  return sum_of_terms(of) > kSmallestLog ? score : std::max(score, 0.0);
+}
+
+double SigmaScale::scale(const ErrorClass& of) const {
+  return std::exp(std::clamp(sum_of_terms(of), kSmallestLog, kLargestLog));
 }
 
 }  // namespace leonav

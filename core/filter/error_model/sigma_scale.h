@@ -1,4 +1,4 @@
-// SigmaScale learns by how much errors are larger or smaller than their configured sigmas.
+// SigmaScale learns by how much errors are larger than their configured sigmas.
 #pragma once
 #include <array>
 #include <span>
@@ -16,7 +16,8 @@ namespace leonav {
 // share of its variance that is the measurement's,
 //   d term / dt = mean(w (min(z^2, k^2) - beta)) / (2 T),   beta = E[min(z^2, k^2)], z normal.
 // Gross errors therefore count as k sigmas and no more. Terms beside the base return to zero, so
-// that a class that is not seen is like all others.
+// that a class that is not seen is like all others. s is never below one, and smaller errors of a
+// class that has s = 1 move no term.
 class SigmaScale {
  public:
   // One standardized innovation.
@@ -28,14 +29,10 @@ class SigmaScale {
 
   SigmaScale();
   void reset() { *this = SigmaScale(); }
-  // Fits the observable's term and those of elevation to the first errors that are seen, so that
-  // already these are weighed as large as they are. `squared_ratio` of `samples`: over the
-  // configured variance. Without eight samples it does nothing and returns false.
-  bool start(Observable observable, std::span<const Sample> samples);
-  // Returns whether nothing has been seen of an observable.
-  bool unseen(Observable observable) const {
-    return terms_[static_cast<std::size_t>(observable)].base.age_s <= 0.0;
-  }
+  // Fits the observable's term and those of elevation to the errors of a first epoch;
+  // `squared_ratio` of `samples` is taken over the configured variance. With fewer than eight
+  // samples it does nothing and returns false.
+  bool fit_first(Observable observable, std::span<const Sample> samples);
   // Adds to the epoch under way.
   void add(const Sample& sample);
   // Ends the epoch: moves every term by what `interval_s` of its samples say.
@@ -58,6 +55,11 @@ class SigmaScale {
     std::array<Term, kElevationClasses> elevation;
     std::array<Term, kSignalClasses> signal;
   };
+  // Sum of the terms of a class: log s where that is not below zero.
+  double sum_of_terms(const ErrorClass& of) const;
+  // min(z^2, k^2) - beta; at s = 1 not below zero.
+  double score(const ErrorClass& of, double squared_ratio) const;
+
   std::array<Terms, kObservables> terms_;
 };
 

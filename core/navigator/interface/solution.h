@@ -38,7 +38,8 @@ struct Solution {
   ImuErrors errors;                                      // IMU errors of the anchor in use
   std::uint64_t anchor_epoch = 0;                        // index k of the epoch of that anchor
   double jump_m = 0.0;  // how far a new anchor has moved the solution; 0 between commits
-  // Protection levels: bounds that the errors exceed with the configured integrity risk at most.
+  // Protection levels: bounds that the errors exceed with the configured integrity risk at most, as
+  // far as the filter's covariance and the overbound hold.
   // NaN: none is known; of the heading also without attitude.
   double horizontal_protection_m = std::numeric_limits<double>::quiet_NaN();
   double vertical_protection_m = std::numeric_limits<double>::quiet_NaN();

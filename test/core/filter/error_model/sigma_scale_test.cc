@@ -97,18 +97,30 @@ TEST_CASE(
     if (i % 20 == 0) error += 80.0;  // reflected
     samples.push_back({code_at(low ? 0 : 3), error * error, 1.0});
   }
-  REQUIRE(scale.unseen(Observable::kCode));
-  REQUIRE(scale.start(Observable::kCode, samples));
-  CHECK_FALSE(scale.unseen(Observable::kCode));
+  REQUIRE(scale.fit_first(Observable::kCode, samples));
   CHECK(scale.scale(code_at(0)) == Approx(6.0).epsilon(0.4));
   CHECK(scale.scale(code_at(3)) == Approx(1.5).epsilon(0.4));
-  CHECK(scale.unseen(Observable::kDoppler));
 }
 
 TEST_CASE("seven errors are too few to begin with") {
   SigmaScale scale;
   const double before = scale.scale(code_at(0));
   const std::vector<SigmaScale::Sample> samples(7, {code_at(0), 100.0, 1.0});
-  CHECK_FALSE(scale.start(Observable::kCode, samples));
+  CHECK_FALSE(scale.fit_first(Observable::kCode, samples));
   CHECK(scale.scale(code_at(0)) == before);
+}
+
+TEST_CASE("after an hour of small errors a street is entered as quickly") {
+  std::mt19937_64 random(6);
+  for (const bool first : {false, true}) {
+    SigmaScale scale;
+    if (first) {
+      const std::vector<SigmaScale::Sample> small(30, {code_at(1), 0.01, 1.0});
+      REQUIRE(scale.fit_first(Observable::kCode, small));
+    }
+    drive(&scale, code_at(1), 0.2, 3600.0, &random);
+    drive(&scale, code_at(1), 5.0, 30.0, &random);
+    CAPTURE(first);
+    CHECK(scale.scale(code_at(1)) > 3.5);
+  }
 }

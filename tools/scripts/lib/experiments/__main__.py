@@ -49,6 +49,8 @@ def arguments():
     parser.add_argument("--seeds", type=at_least(1), default=5,
                         help=f"so many seeds of every row, {CONVERGENCE_FACTOR} times as many for convergence [5]")
     parser.add_argument("--first-seed", type=at_least(1), default=1, help="the first of them; the sets are always 1 to 4 [1]")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of every estimator, after the row's own; "
+                        "may be repeated")
     parser.add_argument("--jobs", type=at_least(1), help="runs at a time [processors]")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler instead; they must see the same files "
                         "under the same names")
@@ -71,7 +73,10 @@ def chosen_rows(options):
     for pattern in patterns:
         if not any(fnmatch.fnmatchcase(row.name, pattern) for row in rows):
             fail(f"--rows {pattern}: no row has such a name; --list tells the names", 2)
-    return [row for row in rows if any(fnmatch.fnmatchcase(row.name, p) for p in patterns)]
+    chosen = [row for row in rows if any(fnmatch.fnmatchcase(row.name, p) for p in patterns)]
+    for row in chosen:
+        row.settings += options.set
+    return chosen
 
 
 def main():
