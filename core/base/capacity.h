@@ -24,6 +24,9 @@ inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-
 inline constexpr std::size_t kMaxPendingEpochs = 40;
 // Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
 inline constexpr std::size_t kMaxArcs = 64;
+// Codes and Dopplers whose correlated error is a state of the filter.
+inline constexpr std::size_t kMaxSignalErrors = 64;
+inline constexpr std::size_t kMaxSignalStates = kMaxArcs + kMaxSignalErrors;
 // Fault hypotheses of one epoch: one for each of those satellites, and some for systems and
 // sensors.
 inline constexpr std::size_t kMaxFaultHypotheses = 80;

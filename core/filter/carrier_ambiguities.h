@@ -14,12 +14,12 @@ void remove_ended_arcs(const MeasurementEpoch& epoch, double max_gap_s, StateEst
 // fit into the state.
 void make_room_for_new_arcs(const MeasurementEpoch& epoch, StateEstimate* estimate);
 
-// Removes all ambiguities, or those of one system (an index of System).
-void remove_all_ambiguities(StateEstimate* estimate);
+// Removes all signal states of one kind, or the ambiguities of one system (an index of System).
+void remove_all(SignalState::Kind kind, StateEstimate* estimate);
 void remove_ambiguities_of(std::size_t system, StateEstimate* estimate);
 
 // Returns the state of the arc's ambiguity. A new arc's starts at `entry.innovation`, with a sigma
-// so wide that this use of the prediction does not count. kNoAmbiguity: no capacity.
+// so wide that this use of the prediction does not count. kNoSignalState: no capacity.
 int find_or_add_ambiguity(const Measurement& carrier, SatelliteId satellite,
                           const FilterMeasurement& entry, GpsTime time, StateEstimate* estimate);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/square.h"
-#include "core/filter/state/ambiguities.h"
+#include "core/filter/state/signal_states.h"
 
 namespace leonav {
 namespace {
@@ -27,14 +27,14 @@ void CodeVarianceModel::accept(const FilterMeasurements& measurements) {
     if (measurement.factor > 0.0) weighting_.accept(measurement.code_weighting_entry);
 }
 
-void CodeVarianceModel::begin_epoch(const MeasurementEpoch& epoch, const Ambiguities& ambiguities,
+void CodeVarianceModel::begin_epoch(const MeasurementEpoch& epoch, const SignalStates& ambiguities,
                                     GpsTime last_update) {
   continuity_ = evaluate_carrier_continuity(epoch, ambiguities, last_update);
   if (continuity_ == CarrierContinuity::kNone) weighting_.clear();
 }
 
 CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continuity(
-    const MeasurementEpoch& epoch, const Ambiguities& ambiguities, GpsTime last_update) {
+    const MeasurementEpoch& epoch, const SignalStates& ambiguities, GpsTime last_update) {
   if (is_static_) return CarrierContinuity::kContinuous;
   int held = 0, broken = 0;
   for (const Measurement& carrier : epoch.measurements) {
@@ -43,7 +43,7 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
       continue;
     const SatelliteInView& satellite = epoch.satellites[carrier.satellite_index];
     const int index = find_ambiguity(ambiguities, carrier.arc);
-    if (index != kNoAmbiguity) {
+    if (index != kNoSignalState) {
       held += ambiguities[static_cast<std::size_t>(index)].last_used == last_update ? 1 : 0;
     } else {
       broken += satellite.arc_causes.any() ? 1 : 0;
@@ -60,15 +60,16 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
   return lasts(new_arcs_until_) ? CarrierContinuity::kNewArcs : CarrierContinuity::kContinuous;
 }
 
-void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& code,
-                              double inflation, double correlation_time_ratio,
-                              FilterMeasurement* entry) {
+std::optional<double> CodeVarianceModel::weigh(const MeasurementEpoch& epoch,
+                                               const Measurement& code, double inflation,
+                                               double correlation_time_ratio,
+                                               FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
   const double correlated = square(code.correlated_sigma);
   if (continuity_ == CarrierContinuity::kNone || !(correlated > 0.0) ||
       !(code.correlation_time_s > 0.0)) {
     entry->gain_variance = inflation * entry->variance;
-    return;
+    return std::nullopt;
   }
   ColoredCodeWeighting::CodeErrorModel error_model;
   error_model.orbit_issue = satellite.orbit_issue;
@@ -84,8 +85,9 @@ void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& 
   const double scheduled = weighting_.weigh(code, satellite.satellite, error_model, noise,
                                             epoch.time, &entry->code_weighting_entry);
   // It is not known whether new arcs last: their codes count in full, but are remembered.
-  entry->gain_variance =
-      continuity_ == CarrierContinuity::kNewArcs ? inflation * entry->variance : scheduled;
+  const bool lasts = continuity_ != CarrierContinuity::kNewArcs;
+  entry->gain_variance = lasts ? scheduled : inflation * entry->variance;
+  return lasts ? std::optional<double>(std::max(scheduled - noise, 0.0)) : std::nullopt;
 }
 
 }  // namespace leonav

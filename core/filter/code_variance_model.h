@@ -1,6 +1,8 @@
 // CodeVarianceModel gives the variance with which a code enters the gain, given that code errors
 // are correlated in time.
 #pragma once
+#include <optional>
+
 #include "core/base/gps_time.h"
 #include "core/filter/state/ekf_config.h"
 #include "core/filter/update/colored_code_weighting.h"
@@ -23,19 +25,22 @@ class CodeVarianceModel {
   // Enters the codes that the last update has used.
   void accept(const FilterMeasurements& measurements);
   // Judges from the arcs whether carriers keep the position since `last_update`.
-  void begin_epoch(const MeasurementEpoch& epoch, const Ambiguities& ambiguities,
+  void begin_epoch(const MeasurementEpoch& epoch, const SignalStates& ambiguities,
                    GpsTime last_update);
   // Sets gain_variance, and code_weighting_entry for accept(), of `entry` from its variance.
+  // Returns the part of gain_variance by which errors that last (orbit, clock, modelled ionosphere)
+  // exceed the inflated noise, m^2; nothing where the code counts in full with its whole variance.
   // `inflation`: variance_inflation() of its noise. `correlation_time_ratio`: of this satellite's
   // correlation times to those of one in medium orbit.
-  void weigh(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
-             double correlation_time_ratio, FilterMeasurement* entry);
+  std::optional<double> weigh(const MeasurementEpoch& epoch, const Measurement& code,
+                              double inflation, double correlation_time_ratio,
+                              FilterMeasurement* entry);
 
  private:
   // kNewArcs: whether the arcs last is not known yet.
   enum class CarrierContinuity { kNone, kNewArcs, kContinuous };
   CarrierContinuity evaluate_carrier_continuity(const MeasurementEpoch& epoch,
-                                                const Ambiguities& ambiguities,
+                                                const SignalStates& ambiguities,
                                                 GpsTime last_update);
 
   bool is_static_;

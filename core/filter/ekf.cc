@@ -17,6 +17,10 @@ using Eigen::Vector3d;
 
 namespace {
 
+// Of a start's sigmas: measurements of the epochs that follow have the same errors, and would
+// otherwise count twice.
+constexpr double kStartInflation = 1.5;
+
 // 1 sigma of the attitude about north, east and down at `p_e`, rad.
 Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
@@ -49,8 +53,10 @@ void Ekf::reset() {
 
 void Ekf::initialize(GpsTime time, const PointSolution& given) {
   PointSolution point = given;
-  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
-  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
+  // The errors of its measurements last beyond its epoch.
+  const double once = learned_errors().learns() ? square(kStartInflation) : 1.0;
+  point.covariance_p_e *= once * square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_v_e *= once * square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();
@@ -184,16 +190,14 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
       assembler_.exclude(observable);
       doppler_excluded |= observable == Observable::kDoppler;
     } else if (inflate(verdict.variance, observable, epoch, antenna)) {
-      result->ambiguities_reset = true;
+      result->ambiguities_reset |= observable == Observable::kCode;
       if (doppler_excluded) assembler_.exclude(Observable::kDoppler);
     }
     tables = clock_removed_by_observable(measurements, covariance());
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
   if (!result->prediction_suspect) {
-    for (const Observable observable : {Observable::kCode, Observable::kDoppler})
-      assembler_.learn(epoch, table_of(tables, observable));
-    assembler_.finish_learning(epoch.time);
+    assembler_.learn(epoch, estimate_);
   }
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
@@ -202,9 +206,16 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
 bool Ekf::inflate(double variance, Observable observable, const MeasurementEpoch& epoch,
                   const AntennaMotion& antenna) {
   estimate_.inflate(observable, variance, seconds_between(epoch.time, last_update_));
-  if (observable != Observable::kCode || filter_state().ambiguities.empty()) return false;
-  remove_all_ambiguities(&estimate_);
-  assembler_.forget_codes();
+  // Errors of codes or Dopplers were told from others by the wrong prediction.
+  const SignalStates& states = filter_state().signal_states;
+  const std::size_t before = states.size();
+  if (observable == Observable::kDoppler) remove_all(SignalState::Kind::kDopplerError, &estimate_);
+  if (observable == Observable::kCode) {
+    remove_all(SignalState::Kind::kCodeError, &estimate_);
+    remove_all(SignalState::Kind::kAmbiguity, &estimate_);
+  }
+  if (states.size() == before) return false;
+  if (observable == Observable::kCode) assembler_.forget_codes();
   assembler_.assemble(epoch, antenna, last_update_, &estimate_);
   return true;
 }
@@ -228,9 +239,9 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
   for (const FilterMeasurement& measurement : measurements()) {
     InnovationReport& report = result->innovations[measurement.index];
     report.weight_factor = measurement.factor;
-    report.residual = measurement.innovation -
-                      measurement.row.dot(update.correction.head<kSize>()) -
-                      (measurement.ambiguity >= 0 ? update.correction(measurement.ambiguity) : 0.0);
+    report.residual =
+        measurement.innovation - measurement.row.dot(update.correction.head<kSize>()) -
+        (measurement.signal_state >= 0 ? update.correction(measurement.signal_state) : 0.0);
     if (measurement.factor <= 0.0)
       report.reason = Reason::kOutlier;
     else if (measurement.factor < 1.0)
@@ -239,8 +250,9 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     // Without weights nothing is excluded, but innovations too large still show a lost filter.
     const bool rejected = measurement.factor <= 0.0 ||
                           (!config_.robust.enabled && !(report.test_ratio < config_.robust.k1));
-    if (measurement.ambiguity >= 0 && record_carrier(measurement, epoch.time, &estimate_))
-      result->slipped.push_back(estimate_.ambiguity_of_state(measurement.ambiguity).satellite);
+    if (measurement.observable == Observable::kCarrier &&
+        record_carrier(measurement, epoch.time, &estimate_))
+      result->slipped.push_back(estimate_.signal_state_at(measurement.signal_state).satellite);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
     if (rejected) ++result->rejected[kind];

@@ -5,6 +5,8 @@
 
 #include "core/base/square.h"
 #include "core/filter/carrier_ambiguities.h"
+#include "core/filter/signal_errors.h"
+#include "core/filter/state/signal_states.h"
 #include "core/filter/update/measurement_model.h"
 #include "core/gnss/measurement/range_model.h"
 
@@ -12,6 +14,14 @@ namespace leonav {
 
 using namespace ekf_index;
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kLeastWhiteShare = 0.05;  // of an error's variance
+constexpr double kLeastCorrelation =
+    0.2;  // from one epoch to the next, of an error that is a state
+
+}  // namespace
 
 void MeasurementAssembler::reset() {
   code_model_.reset();
@@ -23,13 +33,14 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   const FilterState& state = estimate->state();
   if (epoch_time_ != epoch.time) code_model_.accept(measurements_);
   epoch_time_ = epoch.time;
-  code_model_.begin_epoch(epoch, state.ambiguities, last_update);
+  code_model_.begin_epoch(epoch, state.signal_states, last_update);
   // A prediction hundreds of metres off is too far for a straight line to reach centimetres.
   Vector3d off_e = Vector3d::Zero();
   if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - antenna.p_e;
   antenna.p_e += off_e;
   const double dt = seconds_between(epoch.time, last_update);
   speed_ = config_.static_point ? 0.0 : antenna.v_e.norm();
+  remove_idle_signal_errors(epoch.time, estimate);
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
@@ -56,18 +67,18 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
     entry.innovation =
         measurement.value - prediction.value + prediction.row.segment<3>(kPosition).dot(off_e);
     entry.row = prediction.row;
-    weigh(epoch, measurement, correlation_time_ratio(satellite, antenna.p_e), dt, &entry);
+    weigh(epoch, measurement, correlation_time_ratio(satellite, antenna.p_e), dt, &entry, estimate);
     if (carrier) {
-      entry.ambiguity =
+      entry.signal_state =
           find_or_add_ambiguity(measurement, satellite.satellite, entry, epoch.time, estimate);
-      if (entry.ambiguity < 0) {
+      if (entry.signal_state < 0) {
         ++arcs_without_capacity_;
         excluded_.push_back({i, Reason::kCapacity});
         continue;
       }
       // The random walk comes from the orbit, which may be another by now.
-      estimate->set_ambiguity_random_walk(entry.ambiguity, measurement.random_walk);
-      entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
+      estimate->set_ambiguity_random_walk(entry.signal_state, measurement.random_walk);
+      entry.innovation -= estimate->signal_state_at(entry.signal_state).value;
     }
     measurements_.push_back(entry);
   }
@@ -76,8 +87,8 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
 // What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are
 // modelled.
 void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
-                                 double correlation_time_ratio, double dt,
-                                 FilterMeasurement* entry) {
+                                 double correlation_time_ratio, double dt, FilterMeasurement* entry,
+                                 StateEstimate* estimate) {
   const ErrorClass of =
       error_class(measurement, epoch.satellites[measurement.satellite_index], standing());
   const double scale = errors_.sigma_scale(of);
@@ -92,8 +103,59 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   correlation.time_s *= correlation_time_ratio;
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;
+  std::optional<double> lasting;
   if (measurement.observable == Observable::kCode)
-    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio, entry);
+    lasting = code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio, entry);
+  entry->marginal_variance = entry->variance;
+  if (!has_error_state(epoch, measurement, correlation, dt)) return;
+
+  const double modelled = std::min(square(measurement.correlated_sigma), entry->variance);
+  const double noise = entry->variance - modelled;
+  const double white = noise * std::max(1.0 - correlation.share, kLeastWhiteShare);
+  // Where codes are not weighed jointly, what lasts is correlated as the noise is.
+  const double correlated = noise - white + (lasting ? 0.0 : modelled);
+  const int state =
+      find_or_add_signal_error(measurement, epoch.satellites[measurement.satellite_index].satellite,
+                               {std::sqrt(correlated), correlation.time_s}, epoch.time, estimate);
+  if (state == kNoSignalState) return;
+  entry->signal_state = state;
+  entry->innovation -= estimate->signal_state_at(state).value;
+  static const double test_share = getenv("TS") ? atof(getenv("TS")) : 0.0;
+  entry->variance = std::max(white + (lasting ? modelled : 0.0), test_share*entry->marginal_variance);
+  entry->gain_variance = white + lasting.value_or(0.0);
+}
+
+// A Doppler beside a carrier says little, and an error that has ended by the next epoch is noise.
+bool MeasurementAssembler::has_error_state(const MeasurementEpoch& epoch,
+                                           const Measurement& measurement,
+                                           const CorrelationModel& correlation, double dt) const {
+  if (!errors_.learns() || measurement.observable == Observable::kCarrier ||
+      !(std::exp(-dt / correlation.time_s) > kLeastCorrelation))
+    return false;
+  static const bool nodop = getenv("NODOP"); if (nodop && measurement.observable == Observable::kDoppler) return false;
+  if (measurement.observable == Observable::kCode || !config_.use_carrier) return true;
+  return std::none_of(
+      epoch.measurements.begin(), epoch.measurements.end(), [&](const Measurement& other) {
+        return other.observable == Observable::kCarrier && other.reason == Reason::kUsed &&
+               other.satellite_index == measurement.satellite_index;
+      });
+}
+
+// Of a whole error, correlated part included: what has been estimated as that part is added again,
+// and its uncertainty, which predicted_variance() contains, is no longer that of the error.
+void MeasurementAssembler::learn(const MeasurementEpoch& epoch, const StateEstimate& estimate) {
+  if (!errors_.learns()) return;
+  whole_errors_ = measurements_;
+  for (FilterMeasurement& m : whole_errors_) {
+    if (m.signal_state < 0 || m.observable == Observable::kCarrier) continue;
+    m.innovation += estimate.signal_state_at(m.signal_state).value;
+    m.variance = m.marginal_variance - estimate.covariance()(m.signal_state, m.signal_state);
+  }
+  for (const Observable observable : {Observable::kCode, Observable::kDoppler})
+    errors_.add(epoch, measurements_,
+                clock_removed_innovations(whole_errors_, observable, estimate.covariance()),
+                standing());
+  errors_.end_epoch(epoch.time);
 }
 
 template <typename Predicate>

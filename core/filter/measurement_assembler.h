@@ -41,11 +41,8 @@ class MeasurementAssembler {
   bool fit_first_errors(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
     return errors_.fit_first(epoch, measurements_, innovations, standing());
   }
-  // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
-  void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
-    errors_.add(epoch, measurements_, innovations, standing());
-  }
-  void finish_learning(GpsTime time) { errors_.end_epoch(time); }
+  // Learns from the innovations of codes and Dopplers of measurements(), and ends the epoch.
+  void learn(const MeasurementEpoch& epoch, const StateEstimate& estimate);
   const LearnedErrors& errors() const { return errors_; }
   void forget_errors() { errors_.reset(); }
 
@@ -59,9 +56,14 @@ class MeasurementAssembler {
 
  private:
   static constexpr double kStandingSpeed_m_s = 0.3;
-  // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
+  // Sets the variances of `entry`, and where errors are learned its error state, which the
+  // innovation then is without; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
-             double correlation_time_ratio, double dt, FilterMeasurement* entry);
+             double correlation_time_ratio, double dt, FilterMeasurement* entry,
+             StateEstimate* estimate);
+  // Returns whether the correlated error of a measurement is to be a state.
+  bool has_error_state(const MeasurementEpoch& epoch, const Measurement& measurement,
+                       const CorrelationModel& correlation, double dt) const;
   bool standing() const { return speed_ < kStandingSpeed_m_s; }
   template <typename Predicate>
   void exclude_if(Predicate predicate);
@@ -70,6 +72,7 @@ class MeasurementAssembler {
   CodeVarianceModel code_model_;
   LearnedErrors errors_;
   FilterMeasurements measurements_;
+  FilterMeasurements whole_errors_;  // scratch of learn()
   ExcludedMeasurements excluded_;
   double speed_ = 0.0;  // of the antenna, m/s, at measurements_
   GpsTime epoch_time_;  // of measurements_

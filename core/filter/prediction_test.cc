@@ -87,8 +87,8 @@ bool PredictionTest::is_confirmed(Observable observable, double error,
   const FilterState& state = evidence.state;
   ClockRemovedInnovations carriers;
   for (const ClockRemovedInnovation& carrier : table_of(evidence.tables, Observable::kCarrier)) {
-    const int ambiguity = evidence.measurements[carrier.index].ambiguity;
-    if (state.ambiguities[static_cast<std::size_t>(ambiguity - state.first_ambiguity())].started <=
+    const int own = evidence.measurements[carrier.index].signal_state;
+    if (state.signal_states[static_cast<std::size_t>(own - state.first_signal_state())].started <=
         last_consistent_time_)
       carriers.push_back(carrier);
   }

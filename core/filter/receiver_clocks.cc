@@ -134,10 +134,11 @@ void ReceiverClocks::apply_clock_step(const MeasurementEpoch& epoch, int system,
   for (FilterMeasurement& m : *measurements) {
     if (m.observable == Observable::kDoppler || !is_of(system_of(m, epoch), system)) continue;
     // An arc that begins here was begun with the clock as predicted.
-    const bool begins = m.ambiguity >= 0 && estimate->covariance()(m.ambiguity, m.ambiguity) >=
-                                                kUnknownAmbiguityVariance;
+    const bool begins =
+        m.observable == Observable::kCarrier &&
+        estimate->covariance()(m.signal_state, m.signal_state) >= kUnknownAmbiguityVariance;
     if (begins)
-      estimate->shift_ambiguity(m.ambiguity, -step.value_m);
+      estimate->shift_signal_state(m.signal_state, -step.value_m);
     else
       m.innovation -= step.value_m;
   }

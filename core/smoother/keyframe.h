@@ -22,7 +22,7 @@ namespace leonav {
 // One measurement of a keyframe; its weight is factor / gain_variance.
 struct KeyframeMeasurement {
   Measurement measurement;  // satellite_index: into the keyframe's satellites
-  int ambiguity = -1;       // index among the state's ambiguities; -1: none
+  int signal_state = -1;    // index among the state's signal states; -1: none
   double variance = 0.0;    // of the measurement alone, for its test
   double gain_variance = 0.0;
   double factor = 1.0;    // IGG-III: first the filter's, later the window's
@@ -59,16 +59,16 @@ struct KeyframeInput {
   FaultHypotheses fault_hypotheses;
 };
 
-// The states that are estimated: the core states (before the ambiguities) whose variance is not
-// zero, in order, and all ambiguities.
+// The states that are estimated: the core states (before the signal states) whose variance is
+// not zero, in order, and all signal states.
 struct ActiveStates {
   boost::container::static_vector<int, ekf_index::kSize + ekf_index::kMaxVehicle> core;
   // number of core states, including those not estimated
-  int before_ambiguities = ekf_index::kSize;
-  int ambiguities = 0;
+  int before_signal_states = ekf_index::kSize;
+  int signal_states = 0;
 
   Eigen::Index core_size() const { return static_cast<Eigen::Index>(core.size()); }
-  Eigen::Index size() const { return core_size() + ambiguities; }
+  Eigen::Index size() const { return core_size() + signal_states; }
 };
 
 // The process factor from the previous keyframe, linearized at a pair of states:

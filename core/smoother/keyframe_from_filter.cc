@@ -24,8 +24,8 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
       input->satellites.push_back(epoch.satellites[satellite]);
     }
     satellite = static_cast<std::uint16_t>(slot[satellite]);
-    if (used.ambiguity >= 0)
-      measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
+    if (used.signal_state >= 0)
+      measurement.signal_state = used.signal_state - input->state.first_signal_state();
     const double inflation = square(filter.sigma_inflation(used.observable));
     measurement.variance = used.variance * inflation;
     measurement.gain_variance = used.gain_variance * inflation;

@@ -34,8 +34,9 @@ LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyfra
                           state.wet_delay_m, state.carrier_clock_m);
   LinearMeasurement linear;
   linear.residual = measurement.measurement.value - prediction.value;
-  if (measurement.ambiguity >= 0)
-    linear.residual -= state.ambiguities[static_cast<std::size_t>(measurement.ambiguity)].value_m;
+  if (measurement.signal_state >= 0)
+    linear.residual -=
+        state.signal_states[static_cast<std::size_t>(measurement.signal_state)].value;
   linear.row = prediction.row;
   linear.constants = prediction.constants;
   return linear;
@@ -60,12 +61,12 @@ void accumulate_information(const Keyframe& keyframe, const Eigen::Vector3d& lev
       sum->information.col(j).head(core) += (weight * row(j)) * row;
     }
     sum->gradient.head(core) += weight * linear.residual * row;
-    if (measurement.ambiguity < 0) continue;
-    const Index ambiguity = core + measurement.ambiguity;
-    sum->information.row(ambiguity).head(core) += weight * row.transpose();
-    sum->information.col(ambiguity).head(core) += weight * row;
-    sum->information(ambiguity, ambiguity) += weight;
-    sum->gradient(ambiguity) += weight * linear.residual;
+    if (measurement.signal_state < 0) continue;
+    const Index own = core + measurement.signal_state;
+    sum->information.row(own).head(core) += weight * row.transpose();
+    sum->information.col(own).head(core) += weight * row;
+    sum->information(own, own) += weight;
+    sum->gradient(own) += weight * linear.residual;
   }
 }
 

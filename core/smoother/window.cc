@@ -11,23 +11,23 @@ using Eigen::Index;
 
 ActiveStates active_states(const KeyframeInput& input) {
   ActiveStates active;
-  active.before_ambiguities = input.state.first_ambiguity();
-  for (int i = 0; i < active.before_ambiguities; ++i)
+  active.before_signal_states = input.state.first_signal_state();
+  for (int i = 0; i < active.before_signal_states; ++i)
     if (input.covariance(i, i) > 0.0) active.core.push_back(i);
-  active.ambiguities = static_cast<int>(input.state.ambiguities.size());
+  active.signal_states = static_cast<int>(input.state.signal_states.size());
   return active;
 }
 
 Index whole_index(const ActiveStates& active, Index i) {
   if (i < active.core_size()) return active.core[static_cast<std::size_t>(i)];
-  return active.before_ambiguities + i - active.core_size();
+  return active.before_signal_states + i - active.core_size();
 }
 
 bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
   const ActiveStates& rows = keyframe->active;
   const ActiveStates& columns = before.active;
-  if (input.process.transition.cols() != columns.before_ambiguities + columns.ambiguities + 1)
+  if (input.process.transition.cols() != columns.before_signal_states + columns.signal_states + 1)
     return false;
   process_factor.F.resize(rows.size(), columns.size());
   EkfCovariance& noise = process_factor.noise;

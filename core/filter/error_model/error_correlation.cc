@@ -20,6 +20,9 @@ constexpr double kPriorPairs = 150.0;
 constexpr double kMostPredicted = 0.1;
 constexpr double kLeastVariance = 0.05;
 
+// Returns the covariance of two predictions of one satellite's signal, from their variances.
+double shared(double a, double b) { return a * b > 0.0 ? std::copysign(std::sqrt(a * b), a) : 0.0; }
+
 // Returns the bin of a lag: 1, 2, 3-4, 5-8, ... s.
 std::size_t bin_of(double lag_s, std::size_t bins) {
   const double bin = 1.0 + std::max(0.0, std::ceil(std::log2(std::max(lag_s - 0.5, 0.5))));
@@ -135,7 +138,7 @@ ErrorCorrelation::History* ErrorCorrelation::history_of(const Sample& sample, Gp
 }
 
 void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
-  if (sample.predicted_ratio > kMostPredicted) return;
+  if (std::abs(sample.predicted_ratio) > kMostPredicted) return;
   History* history = history_of(sample, time);
   if (history == nullptr) return;
   if (history->last.is_set() && seconds_between(time, history->last) < kSpacing_s) return;
@@ -151,7 +154,7 @@ void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
     Lag& lag = lags[bin_of(lag_s, kLags)];
     lag.count += 1.0;
     lag.lag_s += lag_s;
-    lag.product += u * past.ratio - std::sqrt(sample.predicted_ratio * past.predicted_ratio);
+    lag.product += u * past.ratio - shared(sample.predicted_ratio, past.predicted_ratio);
   }
   history->past[history->next] = {time, u, sample.predicted_ratio, sample.of.motion};
   history->next = (history->next + 1) % kHistory;

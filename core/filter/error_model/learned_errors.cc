@@ -86,7 +86,7 @@ void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements&
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
     const ErrorClass of = error_class(measurement, satellite, standing);
     const double measured = entry.measured_variance;
-    const double predicted = std::max(entry.variance - measured, 0.0);
+    const double predicted = entry.variance - measured;
     scale_.add(
         {of, square(entry.innovation) / entry.variance, std::min(measured / entry.variance, 1.0)});
     // Errors of a satellite in low orbit change with its direction, within seconds.

@@ -8,8 +8,8 @@
 #include "core/earth/rotation.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/process/constant_velocity.h"
-#include "core/filter/state/ambiguities.h"
 #include "core/filter/state/clock_model.h"
+#include "core/filter/state/signal_states.h"
 #include "core/filter/update/covariance_inflation.h"
 
 namespace leonav {
@@ -120,7 +120,7 @@ void StateEstimate::set_exactly(const FilterState& state, bool has_attitude) {
   state_ = state;
   has_attitude_ = has_attitude;
   const Eigen::Index states =
-      state.first_ambiguity() + static_cast<Eigen::Index>(state.ambiguities.size());
+      state.first_signal_state() + static_cast<Eigen::Index>(state.signal_states.size());
   covariance_.setZero(states, states);
   begin_process();
 }
@@ -227,9 +227,10 @@ void StateEstimate::propagate_slow_states(const ImuErrorModel& imu, double dt) {
   state_.nav.errors.gyro_scale *= gauss_markov_decay(imu.gyro_scale, dt);
   state_.nav.errors.accel_scale *= gauss_markov_decay(imu.accel_scale, dt);
   state_.clocks.offset_m += dt * state_.clocks.drift_m_s;
+  for (SignalState& signal : state_.signal_states) signal.value *= decay(signal, dt);
   for (EkfCovariance* covariance : covariance_and_noise()) {
     propagate_clocks(config_.clock, known_clocks_, dt, covariance);
-    propagate_ambiguities(state_.ambiguities, dt, covariance);
+    propagate_signal_states(state_.signal_states, dt, covariance);
     for (int i = 0; i < static_cast<int>(state_.vehicle.size()); ++i)
       (*covariance)(kSize + i, kSize + i) +=
           square(config_.vehicle.random_walk[static_cast<std::size_t>(i)]) * dt;
@@ -241,6 +242,12 @@ void StateEstimate::propagate_slow_states(const ImuErrorModel& imu, double dt) {
   if (process_.continuous)
     process_.transition.middleRows<4>(kClock) +=
         dt * process_.transition.middleRows<4>(kClockDrift);
+  for (std::size_t i = 0; process_.continuous && i < state_.signal_states.size(); ++i) {
+    const SignalState& signal = state_.signal_states[i];
+    if (signal.kind != SignalState::Kind::kAmbiguity)
+      process_.transition.row(state_.first_signal_state() + static_cast<Eigen::Index>(i)) *=
+          decay(signal, dt);
+  }
 }
 
 void StateEstimate::to_antenna_parametrization(const AntennaMotion& antenna) {
@@ -274,7 +281,7 @@ RobustUpdateResult StateEstimate::correct(const RobustConfig& config, const Ante
 
 MotionComponents StateEstimate::constrain(MotionMeasurements* measurements, double gate) {
   EkfCorrection correction = EkfCorrection::Zero(covariance_.rows());
-  const Eigen::Index known = state_.first_ambiguity();
+  const Eigen::Index known = state_.first_signal_state();
   MotionComponents used = 0;
   for (MotionMeasurement& measurement : *measurements) {
     const auto h = measurement.row.head(known);
@@ -325,7 +332,7 @@ void StateEstimate::scale_sigmas(double of_position, double of_velocity) {
   }
 }
 
-void StateEstimate::inflate_ambiguity(int state, double sigma_m) {
+void StateEstimate::inflate_signal_state(int state, double sigma_m) {
   for (EkfCovariance* covariance : covariance_and_noise())
     (*covariance)(state, state) += square(sigma_m);
 }
@@ -375,49 +382,57 @@ void StateEstimate::shift_codes_against_carriers(int system, double step_m, doub
   for (std::size_t i = 0; i < kMaxSystemTimes; ++i)
     if (known_clocks_.offset[i] && is_of(static_cast<int>(i), system))
       direction(kClock + static_cast<int>(i)) = 1.0;
-  for (std::size_t i = 0; i < state_.ambiguities.size(); ++i) {
-    if (is_of(static_cast<int>(index_of(state_.ambiguities[i].satellite.system)), system))
-      direction(state_.first_ambiguity() + static_cast<int>(i)) = -1.0;
+  for (std::size_t i = 0; i < state_.signal_states.size(); ++i) {
+    const SignalState& signal = state_.signal_states[i];
+    if (signal.kind == SignalState::Kind::kAmbiguity &&
+        is_of(static_cast<int>(index_of(signal.satellite.system)), system))
+      direction(state_.first_signal_state() + static_cast<int>(i)) = -1.0;
   }
   state_.clocks.offset_m += step_m * direction.segment<4>(kClock);
-  for (std::size_t i = 0; i < state_.ambiguities.size(); ++i)
-    state_.ambiguities[i].value_m +=
-        step_m * direction(state_.first_ambiguity() + static_cast<int>(i));
+  for (std::size_t i = 0; i < state_.signal_states.size(); ++i)
+    state_.signal_states[i].value +=
+        step_m * direction(state_.first_signal_state() + static_cast<int>(i));
   if (!(sigma_m > 0.0)) return;
   for (EkfCovariance* covariance : covariance_and_noise())
     *covariance += square(sigma_m) * direction * direction.transpose();
 }
 
-const Ambiguity& StateEstimate::ambiguity_of_state(int state) const {
-  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+const SignalState& StateEstimate::signal_state_at(int state) const {
+  return state_.signal_states[static_cast<std::size_t>(state - state_.first_signal_state())];
 }
 
-Ambiguity& StateEstimate::mutable_ambiguity_of_state(int state) {
-  return state_.ambiguities[static_cast<std::size_t>(state - state_.first_ambiguity())];
+SignalState& StateEstimate::mutable_signal_state_at(int state) {
+  return state_.signal_states[static_cast<std::size_t>(state - state_.first_signal_state())];
 }
 
-void StateEstimate::shift_ambiguity(int state, double shift_m) {
-  mutable_ambiguity_of_state(state).value_m += shift_m;
+void StateEstimate::shift_signal_state(int state, double shift_m) {
+  mutable_signal_state_at(state).value += shift_m;
 }
 
 void StateEstimate::set_ambiguity_random_walk(int state, double random_walk) {
-  mutable_ambiguity_of_state(state).random_walk = random_walk;
+  mutable_signal_state_at(state).random_walk = random_walk;
 }
 
-void StateEstimate::record_carrier(int state, GpsTime time, bool used) {
-  Ambiguity& ambiguity = mutable_ambiguity_of_state(state);
-  ambiguity.last_used = time;
-  ambiguity.rejected = used ? 0 : ambiguity.rejected + 1;
+void StateEstimate::record_use(int state, GpsTime time, bool used) {
+  SignalState& signal = mutable_signal_state_at(state);
+  signal.last_used = time;
+  signal.rejected = used ? 0 : signal.rejected + 1;
 }
 
-void StateEstimate::add_ambiguity(const Ambiguity& ambiguity, double sigma_m) {
-  leonav::add_ambiguity(ambiguity, sigma_m, &state_.ambiguities, &covariance_);
-  if (process_.continuous) process_.append(square(sigma_m));
+void StateEstimate::add_signal_state(const SignalState& signal, double sigma) {
+  leonav::add_signal_state(signal, sigma, &state_.signal_states, &covariance_);
+  if (process_.continuous) process_.append(square(sigma));
 }
 
-void StateEstimate::remove_ambiguity(int index) {
-  leonav::remove_ambiguity(index, &state_.ambiguities, &covariance_);
-  if (process_.continuous) process_.remove(state_.first_ambiguity() + index);
+void StateEstimate::set_error_model(int state, double sigma, double correlation_time_s) {
+  SignalState& signal = mutable_signal_state_at(state);
+  signal.sigma = sigma;
+  signal.correlation_time_s = correlation_time_s;
+}
+
+void StateEstimate::remove_signal_state(int index) {
+  leonav::remove_signal_state(index, &state_.signal_states, &covariance_);
+  if (process_.continuous) process_.remove(state_.first_signal_state() + index);
 }
 
 // Values and variances outlive the filter that found them; correlations do not.

@@ -99,7 +99,7 @@ class StateEstimate {
   void inflate_position(double sigma_m);
   // Multiplies the sigmas of position and velocity, correlations stay.
   void scale_sigmas(double of_position, double of_velocity);
-  void inflate_ambiguity(int state, double sigma_m);
+  void inflate_signal_state(int state, double sigma_m);
 
   // --- clocks; `system` is an index of System ---
   void start_clock_offset(std::size_t system, double offset_m, double sigma_m);
@@ -112,16 +112,18 @@ class StateEstimate {
   // Shifts them by a step of the codes alone: ambiguities make up for it. `sigma_m` 0: exact.
   void shift_codes_against_carriers(int system, double step_m, double sigma_m);
 
-  // --- ambiguities; `state` is an index of the error state, `index` one of
-  // FilterState::ambiguities ---
-  const Ambiguity& ambiguity_of_state(int state) const;
+  // --- signal states; `state` is an index of the error state, `index` one of
+  // FilterState::signal_states ---
+  const SignalState& signal_state_at(int state) const;
   // These leave the covariance as it is.
-  void shift_ambiguity(int state, double shift_m);
+  void shift_signal_state(int state, double shift_m);
   void set_ambiguity_random_walk(int state, double random_walk);
-  // Records that the update at `time` used the ambiguity's carrier, or rejected it.
-  void record_carrier(int state, GpsTime time, bool used);
-  void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
-  void remove_ambiguity(int index);
+  // Records that the update at `time` used the state's measurement, or rejected it.
+  void record_use(int state, GpsTime time, bool used);
+  // Sets the process of a code's or Doppler's error; variance and value stay.
+  void set_error_model(int state, double sigma, double correlation_time_s);
+  void add_signal_state(const SignalState& signal, double sigma);
+  void remove_signal_state(int index);
 
   // --- vehicle constants ---
   // Appends constants up to `constant` (kTravelYaw ... in ekf_index) before the ambiguities, each
@@ -137,7 +139,7 @@ class StateEstimate {
   void apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
                       const AntennaModel& model, const BodyMotion& body);
-  Ambiguity& mutable_ambiguity_of_state(int state);
+  SignalState& mutable_signal_state_at(int state);
   void apply_antenna_transform(const AntennaMotion& antenna, double direction);
 
   EkfConfig config_;

@@ -17,9 +17,9 @@ constexpr std::size_t kMinOfSystem = 4;
 double predicted_covariance(const FilterMeasurement& a, const FilterMeasurement& b,
                             const EkfCovariance& P) {
   double covariance = a.row.dot(P.topLeftCorner<kSize, kSize>() * b.row);
-  if (a.ambiguity >= 0) covariance += P.col(a.ambiguity).head<kSize>().dot(b.row);
-  if (b.ambiguity >= 0) covariance += P.col(b.ambiguity).head<kSize>().dot(a.row);
-  if (a.ambiguity >= 0 && b.ambiguity >= 0) covariance += P(a.ambiguity, b.ambiguity);
+  if (a.signal_state >= 0) covariance += P.col(a.signal_state).head<kSize>().dot(b.row);
+  if (b.signal_state >= 0) covariance += P.col(b.signal_state).head<kSize>().dot(a.row);
+  if (a.signal_state >= 0 && b.signal_state >= 0) covariance += P(a.signal_state, b.signal_state);
   return covariance;
 }
 
@@ -37,8 +37,7 @@ void take_out_median(const FilterMeasurements& measurements, const EkfCovariance
     FilterMeasurement relative = measurements[entry.index];
     relative.row.segment<8>(kClock) -= shared.segment<8>(kClock);
     entry.innovation -= middle;
-    entry.variance =
-        entry.measured_variance + std::max(predicted_variance(relative, covariance), 0.0);
+    entry.variance = relative.variance + std::max(predicted_variance(relative, covariance), 0.0);
   }
 }
 
@@ -96,9 +95,10 @@ ClockRemovedInnovations clock_removed_innovations(const FilterMeasurements& meas
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const FilterMeasurement& m = measurements[i];
     if (m.observable != observable) continue;
-    if (m.ambiguity >= 0 && covariance(m.ambiguity, m.ambiguity) >= kUnknownAmbiguityVariance)
+    if (observable == Observable::kCarrier &&
+        covariance(m.signal_state, m.signal_state) >= kUnknownAmbiguityVariance)
       continue;
-    of_system[system_of(m)].push_back({i, m.innovation, 0.0, m.variance});
+    of_system[system_of(m)].push_back({i, m.innovation, 0.0, error_variance(m, covariance)});
   }
   join_small(&of_system);
   ClockRemovedInnovations table;

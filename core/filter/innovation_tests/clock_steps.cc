@@ -39,14 +39,14 @@ Differences code_less_carrier(const FilterMeasurements& measurements, const Meas
   const Codes codes = codes_of(measurements, epoch, system);
   Differences found;
   for (const FilterMeasurement& carrier : measurements) {
-    if (carrier.ambiguity < 0 ||
-        P(carrier.ambiguity, carrier.ambiguity) >= kUnknownAmbiguityVariance)
+    if (carrier.observable != Observable::kCarrier ||
+        P(carrier.signal_state, carrier.signal_state) >= kUnknownAmbiguityVariance)
       continue;
     const FilterMeasurement* code = codes[epoch.measurements[carrier.index].satellite_index];
     if (code == nullptr || found.samples.size() == found.samples.capacity()) continue;
-    found.samples.push_back(
-        {code->innovation - carrier.innovation, std::sqrt(code->variance + carrier.variance)});
-    found.ambiguities.push_back(carrier.ambiguity);
+    found.samples.push_back({code->innovation - carrier.innovation,
+                             std::sqrt(error_variance(*code, P) + carrier.variance)});
+    found.ambiguities.push_back(carrier.signal_state);
   }
   return found;
 }
@@ -106,7 +106,7 @@ InterSystemStep inter_system_step(const FilterMeasurements& measurements,
   for (const FilterMeasurement* code : reference_codes) {
     if (code == nullptr) continue;
     of_reference.push_back(code->innovation);
-    reference_variance += code->variance;
+    reference_variance += error_variance(*code, covariance);
     row -= code->row;
   }
   if (of_reference.size() < kMinStepSamples) return found;
@@ -118,7 +118,7 @@ InterSystemStep inter_system_step(const FilterMeasurements& measurements,
   const Codes system_codes = codes_of(measurements, epoch, system);
   for (const FilterMeasurement* code : system_codes) {
     if (code == nullptr) continue;
-    samples.push_back({code->innovation - middle, std::sqrt(code->variance)});
+    samples.push_back({code->innovation - middle, std::sqrt(error_variance(*code, covariance))});
     sum += code->row;
   }
   if (samples.size() < kMinStepSamples) return found;

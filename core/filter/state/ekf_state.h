@@ -10,6 +10,7 @@
 #include "core/base/capacity.h"
 #include "core/base/gps_time.h"
 #include "core/gnss/signals/satellite.h"
+#include "core/gnss/signals/signal.h"
 
 namespace leonav {
 
@@ -18,8 +19,8 @@ namespace leonav {
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
 //   accelerometer scale 3, clock offset per time system 4 (m), clock drift per time system 4 (m/s),
 //   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), the
-//   vehicle constants as far as they are estimated, and one ambiguity (m) per carrier arc under
-//   way.
+//   vehicle constants as far as they are estimated, and the signal states: one ambiguity (m) per
+//   carrier arc under way, and time-correlated errors of codes (m) and Dopplers (m/s).
 // The constant-velocity and static models keep the same order; the states they lack have zero
 // covariance and take no correction.
 namespace ekf_index {
@@ -40,15 +41,15 @@ inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kLeve
                      kTimeOffset = 6, kMaxVehicle = 7;
 // The last four of them move the antenna.
 inline constexpr int kAntennaConstants = kMaxVehicle - kLeverArm;
-inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
+inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxSignalStates);
 }  // namespace ekf_index
 
 // A square matrix over all states at hand, in storage of fixed capacity.
 using EkfCovariance = BoundedMatrix<ekf_index::kMaxSize, ekf_index::kMaxSize>;
 // One number per state.
 using EkfCorrection = BoundedVector<ekf_index::kMaxSize>;
-// One number per state before vehicle constants and ambiguities: the Jacobian row of a measurement,
-// which has a one for its own ambiguity beside.
+// One number per state before vehicle constants and signal states: the Jacobian row of a
+// measurement, which has a one for its own signal state beside.
 using EkfVector = Eigen::Matrix<double, ekf_index::kSize, 1>;
 // Covariance of gyro bias, accelerometer bias, gyro scale and accelerometer scale, in this order.
 using ImuErrorCovariance = Eigen::Matrix<double, 12, 12>;
@@ -67,16 +68,28 @@ struct ClockFlags {
   std::array<bool, kMaxSystemTimes> drift{};
 };
 
-// The constant of one carrier arc, m: carrier phase minus the code's model.
-struct Ambiguity {
-  std::uint32_t arc = 0;
+// One state that belongs to one signal of one satellite. It enters the prediction of that signal's
+// measurement with the coefficient one.
+struct SignalState {
+  enum class Kind : unsigned char {
+    kAmbiguity,     // constant of a carrier arc, m: carrier phase minus the code's model
+    kCodeError,     // time-correlated error of a code, m
+    kDopplerError,  // time-correlated error of a Doppler, m/s
+  };
+  Kind kind = Kind::kAmbiguity;
   SatelliteId satellite;
-  double value_m = 0.0;
-  double random_walk = 0.0;  // m/sqrt(s)
+  std::uint32_t arc = 0;  // of an ambiguity
+  SignalCode code;        // of an error; with the second one if it is of a pair
+  SignalCode second_code;
+  double value = 0.0;        // m or m/s
+  double random_walk = 0.0;  // of an ambiguity, m/sqrt(s)
+  // An error is a first-order Gauss-Markov process.
+  double sigma = 0.0;               // m or m/s
+  double correlation_time_s = 0.0;  // above zero
   GpsTime started, last_used;
   int rejected = 0;  // in so many epochs in a row
 };
-// Index-parallel to the error state from FilterState::first_ambiguity() on.
-using Ambiguities = boost::container::static_vector<Ambiguity, kMaxArcs>;
+// Index-parallel to the error state from FilterState::first_signal_state() on.
+using SignalStates = boost::container::static_vector<SignalState, kMaxSignalStates>;
 
 }  // namespace leonav

@@ -27,16 +27,16 @@ void add(const EkfCorrection& error, bool has_attitude, FilterState* state) {
   state->carrier_clock_m += error(kCarrierClock);
   for (std::size_t i = 0; i < state->vehicle.size(); ++i)
     state->vehicle[i] += error(kSize + static_cast<Index>(i));
-  const Index first = state->first_ambiguity();
-  for (std::size_t i = 0; i < state->ambiguities.size(); ++i)
-    state->ambiguities[i].value_m += error(first + static_cast<Index>(i));
+  const Index first = state->first_signal_state();
+  for (std::size_t i = 0; i < state->signal_states.size(); ++i)
+    state->signal_states[i].value += error(first + static_cast<Index>(i));
 }
 
 EkfCorrection difference(const FilterState& state, const FilterState& reference) {
   const NavState& a = state.nav;
   const NavState& b = reference.nav;
-  const Index first = state.first_ambiguity();
-  EkfCorrection error(first + static_cast<Index>(state.ambiguities.size()));
+  const Index first = state.first_signal_state();
+  EkfCorrection error(first + static_cast<Index>(state.signal_states.size()));
   error.segment<3>(kPosition) = a.p_e - b.p_e;
   error.segment<3>(kVelocity) = a.v_e - b.v_e;
   error.segment<3>(kAttitude) = rotation_vector_from_quaternion(a.q_eb * b.q_eb.conjugate());
@@ -50,9 +50,9 @@ EkfCorrection difference(const FilterState& state, const FilterState& reference)
   error(kCarrierClock) = state.carrier_clock_m - reference.carrier_clock_m;
   for (std::size_t i = 0; i < state.vehicle.size(); ++i)
     error(kSize + static_cast<Index>(i)) = state.vehicle[i] - reference.vehicle[i];
-  for (std::size_t i = 0; i < state.ambiguities.size(); ++i)
+  for (std::size_t i = 0; i < state.signal_states.size(); ++i)
     error(first + static_cast<Index>(i)) =
-        state.ambiguities[i].value_m - reference.ambiguities[i].value_m;
+        state.signal_states[i].value - reference.signal_states[i].value;
   return error;
 }
 
@@ -65,8 +65,8 @@ bool is_finite(const FilterState& state) {
          std::isfinite(state.wet_delay_m) && std::isfinite(state.carrier_clock_m) &&
          std::all_of(state.vehicle.begin(), state.vehicle.end(),
                      [](double x) { return std::isfinite(x); }) &&
-         std::all_of(state.ambiguities.begin(), state.ambiguities.end(),
-                     [](const Ambiguity& a) { return std::isfinite(a.value_m); });
+         std::all_of(state.signal_states.begin(), state.signal_states.end(),
+                     [](const SignalState& a) { return std::isfinite(a.value); });
 }
 
 }  // namespace leonav

@@ -19,18 +19,19 @@ struct FilterState {
   double wet_delay_m = 0.0;      // at zenith, beyond the modelled one
   double carrier_clock_m = 0.0;  // clock of the carriers minus that of the codes
   VehicleConstants vehicle;
-  Ambiguities ambiguities;
+  SignalStates signal_states;
   AttitudeRandomWalk random_walk;  // part of the process model; not estimated
 
-  // Index of the first ambiguity in the error state.
-  int first_ambiguity() const { return ekf_index::kSize + static_cast<int>(vehicle.size()); }
+  // Index of the first signal state in the error state.
+  int first_signal_state() const { return ekf_index::kSize + static_cast<int>(vehicle.size()); }
 };
 
 // Adds an error in the order of ekf_index to `state`; to the attitude only if `has_attitude`.
 void add(const EkfCorrection& error, bool has_attitude, FilterState* state);
 
 // Returns the error of `reference` if `state` were true: add(difference(a, b), true, &b) makes b
-// equal to a. Both must have the same vehicle constants and the same ambiguities in the same order.
+// equal to a. Both must have the same vehicle constants and the same signal states in the same
+// order.
 EkfCorrection difference(const FilterState& state, const FilterState& reference);
 
 // Returns false once any number is infinite or not a number.

@@ -70,9 +70,10 @@ TEST_CASE("with carriers, errors are as large as the covariance says, standing a
                 P.block<1, 1>(kWetDelay, kWetDelay));
     Eigen::VectorXd error(8);
     for (int i = 0; i < 8; ++i) {
-      const Ambiguity& estimate = filter.filter_state().ambiguities[static_cast<std::size_t>(i)];
+      const SignalState& estimate =
+          filter.filter_state().signal_states[static_cast<std::size_t>(i)];
       error(i) = ambiguities_m(estimate.satellite.number - 1) + 10.0 * (estimate.arc / 100u) -
-                 estimate.value_m;
+                 estimate.value;
     }
     ambiguity += nees(error, P.block<8, 8>(kSize, kSize));
   }

@@ -5,7 +5,7 @@
 
 #include "carrier_receiver.h"
 #include "core/filter/ekf.h"
-#include "core/filter/state/ambiguities.h"
+#include "core/filter/state/signal_states.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -49,9 +49,9 @@ TEST_CASE("a static filter with ambiguities is the batch least squares of all ep
   for (int i = 0; i < 3; ++i)
     CHECK(std::sqrt(filter.covariance()(i, i)) ==
           Approx(std::sqrt(covariance(i, i))).epsilon(2e-3));
-  REQUIRE(filter.filter_state().ambiguities.size() == 8);
+  REQUIRE(filter.filter_state().signal_states.size() == 8);
   for (int i = 0; i < 8; ++i) {
-    CHECK(filter.filter_state().ambiguities[static_cast<std::size_t>(i)].value_m ==
+    CHECK(filter.filter_state().signal_states[static_cast<std::size_t>(i)].value ==
           Approx(solution(3 + i)).margin(2e-3));
     CHECK(std::sqrt(filter.covariance()(kSize + i, kSize + i)) ==
           Approx(std::sqrt(covariance(3 + i, 3 + i))).epsilon(2e-3));
@@ -64,17 +64,17 @@ TEST_CASE("an arc that ends takes its ambiguity along; one unseen for long goes,
   EkfConfig config = static_config();
   Ekf filter = static_filter(&receiver, config);
   for (int k = 1; k <= 3; ++k) step(&filter, receiver.measure(kStep_s * k));
-  REQUIRE(filter.filter_state().ambiguities.size() == 8);
+  REQUIRE(filter.filter_state().signal_states.size() == 8);
   MeasurementEpoch epoch = receiver.measure(120.0);
   for (Measurement& m : epoch.measurements)
     if (m.arc == 3) m.arc = 30;
   step(&filter, epoch);
-  CHECK(filter.filter_state().ambiguities.size() == 8);
-  CHECK(find_ambiguity(filter.filter_state().ambiguities, 3) == kNoAmbiguity);
-  const int place = find_ambiguity(filter.filter_state().ambiguities, 30);
-  REQUIRE(place != kNoAmbiguity);
+  CHECK(filter.filter_state().signal_states.size() == 8);
+  CHECK(find_ambiguity(filter.filter_state().signal_states, 3) == kNoSignalState);
+  const int place = find_ambiguity(filter.filter_state().signal_states, 30);
+  REQUIRE(place != kNoSignalState);
   // The others stand as they were, and in their places.
-  CHECK(find_ambiguity(filter.filter_state().ambiguities, 4) == 2);
+  CHECK(find_ambiguity(filter.filter_state().signal_states, 4) == 2);
   CHECK(filter.covariance().rows() == kSize + 8);
   // One satellite without carrier for 90 s, then for 150 s.
   const auto without_first = [&](double t) {
@@ -86,9 +86,9 @@ TEST_CASE("an arc that ends takes its ambiguity along; one unseen for long goes,
     return e;
   };
   for (double t = 150.0; t <= 210.0; t += 30.0) step(&filter, without_first(t));
-  CHECK(find_ambiguity(filter.filter_state().ambiguities, 1) != kNoAmbiguity);
+  CHECK(find_ambiguity(filter.filter_state().signal_states, 1) != kNoSignalState);
   for (double t = 240.0; t <= 300.0; t += 30.0) step(&filter, without_first(t));
-  CHECK(find_ambiguity(filter.filter_state().ambiguities, 1) == kNoAmbiguity);
+  CHECK(find_ambiguity(filter.filter_state().signal_states, 1) == kNoSignalState);
   CHECK(filter.covariance().rows() == kSize + 7);
 }
 
@@ -169,10 +169,10 @@ TEST_CASE("a clock that steps by a millisecond in the codes alone costs no arc a
   CHECK(result.clock_jump_m == Approx(299'792.458).margin(30.0));
   CHECK(result.slipped.empty());
   CHECK_FALSE(result.ambiguities_reset);
-  CHECK(filter.filter_state().ambiguities.size() == 8);
+  CHECK(filter.filter_state().signal_states.size() == 8);
   CHECK((filter.state().p_e - before).norm() < 0.01);
   CHECK(std::sqrt(filter.covariance().topLeftCorner<3, 3>().trace()) < 1.01 * sigma_before);
-  CHECK(filter.filter_state().ambiguities[0].value_m ==
+  CHECK(filter.filter_state().signal_states[0].value ==
         Approx(ambiguity_of(0) - 299'792.458).margin(0.3));
 }
 
@@ -194,9 +194,9 @@ TEST_CASE("more arcs than there are places: the first keep theirs, the others ar
     }
   }
   const EkfUpdateResult result = step(&filter, epoch);
-  CHECK(filter.filter_state().ambiguities.size() == kMaxArcs);
+  CHECK(filter.filter_state().signal_states.size() == kMaxArcs);
   CHECK(result.arcs_without_capacity == 80 - static_cast<int>(kMaxArcs));
-  CHECK(find_ambiguity(filter.filter_state().ambiguities, 8) != kNoAmbiguity);
+  CHECK(find_ambiguity(filter.filter_state().signal_states, 8) != kNoSignalState);
 }
 
 TEST_CASE("new arcs take the places of those out of sight, longest unseen first") {
@@ -225,9 +225,10 @@ TEST_CASE("new arcs take the places of those out of sight, longest unseen first"
   }
   const EkfUpdateResult result = step(&filter, epoch);
   CHECK(result.arcs_without_capacity == 0);
-  CHECK(filter.filter_state().ambiguities.size() == kMaxArcs);
+  CHECK(filter.filter_state().signal_states.size() == kMaxArcs);
   for (std::uint32_t arc = 1; arc <= 8; ++arc)
-    CHECK((find_ambiguity(filter.filter_state().ambiguities, arc) != kNoAmbiguity) == (arc > 4));
+    CHECK((find_ambiguity(filter.filter_state().signal_states, arc) != kNoSignalState) ==
+          (arc > 4));
 }
 
 TEST_CASE(
@@ -236,16 +237,16 @@ TEST_CASE(
   Ekf filter(static_config(), ImuErrorModel(), Vector3d::Zero());
   filter.initialize(synthetic::kStart, receiver.point());
   for (int k = 1; k <= 20; ++k) step(&filter, receiver.measure(kStep_s * k));
-  REQUIRE(filter.filter_state().ambiguities.size() == 8);
+  REQUIRE(filter.filter_state().signal_states.size() == 8);
   filter.restart_clock_offsets();
   MeasurementEpoch carriers = receiver.measure(kStep_s * 21);
   for (Measurement& measurement : carriers.measurements)
     if (measurement.observable == Observable::kCode) measurement.reason = Reason::kOutlier;
   CHECK(step(&filter, carriers).used == 0);
-  CHECK(filter.filter_state().ambiguities.empty());
+  CHECK(filter.filter_state().signal_states.empty());
   receiver.truth().clocks.offset_m.array() += 5'000.0;
   for (int k = 22; k <= 24; ++k) step(&filter, receiver.measure(kStep_s * k));
-  CHECK(filter.filter_state().ambiguities.size() == 8);
+  CHECK(filter.filter_state().signal_states.size() == 8);
   CHECK((filter.state().p_e - receiver.truth().p_antenna_e).norm() < 0.3);
 }
 

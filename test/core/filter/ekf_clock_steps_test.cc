@@ -76,7 +76,7 @@ Outcome run(const EkfConfig& config, std::size_t gps, int epochs, const Step& st
     outcome.apart_m =
         std::max(outcome.apart_m, (filter.state().p_e - undisturbed.state().p_e).norm());
   }
-  outcome.arcs = filter.filter_state().ambiguities.size();
+  outcome.arcs = filter.filter_state().signal_states.size();
   return outcome;
 }
 

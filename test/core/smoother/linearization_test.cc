@@ -27,7 +27,7 @@ double step_of(Index i) {
 }
 
 FilterState moved(const Keyframe& keyframe, Index i, double by) {
-  EkfCorrection error = EkfCorrection::Zero(kSize + keyframe.active.ambiguities);
+  EkfCorrection error = EkfCorrection::Zero(kSize + keyframe.active.signal_states);
   error(i) = by;
   FilterState state = keyframe.state;
   add(error, keyframe.has_attitude, &state);
@@ -58,7 +58,7 @@ std::unique_ptr<Window> window_of_two(bool inertial, Eigen::Vector3d* lever_b) {
   Generator noise(5);
   for (int k = 0; k < window->size(); ++k) {
     Keyframe& keyframe = window->at(k);
-    EkfCorrection error(kSize + keyframe.active.ambiguities);
+    EkfCorrection error(kSize + keyframe.active.signal_states);
     for (double& value : error) value = 0.05 * noise.normal();
     error.segment<3>(kAttitude) = 0.5 * noise.normal3();
     add(error, keyframe.has_attitude, &keyframe.state);
@@ -85,7 +85,7 @@ TEST_CASE("the rows of code, carrier and Doppler are the slopes of their residua
     };
     for (Index i = 0; i < keyframe.active.size(); ++i) {
       const Index state = whole_index(keyframe.active, i);
-      double row = measurement.ambiguity == state - kSize ? 1.0 : 0.0;
+      double row = measurement.signal_state == state - kSize ? 1.0 : 0.0;
       if (state < kSize) row = linear.row(state);
       CAPTURE(static_cast<int>(measurement.measurement.observable), state);
       CHECK(-slope(keyframe, state, residual)(0) ==

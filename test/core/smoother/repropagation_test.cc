@@ -26,7 +26,7 @@ class Pair {
   const Repropagator& repropagator() const { return repropagator_; }
 
   void displace(Index i, double by) {
-    EkfCorrection error = EkfCorrection::Zero(kSize + before().active.ambiguities);
+    EkfCorrection error = EkfCorrection::Zero(kSize + before().active.signal_states);
     error(i) = by;
     add(error, true, &before().state);
   }

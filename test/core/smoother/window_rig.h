@@ -115,7 +115,7 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
       for (Eigen::Index i = 0; i < keyframe.active.core_size(); ++i)
         J(row, own + i) =
             weight * row_of(linear, keyframe.active.core[static_cast<std::size_t>(i)]);
-      if (m.ambiguity >= 0) J(row, own + keyframe.active.core_size() + m.ambiguity) = weight;
+      if (m.signal_state >= 0) J(row, own + keyframe.active.core_size() + m.signal_state) = weight;
       r(row++) = weight * linear.residual;
     }
   }

@@ -38,7 +38,7 @@ void WeightedLeastSquares::begin(const FilterMeasurements& measurements,
     const FilterMeasurement& measurement = measurements[static_cast<std::size_t>(i)];
     auto g = rows().col(i).head(states_);
     g.noalias() = L_.topRows<kSize>().transpose() * measurement.row;
-    if (measurement.ambiguity >= 0) g += L_.row(measurement.ambiguity).transpose();
+    if (measurement.signal_state >= 0) g += L_.row(measurement.signal_state).transpose();
   }
 }
 

@@ -200,7 +200,8 @@ void MeasurementsCost::evaluate(const std::vector<LinearizedKeyframe>& at, Vecto
     (*residuals)(i) = -root * linear.residual;
     for (Index j = 0; j < active.core_size(); ++j)
       jacobian(i, j) = root * row_of(linear, active.core[static_cast<std::size_t>(j)]);
-    if (measurement.ambiguity >= 0) jacobian(i, active.core_size() + measurement.ambiguity) = root;
+    if (measurement.signal_state >= 0)
+      jacobian(i, active.core_size() + measurement.signal_state) = root;
   }
 }
 

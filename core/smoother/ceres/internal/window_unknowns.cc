@@ -43,9 +43,9 @@ bool WindowUnknowns::assign_keyframe(const Window& window, int k) {
       entry.constant -= prediction_error(i);
       continue;
     }
-    const bool first_ambiguity =
+    const bool first_signal_state =
         i >= keyframe.active.core_size() && (block < 0 || entries[0].block == block);
-    if (block < 0 || first_ambiguity) {
+    if (block < 0 || first_signal_state) {
       block = static_cast<int>(values_.size());
       values_.emplace_back();
     }

@@ -62,8 +62,8 @@ TEST_CASE("a vehicle constant that joins later gets its own state and leaves all
   config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
   FilterState state = turning_state();
   state.vehicle = {0.01, 0.02};
-  state.ambiguities.resize(3);
-  for (std::size_t i = 0; i < 3; ++i) state.ambiguities[i].value_m = 10.0 + double(i);
+  state.signal_states.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) state.signal_states[i].value = 10.0 + double(i);
   StateEstimate estimate = after_a_second(config, state);
   MotionMeasurements known(1);  // so that ambiguities are correlated with what is before them
   known[0].variance = 1.0;
@@ -83,7 +83,7 @@ TEST_CASE("a vehicle constant that joins later gets its own state and leaves all
   CHECK(P.topLeftCorner(kNew, kNew) == Q.topLeftCorner(kNew, kNew));
   CHECK(P.bottomLeftCorner(3, kNew) == Q.bottomLeftCorner(3, kNew));
   CHECK(P.bottomRightCorner(3, 3) == Q.bottomRightCorner(3, 3));
-  CHECK(estimate.state().ambiguities[2].value_m == before.state().ambiguities[2].value_m);
+  CHECK(estimate.state().signal_states[2].value == before.state().signal_states[2].value);
   CHECK_FALSE(estimate.process().continuous);
   estimate.add_vehicle_constants(kOdometerScale);  // it is there already
   CHECK(P.rows() == Q.rows() + 1);

@@ -130,13 +130,13 @@ TEST_CASE("lever arm and time offset: every column is the numerical derivative")
   };
   for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
     const MeasurementPrediction here = predict(whole, observable);
-    for (int state = 0; state < whole.first_ambiguity(); ++state) {
+    for (int state = 0; state < whole.first_signal_state(); ++state) {
       const bool of_position = state < kVelocity;
       const bool of_attitude = state >= kAttitude && state < kGyroBias;
       const bool of_constants = state >= kSize;
       if (!of_position && !of_attitude && !of_constants && state >= kAccelBias) continue;
       const double step = of_position ? 20.0 : of_attitude || state >= kGyroBias ? 1e-3 : 1.0;
-      EkfCorrection error = EkfCorrection::Zero(whole.first_ambiguity());
+      EkfCorrection error = EkfCorrection::Zero(whole.first_signal_state());
       error(state) = step;
       FilterState after = whole, before = whole;
       add(error, true, &after);

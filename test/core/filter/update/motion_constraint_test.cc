@@ -102,8 +102,8 @@ TEST_CASE("the rows of wheels and of an odometer are the slopes of what they pre
   REQUIRE(here.size() == 3);
   CHECK(here[0].component == static_cast<int>(MotionComponent::kOdometer));
   constexpr double kStep = 1e-4;
-  for (int i = 0; i < state.first_ambiguity(); ++i) {
-    EkfCorrection error = EkfCorrection::Zero(state.first_ambiguity());
+  for (int i = 0; i < state.first_signal_state(); ++i) {
+    EkfCorrection error = EkfCorrection::Zero(state.first_signal_state());
     error(i) = kStep;
     FilterState after = state, before = state;
     add(error, true, &after);

@@ -121,8 +121,8 @@ TEST_CASE("the update equals Joseph's form and the textbook innovation statistic
     measurements.push_back(scalar(3.0 * noise.normal(), 0.7, row));
     H.row(i).head(kSize) = row;
     if (i % 2 == 1) {
-      measurements.back().ambiguity = kSize + i / 2 % 5;
-      H(i, measurements.back().ambiguity) = 1.0;
+      measurements.back().signal_state = kSize + i / 2 % 5;
+      H(i, measurements.back().signal_state) = 1.0;
     }
     CHECK(predicted_variance(measurements.back(), prior) ==
           Approx(H.row(i) * prior * H.row(i).transpose()));
