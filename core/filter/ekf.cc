@@ -253,6 +253,9 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
     if (measurement.observable == Observable::kCarrier &&
         record_carrier(measurement, epoch.time, &estimate_))
       result->slipped.push_back(estimate_.signal_state_at(measurement.signal_state).satellite);
+    static const double rs = getenv("RS") ? atof(getenv("RS")) : -1.0;
+    if (measurement.observable != Observable::kCarrier && measurement.signal_state >= 0)
+      estimate_.record_use(measurement.signal_state, epoch.time, measurement.factor > rs);
     const auto kind = static_cast<std::size_t>(measurement.observable);
     ++result->offered[kind];
     if (rejected) ++result->rejected[kind];

@@ -111,9 +111,9 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
 
   const double modelled = std::min(square(measurement.correlated_sigma), entry->variance);
   const double noise = entry->variance - modelled;
-  const double white = noise * std::max(1.0 - correlation.share, kLeastWhiteShare);
+  const double white = noise * std::max(correlation.white, kLeastWhiteShare);
   // Where codes are not weighed jointly, what lasts is correlated as the noise is.
-  const double correlated = noise - white + (lasting ? 0.0 : modelled);
+  const double correlated = noise * std::min(correlation.share, 1.0 - kLeastWhiteShare) + (lasting ? 0.0 : modelled);
   const int state =
       find_or_add_signal_error(measurement, epoch.satellites[measurement.satellite_index].satellite,
                                {std::sqrt(correlated), correlation.time_s}, epoch.time, estimate);

@@ -34,7 +34,6 @@ int find_or_add_signal_error(const Measurement& measurement, SatelliteId satelli
     index = static_cast<int>(states.size()) - 1;
   }
   estimate->set_error_model(first + index, model.sigma, model.correlation_time_s);
-  estimate->record_use(first + index, time, true);
   return first + index;
 }
 
@@ -42,7 +41,7 @@ void remove_idle_signal_errors(GpsTime time, StateEstimate* estimate) {
   const SignalStates& states = estimate->state().signal_states;
   for (int i = static_cast<int>(states.size()) - 1; i >= 0; --i) {
     const SignalState& state = states[static_cast<std::size_t>(i)];
-    if (is_error(state) && (state.started == time || seconds_between(time, state.last_used) >
+    if (is_error(state) && (state.started == time || state.rejected > 0 || seconds_between(time, state.last_used) >
                                                          kForgotten * state.correlation_time_s))
       estimate->remove_signal_state(i);
   }

@@ -88,9 +88,13 @@ CorrelationModel fit(const Correlogram<kBins>& correlogram) {
 }
 
 // Returns the one with the larger inflation of variance at 1 Hz.
-const CorrelationModel& longer_lasting(const CorrelationModel& prior,
+CorrelationModel longer_lasting(const CorrelationModel& prior,
                                        const CorrelationModel& seen) {
-  return variance_inflation(seen, 1.0) > variance_inflation(prior, 1.0) ? seen : prior;
+  CorrelationModel m = variance_inflation(seen, 1.0) > variance_inflation(prior, 1.0) ? seen : prior;
+  static const int mode = getenv("WH") ? atoi(getenv("WH")) : 0;
+  if (mode == 1) m.white = 1.0 - seen.share;
+  if (mode == 2) m.white = std::max(m.white, 1.0 - seen.share);
+  return m;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace leonav {
 struct CorrelationModel {
   double share = 0.0;   // of the variance that is correlated, 0 to 1
   double time_s = 1.0;  // of the process
+  double white = 1.0 - share;  // of the variance that is white
 };
 
 // Returns by how much the variance of a long mean exceeds that of the mean of white errors of the
