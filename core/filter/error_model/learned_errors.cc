@@ -23,22 +23,24 @@ constexpr double kCodeTime_s = 10.0, kDopplerTime_s = 3.0;
 // by some metres, and no longer than the satellites take in front of a standing one.
 constexpr double kCarrierShare = 0.5, kCarrierDistance_m = 10.0;
 constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 50.0;
-// In front of a standing vehicle reflections change with the satellites alone.
-constexpr double kStandingTimes = 5.0;
+// In front of a standing vehicle reflections change with the satellites alone. The rate of such a
+// detour hardly differs from zero, so errors of Dopplers last no longer than while driving.
+constexpr double kCodeStandingTimes = 2.0, kDopplerStandingTimes = 1.0;
 
 using OfMotion = std::array<CorrelationModel, kMotionClasses>;
 
 ErrorCorrelation::Priors configured(const EkfConfig& config) {
-  const auto prior = [&](double configured_s, const CorrelationModel& usual) -> OfMotion {
+  const auto prior = [&](double configured_s, const CorrelationModel& usual,
+                         double standing_times) -> OfMotion {
     if (!config.learn_errors) return {{{1.0, configured_s}, {1.0, configured_s}}};
     const double time_s = configured_s > 0.0 ? configured_s : usual.time_s;
-    return {{{usual.share, time_s}, {usual.share, kStandingTimes * time_s}}};
+    return {{{usual.share, time_s}, {usual.share, standing_times * time_s}}};
   };
   ErrorCorrelation::Priors priors;
   priors[static_cast<std::size_t>(Observable::kCode)] =
-      prior(config.code_correlation_time_s, {kCodeShare, kCodeTime_s});
-  priors[static_cast<std::size_t>(Observable::kDoppler)] =
-      prior(config.doppler_correlation_time_s, {kDopplerShare, kDopplerTime_s});
+      prior(config.code_correlation_time_s, {kCodeShare, kCodeTime_s}, kCodeStandingTimes);
+  priors[static_cast<std::size_t>(Observable::kDoppler)] = prior(
+      config.doppler_correlation_time_s, {kDopplerShare, kDopplerTime_s}, kDopplerStandingTimes);
   return priors;
 }
 
