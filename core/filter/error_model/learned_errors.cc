@@ -23,8 +23,8 @@ constexpr double kCodeTime_s = 10.0, kDopplerTime_s = 3.0;
 // by some metres, and no longer than the satellites take in front of a standing one.
 constexpr double kCarrierShare = 0.5, kCarrierDistance_m = 10.0;
 constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 50.0;
-// In front of a standing vehicle reflections change with the satellites alone. The rate of such a
-// detour hardly differs from zero, so errors of Dopplers last no longer than while driving.
+// In front of a standing vehicle reflections change with the satellites alone, so that errors of
+// codes last longer. Their detours then hardly change, so errors of Dopplers are not taken to.
 constexpr double kCodeStandingTimes = 2.0, kDopplerStandingTimes = 1.0;
 
 using OfMotion = std::array<CorrelationModel, kMotionClasses>;
