@@ -17,12 +17,12 @@ constexpr double kLongestInterval_s = 10.0;
 // Where errors are learned, this share of the variance is taken as correlated at first; otherwise
 // the whole error is. Of a correlation time that is not configured these are taken.
 constexpr double kCodeShare = 0.9, kDopplerShare = 0.5;
-constexpr double kCodeTime_s = 10.0, kDopplerTime_s = 3.0;
+constexpr double kCodeTime_s = 4.0, kDopplerTime_s = 1.0;
 // The filter follows carriers so closely that their innovations do not show how they are
 // correlated, so this is not learned: multipath of some millimetres lasts while the antenna moves
-// by some metres, and no longer than the satellites take in front of a standing one.
+// by some metres. What lasts longer, as in front of a standing one, is within the configured sigma.
 constexpr double kCarrierShare = 0.5, kCarrierDistance_m = 10.0;
-constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 50.0;
+constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 10.0;
 // In front of a standing vehicle reflections change with the satellites alone, so that errors of
 // codes last longer. Their detours then hardly change, so errors of Dopplers are not taken to.
 constexpr double kCodeStandingTimes = 2.0, kDopplerStandingTimes = 1.0;

@@ -75,8 +75,8 @@ struct EkfConfig {
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
   // Errors of codes and Dopplers that are larger than configured, or last longer, are learned on
-  // the way (core/filter/error_model); times that are 0 are then 10 s and 3 s.
-  bool learn_errors = false;
+  // the way (core/filter/error_model); times that are 0 are then 4 s and 1 s.
+  bool learn_errors = true;
   // Median standardized innovation of code, carrier or Doppler, clocks removed (0.67 when all is
   // well). Above it, and if the measurements agree with each other, the prediction is taken to be
   // wrong: the filter inflates its covariance instead of rejecting them all (PredictionTest).
