@@ -30,7 +30,7 @@ Arguments declare() {
   arguments
       .option("--out", "DIR",
               "folder for solution.csv, epochs.csv, satellites.csv, "
-              "measurements.csv and summary.txt")
+              "measurements.csv, events.csv and summary.txt")
       .option("--rate", "HZ",
               "rows of solution.csv from the continuous solution at this rate "
               "instead of one per epoch")

@@ -61,6 +61,7 @@ void ReplayRun::on_epoch(const EpochReport& report) {
 }
 
 void ReplayRun::on_event(const Event& event) {
+  files_.add(event);
   statistics_.add(event, log_s_);
   encoder_.on_event(event);
 }

@@ -21,6 +21,10 @@ constexpr std::string_view kSatellitesHeader =
 constexpr std::string_view kConstraintsHeader =
     "gps_week,gps_tow_s,constraint,observation,innovation,innovation_sigma,test_ratio,used,"
     "residual";
+constexpr std::string_view kEventsHeader = "gps_week,gps_tow_s,stage,event,code,value";
+// By Stage.
+constexpr std::array<std::string_view, 4> kStageNames = {"sequencer", "inertial", "gnss",
+                                                         "smoother"};
 constexpr std::array<std::string_view, 9> kConstraintNames = {
     "side",       "vertical",        "standing_x",      "standing_y",
     "standing_z", "standing_rate_x", "standing_rate_y", "standing_rate_z",
@@ -77,6 +81,7 @@ ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_h
       epochs_(folder + "/epochs.csv", kEpochsHeader),
       satellites_file_(folder + "/satellites.csv", kSatellitesHeader),
       measurements_(folder + "/measurements.csv", kMeasurementsHeader),
+      events_(folder + "/events.csv", kEventsHeader),
       folder_(folder) {
   if (rate_hz) interval_ns_ = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
 }
@@ -120,6 +125,18 @@ void ResultFiles::add(const EpochReport& report) {
 void ResultFiles::add(const SmootherReport& report) {
   if (!row_ || row_epoch_ != report.index || report.solution.source != Source::kSmoother) return;
   row_ = to_solution_row(report.solution, row_->satellites, row_->pdop);
+}
+
+void ResultFiles::add(const Event& event) {
+  if (event.time.is_set())
+    events_.time(event.time);
+  else
+    events_.text("").text("");
+  events_.text(kStageNames[static_cast<std::size_t>(event.stage)])
+      .text(to_string(event.kind))
+      .number(event.code, 0)
+      .number(event.value, 6)
+      .end_row();
 }
 
 void ResultFiles::write_row() {
@@ -187,6 +204,7 @@ void ResultFiles::close() {
   epochs_.close();
   satellites_file_.close();
   measurements_.close();
+  events_.close();
   if (constraints_) constraints_->close();
 }
 

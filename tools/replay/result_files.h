@@ -1,13 +1,14 @@
-// ResultFiles writes the tables of a replay: solution, epochs, satellites, measurements and
+// ResultFiles writes the tables of a replay: solution, epochs, satellites, measurements, events and
 // constraints.
 //
-// The files are solution.csv, epochs.csv, satellites.csv, measurements.csv and, where the motion is
-// constrained, constraints.csv.
+// The files are solution.csv, epochs.csv, satellites.csv, measurements.csv, events.csv and, where
+// the motion is constrained, constraints.csv.
 #pragma once
 #include <optional>
 #include <string>
 
 #include "core/navigator/interface/epoch_report.h"
+#include "core/navigator/interface/event.h"
 #include "core/navigator/interface/smoother_report.h"
 #include "core/navigator/interface/solution.h"
 #include "drivers/csv/csv_writer.h"
@@ -26,6 +27,7 @@ class ResultFiles {
   void add(const EpochReport& report);
   // Call it after the epoch's own report: the row is the smoother's if it has a result.
   void add(const SmootherReport& report);
+  void add(const Event& event);
   void close();  // throws FileError
   long solution_rows() const { return solution_.rows(); }
 
@@ -42,7 +44,7 @@ class ResultFiles {
   std::optional<SolutionRow> row_;  // row of the last epoch, not written yet
   std::uint64_t row_epoch_ = 0;
   SolutionCsvWriter solution_;
-  CsvWriter epochs_, satellites_file_, measurements_;
+  CsvWriter epochs_, satellites_file_, measurements_, events_;
   std::string folder_;
   std::optional<CsvWriter> constraints_;  // opened for the first constraint
 };

@@ -5,7 +5,7 @@ import os
 
 # The messages from which leonav-replay writes its files.
 GROUPS = {"solution.csv": "SOLUTION or EPOCH", "epochs.csv": "EPOCH", "satellites.csv": "EPOCH", "measurements.csv": "EPOCH",
-          "constraints.csv": "CONSTRAINTS", "summary.txt": "counts, warnings, hash"}
+          "constraints.csv": "CONSTRAINTS", "events.csv": "EVENT", "summary.txt": "counts, warnings, hash"}
 SHOWN = 160  # characters of a line
 SHORT = 500  # lines; in shorter texts an additional line must not make all following ones differ
 SHORT_SHOWN = 8  # lines of such a text
