@@ -8,6 +8,7 @@
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
+#include "core/filter/update/fault_direction.h"
 
 namespace leonav {
 
@@ -253,6 +254,18 @@ void Ekf::report_update(const RobustUpdateResult& update, const MeasurementEpoch
 }
 
 void Ekf::restart_clock_offsets() { clocks_.restart_offsets(estimate_.known_clocks()); }
+
+void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const MeasurementEpoch& epoch) {
+  for (std::size_t i = 0; i < measurements().size(); ++i) {
+    const FilterMeasurement& m = measurements()[i];
+    const Measurement& measurement = epoch.measurements[m.index];
+    if (m.observable != Observable::kCarrier ||
+        epoch.satellites[measurement.satellite_index].satellite != satellite)
+      continue;
+    return estimate_.inflate_along(range_m *
+                                   fault_direction(measurements(), i, covariance().rows()));
+  }
+}
 
 void Ekf::estimate_constant(int constant) {
   if (initialized_) estimate_.add_vehicle_constants(constant);

@@ -315,6 +315,11 @@ void StateEstimate::inflate_position(double sigma_m) {
     covariance->diagonal().segment<3>(kPosition).array() += square(sigma_m);
 }
 
+void StateEstimate::inflate_along(const EkfCorrection& error) {
+  for (EkfCovariance* covariance : covariance_and_noise())
+    covariance->noalias() += error * error.transpose();
+}
+
 void StateEstimate::scale_sigmas(double of_position, double of_velocity) {
   EkfCorrection scales = EkfCorrection::Ones(covariance_.rows());
   scales.segment<3>(kPosition).setConstant(of_position);

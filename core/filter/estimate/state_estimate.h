@@ -97,6 +97,8 @@ class StateEstimate {
   // core/filter/update/covariance_inflation.h), m^2 or (m/s)^2.
   void inflate(Observable observable, double variance, double interval_s);
   void inflate_position(double sigma_m);
+  // Adds an error of this size and direction, of either sign.
+  void inflate_along(const EkfCorrection& error);
   // Multiplies the sigmas of position and velocity, correlations stay.
   void scale_sigmas(double of_position, double of_velocity);
   void inflate_ambiguity(int state, double sigma_m);

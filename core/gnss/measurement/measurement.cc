@@ -34,6 +34,8 @@ std::string_view to_string(Reason reason) {
       return "no_position";
     case Reason::kNotSolved:
       return "not_solved";
+    case Reason::kFaulty:
+      return "faulty";
   }
   return "unknown";
 }

@@ -32,6 +32,7 @@ enum class Reason : std::uint8_t {
   kCapacity = 12,       // a fixed table was full
   kNoPosition = 13,     // not used any more
   kNotSolved = 14,      // epoch had too few satellites for a solution
+  kFaulty = 15,         // its carrier has drifted away from the others'
 };
 std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
 constexpr bool is_used(Reason reason) {

@@ -50,6 +50,8 @@ std::string_view to_string(EventKind kind) {
       return "reconverged";
     case EventKind::kCheckpoint:
       return "checkpoint";
+    case EventKind::kSatelliteFault:
+      return "satellite_fault";
   }
   return "unknown";
 }

@@ -43,6 +43,9 @@ enum class EventKind : std::uint8_t {
   kReconverged = 21,
   // A verdict on the checkpoint of an earlier run. code: CheckpointUse, value: by code.
   kCheckpoint = 22,
+  // A satellite's carrier drifts away from the others'; it is not used for half an hour. code:
+  // System, value: its number.
+  kSatelliteFault = 23,
 };
 // Returns the name of a kind as outputs show it, for instance "filter_reset".
 std::string_view to_string(EventKind kind);

@@ -111,6 +111,7 @@ void GnssStage::restart_after_outage(const EpochWork& work) {
 
 void GnssStage::update_filter(const EpochWork& work) {
   front_end_.measure(work, ekf_);
+  front_end_.exclude(satellite_faults_.excluded(work.time));
   if (motion_aiding_.requires_carrier_speed())
     motion_aiding_.set_carrier_speed(front_end_.update_carrier_speed());
   const OutageMonitor::Position before = antenna_position(ekf_);
@@ -122,7 +123,19 @@ void GnssStage::update_filter(const EpochWork& work) {
   reporter_.add_update(front_end_.measurements(), update, ekf_);
   reporter_.report_consistency(filter_monitor_.add_consistency(update), work.time);
   reporter_.report_clock_steps(update, work.time);
+  test_satellites(work, update);
   test_update(work, update);
+}
+
+// A convicted satellite is not used from the next epoch on; what the filter has followed of its
+// error becomes part of the covariance at once.
+void GnssStage::test_satellites(const EpochWork& work, const EkfUpdateResult& update) {
+  const auto fault = satellite_faults_.add({work.time, update, front_end_.measurements(), ekf_});
+  if (!fault) return;
+  ekf_.allow_for_fault(fault->satellite, fault->followed_m, front_end_.measurements());
+  reporter_.emit(EventKind::kSatelliteFault,
+                 static_cast<std::uint8_t>(fault->satellite.system), fault->satellite.number,
+                 work.time);
 }
 
 // Runs the tests in turn, until one has restarted the filter: `update` belongs to the filter before
@@ -258,6 +271,7 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.clears_outage_monitor) reporter_.reset_outage();
   if (plan.clears_installation_monitor) installation_monitor_.clear();
   filter_monitor_.filter_restarted(time, plan.clears_times);
+  satellite_faults_.filter_restarted(plan.clears_times);
   if (plan.clears_times) last_gnss_time_ = GpsTime();
   epoch_.gnss_used = plan.counts_as_gnss_epoch;
   epoch_.filter_restarted = true;

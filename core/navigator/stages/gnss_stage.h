@@ -7,6 +7,7 @@
 #include "core/navigator/interface/stage_work.h"
 #include "core/navigator/interface/timed_mailbox.h"
 #include "core/navigator/monitors/filter_monitor.h"
+#include "core/navigator/monitors/satellite_fault_monitor.h"
 #include "core/navigator/stages/internal/attitude_initializer.h"
 #include "core/navigator/stages/internal/epoch_reporter.h"
 #include "core/navigator/stages/internal/measurement_front_end.h"
@@ -60,6 +61,7 @@ class GnssStage {
   void start_filter(const EpochWork& work);
   void restart_after_outage(const EpochWork& work);
   void update_filter(const EpochWork& work);
+  void test_satellites(const EpochWork& work, const EkfUpdateResult& update);
   void test_update(const EpochWork& work, const EkfUpdateResult& update);
   void monitor_heading(const EpochWork& work);
   void initialize_attitude(const EpochWork& work);
@@ -83,6 +85,7 @@ class GnssStage {
   Ekf ekf_;
   MotionAiding motion_aiding_;
   FilterMonitor filter_monitor_;
+  SatelliteFaultMonitor satellite_faults_;
   AttitudeInitializer attitude_;
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;

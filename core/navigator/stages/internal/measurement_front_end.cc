@@ -1,5 +1,7 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
+#include <algorithm>
+
 #include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/positioning/point_solution.h"
 #include "core/navigator/interface/filter_estimate.h"
@@ -117,6 +119,15 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
   const bool predicted = approximate_p_e == filter.antenna_position_e();
   change_prior_ = change_prior(filter, predicted);
   carriers_.check_range_changes(approximate_p_e, change_prior_, measurements_.get());
+}
+
+void MeasurementFrontEnd::exclude(const ExcludedSatellites& satellites) {
+  for (Measurement& measurement : measurements_->measurements) {
+    if (!is_used(measurement.reason)) continue;
+    const SatelliteId of = measurements_->satellites[measurement.satellite_index].satellite;
+    if (std::find(satellites.begin(), satellites.end(), of) != satellites.end())
+      measurement.reason = Reason::kFaulty;
+  }
 }
 
 std::optional<double> MeasurementFrontEnd::update_carrier_speed() {

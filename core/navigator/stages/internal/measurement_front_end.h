@@ -15,6 +15,7 @@
 #include "core/navigator/interface/navigator_config.h"
 #include "core/navigator/interface/stage_work.h"
 #include "core/navigator/monitors/independent_solution.h"
+#include "core/navigator/monitors/satellite_fault_monitor.h"
 #include "core/vehicle/carrier_speed.h"
 
 namespace leonav {
@@ -36,6 +37,8 @@ class MeasurementFrontEnd {
   // prediction. If the prediction is too uncertain to correct carriers, the position of a point
   // solution takes its place.
   void measure(const EpochWork& work, const Ekf& filter);
+  // Takes satellites out of what measure() has made, with the reason kFaulty.
+  void exclude(const ExcludedSatellites& satellites);
   // Returns the result of the last measure().
   const MeasurementEpoch& measurements() const { return *measurements_; }
   // Returns the horizontal speed of the antenna, m/s, from time-differenced carriers; nullopt:
