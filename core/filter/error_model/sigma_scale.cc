@@ -21,7 +21,7 @@ constexpr double kLargestStep = 0.2;
 constexpr std::size_t kMinToStart = 8;
 constexpr int kStartPasses = 30;
 constexpr double kStartShrinkage = 4.0;  // samples at the value a term has beforehand
-constexpr double kSmallestLog = 0.0, kLargestLog = 2.3;  // one to ten times
+constexpr double kSmallestLog = 0.0, kLargestLog = 3.4;  // one to thirty times
 
 // While a term is young its time is its age: it then is the plain mean of what was seen.
 template <typename Term>
