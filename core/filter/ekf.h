@@ -132,6 +132,7 @@ class Ekf {
   Eigen::Vector3d vertical_antenna_offset_e() const;
   // What has been learned of the errors of its measurements.
   const LearnedErrors& learned_errors() const { return assembler_.errors(); }
+  LearnedSummary learned_summary() const { return assembler_.learned_summary(); }
 
   // --- for the smoother ---
   void begin_process() { estimate_.begin_process(); }

@@ -47,6 +47,7 @@ class MeasurementAssembler {
   }
   void finish_learning(GpsTime time) { errors_.end_epoch(time); }
   const LearnedErrors& errors() const { return errors_; }
+  LearnedSummary learned_summary() const { return errors_.summary(standing()); }
   void forget_errors() { errors_.reset(); }
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }

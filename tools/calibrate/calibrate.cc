@@ -80,6 +80,7 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     calibration.last = run.finding();
     calibration.found = improved(calibration.found, calibration.last);
     calibration.straight_s = run.straight_s();
+    calibration.learned = run.learned();
     calibration.settled = is_settled(calibration.last);
     ++calibration.passes;
   }

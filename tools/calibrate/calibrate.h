@@ -20,6 +20,7 @@ struct Calibration {
   std::array<bool, kQuantities> compared{};  // observed in both halves
   double straight_s = 0.0;
   bool wheeled = false;
+  LearnedSummary learned;  // of the last pass
 };
 
 struct CalibrateOptions {

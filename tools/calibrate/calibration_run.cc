@@ -71,10 +71,30 @@ CalibrationRun::CalibrationRun(const NavigatorConfig& config, const Installation
       navigator_(config, this),
       dispatch_(&navigator_.sequencer()) {}
 
+void CalibrationRun::add_learned(const LearnedSummary& errors) {
+  if (!errors.learned) return;
+  ++learned_epochs_;
+  learned_sum_.learned = true;
+  learned_sum_.code.sigma_factor += errors.code.sigma_factor;
+  learned_sum_.code.correlation_time_s += errors.code.correlation_time_s;
+  learned_sum_.doppler.sigma_factor += errors.doppler.sigma_factor;
+  learned_sum_.doppler.correlation_time_s += errors.doppler.correlation_time_s;
+}
+
+LearnedSummary CalibrationRun::learned() const {
+  const auto mean = [this](const LearnedError& sum) {
+    return LearnedError{sum.sigma_factor / learned_epochs_,
+                        sum.correlation_time_s / learned_epochs_};
+  };
+  if (!learned_sum_.learned) return {};
+  return {true, mean(learned_sum_.code), mean(learned_sum_.doppler)};
+}
+
 void CalibrationRun::on_epoch(const EpochReport& report) {
   const Solution& now = report.solution;
   const double since_s = last_epoch_.is_set() ? seconds_between(report.time, last_epoch_) : 0.0;
   last_epoch_ = report.time;
+  add_learned(report.learned_errors);
   if (!now.has_attitude) return;
   aligned_ = true;
   const Ekf& ekf = navigator_.gnss().ekf();

@@ -33,6 +33,8 @@ class CalibrationRun final : private OutputSink {
   bool aligned() const { return aligned_; }
   // Returns the seconds of straight driving from which the lean is estimated.
   double straight_s() const { return straight_s_; }
+  // Returns the mean of what the filter has learned about the errors of codes and Dopplers.
+  LearnedSummary learned() const;
   // Returns the result after the end of the log.
   Finding finding() const;
 
@@ -43,6 +45,7 @@ class CalibrationRun final : private OutputSink {
   void on_decision(const Decision&) override {}
   void on_smoother(const SmootherReport&) override {}
 
+  void add_learned(const LearnedSummary& errors);
   void estimate_lean(Finding* finding) const;
 
   // An epoch of straight driving.
@@ -56,6 +59,8 @@ class CalibrationRun final : private OutputSink {
   double straight_s_ = 0.0;
   GpsTime last_epoch_;
   std::vector<StraightEpoch> straight_;
+  LearnedSummary learned_sum_ = {false, {0.0, 0.0}, {0.0, 0.0}};
+  int learned_epochs_ = 0;
   Navigator navigator_;
   InputDispatch dispatch_;
 };

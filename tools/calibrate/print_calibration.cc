@@ -83,6 +83,15 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
     out << "\nThe log's halves could not be compared, the sigma is the filter's alone: " << alone
         << "\n";
   if (!unknown.empty()) out << "\nWhat this log does not tell:\n" << unknown;
+  if (calibration.learned.learned) {
+    const auto line = [&](const char* of, const LearnedError& error) {
+      out << format("  %-10s %6.2f of the configured sigma, correlated over %.1f s\n", of,
+                    error.sigma_factor, error.correlation_time_s);
+    };
+    out << "\nErrors as the filter has learned them, mean over the log (nothing to configure):\n";
+    line("codes", calibration.learned.code);
+    line("Dopplers", calibration.learned.doppler);
+  }
   const Installation& found = calibration.found;
   const double degree = unit_of(Quantity::kRoll);
   out << "\nvehicle:\n  lever_arm_b_m: " << vector_text(found.lever_arm_b, 1.0, 3) << "  "
@@ -96,6 +105,15 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
 std::string json_of(const Calibration& calibration) {
   std::string text = format("{\"passes\": %d, \"settled\": %s", calibration.passes,
                             calibration.settled ? "true" : "false");
+  const auto add_learned = [&](const char* of, const LearnedError& error) {
+    text += std::string(",\n \"learned ") + of +
+            "\": {\"sigma_factor\": " + json_number(error.sigma_factor, 3) +
+            ", \"correlation_time_s\": " + json_number(error.correlation_time_s, 2) + "}";
+  };
+  if (calibration.learned.learned) {
+    add_learned("codes", calibration.learned.code);
+    add_learned("Dopplers", calibration.learned.doppler);
+  }
   for (std::size_t i = 0; i < kQuantities; ++i) {
     const Row row = row_of(calibration, i);
     text += ",\n " + json_string(std::string(name_of(row.quantity))) +

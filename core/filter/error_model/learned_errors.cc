@@ -99,6 +99,19 @@ void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements&
   }
 }
 
+LearnedSummary LearnedErrors::summary(bool standing) const {
+  const auto of_observable = [&](Observable observable) {
+    ErrorClass of;
+    of.observable = static_cast<std::size_t>(observable);
+    of.motion = standing ? 1 : 0;
+    LearnedError error = {mean_scale(observable), 0.0};
+    for (of.elevation = 0; of.elevation < kElevationClasses; ++of.elevation)
+      error.correlation_time_s += correlation(of).time_s / static_cast<double>(kElevationClasses);
+    return error;
+  };
+  return {learns_, of_observable(Observable::kCode), of_observable(Observable::kDoppler)};
+}
+
 void LearnedErrors::end_epoch(GpsTime time) {
   if (!learns_) return;
   const double interval_s = last_time_.is_set() ? seconds_between(time, last_time_) : 0.0;

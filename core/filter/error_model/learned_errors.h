@@ -1,6 +1,7 @@
 // LearnedErrors is what the filter has learned about the errors of its measurements.
 #pragma once
 #include "core/filter/error_model/error_correlation.h"
+#include "core/filter/error_model/learned_summary.h"
 #include "core/filter/error_model/sigma_scale.h"
 #include "core/filter/innovation_tests/clock_removed_innovations.h"
 #include "core/filter/state/ekf_config.h"
@@ -36,6 +37,8 @@ class LearnedErrors {
   CorrelationModel carrier_correlation(double speed) const;
   // Returns how those of a code or Doppler are correlated in time, at a satellite in medium orbit.
   const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }
+  // Returns the errors of a vehicle that stands, or moves.
+  LearnedSummary summary(bool standing) const;
 
  private:
   bool learns_;

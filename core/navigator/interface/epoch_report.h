@@ -7,6 +7,7 @@
 
 #include "core/base/capacity.h"
 #include "core/base/gps_time.h"
+#include "core/filter/error_model/learned_summary.h"
 #include "core/filter/update/motion_constraint.h"
 #include "core/gnss/measurement/measurement.h"
 #include "core/inertial/alignment/alignment_need.h"
@@ -67,6 +68,7 @@ struct EpochReport {
   int nis_degrees = 0;  // degrees of freedom of `nis`: the number of those measurements
   boost::container::static_vector<SatelliteReport, kMaxSatellites> satellites;
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
+  LearnedSummary learned_errors;  // not on the wire
   // Faults that the protection levels allow for, beside none. Not on the wire.
   FaultHypotheses fault_hypotheses;
   ConstraintInstants constraints;  // instants since the last epoch; not on the wire

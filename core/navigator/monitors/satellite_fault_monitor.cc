@@ -26,15 +26,12 @@ constexpr double kExclusion_s = 1800.0;
 using Values = boost::container::static_vector<double, kMaxMeasurements>;
 
 // The median innovation of each system's carriers, or of all for a system that has few.
-std::array<double, kSystemCount> clocks_of(const FilterEvidence& evidence) {
+std::array<double, kSystemCount> clocks_of(const CarrierInnovations& carriers) {
   std::array<Values, kSystemCount> of_system;
   Values all;
-  for (const FilterMeasurement& m : evidence.filter.measurements()) {
-    if (m.observable != Observable::kCarrier) continue;
-    const Measurement& measurement = evidence.measurements.measurements[m.index];
-    const SatelliteInView& of = evidence.measurements.satellites[measurement.satellite_index];
-    of_system[index_of(of.satellite.system)].push_back(m.innovation);
-    all.push_back(m.innovation);
+  for (const CarrierInnovation& carrier : carriers) {
+    of_system[index_of(carrier.satellite.system)].push_back(carrier.innovation_m);
+    all.push_back(carrier.innovation_m);
   }
   std::array<double, kSystemCount> clocks{};
   if (all.empty()) return clocks;
@@ -45,6 +42,18 @@ std::array<double, kSystemCount> clocks_of(const FilterEvidence& evidence) {
 }
 
 }  // namespace
+
+CarrierInnovations carrier_innovations(const FilterEvidence& evidence) {
+  CarrierInnovations carriers;
+  for (const FilterMeasurement& m : evidence.filter.measurements()) {
+    if (m.observable != Observable::kCarrier) continue;
+    const Measurement& measurement = evidence.measurements.measurements[m.index];
+    carriers.push_back({evidence.measurements.satellites[measurement.satellite_index].satellite,
+                        measurement.code, m.innovation,
+                        evidence.update.innovations[m.index].residual, std::sqrt(m.variance)});
+  }
+  return carriers;
+}
 
 double SatelliteFaultMonitor::Track::statistic() const {
   return squares < kLeastSquares ? 0.0 : std::abs(sum) / std::sqrt(squares);
@@ -63,23 +72,21 @@ SatelliteFaultMonitor::Track* SatelliteFaultMonitor::track_of(SatelliteId satell
   return &tracks_.back();
 }
 
-void SatelliteFaultMonitor::collect(const FilterEvidence& evidence) {
+void SatelliteFaultMonitor::collect(const CarrierInnovations& carriers, GpsTime time) {
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(),
                                [&](const Track& track) {
-                                 return seconds_between(evidence.time, track.last) > kLongestGap_s;
+                                 return seconds_between(time, track.last) > kLongestGap_s;
                                }),
                 tracks_.end());
-  const auto clocks = clocks_of(evidence);
-  for (const FilterMeasurement& m : evidence.filter.measurements()) {
-    if (m.observable != Observable::kCarrier || !(m.variance > 0.0)) continue;
-    const Measurement& measurement = evidence.measurements.measurements[m.index];
-    const SatelliteId satellite =
-        evidence.measurements.satellites[measurement.satellite_index].satellite;
-    Track* track = track_of(satellite, measurement.code, evidence.time);
+  const auto clocks = clocks_of(carriers);
+  for (const CarrierInnovation& carrier : carriers) {
+    if (!(carrier.sigma_m > 0.0)) continue;
+    Track* track = track_of(carrier.satellite, carrier.code, time);
     if (track == nullptr) continue;
-    track->last = evidence.time;
-    track->pending += (m.innovation - clocks[index_of(satellite.system)]) / std::sqrt(m.variance);
-    track->followed_m += m.innovation - evidence.update.innovations[m.index].residual;
+    track->last = time;
+    track->pending +=
+        (carrier.innovation_m - clocks[index_of(carrier.satellite.system)]) / carrier.sigma_m;
+    track->followed_m += carrier.innovation_m - carrier.residual_m;
   }
 }
 
@@ -103,26 +110,26 @@ std::size_t SatelliteFaultMonitor::take_samples(GpsTime time) {
   return count;
 }
 
-std::optional<SatelliteFault> SatelliteFaultMonitor::add(const FilterEvidence& evidence) {
-  if (!begun_.is_set()) begun_ = evidence.time;
+std::optional<SatelliteFault> SatelliteFaultMonitor::add(const CarrierInnovations& carriers,
+                                                         GpsTime time) {
+  if (!begun_.is_set()) begun_ = time;
   exclusions_.erase(std::remove_if(exclusions_.begin(), exclusions_.end(),
-                                   [&](const Exclusion& e) { return e.end < evidence.time; }),
+                                   [&](const Exclusion& e) { return e.end < time; }),
                     exclusions_.end());
-  if (seconds_between(evidence.time, begun_) < kSettling_s) return std::nullopt;
-  collect(evidence);
-  if (last_sample_.is_set() && seconds_between(evidence.time, last_sample_) < kSpacing_s)
+  if (seconds_between(time, begun_) < kSettling_s) return std::nullopt;
+  collect(carriers, time);
+  if (last_sample_.is_set() && seconds_between(time, last_sample_) < kSpacing_s)
     return std::nullopt;
-  last_sample_ = evidence.time;
-  const std::size_t count = take_samples(evidence.time);
+  last_sample_ = time;
+  const std::size_t count = take_samples(time);
   if (count < kMinTracks || (exclusions_.size() + 1) * kTracksPerExclusion > count)
     return std::nullopt;
-  const auto worst =
-      std::max_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) {
-        return a.statistic() < b.statistic();
-      });
+  const auto worst = std::max_element(
+      tracks_.begin(), tracks_.end(),
+      [](const Track& a, const Track& b) { return a.statistic() < b.statistic(); });
   if (worst->statistic() < kThreshold) return std::nullopt;
   const SatelliteFault fault = {worst->satellite, std::abs(worst->followed_m)};
-  exclusions_.push_back({fault.satellite, evidence.time.plus_seconds(kExclusion_s)});
+  exclusions_.push_back({fault.satellite, time.plus_seconds(kExclusion_s)});
   tracks_.clear();  // the others have been measured against it
   return fault;
 }

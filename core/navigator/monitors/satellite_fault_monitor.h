@@ -8,6 +8,18 @@
 
 namespace leonav {
 
+// One carrier of an update.
+struct CarrierInnovation {
+  SatelliteId satellite;
+  SignalCode code;
+  double innovation_m = 0.0, residual_m = 0.0;
+  double sigma_m = 0.0;  // of the measurement alone
+};
+using CarrierInnovations = boost::container::static_vector<CarrierInnovation, kMaxMeasurements>;
+
+// Returns the carriers of the filter's last update.
+CarrierInnovations carrier_innovations(const FilterEvidence& evidence);
+
 struct SatelliteFault {
   SatelliteId satellite;
   double followed_m = 0.0;  // so much of its error the filter has taken up, as a range
@@ -26,7 +38,7 @@ using ExcludedSatellites = boost::container::static_vector<SatelliteId, kMaxArcs
 class SatelliteFaultMonitor {
  public:
   // Adds an update and returns the satellite that it convicts, which is excluded from then on.
-  std::optional<SatelliteFault> add(const FilterEvidence& evidence);
+  std::optional<SatelliteFault> add(const CarrierInnovations& carriers, GpsTime time);
   // Returns the satellites that are not to be used at `time`: for half an hour each.
   ExcludedSatellites excluded(GpsTime time) const;
   // Clears the sums: those of another filter's innovations say nothing. With `time_begins_anew` it
@@ -48,7 +60,7 @@ class SatelliteFaultMonitor {
     GpsTime end;
   };
 
-  void collect(const FilterEvidence& evidence);
+  void collect(const CarrierInnovations& carriers, GpsTime time);
   Track* track_of(SatelliteId satellite, SignalCode code, GpsTime time);
   // Turns what is pending into one sample of every track that has been seen at `time`. Returns
   // their number.

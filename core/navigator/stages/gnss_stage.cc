@@ -130,12 +130,12 @@ void GnssStage::update_filter(const EpochWork& work) {
 // A convicted satellite is not used from the next epoch on; what the filter has followed of its
 // error becomes part of the covariance at once.
 void GnssStage::test_satellites(const EpochWork& work, const EkfUpdateResult& update) {
-  const auto fault = satellite_faults_.add({work.time, update, front_end_.measurements(), ekf_});
+  const FilterEvidence evidence = {work.time, update, front_end_.measurements(), ekf_};
+  const auto fault = satellite_faults_.add(carrier_innovations(evidence), work.time);
   if (!fault) return;
   ekf_.allow_for_fault(fault->satellite, fault->followed_m, front_end_.measurements());
-  reporter_.emit(EventKind::kSatelliteFault,
-                 static_cast<std::uint8_t>(fault->satellite.system), fault->satellite.number,
-                 work.time);
+  reporter_.emit(EventKind::kSatelliteFault, static_cast<std::uint8_t>(fault->satellite.system),
+                 fault->satellite.number, work.time);
 }
 
 // Runs the tests in turn, until one has restarted the filter: `update` belongs to the filter before

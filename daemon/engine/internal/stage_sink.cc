@@ -53,6 +53,12 @@ void StageSink::on_epoch(const EpochReport& report) {
     counters_->satellites_used[i].set(used[i]);
     counters_->ephemeris_age_ms[i].set(age[i]);
   }
+  const LearnedSummary& learned = report.learned_errors;
+  const std::array errors = {learned.code, learned.doppler};
+  for (std::size_t i = 0; i < errors.size() && learned.learned; ++i) {
+    counters_->learned_sigma_percent[i].set(std::llround(errors[i].sigma_factor * 1e2));
+    counters_->learned_time_ms[i].set(std::llround(errors[i].correlation_time_s * 1e3));
+  }
   counters_->alignment_need.set(pack_alignment_need(report.alignment));
   if (checkpoints_ != nullptr && report.checkpoint) checkpoints_->set(*report.checkpoint);
   encoder_.on_epoch(report);
@@ -60,6 +66,7 @@ void StageSink::on_epoch(const EpochReport& report) {
 
 void StageSink::on_event(const Event& event) {
   if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
+  if (event.kind == EventKind::kSatelliteFault) counters_->satellite_faults.add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

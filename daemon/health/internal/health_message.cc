@@ -62,6 +62,11 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
   add_count("orbit returns", counters->orbit_returns.get(), message);
+  add_count("satellite faults", counters->satellite_faults.get(), message);
+  add_count("learned code sigma %", counters->learned_sigma_percent[0].get(), message);
+  add_count("learned code time ms", counters->learned_time_ms[0].get(), message);
+  add_count("learned doppler sigma %", counters->learned_sigma_percent[1].get(), message);
+  add_count("learned doppler time ms", counters->learned_time_ms[1].get(), message);
   add_count("filter resets", counters->resets.get(), message);
   add_count("checkpoints used", counters->checkpoints_used.get(), message);
   add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);

@@ -199,6 +199,23 @@ TEST_CASE("levels are in HEALTH, and those above their alert limits degrade it")
   CHECK(std::isnan(watched.message().vertical_protection_m));
 }
 
+TEST_CASE("what is learned about errors is in HEALTH") {
+  Watched watched(MotionModel::kInertial);
+  watched.feed(everything);
+  watched.at(60.0);
+  const auto count = [&](const std::string& name) {
+    for (const count_t& entry : watched.message().counts)
+      if (entry.name == name) return entry.value;
+    return std::int64_t{0};
+  };
+  for (const std::string of : {"code", "doppler"}) {
+    CAPTURE(of);
+    CHECK(count("learned " + of + " sigma %") >= 100);
+    CHECK(count("learned " + of + " sigma %") <= 3000);
+    CHECK(count("learned " + of + " time ms") >= 1000);
+  }
+}
+
 TEST_CASE("an input that does not follow a convention stays a reason, with the remedy") {
   Watched watched(MotionModel::kInertial);
   Decoder decoder;

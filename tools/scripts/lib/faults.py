@@ -1,11 +1,12 @@
-"""Simulates scripted faults, replays them and prints what the answer, its sigma and its protection level made of each.
+"""Simulates scripted faults, replays them, and prints what the answer, its sigma and its protection levels made of each.
 
-  faults.py BIN OUT [--smoother] [--set KEY=VALUE]...
+  faults.py BIN OUT [--seeds N] [--set KEY=VALUE]...
 """
 import argparse
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -13,11 +14,18 @@ BEGIN_S, END_S, DURATION_S = 300, 900, 1200
 # Events that tell of a fault of the inputs or of the estimate; others come in every run.
 TELLING = {"improbable", "filter_reset", "clock_step", "constraints_left_out", "none_usable", "convention_suspect",
            "solution_jump", "satellite_fault"}
+ARM = "[0, 0, -1.2]"
 SCENES = {
-    "open sky": ("config/scenario/open_sky.yaml", ["receiver.lever_arm_b_m=[0, 0, -1.2]"]),
-    "streets": ("config/scenario/correlated.yaml", []),
+    "open sky": ("config/scenario/open_sky.yaml", f"receiver.lever_arm_b_m={ARM}"),
+    "streets": ("config/scenario/correlated.yaml", f"receiver.lever_arm_b_m={ARM}"),
 }
 SYSTEMS = {"all": "[gps, galileo, beidou, leo]", "GPS": "[gps]"}
+ESTIMATORS = {"filter": [], "smoother": ["--set", "estimator=smoother"]}
+HEADER = """
+{scene}, seed {seed}; satellites {gps} and {leo}
+
+| fault | systems | estimator | largest 3D error, m (sigma; levels) | error / sigma | error / level | misleading | told | error then, m (sigma; levels) |
+|---|---|---|---|---|---|---|---|---|"""
 
 
 def run(*command):
@@ -35,7 +43,7 @@ def seconds(row):
     return int(row["gps_week"]) * 604800 + float(row["gps_tow_s"]) if row["gps_week"] else math.nan
 
 
-def steadiest(table, begin, end, system, step):
+def steadiest(table, begin, end, system):
     """The satellite of a system that is used from begin to end, the highest of these."""
     seen = {}
     for row in rows(table):
@@ -44,7 +52,7 @@ def steadiest(table, begin, end, system, step):
             seen.setdefault(row["satellite"], []).append(float(row["elevation_deg"]))
     most = max(len(values) for values in seen.values())
     often = {name: values for name, values in seen.items() if len(values) > 0.9 * most}
-    return max(often, key=lambda name: sum(often[name]) / len(often[name]) * step)
+    return max(often, key=lambda name: sum(often[name]) / len(often[name]))
 
 
 def errors_of(solution, truth):
@@ -66,8 +74,8 @@ def errors_of(solution, truth):
                float(row["protection_horizontal_m"] or "nan"), float(row["protection_vertical_m"] or "nan"))
 
 
-def judge(folder, truth, begin, end):
-    """What the run says of the time of the fault, and after it."""
+def judge(folder, truth, begin):
+    """The largest errors from the fault's begin on, and the first event that tells of it."""
     result = dict(error=0.0, sigmas=0.0, share=0.0, misleading=0, epochs=0)
     track = {}
     for t, error, sigma, level_h, level_v in errors_of(folder / "solution.csv", truth):
@@ -78,7 +86,7 @@ def judge(folder, truth, begin, end):
         result["epochs"] += 1
         horizontal, vertical = math.hypot(error[0], error[1]), abs(error[2])
         if size > result["error"]:
-            result.update(error=size, error_sigma=track[t][1], error_level=(level_h, level_v), error_s=t - begin)
+            result.update(error=size, error_sigma=track[t][1], error_level=(level_h, level_v))
         result["sigmas"] = max([result["sigmas"]] + [abs(e) / s for e, s in zip(error, sigma)])
         result["share"] = max(result["share"], horizontal / level_h, vertical / level_v)
         result["misleading"] += horizontal > level_h or vertical > level_v
@@ -92,75 +100,80 @@ def judge(folder, truth, begin, end):
     return result
 
 
-def text(name, result):
+def cell(size, sigma, levels):
+    return f"{size:.2f} ({sigma:.2f}; {levels[0]:.1f}, {levels[1]:.1f})"
+
+
+def print_row(name, systems, estimator, result):
+    told = "no | -"
     if result["event"]:
-        kind, after, (size, sigma, level_h, level_v) = result["event"]
-        told = f"`{kind}` after {after:.0f} s | {size:.2f} ({sigma:.2f}; {level_h:.1f}, {level_v:.1f})"
-    else:
-        told = "no | -"
-    level_h, level_v = result["error_level"]
-    return (f"| {name} | {result['error']:.2f} after {result['error_s']:.0f} s ({result['error_sigma']:.2f}; {level_h:.1f}, "
-            f"{level_v:.1f}) | {result['sigmas']:.1f} | {result['share']:.2f} | {result['misleading']} of {result['epochs']} "
-            f"| {told} |")
+        kind, after, (size, sigma, *levels) = result["event"]
+        told = f"`{kind}` after {after:.0f} s | {cell(size, sigma, levels)}"
+    print(f"| {name} | {systems} | {estimator} | {cell(result['error'], result['error_sigma'], result['error_level'])} "
+          f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['misleading']} of {result['epochs']} | {told} |", flush=True)
+
+
+class Drive:
+    """One seed of a scene: simulates it with a fault, and replays that."""
+
+    def __init__(self, options, scene, seed):
+        self.options, self.seed = options, str(seed)
+        self.scenario, self.key = SCENES[scene]
+        self.folder = options.out / f"{scene.replace(' ', '_')}_{seed}"
+
+    def simulate(self, name, faults):
+        folder = self.folder / re.sub("[^a-z0-9]+", "_", name.lower())
+        folder.mkdir(parents=True, exist_ok=True)
+        run(self.options.bin / "leonav-sim", self.scenario, "--seed", self.seed, "--set", self.key, "--set",
+            f"duration_s={DURATION_S}", "--set", f"faults={faults}", "-o", folder / "run.lcmlog", "--truth", folder / "truth.csv")
+        return folder
+
+    def replay(self, folder, systems, estimator, *more):
+        at = folder / estimator / systems
+        at.mkdir(parents=True, exist_ok=True)
+        settings = [word for key in self.options.set for word in ("--set", key)]
+        run(self.options.bin / "leonav-replay", "--preset", "urban", "--set", "vehicle.kind=car", "--set",
+            f"gnss.systems={SYSTEMS[systems]}", *ESTIMATORS[estimator], *settings, *more, folder / "run.lcmlog", "--out", at)
+        return at
+
+
+def faults_of(gps, leo):
+    """Name, script of the simulator, systems of the replay, its other settings."""
+    span = f"from_s: {BEGIN_S}, to_s: {END_S}"
+    return [
+        ("none", "[]", ("all", "GPS"), ()),
+        ("satellite clock 1 cm/s", f"[{{kind: satellite_clock, {span}, satellites: [{gps}], drift_m_s: 0.01}}]", ("all", "GPS"), ()),
+        ("range spoofed by 0.2 m/s", f"[{{kind: spoofing, {span}, satellites: [{gps}], pull_m_s: 0.2}}]", ("all", "GPS"), ()),
+        ("BeiDou 30 m off", f"[{{kind: satellite_clock, {span}, systems: [beidou], jump_m: 30}}]", ("all",), ()),
+        ("a LEO orbit 5 m off", f"[{{kind: bad_orbit, {span}, satellites: [{leo}], radial_m: 5}}]", ("all",), ()),
+        ("all LEO orbits 5 m off", f"[{{kind: bad_orbit, {span}, systems: [leo], radial_m: 5}}]", ("all",), ()),
+        ("antenna 2 m higher", "[]", ("all", "GPS"), ("--set", "vehicle.lever_arm_b_m=[0, 0, 0.8]")),
+    ]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--smoother", action="store_true")
-    parser.add_argument("--seed", default="1")
-    parser.add_argument("--rows", default="")
+    parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
-    estimator = [word for key in options.set for word in ("--set", key)]
-    if options.smoother:
-        estimator += ["--set", "estimator=smoother"]
-    for scene, (scenario, keys) in SCENES.items():
-        print(f"\n{scene}, {'smoother' if options.smoother else 'filter'}, seed {options.seed}\n")
-        print("| fault | largest 3D error, m (its sigma; level horizontal, vertical) | largest error / sigma | "
-              "largest error / level | misleading epochs | told | 3D error when told, m (sigma; levels) |")
-        print("|---|---|---|---|---|---|---|", flush=True)
-        begin = None
-        chosen = {}
-        def simulate(name, faults):
-            folder = options.out / f"{scene.replace(' ', '_')}_{options.seed}" / name.replace(" ", "_").replace(",", "")
-            folder.mkdir(parents=True, exist_ok=True)
-            if not (folder / "truth.csv").exists():
-                words = [word for key in keys for word in ("--set", key)]
-                run(options.bin / "leonav-sim", scenario, "--seed", options.seed, *words, "--set", f"duration_s={DURATION_S}",
-                    "--set", f"faults={faults}", "-o", folder / "run.lcmlog", "--truth", folder / "truth.csv")
-            return folder
-        def replay(folder, systems, *more):
-            at = folder / ("smoother" if options.smoother else "filter") / systems
-            at.mkdir(parents=True, exist_ok=True)
-            run(options.bin / "leonav-replay", "--preset", "urban", "--set", "vehicle.kind=car", "--set",
-                f"gnss.systems={SYSTEMS[systems]}", *estimator, *more, folder / "run.lcmlog", "--out", at)
-            return at
-        plain = simulate("none", "[]")
-        at = replay(plain, "all")
-        start = min(seconds(row) for row in rows(at / "solution.csv"))
-        begin, end = start + BEGIN_S, start + END_S
-        chosen["gps"] = steadiest(at / "satellites.csv", begin, end, "G", 1)
-        chosen["leo"] = steadiest(at / "satellites.csv", begin, begin + 100, "LMNO", 1)
-        span = f"from_s: {BEGIN_S}, to_s: {END_S}"
-        one, leo = f"satellites: [{chosen['gps']}]", f"satellites: [{chosen['leo']}]"
-        faults = [
-            ("none", "[]", ("all", "GPS"), ()),
-            ("satellite clock 1 cm/s", f"[{{kind: satellite_clock, {span}, {one}, drift_m_s: 0.01}}]", ("all", "GPS"), ()),
-            ("spoofed range 0.2 m/s", f"[{{kind: spoofing, {span}, {one}, pull_m_s: 0.2}}]", ("all", "GPS"), ()),
-            ("BeiDou 30 m off", f"[{{kind: satellite_clock, {span}, systems: [beidou], jump_m: 30}}]", ("all",), ()),
-            ("LEO orbit 5 m off", f"[{{kind: bad_orbit, {span}, {leo}, radial_m: 5}}]", ("all",), ()),
-            ("LEO orbits 5 m off, all", f"[{{kind: bad_orbit, {span}, systems: [leo], radial_m: 5}}]", ("all",), ()),
-            ("antenna 2 m too high", "[]", ("all", "GPS"), ("--set", "vehicle.lever_arm_b_m=[0, 0, -3.2]")),
-        ]
-        for name, script, systems, more in faults:
-            if options.rows and options.rows not in name:
-                continue
-            folder = plain if script == "[]" else simulate(name, script)
-            for choice in systems:
-                at = replay(folder, choice, *more)
-                print(text(f"{name}, {choice}", judge(at, folder / "truth.csv", begin, end)), flush=True)
+    for scene in SCENES:
+        for seed in range(1, options.seeds + 1):
+            drive = Drive(options, scene, seed)
+            plain = drive.simulate("none", "[]")
+            at = drive.replay(plain, "all", "filter")
+            start = min(seconds(row) for row in rows(at / "solution.csv"))
+            begin, end = start + BEGIN_S, start + END_S
+            gps = steadiest(at / "satellites.csv", begin, end, "G")
+            leo = steadiest(at / "satellites.csv", begin, begin + 100, "LMNO")
+            print(HEADER.format(scene=scene, seed=seed, gps=gps, leo=leo), flush=True)
+            for name, script, choices, more in faults_of(gps, leo):
+                folder = plain if script == "[]" else drive.simulate(name, script)
+                for systems in choices:
+                    for estimator in ESTIMATORS:
+                        at = drive.replay(folder, systems, estimator, *more)
+                        print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin))
 
 
 main()

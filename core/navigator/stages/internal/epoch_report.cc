@@ -129,6 +129,7 @@ void report_point(const MeasurementEpoch& epoch, bool solved, const Eigen::Vecto
 void report_state(const Ekf& ekf, EpochReport* report) {
   if (!ekf.initialized()) return;
   fill_solution(ekf, &report->solution);
+  report->learned_errors = ekf.learned_summary();
   for (std::size_t system = 0; system < kMaxSystemTimes; ++system) {
     const auto i = static_cast<Eigen::Index>(system);
     if (ekf.estimate().known_clocks().offset[system])

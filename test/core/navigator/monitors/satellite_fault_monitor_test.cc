@@ -1,0 +1,124 @@
+// SatelliteFaultMonitor's verdicts on drawn innovations: noise, noise that lasts, and a drift.
+#include "core/navigator/monitors/satellite_fault_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+const GpsTime kStart = GpsTime::from_week_and_tow(2300, 0.0);
+
+SatelliteId satellite(int number) { return {System::kGps, static_cast<std::uint16_t>(number)}; }
+
+struct Convicted {
+  SatelliteFault fault;
+  double after_s = 0.0;
+};
+
+// Seconds of carriers with white or lasting noise of `noise_m` and a common clock; `drift` adds to
+// the innovation of a satellite at a time. The filter follows a tenth of each.
+struct Run {
+  int satellites = 8;
+  double seconds = 600.0, interval_s = 1.0;
+  double noise_m = 0.01, correlation_s = 0.0;
+  std::function<double(int, double)> drift = [](int, double) { return 0.0; };
+};
+
+std::vector<Convicted> convictions(const Run& run, SatelliteFaultMonitor* monitor) {
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal;
+  std::vector<Convicted> found;
+  std::vector<double> errors(static_cast<std::size_t>(run.satellites) + 1, 0.0);
+  const double keep = run.correlation_s > 0.0 ? std::exp(-run.interval_s / run.correlation_s) : 0.0;
+  for (double t = 0.0; t < run.seconds; t += run.interval_s) {
+    const GpsTime time = kStart.plus_seconds(t);
+    const ExcludedSatellites excluded = monitor->excluded(time);
+    const double clock = 3.0 * normal(generator);
+    CarrierInnovations carriers;
+    for (int i = 1; i <= run.satellites; ++i) {
+      double& error = errors[static_cast<std::size_t>(i)];
+      error = keep * error + std::sqrt(1.0 - keep * keep) * run.noise_m * normal(generator);
+      if (std::find(excluded.begin(), excluded.end(), satellite(i)) != excluded.end()) continue;
+      const double innovation = clock + error + run.drift(i, t);
+      carriers.push_back({satellite(i), SignalCode(), innovation, 0.9 * innovation, 0.003});
+    }
+    if (const auto fault = monitor->add(carriers, time)) found.push_back({*fault, t});
+  }
+  return found;
+}
+
+TEST_CASE("noise convicts no satellite, neither white nor lasting for ten seconds") {
+  for (const double correlation_s : {0.0, 3.0, 10.0}) {
+    CAPTURE(correlation_s);
+    SatelliteFaultMonitor monitor;
+    Run run;
+    run.seconds = 7200.0;
+    run.correlation_s = correlation_s;
+    CHECK(convictions(run, &monitor).empty());
+  }
+}
+
+TEST_CASE(
+    "a satellite whose innovations keep one sign is convicted and left out for half an hour") {
+  for (const double interval_s : {0.2, 1.0, 5.0}) {
+    CAPTURE(interval_s);
+    SatelliteFaultMonitor monitor;
+    Run run;
+    run.interval_s = interval_s;
+    run.seconds =
+        1800.0 + 300.0 * std::max(interval_s, 1.0);  // it is not used again before the end
+    const double begin_s = 300.0 * std::max(interval_s, 1.0);
+    run.drift = [&](int i, double t) { return i == 3 && t >= begin_s ? 0.05 : 0.0; };
+    const auto found = convictions(run, &monitor);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].fault.satellite == satellite(3));
+    CHECK(found[0].after_s > begin_s);
+    CHECK(found[0].after_s < begin_s + 250.0 * std::max(interval_s, 1.0));
+    CHECK(found[0].fault.followed_m > 0.0);
+    const GpsTime time = kStart.plus_seconds(found[0].after_s);
+    CHECK(monitor.excluded(time.plus_seconds(1799.0)).size() == 1);
+    CHECK(monitor.excluded(time.plus_seconds(1801.0)).empty());
+  }
+}
+
+TEST_CASE("a single large innovation convicts nobody") {
+  SatelliteFaultMonitor monitor;
+  Run run;
+  run.drift = [](int i, double t) { return i == 3 && t == 300.0 ? 1000.0 : 0.0; };
+  CHECK(convictions(run, &monitor).empty());
+}
+
+TEST_CASE("too few satellites convict nobody, nor do they lose more than one in four") {
+  SatelliteFaultMonitor few;
+  Run run;
+  run.satellites = 5;
+  run.drift = [](int i, double t) { return i == 3 && t >= 100.0 ? 0.05 : 0.0; };
+  CHECK(convictions(run, &few).empty());
+  SatelliteFaultMonitor many;
+  run.satellites = 9;
+  run.seconds = 1800.0;
+  run.drift = [](int i, double t) { return i <= 3 && t >= 100.0 ? 0.05 * i : 0.0; };
+  CHECK(convictions(run, &many).size() <= 2);
+  CHECK(many.excluded(kStart.plus_seconds(1500.0)).size() <= 2);
+}
+
+TEST_CASE(
+    "after a restart of the filter the sums begin anew, and exclusions go with the time base") {
+  SatelliteFaultMonitor monitor;
+  Run run;
+  run.drift = [](int i, double t) { return i == 3 && t >= 100.0 ? 0.05 : 0.0; };
+  REQUIRE(convictions(run, &monitor).size() == 1);
+  monitor.filter_restarted(false);
+  CHECK(monitor.excluded(kStart.plus_seconds(600.0)).size() == 1);
+  monitor.filter_restarted(true);
+  CHECK(monitor.excluded(kStart.plus_seconds(600.0)).empty());
+}
+
+}  // namespace
+}  // namespace leonav

@@ -1,0 +1,68 @@
+// A satellite whose clock drifts away: it is found, told and left out, and the position keeps to
+// its sigma.
+#include "support/catch.h"
+#include "support/stage_drive.h"
+
+namespace leonav::test {
+namespace {
+
+constexpr double kBegin_s = 120.0, kDuration_s = 420.0;
+
+SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
+  SyntheticDriveOptions options;
+  options.duration_s = kDuration_s;
+  options.code_sigma_m = 1.0;
+  options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.003;
+  SyntheticDrive drive = synthetic_drive(options);
+  for (RawEpoch& raw : drive.epochs) {
+    const double range_m = drift_m_s * std::max(seconds(raw.time) - kBegin_s, 0.0);
+    for (SignalObservation& o : raw.observations) {
+      if (o.satellite != victim || range_m == 0.0) continue;
+      const double length_m = wavelength_m(o.satellite.system, o.code.band);
+      o.pseudorange_m += range_m;
+      o.carrier_cycles += range_m / length_m;
+      o.doppler_hz -= drift_m_s / length_m;
+    }
+  }
+  return drive;
+}
+
+NavigatorConfig config_of(const SyntheticDrive& drive) {
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.use_carrier = true;
+  return config;
+}
+
+int faults_told(const RecordingSink& sink, SatelliteId of) {
+  return static_cast<int>(
+      std::count_if(sink.events.begin(), sink.events.end(), [&](const Event& e) {
+        return e.kind == EventKind::kSatelliteFault && e.code == index_of(of.system) &&
+               e.value == of.number;
+      }));
+}
+
+TEST_CASE("a satellite's clock that drifts by 2 cm/s is told and costs no accuracy") {
+  const RecordingSink clean = run(drifting({}, 0.0), config_of(drifting({}, 0.0)));
+  for (const Event& event : clean.events) CHECK(event.kind != EventKind::kSatelliteFault);
+  const auto& satellites = clean.epochs[clean.epochs.size() / 2].satellites;
+  const SatelliteId victim =
+      std::max_element(satellites.begin(), satellites.end(), [](const auto& a, const auto& b) {
+        return a.elevation < b.elevation;
+      })->satellite;
+  const SyntheticDrive drive = drifting(victim, 0.02);
+  const RecordingSink sink = run(drive, config_of(drive));
+  CHECK(faults_told(sink, victim) == 1);
+  int left_out = 0;
+  for (const EpochReport& report : sink.epochs)
+    for (const SatelliteReport& s : report.satellites)
+      if (s.satellite == victim && s.reason == Reason::kFaulty) ++left_out;
+  CHECK(left_out > 60);
+  const double before = worst_error(clean, drive, kBegin_s, kDuration_s);
+  const double with_fault = worst_error(sink, drive, kBegin_s, kDuration_s);
+  CAPTURE(before, with_fault);
+  CHECK(with_fault < before + 0.3);
+}
+
+}  // namespace
+}  // namespace leonav::test
