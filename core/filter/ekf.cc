@@ -1,5 +1,6 @@
 #include "core/filter/ekf.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -262,8 +263,21 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
     if (m.observable != Observable::kCarrier ||
         epoch.satellites[measurement.satellite_index].satellite != satellite)
       continue;
-    return estimate_.inflate_along(range_m *
-                                   fault_direction(measurements(), i, covariance().rows()));
+    estimate_.inflate_along(range_m * fault_direction(measurements(), i, covariance().rows()));
+    return inflate_hidden_ambiguities(range_m);
+  }
+}
+
+// The carriers of this epoch say how their ambiguities have moved; those of the others may have
+// moved by as much.
+void Ekf::inflate_hidden_ambiguities(double sigma_m) {
+  const auto first = static_cast<int>(filter_state().first_ambiguity());
+  const auto count = static_cast<int>(filter_state().ambiguities.size());
+  for (int state = first; state < first + count; ++state) {
+    const bool seen =
+        std::any_of(measurements().begin(), measurements().end(),
+                    [state](const FilterMeasurement& m) { return m.ambiguity == state; });
+    if (!seen) estimate_.inflate_ambiguity(state, sigma_m);
   }
 }
 

@@ -154,6 +154,7 @@ class Ekf {
   // ambiguities start anew. Returns whether they did.
   bool inflate(double variance, Observable observable, const MeasurementEpoch& epoch,
                const AntennaMotion& antenna);
+  void inflate_hidden_ambiguities(double sigma_m);
   void report_innovations(EkfUpdateResult* result) const;
   void report_update(const RobustUpdateResult& update, const MeasurementEpoch& epoch,
                      EkfUpdateResult* result);

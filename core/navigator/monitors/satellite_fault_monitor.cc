@@ -23,21 +23,37 @@ constexpr std::size_t kMinTracks = 6, kTracksPerExclusion = 4;
 constexpr std::size_t kMinOfSystem = 4;
 constexpr double kExclusion_s = 1800.0;
 
-using Values = boost::container::static_vector<double, kMaxMeasurements>;
+using Values = boost::container::static_vector<double, kMaxArcs>;
 
-// The median innovation of each system's carriers, or of all for a system that has few.
-std::array<double, kSystemCount> clocks_of(const CarrierInnovations& carriers) {
-  std::array<Values, kSystemCount> of_system;
-  Values all;
+// What the carriers of a system have in common, m.
+struct Clock {
+  double innovation_m = 0.0, followed_m = 0.0;
+};
+
+double followed(const CarrierInnovation& carrier) {
+  return carrier.innovation_m - carrier.residual_m;
+}
+
+// The medians of each system's carriers, or of all for a system that has few.
+std::array<Clock, kSystemCount> clocks_of(const CarrierInnovations& carriers) {
+  struct Lists {
+    Values innovations, followed;
+    Clock medians() const { return {median(innovations), median(followed)}; }
+  };
+  std::array<Lists, kSystemCount> of_system;
+  Lists all;
   for (const CarrierInnovation& carrier : carriers) {
-    of_system[index_of(carrier.satellite.system)].push_back(carrier.innovation_m);
-    all.push_back(carrier.innovation_m);
+    for (Lists* lists : {&of_system[index_of(carrier.satellite.system)], &all}) {
+      lists->innovations.push_back(carrier.innovation_m);
+      lists->followed.push_back(followed(carrier));
+    }
   }
-  std::array<double, kSystemCount> clocks{};
-  if (all.empty()) return clocks;
-  const double of_all = median(all);
-  for (std::size_t i = 0; i < kSystemCount; ++i)
-    clocks[i] = of_system[i].size() >= kMinOfSystem ? median(of_system[i]) : of_all;
+  std::array<Clock, kSystemCount> clocks{};
+  if (carriers.empty()) return clocks;
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    const bool enough = of_system[i].innovations.size() >= kMinOfSystem;
+    clocks[i] = (enough ? of_system[i] : all).medians();
+  }
   return clocks;
 }
 
@@ -46,7 +62,11 @@ std::array<double, kSystemCount> clocks_of(const CarrierInnovations& carriers) {
 CarrierInnovations carrier_innovations(const FilterEvidence& evidence) {
   CarrierInnovations carriers;
   for (const FilterMeasurement& m : evidence.filter.measurements()) {
-    if (m.observable != Observable::kCarrier) continue;
+    if (m.observable != Observable::kCarrier || m.ambiguity < 0) continue;
+    // An arc that begins has an ambiguity which makes its innovation zero.
+    if (evidence.filter.estimate().ambiguity_of_state(m.ambiguity).started == evidence.time)
+      continue;
+    if (carriers.size() == carriers.capacity()) break;
     const Measurement& measurement = evidence.measurements.measurements[m.index];
     carriers.push_back({evidence.measurements.satellites[measurement.satellite_index].satellite,
                         measurement.code, m.innovation,
@@ -83,10 +103,10 @@ void SatelliteFaultMonitor::collect(const CarrierInnovations& carriers, GpsTime 
     if (!(carrier.sigma_m > 0.0)) continue;
     Track* track = track_of(carrier.satellite, carrier.code, time);
     if (track == nullptr) continue;
+    const Clock& clock = clocks[index_of(carrier.satellite.system)];
     track->last = time;
-    track->pending +=
-        (carrier.innovation_m - clocks[index_of(carrier.satellite.system)]) / carrier.sigma_m;
-    track->followed_m += carrier.innovation_m - carrier.residual_m;
+    track->pending += (carrier.innovation_m - clock.innovation_m) / carrier.sigma_m;
+    track->followed_m += followed(carrier) - clock.followed_m;
   }
 }
 
@@ -94,20 +114,22 @@ std::size_t SatelliteFaultMonitor::take_samples(GpsTime time) {
   Values sizes;
   for (const Track& track : tracks_)
     if (track.last == time) sizes.push_back(std::abs(track.pending));
-  const double keep = std::exp(-1.0 / kMemory);
-  const std::size_t count = sizes.size();
-  if (count > 0) {
+  const bool enough = sizes.size() >= kMinTracks;
+  if (enough) {
     const double usual = median(sizes) / kNormalMedian;
     scale_ = scale_ > 0.0 ? scale_ + kScaleGain * (usual - scale_) : usual;
   }
+  const double keep = std::exp(-1.0 / kMemory);
   for (Track& track : tracks_) {
-    track.followed_m *= keep;
-    if (track.last != time || !(scale_ > 0.0)) continue;
-    track.sum = keep * track.sum + std::clamp(track.pending / scale_, -kLimit, kLimit);
-    track.squares = keep * keep * track.squares + 1.0;
+    if (track.last != time) continue;
+    if (enough && scale_ > 0.0) {
+      track.sum = keep * track.sum + std::clamp(track.pending / scale_, -kLimit, kLimit);
+      track.squares = keep * keep * track.squares + 1.0;
+      track.followed_m *= keep;
+    }
     track.pending = 0.0;
   }
-  return count;
+  return sizes.size();
 }
 
 std::optional<SatelliteFault> SatelliteFaultMonitor::add(const CarrierInnovations& carriers,
@@ -116,7 +138,11 @@ std::optional<SatelliteFault> SatelliteFaultMonitor::add(const CarrierInnovation
   exclusions_.erase(std::remove_if(exclusions_.begin(), exclusions_.end(),
                                    [&](const Exclusion& e) { return e.end < time; }),
                     exclusions_.end());
-  if (seconds_between(time, begun_) < kSettling_s) return std::nullopt;
+  if (last_sample_.is_set() && seconds_between(time, last_sample_) > kLongestGap_s) begun_ = time;
+  if (seconds_between(time, begun_) < kSettling_s) {
+    last_sample_ = time;
+    return std::nullopt;
+  }
   collect(carriers, time);
   if (last_sample_.is_set() && seconds_between(time, last_sample_) < kSpacing_s)
     return std::nullopt;

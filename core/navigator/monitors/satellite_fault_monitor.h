@@ -15,9 +15,9 @@ struct CarrierInnovation {
   double innovation_m = 0.0, residual_m = 0.0;
   double sigma_m = 0.0;  // of the measurement alone
 };
-using CarrierInnovations = boost::container::static_vector<CarrierInnovation, kMaxMeasurements>;
+using CarrierInnovations = boost::container::static_vector<CarrierInnovation, kMaxArcs>;
 
-// Returns the carriers of the filter's last update.
+// Returns the carriers of the filter's last update, but for those whose arc began with it.
 CarrierInnovations carrier_innovations(const FilterEvidence& evidence);
 
 struct SatelliteFault {

@@ -74,7 +74,7 @@ def errors_of(solution, truth):
                float(row["protection_horizontal_m"] or "nan"), float(row["protection_vertical_m"] or "nan"))
 
 
-def judge(folder, truth, begin):
+def judge(folder, truth, begin, told_from):
     """The largest errors from the fault's begin on, and the first event that tells of it."""
     result = dict(error=0.0, sigmas=0.0, share=0.0, misleading=0, epochs=0)
     track = {}
@@ -88,14 +88,15 @@ def judge(folder, truth, begin):
         if size > result["error"]:
             result.update(error=size, error_sigma=track[t][1], error_level=(level_h, level_v))
         result["sigmas"] = max([result["sigmas"]] + [abs(e) / s for e, s in zip(error, sigma)])
-        result["share"] = max(result["share"], horizontal / level_h, vertical / level_v)
-        result["misleading"] += horizontal > level_h or vertical > level_v
+        known = level_h > 0 and level_v > 0
+        result["share"] = max(result["share"], horizontal / level_h, vertical / level_v) if known else math.inf
+        result["misleading"] += not known or horizontal > level_h or vertical > level_v
     result["event"] = None
     for row in rows(folder / "events.csv"):
         t = seconds(row)
-        if row["event"] in TELLING and t >= begin:
+        if row["event"] in TELLING and t >= told_from:
             at = min(track, key=lambda known: abs(known - t))
-            result["event"] = row["event"], t - begin, track[at]
+            result["event"] = row["event"], t - told_from, track[at]
             break
     return result
 
@@ -173,7 +174,8 @@ def main():
                 for systems in choices:
                     for estimator in ESTIMATORS:
                         at = drive.replay(folder, systems, estimator, *more)
-                        print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin))
+                        told_from = start if more else begin  # a wrong configuration acts from the start
+                        print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin, told_from))
 
 
 main()

@@ -16,7 +16,9 @@ enum class CarrierReset : unsigned char {
 };
 
 // A part that is marked false is not cleared. In addition every reset clears the evidence of
-// FilterMonitor's tests (FilterMonitor::filter_restarted), because it is void for the next filter.
+// FilterMonitor's tests (FilterMonitor::filter_restarted) and the sums of SatelliteFaultMonitor,
+// because they are void for the next filter. Satellites that are left out stay so, unless
+// clears_times is set.
 //
 // Every reset keeps what is no estimate of the filter:
 // - orbits, antenna patterns and the receiver's code biases,

@@ -25,7 +25,7 @@ struct Convicted {
 // the innovation of a satellite at a time. The filter follows a tenth of each.
 struct Run {
   int satellites = 8;
-  double seconds = 600.0, interval_s = 1.0;
+  double begin_s = 0.0, seconds = 600.0, interval_s = 1.0;
   double noise_m = 0.01, correlation_s = 0.0;
   std::function<double(int, double)> drift = [](int, double) { return 0.0; };
 };
@@ -36,7 +36,7 @@ std::vector<Convicted> convictions(const Run& run, SatelliteFaultMonitor* monito
   std::vector<Convicted> found;
   std::vector<double> errors(static_cast<std::size_t>(run.satellites) + 1, 0.0);
   const double keep = run.correlation_s > 0.0 ? std::exp(-run.interval_s / run.correlation_s) : 0.0;
-  for (double t = 0.0; t < run.seconds; t += run.interval_s) {
+  for (double t = run.begin_s; t < run.seconds; t += run.interval_s) {
     const GpsTime time = kStart.plus_seconds(t);
     const ExcludedSatellites excluded = monitor->excluded(time);
     const double clock = 3.0 * normal(generator);
@@ -80,7 +80,10 @@ TEST_CASE(
     CHECK(found[0].fault.satellite == satellite(3));
     CHECK(found[0].after_s > begin_s);
     CHECK(found[0].after_s < begin_s + 250.0 * std::max(interval_s, 1.0));
-    CHECK(found[0].fault.followed_m > 0.0);
+    // A tenth of each innovation, less what has faded of it.
+    const double all_m = 0.1 * 0.05 * (found[0].after_s - begin_s) / interval_s;
+    CHECK(found[0].fault.followed_m > 0.6 * all_m);
+    CHECK(found[0].fault.followed_m < 1.2 * all_m);
     const GpsTime time = kStart.plus_seconds(found[0].after_s);
     CHECK(monitor.excluded(time.plus_seconds(1799.0)).size() == 1);
     CHECK(monitor.excluded(time.plus_seconds(1801.0)).empty());
@@ -104,20 +107,46 @@ TEST_CASE("too few satellites convict nobody, nor do they lose more than one in 
   run.satellites = 9;
   run.seconds = 1800.0;
   run.drift = [](int i, double t) { return i <= 3 && t >= 100.0 ? 0.05 * i : 0.0; };
-  CHECK(convictions(run, &many).size() <= 2);
+  const std::size_t convicted = convictions(run, &many).size();
+  CHECK(convicted >= 1);
+  CHECK(convicted <= 2);
   CHECK(many.excluded(kStart.plus_seconds(1500.0)).size() <= 2);
 }
 
-TEST_CASE(
-    "after a restart of the filter the sums begin anew, and exclusions go with the time base") {
+TEST_CASE("after a restart of the filter the sums begin anew, exclusions go with the time base") {
   SatelliteFaultMonitor monitor;
   Run run;
   run.drift = [](int i, double t) { return i == 3 && t >= 100.0 ? 0.05 : 0.0; };
-  REQUIRE(convictions(run, &monitor).size() == 1);
+  const auto found = convictions(run, &monitor);
+  REQUIRE(found.size() == 1);
+  const double convicted_s = found[0].after_s;
   monitor.filter_restarted(false);
   CHECK(monitor.excluded(kStart.plus_seconds(600.0)).size() == 1);
   monitor.filter_restarted(true);
   CHECK(monitor.excluded(kStart.plus_seconds(600.0)).empty());
+  // Restarted just before it would convict, it takes its time again.
+  for (const bool restarted : {false, true}) {
+    CAPTURE(restarted);
+    SatelliteFaultMonitor other;
+    run.begin_s = 0.0, run.seconds = convicted_s;
+    REQUIRE(convictions(run, &other).empty());
+    if (restarted) other.filter_restarted(false);
+    run.begin_s = convicted_s, run.seconds = convicted_s + 80.0;
+    CHECK(convictions(run, &other).empty() == restarted);
+  }
+}
+
+TEST_CASE("what few carriers show does not count later") {
+  SatelliteFaultMonitor monitor;
+  Run run;
+  run.satellites = 4;
+  run.seconds = 400.0;
+  run.drift = [](int i, double) { return i == 3 ? 0.05 : 0.0; };
+  CHECK(convictions(run, &monitor).empty());
+  run.satellites = 8;
+  run.begin_s = 400.0, run.seconds = 1000.0;
+  run.drift = [](int, double) { return 0.0; };
+  CHECK(convictions(run, &monitor).empty());
 }
 
 }  // namespace
