@@ -13,7 +13,7 @@ import sys
 BEGIN_S, END_S, DURATION_S = 300, 900, 1200
 # Events that tell of a fault of the inputs or of the estimate; others come in every run.
 TELLING = {"improbable", "filter_reset", "clock_step", "constraints_left_out", "none_usable", "convention_suspect",
-           "solution_jump", "satellite_fault"}
+           "satellite_fault"}
 ARM = "[0, 0, -1.2]"
 SCENES = {
     "open sky": ("config/scenario/open_sky.yaml", f"receiver.lever_arm_b_m={ARM}"),
