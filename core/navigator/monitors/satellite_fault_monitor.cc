@@ -150,10 +150,14 @@ std::optional<SatelliteFault> SatelliteFaultMonitor::add(const CarrierInnovation
   const std::size_t count = take_samples(time);
   if (count < kMinTracks || (exclusions_.size() + 1) * kTracksPerExclusion > count)
     return std::nullopt;
-  const auto worst = std::max_element(
-      tracks_.begin(), tracks_.end(),
-      [](const Track& a, const Track& b) { return a.statistic() < b.statistic(); });
-  if (worst->statistic() < kThreshold) return std::nullopt;
+  // Only a satellite that is seen can be told apart from what the filter has followed of it.
+  const auto statistic = [time](const Track& track) {
+    return track.last == time ? track.statistic() : 0.0;
+  };
+  const auto worst =
+      std::max_element(tracks_.begin(), tracks_.end(),
+                       [&](const Track& a, const Track& b) { return statistic(a) < statistic(b); });
+  if (statistic(*worst) < kThreshold) return std::nullopt;
   const SatelliteFault fault = {worst->satellite, std::abs(worst->followed_m)};
   exclusions_.push_back({fault.satellite, time.plus_seconds(kExclusion_s)});
   tracks_.clear();  // the others have been measured against it

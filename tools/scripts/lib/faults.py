@@ -10,6 +10,10 @@ import re
 import subprocess
 import sys
 
+import numpy as np
+
+from experiments.judge import WEEK_S, columns, errors_of
+
 BEGIN_S, END_S, DURATION_S = 300, 900, 1200
 # Events that tell of a fault of the inputs or of the estimate; others come in every run.
 TELLING = {"improbable", "filter_reset", "clock_step", "constraints_left_out", "none_usable", "convention_suspect",
@@ -40,14 +44,15 @@ def rows(path):
 
 
 def seconds(row):
-    return int(row["gps_week"]) * 604800 + float(row["gps_tow_s"]) if row["gps_week"] else math.nan
+    return int(row["gps_week"]) * WEEK_S + float(row["gps_tow_s"]) if row["gps_week"] else math.nan
 
 
 def steadiest(table, begin, end, system):
-    """The satellite of a system that is used from begin to end, the highest of these."""
-    seen = {}
+    """The satellite of a system that is used from begin to end, s since the first epoch, the highest of these."""
+    seen, first = {}, None
     for row in rows(table):
-        t = seconds(row)
+        first = seconds(row) if first is None else first
+        t = seconds(row) - first
         if row["satellite"][0] in system and row["used"] == "1" and begin <= t < end:
             seen.setdefault(row["satellite"], []).append(float(row["elevation_deg"]))
     most = max(len(values) for values in seen.values())
@@ -55,48 +60,28 @@ def steadiest(table, begin, end, system):
     return max(often, key=lambda name: sum(often[name]) / len(often[name]))
 
 
-def errors_of(solution, truth):
-    """Per epoch: time, errors north, east, up with their sigmas, levels."""
-    known = {}
-    for row in rows(truth):
-        known[round(seconds(row), 3)] = row
-    for row in rows(solution):
-        t = round(seconds(row), 3)
-        if t not in known:
-            continue
-        at = known[t]
-        latitude = math.radians(float(at["latitude_deg"]))
-        w = math.sqrt(1 - 0.00669438 * math.sin(latitude) ** 2)
-        north = math.radians(float(row["latitude_deg"]) - float(at["latitude_deg"])) * 6335439.3 / w**3
-        east = math.radians(float(row["longitude_deg"]) - float(at["longitude_deg"])) * 6378137.0 / w * math.cos(latitude)
-        up = float(row["height_m"]) - float(at["height_m"])
-        yield (t, (north, east, up), [float(row[f"std_{axis}_m"]) for axis in ("north", "east", "down")],
-               float(row["protection_horizontal_m"] or "nan"), float(row["protection_vertical_m"] or "nan"))
-
-
 def judge(folder, truth, begin, told_from):
-    """The largest errors from the fault's begin on, and the first event that tells of it."""
-    result = dict(error=0.0, sigmas=0.0, share=0.0, misleading=0, epochs=0)
-    track = {}
-    for t, error, sigma, level_h, level_v in errors_of(folder / "solution.csv", truth):
-        size = math.sqrt(sum(e * e for e in error))
-        track[t] = size, math.sqrt(sum(s * s for s in sigma)), level_h, level_v
-        if t < begin:
-            continue
-        result["epochs"] += 1
-        horizontal, vertical = math.hypot(error[0], error[1]), abs(error[2])
-        if size > result["error"]:
-            result.update(error=size, error_sigma=track[t][1], error_level=(level_h, level_v))
-        result["sigmas"] = max([result["sigmas"]] + [abs(e) / s for e, s in zip(error, sigma)])
-        known = level_h > 0 and level_v > 0
-        result["share"] = max(result["share"], horizontal / level_h, vertical / level_v) if known else math.inf
-        result["misleading"] += not known or horizontal > level_h or vertical > level_v
-    result["event"] = None
+    """The largest errors from the fault's begin on, and the first event that tells of it. Times: s since the truth's first."""
+    t, error = errors_of(folder / "solution.csv", truth)
+    week, tow = columns(truth, ("gps_week", "gps_tow_s"))
+    first = week[0] * WEEK_S + tow[0]
+    week, tow, *stated = columns(folder / "solution.csv", (
+        "gps_week", "gps_tow_s", "std_north_m", "std_east_m", "std_down_m", "protection_horizontal_m", "protection_vertical_m"))
+    stated = np.array(stated)[:, np.isin(np.round(week * WEEK_S + tow - first, 3), np.round(t, 3))]
+    sigma, levels = stated[:3], stated[3:]
+    size, sigma_3d = np.linalg.norm(error, axis=0), np.linalg.norm(sigma, axis=0)
+    share = np.array([np.hypot(error[0], error[1]), np.abs(error[2])]) / levels
+    # A level that is not known is none.
+    share = np.where(np.isnan(share), np.inf, share).max(axis=0)
+    late = t >= begin
+    worst = np.flatnonzero(late)[np.argmax(size[late])]
+    at = lambda k: (size[k], sigma_3d[k], levels[:, k])
+    result = dict(worst=at(worst), sigmas=(np.abs(error) / sigma)[:, late].max(), share=share[late].max(),
+                  misleading=np.count_nonzero(share[late] > 1), epochs=np.count_nonzero(late), event=None)
     for row in rows(folder / "events.csv"):
-        t = seconds(row)
-        if row["event"] in TELLING and t >= told_from:
-            at = min(track, key=lambda known: abs(known - t))
-            result["event"] = row["event"], t - told_from, track[at]
+        told = seconds(row) - first
+        if row["event"] in TELLING and told >= told_from:
+            result["event"] = row["event"], told - told_from, at(np.argmin(np.abs(t - told)))
             break
     return result
 
@@ -108,9 +93,9 @@ def cell(size, sigma, levels):
 def print_row(name, systems, estimator, result):
     told = "no | -"
     if result["event"]:
-        kind, after, (size, sigma, *levels) = result["event"]
-        told = f"`{kind}` after {after:.0f} s | {cell(size, sigma, levels)}"
-    print(f"| {name} | {systems} | {estimator} | {cell(result['error'], result['error_sigma'], result['error_level'])} "
+        kind, after, then = result["event"]
+        told = f"`{kind}` after {after:.0f} s | {cell(*then)}"
+    print(f"| {name} | {systems} | {estimator} | {cell(*result['worst'])} "
           f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['misleading']} of {result['epochs']} | {told} |", flush=True)
 
 
@@ -164,10 +149,10 @@ def main():
             drive = Drive(options, scene, seed)
             plain = drive.simulate("none", "[]")
             at = drive.replay(plain, "all", "filter")
-            start = min(seconds(row) for row in rows(at / "solution.csv"))
-            begin, end = start + BEGIN_S, start + END_S
-            gps = steadiest(at / "satellites.csv", begin, end, "G")
-            leo = steadiest(at / "satellites.csv", begin, begin + 100, "LMNO")
+            start = errors_of(at / "solution.csv", plain / "truth.csv")[0][0]
+            begin = start + BEGIN_S
+            gps = steadiest(at / "satellites.csv", BEGIN_S, END_S, "G")
+            leo = steadiest(at / "satellites.csv", BEGIN_S, BEGIN_S + 100, "LMNO")
             print(HEADER.format(scene=scene, seed=seed, gps=gps, leo=leo), flush=True)
             for name, script, choices, more in faults_of(gps, leo):
                 folder = plain if script == "[]" else drive.simulate(name, script)

@@ -6,18 +6,12 @@
 #include <random>
 #include <vector>
 
+#include "error_model/code_class.h"
 #include "support/catch.h"
 
 using namespace leonav;
 
 namespace {
-
-ErrorClass code_at(std::size_t elevation) {
-  ErrorClass of;
-  of.observable = static_cast<std::size_t>(Observable::kCode);
-  of.elevation = elevation;
-  return of;
-}
 
 // Ten codes of one class a second, `times` as large as their sigma as scaled.
 void drive(SigmaScale* scale, const ErrorClass& of, double times, double seconds,
@@ -40,49 +34,49 @@ TEST_CASE("the scale of sigmas comes to what the errors are, but not below one")
   for (const double times : {0.5, 1.0, 3.0, 6.0}) {
     std::mt19937_64 random(1);
     SigmaScale scale;
-    drive(&scale, code_at(1), times, 300.0, &random);
-    CHECK(scale.scale(code_at(1)) == Approx(std::max(times, 1.0)).epsilon(0.15));
+    drive(&scale, test::code_class(1), times, 300.0, &random);
+    CHECK(scale.scale(test::code_class(1)) == Approx(std::max(times, 1.0)).epsilon(0.15));
   }
 }
 
 TEST_CASE("a street is entered within half a minute, and left within a minute") {
   std::mt19937_64 random(2);
   SigmaScale scale;
-  drive(&scale, code_at(1), 1.0, 300.0, &random);
-  drive(&scale, code_at(1), 5.0, 30.0, &random);
-  CHECK(scale.scale(code_at(1)) > 3.5);
-  drive(&scale, code_at(1), 1.0, 60.0, &random);
-  CHECK(scale.scale(code_at(1)) < 1.6);
+  drive(&scale, test::code_class(1), 1.0, 300.0, &random);
+  drive(&scale, test::code_class(1), 5.0, 30.0, &random);
+  CHECK(scale.scale(test::code_class(1)) > 3.5);
+  drive(&scale, test::code_class(1), 1.0, 60.0, &random);
+  CHECK(scale.scale(test::code_class(1)) < 1.6);
 }
 
 TEST_CASE("one gross error in twenty does not double the scale") {
   std::mt19937_64 random(3);
   SigmaScale scale;
-  drive(&scale, code_at(1), 1.0, 300.0, &random, 0.05);
-  CHECK(scale.scale(code_at(1)) < 1.4);
+  drive(&scale, test::code_class(1), 1.0, 300.0, &random, 0.05);
+  CHECK(scale.scale(test::code_class(1)) < 1.4);
 }
 
 TEST_CASE("a class that is not seen has the scale that all share") {
   std::mt19937_64 random(4);
   SigmaScale scale;
   for (int i = 0; i < 300; ++i) {
-    drive(&scale, code_at(0), 6.0, 1.0, &random);
-    drive(&scale, code_at(3), 2.0, 1.0, &random);
+    drive(&scale, test::code_class(0), 6.0, 1.0, &random);
+    drive(&scale, test::code_class(3), 2.0, 1.0, &random);
   }
-  CHECK(scale.scale(code_at(0)) > 2.0 * scale.scale(code_at(3)));
-  const double unseen = scale.scale(code_at(2));
-  CHECK(unseen > scale.scale(code_at(3)));
-  CHECK(unseen < scale.scale(code_at(0)));
+  CHECK(scale.scale(test::code_class(0)) > 2.0 * scale.scale(test::code_class(3)));
+  const double unseen = scale.scale(test::code_class(2));
+  CHECK(unseen > scale.scale(test::code_class(3)));
+  CHECK(unseen < scale.scale(test::code_class(0)));
 }
 
 TEST_CASE("innovations that the prediction's variance explains leave the scale as it is") {
   SigmaScale scale;
-  const double before = scale.scale(code_at(1));
+  const double before = scale.scale(test::code_class(1));
   for (int t = 0; t < 100; ++t) {
-    for (int i = 0; i < 10; ++i) scale.add({code_at(1), 4.0, 0.0});
+    for (int i = 0; i < 10; ++i) scale.add({test::code_class(1), 4.0, 0.0});
     scale.end_epoch(1.0);
   }
-  CHECK(scale.scale(code_at(1)) == Approx(before));
+  CHECK(scale.scale(test::code_class(1)) == Approx(before));
 }
 
 TEST_CASE(
@@ -95,19 +89,19 @@ TEST_CASE(
     const bool low = i % 2 == 0;
     double error = (low ? 6.0 : 1.5) * normal(random);
     if (i % 20 == 0) error += 80.0;  // reflected
-    samples.push_back({code_at(low ? 0 : 3), error * error, 1.0});
+    samples.push_back({test::code_class(low ? 0 : 3), error * error, 1.0});
   }
   REQUIRE(scale.fit_first(Observable::kCode, samples));
-  CHECK(scale.scale(code_at(0)) == Approx(6.0).epsilon(0.4));
-  CHECK(scale.scale(code_at(3)) == Approx(1.5).epsilon(0.4));
+  CHECK(scale.scale(test::code_class(0)) == Approx(6.0).epsilon(0.4));
+  CHECK(scale.scale(test::code_class(3)) == Approx(1.5).epsilon(0.4));
 }
 
 TEST_CASE("seven errors are too few to begin with") {
   SigmaScale scale;
-  const double before = scale.scale(code_at(0));
-  const std::vector<SigmaScale::Sample> samples(7, {code_at(0), 100.0, 1.0});
+  const double before = scale.scale(test::code_class(0));
+  const std::vector<SigmaScale::Sample> samples(7, {test::code_class(0), 100.0, 1.0});
   CHECK_FALSE(scale.fit_first(Observable::kCode, samples));
-  CHECK(scale.scale(code_at(0)) == before);
+  CHECK(scale.scale(test::code_class(0)) == before);
 }
 
 TEST_CASE("after an hour of small errors a street is entered as quickly") {
@@ -115,12 +109,12 @@ TEST_CASE("after an hour of small errors a street is entered as quickly") {
   for (const bool first : {false, true}) {
     SigmaScale scale;
     if (first) {
-      const std::vector<SigmaScale::Sample> small(30, {code_at(1), 0.01, 1.0});
+      const std::vector<SigmaScale::Sample> small(30, {test::code_class(1), 0.01, 1.0});
       REQUIRE(scale.fit_first(Observable::kCode, small));
     }
-    drive(&scale, code_at(1), 0.2, 3600.0, &random);
-    drive(&scale, code_at(1), 5.0, 30.0, &random);
+    drive(&scale, test::code_class(1), 0.2, 3600.0, &random);
+    drive(&scale, test::code_class(1), 5.0, 30.0, &random);
     CAPTURE(first);
-    CHECK(scale.scale(code_at(1)) > 3.5);
+    CHECK(scale.scale(test::code_class(1)) > 3.5);
   }
 }

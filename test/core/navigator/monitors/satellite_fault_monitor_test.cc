@@ -28,6 +28,7 @@ struct Run {
   double begin_s = 0.0, seconds = 600.0, interval_s = 1.0;
   double noise_m = 0.01, correlation_s = 0.0;
   std::function<double(int, double)> drift = [](int, double) { return 0.0; };
+  std::function<bool(int, double)> seen = [](int, double) { return true; };
 };
 
 std::vector<Convicted> convictions(const Run& run, SatelliteFaultMonitor* monitor) {
@@ -44,7 +45,8 @@ std::vector<Convicted> convictions(const Run& run, SatelliteFaultMonitor* monito
     for (int i = 1; i <= run.satellites; ++i) {
       double& error = errors[static_cast<std::size_t>(i)];
       error = keep * error + std::sqrt(1.0 - keep * keep) * run.noise_m * normal(generator);
-      if (std::find(excluded.begin(), excluded.end(), satellite(i)) != excluded.end()) continue;
+      const bool out = std::find(excluded.begin(), excluded.end(), satellite(i)) != excluded.end();
+      if (out || !run.seen(i, t)) continue;
       const double innovation = clock + error + run.drift(i, t);
       carriers.push_back({satellite(i), SignalCode(), innovation, 0.9 * innovation, 0.003});
     }
@@ -113,7 +115,7 @@ TEST_CASE("too few satellites convict nobody, nor do they lose more than one in 
   CHECK(many.excluded(kStart.plus_seconds(1500.0)).size() <= 2);
 }
 
-TEST_CASE("after a restart of the filter the sums begin anew, exclusions go with the time base") {
+TEST_CASE("a restart of the filter clears the sums, and a new time base the exclusions too") {
   SatelliteFaultMonitor monitor;
   Run run;
   run.drift = [](int i, double t) { return i == 3 && t >= 100.0 ? 0.05 : 0.0; };
@@ -134,6 +136,24 @@ TEST_CASE("after a restart of the filter the sums begin anew, exclusions go with
     run.begin_s = convicted_s, run.seconds = convicted_s + 80.0;
     CHECK(convictions(run, &other).empty() == restarted);
   }
+}
+
+TEST_CASE("a satellite that has gone is not convicted when others come") {
+  // Of eight satellites one may be left out, 1, and not the second that drifts, 2. At 500 s that
+  // one goes and four come, so that another might be left out.
+  Run run;
+  run.satellites = 12;
+  run.seconds = 700.0;
+  run.drift = [](int i, double t) { return i <= 2 && t >= 100.0 ? 0.1 / i : 0.0; };
+  run.seen = [](int i, double t) { return t < 500.0 ? i <= 8 : i != 2; };
+  SatelliteFaultMonitor monitor;
+  const auto found = convictions(run, &monitor);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].fault.satellite == satellite(1));
+  // While it is there it is convicted as soon as the others have come.
+  run.seen = [](int i, double t) { return t >= 500.0 || i <= 8; };
+  SatelliteFaultMonitor other;
+  CHECK(convictions(run, &other).size() == 2);
 }
 
 TEST_CASE("what few carriers show does not count later") {

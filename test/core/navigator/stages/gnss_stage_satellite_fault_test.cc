@@ -42,7 +42,7 @@ int faults_told(const RecordingSink& sink, SatelliteId of) {
       }));
 }
 
-TEST_CASE("a satellite's clock that drifts by 2 cm/s is told and costs no accuracy") {
+TEST_CASE("the stage reports and excludes a satellite whose clock drifts, and keeps its accuracy") {
   const RecordingSink clean = run(drifting({}, 0.0), config_of(drifting({}, 0.0)));
   for (const Event& event : clean.events) CHECK(event.kind != EventKind::kSatelliteFault);
   const auto& satellites = clean.epochs[clean.epochs.size() / 2].satellites;
