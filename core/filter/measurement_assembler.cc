@@ -13,6 +13,14 @@ namespace leonav {
 using namespace ekf_index;
 using Eigen::Vector3d;
 
+namespace {
+
+// Another reflection is met when the direction of the satellite has turned by so much, rad: two
+// degrees.
+constexpr double kReflectionAngle = 0.035;
+
+}  // namespace
+
 void MeasurementAssembler::reset() {
   code_model_.reset();
   measurements_.clear();
@@ -56,7 +64,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
     entry.innovation =
         measurement.value - prediction.value + prediction.row.segment<3>(kPosition).dot(off_e);
     entry.row = prediction.row;
-    weigh(epoch, measurement, correlation_time_ratio(satellite, antenna.p_e), dt, &entry);
+    weigh(epoch, measurement, line_of_sight_rate(satellite, antenna.p_e), dt, &entry);
     if (carrier) {
       entry.ambiguity =
           find_or_add_ambiguity(measurement, satellite.satellite, entry, epoch.time, estimate);
@@ -76,7 +84,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
 // What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are
 // modelled.
 void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
-                                 double correlation_time_ratio, double dt,
+                                 double line_of_sight_rate, double dt,
                                  FilterMeasurement* entry) {
   const ErrorClass of =
       error_class(measurement, epoch.satellites[measurement.satellite_index], standing());
@@ -89,11 +97,11 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   CorrelationModel correlation = measurement.observable == Observable::kCarrier
                                      ? errors_.carrier_correlation(speed_)
                                      : errors_.correlation(of);
-  correlation.time_s *= correlation_time_ratio;
+  correlation.time_s = std::min(correlation.time_s, kReflectionAngle / line_of_sight_rate);
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;
   if (measurement.observable == Observable::kCode)
-    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio, entry);
+    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate), entry);
 }
 
 template <typename Predicate>

@@ -62,7 +62,7 @@ class MeasurementAssembler {
   static constexpr double kStandingSpeed_m_s = 0.3;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
-             double correlation_time_ratio, double dt, FilterMeasurement* entry);
+             double line_of_sight_rate, double dt, FilterMeasurement* entry);
   bool standing() const { return speed_ < kStandingSpeed_m_s; }
   template <typename Predicate>
   void exclude_if(Predicate predicate);

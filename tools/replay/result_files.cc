@@ -14,7 +14,8 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::string_view kEpochsHeader =
     "gps_week,gps_tow_s,epoch,empty,source,satellites,pdop,hdop,vdop,clock_gps_m,clock_galileo_m,"
     "clock_beidou_m,clock_leo_m,drift_gps_m_s,drift_galileo_m_s,drift_beidou_m_s,drift_leo_m_s,nis,"
-    "nis_degrees,wet_delay_m,std_wet_delay_m";
+    "nis_degrees,wet_delay_m,std_wet_delay_m,code_sigma_factor,code_correlation_s,"
+    "doppler_sigma_factor,doppler_correlation_s";
 constexpr std::string_view kSatellitesHeader =
     "gps_week,gps_tow_s,satellite,reason,used,elevation_deg,azimuth_deg,cn0_dbhz,ephemeris_age_s,"
     "orbit,arc,arc_started,arc_causes";
@@ -115,8 +116,10 @@ void ResultFiles::add(const EpochReport& report) {
   epochs_.number(report.nis, 3)
       .number(report.nis_degrees, 0)
       .number(report.wet_delay_m, 4)
-      .number(report.wet_delay_sigma_m, 4)
-      .end_row();
+      .number(report.wet_delay_sigma_m, 4);
+  for (const LearnedError& error : {report.learned_errors.code, report.learned_errors.doppler})
+    epochs_.number(error.sigma_factor, 3).number(error.correlation_time_s, 2);
+  epochs_.end_row();
   write_satellites(report);
   write_measurements(report);
   write_constraints(report);

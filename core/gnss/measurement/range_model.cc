@@ -37,11 +37,14 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
   return prediction;
 }
 
-double correlation_time_ratio(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
-  constexpr double kMediumOrbit = 1.6e-4;  // rad/s: GPS overhead, the fastest in medium orbit
+double line_of_sight_rate(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
   const Eigen::Vector3d line = satellite.p_e - p_a_e;
-  const double turn = line.cross(satellite.v_e).norm() / line.squaredNorm();
-  return turn > kMediumOrbit ? kMediumOrbit / turn : 1.0;
+  return line.cross(satellite.v_e).norm() / line.squaredNorm();
+}
+
+double correlation_time_ratio(double line_of_sight_rate) {
+  constexpr double kMediumOrbit = 1.6e-4;  // rad/s: GPS overhead, the fastest in medium orbit
+  return line_of_sight_rate > kMediumOrbit ? kMediumOrbit / line_of_sight_rate : 1.0;
 }
 
 }  // namespace leonav

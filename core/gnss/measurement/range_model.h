@@ -37,6 +37,8 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
 // Returns the ratio of this satellite's correlation time to that of a satellite in medium orbit.
 // The errors depend on the direction of the satellite (reflections, ionosphere, projection of the
 // orbit error), so the ratio is 1 for the slower satellites and about 1/50 for LEO overhead.
-double correlation_time_ratio(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e);
+double correlation_time_ratio(double line_of_sight_rate);
+// Returns how fast the direction of the satellite turns as seen from the antenna, rad/s.
+double line_of_sight_rate(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e);
 
 }  // namespace leonav
