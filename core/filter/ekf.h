@@ -148,8 +148,8 @@ class Ekf {
   // Fits the size of errors to the first epoch after the point solution, and the latter's sigmas
   // with it. Returns whether the measurements must be assembled again, with these sizes.
   bool fit_first_errors(const MeasurementEpoch& epoch);
-  // Scales the sigmas of what rests on the epochs so far to the sizes of errors learned since, but by
-  // no less than `least_factor`.
+  // Scales the sigmas of what rests on the epochs so far to the sizes of errors learned since, but
+  // by no less than `least_factor`.
   void scale_to_learned_errors(double least_factor);
   // Of codes and Dopplers.
   std::array<double, 2> mean_error_scales() const;

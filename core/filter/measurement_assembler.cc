@@ -84,8 +84,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
 // What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are
 // modelled.
 void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
-                                 double line_of_sight_rate, double dt,
-                                 FilterMeasurement* entry) {
+                                 double line_of_sight_rate, double dt, FilterMeasurement* entry) {
   const ErrorClass of =
       error_class(measurement, epoch.satellites[measurement.satellite_index], standing());
   const double scale = errors_.sigma_scale(of);
@@ -97,11 +96,13 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   CorrelationModel correlation = measurement.observable == Observable::kCarrier
                                      ? errors_.carrier_correlation(speed_)
                                      : errors_.correlation(of);
-  correlation.time_s = std::min(correlation.time_s, kReflectionAngle / line_of_sight_rate);
+  if (line_of_sight_rate * correlation.time_s > kReflectionAngle)
+    correlation.time_s = kReflectionAngle / line_of_sight_rate;
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;
   if (measurement.observable == Observable::kCode)
-    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate), entry);
+    code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate),
+                      entry);
 }
 
 template <typename Predicate>
