@@ -9,7 +9,7 @@
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
-#include "core/filter/update/fault_direction.h"
+#include "core/filter/update/fault_directions.h"
 
 namespace leonav {
 
@@ -280,7 +280,8 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
     if (m.observable != Observable::kCarrier ||
         epoch.satellites[measurement.satellite_index].satellite != satellite)
       continue;
-    estimate_.inflate_along(range_m * fault_direction(measurements(), i, covariance().rows()));
+    estimate_.inflate_along(range_m *
+                            FaultDirections(measurements()).state(i, covariance().rows()));
     return inflate_hidden_ambiguities(range_m);
   }
 }

@@ -109,7 +109,7 @@ class Ekf {
   // Restarts all clock offsets, with their ambiguities, at the next update.
   void restart_clock_offsets();
   // Allows for an error of `range_m` of a satellite that the updates so far have followed: raises
-  // the covariance of what it may have moved (core/filter/update/fault_direction.h). `epoch`: that
+  // the covariance of what it may have moved (core/filter/update/fault_directions.h). `epoch`: that
   // of the last update. Does nothing if that had no carrier of the satellite.
   void allow_for_fault(SatelliteId satellite, double range_m, const MeasurementEpoch& epoch);
   // Begins to estimate a vehicle constant (kTravelYaw ... in ekf_index), with those before it. Does

@@ -51,12 +51,13 @@ struct Problem {
   const GnssConfig& config;
   const RobustConfig& robust;
   ReceiverCodeBiases* biases;
+  std::span<const SatelliteId> faulty;
 };
 
 // Solves a first position without any assumption: no mask and no atmosphere.
 bool solve_cold_start(const Problem& problem, MeasurementEpoch* epoch, PositionFit* position) {
   preprocess(problem.raw, problem.ephemeris_store, problem.config, Eigen::Vector3d::Zero(), epoch,
-             {.biases = problem.biases, .caps = false});
+             {.biases = problem.biases, .caps = false, .faulty = problem.faulty});
   fit_position(*epoch, problem.robust, surface_below(*epoch), position);
   if (gives_position(*position)) return true;
   if (position->fit.status == FitStatus::kTooFewRows) return false;
@@ -69,7 +70,7 @@ bool solve_from(const Problem& problem, Eigen::Vector3d p_e, MeasurementEpoch* e
                 PositionFit* position) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     preprocess(problem.raw, problem.ephemeris_store, problem.config, p_e, epoch,
-               {.biases = problem.biases, .caps = false});
+               {.biases = problem.biases, .caps = false, .faulty = problem.faulty});
     fit_position(*epoch, problem.robust, p_e, position);
     if (!gives_position(*position)) return false;
     const double moved = (position->state.head<3>() - p_e).norm();
@@ -156,10 +157,10 @@ void add_velocity(const Problem& problem, MeasurementEpoch* epoch, PointSolution
 PointSolution solve_point(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
-                          ReceiverCodeBiases* biases) {
+                          ReceiverCodeBiases* biases, std::span<const SatelliteId> faulty) {
   ReceiverCodeBiases of_this_epoch;
-  const Problem problem{raw, ephemeris_store, config, robust,
-                        biases != nullptr ? biases : &of_this_epoch};
+  const Problem problem{
+      raw, ephemeris_store, config, robust, biases != nullptr ? biases : &of_this_epoch, faulty};
   PointSolution solution;
   solution.clock_m.fill(std::numeric_limits<double>::quiet_NaN());
   solution.clock_drift_m_s.fill(std::numeric_limits<double>::quiet_NaN());

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/gnss/measurement/measurement.h"
@@ -39,11 +40,12 @@ struct PointSolution {
 
 // Solves `raw` from scratch (an approximate position of zero is valid) and leaves in `epoch` the
 // preprocessed measurements at the solution with a reason for each. `biases` are those of
-// preprocess(). SystemConfig::max_satellites does not apply, so that an experiment with few
-// satellites can start.
+// preprocess(), `faulty` satellites are not used. SystemConfig::max_satellites does not apply, so
+// that an experiment with few satellites can start.
 PointSolution solve_point(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
-                          ReceiverCodeBiases* biases = nullptr);
+                          ReceiverCodeBiases* biases = nullptr,
+                          std::span<const SatelliteId> faulty = {});
 
 }  // namespace leonav

@@ -56,7 +56,7 @@ bool has_doppler(const SignalObservation& signal) {
 // Selects the signals and computes the satellite's state; the reason is set in `view`.
 Candidate examine(const DelayContext& context, const EphemerisStore& ephemeris_store,
                   std::span<const SignalObservation> observations, const Eigen::Vector3d& p_a_e,
-                  SatelliteInView* view) {
+                  std::span<const SatelliteId> faulty, SatelliteInView* view) {
   const GnssConfig& config = *context.config;
   Candidate candidate;
   candidate.observations = observations;
@@ -76,6 +76,8 @@ Candidate examine(const DelayContext& context, const EphemerisStore& ephemeris_s
                                                      view, &candidate.broadcast));
   if (view->reason != Reason::kUsed) return candidate;
   set_look_angles_and_troposphere(context, p_a_e, view);
+  if (std::find(faulty.begin(), faulty.end(), view->satellite) != faulty.end())
+    view->reason = Reason::kFaulty;
   if (context.has_position && view->elevation < config.elevation_mask) {
     view->reason = Reason::kLowElevation;
   }
@@ -265,7 +267,7 @@ void preprocess(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
     view.satellite = id;
     candidates.push_back(examine(context, ephemeris_store,
                                  {raw.observations.data() + begin, end - begin}, approximate_p_e,
-                                 &view));
+                                 aids.faulty, &view));
     candidates.back().satellite_index = epoch->satellites.size();
     epoch->satellites.push_back(view);
   }

@@ -2,6 +2,7 @@
 // corrections, weights, and reasons.
 #pragma once
 #include <Eigen/Core>
+#include <span>
 
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/gnss/measurement/measurement.h"
@@ -23,6 +24,7 @@ struct PreprocessAids {
   const Eigen::Matrix3d* C_er = nullptr;
   // Applies SystemConfig::max_satellites; false where a position is sought without a previous one.
   bool caps = true;
+  std::span<const SatelliteId> faulty;  // not to be used (Reason::kFaulty)
 };
 
 // Computes `epoch` from `raw`. `approximate_p_e` (ECEF, m) is within a kilometre or so of the

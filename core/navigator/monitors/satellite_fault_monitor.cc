@@ -111,13 +111,17 @@ void SatelliteFaultMonitor::collect(const CarrierInnovations& carriers, GpsTime 
 }
 
 std::size_t SatelliteFaultMonitor::take_samples(GpsTime time) {
-  Values sizes;
-  for (const Track& track : tracks_)
-    if (track.last == time) sizes.push_back(std::abs(track.pending));
+  Values sizes, followed;
+  for (const Track& track : tracks_) {
+    if (track.last != time) continue;
+    sizes.push_back(std::abs(track.pending));
+    followed.push_back(std::abs(track.followed_m));
+  }
   const bool enough = sizes.size() >= kMinTracks;
   if (enough) {
     const double usual = median(sizes) / kNormalMedian;
     scale_ = scale_ > 0.0 ? scale_ + kScaleGain * (usual - scale_) : usual;
+    usual_followed_m_ = median(followed) / kNormalMedian;
   }
   const double keep = std::exp(-1.0 / kMemory);
   for (Track& track : tracks_) {
@@ -171,10 +175,19 @@ ExcludedSatellites SatelliteFaultMonitor::excluded(GpsTime time) const {
   return satellites;
 }
 
+std::optional<FollowedRange> SatelliteFaultMonitor::followed_range(SatelliteId satellite,
+                                                                   SignalCode code) const {
+  if (!(usual_followed_m_ > 0.0)) return std::nullopt;
+  for (const Track& track : tracks_)
+    if (track.satellite == satellite && track.code == code)
+      return FollowedRange{track.followed_m, usual_followed_m_};
+  return std::nullopt;
+}
+
 void SatelliteFaultMonitor::filter_restarted(bool time_begins_anew) {
   tracks_.clear();
   begun_ = last_sample_ = GpsTime();
-  scale_ = 0.0;
+  scale_ = usual_followed_m_ = 0.0;
   if (time_begins_anew) exclusions_.clear();
 }
 

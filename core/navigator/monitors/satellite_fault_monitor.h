@@ -25,6 +25,12 @@ struct SatelliteFault {
   double followed_m = 0.0;  // so much of its error the filter has taken up, as a range
 };
 
+// What the filter has followed of the carriers in the last minutes, apart from the clock.
+struct FollowedRange {
+  double range_m = 0.0;
+  double usual_m = 0.0;  // of all carriers: 1 sigma without a fault
+};
+
 using ExcludedSatellites = boost::container::static_vector<SatelliteId, kMaxArcs>;
 
 // A ramp of centimetres a second stays within the sigma of a single innovation, because the
@@ -41,6 +47,8 @@ class SatelliteFaultMonitor {
   std::optional<SatelliteFault> add(const CarrierInnovations& carriers, GpsTime time);
   // Returns the satellites that are not to be used at `time`: for half an hour each.
   ExcludedSatellites excluded(GpsTime time) const;
+  // Returns what has been followed of a carrier; nullopt: it, or what is usual, is not known.
+  std::optional<FollowedRange> followed_range(SatelliteId satellite, SignalCode code) const;
   // Clears the sums: those of another filter's innovations say nothing. With `time_begins_anew` it
   // forgets the exclusions too.
   void filter_restarted(bool time_begins_anew);
@@ -69,7 +77,8 @@ class SatelliteFaultMonitor {
   boost::container::static_vector<Track, kMaxArcs> tracks_;
   boost::container::static_vector<Exclusion, kMaxArcs> exclusions_;
   GpsTime begun_, last_sample_;
-  double scale_ = 0.0;  // s; 0: not known
+  double scale_ = 0.0;             // s; 0: not known
+  double usual_followed_m_ = 0.0;  // 0: not known
 };
 
 }  // namespace leonav

@@ -81,6 +81,7 @@ void GnssStage::predict(const EpochWork& work) {
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
+  front_end_.exclude(satellite_faults_.excluded(work.time));
   if (!ekf_.initialized())
     start_filter(work);
   else if (filter_monitor_.prediction_is_too_uncertain(ekf_, work.time, last_gnss_time_))
@@ -111,7 +112,6 @@ void GnssStage::restart_after_outage(const EpochWork& work) {
 
 void GnssStage::update_filter(const EpochWork& work) {
   front_end_.measure(work, ekf_);
-  front_end_.exclude(satellite_faults_.excluded(work.time));
   if (motion_aiding_.requires_carrier_speed())
     motion_aiding_.set_carrier_speed(front_end_.update_carrier_speed());
   const OutageMonitor::Position before = antenna_position(ekf_);
@@ -132,6 +132,8 @@ void GnssStage::update_filter(const EpochWork& work) {
 void GnssStage::test_satellites(const EpochWork& work, const EkfUpdateResult& update) {
   const FilterEvidence evidence = {work.time, update, front_end_.measurements(), ekf_};
   const auto fault = satellite_faults_.add(carrier_innovations(evidence), work.time);
+  fault_hypotheses_ = satellite_fault_hypotheses(satellite_faults_, front_end_.measurements(), ekf_,
+                                                 config_.integrity);
   if (!fault) return;
   ekf_.allow_for_fault(fault->satellite, fault->followed_m, front_end_.measurements());
   reporter_.emit(EventKind::kSatelliteFault, static_cast<std::uint8_t>(fault->satellite.system),
@@ -193,7 +195,7 @@ void GnssStage::report_solution(const EpochWork& work) {
     reset(kDropReset, work.time, ResetCause::kNotFinite, 0.0);
     reporter_.clear_solution();
   }
-  levels_ = reporter_.add_levels(ekf_, config_.integrity);
+  levels_ = reporter_.add_levels(ekf_, fault_hypotheses_, config_.integrity);
   motion_aiding_.set_satellites_used(reporter_.report().satellites_used);
 }
 
@@ -272,6 +274,7 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.clears_installation_monitor) installation_monitor_.clear();
   filter_monitor_.filter_restarted(time, plan.clears_times);
   satellite_faults_.filter_restarted(plan.clears_times);
+  fault_hypotheses_.clear();
   if (plan.clears_times) last_gnss_time_ = GpsTime();
   epoch_.gnss_used = plan.counts_as_gnss_epoch;
   epoch_.filter_restarted = true;

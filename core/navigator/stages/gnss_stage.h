@@ -7,6 +7,7 @@
 #include "core/navigator/interface/stage_work.h"
 #include "core/navigator/interface/timed_mailbox.h"
 #include "core/navigator/monitors/filter_monitor.h"
+#include "core/navigator/monitors/satellite_fault_hypotheses.h"
 #include "core/navigator/monitors/satellite_fault_monitor.h"
 #include "core/navigator/stages/internal/attitude_initializer.h"
 #include "core/navigator/stages/internal/epoch_reporter.h"
@@ -86,6 +87,7 @@ class GnssStage {
   MotionAiding motion_aiding_;
   FilterMonitor filter_monitor_;
   SatelliteFaultMonitor satellite_faults_;
+  FaultHypotheses fault_hypotheses_;  // after the last update
   AttitudeInitializer attitude_;
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;

@@ -75,7 +75,9 @@ void EpochReporter::monitor_usability() {
 
 void EpochReporter::add_state(const Ekf& filter) { report_state(filter, report_.get()); }
 
-LevelGrowth EpochReporter::add_levels(const Ekf& filter, const IntegrityConfig& config) {
+LevelGrowth EpochReporter::add_levels(const Ekf& filter, const FaultHypotheses& faults,
+                                      const IntegrityConfig& config) {
+  report_->fault_hypotheses = faults;
   return report_levels(filter, config, report_.get());
 }
 

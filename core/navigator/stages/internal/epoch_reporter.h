@@ -41,8 +41,10 @@ class EpochReporter {
   // Adds the filter's solution and clocks. Clocks that the filter does not estimate keep the values
   // of an earlier call in the same epoch.
   void add_state(const Ekf& filter);
-  // Adds the protection levels of the filter's solution and returns them from this epoch on.
-  LevelGrowth add_levels(const Ekf& filter, const IntegrityConfig& config);
+  // Adds the protection levels of the filter's solution, which allow for `faults`, and returns them
+  // from this epoch on.
+  LevelGrowth add_levels(const Ekf& filter, const FaultHypotheses& faults,
+                         const IntegrityConfig& config);
   // Replaces a solution that must not be published by an empty one.
   void clear_solution();
   // Completes the report and passes it to the sink, with `publishes_solution` its solution too.

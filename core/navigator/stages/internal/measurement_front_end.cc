@@ -1,7 +1,5 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
-#include <algorithm>
-
 #include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/positioning/point_solution.h"
 #include "core/navigator/interface/filter_estimate.h"
@@ -49,8 +47,9 @@ IndependentSolution MeasurementFrontEnd::solve(const EpochWork& work,
                                                const Eigen::Vector3d& approximate_p_e,
                                                ReceiverCodeBiases* biases) {
   IndependentSolution solution;
-  solution.point = solve_point(work.raw, ephemeris_store_, gnss_, robust_, approximate_p_e,
-                               point_measurements_.get(), biases);
+  solution.point =
+      solve_point(work.raw, ephemeris_store_, gnss_, robust_, approximate_p_e,
+                  point_measurements_.get(), biases, {excluded_.data(), excluded_.size()});
   point_measurements_->index = work.index;
   solution.accepted = is_accepted(solution.point);
   solution.measurements = point_measurements_.get();
@@ -70,6 +69,7 @@ IndependentSolution MeasurementFrontEnd::solve_without_biases(
 PreprocessAids MeasurementFrontEnd::aids(const Ekf& filter) {
   PreprocessAids aids;
   aids.biases = &code_biases_;
+  aids.faulty = {excluded_.data(), excluded_.size()};
   aids.antennas = &antennas_;
   if (use_carrier_) aids.carriers = &carriers_;
   // Satellite caps do not apply before the alignment: one to three satellites suffice for neither a
@@ -119,15 +119,6 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
   const bool predicted = approximate_p_e == filter.antenna_position_e();
   change_prior_ = change_prior(filter, predicted);
   carriers_.check_range_changes(approximate_p_e, change_prior_, measurements_.get());
-}
-
-void MeasurementFrontEnd::exclude(const ExcludedSatellites& satellites) {
-  for (Measurement& measurement : measurements_->measurements) {
-    if (!is_used(measurement.reason)) continue;
-    const SatelliteId of = measurements_->satellites[measurement.satellite_index].satellite;
-    if (std::find(satellites.begin(), satellites.end(), of) != satellites.end())
-      measurement.reason = Reason::kFaulty;
-  }
 }
 
 std::optional<double> MeasurementFrontEnd::update_carrier_speed() {

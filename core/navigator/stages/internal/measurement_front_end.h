@@ -32,13 +32,13 @@ class MeasurementFrontEnd {
   void add(const PreciseStates& states);
   void add(const KlobucharModel& klobuchar) { ephemeris_store_.set_klobuchar(klobuchar); }
   void add(const AntennaPattern& antenna) { antennas_.add(antenna); }
+  // Sets the satellites that neither measure() nor solve() uses from now on.
+  void exclude(const ExcludedSatellites& satellites) { excluded_ = satellites; }
 
   // Preprocesses the epoch at the filter's predicted position and tests the carriers against the
   // prediction. If the prediction is too uncertain to correct carriers, the position of a point
   // solution takes its place.
   void measure(const EpochWork& work, const Ekf& filter);
-  // Takes satellites out of what measure() has made, with the reason kFaulty.
-  void exclude(const ExcludedSatellites& satellites);
   // Returns the result of the last measure().
   const MeasurementEpoch& measurements() const { return *measurements_; }
   // Returns the horizontal speed of the antenna, m/s, from time-differenced carriers; nullopt:
@@ -77,6 +77,7 @@ class MeasurementFrontEnd {
   RobustConfig robust_;
   bool use_carrier_, inertial_;
   Eigen::Vector3d lever_arm_b_;
+  ExcludedSatellites excluded_;
   EphemerisStore ephemeris_store_;
   AntennaPatternStore antennas_;
   ReceiverCodeBiases code_biases_;

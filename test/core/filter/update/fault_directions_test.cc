@@ -1,5 +1,5 @@
 // The direction in which a faulty carrier moves the state, against a numerical least-squares fit.
-#include "core/filter/update/fault_direction.h"
+#include "core/filter/update/fault_directions.h"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -47,7 +47,7 @@ TEST_CASE("the direction of a faulty carrier is that of a least-squares fit") {
   const FilterMeasurements measurements = carriers();
   for (std::size_t k = 0; k < kCarriers; ++k) {
     CAPTURE(k);
-    const EkfCorrection direction = fault_direction(measurements, k, kSize + kCarriers);
+    const EkfCorrection direction = FaultDirections(measurements).state(k, kSize + kCarriers);
     const Eigen::VectorXd expected = fitted(measurements, k);
     CHECK((direction.segment<3>(kPosition) - expected.head<3>()).norm() < 1e-6);
     CHECK(std::abs(direction(kClock) - expected(3)) < 1e-6);
@@ -59,7 +59,7 @@ TEST_CASE("the direction of a faulty carrier is that of a least-squares fit") {
 
 TEST_CASE("no carrier shows the change, because the ambiguities make up for it") {
   const FilterMeasurements measurements = carriers();
-  const EkfCorrection direction = fault_direction(measurements, 2, kSize + kCarriers);
+  const EkfCorrection direction = FaultDirections(measurements).state(2, kSize + kCarriers);
   for (const FilterMeasurement& m : measurements)
     CHECK(std::abs(m.row.dot(direction.head<kSize>()) + direction(m.ambiguity)) < 1e-12);
 }

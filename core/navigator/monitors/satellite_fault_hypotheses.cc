@@ -1,0 +1,68 @@
+#include "core/navigator/monitors/satellite_fault_hypotheses.h"
+
+#include <array>
+
+#include "core/base/square.h"
+#include "core/earth/ellipsoid.h"
+#include "core/filter/state/covariance_blocks.h"
+#include "core/filter/update/fault_directions.h"
+#include "core/integrity/risk.h"
+
+namespace leonav {
+namespace {
+
+// A separation within so many of its own sigmas may be chance.
+constexpr double kChance = 3.0;
+
+// Whether |separation| and kChance of its sigmas are within one sigma of the filter, per axis.
+bool is_small(const FaultHypothesis& fault, const Eigen::Matrix3d& covariance_n) {
+  const Eigen::Array3d reach =
+      fault.separation_n.array().abs() +
+      kChance * fault.separation_covariance_n.diagonal().array().max(0.0).sqrt();
+  return (reach < covariance_n.diagonal().array().sqrt()).all();
+}
+
+}  // namespace
+
+FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
+                                           const MeasurementEpoch& epoch, const Ekf& filter,
+                                           const IntegrityConfig& config) {
+  FaultHypotheses faults;
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(filter.state().p_e));
+  const Eigen::Matrix3d covariance_n =
+      C_ne * position_covariance_e(filter.covariance()) * C_ne.transpose();
+  const auto probability = [&config](double rate_per_hour) {
+    return fault_probability(rate_per_hour, config.fault_exposure_s, config.error_correlation_s);
+  };
+  const auto add = [&](const FaultHypothesis& fault) {
+    if (fault.probability > 0.0 && faults.size() < faults.capacity() &&
+        !is_small(fault, covariance_n))
+      faults.push_back(fault);
+  };
+  std::array<FaultHypothesis, kSystemCount> systems{};
+  for (FaultHypothesis& system : systems)
+    system.probability = probability(config.system_faults_per_hour);
+  const FaultDirections directions(filter.measurements());
+  for (std::size_t i = 0; i < filter.measurements().size(); ++i) {
+    const FilterMeasurement& m = filter.measurements()[i];
+    if (m.observable != Observable::kCarrier || m.ambiguity < 0) continue;
+    const Measurement& measurement = epoch.measurements[m.index];
+    const SatelliteId satellite = epoch.satellites[measurement.satellite_index].satellite;
+    const auto followed = monitor.followed_range(satellite, measurement.code);
+    if (!followed) continue;
+    const Eigen::Vector3d per_metre_n = C_ne * directions.position_e(i);
+    FaultHypothesis fault;
+    fault.probability = probability(config.satellite_faults_per_hour);
+    fault.separation_n = followed->range_m * per_metre_n;
+    fault.separation_covariance_n =
+        square(followed->usual_m) * per_metre_n * per_metre_n.transpose();
+    add(fault);
+    FaultHypothesis& system = systems[index_of(satellite.system)];
+    system.separation_n += fault.separation_n;
+    system.separation_covariance_n += fault.separation_covariance_n;
+  }
+  for (const FaultHypothesis& system : systems) add(system);
+  return faults;
+}
+
+}  // namespace leonav
