@@ -4,7 +4,6 @@
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
-#include "core/filter/state/covariance_blocks.h"
 #include "core/filter/update/fault_directions.h"
 #include "core/integrity/risk.h"
 
@@ -25,12 +24,13 @@ bool is_small(const FaultHypothesis& fault, const Eigen::Matrix3d& covariance_n)
 }  // namespace
 
 FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
-                                           const MeasurementEpoch& epoch, const Ekf& filter,
+                                           const MeasurementEpoch& epoch,
+                                           const FilterMeasurements& measurements,
+                                           const PositionEstimate& estimate,
                                            const IntegrityConfig& config) {
   FaultHypotheses faults;
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(filter.state().p_e));
-  const Eigen::Matrix3d covariance_n =
-      C_ne * position_covariance_e(filter.covariance()) * C_ne.transpose();
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(estimate.p_e));
+  const Eigen::Matrix3d covariance_n = C_ne * estimate.covariance_e * C_ne.transpose();
   const auto probability = [&config](double rate_per_hour) {
     return fault_probability(rate_per_hour, config.fault_exposure_s, config.error_correlation_s);
   };
@@ -42,9 +42,9 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
   std::array<FaultHypothesis, kSystemCount> systems{};
   for (FaultHypothesis& system : systems)
     system.probability = probability(config.system_faults_per_hour);
-  const FaultDirections directions(filter.measurements());
-  for (std::size_t i = 0; i < filter.measurements().size(); ++i) {
-    const FilterMeasurement& m = filter.measurements()[i];
+  const FaultDirections directions(measurements);
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const FilterMeasurement& m = measurements[i];
     if (m.observable != Observable::kCarrier || m.ambiguity < 0) continue;
     const Measurement& measurement = epoch.measurements[m.index];
     const SatelliteId satellite = epoch.satellites[measurement.satellite_index].satellite;

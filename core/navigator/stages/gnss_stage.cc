@@ -3,6 +3,7 @@
 #include <optional>
 #include <variant>
 
+#include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/solution_conversion.h"
 #include "core/navigator/stages/internal/anchor_from_filter.h"
 #include "core/navigator/stages/internal/attitude_carry_over.h"
@@ -132,8 +133,9 @@ void GnssStage::update_filter(const EpochWork& work) {
 void GnssStage::test_satellites(const EpochWork& work, const EkfUpdateResult& update) {
   const FilterEvidence evidence = {work.time, update, front_end_.measurements(), ekf_};
   const auto fault = satellite_faults_.add(carrier_innovations(evidence), work.time);
-  fault_hypotheses_ = satellite_fault_hypotheses(satellite_faults_, front_end_.measurements(), ekf_,
-                                                 config_.integrity);
+  const PositionEstimate estimate = {ekf_.state().p_e, position_covariance_e(ekf_.covariance())};
+  fault_hypotheses_ = satellite_fault_hypotheses(satellite_faults_, front_end_.measurements(),
+                                                 ekf_.measurements(), estimate, config_.integrity);
   if (!fault) return;
   ekf_.allow_for_fault(fault->satellite, fault->followed_m, front_end_.measurements());
   reporter_.emit(EventKind::kSatelliteFault, static_cast<std::uint8_t>(fault->satellite.system),

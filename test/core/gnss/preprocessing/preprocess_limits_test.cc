@@ -1,4 +1,6 @@
 // Caps and capacities of the preprocessing, and what an epoch of 40 satellites costs.
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -84,6 +86,36 @@ TEST_CASE(
                                           Eigen::Vector3d::Zero(), epoch.get());
   CHECK(point.status == PointStatus::kOk);
   CHECK((point.p_e - receiver.p_e).norm() < 10.0);
+}
+
+TEST_CASE("a faulty satellite is neither measured nor solved with, and takes no place of a cap") {
+  const SimulatedReceiver receiver;
+  const SimulatedSky sky = sky_of({gps_walker()});
+  const auto epoch = std::make_unique<MeasurementEpoch>();
+  GnssConfig config = default_gnss_config();
+  preprocess(simulate_epoch(sky, receiver, 0.0), sky.ephemeris_store, config, receiver.p_e,
+             epoch.get());
+  const SatelliteId faulty =
+      std::max_element(epoch->satellites.begin(), epoch->satellites.end(),
+                       [](const auto& a, const auto& b) { return a.elevation < b.elevation; })
+          ->satellite;
+  const RawEpoch raw = simulate_epoch(sky, receiver, 0.0, [&](SignalObservation* o) {
+    if (o->satellite == faulty) o->pseudorange_m += 25.0;
+  });
+  const std::array excluded = {faulty};
+  RobustConfig robust;
+  robust.enabled = false;  // nothing else may leave it out
+  const PointSolution point = solve_point(raw, sky.ephemeris_store, config, robust,
+                                          Eigen::Vector3d::Zero(), epoch.get(), nullptr, excluded);
+  REQUIRE(point.status == PointStatus::kOk);
+  CHECK((point.p_e - receiver.p_e).norm() < 0.1);
+  CHECK(reasons_of(*epoch).at(faulty) == Reason::kFaulty);
+  const int cap = config.systems[index_of(System::kGps)].max_satellites = 4;
+  preprocess(raw, sky.ephemeris_store, config, receiver.p_e, epoch.get(), {.faulty = excluded});
+  const auto reasons = reasons_of(*epoch);
+  CHECK(reasons.at(faulty) == Reason::kFaulty);
+  CHECK(std::count_if(reasons.begin(), reasons.end(),
+                      [](const auto& entry) { return entry.second == Reason::kUsed; }) == cap);
 }
 
 TEST_CASE("more than a hundred satellites in one epoch are solved") {
