@@ -19,10 +19,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-// While the size of errors is learned quickly, the estimate rests on few epochs, all of which were
-// weighed with a size that may have been too small. Twice the learning time of the scales.
-constexpr double kErrorsYoung_s = 40.0;
-
 // 1 sigma of the attitude about north, east and down at `p_e`, rad.
 Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
@@ -55,10 +51,8 @@ void Ekf::reset() {
 
 void Ekf::initialize(GpsTime time, const PointSolution& given) {
   PointSolution point = given;
-  error_scales_ = mean_error_scales();
-  point.covariance_p_e *= square(error_scales_[0]);
-  point.covariance_v_e *= square(error_scales_[1]);
-  started_ = time;
+  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();
@@ -121,8 +115,6 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   make_room_for_new_arcs(epoch, &estimate_);
   inflate_disturbed_states(epoch, &estimate_);
   clocks_.restart_rejected(&estimate_);
-  if (learned_errors().learns() && seconds_between(epoch.time, started_) < kErrorsYoung_s)
-    scale_to_learned_errors(1.0);
 
   const AntennaMotion antenna = this->antenna();
   estimate_.to_antenna_parametrization(antenna);
@@ -155,27 +147,18 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
 }
 
 bool Ekf::fit_first_errors(const MeasurementEpoch& epoch) {
+  const auto scales = [this] {
+    return std::array{learned_errors().mean_scale(Observable::kCode),
+                      learned_errors().mean_scale(Observable::kDoppler)};
+  };
+  const auto before = scales();
   const InnovationTables tables =
       clock_removed_by_observable(assembler_.measurements(), covariance());
   bool fitted = assembler_.fit_first_errors(epoch, table_of(tables, Observable::kCode));
   fitted |= assembler_.fit_first_errors(epoch, table_of(tables, Observable::kDoppler));
-  if (fitted) scale_to_learned_errors(0.0);
+  const auto after = scales();
+  if (fitted) estimate_.scale_sigmas(after[0] / before[0], after[1] / before[1]);
   return fitted;
-}
-
-void Ekf::scale_to_learned_errors(double least_factor) {
-  const std::array now = mean_error_scales();
-  std::array<double, 2> factors{};
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    factors[i] = std::max(now[i] / error_scales_[i], least_factor);
-    error_scales_[i] *= factors[i];
-  }
-  if (factors[0] != 1.0 || factors[1] != 1.0) estimate_.scale_sigmas(factors[0], factors[1]);
-}
-
-std::array<double, 2> Ekf::mean_error_scales() const {
-  return {learned_errors().mean_scale(Observable::kCode),
-          learned_errors().mean_scale(Observable::kDoppler)};
 }
 
 void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,

@@ -148,11 +148,6 @@ class Ekf {
   // Fits the size of errors to the first epoch after the point solution, and the latter's sigmas
   // with it. Returns whether the measurements must be assembled again, with these sizes.
   bool fit_first_errors(const MeasurementEpoch& epoch);
-  // Scales the sigmas of what rests on the epochs so far to the sizes of errors learned since, but
-  // by no less than `least_factor`.
-  void scale_to_learned_errors(double least_factor);
-  // Of codes and Dopplers.
-  std::array<double, 2> mean_error_scales() const;
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
   // Inflates the covariance as the verdict says; where codes contradict the carriers' position, the
@@ -176,8 +171,6 @@ class Ekf {
   RobustUpdate robust_update_;
   std::array<double, kObservables> sigma_inflation_ = {1.0, 1.0, 1.0};  // in the last update
   bool errors_unknown_;  // of measurements: no epoch has been seen since reset()
-  std::array<double, 2> error_scales_ = {1.0, 1.0};  // that the sigmas of the estimate rest on
-  GpsTime started_;
   GpsTime last_update_;
   bool initialized_ = false;
 };

@@ -321,19 +321,13 @@ void StateEstimate::inflate_along(const EkfCorrection& error) {
 }
 
 void StateEstimate::scale_sigmas(double of_position, double of_velocity) {
-  const EkfCorrection before = covariance_.diagonal();
   EkfCorrection scales = EkfCorrection::Ones(covariance_.rows());
   scales.segment<3>(kPosition).setConstant(of_position);
-  scales.segment<kMaxSystemTimes>(kClock).setConstant(of_position);
-  scales.tail(scales.size() - state_.first_ambiguity()).setConstant(of_position);
   scales.segment<3>(kVelocity).setConstant(of_velocity);
-  scales.segment<kMaxSystemTimes>(kClockDrift).setConstant(of_velocity);
   for (Eigen::Index i = 0; i < covariance_.rows(); ++i) {
     covariance_.row(i) *= scales(i);
     covariance_.col(i) *= scales(i);
   }
-  if (process_.continuous)
-    process_.noise.diagonal() += (covariance_.diagonal() - before).cwiseMax(0.0);
 }
 
 void StateEstimate::inflate_ambiguity(int state, double sigma_m) {

@@ -99,8 +99,7 @@ class StateEstimate {
   void inflate_position(double sigma_m);
   // Adds an error of this size and direction, of either sign.
   void inflate_along(const EkfCorrection& error);
-  // Multiplies the sigmas of position, clock offsets and ambiguities, and those of velocity and
-  // clock drifts; correlations stay.
+  // Multiplies the sigmas of position and velocity, correlations stay.
   void scale_sigmas(double of_position, double of_velocity);
   void inflate_ambiguity(int state, double sigma_m);
 
