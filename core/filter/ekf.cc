@@ -49,6 +49,11 @@ void Ekf::reset() {
   initialized_ = false;
 }
 
+void Ekf::start_errors(double code_sigma_factor, double doppler_sigma_factor) {
+  if (errors_unknown_ && !initialized_)
+    assembler_.start_errors(code_sigma_factor, doppler_sigma_factor);
+}
+
 void Ekf::initialize(GpsTime time, const PointSolution& given) {
   PointSolution point = given;
   point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));

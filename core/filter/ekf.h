@@ -80,6 +80,9 @@ class Ekf {
   // Call it before initialize(), if the vehicle constants are not to survive that.
   void reset_vehicle_constants();
   bool initialized() const { return initialized_; }
+  // Takes what an earlier run has learned of the size of errors, as factors on the configured
+  // sigmas. Does nothing once errors have been seen.
+  void start_errors(double code_sigma_factor, double doppler_sigma_factor);
 
   // --- attitude from outside ---
   // Goes over to the inertial model. The covariance of position, velocity and clocks is kept; the

@@ -49,6 +49,9 @@ class MeasurementAssembler {
   const LearnedErrors& errors() const { return errors_; }
   LearnedSummary learned_summary() const { return errors_.summary(standing()); }
   void forget_errors() { errors_.reset(); }
+  void start_errors(double code_sigma_factor, double doppler_sigma_factor) {
+    errors_.start(code_sigma_factor, doppler_sigma_factor);
+  }
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }
   const FilterMeasurements& measurements() const { return measurements_; }

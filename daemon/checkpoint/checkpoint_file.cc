@@ -42,6 +42,8 @@ std::string text_of(const Checkpoint& checkpoint) {
       << "\nheading_sigma_deg: " << checkpoint.heading_sigma / kDegree << "\n";
   vector("gyro_bias_b_deg_per_h", checkpoint.gyro_bias_b / kDegreePerHour);
   out << "gyro_bias_sigma_deg_per_h: " << checkpoint.gyro_bias_sigma / kDegreePerHour
+      << "\ncode_sigma_factor: " << checkpoint.code_sigma_factor
+      << "\ndoppler_sigma_factor: " << checkpoint.doppler_sigma_factor
       << "\ncomplete: true\n";  // last: what was cut lacks it
   return out.str();
 }
@@ -63,10 +65,14 @@ Checkpoint parse(const std::string& text, const std::string& path) {
     root.number("heading_sigma_deg", kSigma, &checkpoint.heading_sigma, kDegree);
     root.vector("gyro_bias_b_deg_per_h", {-1e6, 1e6}, &checkpoint.gyro_bias_b, kDegreePerHour);
     root.number("gyro_bias_sigma_deg_per_h", kSigma, &checkpoint.gyro_bias_sigma, kDegreePerHour);
+    // Zero, and in files of older versions nothing, where errors are not learned.
+    root.number("code_sigma_factor", {0.0, 100.0}, &checkpoint.code_sigma_factor);
+    root.number("doppler_sigma_factor", {0.0, 100.0}, &checkpoint.doppler_sigma_factor);
     root.boolean("complete", &complete);
   });
   for (const ConfigKey& key : source.keys) {
-    if (!key.given) throw ConfigError(path + ": is damaged: " + key.path + " is missing");
+    if (!key.given && !key.path.ends_with("_sigma_factor"))
+      throw ConfigError(path + ": is damaged: " + key.path + " is missing");
   }
   checkpoint.time = GpsTime::from_week_and_tow(week, tow_s);
   if (!complete || check(checkpoint) != InputFault::kNone)

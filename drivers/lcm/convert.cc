@@ -147,7 +147,11 @@ InputFault convert(const antenna_t& from, AntennaPattern* to) {
   return is_storable(*to) ? InputFault::kNone : InputFault::kNotSane;
 }
 
-InputFault convert(const checkpoint_t& from, Checkpoint* to) {
+namespace {
+
+// What all versions of a checkpoint have.
+template <typename T>
+InputFault convert_place(const T& from, Checkpoint* to) {
   if (!is_time(from.time_ns) || from.standing < 0 || from.standing > 1)
     return InputFault::kOutOfRange;
   to->time = GpsTime::from_nanoseconds(from.time_ns);
@@ -161,6 +165,19 @@ InputFault convert(const checkpoint_t& from, Checkpoint* to) {
     to->gyro_bias_b[i] = from.gyro_bias_b[i];
   }
   return check(*to);
+}
+
+}  // namespace
+
+InputFault convert(const checkpoint_v1_t& from, Checkpoint* to) {
+  to->code_sigma_factor = to->doppler_sigma_factor = 0.0;
+  return convert_place(from, to);
+}
+
+InputFault convert(const checkpoint_t& from, Checkpoint* to) {
+  to->code_sigma_factor = from.code_sigma_factor;
+  to->doppler_sigma_factor = from.doppler_sigma_factor;
+  return convert_place(from, to);
 }
 
 }  // namespace leonav::wire

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <leonav/antenna_t.hpp>
 #include <leonav/checkpoint_t.hpp>
+#include <leonav/checkpoint_v1_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
 #include <leonav/precise_state_t.hpp>
@@ -35,5 +36,6 @@ InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);
 InputFault convert(const antenna_t& from, AntennaPattern* to);
 InputFault convert(const checkpoint_t& from, Checkpoint* to);
+InputFault convert(const checkpoint_v1_t& from, Checkpoint* to);
 
 }  // namespace leonav::wire

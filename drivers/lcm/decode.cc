@@ -5,6 +5,7 @@
 #include <cmath>
 #include <leonav/antenna_t.hpp>
 #include <leonav/checkpoint_t.hpp>
+#include <leonav/checkpoint_v1_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/gnss_epoch_t.hpp>
@@ -46,6 +47,7 @@ constexpr std::int32_t schema_of(const T&) {
 constexpr std::int32_t schema_of(const smoother_t&) {
   return static_cast<std::int32_t>(OutputSchema::kNewest);
 }
+constexpr std::int32_t schema_of(const checkpoint_t&) { return wire::kCheckpointSchema; }
 
 // Runs the generated decoder and checks that it used the whole message and that the schema is
 // known. Precondition: counts have been checked.
@@ -90,6 +92,15 @@ bool sort_and_drop_copies(RawEpoch* epoch) {
   const bool had_copies = kept != list.size();
   list.resize(kept);
   return had_copies;
+}
+
+// Reads a checkpoint in one of its versions.
+template <typename T>
+DecodeResult decode_checkpoint(ByteSpan bytes, Checkpoint* checkpoint) {
+  T message{};
+  InputFault fault = read(bytes, &message);
+  if (fault == InputFault::kNone) fault = wire::convert(message, checkpoint);
+  return result_of(message, fault);
 }
 
 // Reads a result of the smoother in one of its versions.
@@ -262,10 +273,10 @@ DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Checkpoint* checkpoint) {
-  checkpoint_t message{};
-  InputFault fault = read(bytes, &message);
-  if (fault == InputFault::kNone) fault = convert(message, checkpoint);
-  return result_of(message, fault);
+  const bool first = bytes.size() >= wire::kSchemaOffset + 4 &&
+                     wire::read_uint32(bytes, wire::kSchemaOffset) == wire::kSchema;
+  return first ? decode_checkpoint<checkpoint_v1_t>(bytes, checkpoint)
+               : decode_checkpoint<checkpoint_t>(bytes, checkpoint);
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {

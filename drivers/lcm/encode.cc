@@ -347,6 +347,7 @@ ByteSpan Encoder::encode(const Command& command, GpsTime time, std::uint64_t seq
 ByteSpan Encoder::encode(const Checkpoint& checkpoint, std::uint64_t sequence) {
   checkpoint_t message;
   set_header(checkpoint.time, sequence, &message);
+  message.schema = wire::kCheckpointSchema;
   message.standing = checkpoint.standing ? 1 : 0;
   copy(checkpoint.antenna_p_e, message.antenna_p_e);
   message.antenna_sigma_m = checkpoint.antenna_sigma;
@@ -354,6 +355,8 @@ ByteSpan Encoder::encode(const Checkpoint& checkpoint, std::uint64_t sequence) {
   message.heading_sigma_rad = checkpoint.heading_sigma;
   copy(checkpoint.gyro_bias_b, message.gyro_bias_b);
   message.gyro_bias_sigma = checkpoint.gyro_bias_sigma;
+  message.code_sigma_factor = checkpoint.code_sigma_factor;
+  message.doppler_sigma_factor = checkpoint.doppler_sigma_factor;
   return storage_->write(message);
 }
 

@@ -10,6 +10,7 @@
 namespace leonav::wire {
 
 inline constexpr std::int32_t kSchema = 1;
+inline constexpr std::int32_t kCheckpointSchema = 2;  // it has learned errors since
 // Of HEALTH. SOLUTION, EPOCH and SMOOTHER: output_schema.h.
 inline constexpr std::int32_t kHealthSchema = 2;
 

@@ -15,6 +15,8 @@ inline Checkpoint parked() {
   checkpoint.heading_sigma = 0.02;
   checkpoint.gyro_bias_b = {1e-4, -2e-4, 3e-4};
   checkpoint.gyro_bias_sigma = 5e-5;
+  checkpoint.code_sigma_factor = 3.5;
+  checkpoint.doppler_sigma_factor = 1.25;
   return checkpoint;
 }
 

@@ -55,6 +55,11 @@ void LearnedErrors::reset() {
   last_time_ = GpsTime();
 }
 
+void LearnedErrors::start(double code_sigma_factor, double doppler_sigma_factor) {
+  scale_.start(Observable::kCode, code_sigma_factor);
+  scale_.start(Observable::kDoppler, doppler_sigma_factor);
+}
+
 CorrelationModel LearnedErrors::carrier_correlation(double speed) const {
   if (!learns_) return {0.0, 0.0};
   return {kCarrierShare, std::clamp(kCarrierDistance_m / std::max(speed, 1e-3),

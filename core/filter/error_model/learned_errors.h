@@ -15,6 +15,8 @@ class LearnedErrors {
   explicit LearnedErrors(const EkfConfig& config);
   // Returns to what is configured.
   void reset();
+  // Takes factors on the configured sigmas from an earlier run, until errors are seen.
+  void start(double code_sigma_factor, double doppler_sigma_factor);
 
   bool learns() const { return learns_; }
   // Fits the size of one observable's errors to the first epoch, whose innovations are residuals of

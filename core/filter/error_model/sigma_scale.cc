@@ -46,6 +46,11 @@ SigmaScale::SigmaScale() {
       terms_[kind].base.value = std::log(kStartScale);
 }
 
+void SigmaScale::start(Observable observable, double scale) {
+  terms_[static_cast<std::size_t>(observable)].base.value =
+      std::clamp(std::log(scale), kSmallestLog, kLargestLog);
+}
+
 bool SigmaScale::fit_first(Observable observable, std::span<const Sample> samples) {
   if (samples.size() < kMinToStart) return false;
   Terms& terms = terms_[static_cast<std::size_t>(observable)];

@@ -1,4 +1,5 @@
-// Checkpoint holds what one run leaves for the next: antenna position, heading, and gyro bias.
+// Checkpoint holds what one run leaves for the next: antenna position, heading, gyro bias, and
+// sizes of errors.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -21,6 +22,8 @@ struct Checkpoint {
   double heading_sigma = 0.0;                             // rad
   Eigen::Vector3d gyro_bias_b = Eigen::Vector3d::Zero();  // rad/s
   double gyro_bias_sigma = 0.0;                           // rad/s, per axis
+  // Learned factors on the configured sigmas of codes and Dopplers (LearnedErrors); 0: none.
+  double code_sigma_factor = 0.0, doppler_sigma_factor = 0.0;
 };
 
 // Largest sigma (rad) of a heading that the next run accepts. Beyond it the next run finds a better

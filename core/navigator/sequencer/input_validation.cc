@@ -101,12 +101,17 @@ InputFault check(const Checkpoint& checkpoint) {
   const bool finite =
       checkpoint.antenna_p_e.allFinite() && checkpoint.gyro_bias_b.allFinite() &&
       std::isfinite(checkpoint.antenna_sigma) && std::isfinite(checkpoint.heading) &&
-      std::isfinite(checkpoint.heading_sigma) && std::isfinite(checkpoint.gyro_bias_sigma);
+      std::isfinite(checkpoint.heading_sigma) && std::isfinite(checkpoint.gyro_bias_sigma) &&
+      std::isfinite(checkpoint.code_sigma_factor) && std::isfinite(checkpoint.doppler_sigma_factor);
   if (!finite) return InputFault::kNotFinite;
   // From the polar radius minus the deepest valley to the equatorial radius plus the highest
   // flight.
   constexpr double kMinRadius_m = 6.35e6, kMaxRadius_m = 6.43e6, kMaxSigma_m = 1e5;
   constexpr double kMaxHeading = 6.3, kMaxBias = 1.0;  // rad, rad/s
+  constexpr double kMaxFactor = 100.0;
+  const auto is_factor = [](double factor) {
+    return factor == 0.0 || (factor >= 1.0 && factor <= kMaxFactor);
+  };
   const double radius_m = checkpoint.antenna_p_e.norm();
   const bool in_range =
       is_plausible(checkpoint.time) && radius_m > kMinRadius_m && radius_m < kMaxRadius_m &&
@@ -114,7 +119,8 @@ InputFault check(const Checkpoint& checkpoint) {
       std::abs(checkpoint.heading) <= kMaxHeading && checkpoint.heading_sigma > 0.0 &&
       checkpoint.heading_sigma <= kMaxCheckpointHeadingSigma &&
       checkpoint.gyro_bias_b.cwiseAbs().maxCoeff() <= kMaxBias &&
-      checkpoint.gyro_bias_sigma > 0.0 && checkpoint.gyro_bias_sigma <= kMaxBias;
+      checkpoint.gyro_bias_sigma > 0.0 && checkpoint.gyro_bias_sigma <= kMaxBias &&
+      is_factor(checkpoint.code_sigma_factor) && is_factor(checkpoint.doppler_sigma_factor);
   return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 

@@ -244,6 +244,8 @@ void GnssStage::set_heading(double heading, double sigma) {
 
 void GnssStage::process_work(const Checkpoint& checkpoint) {
   if (!inertial_) return;
+  if (checkpoint.code_sigma_factor > 0.0 && checkpoint.doppler_sigma_factor > 0.0)
+    ekf_.start_errors(checkpoint.code_sigma_factor, checkpoint.doppler_sigma_factor);
   attitude_.take_checkpoint(checkpoint);
   if (ekf_.has_attitude())
     reporter_.report_checkpoint(attitude_.discard_checkpoint(), last_epoch_time_);

@@ -65,6 +65,8 @@ TEST_CASE("a checkpoint comes back from its file; where there is none, that is n
   CHECK(loaded->heading_sigma == Approx(saved.heading_sigma));
   CHECK((loaded->gyro_bias_b - saved.gyro_bias_b).norm() < 1e-12);
   CHECK(loaded->gyro_bias_sigma == Approx(saved.gyro_bias_sigma));
+  CHECK(loaded->code_sigma_factor == saved.code_sigma_factor);
+  CHECK(loaded->doppler_sigma_factor == saved.doppler_sigma_factor);
   REQUIRE(remove_checkpoint(path).empty());
   CHECK_FALSE(load_checkpoint(path));
   CHECK(remove_checkpoint(path).empty());
@@ -95,6 +97,9 @@ TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
   CHECK(with("heading_deg", "").find("heading_deg is missing") != std::string::npos);
   CHECK(with("heading_deg", "heading_rad: 1").find("unknown key") != std::string::npos);
   CHECK(with("gps_week", "gps_week: -3").find("gps_week") != std::string::npos);
+  CHECK(with("code_sigma_factor", "").empty());  // a file of an older version
+  CHECK(with("code_sigma_factor", "code_sigma_factor: 200").find("code_sigma_factor") !=
+        std::string::npos);
   for (const char* bad :
        {"heading_sigma_deg: 0", "heading_sigma_deg: 30", "antenna_p_e_m: [1, 2, 3]",
         "antenna_sigma_m: 0", "complete: false", "gyro_bias_sigma_deg_per_h: 0"}) {

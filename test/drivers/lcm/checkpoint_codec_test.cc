@@ -1,6 +1,8 @@
 // A checkpoint comes back from the wire as it was; a hostile one does not.
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <leonav/checkpoint_v1_t.hpp>
 #include <limits>
 #include <vector>
 
@@ -30,6 +32,8 @@ TEST_CASE("a checkpoint survives the wire") {
   CHECK(got.heading_sigma == sent.heading_sigma);
   CHECK(got.gyro_bias_b == sent.gyro_bias_b);
   CHECK(got.gyro_bias_sigma == sent.gyro_bias_sigma);
+  CHECK(got.code_sigma_factor == sent.code_sigma_factor);
+  CHECK(got.doppler_sigma_factor == sent.doppler_sigma_factor);
   CHECK(channel_from_name("LEONAV_CHECKPOINT") == Channel::kCheckpoint);
   CHECK(is_input(Channel::kCheckpoint));
   CHECK_FALSE(is_input(Channel::kSolution));
@@ -53,6 +57,8 @@ TEST_CASE("a hostile checkpoint is refused, whatever is wrong with it") {
     CHECK(fault_of([&](Checkpoint* c) { c->heading_sigma = bad; }) == kNotFinite);
     CHECK(fault_of([&](Checkpoint* c) { c->gyro_bias_b.z() = bad; }) == kNotFinite);
     CHECK(fault_of([&](Checkpoint* c) { c->gyro_bias_sigma = bad; }) == kNotFinite);
+    CHECK(fault_of([&](Checkpoint* c) { c->code_sigma_factor = bad; }) == kNotFinite);
+    CHECK(fault_of([&](Checkpoint* c) { c->doppler_sigma_factor = bad; }) == kNotFinite);
   }
   CHECK(fault_of([](Checkpoint* c) { c->time = GpsTime(); }) == kOutOfRange);
   CHECK(fault_of([](Checkpoint* c) { c->time = GpsTime::from_nanoseconds(-1); }) == kOutOfRange);
@@ -66,6 +72,33 @@ TEST_CASE("a hostile checkpoint is refused, whatever is wrong with it") {
   CHECK(fault_of([](Checkpoint* c) { c->heading_sigma = 0.2; }) == kOutOfRange);
   CHECK(fault_of([](Checkpoint* c) { c->gyro_bias_b.x() = 2.0; }) == kOutOfRange);
   CHECK(fault_of([](Checkpoint* c) { c->gyro_bias_sigma = -1.0; }) == kOutOfRange);
+  CHECK(fault_of([](Checkpoint* c) { c->code_sigma_factor = 0.5; }) == kOutOfRange);
+  CHECK(fault_of([](Checkpoint* c) { c->doppler_sigma_factor = -2.0; }) == kOutOfRange);
+  CHECK(fault_of([](Checkpoint* c) { c->doppler_sigma_factor = 1e3; }) == kOutOfRange);
+  CHECK(fault_of([](Checkpoint* c) { c->code_sigma_factor = 0.0; }) == kNone);
+}
+
+TEST_CASE("a checkpoint of an older journal is read, without sizes of errors") {
+  const Checkpoint sent = parked();
+  checkpoint_v1_t message{};
+  message.time_ns = sent.time.nanoseconds();
+  message.sequence = 1;
+  message.schema = 1;
+  message.standing = 1;
+  std::copy(sent.antenna_p_e.begin(), sent.antenna_p_e.end(), message.antenna_p_e);
+  message.antenna_sigma_m = sent.antenna_sigma;
+  message.heading_rad = sent.heading;
+  message.heading_sigma_rad = sent.heading_sigma;
+  message.gyro_bias_sigma = sent.gyro_bias_sigma;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  Decoder decoder;
+  Checkpoint got = sent;
+  REQUIRE(decoder.decode(bytes, &got).fault == InputFault::kNone);
+  CHECK(got.heading == sent.heading);
+  CHECK(got.antenna_p_e == sent.antenna_p_e);
+  CHECK(got.code_sigma_factor == 0.0);
+  CHECK(got.doppler_sigma_factor == 0.0);
 }
 
 TEST_CASE("a checkpoint cut short, too long, or of another schema is refused") {
@@ -79,9 +112,11 @@ TEST_CASE("a checkpoint cut short, too long, or of another schema is refused") {
   bytes.push_back(0);
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kUndecodable);
   bytes.pop_back();
-  bytes[27] = 2;  // schema
+  bytes[27] = 3;  // schema
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kUnknownSchema);
-  bytes[27] = 1;
+  bytes[27] = 1;  // of another type
+  CHECK(decoder.decode(bytes, &got).fault == InputFault::kUndecodable);
+  bytes[27] = 2;
   bytes[28] = 2;  // standing
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kOutOfRange);
 }

@@ -29,6 +29,11 @@ Checkpoint checkpoint_from_filter(const EpochWork& work, const Ekf& filter,
   checkpoint.antenna_p_e = filter.antenna_position_e();
   checkpoint.antenna_sigma = position_sigma(filter);
   checkpoint.heading_sigma = std::numbers::pi;
+  const LearnedSummary learned = filter.learned_summary();
+  if (learned.learned) {
+    checkpoint.code_sigma_factor = learned.code.sigma_factor;
+    checkpoint.doppler_sigma_factor = learned.doppler.sigma_factor;
+  }
   if (!filter.has_attitude()) return checkpoint;
   checkpoint.heading = solution.yaw;
   checkpoint.heading_sigma = solution.sigma_rpy.z();

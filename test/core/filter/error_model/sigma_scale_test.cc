@@ -39,6 +39,18 @@ TEST_CASE("the scale of sigmas comes to what the errors are, but not below one")
   }
 }
 
+TEST_CASE("what an earlier run has learned holds until errors are seen, and a minute later no more") {
+  SigmaScale scale;
+  scale.start(Observable::kCode, 8.0);
+  CHECK(scale.scale(test::code_class(1)) == Approx(8.0));
+  CHECK(scale.mean_scale(Observable::kDoppler) == SigmaScale().mean_scale(Observable::kDoppler));
+  std::mt19937_64 random(1);
+  drive(&scale, test::code_class(1), 1.0, 60.0, &random);
+  CHECK(scale.scale(test::code_class(1)) < 1.5);
+  scale.start(Observable::kCode, 1e6);
+  CHECK(scale.mean_scale(Observable::kCode) < 31.0);
+}
+
 TEST_CASE("a street is entered within half a minute, and left within a minute") {
   std::mt19937_64 random(2);
   SigmaScale scale;
