@@ -39,7 +39,8 @@ TEST_CASE("the scale of sigmas comes to what the errors are, but not below one")
   }
 }
 
-TEST_CASE("what an earlier run has learned holds until errors are seen, and a minute later no more") {
+TEST_CASE(
+    "what an earlier run has learned holds until errors are seen, and a minute later no more") {
   SigmaScale scale;
   scale.start(Observable::kCode, 8.0);
   CHECK(scale.scale(test::code_class(1)) == Approx(8.0));
