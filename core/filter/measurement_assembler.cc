@@ -5,6 +5,7 @@
 
 #include "core/base/square.h"
 #include "core/filter/carrier_ambiguities.h"
+#include "core/filter/error_model/reflection_time.h"
 #include "core/filter/update/measurement_model.h"
 #include "core/gnss/measurement/range_model.h"
 
@@ -12,14 +13,6 @@ namespace leonav {
 
 using namespace ekf_index;
 using Eigen::Vector3d;
-
-namespace {
-
-// Another reflection is met when the direction of the satellite has turned by so much, rad: two
-// degrees.
-constexpr double kReflectionAngle = 0.035;
-
-}  // namespace
 
 void MeasurementAssembler::reset() {
   code_model_.reset();
@@ -96,8 +89,7 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   CorrelationModel correlation = measurement.observable == Observable::kCarrier
                                      ? errors_.carrier_correlation(speed_)
                                      : errors_.correlation(of);
-  if (line_of_sight_rate * correlation.time_s > kReflectionAngle)
-    correlation.time_s = kReflectionAngle / line_of_sight_rate;
+  correlation.time_s = std::min(correlation.time_s, longest_reflection_s(line_of_sight_rate));
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;
   if (measurement.observable == Observable::kCode)

@@ -25,7 +25,7 @@ struct IntegrityConfig {
   // Time after which errors are independent. The shorter, the more often an hour tries its luck.
   double error_correlation_s = 10.0;
   Overbound overbound;
-  // Undetected faults that begin in an hour: of one satellite, and of all of a system at once.
+  // Faults that begin in an hour: of one satellite, and of all satellites of a system at once.
   double satellite_faults_per_hour = 1e-4, system_faults_per_hour = 1e-4;
   // Time from the begin of a fault until it is detected, or its effect is gone.
   double fault_exposure_s = 600.0;

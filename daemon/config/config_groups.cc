@@ -190,15 +190,15 @@ void read_robust(ConfigReader& group, RobustConfig* config) {
 }
 
 void read_integrity(ConfigReader& group, IntegrityConfig* config) {
-  constexpr Bounds kAlertLimit = {0.0, 1e6};
+  constexpr Bounds kAlertLimit = {0.0, 1e6}, kFaultRate = {0.0, 1e-3};
   group.number("risk_per_hour", {1e-12, 0.1}, &config->risk_per_hour);
   group.number("error_correlation_s", {0.01, 3600.0}, &config->error_correlation_s);
   group.number("sigma_factor", {0.1, 100.0}, &config->overbound.sigma_factor);
   group.number("tail_share", {0.0, 0.5}, &config->overbound.tail_share);
   group.number("tail_factor", {1.0, 100.0}, &config->overbound.tail_factor);
-  group.number("satellite_faults_per_hour", {0.0, 1.0}, &config->satellite_faults_per_hour);
-  group.number("system_faults_per_hour", {0.0, 1.0}, &config->system_faults_per_hour);
-  group.number("fault_exposure_s", {1.0, 1e5}, &config->fault_exposure_s);
+  group.number("satellite_faults_per_hour", kFaultRate, &config->satellite_faults_per_hour);
+  group.number("system_faults_per_hour", kFaultRate, &config->system_faults_per_hour);
+  group.number("fault_exposure_s", {1.0, 3600.0}, &config->fault_exposure_s);
   group.number("horizontal_alert_limit_m", kAlertLimit, &config->horizontal_alert_limit_m);
   group.number("vertical_alert_limit_m", kAlertLimit, &config->vertical_alert_limit_m);
 }

@@ -15,7 +15,7 @@ constexpr std::string_view kEpochsHeader =
     "gps_week,gps_tow_s,epoch,empty,source,satellites,pdop,hdop,vdop,clock_gps_m,clock_galileo_m,"
     "clock_beidou_m,clock_leo_m,drift_gps_m_s,drift_galileo_m_s,drift_beidou_m_s,drift_leo_m_s,nis,"
     "nis_degrees,wet_delay_m,std_wet_delay_m,code_sigma_factor,code_correlation_s,"
-    "doppler_sigma_factor,doppler_correlation_s";
+    "doppler_sigma_factor,doppler_correlation_s,fault_hypotheses";
 constexpr std::string_view kSatellitesHeader =
     "gps_week,gps_tow_s,satellite,reason,used,elevation_deg,azimuth_deg,cn0_dbhz,ephemeris_age_s,"
     "orbit,arc,arc_started,arc_causes";
@@ -119,7 +119,7 @@ void ResultFiles::add(const EpochReport& report) {
       .number(report.wet_delay_sigma_m, 4);
   for (const LearnedError& error : {report.learned_errors.code, report.learned_errors.doppler})
     epochs_.number(error.sigma_factor, 3).number(error.correlation_time_s, 2);
-  epochs_.end_row();
+  epochs_.number(static_cast<double>(report.fault_hypotheses.size()), 0).end_row();
   write_satellites(report);
   write_measurements(report);
   write_constraints(report);

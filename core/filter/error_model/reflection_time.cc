@@ -1,0 +1,19 @@
+#include "core/filter/error_model/reflection_time.h"
+
+#include <limits>
+#include <numbers>
+
+namespace leonav {
+namespace {
+
+// One and four degrees give the same accuracy in simulated streets.
+constexpr double kReflectionAngle = 2.0 * std::numbers::pi / 180.0;
+
+}  // namespace
+
+double longest_reflection_s(double line_of_sight_rate) {
+  return line_of_sight_rate > 0.0 ? kReflectionAngle / line_of_sight_rate
+                                  : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace leonav
