@@ -39,7 +39,7 @@ def bars(group, rows, results, site):
         pairs = [spread.of(results[row.name], "rmse", i) or (np.nan, 0.0) for row in rows]
         axis.bar(x + 0.27 * (i - 1), [p[0] for p in pairs], 0.25, yerr=[p[1] for p in pairs], label=name, capsize=2)
         theirs = [row.published.rmse[i] if row.published and row.published.rmse[i] else np.nan for row in rows]
-        axis.plot(x + 0.27 * (i - 1), theirs, "k_", markersize=12, label="published" if i == 0 else None)
+        axis.plot(x + 0.27 * (i - 1), theirs, "k_", markersize=12, label="published, another drive" if i == 0 else None)
     axis.set_xticks(x, [row.title for row in rows], rotation=20, ha="right", fontsize=8)
     axis.set_ylabel("RMSE, m")
     axis.grid(axis="y", alpha=0.3)
