@@ -267,8 +267,8 @@ print(report.gain_lines(pair, {pair[0].name: {1: result(2.0), 2: result(9.0)}, p
   CHECK(has(said,
             "improves (+5 %) | +34 %: MISSED (from N, E and U +12 %: MISSED) | cause not known"));
   CHECK(has(said,
-            "+12 %: MISSED) | LEO stands behind our houses; laid over the drive without them, as "
-            "in the paper, and masked at 5 degrees, +50 % (`open-carrier-bds-leo-ins`) |"));
+            "+12 %: MISSED) | LEO stands behind our houses; without them, as in the paper, and "
+            "masked at 5 degrees, +50 % (`open-carrier-bds-leo-ins`) |"));
   CHECK(has(said,
             "not reached: ['| `carrier-bds-ins` → `carrier-bds-leo-ins` | 2.00 m | 1.90 m | "
             "1 | 1 | improves (+5 %) | +34 %: MISSED (from N, E and U +12 %: MISSED) | cause not "
@@ -283,8 +283,8 @@ print(report.gain_lines(pair, {pair[0].name: {1: result(2.0), 2: result(9.0)}, p
             "reached | - |"));
   CHECK(has(said, "smoother, not published: []"));
   CHECK(has(said,
-            "improves (+5 %) | +47 %: MISSED | LEO stands behind our houses; laid over the drive "
-            "without them, as in the paper, and masked at 5 degrees, +75 % by the filter "
+            "improves (+5 %) | +47 %: MISSED | LEO stands behind our houses; without them, as in "
+            "the paper, and masked at 5 degrees, +75 % by the filter "
             "(`open-low-gps-leo-ins`); LEO adds 1.0 satellites here, 7.5 in the paper"));
   CHECK(has(said, "| 49 % / 59 % / 13 % / - by the factor graph |"));
   CHECK(has(said, "| 300 s | 90 s | 3 | 3 | improves (+70 %) | - | - |"));

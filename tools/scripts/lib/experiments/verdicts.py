@@ -74,7 +74,7 @@ def houses_text(verdict, others):
     for other in others:
         if other.row.housed is (verdict.row.filter or verdict.row) and other.ours is not None and other.ours >= verdict.theirs:
             whose = "" if verdict.row.filter is None else " by the filter"
-            return ("LEO stands behind our houses; laid over the drive without them, as in the paper, and masked at 5 degrees, "
+            return ("LEO stands behind our houses; without them, as in the paper, and masked at 5 degrees, "
                     f"{100.0 * other.ours:+.0f} %{whose} (`{other.row.name}`)")
     return ""
 
