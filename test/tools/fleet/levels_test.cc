@@ -99,6 +99,8 @@ for line in levels.groups_of(runs)[0].lines():
     print(f"{line.risk_per_hour:g} {line.stated} {line.multiple:.3f} hours {line.hours:g} epochs {line.epochs} events {line.events} runs {line.runs}",
           f"allowed {line.allowed():g} one {line.confidence():.6f} independent {line.confidence_if_independent():.6f} rate {line.rate():.4f}",
           f"at most {line.rate_at_most():.4f}")
+many = levels.Line("heading", 1.0, False, 3.9, 0.4, hours=6.0, epochs=900, events=48, runs=14, replays=12.0)
+print("many", many.confidence() == many.confidence_if_independent() < levels.confidence_of(4, 0.5))
 sums = levels.summed(r for _, r in runs)["horizontal"]
 print(sums.epochs, sums.misleading, sums.largest_ratio, sums.available(1), dict(sums.diagram))
 print(levels.diagrams(runs))
@@ -116,6 +118,7 @@ print(levels.availability([r for _, r in runs]))
   CHECK(has(said,
             "1 False 4.406 hours 0.6 epochs 6 events 2 runs 2 allowed 0.6 one 0.007926 independent "
             "0.023115 rate 3.3333 at most 15.7395\n"));
+  CHECK(has(said, "many True\n"));
   CHECK(has(said, "2160 2 1.17 1002 {(20, 60): 2155, (80, 60): 5}\n"));
   CHECK(has(said,
             "'limits': [{'limit_m': 1, 'nominal': 1000, 'misleading': 0, 'hazardous': 2, "

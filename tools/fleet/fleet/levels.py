@@ -161,8 +161,9 @@ class Line:
         return self.risk_per_hour * self.hours
 
     def confidence(self):
-        """Where all replays of one log tell no more than one of them."""
-        return confidence_of(math.ceil(self.events / self.replays - 1e-9), self.allowed() / self.replays)
+        """Where all replays of one log tell no more than one of them; never more than if all told something new."""
+        as_one = confidence_of(math.ceil(self.events / self.replays - 1e-9), self.allowed() / self.replays)
+        return min(as_one, self.confidence_if_independent())
 
     def confidence_if_independent(self):
         return confidence_of(self.events, self.allowed())
