@@ -57,6 +57,7 @@ ErrorSample error_of(const TrackPoint& solution, TrackPoint truth, const ErrorOp
   const Eigen::Vector3d ned = C_ne * (to_ecef(solution.position) - to_ecef(truth.position));
   sample.neu = {ned.x(), ned.y(), -ned.z()};
   sample.sigma_neu = solution.sigma_neu;
+  sample.sigma_yaw = solution.sigma_yaw;
   sample.levels = solution.levels;
   if (solution.v_n && truth.v_n) {
     const Eigen::Vector3d v = *solution.v_n - *truth.v_n;

@@ -31,6 +31,7 @@ struct ErrorSample {
   bool yaw_from_course = false;                   // the reference was course over ground
   bool steady_course = false;                     // below max_course_rate, if that is set
   std::optional<Eigen::Vector3d> sigma_neu;       // m, as the solution states it
+  std::optional<double> sigma_yaw;                // rad, as the solution states it
   StatedLevels levels;
   double horizontal() const { return neu.head<2>().norm(); }
   double three_d() const { return neu.norm(); }

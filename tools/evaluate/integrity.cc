@@ -20,7 +20,15 @@ bool is_hazardous(const LevelSample& sample, double limit_m) {
   return sample.level <= limit_m && sample.error > limit_m;
 }
 
-// Counts a block once where any of its epochs is misleading or hazardous.
+// Returns the error in tenths of its sigma, rounded down; nullopt where no sigma is stated.
+std::optional<int> tenths_of_sigma(const LevelSample& sample) {
+  if (!sample.sigma) return std::nullopt;
+  constexpr double kMostTenths = 1e6;  // a sigma may be 0
+  return static_cast<int>(std::min(kMostTenths, std::floor(10.0 * sample.error / *sample.sigma)));
+}
+
+// Counts a block once where any of its epochs is misleading or hazardous, and by its largest
+// multiple of sigma.
 void count_block(const LevelSample* begin, const LevelSample* end, IntegrityCounts* counts) {
   ++counts->blocks;
   const auto any = [&](auto is) { return std::any_of(begin, end, is) ? 1U : 0U; };
@@ -28,6 +36,10 @@ void count_block(const LevelSample* begin, const LevelSample* end, IntegrityCoun
   for (AlertLimitCounts& limit : counts->limits)
     limit.hazardous_blocks +=
         any([&](const LevelSample& s) { return is_hazardous(s, limit.limit_m); });
+  std::optional<int> largest;  // nothing is smaller than an empty one
+  for (const LevelSample* s = begin; s != end; ++s)
+    largest = std::max(largest, tenths_of_sigma(*s));
+  if (largest) ++counts->multiples[*largest].blocks;
 }
 
 std::int64_t block_of(const LevelSample& sample, double block_s) {
@@ -62,24 +74,40 @@ void add(const IntegrityCounts& from, IntegrityCounts* to) {
   to->blocks += from.blocks;
   to->misleading_blocks += from.misleading_blocks;
   to->largest_ratio = std::max(to->largest_ratio, from.largest_ratio);
+  to->observed_s += from.observed_s;
+  for (const auto& [tenths, counts] : from.multiples) {
+    to->multiples[tenths].epochs += counts.epochs;
+    to->multiples[tenths].blocks += counts.blocks;
+  }
+  for (const auto& [bins, epochs] : from.diagram) to->diagram[bins] += epochs;
   for (std::size_t i = 0; i < to->limits.size(); ++i) add(from.limits.at(i), &to->limits[i]);
 }
 
 }  // namespace
 
+int diagram_bin(double metres) {
+  constexpr double kSmallest_m = 0.001, kBinsPerDecade = 20.0, kLast = 239.0;
+  const double bin = std::floor(kBinsPerDecade * std::log10(metres / kSmallest_m));
+  return static_cast<int>(std::clamp(bin, 0.0, kLast));
+}
+
 std::vector<LevelSample> horizontal_samples(const std::vector<ErrorSample>& errors) {
   std::vector<LevelSample> samples;
-  for (const ErrorSample& error : errors)
-    if (error.levels.horizontal_m)
-      samples.push_back({error.time, error.horizontal(), *error.levels.horizontal_m});
+  for (const ErrorSample& error : errors) {
+    if (!error.levels.horizontal_m) continue;
+    samples.push_back({error.time, error.horizontal(), *error.levels.horizontal_m, {}});
+    if (error.sigma_neu) samples.back().sigma = error.sigma_neu->head<2>().norm();
+  }
   return samples;
 }
 
 std::vector<LevelSample> vertical_samples(const std::vector<ErrorSample>& errors) {
   std::vector<LevelSample> samples;
-  for (const ErrorSample& error : errors)
-    if (error.levels.vertical_m)
-      samples.push_back({error.time, std::abs(error.neu.z()), *error.levels.vertical_m});
+  for (const ErrorSample& error : errors) {
+    if (!error.levels.vertical_m) continue;
+    samples.push_back({error.time, std::abs(error.neu.z()), *error.levels.vertical_m, {}});
+    if (error.sigma_neu) samples.back().sigma = error.sigma_neu->z();
+  }
   return samples;
 }
 
@@ -87,7 +115,8 @@ std::vector<LevelSample> heading_samples(const std::vector<ErrorSample>& errors)
   std::vector<LevelSample> samples;
   for (const ErrorSample& error : errors)
     if (error.levels.heading && error.rpy[2] && !error.yaw_from_course)
-      samples.push_back({error.time, std::abs(*error.rpy[2]), *error.levels.heading});
+      samples.push_back(
+          {error.time, std::abs(*error.rpy[2]), *error.levels.heading, error.sigma_yaw});
   return samples;
 }
 
@@ -100,6 +129,8 @@ IntegrityCounts count_integrity(const std::vector<LevelSample>& samples,
     counts.misleading += sample.is_misleading() ? 1 : 0;
     if (sample.level > 0.0)
       counts.largest_ratio = std::max(counts.largest_ratio, sample.error / sample.level);
+    if (const auto tenths = tenths_of_sigma(sample)) ++counts.multiples[*tenths].epochs;
+    if (!limits_m.empty()) ++counts.diagram[{diagram_bin(sample.error), diagram_bin(sample.level)}];
     for (AlertLimitCounts& limit : counts.limits) count(sample, &limit);
   }
   count_blocks(samples, block_s, &counts);
@@ -121,6 +152,8 @@ IntegrityEvaluation evaluate_integrity(const std::string& label, const Compariso
       comparison.expected_epochs - std::min(comparison.expected_epochs, comparison.without_truth);
   for (IntegrityCounts* counts : {&evaluation.horizontal, &evaluation.vertical})
     counts->expected = std::max(counts->epochs, with_truth);
+  for (auto* counts : {&evaluation.horizontal, &evaluation.vertical, &evaluation.heading})
+    counts->observed_s = static_cast<double>(counts->epochs) * comparison.interval_s;
   return evaluation;
 }
 

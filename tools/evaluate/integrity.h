@@ -5,17 +5,21 @@
 // 54(2), 2007). Counts of several runs can be added up.
 #pragma once
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/evaluate/errors.h"
 
 namespace leonav {
 
-// An error, as absolute value, with the level that should bound it. m or rad.
+// An error, as absolute value, with the level that should bound it and its stated sigma. m or rad.
 struct LevelSample {
   GpsTime time;
   double error = 0.0, level = 0.0;
+  std::optional<double> sigma = {};  // horizontal: the root of the sum of both variances
 
   bool is_misleading() const { return error > level; }
 };
@@ -34,6 +38,13 @@ struct AlertLimitCounts {
   std::size_t available() const { return nominal + misleading + hazardous; }
 };
 
+// Epochs, and blocks, whose (largest) error is so many tenths of its sigma, rounded down.
+struct MultipleCounts {
+  std::size_t epochs = 0, blocks = 0;
+
+  bool operator==(const MultipleCounts&) const = default;
+};
+
 // The counts of one quantity.
 struct IntegrityCounts {
   std::size_t expected = 0;    // epochs that should have an answer, where there is a truth
@@ -43,7 +54,10 @@ struct IntegrityCounts {
   // of its epochs is.
   std::size_t blocks = 0, misleading_blocks = 0;
   double largest_ratio = 0.0;  // of an error to its level
+  double observed_s = 0.0;     // the epochs' number times their spacing
   std::vector<AlertLimitCounts> limits;
+  std::map<int, MultipleCounts> multiples;  // by tenths of sigma: how errors exceed other levels
+  std::map<std::pair<int, int>, std::size_t> diagram;  // epochs by bins of error and level
 };
 
 // Where the counts of a run are cut.
@@ -59,12 +73,17 @@ struct IntegrityEvaluation {
   IntegrityCounts heading;  // without alert limits
 };
 
+// Returns the bin of an error or a level in a Stanford diagram: 20 a decade, the first from 1 mm
+// on.
+int diagram_bin(double metres);
+
 // These return the epochs with an error and a level. Headings count where the truth has a heading.
 std::vector<LevelSample> horizontal_samples(const std::vector<ErrorSample>& errors);
 std::vector<LevelSample> vertical_samples(const std::vector<ErrorSample>& errors);
 std::vector<LevelSample> heading_samples(const std::vector<ErrorSample>& errors);
 
-// Counts one quantity; `limits_m` may be empty. Precondition: times increase.
+// Counts one quantity; `limits_m` may be empty, and then there is no diagram. Precondition: times
+// increase.
 IntegrityCounts count_integrity(const std::vector<LevelSample>& samples,
                                 const std::vector<double>& limits_m, double block_s);
 

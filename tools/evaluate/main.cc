@@ -35,7 +35,8 @@ int body(int argc, char** argv) {
       "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
       "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
   arguments.option("--truth", "FILE", "truth.csv to judge by")
-      .option("--json", "FILE", "write the numbers, with the CDF, as JSON too")
+      .option("--json", "FILE",
+              "write the numbers as JSON too, with the CDF; with --integrity: with histograms")
       .option("--convergence-bound", "M",
               "3D error that counts as converged when ten epochs in a row stay below", "3")
       .flag("--remove-offset",

@@ -46,18 +46,36 @@ std::string limit_json(const AlertLimitCounts& limit) {
       limit.unavailable_misleading, limit.hazardous_blocks);
 }
 
+// Returns the lists that other levels and diagrams are counted from, each with its smallest first.
+std::string histograms_json(const IntegrityCounts& counts) {
+  std::string out = "],\n   \"multiples\": [";
+  const char* comma = "";
+  for (const auto& [tenths, of] : counts.multiples) {
+    out += format("%s[%d, %zu, %zu]", comma, tenths, of.epochs, of.blocks);
+    comma = ", ";
+  }
+  out += "],\n   \"diagram\": [";
+  comma = "";
+  for (const auto& [bins, epochs] : counts.diagram) {
+    out += format("%s[%d, %d, %zu]", comma, bins.first, bins.second, epochs);
+    comma = ", ";
+  }
+  return out + "]}";
+}
+
 std::string quantity_json(const char* name, const IntegrityCounts& counts) {
   std::string out = format(
       ",\n  \"%s\": {\"expected\": %zu, \"epochs\": %zu, \"misleading\": %zu, \"blocks\": %zu, "
-      "\"misleading_blocks\": %zu, \"largest_ratio\": %.5f,\n   \"misleading_at_most\": %.8g, "
+      "\"misleading_blocks\": %zu, \"largest_ratio\": %.5f, \"observed_s\": %.3f,\n   "
+      "\"misleading_at_most\": %.8g, "
       "\"misleading_blocks_at_most\": %.8g, \"limits\": [",
       name, counts.expected, counts.epochs, counts.misleading, counts.blocks,
-      counts.misleading_blocks, counts.largest_ratio,
+      counts.misleading_blocks, counts.largest_ratio, counts.observed_s,
       upper_bound_of_share(counts.misleading, counts.epochs),
       upper_bound_of_share(counts.misleading_blocks, counts.blocks));
   for (std::size_t i = 0; i < counts.limits.size(); ++i)
     out += (i == 0 ? "\n    " : ",\n    ") + limit_json(counts.limits[i]);
-  return out + "]}";
+  return out + histograms_json(counts);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace leonav {
 namespace {
 
 TrackPoint to_point(const TruthPoint& row) {
-  return {row.time, row.position, row.v_n, {row.roll, row.pitch, row.yaw}, std::nullopt, {}};
+  return {row.time, row.position, row.v_n, {row.roll, row.pitch, row.yaw}, std::nullopt, {}, {}};
 }
 
 void report(const CsvReport& csv, SkippedRows* skipped) {
@@ -31,7 +31,7 @@ Track load_solution(const std::string& path, SkippedRows* skipped) {
   if (looks_like_pos(path)) {
     const PosFile pos = read_pos(path);
     for (const PosRow& row : pos.rows) {
-      track.push_back({row.time, row.position, std::nullopt, {}, row.sigma_neu, {}});
+      track.push_back({row.time, row.position, std::nullopt, {}, row.sigma_neu, {}, {}});
     }
     if (skipped != nullptr && pos.skipped > 0) {
       *skipped = {pos.skipped, static_cast<long>(pos.rows.size()),
@@ -44,6 +44,7 @@ Track load_solution(const std::string& path, SkippedRows* skipped) {
   for (const SolutionRow& row : solution.rows) {
     TrackPoint point = to_point(row.pva);
     point.sigma_neu = row.sigma_p_n;
+    if (row.sigma_rpy) point.sigma_yaw = row.sigma_rpy->z();
     point.levels = {row.horizontal_protection_m, row.vertical_protection_m, row.heading_protection};
     track.push_back(point);
   }

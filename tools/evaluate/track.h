@@ -23,6 +23,7 @@ struct TrackPoint {
   std::optional<Eigen::Vector3d> v_n;        // m/s, north east down
   std::array<std::optional<double>, 3> rpy;  // rad: roll, pitch, yaw
   std::optional<Eigen::Vector3d> sigma_neu;  // m, 1 sigma
+  std::optional<double> sigma_yaw;           // rad
   StatedLevels levels;
 };
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "daemon/config/effective_config.h"
 #include "tools/common/configuration_options.h"
 #include "tools/replay/configuration.h"
 #include "tools/replay/journal_scan.h"
@@ -30,7 +31,7 @@ Arguments declare() {
   arguments
       .option("--out", "DIR",
               "folder for solution.csv, epochs.csv, satellites.csv, "
-              "measurements.csv, events.csv and summary.txt")
+              "measurements.csv, events.csv, summary.txt and configuration.yaml")
       .option("--rate", "HZ",
               "rows of solution.csv from the continuous solution at this rate "
               "instead of one per epoch")
@@ -94,6 +95,13 @@ std::string verdict(const ReplayRun& run, const JournalScan& scan, bool inertial
   return no_answer(run, scan, inertial);
 }
 
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
 int replay(int argc, char** argv) {
   Arguments arguments = declare();
   if (!arguments.parse(argc, argv)) return 0;
@@ -111,6 +119,7 @@ int replay(int argc, char** argv) {
     std::cerr << "leonav-replay: " << options.log << kCutShort;
   }
   std::filesystem::create_directories(options.out_folder);
+  write_text(options.out_folder + "/configuration.yaml", effective_text(config.source));
   ReplayRun run(config, options, scan);
   run.run();
 
@@ -127,11 +136,7 @@ int replay(int argc, char** argv) {
   const std::string failure = verdict(run, scan, inertial, other_run, summary);
   if (!failure.empty()) summary << "failure: " << failure << "\n";
   std::cout << summary.str();
-  const std::string path = options.out_folder + "/summary.txt";
-  std::ofstream file(path);
-  file << summary.str();
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  write_text(options.out_folder + "/summary.txt", summary.str());
   if (!failure.empty()) throw std::runtime_error(failure);
   return 0;
 }

@@ -118,6 +118,11 @@ TEST_CASE("--set acts on a journal's configuration as on a file; a preset beneat
   CHECK(has(car.out, "the journal was written with --set 'vehicle.lever_arm_b_m=["));
   CHECK(has(car.out, "]' --set vehicle.kind=handheld"));
   CHECK_FALSE(has(car.out, "non_holonomic"));
+  // The configuration that it ran with is beside the tables, and loads as the same.
+  const std::string told = test::text_of(folder.beside("out/configuration.yaml"));
+  CHECK(has(told, "kind: car"));
+  CHECK(has(told, "risk_per_hour: 1e-05"));
+  CHECK_NOTHROW(load_config_text(told, "told", {}));
   const auto preset = replay("--set preset=car");
   CHECK(preset.exit_code == 2);
   CHECK(has(preset.err, "--set preset=car: a preset is beneath"));

@@ -175,6 +175,9 @@ esac
             "horizontal.limits.3_m.hazardous 1."));
   CHECK(has(report, "0 warnings"));
   CHECK(has(report, "4 runs, 1 failed"));
+  CHECK(has(report, "Levels of risk 1e-05 per hour"));
+  CHECK(has(report, "| horizontal | 58 | 0.00 | 3 | 0 of 0 | 1.200 |"));
+  CHECK_FALSE(std::filesystem::exists(out + "/stanford.json"));
 }
 
 TEST_CASE("Wrong words to the fleet are named", "[tools][fleet]") {

@@ -80,6 +80,48 @@ TEST_CASE("A matrix has a row a scene and estimator, with its verdict; logs do n
       "4 runs to do, 0 already there"));
 }
 
+TEST_CASE("A matrix holds errors against their levels, and draws them where it can",
+          "[tools][fleet]") {
+  if (!have_fleet()) return;
+  const TemporaryFile file("small.yaml", matrix_text());
+  const std::string out = file.beside("out");
+  const std::string all = words(file.path(), LEONAV_BIN_DIR, out,
+                                "--rows 'open/*' --resume --set integrity.risk_per_hour=1e-4 --set "
+                                "integrity.tail_share=0");
+  CHECK(fleet(all).exit_code == 0);
+  const std::string report = text_of(out + "/report.md");
+  INFO(report);
+  CHECK(has(report,
+            "Levels of risk 0.0001 per hour, errors independent after 10 s, sigma factor 1, tail 0 "
+            "% of 2 sigma. Runs: 4, logs: 2.\n"));
+  CHECK(has(report,
+            "| horizontal | 0.0001, configured | as stated (at least 5.27 sigma) | 1.000 | "));
+  CHECK(has(report, "| vertical | 1 | 2.99 sigma | 0.582 | "));
+  CHECK(has(report,
+            "| scene | systems | epochs expected | horizontal level at most 1 / 3 / 10 m, % "));
+  CHECK(has(report, "| open | GPS | "));
+  CHECK(has(report, "| all scenes | all together | "));
+  CHECK_FALSE(has(text_of(out + "/report.json"), "\"multiples\""));
+  CHECK(has(text_of(out + "/report.json"), "\"confidence_if_independent\""));
+  const std::string sums = text_of(out + "/stanford.json");
+  CHECK(has(sums, "\"diagram\": [["));
+  const std::string picture = out + "/stanford_horizontal.png";
+  if (shell("/usr/bin/python3 -c 'import matplotlib'").exit_code == 0)
+    CHECK(std::filesystem::file_size(picture) > 1000);
+  // Without the package the report is the same, and no picture of an earlier call stays.
+  const TemporaryFile absent("matplotlib.py", "raise ImportError('No module named matplotlib')\n");
+  const std::string folder = std::filesystem::path(absent.path()).parent_path();
+  const ProgramRun without =
+      shell("PYTHONPATH='" + folder + "' timeout 300 '" LEONAV_BIN_DIR "/leonav-fleet' " + all);
+  INFO(without.err);
+  CHECK(without.exit_code == 0);
+  CHECK(
+      has(without.err, "no Stanford diagrams: leonav-integrity-plots: No module named matplotlib"));
+  CHECK(text_of(out + "/report.md") == report);
+  CHECK(text_of(out + "/stanford.json") == sums);
+  CHECK_FALSE(std::filesystem::exists(picture));
+}
+
 TEST_CASE("A worker that is lost in a matrix changes nothing", "[tools][fleet]") {
   if (!have_fleet()) return;
   const TemporaryFile file("small.yaml", matrix_text());

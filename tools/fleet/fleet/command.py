@@ -1,5 +1,6 @@
 """The command line of leonav-fleet."""
 import argparse
+import contextlib
 import json
 import os
 import re
@@ -14,7 +15,9 @@ from . import engine, logs, matrix, matrix_report, programs, progress, replays, 
 PROGRAM = "leonav-fleet"
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 DESCRIPTION = """Replays many logs, several at a time, and judges each: OUT/report.md and OUT/report.json have a row a run (errors
-north, east, up, stated sigmas against them, availability, misses, resets, warnings), totals, and what failed.
+north, east, up, stated sigmas against them, availability, misses, resets, warnings), totals, what failed, and how often
+errors exceed their protection levels: of the configured risk and of larger ones, with the confidence of each number, and
+Stanford diagrams OUT/stanford_horizontal.png and OUT/stanford_vertical.png (with python3-matplotlib).
 
 A log's truth is NAME.truth.csv or truth.csv beside it; one without is replayed and not judged. With --matrix the logs
 are simulated: every scene of the file with every seed, each replayed by every estimator and then deleted; a row of the
@@ -146,6 +149,19 @@ def results_of(fleet, groups):
     shown.end()
 
 
+def draw(diagrams, options):
+    """Stanford diagrams of all runs together; where they cannot be drawn the call goes on and says why."""
+    for name in ("stanford_horizontal.png", "stanford_vertical.png"):
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(os.path.join(options.out, name))  # of an earlier call
+    if diagrams is None:
+        return
+    words = [sys.executable, os.path.join(ROOT, "tools", "report", "leonav-integrity-plots"), "--out", options.out, diagrams]
+    drawn = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if drawn.returncode != 0:
+        print(f"{PROGRAM}: no Stanford diagrams: {(drawn.stderr.strip() or 'no words').splitlines()[-1]}", file=sys.stderr)
+
+
 def run_logs(options):
     """Returns the report's path and what went wrong."""
     found = logs.named(options.logs)
@@ -161,7 +177,8 @@ def run_logs(options):
         jobs = [engine.Job(name, replays.replay, bench, estimator, name, found[name], truths[name]) for name in by_size]
         groups = [engine.Group(job.name, [job]) for job in jobs]
         results = [result for _, _, result in results_of(fleet, groups)]
-    path = report.write(options.out, programs.shell_line(["leonav-replay", *estimator.words()]), results)
+    path, diagrams = report.write(options.out, programs.shell_line(["leonav-replay", *estimator.words()]), results)
+    draw(diagrams, options)
     failed = sum(r["failure"] is not None for r in results)
     return path, [f"{failed} of {len(results)} runs failed; {path} names them"] if failed else []
 
@@ -207,7 +224,8 @@ def run_matrix(options):
         print(f"{sum(len(group.jobs) for group in groups)} runs to do, {len(results)} already there", file=sys.stderr)
         for _, job, result in results_of(fleet, groups):
             results[job.row] = result
-    path, rows = matrix_report.write(options.out, table, results)
+    path, diagrams, rows = matrix_report.write(options.out, table, results)
+    draw(diagrams, options)
     failed = sum(r["failure"] is not None for r in results.values())
     missed = sum(bool(row.missed()) for row in rows)
     wrong = [f"{failed} of {len(results)} runs failed; {path} names them"] if failed else []

@@ -4,7 +4,7 @@ import os
 import statistics
 
 from . import matrix as matrices
-from . import measure, programs, report
+from . import levels, measure, programs, report
 
 AXES = measure.AXES
 
@@ -82,13 +82,29 @@ class Row:
                 "worst_3d": measure.rounded(worst), "worst_seed": seed, "pooled": self.pooled,
                 "share": [measure.rounded(v) for v in self.shares()], "worst_share": [measure.rounded(v) for v in self.worst_shares()],
                 "limits_missed": [limit.text for limit, _ in self.missed()],
-                "runs": [{"seed": seed, **{k: v for k, v in r.items() if k != "definition"}} for seed, r in sorted(self.results.items())]}
+                "runs": [{"seed": seed, **report.plain_run(r)} for seed, r in sorted(self.results.items())]}
 
 
 def rows_of(matrix, results):
     """`results` by (row's name, seed)."""
     return [Row(scene, variant, {seed: results[matrices.row_name(scene, variant), seed] for seed in matrix.seeds})
             for scene, variant in matrix.rows()]
+
+
+def judged_of(rows):
+    """(log, result) of every run with numbers. Rows of one scene replay the same logs."""
+    return [((row.scene.name, seed), r) for row in rows for seed, r in sorted(row.good.items()) if r.get("judged")]
+
+
+def availability_parts(matrix, rows):
+    """((scene, value of the first axis), results) of each scene, and of all scenes, over what else the axes vary."""
+    values = list(dict.fromkeys(row.variant.values[0] for row in rows))
+    scenes = list(dict.fromkeys(row.scene.name for row in rows))
+    parts = [((scene, value), [row for row in rows if (row.scene.name, row.variant.values[0]) == (scene, value)])
+             for scene in scenes for value in values]
+    parts += [(("all scenes", value), [row for row in rows if row.variant.values[0] == value]) for value in values]
+    parts.append((("all scenes", "all together"), rows))
+    return [(cells, [r for _, r in judged_of(some)]) for cells, some in parts if some]
 
 
 def verdict_lines(matrix, rows):
@@ -117,6 +133,7 @@ def markdown(matrix, rows):
     lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
     failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
     lines += report.failed_lines(failed)
+    lines += levels.section(judged_of(rows), ["scene", matrix.axes[0]], availability_parts(matrix, rows))
     lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]
     for scene in matrix.scenes:
         settings = programs.with_settings(scene.settings_of(matrix.seeds[0], matrix.advance_s))
@@ -128,11 +145,13 @@ def markdown(matrix, rows):
 
 
 def write(out, matrix, results):
-    """Returns the path of report.md and the rows."""
+    """Returns the path of report.md, that of stanford.json or None, and the rows."""
     rows = rows_of(matrix, results)
     plain = {"title": matrix.title, "seeds": matrix.seeds, "settle_s": matrix.settle_s, "skipped": matrix.skipped,
-             "rows": [row.plain() for row in rows]}
+             "rows": [row.plain() for row in rows], "protection_levels": levels.plain(judged_of(rows)),
+             "level_availability": [{"scene": scene, "value": value, **levels.availability(results)}
+                                    for (scene, value), results in availability_parts(matrix, rows)]}
     programs.write_atomically(os.path.join(out, "report.json"), json.dumps(plain, indent=1, sort_keys=True) + "\n")
     path = os.path.join(out, "report.md")
     programs.write_atomically(path, markdown(matrix, rows))
-    return path, rows
+    return path, report.write_diagrams(out, judged_of(rows)), rows

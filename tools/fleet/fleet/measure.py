@@ -5,6 +5,7 @@ import math
 import re
 
 import numpy as np
+import yaml
 
 WEEK_S = 604800.0
 SEMI_MAJOR_AXIS, ECCENTRICITY_SQUARED = 6378137.0, 6.69437999014e-3
@@ -145,6 +146,18 @@ def integrity_of(path):
         return {key: value for key, value in read.items() if isinstance(value, dict)}
     except (OSError, ValueError, LookupError, AttributeError) as error:
         raise MeasureError(f"{path}: {type(error).__name__}: {error}; not what leonav-eval --integrity --json writes") from None
+
+
+def integrity_model_of(path):
+    """What decides about the multiple of its sigma that a level is, of the configuration.yaml of leonav-replay; None: there is none."""
+    try:
+        with open(path) as file:
+            read = yaml.safe_load(file)["integrity"]
+        return {name: float(read[name]) for name in ("risk_per_hour", "error_correlation_s", "sigma_factor", "tail_share", "tail_factor")}
+    except FileNotFoundError:
+        return None  # of an older leonav-replay
+    except (OSError, yaml.YAMLError, ValueError, LookupError, TypeError) as error:
+        raise MeasureError(f"{path}: {type(error).__name__}: {error}; not what leonav-replay writes") from None
 
 
 def counted(summary):

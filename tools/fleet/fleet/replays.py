@@ -9,7 +9,7 @@ import tempfile
 from . import measure, programs
 
 NO_LEVEL = "states no protection level"  # leonav-eval's words
-FORMAT = 1  # of the results' files: one more where their content changes
+FORMAT = 2  # of the results' files: one more where their content changes
 
 
 @dataclasses.dataclass(frozen=True)
@@ -140,6 +140,7 @@ def measured(bench, estimator, folder, log, truth):
     result |= {"judged": True, **measure.evaluated(numbers)}
     if bench.integrity and result["integrity"] is None:
         result["integrity"] = integrity(bench, evaluate, folder, result["warnings"])
+    result["integrity_model"] = measure.integrity_model_of(os.path.join(folder, "configuration.yaml")) if result["integrity"] else None
     errors, stated = measure.errors_of(solution, truth, bench.settle_s)
     if errors.shape[1] != result["epochs"]:
         result["warnings"].append(f"leonav-eval compares {result['epochs']} epochs, the sigmas are of {errors.shape[1]}")

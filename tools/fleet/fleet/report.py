@@ -3,7 +3,7 @@ import json
 import math
 import os
 
-from . import measure, programs
+from . import levels, measure, programs
 
 AXES = measure.AXES
 
@@ -45,14 +45,16 @@ def pooled(results):
 def integrity(results):
     """Sums of the whole numbers that leonav-eval counts, named by their places as in horizontal.misleading; None: none.
 
-    In a list, each group is named by its limit_m.
+    In a list, each group is named by its limit_m. The largest ratio is that of all. Lists of bins are levels.py's.
     """
     sums = {}
 
     def add(value, name):
         if isinstance(value, dict):
             for key, inner in value.items():
-                if key != "limit_m":
+                if key == "largest_ratio":
+                    sums[f"{name}.{key}"] = max(sums.get(f"{name}.{key}", 0.0), inner)
+                elif key not in ("limit_m", "multiples", "diagram"):
                     add(inner, f"{name}.{key}" if name else key)
         elif isinstance(value, list):
             for place, inner in enumerate(value):
@@ -149,22 +151,43 @@ def warning_lines(results):
 
 def markdown(words, results):
     good = [r for r in results if r["failure"] is None]
-    lines = ["# Runs", "", f"`{words}`", "", *totals_lines(totals(results)), "", *failed_lines(results)]
+    judged = judged_of(results)
+    lines = ["# Runs", "", f"`{words}`", "", *totals_lines(totals(results)), "", *failed_lines(results),
+             *levels.section(judged, ["runs"], [(["all"], [r for _, r in judged])])]
     if good:
         lines += ["## Worst runs first", "", *HEADER, *(row(r) for r in worst_first(good)), ""]
     return "\n".join(lines + warning_lines(results))
 
 
+def judged_of(results):
+    """(log, result) of those with numbers: every run has a log of its own."""
+    return [(r["name"], r) for r in results if r["failure"] is None and r.get("judged")]
+
+
+def write_diagrams(out, judged):
+    """stanford.json, for leonav-integrity-plots. Returns its path; None: there is nothing to be drawn."""
+    if not levels.has_diagram(judged):
+        return None
+    path = os.path.join(out, "stanford.json")
+    programs.write_atomically(path, json.dumps(levels.diagrams(judged), sort_keys=True) + "\n")
+    return path
+
+
 def plain(words, results):
     """What report.json holds; the definitions stay in the files of the runs."""
-    runs = [{key: value for key, value in r.items() if key != "definition"} for r in results]
-    return {"configuration": words, "totals": totals(results), "runs": runs}
+    judged = judged_of(results)
+    return {"configuration": words, "totals": totals(results), "runs": [plain_run(r) for r in results],
+            "protection_levels": levels.plain(judged), "level_availability": levels.availability(r for _, r in judged)}
+
+
+def plain_run(result):
+    return {key: value for key, value in levels.without_lists(result).items() if key != "definition"}
 
 
 def write(out, words, results):
-    """Returns the path of report.md."""
+    """Returns the paths of report.md and of stanford.json, or None for that."""
     results = sorted(results, key=lambda r: r["name"])
     programs.write_atomically(os.path.join(out, "report.json"), json.dumps(plain(words, results), indent=1, sort_keys=True) + "\n")
     path = os.path.join(out, "report.md")
     programs.write_atomically(path, markdown(words, results))
-    return path
+    return path, write_diagrams(out, judged_of(results))

@@ -163,4 +163,5 @@ def main():
                         print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin, told_from))
 
 
-main()
+if __name__ == "__main__":
+    main()
