@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/square.h"
+#include "core/filter/error_model/error_correlation.h"
 #include "core/filter/state/ambiguities.h"
 
 namespace leonav {
@@ -14,11 +15,15 @@ constexpr int kMinContinuousArcs = 5;
 constexpr int kContinuousPerBroken = 10;
 constexpr double kFrequentBreaksMemory_s = 600.0;  // a receiver with frequent breaks goes on so
 constexpr double kNewArcs_s = 5.0;
+constexpr double kMemoryShare = 0.05, kLongestLasting_s = 20.0;
+constexpr double kMeanOfGains_s = 10.0, kLeastGain = 1e-4;
 
 }  // namespace
 
 void CodeVarianceModel::reset() {
   weighting_.clear();
+  mean_gain_ = 1.0;
+  position_memory_s_ = 0.0;
   new_arcs_until_ = frequent_arc_breaks_until_ = GpsTime();
 }
 
@@ -27,9 +32,17 @@ void CodeVarianceModel::accept(const FilterMeasurements& measurements) {
     if (measurement.factor > 0.0) weighting_.accept(measurement.code_weighting_entry);
 }
 
+void CodeVarianceModel::add_update(double before, double after, double interval_s) {
+  if (!(before > 0.0) || !(interval_s > 0.0)) return;
+  const double gain = std::clamp(1.0 - after / before, kLeastGain, 1.0);
+  mean_gain_ += (gain - mean_gain_) * std::min(interval_s / kMeanOfGains_s, 1.0);
+  position_memory_s_ = interval_s / mean_gain_;
+}
+
 void CodeVarianceModel::begin_epoch(const MeasurementEpoch& epoch, const Ambiguities& ambiguities,
                                     GpsTime last_update) {
   continuity_ = evaluate_carrier_continuity(epoch, ambiguities, last_update);
+  interval_s_ = seconds_between(epoch.time, last_update);
   if (continuity_ == CarrierContinuity::kNone) weighting_.clear();
 }
 
@@ -60,6 +73,15 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
   return lasts(new_arcs_until_) ? CarrierContinuity::kNewArcs : CarrierContinuity::kContinuous;
 }
 
+double CodeVarianceModel::inflated(double variance, double lasting_variance, double lasting_s,
+                                   double inflation) const {
+  const double lasting = std::min(lasting_variance, variance);
+  const double counted_s =
+      std::min({lasting_s, kMemoryShare * position_memory_s_, kLongestLasting_s});
+  const double of_lasting = std::max(inflation, variance_inflation({1.0, counted_s}, interval_s_));
+  return inflation * (variance - lasting) + of_lasting * lasting;
+}
+
 void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& code,
                               double inflation, double correlation_time_ratio,
                               FilterMeasurement* entry) {
@@ -67,7 +89,8 @@ void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& 
   const double correlated = square(code.correlated_sigma);
   if (continuity_ == CarrierContinuity::kNone || !(correlated > 0.0) ||
       !(code.correlation_time_s > 0.0)) {
-    entry->gain_variance = inflation * entry->variance;
+    entry->gain_variance = inflated(entry->variance, correlated,
+                                    correlation_time_ratio * code.correlation_time_s, inflation);
     return;
   }
   ColoredCodeWeighting::CodeErrorModel error_model;

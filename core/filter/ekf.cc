@@ -26,6 +26,11 @@ Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
+// Sum over the axes, m^2.
+double position_variance(const EkfCovariance& P) {
+  return P.diagonal().segment<3>(kPosition).sum();
+}
+
 }  // namespace
 
 Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& lever_arm_b)
@@ -139,8 +144,10 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   test_prediction(epoch, antenna, &result);
   report_innovations(&result);
 
+  const double before = position_variance(covariance());
   const RobustUpdateResult update = estimate_.correct(
       config_.robust, antenna, assembler_.mutable_measurements(), &robust_update_);
+  assembler_.add_update(before, position_variance(covariance()));
   sigma_inflation_ = update.sigma_inflation;
   report_update(update, epoch, &result);
   if (!measurements().empty()) last_update_ = epoch.time;
@@ -198,8 +205,8 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
   if (!result->prediction_suspect) {
-    for (const Observable observable : {Observable::kCode, Observable::kDoppler})
-      assembler_.learn(epoch, table_of(tables, observable));
+    assembler_.learn_codes(epoch, covariance().topLeftCorner<3, 3>());
+    assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
     assembler_.finish_learning(epoch.time);
   }
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})

@@ -135,6 +135,8 @@ class Ekf {
   Eigen::Vector3d vertical_antenna_offset_e() const;
   // What has been learned of the errors of its measurements.
   const LearnedErrors& learned_errors() const { return assembler_.errors(); }
+  // Returns whether carriers, and not codes, have kept the position since the last update.
+  bool carriers_keep_position() const { return assembler_.carriers_keep_position(); }
   LearnedSummary learned_summary() const { return assembler_.learned_summary(); }
 
   // --- for the smoother ---

@@ -30,6 +30,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   if (!epoch.approximate_p_e.isZero()) off_e = epoch.approximate_p_e - antenna.p_e;
   antenna.p_e += off_e;
   const double dt = seconds_between(epoch.time, last_update);
+  interval_s_ = dt;
   speed_ = config_.static_point ? 0.0 : antenna.v_e.norm();
   measurements_.clear();
   excluded_.clear();

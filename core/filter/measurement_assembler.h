@@ -41,12 +41,21 @@ class MeasurementAssembler {
   bool fit_first_errors(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
     return errors_.fit_first(epoch, measurements_, innovations, standing());
   }
-  // Learns from the innovations of codes or Dopplers of measurements(), and ends the epoch.
-  void learn(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
-    errors_.add(epoch, measurements_, innovations, standing());
+  // Tells how an update with measurements() has changed the variance of the position, m^2.
+  void add_update(double before, double after) {
+    code_model_.add_update(before, after, interval_s_);
+  }
+  // Learns from the codes of measurements(), or from the innovations of Dopplers, and ends the
+  // epoch.
+  void learn_codes(const MeasurementEpoch& epoch, const Eigen::Matrix3d& position_covariance_e) {
+    errors_.add_codes(epoch, measurements_, position_covariance_e, standing());
+  }
+  void learn_dopplers(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
+    errors_.add_dopplers(epoch, measurements_, innovations, standing());
   }
   void finish_learning(GpsTime time) { errors_.end_epoch(time); }
   const LearnedErrors& errors() const { return errors_; }
+  bool carriers_keep_position() const { return code_model_.carriers_keep_position(); }
   LearnedSummary learned_summary() const { return errors_.summary(standing()); }
   void forget_errors() { errors_.reset(); }
   void start_errors(double code_sigma_factor, double doppler_sigma_factor) {
@@ -75,8 +84,9 @@ class MeasurementAssembler {
   LearnedErrors errors_;
   FilterMeasurements measurements_;
   ExcludedMeasurements excluded_;
-  double speed_ = 0.0;  // of the antenna, m/s, at measurements_
-  GpsTime epoch_time_;  // of measurements_
+  double interval_s_ = 0.0;  // from the update before to measurements_
+  double speed_ = 0.0;       // of the antenna, m/s, at measurements_
+  GpsTime epoch_time_;       // of measurements_
   int arcs_without_capacity_ = 0;
 };
 

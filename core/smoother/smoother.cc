@@ -11,9 +11,11 @@ using Eigen::Index;
 
 constexpr std::size_t kEnoughSatellites = 4;
 constexpr double kSettledWeights = 1e-2;  // weights have converged when no factor changes more
-// The window has diverged if it is this far from the filter, in sigmas of both and in metres.
-constexpr double kAstraySigmas = 30.0;
-constexpr double kAstray_m = 100.0;
+// The window has diverged if it is farther from the filter than the sigmas of both together, and
+// than this. Two estimates from the same measurements differ by less than the less accurate one is
+// wrong: the variance of their difference is P_filter - P_window where both are efficient (Hausman,
+// Econometrica 46(6), 1978).
+constexpr double kSmallestDivergence_m = 0.3;
 // Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
 // then, and a few satellites would outvote the others.
 constexpr double kVague_m = 5.0;
@@ -145,7 +147,7 @@ void Smoother::finish(SmootherResult* result) {
   const double sigma_m =
       filter_sigma_m_ + std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
   if (!result->covariance.allFinite() ||
-      !(apart_m < std::max(kAstray_m, kAstraySigmas * sigma_m))) {
+      !(apart_m < std::max(kSmallestDivergence_m, sigma_m))) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }

@@ -86,7 +86,8 @@ void read_gnss(ConfigReader& group, GnssConfig* config) {
   group.number("cn0_mask_dbhz", {0.0, 60.0}, &config->cn0_mask_dbhz);
   group.choice<CodeCombination>("code_combination",
                                 {{"ionosphere_free", CodeCombination::kIonosphereFree},
-                                 {"single_frequency", CodeCombination::kSingleFrequency}},
+                                 {"single_frequency", CodeCombination::kSingleFrequency},
+                                 {"automatic", CodeCombination::kAutomatic}},
                                 &config->code_combination);
   group.choice<WeightModel>("weight_model",
                             {{"elevation", WeightModel::kElevation},

@@ -12,12 +12,9 @@ constexpr std::array<double, 15> kTimes_s = {1.5,  2.1,  3.0,  4.2,  6.0,  8.5, 
                                              24.0, 34.0, 48.0, 68.0, 96.0, 136.0, 192.0};
 constexpr double kMemory_s = 240.0;
 constexpr double kSpacing_s = 0.9;  // samples of a signal that are kept are this far apart
-constexpr double kLimit = 3.0;      // of a standardized innovation
+constexpr double kLimit = 5.0;      // of a standardized innovation
 // Pairs that what is known beforehand counts as.
 constexpr double kPriorPairs = 150.0;
-// An innovation is not used where the predicted variance exceeds this share of the measurement's:
-// while a filter starts, its prediction contains the very errors that are to be seen.
-constexpr double kMostPredicted = 0.1;
 constexpr double kLeastVariance = 0.05;
 
 // Returns the bin of a lag: 1, 2, 3-4, 5-8, ... s.
@@ -81,6 +78,9 @@ CorrelationModel fit(const Correlogram<kBins>& correlogram) {
       best = {share, time_s};
     }
   }
+  // Errors smaller than their sigma cost a mean less: their correlated part is a smaller share of
+  // it.
+  best.share *= std::min(correlogram.variance, 1.0);
   return best;
 }
 
@@ -135,7 +135,6 @@ ErrorCorrelation::History* ErrorCorrelation::history_of(const Sample& sample, Gp
 }
 
 void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
-  if (sample.predicted_ratio > kMostPredicted) return;
   History* history = history_of(sample, time);
   if (history == nullptr) return;
   if (history->last.is_set() && seconds_between(time, history->last) < kSpacing_s) return;
@@ -143,7 +142,7 @@ void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
   const double u = std::clamp(sample.ratio, -kLimit, kLimit);
   Lags& lags = lags_[sample.of.observable][sample.of.motion][sample.of.elevation];
   lags[0].count += 1.0;
-  lags[0].product += u * u - sample.predicted_ratio;
+  lags[0].product += u * u;
   for (std::size_t i = 0; i < history->count; ++i) {
     const Past& past = history->past[i];
     if (past.motion != sample.of.motion) continue;
@@ -151,9 +150,9 @@ void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
     Lag& lag = lags[bin_of(lag_s, kLags)];
     lag.count += 1.0;
     lag.lag_s += lag_s;
-    lag.product += u * past.ratio - std::sqrt(sample.predicted_ratio * past.predicted_ratio);
+    lag.product += u * past.ratio;
   }
-  history->past[history->next] = {time, u, sample.predicted_ratio, sample.of.motion};
+  history->past[history->next] = {time, u, sample.of.motion};
   history->next = (history->next + 1) % kHistory;
   history->count = std::min(history->count + 1, kHistory);
 }

@@ -36,8 +36,7 @@ class ErrorCorrelation {
     SatelliteId satellite;
     SignalCode code;
     ErrorClass of;
-    double ratio = 0.0;            // u
-    double predicted_ratio = 0.0;  // h P h^T / sigma^2
+    double ratio = 0.0;  // u
   };
 
   // By observable and motion.
@@ -69,7 +68,7 @@ class ErrorCorrelation {
   using Lags = std::array<Lag, kLags>;
   struct Past {
     GpsTime time;
-    double ratio = 0.0, predicted_ratio = 0.0;
+    double ratio = 0.0;
     std::size_t motion = 0;
   };
   struct History {

@@ -5,12 +5,17 @@
 #include <cmath>
 
 #include "core/base/square.h"
+#include "core/filter/error_model/epoch_residuals.h"
 
 namespace leonav {
 namespace {
 
 // Fewer innovations are mostly what their own median is.
 constexpr std::size_t kMinInnovations = 5;
+// Least share of an innovation's variance that is the measurement's, for its correlation.
+constexpr double kLeastMeasuredShare = 0.9;
+// A residual shows too little of its measurement's own error below this redundancy.
+constexpr double kLeastRedundancy = 0.1;
 constexpr std::size_t kSolved = 4;  // unknowns of a point solution
 constexpr double kLongestInterval_s = 10.0;
 
@@ -42,6 +47,11 @@ ErrorCorrelation::Priors configured(const EkfConfig& config) {
   priors[static_cast<std::size_t>(Observable::kDoppler)] = prior(
       config.doppler_correlation_time_s, {kDopplerShare, kDopplerTime_s}, kDopplerStandingTimes);
   return priors;
+}
+
+// Errors of a satellite in low orbit change with its direction, within seconds.
+bool lasts_as_in_medium_orbit(const SatelliteInView& satellite) {
+  return satellite.satellite.system != System::kLeo;
 }
 
 }  // namespace
@@ -84,22 +94,35 @@ bool LearnedErrors::fit_first(const MeasurementEpoch& epoch, const FilterMeasure
   return scale_.fit_first(observable, {samples.data(), samples.size()});
 }
 
-void LearnedErrors::add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                        const ClockRemovedInnovations& innovations, bool standing) {
-  if (!learns_ || innovations.size() < kMinInnovations) return;
-  for (const ClockRemovedInnovation& entry : innovations) {
-    const FilterMeasurement& used = measurements[entry.index];
-    const Measurement& measurement = epoch.measurements[used.index];
+void LearnedErrors::add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                              const Eigen::Matrix3d& position_covariance_e, bool standing) {
+  if (!learns_) return;
+  for (const EpochResidual& entry : code_residuals(measurements, position_covariance_e)) {
+    if (entry.redundancy < kLeastRedundancy) continue;
+    const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
     const ErrorClass of = error_class(measurement, satellite, standing);
-    const double measured = entry.measured_variance;
-    const double predicted = std::max(entry.variance - measured, 0.0);
-    scale_.add(
-        {of, square(entry.innovation) / entry.variance, std::min(measured / entry.variance, 1.0)});
-    // Errors of a satellite in low orbit change with its direction, within seconds.
-    if (satellite.satellite.system == System::kLeo) continue;
+    const double ratio = entry.residual / std::sqrt(entry.variance);
+    scale_.add({of, square(ratio), entry.redundancy});
+    if (lasts_as_in_medium_orbit(satellite))
+      correlation_.add({satellite.satellite, measurement.code, of, ratio}, epoch.time);
+  }
+}
+
+void LearnedErrors::add_dopplers(const MeasurementEpoch& epoch,
+                                 const FilterMeasurements& measurements,
+                                 const ClockRemovedInnovations& innovations, bool standing) {
+  if (!learns_ || innovations.size() < kMinInnovations) return;
+  for (const ClockRemovedInnovation& entry : innovations) {
+    const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
+    const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
+    const ErrorClass of = error_class(measurement, satellite, standing);
+    const double measured_share = std::min(entry.measured_variance / entry.variance, 1.0);
+    scale_.add({of, square(entry.innovation) / entry.variance, measured_share});
+    // While a filter starts, its velocity contains the very errors that are to be seen.
+    if (measured_share < kLeastMeasuredShare || !lasts_as_in_medium_orbit(satellite)) continue;
     correlation_.add({satellite.satellite, measurement.code, of,
-                      entry.innovation / std::sqrt(measured), predicted / measured},
+                      entry.innovation / std::sqrt(entry.measured_variance)},
                      epoch.time);
   }
 }

@@ -8,8 +8,9 @@
 
 namespace leonav {
 
-// It takes the clock-removed innovations of codes and Dopplers, epoch by epoch, and gives scale and
-// correlation of the errors of each class. It outlives restarts of the filter: the street stays.
+// It takes the residuals of codes and the clock-removed innovations of Dopplers, epoch by epoch,
+// and gives scale and correlation of the errors of each class. It outlives restarts of the filter:
+// the street stays.
 class LearnedErrors {
  public:
   explicit LearnedErrors(const EkfConfig& config);
@@ -23,9 +24,13 @@ class LearnedErrors {
   // the point solution that the filter starts from. Returns false if they are too few.
   bool fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                  const ClockRemovedInnovations& innovations, bool standing);
-  // Adds one observable of an epoch. `standing`: the vehicle stands.
-  void add(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-           const ClockRemovedInnovations& innovations, bool standing);
+  // Adds the codes of an epoch: their residuals (code_residuals()) at a position known from before
+  // with this covariance, ECEF, m^2. `standing`: the vehicle stands.
+  void add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                 const Eigen::Matrix3d& position_covariance_e, bool standing);
+  // Adds the Dopplers of an epoch.
+  void add_dopplers(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
+                    const ClockRemovedInnovations& innovations, bool standing);
   // Ends the epoch.
   void end_epoch(GpsTime time);
 

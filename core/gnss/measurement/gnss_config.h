@@ -16,6 +16,9 @@ namespace leonav {
 enum class CodeCombination : unsigned char {
   kIonosphereFree,   // a pair where two frequencies exist, else one with Klobuchar
   kSingleFrequency,  // every usable signal by itself, ionosphere by Klobuchar
+  // Pairs, and single frequencies while the navigator finds that pairs are the less accurate ones:
+  // core/navigator/monitors/code_combination_monitor.h.
+  kAutomatic,
 };
 
 // Preferred signals of a system: bands in order of preference, and the attributes within a band.
@@ -64,7 +67,7 @@ struct GnssConfig {
   std::array<SystemConfig, kSystemCount> systems;
   double elevation_mask = 0.2617993877991494;  // rad (15 degrees)
   double cn0_mask_dbhz = 0.0;
-  CodeCombination code_combination = CodeCombination::kIonosphereFree;
+  CodeCombination code_combination = CodeCombination::kAutomatic;
   WeightModel weight_model = WeightModel::kElevation;
   double cn0_reference_dbhz = 45.0;        // C/N0 at which the sigmas hold (kCn0)
   double ionosphere_model_error = 0.5;     // share of the Klobuchar delay taken as its 1 sigma

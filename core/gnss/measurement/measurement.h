@@ -39,6 +39,14 @@ constexpr bool is_used(Reason reason) {
   return reason == Reason::kUsed || reason == Reason::kDownweighted;
 }
 
+// CodeVariances are those of a satellite's code as ionosphere-free pair and as single frequencies,
+// m^2, at the configured sigmas; 0 where the satellite has no pair, or no position is known.
+struct CodeVariances {
+  double pair_noise = 0.0;
+  double single_noise = 0.0;  // of the weighted mean over the bands
+  double ionosphere = 0.0;    // of the single frequencies: what the model leaves
+};
+
 // One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
 // Earth's rotation during the flight of the signal has been applied.
 struct SatelliteInView {
@@ -68,9 +76,10 @@ struct SatelliteInView {
   std::uint32_t antenna_issue = 0;
   double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
   double cn0_dbhz = 0.0;         // strongest signal
-  std::uint32_t arc = 0;         // identity of its carrier arc; 0: none used
-  bool arc_started = false;      // its arc starts at this epoch
-  SlipCauses arc_causes;         // why the previous arc ended; none at a satellite's first arc
+  CodeVariances code_variances;
+  std::uint32_t arc = 0;     // identity of its carrier arc; 0: none used
+  bool arc_started = false;  // its arc starts at this epoch
+  SlipCauses arc_causes;     // why the previous arc ended; none at a satellite's first arc
   Reason reason = Reason::kUsed;
 };
 

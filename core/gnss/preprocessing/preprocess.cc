@@ -107,7 +107,7 @@ void apply_caps(const GnssConfig& config, MeasurementEpoch* epoch) {
 }
 
 std::size_t most_measurements(const GnssConfig& config, const Candidate& candidate, bool carriers) {
-  const bool one_code = config.code_combination == CodeCombination::kIonosphereFree;
+  const bool one_code = config.code_combination != CodeCombination::kSingleFrequency;
   return (one_code ? 1 : candidate.signals.bands.size()) +
          (carriers ? 2 : 1);  // and a carrier, a Doppler
 }
@@ -145,7 +145,10 @@ void append(const Candidate& candidate, Measurement measurement, MeasurementEpoc
 void append_code(const DelayContext& context, const Candidate& candidate, MeasurementEpoch* epoch) {
   SatelliteInView* view = &epoch->satellites[candidate.satellite_index];
   const SelectedSignals& signals = candidate.signals;
-  if (context.config->code_combination == CodeCombination::kIonosphereFree) {
+  if (signals.second != nullptr)
+    view->code_variances = code_variances(context, {signals.bands.data(), signals.bands.size()},
+                                          *signals.second, *view);
+  if (context.config->code_combination != CodeCombination::kSingleFrequency) {
     append(candidate,
            code_measurement(context, *signals.first, signals.second, candidate.broadcast, 1, view),
            epoch);
@@ -166,8 +169,7 @@ void append_doppler(const DelayContext& context, const Candidate& candidate,
                     MeasurementEpoch* epoch) {
   const SatelliteInView& view = epoch->satellites[candidate.satellite_index];
   const SelectedSignals& signals = candidate.signals;
-  const bool pair = context.config->code_combination == CodeCombination::kIonosphereFree &&
-                    view.satellite.system == System::kLeo && signals.second != nullptr &&
+  const bool pair = view.satellite.system == System::kLeo && signals.second != nullptr &&
                     has_doppler(*signals.first) && has_doppler(*signals.second);
   if (pair) {
     append(candidate, doppler_measurement(context, *signals.first, signals.second, view), epoch);

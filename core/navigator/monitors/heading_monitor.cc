@@ -12,7 +12,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;                   // of the difference of the two headings
 constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
-constexpr int kInARow = 3;                        // velocities that must contradict the heading
+// Velocities in a row that must contradict the heading. One that was confirmed has been kept by the
+// gyros since: reflections pass before so many, an error of the gyros does not.
+constexpr int kInARow = 3, kInARowConfirmed = 30;
 // Reflected Dopplers agree with each other for some seconds. A running filter is therefore reset
 // only by courses over a longer window than an alignment needs.
 constexpr double kCourseWindow_s = 10.0;
@@ -41,6 +43,7 @@ void HeadingMonitor::clear_windows() {
 void HeadingMonitor::start(const Eigen::Vector3d& gyro_bias_b, double gyro_bias_sigma) {
   clear_windows();
   started_ = true;
+  confirmed_ = false;
   gyro_bias_b_ = gyro_bias_b;
   gyro_bias_sigma_ = gyro_bias_sigma;
 }
@@ -116,12 +119,13 @@ std::optional<double> HeadingMonitor::add_velocity(const Eigen::Vector2d& v_n, d
     const double both = std::hypot(match->heading.sigma, filter.heading_sigma);
     if (match->heading.sigma < kConfirming && std::abs(difference) < kConfirmed * both) {
       off = 0.0;
+      confirmed_ = true;
       gyro_bias_b_ = filter.gyro_bias_b;
       gyro_bias_sigma_ = std::min(gyro_bias_sigma_, 3.0 * filter.gyro_bias_sigma);
     }
   }
   consecutive_contradictions_ = off != 0.0 ? consecutive_contradictions_ + 1 : 0;
-  if (consecutive_contradictions_ < kInARow) return std::nullopt;
+  if (consecutive_contradictions_ < (confirmed_ ? kInARowConfirmed : kInARow)) return std::nullopt;
   clear_windows();
   return off;
 }

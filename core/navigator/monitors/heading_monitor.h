@@ -39,8 +39,8 @@ class HeadingMonitor {
   };
   // Adds the antenna's velocity at the last sample by a point solution: `v_n` north and east,
   // `sigma_v` per component, m/s. Returns the error of the filter's heading (rad; independent minus
-  // filter's) once it has been significant for three velocities in a row, counting those that the
-  // window of velocity matching accepts.
+  // filter's) once it has been significant for three velocities in a row, for thirty if the heading
+  // was confirmed before, counting those that the window of velocity matching accepts.
   std::optional<double> add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                      const Filter& filter);
 
@@ -54,6 +54,7 @@ class HeadingMonitor {
   VelocityMatching matching_;
   CourseWindow courses_;
   bool started_ = false;
+  bool confirmed_ = false;  // by velocity matching, since start()
   Eigen::Vector3d gyro_bias_b_ = Eigen::Vector3d::Zero();
   double gyro_bias_sigma_ = 0.0;
   GpsTime last_time_;

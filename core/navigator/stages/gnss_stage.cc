@@ -38,6 +38,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<Anchor>* ekf_ma
       ekf_(filter_config(config.ekf, keyframes != nullptr), config.imu, config.vehicle.lever_arm_b),
       motion_aiding_(config.vehicle.motion, config.imu.accel_bias, config.ekf.use_carrier),
       filter_monitor_(config),
+      code_combination_(config.gnss.code_combination),
       attitude_(config),
       reporter_(sink),
       pending_keyframe_(config.smoother.keyframe_interval_s),
@@ -83,6 +84,7 @@ void GnssStage::predict(const EpochWork& work) {
 
 void GnssStage::use_measurements(const EpochWork& work) {
   front_end_.exclude(satellite_faults_.excluded(work.time));
+  front_end_.combine_codes(code_combination_.combination());
   if (!ekf_.initialized())
     start_filter(work);
   else if (filter_monitor_.prediction_is_too_uncertain(ekf_, work.time, last_gnss_time_))
@@ -124,6 +126,8 @@ void GnssStage::update_filter(const EpochWork& work) {
   reporter_.add_update(front_end_.measurements(), update, ekf_);
   reporter_.report_consistency(filter_monitor_.add_consistency(update), work.time);
   reporter_.report_clock_steps(update, work.time);
+  code_combination_.add(front_end_.measurements(), ekf_.learned_errors(),
+                        ekf_.carriers_keep_position());
   test_satellites(work, update);
   test_update(work, update);
 }

@@ -6,6 +6,7 @@
 #include "core/navigator/interface/navigator_config.h"
 #include "core/navigator/interface/stage_work.h"
 #include "core/navigator/interface/timed_mailbox.h"
+#include "core/navigator/monitors/code_combination_monitor.h"
 #include "core/navigator/monitors/filter_monitor.h"
 #include "core/navigator/monitors/satellite_fault_hypotheses.h"
 #include "core/navigator/monitors/satellite_fault_monitor.h"
@@ -86,6 +87,7 @@ class GnssStage {
   Ekf ekf_;
   MotionAiding motion_aiding_;
   FilterMonitor filter_monitor_;
+  CodeCombinationMonitor code_combination_;
   SatelliteFaultMonitor satellite_faults_;
   FaultHypotheses fault_hypotheses_;  // after the last update
   AttitudeInitializer attitude_;

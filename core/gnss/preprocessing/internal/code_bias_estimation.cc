@@ -58,7 +58,7 @@ char most_frequent_partner(System system, char reference, const Candidates& cand
 
 void estimate_code_biases(const DelayContext& context, const Candidates& candidates,
                           const MeasurementEpoch& epoch, ReceiverCodeBiases* biases) {
-  const bool pairs = context.config->code_combination == CodeCombination::kIonosphereFree;
+  const bool pairs = context.config->code_combination != CodeCombination::kSingleFrequency;
   biases->open(context.time);
   for (const System system : kSystems) {
     const char reference =

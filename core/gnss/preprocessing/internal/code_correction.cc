@@ -216,6 +216,27 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
   return code;
 }
 
+CodeVariances code_variances(const DelayContext& context,
+                             std::span<const SignalObservation* const> bands,
+                             const SignalObservation& second, const SatelliteInView& satellite) {
+  CodeVariances variances;
+  if (!context.has_position || bands.empty()) return variances;
+  const double elevation = satellite.elevation;
+  const SignalObservation& first = *bands.front();
+  const double f1 = frequency_of(first);
+  const IonosphereFree pair = ionosphere_free(f1, frequency_of(second));
+  variances.pair_noise = square(combined_sigma(pair, code_noise(context, elevation, first),
+                                               code_noise(context, elevation, second)));
+  double information = 0.0;
+  for (const SignalObservation* signal : bands)
+    information += 1.0 / square(code_noise(context, elevation, *signal));
+  variances.single_noise = 1.0 / information;
+  const double delay = klobuchar_delay_m(*context.klobuchar, context.antenna,
+                                         {elevation, satellite.azimuth}, context.time, f1);
+  variances.ionosphere = square(ionosphere_sigma(context, elevation, delay, f1));
+  return variances;
+}
+
 Measurement doppler_measurement(const DelayContext& context, const SignalObservation& first,
                                 const SignalObservation* second, const SatelliteInView& satellite) {
   const double sigma0 =

@@ -1,6 +1,8 @@
 // This unit corrects a measured pseudorange or Doppler to the geometric range model and computes
 // its uncertainty.
 #pragma once
+#include <span>
+
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/gnss/measurement/look_angles.h"
@@ -47,6 +49,12 @@ void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::V
 Measurement code_measurement(const DelayContext& context, const SignalObservation& first,
                              const SignalObservation* second, const Ephemeris* broadcast,
                              int shared_by, SatelliteInView* satellite);
+
+// Returns the variances of the satellite's code as the pair of `bands.front()` and `second`, and as
+// the single frequencies of `bands`, which are sorted best first; zeros without a position.
+CodeVariances code_variances(const DelayContext& context,
+                             std::span<const SignalObservation* const> bands,
+                             const SignalObservation& second, const SatelliteInView& satellite);
 
 // Corrects the Doppler of one signal, or the ionosphere-free combination of two.
 Measurement doppler_measurement(const DelayContext& context, const SignalObservation& first,

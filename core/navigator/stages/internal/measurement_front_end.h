@@ -34,6 +34,8 @@ class MeasurementFrontEnd {
   void add(const AntennaPattern& antenna) { antennas_.add(antenna); }
   // Sets the satellites that neither measure() nor solve() uses from now on.
   void exclude(const ExcludedSatellites& satellites) { excluded_ = satellites; }
+  // Sets how measure() and solve() use codes of two frequencies from now on.
+  void combine_codes(CodeCombination combination) { gnss_.code_combination = combination; }
 
   // Preprocesses the epoch at the filter's predicted position and tests the carriers against the
   // prediction. If the prediction is too uncertain to correct carriers, the position of a point
