@@ -32,6 +32,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   const double dt = seconds_between(epoch.time, last_update);
   interval_s_ = dt;
   speed_ = config_.static_point ? 0.0 : antenna.v_e.norm();
+  errors_.begin_epoch(epoch);
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
@@ -80,7 +81,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
 void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
                                  double line_of_sight_rate, double dt, FilterMeasurement* entry) {
   const ErrorClass of =
-      error_class(measurement, epoch.satellites[measurement.satellite_index], standing());
+      errors_.class_of(measurement, epoch.satellites[measurement.satellite_index], standing());
   const double scale = errors_.sigma_scale(of);
   entry->variance = square(measurement.sigma);
   if (scale != 1.0) {

@@ -62,6 +62,7 @@ LearnedErrors::LearnedErrors(const EkfConfig& config)
 void LearnedErrors::reset() {
   scale_.reset();
   correlation_.reset();
+  losses_.reset();
   last_time_ = GpsTime();
 }
 
@@ -86,7 +87,7 @@ bool LearnedErrors::fit_first(const MeasurementEpoch& epoch, const FilterMeasure
   for (const ClockRemovedInnovation& entry : innovations) {
     const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const ErrorClass of =
-        error_class(measurement, epoch.satellites[measurement.satellite_index], standing);
+        class_of(measurement, epoch.satellites[measurement.satellite_index], standing);
     observable = measurement.observable;
     const double configured = entry.measured_variance / square(scale_.scale(of));
     samples.push_back({of, square(entry.innovation) / (configured * share_left), 1.0});
@@ -101,7 +102,7 @@ void LearnedErrors::add_codes(const MeasurementEpoch& epoch, const FilterMeasure
     if (entry.redundancy < kLeastRedundancy) continue;
     const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
-    const ErrorClass of = error_class(measurement, satellite, standing);
+    const ErrorClass of = class_of(measurement, satellite, standing);
     const double ratio = entry.residual / std::sqrt(entry.variance);
     scale_.add({of, square(ratio), entry.redundancy});
     if (lasts_as_in_medium_orbit(satellite))
@@ -116,7 +117,7 @@ void LearnedErrors::add_dopplers(const MeasurementEpoch& epoch,
   for (const ClockRemovedInnovation& entry : innovations) {
     const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
-    const ErrorClass of = error_class(measurement, satellite, standing);
+    const ErrorClass of = class_of(measurement, satellite, standing);
     const double measured_share = std::min(entry.measured_variance / entry.variance, 1.0);
     scale_.add({of, square(entry.innovation) / entry.variance, measured_share});
     // While a filter starts, its velocity contains the very errors that are to be seen.

@@ -3,6 +3,7 @@
 #include "core/filter/error_model/error_correlation.h"
 #include "core/filter/error_model/learned_summary.h"
 #include "core/filter/error_model/sigma_scale.h"
+#include "core/filter/error_model/signal_loss.h"
 #include "core/filter/innovation_tests/clock_removed_innovations.h"
 #include "core/filter/state/ekf_config.h"
 
@@ -20,6 +21,13 @@ class LearnedErrors {
   void start(double code_sigma_factor, double doppler_sigma_factor);
 
   bool learns() const { return learns_; }
+  // Takes the strengths of an epoch's signals; before its measurements are weighed.
+  void begin_epoch(const MeasurementEpoch& epoch) { losses_.add(epoch); }
+  // Returns the class of a measurement of the last epoch; `satellite` is the one that it is of.
+  ErrorClass class_of(const Measurement& measurement, const SatelliteInView& satellite,
+                      bool standing) const {
+    return error_class(measurement, satellite, losses_.loss_db(satellite), standing);
+  }
   // Fits the size of one observable's errors to the first epoch, whose innovations are residuals of
   // the point solution that the filter starts from. Returns false if they are too few.
   bool fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
@@ -51,6 +59,7 @@ class LearnedErrors {
   bool learns_;
   SigmaScale scale_;
   ErrorCorrelation correlation_;
+  SignalLoss losses_;
   GpsTime last_time_;
 };
 

@@ -89,8 +89,9 @@ bool SigmaScale::fit_first(Observable observable, std::span<const Sample> sample
 void SigmaScale::add(const Sample& sample) {
   Terms& terms = terms_[sample.of.observable];
   const double weighted = sample.measured_share * score(sample.of, sample.squared_ratio);
-  for (Term* term : {&terms.base, &terms.system[sample.of.system],
-                     &terms.elevation[sample.of.elevation], &terms.signal[sample.of.signal]}) {
+  for (Term* term :
+       {&terms.base, &terms.system[sample.of.system], &terms.elevation[sample.of.elevation],
+        &terms.signal[sample.of.signal], &terms.loss[sample.of.loss]}) {
     term->score += weighted;
     ++term->count;
   }
@@ -103,6 +104,7 @@ void SigmaScale::end_epoch(double interval_s) {
     for (Term& term : terms.system) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
     for (Term& term : terms.elevation) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
     for (Term& term : terms.signal) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
+    for (Term& term : terms.loss) advance(interval_s, kTermTime_s, kReturnTime_s, &term);
   }
 }
 
@@ -113,7 +115,7 @@ double SigmaScale::mean_scale(Observable observable) const {
 double SigmaScale::sum_of_terms(const ErrorClass& of) const {
   const Terms& terms = terms_[of.observable];
   return terms.base.value + terms.system[of.system].value + terms.elevation[of.elevation].value +
-         terms.signal[of.signal].value;
+         terms.signal[of.signal].value + terms.loss[of.loss].value;
 }
 
 double SigmaScale::score(const ErrorClass& of, double squared_ratio) const {

@@ -10,7 +10,7 @@ namespace leonav {
 
 // The scale s of a class is log-linear in its properties (multiplicative heteroskedasticity,
 // Harvey, Econometrica 44(3), 1976):
-//   log s = base(observable) + system + elevation + signal
+//   log s = base(observable) + system + elevation + signal + loss
 // Each term follows the score of its own class, with innovations limited as in Huber's proposal 2
 // (Huber and Ronchetti, Robust Statistics, 2009, 6.4): with z the standardized innovation and w the
 // share of its variance that is the measurement's,
@@ -56,6 +56,7 @@ class SigmaScale {
     std::array<Term, kSystemCount> system;
     std::array<Term, kElevationClasses> elevation;
     std::array<Term, kSignalClasses> signal;
+    std::array<Term, kLossClasses> loss;
   };
   // Sum of the terms of a class: log s where that is not below zero.
   double sum_of_terms(const ErrorClass& of) const;

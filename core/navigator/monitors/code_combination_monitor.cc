@@ -29,7 +29,7 @@ std::optional<double> log_variance_ratio(const MeasurementEpoch& epoch,
     last = &satellite;
     const CodeVariances& variances = satellite.code_variances;
     if (!(variances.pair_noise > 0.0)) continue;
-    const double scale = square(errors.sigma_scale(error_class(code, satellite, false)));
+    const double scale = square(errors.sigma_scale(errors.class_of(code, satellite, false)));
     pair += 1.0 / (scale * variances.pair_noise);
     single += 1.0 / (scale * variances.single_noise);
     ionosphere += variances.ionosphere;
