@@ -1,5 +1,8 @@
 // Input that is none: a status says so, and the smoother starts over.
+#include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "smoother_rig.h"
 #include "support/catch.h"
@@ -73,6 +76,47 @@ TEST_CASE("a covariance that is none starts nothing") {
   const SmootherResult result = solve(drive.step(), smoother.get());
   CHECK((result.status == SmootherStatus::kOk || result.status == SmootherStatus::kStarted));
   CHECK(result.covariance.allFinite());
+}
+
+// The ninth keyframe of a drive, with the filter's position moved away from the window's until they
+// are `apart_m`; and the sigmas of both together.
+struct Ninth {
+  SmootherResult result;
+  double sigmas_m = 0.0;
+};
+
+Ninth ninth(const DriveOptions& options, double apart_m) {
+  const auto moved = [&](const Eigen::Vector3d& move_e) {
+    Drive drive{options};
+    const auto smoother = smoother_of(drive, 20);
+    for (int epoch = 1; epoch <= 8; ++epoch) solve(drive.step(), smoother.get());
+    auto input = std::make_unique<KeyframeInput>(drive.step());
+    input->state.nav.p_e += move_e;
+    SmootherResult result = solve(*input, smoother.get());
+    return std::pair(std::move(input), std::move(result));
+  };
+  const auto [input, result] = moved(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d away_e = input->state.nav.p_e - result.state.p_e;
+  const double sigmas_m = std::sqrt(input->covariance.topLeftCorner<3, 3>().trace()) +
+                          std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
+  return {moved((apart_m - away_e.norm()) * away_e.normalized()).second, sigmas_m};
+}
+
+TEST_CASE("a window farther from the filter than the sigmas of both together has diverged") {
+  const DriveOptions options;
+  const double sigmas_m = ninth(options, 0.0).sigmas_m;
+  REQUIRE(sigmas_m > 0.6);
+  CHECK(ninth(options, 0.98 * sigmas_m).result.status == SmootherStatus::kOk);
+  CHECK(ninth(options, 1.02 * sigmas_m).result.status == SmootherStatus::kDiverged);
+}
+
+TEST_CASE("a window within 0.3 m of the filter has not diverged, however certain both are") {
+  DriveOptions options;
+  options.code_sigma = 0.05;
+  options.doppler_sigma = 0.02;
+  REQUIRE(ninth(options, 0.0).sigmas_m < 0.25);
+  CHECK(ninth(options, 0.29).result.status == SmootherStatus::kOk);
+  CHECK(ninth(options, 0.31).result.status == SmootherStatus::kDiverged);
 }
 
 }  // namespace leonav

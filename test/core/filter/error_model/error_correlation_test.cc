@@ -37,9 +37,9 @@ class Process {
   double state_;
 };
 
-// Fifteen satellites once a second; what the filter predicts has no error.
-CorrelationModel learned(double share, double time_s, double seconds,
-                         ErrorCorrelation* correlation) {
+// Fifteen satellites once a second, with errors that are `times` as large as their sigma.
+CorrelationModel learned(double share, double time_s, double seconds, ErrorCorrelation* correlation,
+                         double times = 1.0) {
   std::mt19937_64 random(7);
   std::vector<Process> processes;
   for (int i = 0; i < 15; ++i) processes.emplace_back(share, time_s, &random);
@@ -48,7 +48,7 @@ CorrelationModel learned(double share, double time_s, double seconds,
     const GpsTime now = kStart.plus_seconds(t);
     for (std::size_t i = 0; i < processes.size(); ++i) {
       const SatelliteId satellite{System::kGps, static_cast<std::uint16_t>(i + 1)};
-      correlation->add({satellite, {'1', 'C'}, of, processes[i].next(), 0.0}, now);
+      correlation->add({satellite, {'1', 'C'}, of, times * processes[i].next()}, now);
     }
     correlation->end_epoch(1.0);
   }
@@ -99,20 +99,18 @@ TEST_CASE("errors that last shorter than configured leave the configured correla
   CHECK(model.time_s == 60.0);
 }
 
-TEST_CASE("what the position is off is no error of the measurements") {
-  // All errors are those of the prediction, as large as it says, and constant.
-  ErrorCorrelation correlation(priors(0.0, 10.0));
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  for (int t = 0; t < 300; ++t) {
-    for (std::uint16_t i = 0; i < 15; ++i) {
-      const double off = i % 2 == 0 ? 1.0 : -1.0;
-      correlation.add({{System::kGps, i}, {'1', 'C'}, {}, off + normal(random), 1.0},
-                      kStart.plus_seconds(t));
-    }
-    correlation.end_epoch(1.0);
-  }
-  CHECK(correlation.model({}).share < 0.1);
+// A mean of errors of half the sigma has a quarter of the variance that its sigmas say, and what is
+// correlated in them costs it a quarter as much.
+TEST_CASE("errors smaller than their sigma have a smaller correlated share, larger ones do not") {
+  const auto share = [](double times) {
+    ErrorCorrelation correlation(priors(0.0, 10.0));
+    return learned(0.9, 24.0, 600.0, &correlation, times).share;
+  };
+  const double as_configured = share(1.0);
+  CHECK(as_configured == Approx(0.9).margin(0.15));
+  CHECK(share(0.5) == Approx(0.25 * as_configured).margin(0.08));
+  CHECK(share(0.25) < share(0.5));
+  CHECK(share(2.0) == Approx(as_configured).margin(0.1));
 }
 
 TEST_CASE("errors of a standing vehicle are not taken for those of a moving one") {
@@ -121,7 +119,7 @@ TEST_CASE("errors of a standing vehicle are not taken for those of a moving one"
   standing.motion = 1;
   for (int t = 0; t < 120; ++t) {
     for (std::uint16_t i = 0; i < 15; ++i)
-      correlation.add({{System::kGps, i}, {'1', 'C'}, standing, i % 2 == 0 ? 1.0 : -1.0, 0.0},
+      correlation.add({{System::kGps, i}, {'1', 'C'}, standing, i % 2 == 0 ? 1.0 : -1.0},
                       kStart.plus_seconds(t));
     correlation.end_epoch(1.0);
   }
@@ -133,7 +131,7 @@ TEST_CASE("more signals than the table holds are left out and nothing breaks") {
   ErrorCorrelation correlation(priors(0.5, 10.0));
   for (int t = 0; t < 3; ++t) {
     for (std::uint16_t i = 0; i < 700; ++i)
-      correlation.add({{System::kLeo, i}, {'1', 'C'}, {}, 0.5, 0.0}, kStart.plus_seconds(t));
+      correlation.add({{System::kLeo, i}, {'1', 'C'}, {}, 0.5}, kStart.plus_seconds(t));
     correlation.end_epoch(1.0);
   }
   CHECK(std::isfinite(correlation.model({}).share));

@@ -1,6 +1,7 @@
 // No heap allocation with a full sky, precise orbits coming in and every kind of reset.
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "support/catch.h"
 #include "support/stage_drive.h"
@@ -11,7 +12,9 @@ namespace {
 
 struct CountingSink : OutputSink {
   std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
-              carriers = 0, epochs_of_30 = 0, solved = 0, checkpoints = 0;
+              carriers = 0, epochs_of_30 = 0, solved = 0, checkpoints = 0, faults = 0,
+              to_single = 0, to_pairs = 0;
+  bool pairs = true;
   void on_solution(const Solution&) override { ++solutions; }
   void on_epoch(const EpochReport& report) override {
     ++epochs;
@@ -19,6 +22,16 @@ struct CountingSink : OutputSink {
     for (const SatelliteReport& s : report.satellites) {
       if (s.source == OrbitSource::kPrecise && s.reason == Reason::kUsed) ++precise;
       if (s.arc_started) ++arcs;
+    }
+    std::size_t pairs_here = 0, codes_here = 0;
+    for (const AidingReport& a : report.aiding) {
+      if (a.observable != Observable::kCode) continue;
+      ++codes_here;
+      pairs_here += a.second_code.is_set() ? 1 : 0;
+    }
+    if (codes_here > 0 && pairs != (pairs_here > 0)) {
+      pairs = !pairs;
+      ++(pairs ? to_pairs : to_single);
     }
     std::size_t here = 0;
     std::array<bool, kSystemCount> systems{};
@@ -35,6 +48,7 @@ struct CountingSink : OutputSink {
   void on_event(const Event& event) override {
     if (event.kind == EventKind::kFilterReset) ++resets;
     if (event.kind == EventKind::kCheckpoint) ++checkpoints;
+    if (event.kind == EventKind::kSatelliteFault) ++faults;
   }
   void on_decision(const Decision&) override {}
   void on_smoother(const SmootherReport& report) override {
@@ -179,6 +193,46 @@ TEST_CASE("thirty satellites of three systems on two frequencies, 200 Hz IMU: no
   CHECK(sink.epochs == 59);
   CHECK(sink.epochs_of_30 >= 50);
   CHECK(sink.arcs > 60);
+}
+
+// Half of the carriers slip at each epoch, and codes are off by some 12 m.
+void pass_a_street(std::mt19937_64* bits, RawEpoch* raw) {
+  std::normal_distribution<double> normal;
+  for (SignalObservation& o : raw->observations) {
+    o.pseudorange_m += 12.0 * normal(*bits);
+    if ((*bits)() % 2 == 0) o.carrier_cycles += 1000.0;
+    o.loss_of_lock = (*bits)() % 2 == 0;
+  }
+}
+
+TEST_CASE("leaving a satellite out and changing how codes are combined allocates nothing") {
+  SyntheticDriveOptions options;
+  options.duration_s = 430.0;
+  options.imu_rate_hz = 20.0;
+  options.code_sigma_m = 0.5;
+  options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.003;
+  SyntheticDrive drive = synthetic_drive(options);
+  const SatelliteId drifting = drive.epochs.front().observations.front().satellite;
+  std::mt19937_64 bits(9);
+  for (RawEpoch& raw : drive.epochs) {
+    const double t = seconds(raw.time);
+    const double range_m = 0.02 * std::max(t - 100.0, 0.0);
+    for (SignalObservation& o : raw.observations) {
+      if (o.satellite != drifting) continue;
+      o.pseudorange_m += range_m;
+      o.carrier_cycles += range_m / wavelength_m(o.satellite.system, o.code.band);
+    }
+    if (t > 320.0 && t < 350.0) pass_a_street(&bits, &raw);
+  }
+  CountingSink sink;
+  Navigator pipeline(full_config(MotionModel::kInertial), &sink);
+  start_counting_allocations();
+  feed(drive, &pipeline);
+  CHECK(stop_counting_allocations() == 0);
+  CHECK(sink.faults == 1);
+  CHECK(sink.to_single == 1);
+  CHECK(sink.to_pairs == 1);
 }
 
 }  // namespace
