@@ -92,7 +92,7 @@ void drive(int seconds, CodeErrors* from, const Position& position, double posit
            LearnedErrors* errors, int satellites = 16) {
   const MeasurementEpoch epoch = test::sky_of(satellites);
   const auto scaled_sigma = [&](std::size_t i) {
-    return errors->sigma_scale(error_class(epoch.measurements[i], epoch.satellites[i], false));
+    return errors->sigma_scale(errors->class_of(epoch.measurements[i], epoch.satellites[i], false));
   };
   const FilterMeasurements plain = test::codes_of(
       epoch, [](std::size_t) { return 0.0; }, [](std::size_t) { return 1.0; });
