@@ -55,7 +55,8 @@ TEST_CASE("Many logs give one report, whatever the number of workers, and are no
   CHECK_FALSE(has(first.err, "Traceback"));
   const std::string report = text_of(one + "/report.md");
   INFO(report);
-  CHECK(has(report, "4 runs, 1 failed, 2 with a truth; 0 misses, 0 resets, 0 warnings."));
+  // Three warn that they end while aligning, because no drive moves within its minute.
+  CHECK(has(report, "4 runs, 1 failed, 2 with a truth; 0 misses, 0 resets, 3 warnings."));
   CHECK(has(report, "- broken: "));
   CHECK(has(report, "is not an LCM log"));
   CHECK(has(report, "| one/run | "));
@@ -173,7 +174,7 @@ esac
   CHECK(has(report,
             "Errors beyond their protection levels: horizontal 3 of 58; "
             "horizontal.limits.3_m.hazardous 1."));
-  CHECK(has(report, "0 warnings"));
+  CHECK_FALSE(has(report, "no integrity"));
   CHECK(has(report, "4 runs, 1 failed"));
   CHECK(has(report, "Levels of risk 1e-05 per hour"));
   CHECK(has(report, "| horizontal | 58 | 0.00 | 3 | 0 of 0 | 1.200 |"));

@@ -390,7 +390,7 @@ print(len(lines) - 4, "lines")
   CHECK(has(said, "4 lines"));
   // Twice what the estimator is told.
   const std::string config = leonav::effective_text(leonav::load_preset("urban").source);
-  for (const char* key : {"angle_random_walk_deg_per_sqrt_h: 0.05 ", "gyro_bias_deg_per_h: 0.5 ",
+  for (const char* key : {"angle_random_walk_deg_per_sqrt_h: 0.05 ", "gyro_bias_deg_per_h: 1 ",
                           "velocity_random_walk_m_s_per_sqrt_h: 0.1 ", "accel_bias_mgal: 25 ",
                           "gyro_scale_ppm: 300 ", "accel_scale_ppm: 300 "}) {
     CHECK(has(config, key));

@@ -103,7 +103,7 @@ def convergence_rows(duration_s):
 
 # Twice the IMU errors of the preset urban.
 TWICE_AS_BAD = ["imu.angle_random_walk_deg_per_sqrt_h=0.1", "imu.velocity_random_walk_m_s_per_sqrt_h=0.2",
-                "imu.gyro_bias_deg_per_h=1", "imu.accel_bias_mgal=50", "imu.gyro_scale_ppm=600", "imu.accel_scale_ppm=600"]
+                "imu.gyro_bias_deg_per_h=2", "imu.accel_bias_mgal=50", "imu.gyro_scale_ppm=600", "imu.accel_scale_ppm=600"]
 MISMATCHES = [("convergence-static-gps-leo160", "multipath", "multipath of 200 s, taken for 60 s", ["receiver.multipath.time_s=200"]),
               ("convergence-static-gps-gal-bds-leo160", "multipath", "multipath of 200 s, taken for 60 s",
                ["receiver.multipath.time_s=200"]),
