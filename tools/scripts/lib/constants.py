@@ -24,10 +24,11 @@ RECORDINGS = {"drive": ("--preset", "phone"), "walk": ("--preset", "walk"),
                         "--set", "gnss.systems=[gps, galileo]")}
 OFFSET_UNKNOWN = ("walk",)  # of the truth
 SETTLE_S = 120.0
+SOURCES = ("cmake/", "config/presets/", "core/", "daemon/", "drivers/", "lcmtypes/", "tools/common/", "tools/replay/")
 # Members of a configuration are set where each replay makes its own: their headers would rebuild nearly everything.
 MEMBERS_FILE = "daemon/config/load_config.cc"
 MEMBERS_AFTER = "  navigator = default_navigator_config(navigator.vehicle.kind);\n"
-# A constant is called flat where neither value changes the 3D RMSE of a case, or the share within three sigma, by more.
+# A constant is flat where neither value changes a case's horizontal or 3D RMSE, or its share within three sigma, by more.
 FLAT_RMSE, FLAT_SHARE = 0.10, 0.01
 RESULT = ("case", "seed", "estimator", "constant", "value", "digest", "epochs", "north", "east", "up", "within")
 
@@ -81,11 +82,25 @@ def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
+def tracked_files():
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], check=True, capture_output=True).stdout.decode()
+    return [name for name in sorted(listed.split("\0")) if name and os.path.isfile(os.path.join(ROOT, name))]
+
+
+def digest_of_sources():
+    """Of what decides about a replay. The program's own would change with the order in which it was linked."""
+    digest = hashlib.sha256()
+    for name in tracked_files():
+        if name.startswith(SOURCES):
+            digest.update(name.encode() + read(name).encode())
+    return digest.hexdigest()[:12]
+
+
 class Tree:
     """A copy of the repository with a build folder of its own. Only here sources are changed."""
 
-    def __init__(self, out):
-        self.path = os.path.join(out, "tree")
+    def __init__(self, out, jobs):
+        self.path, self.jobs = os.path.join(out, "tree"), jobs
         self.build = os.path.join(self.path, "build", "release")
 
     def write(self, path, text):
@@ -98,11 +113,8 @@ class Tree:
             file.write(text)
 
     def follow_root(self):
-        listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], check=True, capture_output=True).stdout
-        for name in listed.decode().split("\0"):
+        for name in tracked_files():
             source, target = os.path.join(ROOT, name), os.path.join(self.path, name)
-            if not name or not os.path.isfile(source):
-                continue
             os.makedirs(os.path.dirname(target), exist_ok=True)
             with open(source, "rb") as file:
                 content = file.read()
@@ -117,7 +129,7 @@ class Tree:
         if not os.path.exists(os.path.join(self.build, "build.ninja")):
             say("configuring the copy")
             self.call(["cmake", "-S", self.path, "--preset", "release", "-B", self.build, "-DBUILD_TESTING=OFF"])
-        self.call(["ninja", "-C", self.build, *targets])
+        self.call(["ninja", "-C", self.build, *(["-j", str(self.jobs)] if self.jobs else []), *targets])
 
     def call(self, words):
         log = os.path.join(os.path.dirname(self.path), "build.log")
@@ -218,25 +230,23 @@ class Figures:
 
 
 class Study:
-    def __init__(self, out, seeds, systems):
-        self.tree = Tree(out)
+    def __init__(self, out, seeds, systems, jobs=None):
+        self.tree = Tree(out, jobs)
         self.out = out
         self.cases = cases_of(os.path.join(out, "logs"), seeds, systems)
         if not self.cases:
             sys.exit("constants: there is no log to replay")
 
     def begin(self):
-        """Builds what is unchanged; results of another program are another file."""
+        """Builds what is unchanged; results of other sources are another file."""
         self.tree.follow_root()
         say("building leonav-replay, unchanged")
         self.tree.make("leonav-replay")
-        program = self.tree.program("leonav-replay")
-        with open(program, "rb") as file:
-            digest = hashlib.sha256(file.read()).hexdigest()[:12]
+        digest = digest_of_sources()
         self.programs = os.path.join(self.out, "programs-" + digest)
         os.makedirs(self.programs, exist_ok=True)
         self.unchanged = os.path.join(self.programs, "unchanged")
-        shutil.copy(program, self.unchanged)
+        shutil.copy(self.tree.program("leonav-replay"), self.unchanged)
         self.results = Results(os.path.join(self.out, f"results-{digest}.csv"))
 
     def missing(self, estimator, name, value):
@@ -292,12 +302,14 @@ class Study:
                 horizontal.append(math.log(after.horizontal / before.horizontal))
                 whole.append(math.log(after.all / before.all))
                 within.append((after.within, before.within))
-            worst = max(range(len(whole)), key=lambda i: abs(math.exp(whole[i]) - 1.0) if math.isfinite(whole[i]) else math.inf)
+            of_cases = [(change, case.name + kind) for kind, logs in ((" horizontal", horizontal), (" 3D", whole))
+                        for change, case in zip(logs, self.cases)]
+            worst, where = max(of_cases, key=lambda c: abs(math.exp(c[0]) - 1.0) if math.isfinite(c[0]) else math.inf)
             columns["horizontal"].append(percent(statistics.fmean(horizontal)))
             columns["3d"].append(percent(statistics.fmean(whole)))
-            columns["largest"].append(f"{percent(whole[worst])} {self.cases[worst].name}")
+            columns["largest"].append(f"{percent(worst)} {where}" if worst else "0")
             columns["within"].append(f"{100.0 * statistics.fmean(a for a, _ in within):.1f}")
-            changes += [(abs(math.exp(w) - 1.0), abs(a - b)) for w, (a, b) in zip(whole, within)]
+            changes.append((abs(math.exp(worst) - 1.0), max(abs(a - b) for a, b in within)))
         flat = all(rmse <= FLAT_RMSE and share <= FLAT_SHARE for rmse, share in changes)
         unchanged = statistics.fmean(self.figures(case, constant.estimator, "", "").within for case in self.cases)
         verdict = "no effect" if same else "flat" if flat else "not flat"
@@ -325,6 +337,7 @@ def main():
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--systems", choices=(*SYSTEMS, "both"), default="both")
+    parser.add_argument("--jobs", type=int)
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--make", action="append")
     parser.add_argument("--done", action="store_true")
@@ -335,11 +348,12 @@ def main():
             print(f"{constant.name:50} {constant.value} {constant.unit}".rstrip())
         return
     if options.make:
-        tree = Tree(options.out)
+        tree = Tree(options.out, options.jobs)
         tree.follow_root()
         tree.make(*options.make)
         return
-    study = Study(options.out, options.seeds, tuple(SYSTEMS) if options.systems == "both" else (options.systems,))
+    systems = tuple(SYSTEMS) if options.systems == "both" else (options.systems,)
+    study = Study(options.out, options.seeds, systems, options.jobs)
     study.begin()
     print(HEAD, flush=True)
     for count, constant in enumerate(chosen, 1):
