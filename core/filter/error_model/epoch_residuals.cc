@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust/igg3.h"
+
 namespace leonav {
 namespace {
 
@@ -16,7 +18,10 @@ constexpr double kHuber = 1.5;
 // The filter's position counts with so many of its sigmas: it may be wrong by more than it says,
 // and where few satellites are left nothing else shows that some of them are reflected.
 constexpr double kPriorFactor = 3.0;
-constexpr int kPasses = 8;
+// The first passes hold the position to the prediction, so that codes which are off together cannot
+// pull it; from then on they weigh nothing beyond kRejected sigmas.
+constexpr int kTightPasses = 3, kPasses = 8;
+constexpr double kRejected = 5.0;
 // Weak information, m^-2, that keeps the normal matrix regular where a system is absent: its clock
 // has no measurement and stays zero.
 constexpr double kRegular = 1e-9;
@@ -50,15 +55,16 @@ EpochResiduals code_residuals(const FilterMeasurements& measurements,
   const auto unknowns = static_cast<std::size_t>((seen.array() > 0.0).count());
   if (residuals.size() <= unknowns) return {};
 
-  Normal prior = kRegular * Normal::Identity();
+  Normal prior = kRegular * Normal::Identity(), tight = prior;
   const Eigen::LLT<Eigen::Matrix3d> known(kPriorFactor * kPriorFactor * position_covariance_e);
   if (known.info() != Eigen::Success) return {};
   const Eigen::Matrix3d information = known.solve(Eigen::Matrix3d::Identity());
   prior.topLeftCorner<3, 3>() += information;
+  tight.topLeftCorner<3, 3>() += kPriorFactor * kPriorFactor * information;
 
   Normal inverse;
   for (int pass = 0; pass < kPasses; ++pass) {
-    Normal normal = prior;
+    Normal normal = pass < kTightPasses ? tight : prior;
     Unknowns right = Unknowns::Zero();
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       const FilterMeasurement& code = measurements[residuals[i].index];
@@ -76,7 +82,8 @@ EpochResiduals code_residuals(const FilterMeasurements& measurements,
       residuals[i].residual = code.innovation - row_of(code).dot(solution);
       if (pass + 1 == kPasses) continue;
       const double ratio = std::abs(residuals[i].residual) / std::sqrt(code.variance);
-      psi[i] = ratio > kHuber ? kHuber / ratio : 1.0;
+      psi[i] = pass + 1 < kTightPasses ? (ratio > kHuber ? kHuber / ratio : 1.0)
+                                       : igg3_factor(ratio, kHuber, kRejected);
     }
   }
   if (!(inverse.topLeftCorner<3, 3>().trace() < kMostSigma_m * kMostSigma_m)) return {};

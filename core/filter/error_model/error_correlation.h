@@ -23,13 +23,13 @@ struct CorrelationModel {
 // (Brockwell and Davis, Introduction to Time Series and Forecasting, 2016, 2.4.1).
 double variance_inflation(const CorrelationModel& model, double dt);
 
-// The autocorrelation comes from products of standardized innovations of one satellite and signal,
+// The autocorrelation comes from products of standardized errors of one satellite and signal,
 // collected by lag over a fading memory:
-//   c(lag) = mean(u(t) u(t - lag)) - mean(h P h^T / sigma^2),   u = innovation / sigma
-// where sigma is the measurement's own and P the filter's covariance: what the position is off is
-// no error of the measurement. The model is the one of a fixed set of correlation times that fits
-// c(lag) / c(0) best, with the share between 0 and 1. Classes are observable and elevation; those
-// with few samples lean on their observable, and that on the configured model.
+//   c(lag) = mean(u(t) u(t - lag)),   u = residual or innovation over its sigma
+// The model is the one of a fixed set of correlation times that fits c(lag) / c(0) best, with the
+// share between 0 and 1; errors smaller than their sigmas, c(0) < 1, have the share c(0) times
+// that. Classes are observable and elevation; those with few samples lean on their observable, and
+// that on the configured model.
 class ErrorCorrelation {
  public:
   struct Sample {

@@ -52,7 +52,10 @@ void HeadingMonitor::add(std::span<const ImuSample> block) {
   if (!started_) return;
   for (const ImuSample& sample : block) {
     if (sample.interval_ns <= 0) continue;
-    if (last_time_.is_set() && sample.start() > last_time_) clear_windows();
+    if (last_time_.is_set() && sample.start() > last_time_) {
+      clear_windows();
+      confirmed_ = false;  // the gyros have not kept it
+    }
     last_time_ = sample.time;
     ImuSample unbiased = sample;
     unbiased.delta_theta_b -= gyro_bias_b_ * sample.interval_s();
