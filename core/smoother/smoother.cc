@@ -146,8 +146,7 @@ void Smoother::finish(SmootherResult* result) {
   const double apart_m = (result->state.p_e - filter_state_.p_e).norm();
   const double sigma_m =
       filter_sigma_m_ + std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
-  if (!result->covariance.allFinite() ||
-      !(apart_m < std::max(kSmallestDivergence_m, sigma_m))) {
+  if (!result->covariance.allFinite() || !(apart_m < std::max(kSmallestDivergence_m, sigma_m))) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }
