@@ -30,7 +30,7 @@ constexpr double kCarrierShare = 0.5, kCarrierDistance_m = 10.0;
 constexpr double kShortestCarrierTime_s = 5.0, kLongestCarrierTime_s = 10.0;
 // In front of a standing vehicle reflections change with the satellites alone, so that errors of
 // codes last longer. Their detours then hardly change, so errors of Dopplers are not taken to.
-constexpr double kCodeStandingTimes = 2.0, kDopplerStandingTimes = 1.0;
+constexpr double kCodeStandingTimes = 3.0, kDopplerStandingTimes = 1.0;
 
 using OfMotion = std::array<CorrelationModel, kMotionClasses>;
 

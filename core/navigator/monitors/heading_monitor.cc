@@ -12,9 +12,12 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;                   // of the difference of the two headings
 constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
-// Velocities in a row that must contradict the heading. One that was confirmed has been kept by the
-// gyros since: reflections pass before so many, an error of the gyros does not.
-constexpr int kInARow = 3, kInARowConfirmed = 30;
+// All velocities for so long, and at least so many, must contradict the heading. One that was
+// confirmed has been kept by the gyros since: reflections pass in less, an error of the gyros does
+// not.
+constexpr double kContradicted_s = 2.0, kContradictedConfirmed_s = 29.0;
+constexpr int kMinContradictions = 3;
+constexpr double kStampTolerance_s = 0.1;  // of the instants of velocities
 // Reflected Dopplers agree with each other for some seconds. A running filter is therefore reset
 // only by courses over a longer window than an alignment needs.
 constexpr double kCourseWindow_s = 10.0;
@@ -127,8 +130,15 @@ std::optional<double> HeadingMonitor::add_velocity(const Eigen::Vector2d& v_n, d
       gyro_bias_sigma_ = std::min(gyro_bias_sigma_, 3.0 * filter.gyro_bias_sigma);
     }
   }
-  consecutive_contradictions_ = off != 0.0 ? consecutive_contradictions_ + 1 : 0;
-  if (consecutive_contradictions_ < (confirmed_ ? kInARowConfirmed : kInARow)) return std::nullopt;
+  if (off == 0.0) {
+    consecutive_contradictions_ = 0;
+    return std::nullopt;
+  }
+  if (consecutive_contradictions_++ == 0) contradicted_since_ = seconds_;
+  const double needed_s = confirmed_ ? kContradictedConfirmed_s : kContradicted_s;
+  if (consecutive_contradictions_ < kMinContradictions ||
+      seconds_ - contradicted_since_ < needed_s - kStampTolerance_s)
+    return std::nullopt;
   clear_windows();
   return off;
 }

@@ -39,8 +39,9 @@ class HeadingMonitor {
   };
   // Adds the antenna's velocity at the last sample by a point solution: `v_n` north and east,
   // `sigma_v` per component, m/s. Returns the error of the filter's heading (rad; independent minus
-  // filter's) once it has been significant for three velocities in a row, for thirty if the heading
-  // was confirmed before, counting those that the window of velocity matching accepts.
+  // filter's) once it has been significant for two seconds, for half a minute if the heading was
+  // confirmed before, in each of at least three velocities that the window of velocity matching
+  // accepts.
   std::optional<double> add_velocity(const Eigen::Vector2d& v_n, double sigma_v,
                                      const Filter& filter);
 
@@ -69,6 +70,7 @@ class HeadingMonitor {
   std::optional<Course> last_course_;
   bool forward_ = false;                // since the last stop it was faster than it goes in reverse
   int consecutive_contradictions_ = 0;  // velocities in a row
+  double contradicted_since_ = 0.0;     // `seconds_` at the first one
 };
 
 }  // namespace leonav

@@ -92,6 +92,19 @@ TEST_CASE("carriers keep the position while five arcs and more go on") {
   CHECK_FALSE(Receiver(2).model().carriers_keep_position());
 }
 
+TEST_CASE("arcs have five seconds to go on; where none does, codes hold the position") {
+  Receiver none(0);
+  for (int second = 0; second < 5; ++second) {
+    CHECK(none.model().carriers_keep_position());
+    none.step();
+  }
+  CHECK(none.model().carriers_keep_position());
+  none.step();
+  CHECK_FALSE(none.model().carriers_keep_position());
+  none.reset();
+  CHECK(none.model().carriers_keep_position());
+}
+
 TEST_CASE("a position that is soon forgotten leaves all of a code inflated as its reflections") {
   Receiver receiver(2);
   const double plain = kInflation * kSigma * kSigma;

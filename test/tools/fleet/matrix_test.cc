@@ -172,6 +172,9 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
   says("available >= 50", "shares >= 50", "'shares >= 50': must be one of share, ");
   says("optional: true", "optional: false", "absent.yaml: no such file");
   says("set: [places=city]", "set: places=city", "scenes.city.set: must be a list");
+  says("axes:", "compare: {axis: noise}\naxes:", "compare.axis: must be one of systems");
+  says("axes:", "compare: {axis: systems, value: none}\naxes:",
+       "compare.value: must be one of several values of systems: GPS, all");
   says("all: {}", "all: {sets: []}", "axes.systems.all.sets: no such key");
   says("scenes:", "scenes: [", "wrong.yaml:");
   const TemporaryFile file("small.yaml", matrix_text());
@@ -213,6 +216,38 @@ print("limit", counted.values("misleading"))
   CHECK(has(said, "limit [25.0]"));
 }
 
+TEST_CASE("One value of an axis is held against the best of the others", "[tools][fleet]") {
+  if (!have_fleet()) return;
+  const std::string said = fleet_python(R"(import types
+from fleet import matrix, matrix_report, replays
+def result(horizontal, rmse):
+    errors = {key: {"rmse": rmse, "p95": 1.0, "worst": 1.0} for key in ("north", "east", "up", "3d")}
+    errors["horizontal"] = {"rmse": horizontal, "p95": 1.0, "worst": 1.0}
+    sigmas = {axis: {"count": 10, "within": 9, "mean_sigma_m": 1.0, "sigma_over_rmse": 1.0} for axis in ("north", "east", "up")}
+    return {"name": "n", "failure": None, "judged": True, "epochs": 10, "answered": 10, "expected_in_truth": 10, "errors": errors,
+            "sigmas": sigmas, "integrity": None}
+def row(systems, noise, horizontal, rmse):
+    return matrix_report.Row(matrix.Scene("city", "x.yaml", (), ()), matrix.Variant((systems, noise), replays.Estimator()), {1: result(horizontal, rmse)})
+rows = [row("GPS", "learned", 1.0, 2.1), row("GPS", "small", 0.8, 3.0), row("GPS", "large", 1.0, 2.0),
+        row("all", "learned", 0.9, 1.0), row("all", "small", 0.5, 1.0), row("all", "large", 0.1, 1.5)]
+whole = types.SimpleNamespace(axes=["systems", "noise"], comparison=matrix.Comparison(1, "learned", 1.1))
+print("
+".join(matrix_report.comparison_lines(whole, rows)))
+print([found.plain()["ratios"] for found in matrix_report.compared(whole, rows)])
+whole.comparison = None
+print("none", matrix_report.comparison_lines(whole, rows))
+)");
+  INFO(said);
+  CHECK(has(said, "In 1 of 2 rows learned has at most 1.1 times its RMSE"));
+  CHECK(has(said,
+            "| city | GPS | 1.00 | 2.10 | large | 1.00 | 2.00 | 90.0 / 90.0 / 90.0 | 1.00 | 1.05 | "
+            "met |"));
+  CHECK(has(said,
+            "| city | all | 0.90 | 1.00 | small | 0.50 | 1.00 | 90.0 / 90.0 / 90.0 | 1.80 | 1.00 | "
+            "MISSED |"));
+  CHECK(has(said, "none []\n"));
+}
+
 TEST_CASE("The streets' matrix can be read, and its script says what it does", "[tools][fleet]") {
   if (!have_fleet()) return;
   const ProgramRun list = shell("'" LEONAV_SOURCE_DIR "/tools/validate' streets --list");
@@ -220,5 +255,7 @@ TEST_CASE("The streets' matrix can be read, and its script says what it does", "
   CHECK(list.exit_code == 0);
   CHECK(has(list.out, "rays_city/GPS-on-filter\n"));
   CHECK(has(list.out, "rays_dense_city/all-off-smoother\n"));
+  CHECK(has(shell("'" LEONAV_SOURCE_DIR "/tools/validate' streets --hand --list").out,
+            "/GPS-on-filter-learned\n"));
   CHECK(has(shell("'" LEONAV_SOURCE_DIR "/tools/validate' streets --help").out, "--seeds N"));
 }

@@ -35,7 +35,8 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 // Makes `folder` with the tables of a replay of nine seconds, the truth's first second before it.
-// The height is wrong by `up`, its sigma 0.5 m, its level 5 m; `levels` replaces these.
+// The height is wrong by `up`, its sigma 0.5 m, its level 5 m; `levels` replaces these. The heading
+// is wrong at the start and by 2 degrees at second 5, across north, its level 8 degrees.
 constexpr const char* kTables = R"(
 import pathlib, tempfile
 place = tempfile.TemporaryDirectory()
@@ -44,9 +45,11 @@ def write(name, header, rows):
     (folder / name).write_text("\n".join([header, *(",".join(map(str, row)) for row in rows)]) + "\n")
 up = [9, 0, 0, 1, 2, -6, 3, 1, 0]
 def tables(events, levels={}):
-    write("truth.csv", "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m", [(2300, 99 + i, 45.0, 7.0, 100.0) for i in range(10)])
+    write("truth.csv", "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m,yaw_deg", [(2300, 99 + i, 45.0, 7.0, 100.0, 359.0) for i in range(10)])
     write("solution.csv", "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m,std_north_m,std_east_m,std_down_m,protection_horizontal_m,"
-          "protection_vertical_m", [(2300, 100 + i, 45.0, 7.0, 100.0 + u, 0.3, 0.4, 0.5, 10.0, levels.get(i, 5.0)) for i, u in enumerate(up)])
+          "protection_vertical_m,yaw_deg,protection_heading_deg",
+          [(2300, 100 + i, 45.0, 7.0, 100.0 + u, 0.3, 0.4, 0.5, 10.0, levels.get(i, 5.0), 1.0 if i == 5 else 359.0 if i else 90.0, 8.0)
+           for i, u in enumerate(up)])
     write("events.csv", "gps_week,gps_tow_s,stage,event,code,value", [(week, tow, "gnss", kind, 0, 0) for week, tow, kind in events])
 )";
 
@@ -58,7 +61,7 @@ TEST_CASE("A fault is judged from its begin on: largest error, misleading epochs
   const std::string said = python(std::string(kTables) + R"(
 def show(result):
     size, sigma, levels = result["worst"]
-    print(f"worst {size:.3f} {sigma:.4f} {levels.tolist()} sigmas {result['sigmas']:.2f} share {result['share']:.2f}",
+    print(f"worst {size:.3f} {sigma:.4f} {levels.tolist()} sigmas {result['sigmas']:.2f} share {result['share']:.2f} heading {result['heading']:.2f}",
           f"misleading {result['misleading']} of {result['epochs']}")
     if result["event"]:
         kind, after, then = result["event"]
@@ -76,12 +79,12 @@ show(faults.judge(folder, folder / "truth.csv", 7, 3))
 )");
   INFO(said);
   CHECK(has(said,
-            "worst 6.000 0.7071 [10.0, 5.0] sigmas 12.00 share 1.20 misleading 1 of 6\n"
+            "worst 6.000 0.7071 [10.0, 5.0] sigmas 12.00 share 1.20 heading 0.25 misleading 1 of 6\n"
             "told satellite_fault after 3.0 error 3.00\n"));
   CHECK(has(said,
-            "sigmas 12.00 share inf misleading 2 of 6\ntold improbable after 2.0 error 0.00\n"));
+            "sigmas 12.00 share inf heading 0.25 misleading 2 of 6\ntold improbable after 2.0 error 0.00\n"));
   CHECK(has(said,
-            "worst 3.000 0.7071 [10.0, 5.0] sigmas 6.00 share 0.60 misleading 0 of 3\nnot told\n"));
+            "worst 3.000 0.7071 [10.0, 5.0] sigmas 6.00 share 0.60 heading 0.00 misleading 0 of 3\nnot told\n"));
 }
 
 TEST_CASE("The steadiest satellite is used nearly always, and of these the highest", "[tools]") {
@@ -107,7 +110,7 @@ print(faults.steadiest(table, 10, 40, "G"), faults.steadiest(table, 0, 10, "G"),
 TEST_CASE("A row of the faults' table has the errors with sigma and levels", "[tools]") {
   if (!have_numpy()) return;
   const std::string said = python(R"(
-result = dict(worst=(1.234, 0.5, (3.04, 4.06)), sigmas=2.51, share=0.333, misleading=0, epochs=898, event=None)
+result = dict(worst=(1.234, 0.5, (3.04, 4.06)), sigmas=2.51, share=0.333, heading=0.256, misleading=0, epochs=898, event=None)
 faults.print_row("a fault", "GPS", "filter", result)
 faults.print_row("a fault", "all", "smoother", result | {"event": ("improbable", 9.4, (0.1, 0.05, (2.0, 3.0)))})
 names = [name for name, *_ in faults.faults_of("G05", "L01")]
@@ -116,7 +119,7 @@ print(len(names), len(set(names)), any("satellites: [G05]" in script for _, scri
   INFO(said);
   CHECK(
       has(said,
-          "| a fault | GPS | filter | 1.23 (0.50; 3.0, 4.1) | 2.5 | 0.33 | 0 of 898 | no | - |\n"));
+          "| a fault | GPS | filter | 1.23 (0.50; 3.0, 4.1) | 2.5 | 0.33 | 0.26 | 0 of 898 | no | - |\n"));
   CHECK(has(said, "| 0 of 898 | `improbable` after 9 s | 0.10 (0.05; 2.0, 3.0) |\n"));
   CHECK(has(said, "7 7 True\n"));
 }

@@ -229,7 +229,10 @@ def run_matrix(options):
     failed = sum(r["failure"] is not None for r in results.values())
     missed = sum(bool(row.missed()) for row in rows)
     wrong = [f"{failed} of {len(results)} runs failed; {path} names them"] if failed else []
-    return path, wrong + ([f"{missed} of {len(rows)} rows miss a limit"] if missed else [])
+    wrong += [f"{missed} of {len(rows)} rows miss a limit"] if missed else []
+    compared = matrix_report.compared(table, rows)
+    lost = sum(not found.holds() for found in compared)
+    return path, wrong + ([f"{lost} of {len(compared)} rows are worse than the best other value"] if lost else [])
 
 
 def main(words):

@@ -10,9 +10,10 @@ import yaml
 
 from . import programs, replays
 
-KEYS = {"title", "scenes", "simulate", "axes", "preset", "config", "set", "seeds", "duration_s", "settle_s", "advance_s_per_seed", "limits"}
+KEYS = {"title", "scenes", "simulate", "axes", "preset", "config", "set", "seeds", "duration_s", "settle_s", "advance_s_per_seed", "limits", "compare"}
 SCENE_KEYS = {"scenario", "set", "duration_s", "optional", "limits"}
 VARIANT_KEYS = {"preset", "config", "set"}
+COMPARE_KEYS = {"axis", "value", "at_most"}
 COMPARE = {">=": operator.ge, "<=": operator.le, ">": operator.gt, "<": operator.lt}
 MEASURES = {
     "share": "pooled share within three sigma, %, of every axis",
@@ -41,6 +42,14 @@ class Limit:
     def holds(self, values):
         """Of every axis; a value that is missing does not keep to it."""
         return all(v is not None and COMPARE[self.compare](v, self.bound) for v in values)
+
+
+@dataclasses.dataclass(frozen=True)
+class Comparison:
+    """One value of an axis is held against the best of its other values, all else being equal."""
+    axis: int  # place among the matrix's axes
+    value: str
+    at_most: float  # ratio of the RMSE to the best one
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,6 +82,7 @@ class Matrix:
     common: tuple   # words of leonav-replay that all variants share
     choices: list   # (axis, value, its further words)
     skipped: list  # (scene, why)
+    comparison: Comparison | None = None
 
     def rows(self):
         return [(scene, variant) for scene in self.scenes for variant in self.variants]
@@ -134,6 +144,19 @@ class Reader:
             return Limit(str(text), found[1], found[2], float(found[3]))
         except ValueError:
             self.fail(where, f"{text!r}: {found[3]} is no number")
+
+    def comparison(self, value, axes):
+        """`axes`: {axis: {value: ...}}."""
+        if value is None:
+            return None
+        group = self.group(value, "compare", COMPARE_KEYS)
+        axis = group.get("axis")
+        if axis not in axes:
+            self.fail("compare.axis", f"must be one of {', '.join(axes)}")
+        names = [str(name) for name in axes[axis]]
+        if str(group.get("value")) not in names or len(names) < 2:
+            self.fail("compare.value", f"must be one of several values of {axis}: {', '.join(names)}")
+        return Comparison(list(axes).index(axis), str(group["value"]), self.number(group, "at_most", "compare", 1.1))
 
     def scene(self, name, value, matrix, duration_s, settle_s):
         where = f"scenes.{name}"
@@ -237,7 +260,7 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
                for axis, values in zip(axes, choices) for name, group, where in values]
     further += [("command", "line", programs.with_settings(given.settings))] if given.settings else []
     matrix = Matrix(path, str(top.get("title", "Matrix")), [str(a) for a in axes], scenes, variants, reader.seeds(top.get("seeds", 1), seeds),
-                    reader.number(top, "advance_s_per_seed", "", 0), settle_s, common.words(), further, skipped)
+                    reader.number(top, "advance_s_per_seed", "", 0), settle_s, common.words(), further, skipped, reader.comparison(top.get("compare"), axes))
     return chosen(matrix, patterns, reader)
 
 

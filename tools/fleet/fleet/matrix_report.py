@@ -120,6 +120,62 @@ def verdict_lines(matrix, rows):
     return [*lines, "", "; ".join(f"{name}: {text}" for name, text in meanings.items()) + ".", ""]
 
 
+class BestOthers:
+    """A scene with all axes but the compared one: the compared value's row, and that of the others with the least 3D RMSE."""
+
+    def __init__(self, comparison, row, others):
+        self.row, self.at_most = row, comparison.at_most
+        self.best = min(others, key=lambda other: other.mean("3d"))
+        self.best_name = self.best.variant.values[comparison.axis]
+        self.ratios = {key: row.mean(key) / self.best.mean(key) for key in ("horizontal", "3d")}
+
+    def holds(self):
+        return all(ratio <= self.at_most for ratio in self.ratios.values())
+
+    def line(self, axis):
+        others = [value for place, value in enumerate(self.row.variant.values) if place != axis]
+        cells = [self.row.scene.name, *others, *(report.number(self.row.mean(key)) for key in self.ratios), self.best_name,
+                 *(report.number(self.best.mean(key)) for key in self.ratios),
+                 " / ".join(report.percent(share) for share in self.best.shares()), *(report.number(v) for v in self.ratios.values()),
+                 "met" if self.holds() else "MISSED"]
+        return "| " + " | ".join(cells) + " |"
+
+    def plain(self):
+        return {"name": self.row.name, "best": self.best.name, "ratios": {key: measure.rounded(v) for key, v in self.ratios.items()}}
+
+
+def compared(matrix, rows):
+    """BestOthers of every row of the compared value that has others; none without a comparison."""
+    comparison = matrix.comparison
+    if comparison is None:
+        return []
+
+    def group(row):
+        return row.scene.name, *(v for place, v in enumerate(row.variant.values) if place != comparison.axis)
+
+    found = []
+    for row in rows:
+        if row.variant.values[comparison.axis] != comparison.value or not row.good:
+            continue
+        others = [other for other in rows if other is not row and other.good and group(other) == group(row)]
+        found += [BestOthers(comparison, row, others)] if others else []
+    return found
+
+
+def comparison_lines(matrix, rows):
+    found = compared(matrix, rows)
+    if not found:
+        return []
+    comparison = matrix.comparison
+    axis = matrix.axes[comparison.axis]
+    header = ["scene", *(a for a in matrix.axes if a != axis), f"{comparison.value}: horizontal, m", "3D, m", f"best other {axis}",
+              "horizontal, m", "3D, m", "its share within 3 sigma N / E / U, %", "horizontal ratio", "3D ratio", "verdict"]
+    return [f"## {comparison.value} against the best other {axis}", "",
+            f"The best has the least 3D RMSE of all others in the same scene, chosen with the truth in hand. In {sum(b.holds() for b in found)} of "
+            f"{len(found)} rows {comparison.value} has at most {comparison.at_most:g} times its RMSE, horizontally and in 3D.", "",
+            "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), ""]
+
+
 def markdown(matrix, rows):
     seeds = ", ".join(map(str, matrix.seeds))
     lines = [f"# {matrix.title}", "", f"Seeds {seeds}; the first {matrix.settle_s:g} s of each run do not count. RMSE: mean of the seeds. "
@@ -133,6 +189,7 @@ def markdown(matrix, rows):
     lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
     failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
     lines += report.failed_lines(failed)
+    lines += comparison_lines(matrix, rows)
     lines += levels.section(judged_of(rows), ["scene", matrix.axes[0]], availability_parts(matrix, rows))
     lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]
     for scene in matrix.scenes:
@@ -148,7 +205,8 @@ def write(out, matrix, results):
     """Returns the path of report.md, that of stanford.json or None, and the rows."""
     rows = rows_of(matrix, results)
     plain = {"title": matrix.title, "seeds": matrix.seeds, "settle_s": matrix.settle_s, "skipped": matrix.skipped,
-             "rows": [row.plain() for row in rows], "protection_levels": levels.plain(judged_of(rows)),
+             "rows": [row.plain() for row in rows], "comparison": [b.plain() for b in compared(matrix, rows)],
+             "protection_levels": levels.plain(judged_of(rows)),
              "level_availability": [{"scene": scene, "value": value, **levels.availability(results)}
                                     for (scene, value), results in availability_parts(matrix, rows)]}
     programs.write_atomically(os.path.join(out, "report.json"), json.dumps(plain, indent=1, sort_keys=True) + "\n")

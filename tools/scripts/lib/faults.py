@@ -28,8 +28,8 @@ ESTIMATORS = {"filter": [], "smoother": ["--set", "estimator=smoother"]}
 HEADER = """
 {scene}, seed {seed}; satellites {gps} and {leo}
 
-| fault | systems | estimator | largest 3D error, m (sigma; levels) | error / sigma | error / level | misleading | told | error then, m (sigma; levels) |
-|---|---|---|---|---|---|---|---|---|"""
+| fault | systems | estimator | largest 3D error, m (sigma; levels) | error / sigma | error / level | heading error / level | misleading | told | error then, m (sigma; levels) |
+|---|---|---|---|---|---|---|---|---|---|"""
 
 
 def run(*command):
@@ -60,6 +60,19 @@ def steadiest(table, begin, end, system):
     return max(often, key=lambda name: sum(often[name]) / len(often[name]))
 
 
+def heading_share(folder, truth, begin):
+    """The largest error of the heading over its protection level from `begin` on, s since the truth's first epoch."""
+    week, tow, yaw, level = columns(folder / "solution.csv", ("gps_week", "gps_tow_s", "yaw_deg", "protection_heading_deg"))
+    truth_week, truth_tow, truth_yaw = columns(truth, ("gps_week", "gps_tow_s", "yaw_deg"))
+    first = truth_week[0] * WEEK_S + truth_tow[0]
+    t, truth_t = (np.round(w * WEEK_S + s - first, 3) for w, s in ((week, tow), (truth_week, truth_tow)))
+    t, at, truth_at = np.intersect1d(t, truth_t, return_indices=True)
+    error = (yaw[at] - truth_yaw[truth_at] + 180.0) % 360.0 - 180.0
+    share = np.abs(error) / level[at]
+    # A level that is not known is none.
+    return np.where(np.isnan(share), np.inf, share)[t >= begin].max()
+
+
 def judge(folder, truth, begin, told_from):
     """The largest errors from the fault's begin on, and the first event that tells of it. Times: s since the truth's first."""
     t, error = errors_of(folder / "solution.csv", truth)
@@ -77,7 +90,7 @@ def judge(folder, truth, begin, told_from):
     worst = np.flatnonzero(late)[np.argmax(size[late])]
     at = lambda k: (size[k], sigma_3d[k], levels[:, k])
     result = dict(worst=at(worst), sigmas=(np.abs(error) / sigma)[:, late].max(), share=share[late].max(),
-                  misleading=np.count_nonzero(share[late] > 1), epochs=np.count_nonzero(late), event=None)
+                  heading=heading_share(folder, truth, begin), misleading=np.count_nonzero(share[late] > 1), epochs=np.count_nonzero(late), event=None)
     for row in rows(folder / "events.csv"):
         told = seconds(row) - first
         if row["event"] in TELLING and told >= told_from:
@@ -96,7 +109,7 @@ def print_row(name, systems, estimator, result):
         kind, after, then = result["event"]
         told = f"`{kind}` after {after:.0f} s | {cell(*then)}"
     print(f"| {name} | {systems} | {estimator} | {cell(*result['worst'])} "
-          f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['misleading']} of {result['epochs']} | {told} |", flush=True)
+          f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['heading']:.2f} | {result['misleading']} of {result['epochs']} | {told} |", flush=True)
 
 
 class Drive:
