@@ -24,9 +24,6 @@ constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solut
 // many times that of its position or velocity (3D) beside.
 constexpr double kStartClockSigma = 10.0, kStartDriftSigma = 1.0, kStartClockShare = 3.0;
 
-// What the model of the ionosphere leaves has another value after this time.
-constexpr double kIonosphereTime_s = 3600.0;
-
 double gauss_markov_decay(const GaussMarkov& process, double dt) {
   return std::exp(-dt / process.correlation_time_s);
 }
@@ -94,7 +91,6 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
   known_clocks_ = ClockFlags{};
   start_vehicle_constants();
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
-  ionosphere_noise_ = 0.0;
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
   if (moves) {
     covariance_.block<3, 3>(kVelocity, kVelocity) =
@@ -239,21 +235,12 @@ void StateEstimate::propagate_slow_states(const ImuErrorModel& imu, double dt) {
           square(config_.vehicle.random_walk[static_cast<std::size_t>(i)]) * dt;
     if (config_.wet_delay_sigma_m > 0.0)
       (*covariance)(kWetDelay, kWetDelay) += square(config_.wet_delay_noise) * dt;
-    (*covariance)(kIonosphere, kIonosphere) += ionosphere_noise_ * dt;
     if (config_.use_carrier)
       (*covariance)(kCarrierClock, kCarrierClock) += square(config_.carrier_clock_noise) * dt;
   }
   if (process_.continuous)
     process_.transition.middleRows<4>(kClock) +=
         dt * process_.transition.middleRows<4>(kClockDrift);
-}
-
-void StateEstimate::start_ionosphere(double sigma_m) {
-  if (covariance_(kIonosphere, kIonosphere) > 0.0) return;
-  const double variance = square(sigma_m);
-  covariance_(kIonosphere, kIonosphere) = variance;
-  ionosphere_noise_ = 2.0 * variance / kIonosphereTime_s;
-  if (process_.continuous) process_.start(kIonosphere, variance);
 }
 
 void StateEstimate::to_antenna_parametrization(const AntennaMotion& antenna) {

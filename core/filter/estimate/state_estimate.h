@@ -103,10 +103,6 @@ class StateEstimate {
   void scale_sigmas(double of_position, double of_velocity);
   void inflate_ambiguity(int state, double sigma_m);
 
-  // --- ionosphere ---
-  // Starts the zenith delay beyond the modelled one, unless it is estimated already.
-  void start_ionosphere(double sigma_m);
-
   // --- clocks; `system` is an index of System ---
   void start_clock_offset(std::size_t system, double offset_m, double sigma_m);
   void start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s);
@@ -151,7 +147,6 @@ class StateEstimate {
   ClockFlags known_clocks_;
   EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
   FilterProcess process_;
-  double ionosphere_noise_ = 0.0;  // m^2/s; 0: its delay is not estimated
   bool has_attitude_ = false;
 };
 

@@ -162,36 +162,6 @@ def compared(matrix, rows):
     return found
 
 
-def one_for_all(comparison, rows):
-    """(value of the axis, geometric mean over all others of its 3D RMSE over that of the compared value, the largest ratio, the least
-    share within three sigma), best first; of the other values that have every row."""
-    def others_of(row):
-        return row.scene.name, *(v for place, v in enumerate(row.variant.values) if place != comparison.axis)
-
-    by_value = {}
-    for row in rows:
-        if row.good:
-            by_value.setdefault(row.variant.values[comparison.axis], {})[others_of(row)] = row
-    own = by_value.pop(comparison.value, {})
-    found = []
-    for value, its in by_value.items():
-        if own and its.keys() == own.keys():
-            ratios = [its[key].mean("3d") / own[key].mean("3d") for key in own]
-            shares = [share for row in its.values() for share in row.shares() if share is not None]
-            found.append((value, statistics.geometric_mean(ratios), max(ratios), min(shares, default=None)))
-    return sorted(found, key=lambda entry: entry[1])
-
-
-def one_for_all_lines(matrix, rows):
-    found = one_for_all(matrix.comparison, rows)
-    if not found:
-        return []
-    value = matrix.comparison.value
-    return [f"One for all, 3D RMSE over that of {value}: geometric mean of all rows, the largest, and the least share within three sigma.", "",
-            f"| {matrix.axes[matrix.comparison.axis]} | mean | largest | least share, % |", "|---|---|---|---|",
-            *(f"| {name} | {mean:.2f} | {largest:.2f} | {report.percent(least)} |" for name, mean, largest, least in found), ""]
-
-
 def comparison_lines(matrix, rows):
     found = compared(matrix, rows)
     if not found:
@@ -203,8 +173,7 @@ def comparison_lines(matrix, rows):
     return [f"## {comparison.value} against the best other {axis}", "",
             f"The best has the least 3D RMSE of all others in the same scene, chosen with the truth in hand. In {sum(b.holds() for b in found)} of "
             f"{len(found)} rows {comparison.value} has at most {comparison.at_most:g} times its RMSE, horizontally and in 3D.", "",
-            "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), "",
-            *one_for_all_lines(matrix, rows)]
+            "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), ""]
 
 
 def markdown(matrix, rows):

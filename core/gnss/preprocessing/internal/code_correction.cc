@@ -23,12 +23,6 @@ constexpr double kIonosphereFloor = 0.5;  // m
 // Without broadcast coefficients the error may reach the delay itself.
 constexpr double kUnknownModelShare = 1.0;
 
-// Share of the variance of that which satellites do not have in common: gradients and waves of the
-// electron content.
-constexpr double kIndividualShare = 0.3;
-// Radius of the Earth over that of the shell at 350 km.
-constexpr double kShellRatio = 6371.0 / 6721.0;
-
 // Correlation times, in s, of the errors of orbit and clock and of the ionosphere model.
 constexpr double kOrbitCorrelation = 3600.0;
 constexpr double kIonosphereCorrelation = 900.0;
@@ -59,18 +53,6 @@ GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast
     return precise_group_delay(satellite.satellite.system, broadcast, first, second);
   }
   return group_delay(*broadcast, first, second);
-}
-
-// Returns the part that all satellites have in common of what the model leaves in a code of
-// `frequency`: `sigma` on the path, and `variance` of the code.
-IonosphereError common_ionosphere_error(double elevation, double sigma, double variance,
-                                        double frequency) {
-  const double sine = kShellRatio * std::cos(elevation);  // of the zenith angle in the shell
-  IonosphereError error;
-  error.mapping = square(kL1Frequency / frequency) / std::sqrt(1.0 - square(sine));
-  error.zenith_sigma = std::sqrt(1.0 - kIndividualShare) * sigma / error.mapping;
-  error.variance = (1.0 - kIndividualShare) * variance;
-  return error;
 }
 
 // Returns the rate of the tropospheric delay by the satellite's motion: below 1 mm/s for GNSS, some
@@ -220,9 +202,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
     variance += bias_variance(context, first);
-    const double sigma = ionosphere_sigma(context, satellite->elevation, delay, f1);
-    ionosphere = shared_by * square(sigma);
-    code.ionosphere = common_ionosphere_error(satellite->elevation, sigma, ionosphere, f1);
+    ionosphere = shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
   const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);

@@ -100,41 +100,6 @@ TEST_CASE(
   CHECK(variances.pair_noise > 5.0 * variances.single_noise);
 }
 
-// The slant of a ray in the shell at 350 km, by the triangle of centre, receiver and the point
-// where the ray pierces the shell.
-double slant_in_shell(double elevation) {
-  constexpr double kEarth = 6371.0, kShell = 6721.0;
-  const Eigen::Vector2d receiver(0.0, kEarth), ray(std::cos(elevation), std::sin(elevation));
-  double near = 0.0, far = 5000.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (near + far);
-    ((receiver + middle * ray).norm() < kShell ? near : far) = middle;
-  }
-  return 1.0 / (receiver + near * ray).normalized().dot(ray);
-}
-
-TEST_CASE("what the ionosphere's model leaves in common is most of its error, by the slant") {
-  const Case& of = kCases[GENERATE(range(0, 4))];
-  CAPTURE(of.system, of.elevation);
-  Codes codes(of);
-  codes.klobuchar = {
-      .alpha = {2e-8, 1e-8, -6e-8, -6e-8}, .beta = {1e5, 6e4, -2e5, -1e5}, .valid = true};
-  for (std::size_t i = 0; i < codes.signals.size(); ++i) {
-    const Measurement code = codes.code(i);
-    const double f = frequency_hz(of.system, codes.signals[i].code.band);
-    const IonosphereError& common = code.ionosphere;
-    CHECK(common.mapping ==
-          Approx(square(1575.42e6 / f) * slant_in_shell(of.elevation)).epsilon(1e-6));
-    CHECK(common.variance == Approx(0.7 * square(code.correlated_sigma)));
-    CHECK(square(common.mapping * common.zenith_sigma) == Approx(common.variance));
-    CHECK(code.own_variance() == Approx(square(code.sigma) - common.variance));
-    CHECK(code.own_correlated_variance() == Approx(0.3 * square(code.correlated_sigma)));
-  }
-  const Measurement pair = codes.code(0, of.second);
-  CHECK(pair.ionosphere.mapping == 0.0);
-  CHECK(pair.own_variance() == square(pair.sigma));
-}
-
 TEST_CASE("without a position no variances of a code are known") {
   const CodeVariances variances = Codes(kCases[0]).variances(1, false);
   CHECK(variances.pair_noise == 0.0);

@@ -100,10 +100,10 @@ TEST_CASE("good codes of many satellites are paired although they keep the posit
 }
 
 // The factor s at which pairs have exp(`log_ratio`) times the variance of single frequencies:
-//   s^2 pair / n = exp(log_ratio) (s^2 single / n + 0.2 ionosphere)
+//   s^2 pair / n = exp(log_ratio) (s^2 single / n + 0.4 ionosphere)
 double factor_of(double log_ratio, const Sky& sky) {
   const double ratio = std::exp(log_ratio);
-  return std::sqrt(ratio * 0.2 * sky.ionosphere * sky.satellites /
+  return std::sqrt(ratio * 0.4 * sky.ionosphere * sky.satellites /
                    (sky.pair_noise - ratio * sky.single_noise));
 }
 
