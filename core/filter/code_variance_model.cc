@@ -24,7 +24,7 @@ void CodeVarianceModel::reset() {
   weighting_.clear();
   mean_gain_ = 1.0;
   position_memory_s_ = 0.0;
-  last_held_ = new_arcs_until_ = frequent_arc_breaks_until_ = GpsTime();
+  none_since_ = new_arcs_until_ = frequent_arc_breaks_until_ = GpsTime();
 }
 
 void CodeVarianceModel::accept(const FilterMeasurements& measurements) {
@@ -63,14 +63,18 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
     }
   }
   const auto lasts = [&epoch](GpsTime until) { return until.is_set() && epoch.time <= until; };
-  if (held > 0 || !last_held_.is_set()) last_held_ = epoch.time;
+  if (held > 0)
+    none_since_ = GpsTime();
+  else if (!none_since_.is_set())
+    none_since_ = epoch.time;
   if (held == 0) {
     new_arcs_until_ = epoch.time.plus_seconds(kNewArcs_s);
     weighting_.clear();
   } else if (held < kMinContinuousArcs || broken > std::max(1, held / kContinuousPerBroken)) {
     frequent_arc_breaks_until_ = epoch.time.plus_seconds(kFrequentBreaksMemory_s);
   }
-  const bool none_goes_on = seconds_between(epoch.time, last_held_) > kNewArcs_s;
+  const bool none_goes_on =
+      none_since_.is_set() && seconds_between(epoch.time, none_since_) > kNewArcs_s;
   if (none_goes_on || lasts(frequent_arc_breaks_until_)) return CarrierContinuity::kNone;
   return lasts(new_arcs_until_) ? CarrierContinuity::kNewArcs : CarrierContinuity::kContinuous;
 }

@@ -57,7 +57,7 @@ class CodeVarianceModel {
   double interval_s_ = 0.0;  // since the last update
   double mean_gain_ = 1.0, position_memory_s_ = 0.0;
   CarrierContinuity continuity_ = CarrierContinuity::kNone;
-  GpsTime last_held_;                  // an arc went on; at the start: the first epoch
+  GpsTime none_since_;                 // first of the epochs in which no arc went on
   GpsTime new_arcs_until_;             // no arc went on from before
   GpsTime frequent_arc_breaks_until_;  // too many arcs ended
 };

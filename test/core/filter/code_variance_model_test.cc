@@ -103,6 +103,10 @@ TEST_CASE("arcs have five seconds to go on; where none does, codes hold the posi
   CHECK_FALSE(none.model().carriers_keep_position());
   none.reset();
   CHECK(none.model().carriers_keep_position());
+  // Epochs after a tunnel have new arcs, which may go on.
+  Receiver after_tunnel(0, 20.0);
+  CHECK(after_tunnel.model().carriers_keep_position());
+  CHECK(none.model().carriers_keep_position());
 }
 
 TEST_CASE("a position that is soon forgotten leaves all of a code inflated as its reflections") {

@@ -231,8 +231,7 @@ def row(systems, noise, horizontal, rmse):
 rows = [row("GPS", "learned", 1.0, 2.1), row("GPS", "small", 0.8, 3.0), row("GPS", "large", 1.0, 2.0),
         row("all", "learned", 0.9, 1.0), row("all", "small", 0.5, 1.0), row("all", "large", 0.1, 1.5)]
 whole = types.SimpleNamespace(axes=["systems", "noise"], comparison=matrix.Comparison(1, "learned", 1.1))
-print("
-".join(matrix_report.comparison_lines(whole, rows)))
+print("\n".join(matrix_report.comparison_lines(whole, rows)))
 print([found.plain()["ratios"] for found in matrix_report.compared(whole, rows)])
 whole.comparison = None
 print("none", matrix_report.comparison_lines(whole, rows))
@@ -245,6 +244,10 @@ print("none", matrix_report.comparison_lines(whole, rows))
   CHECK(has(said,
             "| city | all | 0.90 | 1.00 | small | 0.50 | 1.00 | 90.0 / 90.0 / 90.0 | 1.80 | 1.00 | "
             "MISSED |"));
+  // Of `small` 3.0 / 2.1 and 1.0 / 1.0, of `large` 2.0 / 2.1 and 1.5 / 1.0.
+  CHECK(has(said,
+            "| noise | mean | largest | least share, % |\n|---|---|---|---|\n"
+            "| small | 1.20 | 1.43 | 90.0 |\n| large | 1.20 | 1.50 | 90.0 |\n"));
   CHECK(has(said, "none []\n"));
 }
 

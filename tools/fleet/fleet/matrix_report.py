@@ -18,6 +18,10 @@ class Row:
         self.good = {seed: r for seed, r in results.items() if r["failure"] is None}
         self.pooled = report.pooled(self.good.values())
 
+    def complete(self):
+        """Whether every seed has a result."""
+        return bool(self.good) and len(self.good) == len(self.results)
+
     def mean(self, key):
         return statistics.fmean(r["errors"][key]["rmse"] for r in self.good.values()) if self.good else None
 
@@ -145,7 +149,7 @@ class BestOthers:
 
 
 def compared(matrix, rows):
-    """BestOthers of every row of the compared value that has others; none without a comparison."""
+    """BestOthers of every row of the compared value that has others, all with every seed; none without a comparison."""
     comparison = matrix.comparison
     if comparison is None:
         return []
@@ -155,25 +159,59 @@ def compared(matrix, rows):
 
     found = []
     for row in rows:
-        if row.variant.values[comparison.axis] != comparison.value or not row.good:
+        if row.variant.values[comparison.axis] != comparison.value or not row.complete():
             continue
-        others = [other for other in rows if other is not row and other.good and group(other) == group(row)]
+        others = [other for other in rows if other is not row and other.complete() and group(other) == group(row)]
         found += [BestOthers(comparison, row, others)] if others else []
     return found
 
 
-def comparison_lines(matrix, rows):
-    found = compared(matrix, rows)
+def one_for_all(comparison, rows):
+    """(value of the axis, geometric mean over all others of its 3D RMSE over that of the compared value, the largest ratio, the least
+    share within three sigma), best first; of the other values that have every row."""
+    def others_of(row):
+        return row.scene.name, *(v for place, v in enumerate(row.variant.values) if place != comparison.axis)
+
+    by_value = {}
+    for row in rows:
+        if row.complete():
+            by_value.setdefault(row.variant.values[comparison.axis], {})[others_of(row)] = row
+    own = by_value.pop(comparison.value, {})
+    found = []
+    for value, its in by_value.items():
+        if own and its.keys() == own.keys():
+            ratios = [its[key].mean("3d") / own[key].mean("3d") for key in own]
+            shares = [share for row in its.values() for share in row.shares() if share is not None]
+            found.append((value, statistics.geometric_mean(ratios), max(ratios), min(shares, default=None)))
+    return sorted(found, key=lambda entry: entry[1])
+
+
+def one_for_all_lines(matrix, rows):
+    found = one_for_all(matrix.comparison, rows)
     if not found:
         return []
+    value = matrix.comparison.value
+    return [f"One for all, 3D RMSE over that of {value}: geometric mean of all rows, the largest, and the least share within three sigma.", "",
+            f"| {matrix.axes[matrix.comparison.axis]} | mean | largest | least share, % |", "|---|---|---|---|",
+            *(f"| {name} | {mean:.2f} | {largest:.2f} | {report.percent(least)} |" for name, mean, largest, least in found), ""]
+
+
+def comparison_lines(matrix, rows):
     comparison = matrix.comparison
+    if comparison is None:
+        return []
+    found = compared(matrix, rows)
     axis = matrix.axes[comparison.axis]
+    if not found:
+        return [f"## {comparison.value} against the best other {axis}", "", f"Nothing to compare: no scene has all seeds of {comparison.value} and "
+                f"of another {axis}.", ""]
     header = ["scene", *(a for a in matrix.axes if a != axis), f"{comparison.value}: horizontal, m", "3D, m", f"best other {axis}",
               "horizontal, m", "3D, m", "its share within 3 sigma N / E / U, %", "horizontal ratio", "3D ratio", "verdict"]
     return [f"## {comparison.value} against the best other {axis}", "",
             f"The best has the least 3D RMSE of all others in the same scene, chosen with the truth in hand. In {sum(b.holds() for b in found)} of "
             f"{len(found)} rows {comparison.value} has at most {comparison.at_most:g} times its RMSE, horizontally and in 3D.", "",
-            "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), ""]
+            "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), "",
+            *one_for_all_lines(matrix, rows)]
 
 
 def markdown(matrix, rows):
