@@ -62,9 +62,16 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   const double shift = median(innovations);
   const double sigma = std::sqrt(median(variances));
   SmallTable deviations;
-  for (const double innovation : innovations) deviations.push_back(std::abs(innovation - shift));
+  std::size_t sharing = 0;
+  for (const double innovation : innovations) {
+    deviations.push_back(std::abs(innovation - shift));
+    if (deviations.back() < std::abs(innovation)) ++sharing;
+  }
   const double spread = 1.4826 * median(deviations);
-  const bool agree = spread < kSpreadShare * std::abs(shift);
+  // Half of the satellites reflected is no step: two thirds must share it, as in
+  // find_common_step().
+  const bool shared = 3 * sharing >= 2 * innovations.size();
+  const bool agree = shared && spread < kSpreadShare * std::abs(shift);
   const bool many = innovations.size() >= kMinCount;
   const bool huge = observable == Observable::kCode && std::abs(shift) > kMillisecondStep;
   if (agree && (many || huge) && std::abs(shift) > kShiftRatio * sigma) return shift;

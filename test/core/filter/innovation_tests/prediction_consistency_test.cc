@@ -32,4 +32,23 @@ TEST_CASE("a point that is told not to move does not, whatever the Dopplers agre
   CHECK((filter.state().p_e - truth.p_antenna_e).norm() < 2.0);
 }
 
+TEST_CASE("a shift is one that two thirds of the codes share; half of them is none") {
+  const EkfCovariance certain = EkfCovariance::Zero(kSize, kSize);
+  const auto shift_of = [&](int shifted, int others) {
+    FilterMeasurements codes;
+    for (int i = 0; i < shifted + others; ++i) {
+      FilterMeasurement code;
+      code.innovation = (i < shifted ? 150.0 : 0.0) + 0.1 * (i % 3);
+      code.variance = 9.0;
+      codes.push_back(code);
+    }
+    return common_shift(codes, Observable::kCode, certain);
+  };
+  CHECK(shift_of(12, 0) == Approx(150.0).margin(1.0));
+  CHECK(shift_of(14, 7) == Approx(150.0).margin(1.0));
+  CHECK(shift_of(13, 8) == 0.0);
+  CHECK(shift_of(11, 10) == 0.0);
+  CHECK(shift_of(7, 14) == 0.0);
+}
+
 }  // namespace leonav
