@@ -63,11 +63,9 @@ CodeVarianceModel::CarrierContinuity CodeVarianceModel::evaluate_carrier_continu
     }
   }
   const auto lasts = [&epoch](GpsTime until) { return until.is_set() && epoch.time <= until; };
-  if (held > 0)
-    none_since_ = GpsTime();
-  else if (!none_since_.is_set())
-    none_since_ = epoch.time;
+  if (held > 0) none_since_ = GpsTime();
   if (held == 0) {
+    if (!none_since_.is_set()) none_since_ = epoch.time;
     new_arcs_until_ = epoch.time.plus_seconds(kNewArcs_s);
     weighting_.clear();
   } else if (held < kMinContinuousArcs || broken > std::max(1, held / kContinuousPerBroken)) {

@@ -12,10 +12,10 @@ namespace leonav {
 // While carriers keep the position from epoch to epoch, the codes of a satellite are weighed
 // jointly (core/filter/update/colored_code_weighting.h). Otherwise each is inflated by
 // variance_inflation() of its errors' correlation. Carriers do not keep the position where many
-// arcs end (a phone, a receiver among trees): then the codes hold it, and it follows their errors.
-// What lasts longer than noise and reflections (orbit, clock, ionosphere) is then inflated for a
-// twentieth of the position's memory, at most 20 s: an inertial sensor that keeps the position for
-// minutes would otherwise average errors that stay the same.
+// arcs end (a phone, a receiver among trees), or none goes on: then the codes hold it, and it
+// follows their errors. What lasts longer than noise and reflections (orbit, clock, ionosphere) is
+// then inflated for a twentieth of the position's memory, at most 20 s: an inertial sensor that
+// keeps the position for minutes would otherwise average errors that stay the same.
 class CodeVarianceModel {
  public:
   explicit CodeVarianceModel(const EkfConfig& config) : is_static_(config.static_point) {}

@@ -28,9 +28,12 @@ inline constexpr double kStepSignificance = 5.0;
 // Ratio of the variance of the median of n normal values to that of their mean (large n).
 inline constexpr double kMedianVariance = 1.5708;  // pi / 2
 
+// Returns whether two thirds of the values are nearer to `step` than to zero.
+bool two_thirds_share(std::span<const double> values, double step);
+
 // Returns the median of `samples` if it is a step. It must be significant against the error that
-// all samples share (`common_sigma_m`) and their own noise, and two thirds of the samples must be
-// nearer to it than to zero. The noise is the larger one of the stated sigmas and the scatter.
+// all samples share (`common_sigma_m`) and their own noise, and two_thirds_share() of the
+// samples must hold. The noise is the larger one of the stated sigmas and the scatter.
 // Returns nullopt where there is no step, for fewer than four samples, or for a value that is not
 // finite.
 std::optional<CommonStep> find_common_step(std::span<const StepSample> samples,

@@ -7,6 +7,7 @@
 
 #include "core/base/median.h"
 #include "core/filter/update/covariance_inflation.h"
+#include "core/robust/common_step.h"
 
 namespace leonav {
 namespace {
@@ -62,15 +63,10 @@ double common_shift(const FilterMeasurements& measurements, Observable observabl
   const double shift = median(innovations);
   const double sigma = std::sqrt(median(variances));
   SmallTable deviations;
-  std::size_t sharing = 0;
-  for (const double innovation : innovations) {
-    deviations.push_back(std::abs(innovation - shift));
-    if (deviations.back() < std::abs(innovation)) ++sharing;
-  }
+  for (const double innovation : innovations) deviations.push_back(std::abs(innovation - shift));
   const double spread = 1.4826 * median(deviations);
-  // Half of the satellites reflected is no step: two thirds must share it, as in
-  // find_common_step().
-  const bool shared = 3 * sharing >= 2 * innovations.size();
+  // Half of the satellites reflected is no shift.
+  const bool shared = two_thirds_share({innovations.data(), innovations.size()}, shift);
   const bool agree = shared && spread < kSpreadShare * std::abs(shift);
   const bool many = innovations.size() >= kMinCount;
   const bool huge = observable == Observable::kCode && std::abs(shift) > kMillisecondStep;

@@ -9,8 +9,9 @@
 
 namespace leonav {
 
-// Returns a shift that all innovations of one observable share, 0 if there is none: a clock jump (a
-// receiver's by milliseconds, a phone's by anything), m.
+// Returns the median innovation of one observable if it is a shift that they share
+// (two_thirds_share(), and a small scatter), otherwise 0: a clock jump (a receiver's by
+// milliseconds, a phone's by anything), m.
 double common_shift(const FilterMeasurements& measurements, Observable observable,
                     const EkfCovariance& covariance);
 

@@ -18,6 +18,10 @@ class Row:
         self.good = {seed: r for seed, r in results.items() if r["failure"] is None}
         self.pooled = report.pooled(self.good.values())
 
+    def all_but(self, axis):
+        """The scene and the values of all axes but that at one place."""
+        return self.scene.name, *(value for place, value in enumerate(self.variant.values) if place != axis)
+
     def complete(self):
         """Whether every seed has a result."""
         return bool(self.good) and len(self.good) == len(self.results)
@@ -137,8 +141,7 @@ class BestOthers:
         return all(ratio <= self.at_most for ratio in self.ratios.values())
 
     def line(self, axis):
-        others = [value for place, value in enumerate(self.row.variant.values) if place != axis]
-        cells = [self.row.scene.name, *others, *(report.number(self.row.mean(key)) for key in self.ratios), self.best_name,
+        cells = [*self.row.all_but(axis), *(report.number(self.row.mean(key)) for key in self.ratios), self.best_name,
                  *(report.number(self.best.mean(key)) for key in self.ratios),
                  " / ".join(report.percent(share) for share in self.best.shares()), *(report.number(v) for v in self.ratios.values()),
                  "met" if self.holds() else "MISSED"]
@@ -154,14 +157,12 @@ def compared(matrix, rows):
     if comparison is None:
         return []
 
-    def group(row):
-        return row.scene.name, *(v for place, v in enumerate(row.variant.values) if place != comparison.axis)
-
     found = []
     for row in rows:
         if row.variant.values[comparison.axis] != comparison.value or not row.complete():
             continue
-        others = [other for other in rows if other is not row and other.complete() and group(other) == group(row)]
+        others = [other for other in rows if other is not row and other.complete()
+                  and other.all_but(comparison.axis) == row.all_but(comparison.axis)]
         found += [BestOthers(comparison, row, others)] if others else []
     return found
 
@@ -169,13 +170,10 @@ def compared(matrix, rows):
 def one_for_all(comparison, rows):
     """(value of the axis, geometric mean over all others of its 3D RMSE over that of the compared value, the largest ratio, the least
     share within three sigma), best first; of the other values that have every row."""
-    def others_of(row):
-        return row.scene.name, *(v for place, v in enumerate(row.variant.values) if place != comparison.axis)
-
     by_value = {}
     for row in rows:
         if row.complete():
-            by_value.setdefault(row.variant.values[comparison.axis], {})[others_of(row)] = row
+            by_value.setdefault(row.variant.values[comparison.axis], {})[row.all_but(comparison.axis)] = row
     own = by_value.pop(comparison.value, {})
     found = []
     for value, its in by_value.items():
