@@ -90,7 +90,7 @@ void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& 
                               double inflation, double correlation_time_ratio,
                               FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
-  const double correlated = square(code.correlated_sigma);
+  const double correlated = code.own_correlated_variance();
   if (continuity_ == CarrierContinuity::kNone || !(correlated > 0.0) ||
       !(code.correlation_time_s > 0.0)) {
     entry->gain_variance = inflated(entry->variance, correlated,

@@ -26,6 +26,14 @@ Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
+// Returns the covariance of position (ECEF) and zenith delay of the ionosphere, m^2.
+Eigen::Matrix4d position_and_ionosphere(const EkfCovariance& P) {
+  Eigen::Matrix4d covariance;
+  covariance << P.block<3, 3>(kPosition, kPosition), P.block<3, 1>(kPosition, kIonosphere),
+      P.block<1, 3>(kIonosphere, kPosition), P(kIonosphere, kIonosphere);
+  return covariance;
+}
+
 // Sum over the axes, m^2.
 double position_variance(const EkfCovariance& P) {
   return P.diagonal().segment<3>(kPosition).sum();
@@ -205,7 +213,7 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
   if (!result->prediction_suspect) {
-    assembler_.learn_codes(epoch, covariance().topLeftCorner<3, 3>());
+    assembler_.learn_codes(epoch, position_and_ionosphere(covariance()));
     assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
     assembler_.finish_learning(epoch.time);
   }

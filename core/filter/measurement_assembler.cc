@@ -36,6 +36,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
+  update_ionosphere(epoch, estimate);
   for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
     const Measurement& measurement = epoch.measurements[i];
     const bool carrier = measurement.observable == Observable::kCarrier;
@@ -51,8 +52,9 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
       excluded_.push_back({i, Reason::kNotSolved});
       continue;
     }
-    const MeasurementPrediction prediction = predict_measurement(
-        measurement, satellite, antenna, state.clocks, state.wet_delay_m, state.carrier_clock_m);
+    const MeasurementPrediction prediction =
+        predict_measurement(measurement, satellite, antenna, state.clocks, state.wet_delay_m,
+                            state.carrier_clock_m, state.ionosphere_m);
     FilterMeasurement entry;
     entry.index = i;
     entry.observable = measurement.observable;
@@ -76,6 +78,20 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   }
 }
 
+// Codes of single frequencies tell the sigma of the zenith delay, on average.
+void MeasurementAssembler::update_ionosphere(const MeasurementEpoch& epoch,
+                                             StateEstimate* estimate) const {
+  estimate->step_ionosphere_model(epoch.ionosphere_step_m);
+  double sum = 0.0;
+  int count = 0;
+  for (const Measurement& code : epoch.measurements) {
+    if (!(code.ionosphere.zenith_sigma > 0.0)) continue;
+    sum += square(code.ionosphere.zenith_sigma);
+    ++count;
+  }
+  if (count > 0) estimate->set_ionosphere_sigma(std::sqrt(sum / count));
+}
+
 // What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are
 // modelled.
 void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
@@ -83,9 +99,9 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   const ErrorClass of =
       errors_.class_of(measurement, epoch.satellites[measurement.satellite_index], standing());
   const double scale = errors_.sigma_scale(of);
-  entry->variance = square(measurement.sigma);
+  entry->variance = measurement.own_variance();
   if (scale != 1.0) {
-    const double modelled = std::min(square(measurement.correlated_sigma), entry->variance);
+    const double modelled = std::min(measurement.own_correlated_variance(), entry->variance);
     entry->variance = modelled + square(scale) * (entry->variance - modelled);
   }
   CorrelationModel correlation = measurement.observable == Observable::kCarrier

@@ -47,8 +47,8 @@ class MeasurementAssembler {
   }
   // Learns from the codes of measurements(), or from the innovations of Dopplers, and ends the
   // epoch.
-  void learn_codes(const MeasurementEpoch& epoch, const Eigen::Matrix3d& position_covariance_e) {
-    errors_.add_codes(epoch, measurements_, position_covariance_e, standing());
+  void learn_codes(const MeasurementEpoch& epoch, const Eigen::Matrix4d& known_covariance) {
+    errors_.add_codes(epoch, measurements_, known_covariance, standing());
   }
   void learn_dopplers(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
     errors_.add_dopplers(epoch, measurements_, innovations, standing());
@@ -72,6 +72,7 @@ class MeasurementAssembler {
 
  private:
   static constexpr double kStandingSpeed_m_s = 0.3;
+  void update_ionosphere(const MeasurementEpoch& epoch, StateEstimate* estimate) const;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
              double line_of_sight_rate, double dt, FilterMeasurement* entry);

@@ -31,7 +31,7 @@ LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyfra
   const SatelliteInView& satellite = keyframe.satellites[measurement.measurement.satellite_index];
   const MeasurementPrediction prediction =
       predict_measurement(measurement.measurement, satellite, antenna, state.clocks,
-                          state.wet_delay_m, state.carrier_clock_m);
+                          state.wet_delay_m, state.carrier_clock_m, state.ionosphere_m);
   LinearMeasurement linear;
   linear.residual = measurement.measurement.value - prediction.value;
   if (measurement.ambiguity >= 0)

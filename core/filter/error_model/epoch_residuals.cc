@@ -13,7 +13,8 @@ namespace {
 using namespace ekf_index;
 
 constexpr int kClocks = static_cast<int>(kMaxSystemTimes);
-constexpr int kUnknowns = 3 + kClocks;
+constexpr int kKnown = 4;  // position and ionosphere, known from before
+constexpr int kUnknowns = kKnown + kClocks;
 constexpr double kHuber = 1.5;
 // The filter's position counts with so many of its sigmas: it may be wrong by more than it says,
 // and where few satellites are left nothing else shows that some of them are reflected.
@@ -25,6 +26,8 @@ constexpr double kRejected = 5.0;
 // Weak information, m^-2, that keeps the normal matrix regular where a system is absent: its clock
 // has no measurement and stays zero.
 constexpr double kRegular = 1e-9;
+// Variance of the ionosphere, m^2, that keeps its covariance regular where it is not estimated.
+constexpr double kLeastIonosphere_m2 = 1e-6;
 // A position less certain than this by the codes alone, m, with the configured sigmas, tells
 // nothing.
 constexpr double kMostSigma_m = 300.0;
@@ -34,14 +37,14 @@ using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 Unknowns row_of(const FilterMeasurement& code) {
   Unknowns row;
-  row << code.row.segment<3>(kPosition), code.row.segment<kClocks>(kClock);
+  row << code.row.segment<3>(kPosition), code.row(kIonosphere), code.row.segment<kClocks>(kClock);
   return row;
 }
 
 }  // namespace
 
 EpochResiduals code_residuals(const FilterMeasurements& measurements,
-                              const Eigen::Matrix3d& position_covariance_e) {
+                              const Eigen::Matrix4d& known_covariance) {
   EpochResiduals residuals;
   boost::container::static_vector<double, kMaxMeasurements> psi;
   Unknowns seen = Unknowns::Zero();
@@ -56,11 +59,13 @@ EpochResiduals code_residuals(const FilterMeasurements& measurements,
   if (residuals.size() <= unknowns) return {};
 
   Normal prior = kRegular * Normal::Identity(), tight = prior;
-  const Eigen::LLT<Eigen::Matrix3d> known(kPriorFactor * kPriorFactor * position_covariance_e);
+  Eigen::Matrix4d covariance_of_known = known_covariance;
+  covariance_of_known(3, 3) += kLeastIonosphere_m2;
+  const Eigen::LLT<Eigen::Matrix4d> known(kPriorFactor * kPriorFactor * covariance_of_known);
   if (known.info() != Eigen::Success) return {};
-  const Eigen::Matrix3d information = known.solve(Eigen::Matrix3d::Identity());
-  prior.topLeftCorner<3, 3>() += information;
-  tight.topLeftCorner<3, 3>() += kPriorFactor * kPriorFactor * information;
+  const Eigen::Matrix4d information = known.solve(Eigen::Matrix4d::Identity());
+  prior.topLeftCorner<kKnown, kKnown>() += information;
+  tight.topLeftCorner<kKnown, kKnown>() += kPriorFactor * kPriorFactor * information;
 
   Normal inverse;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -89,7 +94,7 @@ EpochResiduals code_residuals(const FilterMeasurements& measurements,
   if (!(inverse.topLeftCorner<3, 3>().trace() < kMostSigma_m * kMostSigma_m)) return {};
 
   Normal spread = Normal::Zero();  // H^T W R W H
-  spread.topLeftCorner<3, 3>() = information * position_covariance_e * information;
+  spread.topLeftCorner<kKnown, kKnown>() = information * covariance_of_known * information;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const FilterMeasurement& code = measurements[residuals[i].index];
     const Unknowns row = row_of(code);

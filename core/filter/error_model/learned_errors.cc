@@ -96,9 +96,9 @@ bool LearnedErrors::fit_first(const MeasurementEpoch& epoch, const FilterMeasure
 }
 
 void LearnedErrors::add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                              const Eigen::Matrix3d& position_covariance_e, bool standing) {
+                              const Eigen::Matrix4d& known_covariance, bool standing) {
   if (!learns_) return;
-  for (const EpochResidual& entry : code_residuals(measurements, position_covariance_e)) {
+  for (const EpochResidual& entry : code_residuals(measurements, known_covariance)) {
     if (entry.redundancy < kLeastRedundancy) continue;
     const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];

@@ -35,7 +35,7 @@ class LearnedErrors {
   // Adds the codes of an epoch: their residuals (code_residuals()) at a position known from before
   // with this covariance, ECEF, m^2. `standing`: the vehicle stands.
   void add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                 const Eigen::Matrix3d& position_covariance_e, bool standing);
+                 const Eigen::Matrix4d& known_covariance, bool standing);
   // Adds the Dopplers of an epoch.
   void add_dopplers(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                     const ClockRemovedInnovations& innovations, bool standing);

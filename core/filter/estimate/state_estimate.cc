@@ -24,6 +24,10 @@ constexpr double kUnknownVelocity = 50.0;  // m/s, 1 sigma where the point solut
 // many times that of its position or velocity (3D) beside.
 constexpr double kStartClockSigma = 10.0, kStartDriftSigma = 1.0, kStartClockShare = 3.0;
 
+// Correlation time of what the model of the ionosphere leaves at the zenith, a Gauss-Markov
+// process.
+constexpr double kIonosphereTime_s = 3600.0;
+
 double gauss_markov_decay(const GaussMarkov& process, double dt) {
   return std::exp(-dt / process.correlation_time_s);
 }
@@ -91,6 +95,7 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
   known_clocks_ = ClockFlags{};
   start_vehicle_constants();
   covariance_(kWetDelay, kWetDelay) = square(config_.wet_delay_sigma_m);
+  ionosphere_variance_ = 0.0;
   covariance_.block<3, 3>(kPosition, kPosition) = point.covariance_p_e;
   if (moves) {
     covariance_.block<3, 3>(kVelocity, kVelocity) =
@@ -241,6 +246,34 @@ void StateEstimate::propagate_slow_states(const ImuErrorModel& imu, double dt) {
   if (process_.continuous)
     process_.transition.middleRows<4>(kClock) +=
         dt * process_.transition.middleRows<4>(kClockDrift);
+  propagate_ionosphere(dt);
+}
+
+void StateEstimate::propagate_ionosphere(double dt) {
+  if (!(ionosphere_variance_ > 0.0)) return;
+  const double decay = std::exp(-dt / kIonosphereTime_s);
+  state_.ionosphere_m *= decay;
+  for (EkfCovariance* covariance : covariance_and_noise()) {
+    covariance->row(kIonosphere) *= decay;
+    covariance->col(kIonosphere) *= decay;
+    (*covariance)(kIonosphere, kIonosphere) += (1.0 - decay * decay) * ionosphere_variance_;
+  }
+  if (process_.continuous) process_.transition.row(kIonosphere) *= decay;
+}
+
+void StateEstimate::set_ionosphere_sigma(double sigma_m) {
+  const bool starts = !(ionosphere_variance_ > 0.0);
+  ionosphere_variance_ = square(sigma_m);
+  if (!starts) return;
+  covariance_(kIonosphere, kIonosphere) = ionosphere_variance_;
+  if (process_.continuous) process_.start(kIonosphere, ionosphere_variance_);
+}
+
+void StateEstimate::step_ionosphere_model(double step_m) {
+  if (!(ionosphere_variance_ > 0.0)) return;
+  state_.ionosphere_m -= step_m;
+  for (EkfCovariance* covariance : covariance_and_noise())
+    (*covariance)(kIonosphere, kIonosphere) += square(step_m);
 }
 
 void StateEstimate::to_antenna_parametrization(const AntennaMotion& antenna) {

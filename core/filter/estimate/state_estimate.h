@@ -103,6 +103,13 @@ class StateEstimate {
   void scale_sigmas(double of_position, double of_velocity);
   void inflate_ambiguity(int state, double sigma_m);
 
+  // --- ionosphere ---
+  // Sets the sigma of the zenith delay beyond the modelled one, a Gauss-Markov process; the first
+  // call starts it.
+  void set_ionosphere_sigma(double sigma_m);
+  // Follows a step of the modelled zenith delay, m, which becomes as uncertain as it is large.
+  void step_ionosphere_model(double step_m);
+
   // --- clocks; `system` is an index of System ---
   void start_clock_offset(std::size_t system, double offset_m, double sigma_m);
   void start_clock_drift(std::size_t system, double drift_m_s, double sigma_m_s);
@@ -140,6 +147,7 @@ class StateEstimate {
                       const Eigen::Vector3d& sigma_rpy, const EkfCovariance& of_antenna,
                       const AntennaModel& model, const BodyMotion& body);
   Ambiguity& mutable_ambiguity_of_state(int state);
+  void propagate_ionosphere(double dt);
   void apply_antenna_transform(const AntennaMotion& antenna, double direction);
 
   EkfConfig config_;
@@ -147,6 +155,7 @@ class StateEstimate {
   ClockFlags known_clocks_;
   EkfCovariance covariance_ = EkfCovariance::Zero(ekf_index::kSize, ekf_index::kSize);
   FilterProcess process_;
+  double ionosphere_variance_ = 0.0;  // m^2, of its process; 0: its delay is not estimated
   bool has_attitude_ = false;
 };
 

@@ -32,6 +32,7 @@ Codes codes_of(const FilterMeasurements& measurements, const MeasurementEpoch& e
 struct Differences {
   Samples samples;
   boost::container::static_vector<Eigen::Index, kMaxSatellites> ambiguities;  // states
+  double ionosphere_mapping = 0.0;                                            // of the codes, sum
 };
 
 Differences code_less_carrier(const FilterMeasurements& measurements, const MeasurementEpoch& epoch,
@@ -47,16 +48,20 @@ Differences code_less_carrier(const FilterMeasurements& measurements, const Meas
     found.samples.push_back(
         {code->innovation - carrier.innovation, std::sqrt(code->variance + carrier.variance)});
     found.ambiguities.push_back(carrier.ambiguity);
+    found.ionosphere_mapping += code->row(kIonosphere);
   }
   return found;
 }
 
-// Sigma of the mean ambiguity, with the carriers' clock against the codes': what all share.
+// Sigma of the mean ambiguity, with the carriers' clock against the codes' and the codes' delay in
+// the ionosphere: what all share.
 double sigma_of_ambiguities(const Differences& differences, const EkfCovariance& P) {
   const double share = 1.0 / static_cast<double>(differences.ambiguities.size());
-  double variance = P(kCarrierClock, kCarrierClock);
+  const double m = share * differences.ionosphere_mapping;
+  double variance = P(kCarrierClock, kCarrierClock) + m * m * P(kIonosphere, kIonosphere) -
+                    2.0 * m * P(kIonosphere, kCarrierClock);
   for (const Eigen::Index a : differences.ambiguities) {
-    variance += 2.0 * share * P(a, kCarrierClock);
+    variance += 2.0 * share * (P(a, kCarrierClock) - m * P(a, kIonosphere));
     for (const Eigen::Index b : differences.ambiguities) variance += share * share * P(a, b);
   }
   return std::sqrt(std::max(variance, 0.0));

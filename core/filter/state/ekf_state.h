@@ -17,16 +17,16 @@ namespace leonav {
 // errors in ECEF: C_eb_true = exp([attitude x]) C_eb):
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
 //   accelerometer scale 3, clock offset per time system 4 (m), clock drift per time system 4 (m/s),
-//   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m), the
-//   vehicle constants as far as they are estimated, and one ambiguity (m) per carrier arc under
-//   way.
+//   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m),
+//   zenith delay of the ionosphere on L1 beyond the modelled one (m), the vehicle constants as far
+//   as they are estimated, and one ambiguity (m) per carrier arc under way.
 // The constant-velocity and static models keep the same order; the states they lack have zero
 // covariance and take no correction.
 namespace ekf_index {
 inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12,
                      kGyroScale = 15, kAccelScale = 18, kClock = 21, kClockDrift = 25,
-                     kWetDelay = 29, kCarrierClock = 30,
-                     kSize = 31;  // states that come and go follow
+                     kWetDelay = 29, kCarrierClock = 30, kIonosphere = 31,
+                     kSize = 32;  // states that come and go follow
 inline constexpr int kInsSize = 21;
 static_assert(kClockDrift == kClock + static_cast<int>(kMaxSystemTimes) &&
                   kWetDelay == kClockDrift + static_cast<int>(kMaxSystemTimes),

@@ -25,6 +25,7 @@ void add(const EkfCorrection& error, bool has_attitude, FilterState* state) {
   state->clocks.drift_m_s += error.segment<4>(kClockDrift);
   state->wet_delay_m += error(kWetDelay);
   state->carrier_clock_m += error(kCarrierClock);
+  state->ionosphere_m += error(kIonosphere);
   for (std::size_t i = 0; i < state->vehicle.size(); ++i)
     state->vehicle[i] += error(kSize + static_cast<Index>(i));
   const Index first = state->first_ambiguity();
@@ -48,6 +49,7 @@ EkfCorrection difference(const FilterState& state, const FilterState& reference)
   error.segment<4>(kClockDrift) = state.clocks.drift_m_s - reference.clocks.drift_m_s;
   error(kWetDelay) = state.wet_delay_m - reference.wet_delay_m;
   error(kCarrierClock) = state.carrier_clock_m - reference.carrier_clock_m;
+  error(kIonosphere) = state.ionosphere_m - reference.ionosphere_m;
   for (std::size_t i = 0; i < state.vehicle.size(); ++i)
     error(kSize + static_cast<Index>(i)) = state.vehicle[i] - reference.vehicle[i];
   for (std::size_t i = 0; i < state.ambiguities.size(); ++i)
@@ -63,6 +65,7 @@ bool is_finite(const FilterState& state) {
          nav.errors.gyro_scale.allFinite() && nav.errors.accel_scale.allFinite() &&
          state.clocks.offset_m.allFinite() && state.clocks.drift_m_s.allFinite() &&
          std::isfinite(state.wet_delay_m) && std::isfinite(state.carrier_clock_m) &&
+         std::isfinite(state.ionosphere_m) &&
          std::all_of(state.vehicle.begin(), state.vehicle.end(),
                      [](double x) { return std::isfinite(x); }) &&
          std::all_of(state.ambiguities.begin(), state.ambiguities.end(),

@@ -18,6 +18,7 @@ struct FilterState {
   ClockState clocks;
   double wet_delay_m = 0.0;      // at zenith, beyond the modelled one
   double carrier_clock_m = 0.0;  // clock of the carriers minus that of the codes
+  double ionosphere_m = 0.0;     // of L1 at zenith, beyond the modelled one
   VehicleConstants vehicle;
   Ambiguities ambiguities;
   AttitudeRandomWalk random_walk;  // part of the process model; not estimated

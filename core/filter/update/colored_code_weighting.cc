@@ -37,7 +37,7 @@ int ColoredCodeWeighting::allocate_entry(GpsTime time) {
 double ColoredCodeWeighting::weigh(const Measurement& code, SatelliteId satellite,
                                    const CodeErrorModel& error_model, double noise_variance,
                                    GpsTime time, int* entry_index) {
-  const double correlated = square(code.correlated_sigma);
+  const double correlated = code.own_correlated_variance();
   const double plain = noise_variance + correlated;
   *entry_index = find(satellite, code.code);
   const bool known = *entry_index >= 0;

@@ -87,18 +87,21 @@ void add_by_antenna(const RowVector3d& by_p, const RowVector3d& by_v, const Ante
 MeasurementPrediction predict_measurement(const Measurement& measurement,
                                           const SatelliteInView& satellite,
                                           const AntennaMotion& antenna, const ClockState& clocks,
-                                          double wet_delay_m, double carrier_clock_m) {
+                                          double wet_delay_m, double carrier_clock_m,
+                                          double ionosphere_m) {
   MeasurementPrediction prediction;
   EkfVector& row = prediction.row;
   const auto system_index = static_cast<Eigen::Index>(index_of(satellite.satellite.system));
   if (measurement.observable != Observable::kDoppler) {
     const RangePrediction range = predict_range(satellite, antenna.p_e);
-    prediction.value =
-        range.range_m + clocks.offset_m(system_index) + satellite.wet_mapping * wet_delay_m;
+    prediction.value = range.range_m + clocks.offset_m(system_index) +
+                       satellite.wet_mapping * wet_delay_m +
+                       measurement.ionosphere.mapping * ionosphere_m;
     row.segment<3>(kPosition) = range.d_range_d_p;
     row.segment<3>(kAttitude) = range.d_range_d_p * antenna.d_p_d_attitude;
     row(kClock + system_index) = 1.0;
     row(kWetDelay) = satellite.wet_mapping;
+    row(kIonosphere) = measurement.ionosphere.mapping;
     if (antenna.estimated)
       add_by_antenna(range.d_range_d_p, RowVector3d::Zero(), antenna, &prediction);
     if (measurement.observable == Observable::kCarrier) {

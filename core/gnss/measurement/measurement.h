@@ -83,12 +83,20 @@ struct SatelliteInView {
   Reason reason = Reason::kUsed;
 };
 
+// IonosphereError is what the model of the ionosphere leaves in a code, as far as all satellites
+// have it in common: mapping times an error of the zenith delay on L1, m, with zenith_sigma. The
+// squares of the code's sigma and correlated_sigma contain its variance. Zeros: none, or not known.
+struct IonosphereError {
+  double mapping = 0.0, zenith_sigma = 0.0, variance = 0.0;
+};
+
 // One scalar range (m) or range rate (m/s), corrected so that the model is
 //   code:    |p_sat - p_antenna| + clock offset of the system time
 //   carrier: the same + the ambiguity of the arc
 //   doppler: predict_range_rate() of range_model.h + clock drift of the system time
 // The satellite clock, group delay, troposphere and ionosphere are already removed. Code and
-// carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one.
+// carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one, and a code of one
+// frequency ionosphere.mapping of a zenith delay of the ionosphere beyond the modelled one.
 struct Measurement {
   std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
   Observable observable = Observable::kCode;
@@ -100,12 +108,20 @@ struct Measurement {
   // ionosphere), and its correlation time.
   double correlated_sigma = 0.0;
   double correlation_time_s = 0.0;
+  IonosphereError ionosphere;  // of a code of one frequency
   // Carrier only.
   std::uint32_t arc = 0;     // identity of the uninterrupted arc; 0: none
   double random_walk = 0.0;  // m/sqrt(s): random walk of the ambiguity
   // 1 sigma of a step of the ambiguity since the last epoch (another orbit)
   double disturbance_m = 0.0;
   Reason reason = Reason::kUsed;
+
+  // Return the variance, and its part that is correlated from epoch to epoch, without what the
+  // satellites have of the ionosphere in common, which a filter estimates.
+  double own_variance() const { return sigma * sigma - ionosphere.variance; }
+  double own_correlated_variance() const {
+    return correlated_sigma * correlated_sigma - ionosphere.variance;
+  }
 };
 
 // All satellites and measurements of one epoch.
@@ -117,6 +133,9 @@ struct MeasurementEpoch {
   // 1 sigma, each axis, of a step of the measured position since the last epoch, caused by other
   // antenna patterns.
   double position_disturbance_m = 0.0;
+  // Step of the modelled zenith delay of the ionosphere on L1 since the last epoch: other
+  // coefficients, m.
+  double ionosphere_step_m = 0.0;
   boost::container::static_vector<SatelliteInView, kMaxSatellites> satellites;
   boost::container::static_vector<Measurement, kMaxMeasurements> measurements;
 };

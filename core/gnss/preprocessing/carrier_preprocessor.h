@@ -83,7 +83,7 @@ class CarrierPreprocessor {
   CarrierHistory* history_of(SatelliteId satellite);
   const CarrierHistory* history_of(SatelliteId satellite) const;
   RangeChangeRow row_of(const SatelliteInView& satellite, const Measurement& carrier,
-                        const CarrierHistory& before, const Eigen::Vector3d& predicted_p_e) const;
+                        const CarrierHistory& before, double step_of_ionosphere_m) const;
   bool is_comparable(const SatelliteInView& satellite, const Measurement& carrier,
                      const CarrierHistory* before) const;
   double antenna_step_m(const SatelliteInView& satellite, const CarrierHistory& before) const;

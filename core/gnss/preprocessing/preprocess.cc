@@ -252,7 +252,7 @@ void preprocess(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
   epoch->approximate_p_e = approximate_p_e;
   epoch->satellites.clear();
   epoch->measurements.clear();
-  epoch->position_disturbance_m = 0.0;
+  epoch->position_disturbance_m = epoch->ionosphere_step_m = 0.0;
 
   DelayContext context =
       delay_context(config, ephemeris_store.klobuchar(), raw.time, approximate_p_e);

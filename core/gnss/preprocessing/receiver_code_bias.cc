@@ -58,6 +58,8 @@ bool ReceiverCodeBiases::is_reference_pair(System system, char first, char secon
 void ReceiverCodeBiases::update(System system, char band, const InterBandDifferences& differences) {
   if (differences.values_m.empty() || !is_digit(band)) return;
   const double middle = median(differences.values_m);
+  const double mapping =
+      differences.ionosphere_mappings.empty() ? 0.0 : median(differences.ionosphere_mappings);
   auto deviations = differences.values_m;
   for (double& value : deviations) value = std::abs(value - middle);
   const double scaled_mad = std::max(1.4826 * median(deviations), differences.sigma_m);
@@ -66,17 +68,18 @@ void ReceiverCodeBiases::update(System system, char band, const InterBandDiffere
 
   Bias& bias = systems_[index_of(system)].bands[digit(band)];
   if (bias.variance_m2 < 0.0) {
-    bias = {middle, variance, 0};
+    bias = {middle, variance, 0, mapping};
     return;
   }
   const double innovation = middle - bias.value_m;
   const double total = bias.variance_m2 + variance;
   if (std::abs(innovation) > 5.0 * std::sqrt(total) + kOutlierMargin) {
-    if (++bias.outlier_epochs >= kMaxOutlierEpochs) bias = {middle, variance, 0};
+    if (++bias.outlier_epochs >= kMaxOutlierEpochs) bias = {middle, variance, 0, mapping};
     return;
   }
   const double gain = bias.variance_m2 / total;
   bias.value_m += gain * innovation;
+  bias.ionosphere_mapping += gain * (mapping - bias.ionosphere_mapping);
   bias.variance_m2 *= 1.0 - gain;
   bias.outlier_epochs = 0;
 }
@@ -97,6 +100,22 @@ double ReceiverCodeBiases::delay_m(System system, char band) const {
 double ReceiverCodeBiases::offset_m(System system, char band) const {
   const SystemBiases& biases = systems_[index_of(system)];
   return delay_m(system, band) - biases.partner_gamma * delay_m(system, biases.partner);
+}
+
+double ReceiverCodeBiases::ionosphere_mapping(System system, char band) const {
+  const SystemBiases& biases = systems_[index_of(system)];
+  const Bias* own = find(system, band);
+  const Bias* partner = find(system, biases.partner);
+  return (own != nullptr ? own->ionosphere_mapping : 0.0) -
+         (partner != nullptr ? biases.partner_gamma * partner->ionosphere_mapping : 0.0);
+}
+
+void ReceiverCodeBiases::step_ionosphere_model(double step_m) {
+  for (State* state : {&before_, &systems_}) {
+    for (SystemBiases& system : *state) {
+      for (Bias& bias : system.bands) bias.value_m -= step_m * bias.ionosphere_mapping;
+    }
+  }
 }
 
 double ReceiverCodeBiases::variance_m2(System system, char band) const {

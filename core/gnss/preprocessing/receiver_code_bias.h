@@ -12,6 +12,8 @@ namespace leonav {
 // Differences of corrected codes, other band minus reference band, of the satellites of one epoch.
 struct InterBandDifferences {
   boost::container::static_vector<double, kMaxSatellites> values_m;
+  // What they contain of an error of the ionosphere's modelled zenith delay on L1, m/m.
+  boost::container::static_vector<double, kMaxSatellites> ionosphere_mappings;
   double sigma_m = 1.0;  // 1 sigma of one difference by the noise model
 };
 
@@ -42,12 +44,18 @@ class ReceiverCodeBiases {
   // nothing is known. They do not apply to the two codes of the reference pair in combination.
   double offset_m(System system, char band) const;
   double variance_m2(System system, char band) const;
+  // Returns what offset_m() contains of an error of the ionosphere's modelled zenith delay on L1,
+  // m/m: the delays are differences of codes, and what the model leaves differs from band to band.
+  double ionosphere_mapping(System system, char band) const;
+  // Follows a step of the modelled zenith delay on L1, m.
+  void step_ionosphere_model(double step_m);
 
  private:
   struct Bias {
     double value_m = 0.0;
     double variance_m2 = -1.0;  // negative: unknown
     int outlier_epochs = 0;
+    double ionosphere_mapping = 0.0;  // filtered as value_m is
   };
   struct SystemBiases {
     char reference = 0, partner = 0;

@@ -50,4 +50,9 @@ double klobuchar_delay_m(const KlobucharModel& model, const Geodetic& antenna,
   return kSpeedOfLight * slant * delay_s * scale * scale;
 }
 
+double zenith_ionosphere_m(const KlobucharModel& model, const Geodetic& antenna, GpsTime time) {
+  return klobuchar_delay_m(model, antenna, {.elevation = kPi / 2.0, .azimuth = 0.0}, time,
+                           frequency_hz(System::kGps, '1'));
+}
+
 }  // namespace leonav

@@ -13,9 +13,9 @@ namespace {
 constexpr double kMean_s = 10.0;
 // Logarithms of the ratio of information from which on the choice changes, to and fro.
 constexpr double kClearlyBetter = 0.3, kWorse = -0.1;
-// Share of the variance of the ionosphere's error that satellites have in common and that moves the
-// position; most goes into the clock.
-constexpr double kCommonShare = 0.4;
+// Share of the variance of the ionosphere's error that moves the position; most goes into the clock
+// and into the zenith delay that the filter estimates.
+constexpr double kCommonShare = 0.2;
 
 // Returns the logarithm of the variance with pairs over that with single frequencies; nullopt: no
 // pair.

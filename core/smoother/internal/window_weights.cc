@@ -52,7 +52,7 @@ void WindowWeights::gather_means(const Window& window) {
       // A gross error is left to the test of the single residual.
       const double most = robust_.k1 * std::sqrt(measurement.variance);
       const double correlated_variance =
-          std::min(measurement.variance, square(measurement.measurement.correlated_sigma));
+          std::min(measurement.variance, measurement.measurement.own_correlated_variance());
       ++mean->count;
       mean->residuals += std::clamp(measurement.residual, -most, most);
       mean->correlated_variance += correlated_variance;

@@ -1,6 +1,8 @@
 // Windows over what happens to a filter: against the filter, and short ones against long ones.
 #include "core/smoother/window.h"
 
+#include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "core/smoother/smoother.h"
@@ -37,6 +39,14 @@ double most_apart_from_filter(const DriveOptions& options, int capacity, double*
 
 bool is_galileo(SatelliteId id) { return id.system == System::kGalileo; }
 bool is_any(SatelliteId) { return true; }
+
+// The code of one frequency with this zenith delay of the ionosphere beyond the modelled one.
+void make_single_frequency(double delay_m, const MeasurementEpoch& epoch, Measurement* code) {
+  const double slant = 1.0 / std::sin(epoch.satellites[code->satellite_index].elevation);
+  code->value += slant * delay_m;
+  code->ionosphere = {slant, 2.0, slant * slant * 4.0};
+  code->sigma = std::hypot(code->sigma, 2.0 * slant);
+}
 
 struct Course {
   const char* name;
@@ -91,6 +101,16 @@ const Course kCourses[] = {
        };
      },
      500.0},
+    {"codes of one frequency come and go, and the model of the ionosphere steps",
+     [](DriveOptions* options) {
+       options->edit = [](int epoch, MeasurementEpoch* measured) {
+         if (epoch == 30) measured->ionosphere_step_m = 1.0;
+         if (epoch < 10 || epoch % 7 > 3) return;
+         for (Measurement& m : measured->measurements)
+           if (m.observable == Observable::kCode)
+             make_single_frequency(epoch < 30 ? 1.0 : 0.0, *measured, &m);
+       };
+     }},
     {"constraints on the motion between keyframes",
      [](DriveOptions* options) { options->constrained = true; }},
     {"constraints and an odometer between keyframes",
@@ -103,7 +123,7 @@ const Course kCourses[] = {
 }  // namespace
 
 TEST_CASE("a window is the filter, whatever happens, as long as all is linear") {
-  const Course& course = kCourses[GENERATE(range(0, 12))];
+  const Course& course = kCourses[GENERATE(range(std::size_t{0}, std::size(kCourses)))];
   const int capacity = GENERATE(5, 60);
   DriveOptions options;
   options.noise = 1e-4;
@@ -119,7 +139,7 @@ TEST_CASE("a window is the filter, whatever happens, as long as all is linear") 
 
 // What leaves is linearized for good: what that costs goes with the square of the noise.
 TEST_CASE("what has left the window is not lost: a short window is a long one") {
-  const Course& course = kCourses[GENERATE(range(0, 12))];
+  const Course& course = kCourses[GENERATE(range(std::size_t{0}, std::size(kCourses)))];
   DriveOptions options;
   options.noise = GENERATE(1.0, 0.01);
   if (course.nonlinear > 1.0 && options.noise == 1.0) return;  // no bound that could be missed

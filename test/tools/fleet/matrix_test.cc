@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kMatrix = R"(title: Small
 preset: urban
 seeds: 2
-advance_s_per_seed: 7001
+per_seed: {satellites.advance_s: 7001, atmosphere.tecu: [10, 45]}
 duration_s: 60
 settle_s: 20
 scenes:
@@ -60,6 +60,7 @@ TEST_CASE("A matrix has a row a scene and estimator, with its verdict; logs do n
   CHECK(has(report, "| rmse_3d <= 0.0001 | 0 of 2 |"));
   CHECK(has(report, "| available >= 50 | 2 of 2 |"));
   CHECK(has(report, "| open | GPS | 2 of 2 | "));
+  CHECK(has(report, "--set satellites.advance_s=7001 --set atmosphere.tecu=10 "));
   CHECK(has(report, "| city | all | 2 of 2 | "));
   CHECK(has(report, "MISSED: rmse_3d <= 0.0001: "));
   CHECK_FALSE(std::filesystem::exists(one + "/work"));
@@ -168,6 +169,8 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
   says("seeds: 2", "seed: 2", "seed: no such key; there are ");
   says("settle_s: 20", "settle_s: 60", "its 60 s are over before the 60 s that do not count");
   says("seeds: 2", "seeds: none", "must be a number of seeds, or a list of them");
+  says("[10, 45]", "[10, much]", "per_seed.atmosphere.tecu: must be a number");
+  says("[10, 45]", "[]", "per_seed.atmosphere.tecu: must be a number");
   says("preset: urban", "preset: urban\nconfig: x.yaml", "only one of them");
   says("available >= 50", "shares >= 50", "'shares >= 50': must be one of share, ");
   says("optional: true", "optional: false", "absent.yaml: no such file");
@@ -183,6 +186,17 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
   CHECK(has(row.err, "--rows x: no row has such a name"));
   CHECK(fleet("--matrix '" + file.path() + "' --list").out ==
         "open/GPS\nopen/all\ncity/GPS\ncity/all\n");
+}
+
+TEST_CASE("Keys differ from seed to seed", "[tools][fleet]") {
+  if (!have_fleet()) return;
+  const std::string said = fleet_python(R"(from fleet import matrix
+scene = matrix.Scene("city", "urban.yaml", ("places=city",), ())
+for seed in 1, 2, 5: print(*scene.settings_of(seed, (("advance", 7001), ("tecu", [10, 45]))))
+)");
+  CHECK(said ==
+        "seed=1 advance=7001 tecu=10 places=city\nseed=2 advance=14002 tecu=45 places=city\n"
+        "seed=5 advance=35005 tecu=10 places=city\n");
 }
 
 TEST_CASE("Rows pool the epochs of their seeds and name the worst", "[tools][fleet]") {

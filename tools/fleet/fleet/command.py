@@ -194,7 +194,7 @@ def matrix_groups(bench, table, options):
             jobs = []
             for variant in variants:
                 row = matrix.row_name(scene, variant)
-                run, digest = f"{row}/seed{seed}", simulations.definition(bench, variant.estimator, scene, seed, table.advance_s)
+                run, digest = f"{row}/seed{seed}", simulations.definition(bench, variant.estimator, scene, seed, table.per_seed)
                 done = replays.earlier(bench, run, digest) if bench.resume else None
                 if done is not None:
                     there[row, seed] = done
@@ -204,7 +204,7 @@ def matrix_groups(bench, table, options):
             if jobs and bench.keep:
                 shutil.rmtree(folder, ignore_errors=True)  # of an earlier call, perhaps of other programs
             finish = None if bench.keep else lambda folder=folder: shutil.rmtree(folder, ignore_errors=True)
-            groups.append(engine.Group(name, jobs, (simulations.simulate, bench, scene, seed, table.advance_s, folder), finish))
+            groups.append(engine.Group(name, jobs, (simulations.simulate, bench, scene, seed, table.per_seed, folder), finish))
     return [group for group in groups if group.jobs], there
 
 

@@ -10,7 +10,7 @@ import yaml
 
 from . import programs, replays
 
-KEYS = {"title", "scenes", "simulate", "axes", "preset", "config", "set", "seeds", "duration_s", "settle_s", "advance_s_per_seed", "limits", "compare"}
+KEYS = {"title", "scenes", "simulate", "axes", "preset", "config", "set", "seeds", "duration_s", "settle_s", "per_seed", "limits", "compare"}
 SCENE_KEYS = {"scenario", "set", "duration_s", "optional", "limits"}
 VARIANT_KEYS = {"preset", "config", "set"}
 COMPARE_KEYS = {"axis", "value", "at_most"}
@@ -52,6 +52,11 @@ class Comparison:
     at_most: float  # ratio of the RMSE to the best one
 
 
+def value_of_seed(value, seed):
+    """Of a list one after the other; a number as many times as the seed says."""
+    return value[(seed - 1) % len(value)] if isinstance(value, list) else value * seed
+
+
 @dataclasses.dataclass(frozen=True)
 class Scene:
     name: str
@@ -59,8 +64,8 @@ class Scene:
     settings: tuple
     limits: tuple
 
-    def settings_of(self, seed, advance_s):
-        return (f"seed={seed}", *((f"satellites.advance_s={advance_s * seed:g}",) if advance_s else ()), *self.settings)
+    def settings_of(self, seed, per_seed):
+        return (f"seed={seed}", *(f"{key}={value_of_seed(value, seed):g}" for key, value in per_seed), *self.settings)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -77,7 +82,7 @@ class Matrix:
     scenes: list
     variants: list
     seeds: list
-    advance_s: float
+    per_seed: tuple  # (key of the scenario, its values: value_of_seed())
     settle_s: float
     common: tuple   # words of leonav-replay that all variants share
     choices: list   # (axis, value, its further words)
@@ -124,6 +129,14 @@ class Reader:
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not value >= least:
             self.fail(f"{where}.{key}" if where else key, f"must be a number of at least {least:g}")
         return float(value)
+
+    def per_seed(self, value):
+        group = self.group(value, "per_seed", None)
+        for key, values in group.items():
+            numbers = values if isinstance(values, list) and values else [values]
+            if any(isinstance(v, bool) or not isinstance(v, (int, float)) for v in numbers):
+                self.fail(f"per_seed.{key}", "must be a number, which counts as often as the seed says, or a list of numbers, one seed after the other")
+        return tuple((str(key), values) for key, values in group.items())
 
     def file(self, name, where):
         if not isinstance(name, str):
@@ -260,7 +273,7 @@ def read(path, given, seeds=None, duration_s=None, settle_s=None, patterns=None)
                for axis, values in zip(axes, choices) for name, group, where in values]
     further += [("command", "line", programs.with_settings(given.settings))] if given.settings else []
     matrix = Matrix(path, str(top.get("title", "Matrix")), [str(a) for a in axes], scenes, variants, reader.seeds(top.get("seeds", 1), seeds),
-                    reader.number(top, "advance_s_per_seed", "", 0), settle_s, common.words(), further, skipped, reader.comparison(top.get("compare"), axes))
+                    reader.per_seed(top.get("per_seed")), settle_s, common.words(), further, skipped, reader.comparison(top.get("compare"), axes))
     return chosen(matrix, patterns, reader)
 
 

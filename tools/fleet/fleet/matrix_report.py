@@ -229,7 +229,7 @@ def markdown(matrix, rows):
     lines += levels.section(judged_of(rows), ["scene", matrix.axes[0]], availability_parts(matrix, rows))
     lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]
     for scene in matrix.scenes:
-        settings = programs.with_settings(scene.settings_of(matrix.seeds[0], matrix.advance_s))
+        settings = programs.with_settings(scene.settings_of(matrix.seeds[0], matrix.per_seed))
         lines.append(programs.shell_line(["leonav-sim", os.path.relpath(scene.scenario), *settings, "-o", "run.lcmlog"]))
     lines += [programs.shell_line(["leonav-replay", *matrix.common, "run.lcmlog", "--out", "."]), "```", "", "with, for", ""]
     lines += [f"- {axis} {name}: " + (f"`{programs.shell_line(words)}`" if words else "nothing else")

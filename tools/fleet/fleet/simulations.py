@@ -7,13 +7,13 @@ import shutil
 from . import matrix, programs, replays
 
 
-def simulate(bench, scene, seed, advance_s, target):
+def simulate(bench, scene, seed, per_seed, target):
     """Makes the folder `target` with the log and its truth, whole or not at all. Returns a failure's text; None: it is there."""
     if os.path.isdir(target):
         return None  # by a worker that was lost afterwards
     folder = bench.work_folder()
     try:
-        command = [os.path.join(bench.bin, "leonav-sim"), scene.scenario, *programs.with_settings(scene.settings_of(seed, advance_s)), "-o",
+        command = [os.path.join(bench.bin, "leonav-sim"), scene.scenario, *programs.with_settings(scene.settings_of(seed, per_seed)), "-o",
                    os.path.join(folder, "run.lcmlog")]
         bench.caller.call(command, folder)
         os.makedirs(os.path.dirname(target), exist_ok=True)
@@ -28,10 +28,10 @@ def simulate(bench, scene, seed, advance_s, target):
     return None
 
 
-def definition(bench, estimator, scene, seed, advance_s):
+def definition(bench, estimator, scene, seed, per_seed):
     """Digest of all that decides about the numbers of a simulated run."""
     files = [programs.file_digest(path) for path in matrix.files_of(scene.scenario)]
-    parts = [*bench.judged_by(), estimator.text(), files, scene.settings_of(seed, advance_s)]
+    parts = [*bench.judged_by(), estimator.text(), files, scene.settings_of(seed, per_seed)]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 

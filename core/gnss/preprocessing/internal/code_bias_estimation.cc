@@ -74,6 +74,8 @@ void estimate_code_biases(const DelayContext& context, const Candidates& candida
     }
     for (char band = '1'; band <= '9'; ++band) {
       InterBandDifferences differences;
+      const double band_factor = ionosphere_factor(frequency_hz(system, band)) -
+                                 ionosphere_factor(frequency_hz(system, reference));
       for (const Candidate& candidate : candidates) {
         const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
         if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
@@ -85,6 +87,7 @@ void estimate_code_biases(const DelayContext& context, const Candidates& candida
                              single_band_value(context, candidate, *first, view, &sigma_first);
         if (!std::isfinite(value)) continue;
         differences.values_m.push_back(value);
+        differences.ionosphere_mappings.push_back(ionosphere_slant(view.elevation) * band_factor);
         differences.sigma_m = std::hypot(sigma_first, sigma_other);
       }
       biases->update(system, band, differences);

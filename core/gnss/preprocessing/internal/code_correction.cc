@@ -20,8 +20,16 @@ constexpr double kL1Frequency = 1575.42e6;  // Hz
 // Klobuchar's model leaves about half of the delay, and never less than this at zenith on L1
 // (night, quiet sun: the constant 1.5 m of the model is itself uncertain by that order).
 constexpr double kIonosphereFloor = 0.5;  // m
-// Without broadcast coefficients the error may reach the delay itself.
+// Without broadcast coefficients the error may reach the delay itself, and is never less than this:
+// the electron content of the day is not known.
 constexpr double kUnknownModelShare = 1.0;
+constexpr double kUnknownFloor = 2.0;  // m
+
+// Share of the variance of that which satellites do not have in common: gradients and waves of the
+// electron content.
+constexpr double kIndividualShare = 0.5;
+// Radius of the Earth over that of the shell at 350 km.
+constexpr double kShellRatio = 6371.0 / 6721.0;
 
 // Correlation times, in s, of the errors of orbit and clock and of the ionosphere model.
 constexpr double kOrbitCorrelation = 3600.0;
@@ -38,7 +46,8 @@ double ionosphere_sigma(const DelayContext& context, double elevation, double de
                            : std::max(kUnknownModelShare, context.config->ionosphere_model_error);
   // The thin shell at 350 km limits the growth: obliquity of IS-GPS-200, at most 3.
   const double slant = std::min(obliquity(elevation), 3.0);
-  const double floor = kIonosphereFloor * slant * square(kL1Frequency / frequency);
+  const double at_zenith = context.klobuchar->valid ? kIonosphereFloor : kUnknownFloor;
+  const double floor = at_zenith * slant * ionosphere_factor(frequency);
   return std::max(share * delay_m, floor);
 }
 
@@ -47,12 +56,32 @@ double atmosphere_variance(const DelayContext& context, const SatelliteInView& s
   return square(context.config->troposphere_model_error_m * obliquity(satellite.elevation));
 }
 
+double frequency_of(const SignalObservation& signal) {
+  return frequency_hz(signal.satellite.system, signal.code.band);
+}
+
 GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast, SignalCode first,
                     SignalCode second) {
   if (satellite.source == OrbitSource::kPrecise || broadcast == nullptr) {
     return precise_group_delay(satellite.satellite.system, broadcast, first, second);
   }
   return group_delay(*broadcast, first, second);
+}
+
+// Returns the part that all satellites have in common of what the model leaves in the code of
+// `signal`: `sigma` on its path, and `variance` of the code. The delays of the receiver's bands,
+// which are removed from the code, contain some of it.
+IonosphereError common_ionosphere_error(const DelayContext& context,
+                                        const SignalObservation& signal, double elevation,
+                                        double sigma, double variance) {
+  const double mapping = ionosphere_factor(frequency_of(signal)) * ionosphere_slant(elevation);
+  IonosphereError error;
+  error.mapping = mapping;
+  error.zenith_sigma = std::sqrt(1.0 - kIndividualShare) * sigma / mapping;
+  error.variance = (1.0 - kIndividualShare) * variance;
+  if (context.biases != nullptr)
+    error.mapping -= context.biases->ionosphere_mapping(signal.satellite.system, signal.code.band);
+  return error;
 }
 
 // Returns the rate of the tropospheric delay by the satellite's motion: below 1 mm/s for GNSS, some
@@ -117,17 +146,14 @@ double bias_variance(const DelayContext& context, const SignalObservation& signa
 }
 
 // Combines two Gauss-Markov errors into one that a long mean reduces as slowly: their spectral
-// densities at zero, sigma^2 T, add.
+// densities at zero, sigma^2 T, add. The time is that of what is not common to all satellites.
 void set_correlation(double orbit_variance, double ionosphere_variance, Measurement* code) {
   const double sum = orbit_variance + ionosphere_variance;
   if (!(sum > 0.0)) return;
   code->correlated_sigma = std::sqrt(sum);
+  const double own = ionosphere_variance - code->ionosphere.variance;
   code->correlation_time_s =
-      (orbit_variance * kOrbitCorrelation + ionosphere_variance * kIonosphereCorrelation) / sum;
-}
-
-double frequency_of(const SignalObservation& signal) {
-  return frequency_hz(signal.satellite.system, signal.code.band);
+      (orbit_variance * kOrbitCorrelation + own * kIonosphereCorrelation) / (orbit_variance + own);
 }
 
 // Returns the displacement of the ground from its position without tides, loading and polar motion.
@@ -155,6 +181,12 @@ DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobu
   context.p_sun_e = bodies.sun_e;
   context.tide_e = ground_displacement(config, p_a_e, time, bodies);
   return context;
+}
+
+double ionosphere_factor(double frequency) { return square(kL1Frequency / frequency); }
+
+double ionosphere_slant(double elevation) {
+  return 1.0 / std::sqrt(1.0 - square(kShellRatio * std::cos(elevation)));
 }
 
 void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
@@ -202,7 +234,10 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
     variance += bias_variance(context, first);
-    ionosphere = shared_by * square(ionosphere_sigma(context, satellite->elevation, delay, f1));
+    const double sigma = ionosphere_sigma(context, satellite->elevation, delay, f1);
+    ionosphere = shared_by * square(sigma);
+    code.ionosphere =
+        common_ionosphere_error(context, first, satellite->elevation, sigma, ionosphere);
   }
   const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
   const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);

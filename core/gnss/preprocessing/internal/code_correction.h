@@ -37,6 +37,12 @@ DelayContext delay_context(const GnssConfig& config, const KlobucharModel& klobu
 // 1 sigma of all uncorrected errors while no position is known: the atmosphere down to the horizon.
 inline constexpr double kUnknownAtmosphereSigma = 15.0;  // m
 
+// Returns the ionosphere's delay on a frequency (Hz) over that on L1.
+double ionosphere_factor(double frequency);
+// Returns the length of a path in the ionosphere over the vertical one: 1 / cos z' in a shell at
+// 350 km.
+double ionosphere_slant(double elevation);
+
 // Sets elevation, azimuth and tropospheric delay of `satellite`.
 void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
                                      SatelliteInView* satellite);

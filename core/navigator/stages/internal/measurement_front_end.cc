@@ -1,7 +1,11 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
+#include <utility>
+
+#include "core/earth/ellipsoid.h"
 #include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/positioning/point_solution.h"
+#include "core/gnss/propagation/ionosphere.h"
 #include "core/navigator/interface/filter_estimate.h"
 
 namespace leonav {
@@ -41,6 +45,19 @@ MeasurementFrontEnd::MeasurementFrontEnd(const NavigatorConfig& config)
 
 void MeasurementFrontEnd::add(const PreciseStates& states) {
   for (const PreciseState& state : states) ephemeris_store_.add(state);
+}
+
+// What is estimated beyond the model, or contains an error of it, follows the model.
+void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
+  const KlobucharModel before = ephemeris_store_.klobuchar();
+  ephemeris_store_.set_klobuchar(klobuchar);
+  const MeasurementEpoch& last = *measurements_;
+  if (last.approximate_p_e.isZero()) return;
+  const Geodetic antenna = to_geodetic(last.approximate_p_e);
+  const double step_m = zenith_ionosphere_m(klobuchar, antenna, last.time) -
+                        zenith_ionosphere_m(before, antenna, last.time);
+  code_biases_.step_ionosphere_model(step_m);
+  ionosphere_step_m_ += step_m;
 }
 
 IndependentSolution MeasurementFrontEnd::solve(const EpochWork& work,
@@ -115,6 +132,7 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
   const Eigen::Vector3d approximate_p_e = approximate_position(work, filter);
   preprocess(work.raw, ephemeris_store_, gnss_, approximate_p_e, measurements_.get(), aids(filter));
   measurements_->index = work.index;
+  measurements_->ionosphere_step_m = std::exchange(ionosphere_step_m_, 0.0);
   if (!use_carrier_) return;
   const bool predicted = approximate_p_e == filter.antenna_position_e();
   change_prior_ = change_prior(filter, predicted);

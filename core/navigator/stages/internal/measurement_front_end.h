@@ -30,7 +30,7 @@ class MeasurementFrontEnd {
 
   void add(const Ephemeris& ephemeris) { ephemeris_store_.add(ephemeris); }
   void add(const PreciseStates& states);
-  void add(const KlobucharModel& klobuchar) { ephemeris_store_.set_klobuchar(klobuchar); }
+  void add(const KlobucharModel& klobuchar);
   void add(const AntennaPattern& antenna) { antennas_.add(antenna); }
   // Sets the satellites that neither measure() nor solve() uses from now on.
   void exclude(const ExcludedSatellites& satellites) { excluded_ = satellites; }
@@ -88,7 +88,8 @@ class MeasurementFrontEnd {
   // Receiver's body axes to ECEF at the last measure().
   Eigen::Matrix3d C_er_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d last_position_covariance_ = Eigen::Matrix3d::Zero();  // after the last update
-  RangeChangePrior change_prior_;  // used by the last measure()
+  double ionosphere_step_m_ = 0.0;  // of the modelled zenith delay since the last measure()
+  RangeChangePrior change_prior_;   // used by the last measure()
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<MeasurementEpoch> point_measurements_;  // used by the last point solution
 };

@@ -55,4 +55,15 @@ inline FilterMeasurements codes_of(const MeasurementEpoch& epoch,
   return codes;
 }
 
+// Returns what is known before the codes: the covariance of the position, and no delay of the
+// ionosphere.
+inline Eigen::Matrix4d known_of(const Eigen::Matrix3d& position_covariance) {
+  Eigen::Matrix4d known = Eigen::Matrix4d::Zero();
+  known.topLeftCorner<3, 3>() = position_covariance;
+  return known;
+}
+inline Eigen::Matrix4d known_of(double position_sigma) {
+  return known_of(position_sigma * position_sigma * Eigen::Matrix3d::Identity());
+}
+
 }  // namespace leonav::test

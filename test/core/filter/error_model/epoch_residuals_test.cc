@@ -11,9 +11,10 @@ namespace leonav {
 namespace {
 
 using test::codes_of;
+using test::known_of;
 using test::sky_of;
 
-const Eigen::Matrix3d kVague = 1e12 * Eigen::Matrix3d::Identity();
+const Eigen::Matrix4d kVague = known_of(1e6);
 
 double sigma_of(std::size_t i) { return 1.0 + 0.3 * static_cast<double>(i % 4); }
 
@@ -80,7 +81,8 @@ TEST_CASE(
   constexpr int kDraws = 4000;
   const MeasurementEpoch epoch = sky_of(8);
   const Eigen::Vector3d position_sigma(0.5, 1.0, 3.0);
-  const Eigen::Matrix3d covariance = position_sigma.array().square().matrix().asDiagonal();
+  const Eigen::Matrix4d covariance =
+      known_of(position_sigma.array().square().matrix().asDiagonal());
   Normal normal(2);
   std::array<double, 8> squares{}, products{};
   EpochResiduals residuals;
@@ -107,7 +109,7 @@ TEST_CASE(
 
 TEST_CASE("an error of the predicted position changes innovations and leaves residuals alone") {
   const MeasurementEpoch epoch = sky_of(12);
-  const Eigen::Matrix3d covariance = 16.0 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix4d covariance = known_of(4.0);
   const Eigen::Vector3d off = 20.0 * Eigen::Vector3d(0.6, -0.48, 0.64);
   const auto codes_at = [&](const Eigen::Vector3d& position_off) {
     Normal normal(3);
@@ -128,12 +130,43 @@ TEST_CASE("an error of the predicted position changes innovations and leaves res
   CHECK(residuals < 0.5);
 }
 
+TEST_CASE("the ionosphere's delay has no part in the residuals as far as it is uncertain") {
+  const MeasurementEpoch epoch = sky_of(12);
+  constexpr double kDelay = 3.0;
+  const auto codes_with = [&](double delay) {
+    Normal normal(5);
+    FilterMeasurements codes = codes_of(
+        epoch, [&](std::size_t i) { return 0.1 * sigma_of(i) * normal(); }, sigma_of);
+    for (FilterMeasurement& code : codes) {
+      const SatelliteInView& view =
+          epoch.satellites[epoch.measurements[code.index].satellite_index];
+      code.row(ekf_index::kIonosphere) = 1.0 / std::sin(view.elevation);
+      code.innovation += delay * code.row(ekf_index::kIonosphere);
+    }
+    return codes;
+  };
+  const auto largest_change = [&](double delay_sigma) {
+    Eigen::Matrix4d known = known_of(4.0);
+    known(3, 3) = delay_sigma * delay_sigma;
+    const EpochResiduals without = code_residuals(codes_with(0.0), known),
+                         with = code_residuals(codes_with(kDelay), known);
+    REQUIRE(without.size() == 12);
+    REQUIRE(with.size() == 12);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 12; ++i)
+      largest = std::max(largest, std::abs(with[i].residual - without[i].residual));
+    return largest;
+  };
+  CHECK(largest_change(10.0) < 0.1);
+  CHECK(largest_change(0.0) > 1.0);
+}
+
 TEST_CASE("a gross error of one code shows in its own residual and hardly in the others") {
   const MeasurementEpoch epoch = sky_of(12);
   for (std::size_t reflected = 0; reflected < 12; ++reflected) {
     const FilterMeasurements codes = codes_of(
         epoch, [&](std::size_t i) { return i == reflected ? 50.0 : 0.0; }, sigma_of);
-    const EpochResiduals residuals = code_residuals(codes, 100.0 * Eigen::Matrix3d::Identity());
+    const EpochResiduals residuals = code_residuals(codes, known_of(10.0));
     REQUIRE(residuals.size() == 12);
     CAPTURE(reflected);
     for (const EpochResidual& entry : residuals) {
@@ -169,7 +202,7 @@ TEST_CASE("codes of one direction have residuals only at a position that is know
   const FilterMeasurements codes = codes_of(
       epoch, [](std::size_t i) { return i == 2 ? 1.0 : 0.0; }, sigma_of);
   CHECK(code_residuals(codes, kVague).empty());
-  CHECK(code_residuals(codes, Eigen::Matrix3d::Identity()).size() == 6);
+  CHECK(code_residuals(codes, known_of(1.0)).size() == 6);
 }
 
 TEST_CASE("Dopplers and carriers have no part in the residuals of codes") {
@@ -194,8 +227,8 @@ TEST_CASE("Dopplers and carriers have no part in the residuals of codes") {
 TEST_CASE("a covariance of the position that is none gives no residuals") {
   const FilterMeasurements codes = codes_of(
       sky_of(8), [](std::size_t) { return 0.0; }, sigma_of);
-  CHECK(code_residuals(codes, -Eigen::Matrix3d::Identity()).empty());
-  CHECK(code_residuals(codes, Eigen::Matrix3d::Constant(std::nan(""))).empty());
+  CHECK(code_residuals(codes, -Eigen::Matrix4d::Identity()).empty());
+  CHECK(code_residuals(codes, Eigen::Matrix4d::Constant(std::nan(""))).empty());
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ void drive(int seconds, CodeErrors* from, const Position& position, double posit
     rows.row(i)
         << plain[static_cast<std::size_t>(i)].row.segment<3>(ekf_index::kPosition).transpose(),
         plain[static_cast<std::size_t>(i)].row.segment<2>(ekf_index::kClock).transpose();
-  const Eigen::Matrix3d covariance = position_sigma * position_sigma * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix4d covariance = test::known_of(position_sigma);
   for (int t = 0; t < seconds; ++t) {
     MeasurementEpoch now = epoch;
     now.time = kStart.plus_seconds(t);

@@ -17,6 +17,7 @@ struct Situation {
   ClockState clocks;
   double wet_delay_m = 0.0;
   double carrier_clock_m = 0.0;
+  double ionosphere_m = 0.0;
   Vector3d rate_b{0.3, -0.2, 0.8};
   Vector3d lever_b{1.2, -0.4, -1.1};
 };
@@ -37,7 +38,9 @@ Situation situation() {
 
 Situation perturbed(Situation s, int index, double step) {
   const int axis = index % 3;
-  if (index == kCarrierClock) {
+  if (index == kIonosphere) {
+    s.ionosphere_m += step;
+  } else if (index == kCarrierClock) {
     s.carrier_clock_m += step;
   } else if (index == kWetDelay) {
     s.wet_delay_m += step;
@@ -67,7 +70,7 @@ double predicted(const Situation& s, const Measurement& measurement, const Satel
                  bool has_attitude) {
   return predict_measurement(measurement, view,
                              antenna_motion(s.state, s.rate_b, s.lever_b, has_attitude), s.clocks,
-                             s.wet_delay_m, s.carrier_clock_m)
+                             s.wet_delay_m, s.carrier_clock_m, s.ionosphere_m)
       .value;
 }
 
@@ -86,11 +89,12 @@ TEST_CASE("every column of the measurement Jacobian is the numerical derivative"
          {Observable::kCode, Observable::kCarrier, Observable::kDoppler}) {
       Measurement measurement;
       measurement.observable = observable;
+      if (observable == Observable::kCode) measurement.ionosphere.mapping = 2.7;
       for (const bool has_attitude : {true, false}) {
         const EkfVector row =
             predict_measurement(measurement, view,
                                 antenna_motion(s.state, s.rate_b, s.lever_b, has_attitude),
-                                s.clocks, s.wet_delay_m, s.carrier_clock_m)
+                                s.clocks, s.wet_delay_m, s.carrier_clock_m, s.ionosphere_m)
                 .row;
         for (int column = 0; column < kSize; ++column) {
           // Positions need room: a range of 2e7 m has a resolution of 4e-9 m.
@@ -126,7 +130,7 @@ TEST_CASE("lever arm and time offset: every column is the numerical derivative")
     return predict_measurement(
         measurement, leo,
         antenna_motion(at.nav, s.rate_b, s.lever_b, true, at.vehicle, acceleration_e), s.clocks,
-        0.1, 0.0);
+        0.1, 0.0, 0.0);
   };
   for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
     const MeasurementPrediction here = predict(whole, observable);

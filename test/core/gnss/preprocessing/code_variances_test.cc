@@ -100,6 +100,70 @@ TEST_CASE(
   CHECK(variances.pair_noise > 5.0 * variances.single_noise);
 }
 
+// The slant of a ray in the shell at 350 km, by the triangle of centre, receiver and the point
+// where the ray pierces the shell.
+double slant_in_shell(double elevation) {
+  constexpr double kEarth = 6371.0, kShell = 6721.0;
+  const Eigen::Vector2d receiver(0.0, kEarth), ray(std::cos(elevation), std::sin(elevation));
+  double near = 0.0, far = 5000.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (near + far);
+    ((receiver + middle * ray).norm() < kShell ? near : far) = middle;
+  }
+  return 1.0 / (receiver + near * ray).normalized().dot(ray);
+}
+
+TEST_CASE("what the ionosphere's model leaves in common is most of its error, by the slant") {
+  const Case& of = kCases[GENERATE(range(0, 4))];
+  CAPTURE(of.system, of.elevation);
+  Codes codes(of);
+  codes.klobuchar = {
+      .alpha = {2e-8, 1e-8, -6e-8, -6e-8}, .beta = {1e5, 6e4, -2e5, -1e5}, .valid = true};
+  for (std::size_t i = 0; i < codes.signals.size(); ++i) {
+    const Measurement code = codes.code(i);
+    const double f = frequency_hz(of.system, codes.signals[i].code.band);
+    const IonosphereError& common = code.ionosphere;
+    CHECK(common.mapping ==
+          Approx(square(1575.42e6 / f) * slant_in_shell(of.elevation)).epsilon(1e-6));
+    CHECK(common.variance == Approx(0.5 * square(code.correlated_sigma)));
+    CHECK(square(common.mapping * common.zenith_sigma) == Approx(common.variance));
+    CHECK(code.own_variance() == Approx(square(code.sigma) - common.variance));
+    CHECK(code.own_correlated_variance() == Approx(0.5 * square(code.correlated_sigma)));
+  }
+  const Measurement pair = codes.code(0, of.second);
+  CHECK(pair.ionosphere.mapping == 0.0);
+  CHECK(pair.own_variance() == square(pair.sigma));
+}
+
+TEST_CASE("a code contains of the ionosphere what the delay of its band has not taken out") {
+  Codes codes({System::kGps, {{'1', 'C'}, {'5', 'Q'}}, 1, WeightModel::kElevation, 0.3});
+  const double slant = slant_in_shell(codes.view.elevation);
+  const double factor = square(1575.42 / 1176.45);
+  constexpr double kMedian = 1.4;
+  ReceiverCodeBiases biases;
+  biases.open(kSkyEpoch);
+  biases.set_reference(System::kGps, '1');
+  const bool clock_of_pair = GENERATE(false, true);
+  // gamma of the pair: -1 / (factor - 1).
+  if (clock_of_pair) biases.set_partner(System::kGps, '5', -1.0 / (factor - 1.0));
+  InterBandDifferences differences;
+  for (const double of : {1.1, kMedian, 2.0}) {
+    differences.values_m.push_back(7.0 + of);
+    differences.ionosphere_mappings.push_back((factor - 1.0) * of);
+  }
+  biases.update(System::kGps, '5', differences);
+  DelayContext context = codes.context();
+  context.biases = &biases;
+  const auto mapping = [&](std::size_t i) {
+    return code_measurement(context, codes.signals[i], nullptr, nullptr, 1, &codes.view)
+        .ionosphere.mapping;
+  };
+  // The clock of the pair has no delay, and a delay that is compared with it contains the median.
+  const double of_clock = clock_of_pair ? kMedian : 0.0;
+  CHECK(mapping(0) == Approx(slant - of_clock).epsilon(1e-6));
+  CHECK(mapping(1) == Approx(factor * slant - (factor - 1.0) * kMedian - of_clock).epsilon(1e-6));
+}
+
 TEST_CASE("without a position no variances of a code are known") {
   const CodeVariances variances = Codes(kCases[0]).variances(1, false);
   CHECK(variances.pair_noise == 0.0);

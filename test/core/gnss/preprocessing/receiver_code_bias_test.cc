@@ -85,3 +85,30 @@ TEST_CASE("a strange epoch is passed over, a new delay is taken after five") {
   feed(&biases, 27, spoiled);
   CHECK(std::abs(biases.offset_m(System::kGps, '5') - 300.0) < 2.0);
 }
+
+TEST_CASE("a delay and what it contains of the ionosphere are filtered alike") {
+  ReceiverCodeBiases biases;
+  biases.set_reference(System::kGps, '1');
+  // A delay of 5 m, and 2.4 m of the ionosphere at the zenith, while the satellites sink; then the
+  // model follows by 1.4 m.
+  double zenith = 2.4;
+  for (int epoch = 0; epoch < 300; ++epoch) {
+    if (epoch == 200) {
+      zenith = 1.0;
+      biases.step_ionosphere_model(1.4);
+    }
+    biases.open(kStart.plus_seconds(epoch));
+    InterBandDifferences differences;
+    for (const double high : {1.0, 1.2, 1.3, 1.7, 2.4}) {
+      const double mapping = high + 1e-3 * epoch;
+      differences.ionosphere_mappings.push_back(mapping);
+      differences.values_m.push_back(5.0 + zenith * mapping);
+    }
+    biases.update(System::kGps, '5', differences);
+    CHECK(biases.offset_m(System::kGps, '5') -
+              zenith * biases.ionosphere_mapping(System::kGps, '5') ==
+          Approx(5.0));
+  }
+  CHECK(biases.ionosphere_mapping(System::kGps, '5') > 1.4);
+  CHECK(biases.ionosphere_mapping(System::kGps, '1') == 0.0);
+}

@@ -83,7 +83,7 @@ TEST_CASE("a few noisy codes that keep the position are taken as single frequenc
   }
   SECTION("until there are many satellites, over which the noise averages") {
     Sky many;
-    many.satellites = 40;
+    many.satellites = 80;
     CHECK(driver.after(60, many, 2.0, kCodesKeep) == kPairs);
   }
   SECTION("until codes are good again") {
@@ -100,10 +100,10 @@ TEST_CASE("good codes of many satellites are paired although they keep the posit
 }
 
 // The factor s at which pairs have exp(`log_ratio`) times the variance of single frequencies:
-//   s^2 pair / n = exp(log_ratio) (s^2 single / n + 0.4 ionosphere)
+//   s^2 pair / n = exp(log_ratio) (s^2 single / n + 0.2 ionosphere)
 double factor_of(double log_ratio, const Sky& sky) {
   const double ratio = std::exp(log_ratio);
-  return std::sqrt(ratio * 0.4 * sky.ionosphere * sky.satellites /
+  return std::sqrt(ratio * 0.2 * sky.ionosphere * sky.satellites /
                    (sky.pair_noise - ratio * sky.single_noise));
 }
 
