@@ -247,6 +247,11 @@ rows = [row("GPS", "learned", 1.0, 2.1), row("GPS", "small", 0.8, 3.0), row("GPS
 whole = types.SimpleNamespace(axes=["systems", "noise"], comparison=matrix.Comparison(1, "learned", 1.1))
 print("\n".join(matrix_report.comparison_lines(whole, rows)))
 print([found.plain()["ratios"] for found in matrix_report.compared(whole, rows)])
+# At seed 1 "small" is chosen by seed 2, and the other way round.
+by_two = [matrix_report.Row(matrix.Scene("city", "x.yaml", (), ()), matrix.Variant(("GPS", noise), replays.Estimator()),
+                            {1: result(first, first), 2: result(second, second)})
+          for noise, first, second in (("learned", 1.0, 2.0), ("small", 2.0, 1.0), ("large", 1.0, 4.0))]
+print("unseen", matrix_report.compared(whole, by_two)[0].plain()["unseen_ratios"])
 whole.comparison = None
 print("none", matrix_report.comparison_lines(whole, rows))
 )");
@@ -254,14 +259,16 @@ print("none", matrix_report.comparison_lines(whole, rows))
   CHECK(has(said, "In 1 of 2 rows learned has at most 1.1 times its RMSE"));
   CHECK(has(said,
             "| city | GPS | 1.00 | 2.10 | large | 1.00 | 2.00 | 90.0 / 90.0 / 90.0 | 1.00 | 1.05 | "
-            "met |"));
+            "met | - |"));
   CHECK(has(said,
             "| city | all | 0.90 | 1.00 | small | 0.50 | 1.00 | 90.0 / 90.0 / 90.0 | 1.80 | 1.00 | "
-            "MISSED |"));
+            "MISSED | - |"));
   // Of `small` 3.0 / 2.1 and 1.0 / 1.0, of `large` 2.0 / 2.1 and 1.5 / 1.0.
   CHECK(has(said,
             "| noise | mean | largest | least share, % |\n|---|---|---|---|\n"
             "| small | 1.20 | 1.43 | 90.0 |\n| large | 1.20 | 1.50 | 90.0 |\n"));
+  // The learned 3.0 / 2 over (2.0 + 4.0) / 2.
+  CHECK(has(said, "unseen {'horizontal': 0.5, '3d': 0.5}\n"));
   CHECK(has(said, "none []\n"));
 }
 
