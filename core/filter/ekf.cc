@@ -9,6 +9,7 @@
 #include "core/filter/carrier_ambiguities.h"
 #include "core/filter/innovation_tests/clock_steps.h"
 #include "core/filter/innovation_tests/prediction_consistency.h"
+#include "core/filter/ionosphere_delay.h"
 #include "core/filter/update/fault_directions.h"
 
 namespace leonav {
@@ -132,6 +133,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   remove_ended_arcs(epoch, config_.max_arc_gap_s, &estimate_);
   make_room_for_new_arcs(epoch, &estimate_);
   inflate_disturbed_states(epoch, &estimate_);
+  update_ionosphere(epoch, &estimate_);
   clocks_.restart_rejected(&estimate_);
 
   const AntennaMotion antenna = this->antenna();

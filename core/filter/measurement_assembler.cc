@@ -36,7 +36,6 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
-  update_ionosphere(epoch, estimate);
   for (std::size_t i = 0; i < epoch.measurements.size(); ++i) {
     const Measurement& measurement = epoch.measurements[i];
     const bool carrier = measurement.observable == Observable::kCarrier;
@@ -76,20 +75,6 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
     }
     measurements_.push_back(entry);
   }
-}
-
-// Codes of single frequencies tell the sigma of the zenith delay, on average.
-void MeasurementAssembler::update_ionosphere(const MeasurementEpoch& epoch,
-                                             StateEstimate* estimate) const {
-  estimate->step_ionosphere_model(epoch.ionosphere_step_m);
-  double sum = 0.0;
-  int count = 0;
-  for (const Measurement& code : epoch.measurements) {
-    if (!(code.ionosphere.zenith_sigma > 0.0)) continue;
-    sum += square(code.ionosphere.zenith_sigma);
-    ++count;
-  }
-  if (count > 0) estimate->set_ionosphere_sigma(std::sqrt(sum / count));
 }
 
 // What is learned concerns noise and reflections; the errors of orbit, clock and ionosphere are

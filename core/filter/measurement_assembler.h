@@ -72,7 +72,6 @@ class MeasurementAssembler {
 
  private:
   static constexpr double kStandingSpeed_m_s = 0.3;
-  void update_ionosphere(const MeasurementEpoch& epoch, StateEstimate* estimate) const;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
              double line_of_sight_rate, double dt, FilterMeasurement* entry);

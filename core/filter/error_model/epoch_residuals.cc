@@ -55,6 +55,7 @@ EpochResiduals code_residuals(const FilterMeasurements& measurements,
     psi.push_back(1.0);
     seen += row_of(code).cwiseAbs();
   }
+  seen(kKnown - 1) = 0.0;  // the ionosphere is known from before
   const auto unknowns = static_cast<std::size_t>((seen.array() > 0.0).count());
   if (residuals.size() <= unknowns) return {};
 
