@@ -27,7 +27,7 @@ Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-// Returns the covariance of position (ECEF) and zenith delay of the ionosphere, m^2.
+// Returns the covariance of position (ECEF) and zenith ionosphere delay, m^2.
 Eigen::Matrix4d position_and_ionosphere(const EkfCovariance& P) {
   Eigen::Matrix4d covariance;
   covariance << P.block<3, 3>(kPosition, kPosition), P.block<3, 1>(kPosition, kIonosphere),

@@ -5,7 +5,7 @@
 
 namespace leonav {
 
-// Moves the zenith delay of the ionosphere by the step of the modelled one since the last epoch
+// Moves the zenith ionosphere delay against the step of the modelled one since the last epoch
 // (MeasurementEpoch::ionosphere_step_m), and sets the sigma of its process to the root mean square
 // of those that the epoch's codes of one frequency state. Call it once per epoch, before the
 // measurements are predicted.

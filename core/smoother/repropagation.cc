@@ -23,7 +23,7 @@ EkfConfig propagating(EkfConfig config) {
   return config;
 }
 
-// What the propagator knows of: neither clocks nor wet delay.
+// What the propagator knows of: neither clocks nor delays of the atmosphere.
 bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
 
 bool is_far(const EkfCorrection& moved) {

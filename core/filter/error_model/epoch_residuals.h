@@ -17,7 +17,7 @@ struct EpochResidual {
 using EpochResiduals = boost::container::static_vector<EpochResidual, kMaxMeasurements>;
 
 // Returns the residuals of the codes of `measurements` at the position, the clocks of their systems
-// and the zenith delay of the ionosphere that fit them best, by iteratively reweighted least
+// and the zenith ionosphere delay that fit them best, by iteratively reweighted least
 // squares. Position and ionosphere are known from before with the covariance P, which counts with
 // three of its sigmas, Lambda = (9 P)^-1. Weights psi are Huber's at the predicted position, then
 // IGG-III's (core/robust/igg3.h) at the fitted one:

@@ -18,7 +18,7 @@ namespace leonav {
 //   position 3, velocity 3, attitude 3, gyro bias 3, accelerometer bias 3, gyro scale 3,
 //   accelerometer scale 3, clock offset per time system 4 (m), clock drift per time system 4 (m/s),
 //   zenith wet delay beyond the modelled one (m), the carriers' clock against the codes' (m),
-//   zenith delay of the ionosphere on L1 beyond the modelled one (m), the vehicle constants as far
+//   zenith ionosphere delay on L1 beyond the modelled one (m), the vehicle constants as far
 //   as they are estimated, and one ambiguity (m) per carrier arc under way.
 // The constant-velocity and static models keep the same order; the states they lack have zero
 // covariance and take no correction.

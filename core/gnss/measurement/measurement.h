@@ -75,7 +75,11 @@ struct SatelliteInView {
   // Identity of these patterns; a new one means another correction.
   std::uint32_t antenna_issue = 0;
   double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
-  double cn0_dbhz = 0.0;         // strongest signal
+  // Slant delay by the model that was added to the carrier; 0 for a pair. Identity of its
+  // coefficients; a new one means another delay.
+  double carrier_ionosphere_m = 0.0;
+  std::uint32_t ionosphere_issue = 0;
+  double cn0_dbhz = 0.0;  // strongest signal
   CodeVariances code_variances;
   std::uint32_t arc = 0;     // identity of its carrier arc; 0: none used
   bool arc_started = false;  // its arc starts at this epoch
@@ -84,8 +88,10 @@ struct SatelliteInView {
 };
 
 // IonosphereError is what the model of the ionosphere leaves in a code, as far as all satellites
-// have it in common: mapping times an error of the zenith delay on L1, m, with zenith_sigma. The
-// squares of the code's sigma and correlated_sigma contain its variance. Zeros: none, or not known.
+// have it in common: mapping (m/m) times the zenith ionosphere delay, of which zenith_sigma (m) is
+// 1 sigma. The squares of the code's sigma and correlated_sigma contain `variance` (m^2), which is
+// that of the whole slant, without what the receiver code biases take of it, and times the number
+// of codes of the satellite that share it. Zeros: a pair, or a position is not known.
 struct IonosphereError {
   double mapping = 0.0, zenith_sigma = 0.0, variance = 0.0;
 };
@@ -96,7 +102,7 @@ struct IonosphereError {
 //   doppler: predict_range_rate() of range_model.h + clock drift of the system time
 // The satellite clock, group delay, troposphere and ionosphere are already removed. Code and
 // carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one, and a code of one
-// frequency ionosphere.mapping of a zenith delay of the ionosphere beyond the modelled one.
+// frequency ionosphere.mapping of a zenith ionosphere delay beyond the modelled one.
 struct Measurement {
   std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
   Observable observable = Observable::kCode;
@@ -112,7 +118,8 @@ struct Measurement {
   // Carrier only.
   std::uint32_t arc = 0;     // identity of the uninterrupted arc; 0: none
   double random_walk = 0.0;  // m/sqrt(s): random walk of the ambiguity
-  // 1 sigma of a step of the ambiguity since the last epoch (another orbit)
+  // 1 sigma of a step of the ambiguity since the last epoch: another orbit, antenna pattern or
+  // model of the ionosphere
   double disturbance_m = 0.0;
   Reason reason = Reason::kUsed;
 

@@ -57,6 +57,8 @@ struct KlobucharModel {
   std::array<double, 4> alpha = {0, 0, 0, 0};  // s, s/semicircle, ...
   std::array<double, 4> beta = {0, 0, 0, 0};
   bool valid = false;
+
+  friend bool operator==(const KlobucharModel&, const KlobucharModel&) = default;
 };
 
 }  // namespace leonav

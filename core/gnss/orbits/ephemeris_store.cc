@@ -142,6 +142,7 @@ bool find_precise(const SatelliteProducts& products, System system, GpsTime time
 struct EphemerisStore::Storage {
   EphemerisConfig options;
   KlobucharModel klobuchar;
+  std::uint32_t klobuchar_issue = 0;
   std::uint64_t arrivals = 0;
   std::array<SatelliteProducts, kMaxEphemerisSatellites> products_of;
 };
@@ -188,8 +189,12 @@ bool EphemerisStore::add(const PreciseState& state) {
   return true;
 }
 
-void EphemerisStore::set_klobuchar(const KlobucharModel& model) { storage_->klobuchar = model; }
+void EphemerisStore::set_klobuchar(const KlobucharModel& model) {
+  if (model != storage_->klobuchar) ++storage_->klobuchar_issue;
+  storage_->klobuchar = model;
+}
 const KlobucharModel& EphemerisStore::klobuchar() const { return storage_->klobuchar; }
+std::uint32_t EphemerisStore::klobuchar_issue() const { return storage_->klobuchar_issue; }
 
 LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                                       const Ephemeris** ephemeris) const {

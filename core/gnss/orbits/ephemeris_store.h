@@ -61,6 +61,8 @@ class EphemerisStore {
   bool add(const PreciseState& state);
   void set_klobuchar(const KlobucharModel& model);
   const KlobucharModel& klobuchar() const;
+  // Returns a number that changes with the coefficients.
+  std::uint32_t klobuchar_issue() const;
 
   // Finds the state at `time`; `*ephemeris` (if given) points to the elements used, or to nullptr
   // for precise states. Broadcast: the elements with the nearest toe serve. Precise: clocks of

@@ -15,14 +15,6 @@ namespace {
 // A satellite out of sight for longer starts with a new history.
 constexpr double kHistoryTimeout_s = 600.0;
 
-// Returns the step of a carrier's correction where the modelled zenith delay changes by `zenith_m`.
-double ionosphere_step_m(const SatelliteInView& satellite, const Measurement& carrier,
-                         double zenith_m) {
-  if (carrier.second_code.is_set()) return 0.0;
-  const double frequency = frequency_hz(satellite.satellite.system, carrier.code.band);
-  return ionosphere_factor(frequency) * ionosphere_slant(satellite.elevation) * zenith_m;
-}
-
 }  // namespace
 
 CarrierPreprocessor::CarrierPreprocessor(const CycleSlipConfig& config)
@@ -90,8 +82,8 @@ void CarrierPreprocessor::set_wind_up(SatelliteId satellite, double cycles) {
 
 RangeChangeRow CarrierPreprocessor::row_of(const SatelliteInView& satellite,
                                            const Measurement& carrier, const CarrierHistory& before,
-                                           double step_of_ionosphere_m) const {
-  const RangePrediction range = predict_range(satellite, predicted_p_e_);
+                                           const Eigen::Vector3d& predicted_p_e) const {
+  const RangePrediction range = predict_range(satellite, predicted_p_e);
   const double dt = seconds_between(time_, last_time_);
   RangeChangeRow row;
   row.direction = range.d_range_d_p.transpose();
@@ -100,7 +92,7 @@ RangeChangeRow CarrierPreprocessor::row_of(const SatelliteInView& satellite,
   row.residual_m = carrier.value - range.range_m - before.residual_m;
   if (before.issue != satellite.orbit_issue) row.residual_m -= satellite.orbit_step_m;
   row.residual_m += antenna_step_m(satellite, before);
-  row.residual_m -= ionosphere_step_m(satellite, carrier, step_of_ionosphere_m);
+  row.residual_m -= ionosphere_step_m(satellite, before);
   row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 +
                           square(change_sigma_m(config_, satellite, carrier, dt)));
   row.system_time = static_cast<int>(index_of(satellite.satellite.system));
@@ -142,7 +134,7 @@ void CarrierPreprocessor::check_range_changes(const Eigen::Vector3d& predicted_p
       const SatelliteInView& satellite = epoch->satellites[carriers[i]->satellite_index];
       const CarrierHistory* before = history_of(satellite.satellite);
       if (!is_comparable(satellite, *carriers[i], before)) continue;
-      change_rows_.push_back(row_of(satellite, *carriers[i], *before, epoch->ionosphere_step_m));
+      change_rows_.push_back(row_of(satellite, *carriers[i], *before, predicted_p_e));
       of_row.push_back(row_status[i]);
     }
     const RangeChangeResult result =
@@ -177,9 +169,17 @@ double CarrierPreprocessor::antenna_step_m(const SatelliteInView& satellite,
   return satellite.antenna_m - before.antenna_m;
 }
 
-// Sets the disturbances. Another orbit has another error, and so has another delay of the
-// ionosphere. Other antenna patterns have other corrections: the arc's constant has absorbed the
-// difference so far and, as far as no clock of a system could, so has the position.
+// Returns the step of the carrier's correction by other coefficients of the ionosphere's model. It
+// contains by how much the modelled delay has changed since, millimetres a second.
+double CarrierPreprocessor::ionosphere_step_m(const SatelliteInView& satellite,
+                                              const CarrierHistory& before) const {
+  if (before.ionosphere_issue == satellite.ionosphere_issue) return 0.0;
+  return satellite.carrier_ionosphere_m - before.ionosphere_m;
+}
+
+// Sets the disturbances. Another orbit, and another model of the ionosphere, has another error.
+// Other antenna patterns have other corrections: the arc's constant has absorbed the difference so
+// far and, as far as no clock of a system could, so has the position.
 void CarrierPreprocessor::set_disturbances(MeasurementEpoch* epoch) const {
   constexpr double kDilution = 2.0;  // from errors of the satellites to the position
   std::array<double, kSystemCount> sum{}, squares{};
@@ -197,8 +197,7 @@ void CarrierPreprocessor::set_disturbances(MeasurementEpoch* epoch) const {
     const bool same_orbit = before->issue == satellite.orbit_issue;
     const double orbit_m =
         same_orbit ? 0.0 : std::hypot(before->orbit_sigma_m, satellite.orbit_sigma_m);
-    carrier.disturbance_m = std::hypot(
-        orbit_m, step_m, ionosphere_step_m(satellite, carrier, epoch->ionosphere_step_m));
+    carrier.disturbance_m = std::hypot(orbit_m, step_m, ionosphere_step_m(satellite, *before));
   }
   double about_mean = 0.0;
   int carriers = 0;
@@ -233,6 +232,8 @@ void CarrierPreprocessor::store_epoch(const MeasurementEpoch& epoch,
     history->source = satellite.source;
     history->antenna_issue = satellite.antenna_issue;
     history->antenna_m = satellite.antenna_m;
+    history->ionosphere_issue = satellite.ionosphere_issue;
+    history->ionosphere_m = satellite.carrier_ionosphere_m;
   }
   last_time_ = epoch.time;
   last_p_e_ = antenna_p_e;

@@ -43,7 +43,8 @@ class CarrierPreprocessor {
   // Tests the carriers of `epoch` against each other and the predicted motion, and gives each its
   // arc. The carriers are appended in the order of add_carrier(); excluded ones have no measurement
   // there. `predicted_p_e` is the predicted antenna position (ECEF, m). It also sets by how much
-  // another orbit or antenna pattern disturbs each carrier and the position.
+  // another orbit, antenna pattern or model of the ionosphere disturbs each carrier, and an antenna
+  // pattern the position.
   void check_range_changes(const Eigen::Vector3d& predicted_p_e, const RangeChangePrior& prior,
                            MeasurementEpoch* epoch);
   // Returns the change since the last epoch with carriers, whatever the filter has predicted. It
@@ -76,6 +77,8 @@ class CarrierPreprocessor {
     OrbitSource source = OrbitSource::kNone;
     std::uint32_t antenna_issue = 0;
     double antenna_m = 0.0;
+    std::uint32_t ionosphere_issue = 0;
+    double ionosphere_m = 0.0;
     double wind_up_cycles = 0.0;
     GpsTime offered;  // time at which `pair` was last measured
     CarrierPairCodes pair;
@@ -83,10 +86,11 @@ class CarrierPreprocessor {
   CarrierHistory* history_of(SatelliteId satellite);
   const CarrierHistory* history_of(SatelliteId satellite) const;
   RangeChangeRow row_of(const SatelliteInView& satellite, const Measurement& carrier,
-                        const CarrierHistory& before, double step_of_ionosphere_m) const;
+                        const CarrierHistory& before, const Eigen::Vector3d& predicted_p_e) const;
   bool is_comparable(const SatelliteInView& satellite, const Measurement& carrier,
                      const CarrierHistory* before) const;
   double antenna_step_m(const SatelliteInView& satellite, const CarrierHistory& before) const;
+  double ionosphere_step_m(const SatelliteInView& satellite, const CarrierHistory& before) const;
   void set_disturbances(MeasurementEpoch* epoch) const;
 
   CycleSlipConfig config_;

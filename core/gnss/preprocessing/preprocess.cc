@@ -256,6 +256,7 @@ void preprocess(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
 
   DelayContext context =
       delay_context(config, ephemeris_store.klobuchar(), raw.time, approximate_p_e);
+  context.klobuchar_issue = ephemeris_store.klobuchar_issue();
   context.antennas = aids.antennas;
   if (aids.C_er != nullptr) context.C_er = *aids.C_er;
 

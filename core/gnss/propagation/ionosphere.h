@@ -17,7 +17,7 @@ const KlobucharModel& default_klobuchar();
 // frequency that is not positive.
 double klobuchar_delay_m(const KlobucharModel& model, const Geodetic& antenna,
                          const LookAngles& direction, GpsTime time, double frequency_hz);
-// Returns the same at zenith on L1.
+// Returns the delay of a code on L1 at the zenith by `model`, m, as klobuchar_delay_m() does.
 double zenith_ionosphere_m(const KlobucharModel& model, const Geodetic& antenna, GpsTime time);
 
 }  // namespace leonav

@@ -1,6 +1,6 @@
 #include "core/navigator/sequencer/input_validation.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace leonav {
@@ -70,10 +70,17 @@ InputFault check(const SignalObservation& observation) {
 }
 
 InputFault check(const KlobucharModel& model) {
-  const auto finite = [](double x) { return std::isfinite(x); };
-  const bool ok = std::all_of(model.alpha.begin(), model.alpha.end(), finite) &&
-                  std::all_of(model.beta.begin(), model.beta.end(), finite);
-  return ok ? InputFault::kNone : InputFault::kNotFinite;
+  // The largest values of the broadcast format, eight bits each (IS-GPS-200 table 20-X).
+  constexpr std::array<double, 4> kMaxAlpha = {0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17};
+  constexpr std::array<double, 4> kMaxBeta = {0x1p18, 0x1p21, 0x1p23, 0x1p23};
+  bool in_range = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!std::isfinite(model.alpha[i]) || !std::isfinite(model.beta[i]))
+      return InputFault::kNotFinite;
+    in_range = in_range && std::abs(model.alpha[i]) <= kMaxAlpha[i] &&
+               std::abs(model.beta[i]) <= kMaxBeta[i];
+  }
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 
 InputFault check(const AntennaPattern& pattern) {

@@ -1,7 +1,9 @@
 // The zenith delay that the model of the ionosphere leaves: drawn, put into codes of one frequency,
 // and estimated.
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/filter/ekf.h"
 #include "core/filter/nees.h"
@@ -39,7 +41,7 @@ class Receiver {
       const double decay = std::exp(-1.0 / 3600.0);
       delay_m_ = decay * delay_m_ + kZenithSigma * std::sqrt(1.0 - decay * decay) * noise_.normal();
       MeasurementEpoch epoch =
-          measure(kStart.plus_seconds(t_s_), eight_satellites(), truth_, kNoise, 0.02, &noise_);
+          measure(kStart.plus_seconds(t_s_), sky_, truth_, kNoise, 0.02, &noise_);
       epoch.ionosphere_step_m = std::exchange(pending_step_m_, 0.0);
       for (Measurement& code : epoch.measurements) {
         if (code.observable != Observable::kCode) continue;
@@ -59,6 +61,11 @@ class Receiver {
   void step_model(double step_m, bool told) {
     delay_m_ -= step_m;
     if (told) pending_step_m_ = step_m;
+  }
+  void see(System system, std::size_t most) {
+    sky_ = eight_satellites();
+    std::erase_if(sky_, [&](const SatelliteInView& v) { return v.satellite.system != system; });
+    sky_.resize(std::min(most, sky_.size()));
   }
   void restart() { filter_.initialize(kStart, PointSolution()); }
   double delay_error() const { return filter_.filter_state().ionosphere_m - delay_m_; }
@@ -80,6 +87,7 @@ class Receiver {
     return config;
   }
   Generator noise_;
+  std::vector<SatelliteInView> sky_ = eight_satellites();
   Truth truth_;
   double delay_m_ = 0.0, pending_step_m_ = 0.0, t_s_ = 0.0;
   EkfConfig config_ = config();
@@ -127,6 +135,27 @@ TEST_CASE("a delay that no code shows any more becomes uncertain again; a new st
   receiver.restart();
   CHECK(receiver.filter().filter_state().ionosphere_m == 0.0);
   CHECK(receiver.delay_sigma() == 0.0);
+}
+
+TEST_CASE("a step of the model moves the delay by as much, once, and widens it by its square") {
+  constexpr double kStep = 4.0;
+  const auto after = [](double step_m) {
+    Receiver receiver(5);
+    receiver.see(System::kGps, 8);
+    receiver.run(120);
+    // One satellite of a system that begins: its clock is started from the predicted measurements,
+    // which are then predicted again.
+    receiver.see(System::kGalileo, 1);
+    receiver.step_model(step_m, true);
+    receiver.run(1);
+    return receiver;
+  };
+  const Receiver stepped = after(kStep), undisturbed = after(0.0);
+  const auto delay = [](const Receiver& r) { return r.filter().filter_state().ionosphere_m; };
+  CHECK(delay(stepped) - delay(undisturbed) == Approx(-kStep).margin(0.3));
+  CHECK(std::pow(stepped.delay_sigma(), 2) - std::pow(undisturbed.delay_sigma(), 2) ==
+        Approx(kStep * kStep).epsilon(0.02));
+  CHECK((stepped.position_error_ned() - undisturbed.position_error_ned()).norm() < 0.05);
 }
 
 TEST_CASE("other coefficients of the model move the delay and not the position") {

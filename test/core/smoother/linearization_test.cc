@@ -21,7 +21,6 @@ using Eigen::Index;
 double step_of(Index i) {
   if (i < kVelocity) return 10.0;  // m
   if (i < kAttitude) return 1.0;
-  if (i < kGyroBias) return 1e-2;
   if (i < kClock) return 1e-2;
   return 10.0;
 }

@@ -40,12 +40,15 @@ double most_apart_from_filter(const DriveOptions& options, int capacity, double*
 bool is_galileo(SatelliteId id) { return id.system == System::kGalileo; }
 bool is_any(SatelliteId) { return true; }
 
-// The code of one frequency with this zenith delay of the ionosphere beyond the modelled one.
+// The code of one frequency with this zenith ionosphere delay beyond the modelled one.
 void make_single_frequency(double delay_m, const MeasurementEpoch& epoch, Measurement* code) {
   const double slant = 1.0 / std::sin(epoch.satellites[code->satellite_index].elevation);
+  const double variance = 4.0 * slant * slant;
   code->value += slant * delay_m;
-  code->ionosphere = {slant, 2.0, slant * slant * 4.0};
-  code->sigma = std::hypot(code->sigma, 2.0 * slant);
+  code->ionosphere = {slant, 2.0, variance};
+  code->correlated_sigma = std::sqrt(2.0 * variance);
+  code->correlation_time_s = 900.0;
+  code->sigma = std::hypot(code->sigma, code->correlated_sigma);
 }
 
 struct Course {

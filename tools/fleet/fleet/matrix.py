@@ -135,7 +135,7 @@ class Reader:
         for key, values in group.items():
             numbers = values if isinstance(values, list) and values else [values]
             if any(isinstance(v, bool) or not isinstance(v, (int, float)) for v in numbers):
-                self.fail(f"per_seed.{key}", "must be a number, which counts as often as the seed says, or a list of numbers, one seed after the other")
+                self.fail(f"per_seed.{key}", "must be a number, which is multiplied by the seed, or a list of numbers, which the seeds take one after the other")
         return tuple((str(key), values) for key, values in group.items())
 
     def file(self, name, where):

@@ -75,12 +75,15 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   } else {
     const LookAngles direction{satellite.elevation, satellite.azimuth};
     // The ionosphere delays the code and advances the carrier by the same amount.
-    range += klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    in_view->carrier_ionosphere_m =
+        klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    range += in_view->carrier_ionosphere_m;
     random_walk +=
         square(system == System::kLeo ? kIonosphereRandomWalkLeo : kIonosphereRandomWalk);
   }
   const AntennaCorrection antenna =
       antenna_range(context, satellite, carrier.code, carrier.second_code);
+  in_view->ionosphere_issue = context.klobuchar_issue;
   in_view->antenna_m = antenna.range_m;
   in_view->antenna_issue = antenna.issue;
   if (!antenna.known && system != System::kLeo) random_walk += square(kAntennaRandomWalk);

@@ -25,7 +25,7 @@ constexpr double kIonosphereFloor = 0.5;  // m
 constexpr double kUnknownModelShare = 1.0;
 constexpr double kUnknownFloor = 2.0;  // m
 
-// Share of the variance of that which satellites do not have in common: gradients and waves of the
+// Share of this error's variance that satellites do not have in common: gradients and waves of the
 // electron content.
 constexpr double kIndividualShare = 0.5;
 // Radius of the Earth over that of the shell at 350 km.
@@ -69,7 +69,7 @@ GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast
 }
 
 // Returns the part that all satellites have in common of what the model leaves in the code of
-// `signal`: `sigma` on its path, and `variance` of the code. The delays of the receiver's bands,
+// `signal`: `sigma` on its path, and `variance` of the code. The receiver code biases,
 // which are removed from the code, contain some of it.
 IonosphereError common_ionosphere_error(const DelayContext& context,
                                         const SignalObservation& signal, double elevation,

@@ -17,6 +17,7 @@ namespace leonav {
 struct DelayContext {
   const GnssConfig* config = nullptr;
   const KlobucharModel* klobuchar = nullptr;
+  std::uint32_t klobuchar_issue = 0;  // EphemerisStore::klobuchar_issue()
   GpsTime time;
   bool has_position = false;  // without one there is no elevation and no atmosphere
   Geodetic antenna;
@@ -39,8 +40,8 @@ inline constexpr double kUnknownAtmosphereSigma = 15.0;  // m
 
 // Returns the ionosphere's delay on a frequency (Hz) over that on L1.
 double ionosphere_factor(double frequency);
-// Returns the length of a path in the ionosphere over the vertical one: 1 / cos z' in a shell at
-// 350 km.
+// Returns the length of a path in the ionosphere over the vertical one, in a shell at 350 km:
+//   1 / cos z',  sin z' = 6371/6721 cos E,  E: `elevation` (rad).
 double ionosphere_slant(double elevation);
 
 // Sets elevation, azimuth and tropospheric delay of `satellite`.

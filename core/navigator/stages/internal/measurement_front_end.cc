@@ -1,5 +1,6 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
@@ -51,11 +52,14 @@ void MeasurementFrontEnd::add(const PreciseStates& states) {
 void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
   const KlobucharModel before = ephemeris_store_.klobuchar();
   ephemeris_store_.set_klobuchar(klobuchar);
-  const MeasurementEpoch& last = *measurements_;
+  // Before the filter starts there are point solutions only.
+  const MeasurementEpoch& last =
+      measurements_->approximate_p_e.isZero() ? *point_measurements_ : *measurements_;
   if (last.approximate_p_e.isZero()) return;
   const Geodetic antenna = to_geodetic(last.approximate_p_e);
   const double step_m = zenith_ionosphere_m(klobuchar, antenna, last.time) -
                         zenith_ionosphere_m(before, antenna, last.time);
+  if (!std::isfinite(step_m)) return;
   code_biases_.step_ionosphere_model(step_m);
   ionosphere_step_m_ += step_m;
 }

@@ -113,7 +113,7 @@ double slant_in_shell(double elevation) {
   return 1.0 / (receiver + near * ray).normalized().dot(ray);
 }
 
-TEST_CASE("what the ionosphere's model leaves in common is most of its error, by the slant") {
+TEST_CASE("what the ionosphere's model leaves in common is half of the variance, by the slant") {
   const Case& of = kCases[GENERATE(range(0, 4))];
   CAPTURE(of.system, of.elevation);
   Codes codes(of);

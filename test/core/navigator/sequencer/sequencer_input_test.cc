@@ -49,6 +49,28 @@ TEST_CASE("hostile commands, ephemerides, antennas and precise states are counte
   CHECK(rig.stages.precise.empty());
 }
 
+TEST_CASE("coefficients of the ionosphere that no message can carry are dropped") {
+  SequencerRig rig;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  KlobucharModel good = {.alpha = {-0x1p-23, 127 * 0x1p-27, 0.0, -0x1p-17},
+                         .beta = {127 * 0x1p11, -0x1p21, 0x1p23, 0.0},
+                         .valid = true};
+  rig.sequencer.on_klobuchar(good);
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    KlobucharModel bad = good;
+    bad.alpha[i] = 1e-4;
+    rig.sequencer.on_klobuchar(bad);
+    bad = good;
+    bad.beta[i] = -1e8;
+    rig.sequencer.on_klobuchar(bad);
+    bad.beta[i] = nan;
+    rig.sequencer.on_klobuchar(bad);
+  }
+  CHECK(rig.rejected(InputFault::kOutOfRange) == 8);
+  CHECK(rig.rejected(InputFault::kNotFinite) == 4);
+}
+
 TEST_CASE("the good states of a message are one piece of work, each bad one is counted") {
   SequencerRig rig;
   PreciseStates states;
