@@ -252,6 +252,11 @@ by_two = [matrix_report.Row(matrix.Scene("city", "x.yaml", (), ()), matrix.Varia
                             {1: result(first, first), 2: result(second, second)})
           for noise, first, second in (("learned", 1.0, 2.0), ("small", 2.0, 1.0), ("large", 1.0, 4.0))]
 print("unseen", matrix_report.compared(whole, by_two)[0].plain()["unseen_ratios"])
+few, many = row("GPS", "few", 1.0, 1.0), row("GPS", "many", 1.0, 1.0)
+print("good", matrix_report.bad_runs_lines([few, many]))
+few.good[1]["sigmas"]["up"]["within"] = 8
+many.good[1]["integrity"] = {"heading": {"misleading": 3}, "vertical": {"misleading": 0}}
+print("\n".join(matrix_report.bad_runs_lines([few, many])))
 whole.comparison = None
 print("none", matrix_report.comparison_lines(whole, rows))
 )");
@@ -269,6 +274,9 @@ print("none", matrix_report.comparison_lines(whole, rows))
             "| small | 1.20 | 1.43 | 90.0 |\n| large | 1.20 | 1.50 | 90.0 |\n"));
   // The learned 3.0 / 2 over (2.0 + 4.0) / 2.
   CHECK(has(said, "unseen {'horizontal': 0.5, '3d': 0.5}\n"));
+  CHECK(has(said, "good []\n## Single runs to look at: 2\n"));
+  CHECK(has(said, "| n | 90.0 / 90.0 / 80.0 | 1.00 / 1.00 / 1.00 | - |\n"));
+  CHECK(has(said, "| n | 90.0 / 90.0 / 90.0 | 1.00 / 1.00 / 1.00 | heading 3 |\n"));
   CHECK(has(said, "none []\n"));
 }
 

@@ -7,6 +7,7 @@ from . import matrix as matrices
 from . import levels, measure, programs, report
 
 AXES = measure.AXES
+BAD_SHARE = 0.9
 
 
 class Row:
@@ -130,6 +131,22 @@ def verdict_lines(matrix, rows):
     return [*lines, "", "; ".join(f"{name}: {text}" for name, text in meanings.items()) + ".", ""]
 
 
+def bad_runs_lines(rows):
+    """Each run with too few errors within three sigma on an axis, or with an error beyond its level, which a whole row hides."""
+    lines = []
+    for run in (run for row in rows for run in row.good.values() if run.get("judged")):
+        shares = [report.share(run["sigmas"][axis]) for axis in AXES]
+        beyond = {quantity: counts.get("misleading", 0) for quantity, counts in (run["integrity"] or {}).items() if isinstance(counts, dict)}
+        if any(share is not None and share < BAD_SHARE for share in shares) or any(beyond.values()):
+            cells = [run["name"], *(" / ".join(texts) for texts in ([report.percent(share) for share in shares],
+                                                                  [report.number(run["errors"][axis]["rmse"]) for axis in AXES])),
+                     ", ".join(f"{quantity} {count}" for quantity, count in sorted(beyond.items()) if count) or "-"]
+            lines.append("| " + " | ".join(cells) + " |")
+    return [f"## Single runs to look at: {len(lines)}", "", f"Less than {100 * BAD_SHARE:g} % of the errors of an axis within three sigma, "
+            "or an error beyond its level.", "", "| run | within 3 sigma N / E / U, % | RMSE N / E / U, m | epochs beyond their level |",
+            "|---|---|---|---|", *lines, ""] if lines else []
+
+
 class BestOthers:
     """A scene with all axes but the compared one: the compared value's row, and that of the others with the least 3D RMSE."""
 
@@ -217,8 +234,8 @@ def comparison_lines(matrix, rows):
               "ratios by other seeds"]
     return [f"## {comparison.value} against the best other {axis}", "",
             f"The best has the least 3D RMSE of all others in the same scene, chosen with the truth in hand. In {sum(b.holds() for b in found)} of "
-            f"{len(found)} rows {comparison.value} has at most {comparison.at_most:g} times its RMSE, horizontally and in 3D. Ratios by other seeds: as if the best had been "
-            "chosen for each seed by the others, so that no luck is in the choice.", "",
+            f"{len(found)} rows {comparison.value} has at most {comparison.at_most:g} times its RMSE, horizontally and in 3D. Ratios by other "
+            "seeds: as if the best had been chosen for each seed by the others, so that no luck is in the choice.", "",
             "| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(b.line(comparison.axis) for b in found), "",
             *one_for_all_lines(matrix, rows)]
 
@@ -236,6 +253,7 @@ def markdown(matrix, rows):
     lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *(row.line(with_integrity) for row in rows), ""]
     failed = [r for row in rows for _, r in sorted(row.results.items()) if r["failure"] is not None]
     lines += report.failed_lines(failed)
+    lines += bad_runs_lines(rows)
     lines += comparison_lines(matrix, rows)
     lines += levels.section(judged_of(rows), ["scene", matrix.axes[0]], availability_parts(matrix, rows))
     lines += ["## Commands", "", "Every run of every scene, first seed:", "", "```sh"]

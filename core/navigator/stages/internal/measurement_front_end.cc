@@ -1,6 +1,5 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
-#include <cmath>
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
@@ -59,7 +58,6 @@ void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
   const Geodetic antenna = to_geodetic(last.approximate_p_e);
   const double step_m = zenith_ionosphere_m(klobuchar, antenna, last.time) -
                         zenith_ionosphere_m(before, antenna, last.time);
-  if (!std::isfinite(step_m)) return;
   code_biases_.step_ionosphere_model(step_m);
   ionosphere_step_m_ += step_m;
 }

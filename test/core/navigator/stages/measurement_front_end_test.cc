@@ -53,7 +53,7 @@ struct Receiver {
 
 }  // namespace
 
-TEST_CASE("the next epoch, and only that, is told how far the modelled zenith delay has moved") {
+TEST_CASE("a step of the modelled zenith delay is told with the next epoch and with no other") {
   Receiver r;
   CHECK(r.measure() == 0.0);
   r.front_end->add(kActive);
@@ -91,13 +91,13 @@ TEST_CASE("the bands' delays do not jump where other coefficients come, nor do t
     return sum / codes;
   };
   for (int i = 0; i < 60; ++i) followed.measure(), undisturbed.measure();
-  const double mapping = 1.4;  // of a satellite at the median elevation, or so
+  const double slant = 1.4;  // of a satellite at the median elevation, or so
   followed.front_end->add(kActive);
   followed.measure(), undisturbed.measure();
   const double step_m = followed.zenith_m(kActive) - followed.zenith_m({});
   // As much as on the first band, and not 1.65 times that.
   CHECK(band_difference(followed) - band_difference(undisturbed) ==
-        Approx(-mapping * step_m).epsilon(0.25));
+        Approx(-slant * step_m).epsilon(0.25));
 }
 
 }  // namespace leonav::test
