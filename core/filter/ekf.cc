@@ -20,6 +20,20 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kMaxStartFactor = 9.0;  // of variance
+
+// Returns the factor by which the variance of a start's position exceeds that of its point
+// solution: the variance of Student's t distribution with the degrees of freedom that the codes of
+// the solution leave. So few residuals do not show how large the codes' errors are, nor which of
+// them are reflected, and these errors last for many epochs. 1 without codes.
+double start_factor(const PointSolution& point) {
+  if (point.satellites == 0) return 1.0;
+  const auto clocks = std::count_if(point.clock_m.begin(), point.clock_m.end(),
+                                    [](double clock) { return std::isfinite(clock); });
+  const auto freedom = static_cast<double>(point.satellites - 3 - clocks);
+  return freedom > 2.0 ? std::min(freedom / (freedom - 2.0), kMaxStartFactor) : kMaxStartFactor;
+}
+
 // 1 sigma of the attitude about north, east and down at `p_e`, rad.
 Vector3d attitude_sigma_n(const Vector3d& p_e, const EkfCovariance& P) {
   const Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(p_e));
@@ -70,7 +84,8 @@ void Ekf::start_errors(double code_sigma_factor, double doppler_sigma_factor) {
 
 void Ekf::initialize(GpsTime time, const PointSolution& given) {
   PointSolution point = given;
-  point.covariance_p_e *= square(learned_errors().mean_scale(Observable::kCode));
+  point.covariance_p_e *=
+      start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
   point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();

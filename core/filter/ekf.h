@@ -72,8 +72,10 @@ class Ekf {
   Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Eigen::Vector3d& lever_arm_b);
 
   // --- start ---
-  // Starts from a point solution of the antenna, with the constant-velocity (or static) model. A
-  // second call starts anew; only the last IMU sample and the vehicle constants survive.
+  // Starts from a point solution of the antenna, with the constant-velocity (or static) model. Its
+  // sigmas are scaled by the learned errors; the position is as much less certain as few redundant
+  // codes leave it. A second call starts anew; only the last IMU sample and the vehicle constants
+  // survive.
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but the configuration.
   void reset();

@@ -89,8 +89,10 @@ double scale_for(const FilterMeasurement& measurement, const RobustUpdateResult&
   return std::min(limit, weighed.scale[static_cast<std::size_t>(measurement.observable)]);
 }
 
-// Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
-// excludes, no number of others can bring back.
+// Returns the largest change of a factor. A carrier that was excluded and now is not, or the other
+// way round, counts as a change of one, however little it weighs: two carriers, each of which
+// agrees with the prediction where the other is left out, would alternate for ever. `limits` are
+// the factors that the prior allows: what it excludes, no number of others can bring back.
 double reweight(const RobustConfig& config, const SmallTable& ratios, double max_scale,
                 const SmallTable& limits, FilterMeasurements* measurements,
                 RobustUpdateResult* result) {
@@ -101,7 +103,9 @@ double reweight(const RobustConfig& config, const SmallTable& ratios, double max
     FilterMeasurement& measurement = (*measurements)[i];
     const double ratio = ratios[i] / scale_for(measurement, *result, max_scale);
     const double factor = std::min(limits[i], igg3_factor(ratio, config.k0, config.k1));
-    change = std::max(change, std::abs(factor - measurement.factor));
+    const bool alternates = measurement.observable == Observable::kCarrier &&
+                            (factor > 0.0) != (measurement.factor > 0.0);
+    change = std::max(change, alternates ? 1.0 : std::abs(factor - measurement.factor));
     measurement.factor = factor;
   }
   return change;

@@ -120,6 +120,26 @@ TEST_CASE("twenty degrees of heading error converge in turns, and not on the str
   CHECK(sigma_of(straight) > 3.0 * sigma_of(turning));  // and it knows
 }
 
+TEST_CASE("a start from few codes is as uncertain as so few residuals leave it") {
+  // Two clocks beside the position. The variance of Student's t distribution with n degrees of
+  // freedom is n / (n - 2).
+  struct Start {
+    int satellites;
+    double factor;
+  };
+  const auto [satellites, factor] = GENERATE(Start{0, 1.0}, Start{6, 9.0}, Start{7, 9.0},
+                                             Start{8, 3.0}, Start{9, 2.0}, Start{25, 20.0 / 18.0});
+  CAPTURE(satellites);
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 2);
+  Generator noise(3);
+  PointSolution point = synthetic::point_near(drive.truth(), 2.0, 0.1, &noise);
+  point.satellites = satellites;
+  Ekf filter(white_error_config(), synthetic::mems(), {2.0, 1.0, -1.5});
+  filter.initialize(synthetic::kStart, point);
+  CHECK((filter.antenna_position_covariance_e() - factor * point.covariance_p_e).norm() < 1e-9);
+  CHECK((filter.antenna_velocity_covariance_e() - point.covariance_v_e).norm() < 1e-12);
+}
+
 TEST_CASE("setting the attitude leaves the antenna where it was") {
   Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 2);
   Generator noise(3);

@@ -250,6 +250,29 @@ TEST_CASE("carriers that contradict each other do not decide beside codes") {
   CHECK(std::sqrt(P(kPosition, kPosition)) > 0.3);
 }
 
+TEST_CASE("two carriers that only an uncertain clock reconciles with the prediction are excluded") {
+  // Each alone is within three sigmas of the prediction, for the clock is unknown to a metre; both
+  // together want a movement of 40 sigmas. The weights would go back and forth between both and
+  // none, and with few of them both would decide.
+  EkfCovariance P = EkfCovariance::Zero(kSize, kSize);
+  P.diagonal().segment<3>(kPosition).setConstant(0.01);
+  P(kClock, kClock) = 2.0;
+  const EkfCovariance prior = P;
+  FilterMeasurements measurements = {scalar(-5.3, 0.02, row_of(0.8, 0.3, 0.5)),
+                                     scalar(3.5, 0.02, row_of(-0.7, 0.1, 0.7))};
+  for (FilterMeasurement& measurement : measurements) measurement.observable = Observable::kCarrier;
+  const int passes = GENERATE(4, 5, 6);
+  RobustConfig config;
+  config.max_iterations = passes;
+  RobustUpdate update;
+  const auto result = update(config, &measurements, &P);
+  CAPTURE(passes);
+  CHECK(measurements[0].factor == 0.0);
+  CHECK(measurements[1].factor == 0.0);
+  CHECK(result.correction.norm() == 0.0);
+  CHECK((P - prior).norm() < 1e-12);
+}
+
 // Codes that contradict each other; Dopplers of which some agree with some carriers and the others
 // with nothing. Those carriers are too few to count, and without them the Dopplers contradict each
 // other as well.
