@@ -34,7 +34,9 @@ PointSolution point_at(const Vector3d& p_e, double sigma_m = 2.0) {
 
 Ekf filter_at(const Vector3d& p_e, double sigma_m = 2.0) {
   Ekf filter(EkfConfig(), ImuErrorModel(), Vector3d::Zero());
-  filter.initialize(kStart, point_at(p_e, sigma_m));
+  PointSolution start = point_at(p_e, sigma_m);
+  start.satellites = 0;  // its sigma is the filter's, whatever codes it came from
+  filter.initialize(kStart, start);
   return filter;
 }
 
