@@ -20,18 +20,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kMaxStartFactor = 9.0;  // of variance
+// Where the codes of a start leave at most two degrees of freedom; of variance.
+constexpr double kFewCodesStartFactor = 9.0;
 
 // Returns the factor by which the variance of a start's position exceeds that of its point
 // solution: the variance of Student's t distribution with the degrees of freedom that the codes of
 // the solution leave. So few residuals do not show how large the codes' errors are, nor which of
-// them are reflected, and these errors last for many epochs. 1 without codes.
+// them are reflected, and these errors last for many epochs.
 double start_factor(const PointSolution& point) {
-  if (point.satellites == 0) return 1.0;
-  const auto clocks = std::count_if(point.clock_m.begin(), point.clock_m.end(),
-                                    [](double clock) { return std::isfinite(clock); });
-  const auto freedom = static_cast<double>(point.satellites - 3 - clocks);
-  return freedom > 2.0 ? std::min(freedom / (freedom - 2.0), kMaxStartFactor) : kMaxStartFactor;
+  const double freedom = redundancy(point);
+  return freedom > 2.0 ? freedom / (freedom - 2.0) : kFewCodesStartFactor;
 }
 
 // 1 sigma of the attitude about north, east and down at `p_e`, rad.
@@ -84,9 +82,11 @@ void Ekf::start_errors(double code_sigma_factor, double doppler_sigma_factor) {
 
 void Ekf::initialize(GpsTime time, const PointSolution& given) {
   PointSolution point = given;
-  point.covariance_p_e *=
-      start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
-  point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
+  if (given.satellites > 0) {  // its sigmas are those of the configuration, and of white errors
+    point.covariance_p_e *=
+        start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
+    point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
+  }
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
   prediction_test_.reset();
@@ -222,9 +222,11 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
     if (verdict.action == Action::kExclude) {
       assembler_.exclude(observable);
       doppler_excluded |= observable == Observable::kDoppler;
-    } else if (inflate(verdict.variance, observable, epoch, antenna)) {
-      result->ambiguities_reset = true;
-      if (doppler_excluded) assembler_.exclude(Observable::kDoppler);
+    } else {
+      result->prediction_widened[static_cast<std::size_t>(observable)] =
+          std::sqrt(verdict.variance);
+      const bool assembled_anew = inflate(verdict.variance, observable, epoch, antenna);
+      if (assembled_anew && doppler_excluded) assembler_.exclude(Observable::kDoppler);
     }
     tables = clock_removed_by_observable(measurements, covariance());
   }

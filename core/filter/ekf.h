@@ -44,7 +44,6 @@ struct EkfUpdateResult {
   // Carriers that were rejected too often in a row: their arcs count as slipped, and their
   // ambiguities are removed at the next epoch.
   boost::container::static_vector<SatelliteId, kMaxArcs> slipped;
-  bool ambiguities_reset = false;  // all of them: they had been found at a wrong position
   int arcs_without_capacity = 0;
   double nis = 0.0;  // normalized innovation squared of the used measurements
   // Median |innovation| over its sigma of all codes or Dopplers offered, clocks removed, divided by
@@ -54,6 +53,10 @@ struct EkfUpdateResult {
   double doppler_ratio = std::numeric_limits<double>::quiet_NaN();
   // The measurements agreed with each other but not with the prediction (PredictionTest).
   bool prediction_suspect = false;
+  // Per Observable: 1 sigma, per axis, by which the prediction's position (by Dopplers: its
+  // velocity) was made less certain for that, m (m/s); 0: it was not. Codes end all ambiguities
+  // too, which had been found at a wrong position.
+  std::array<double, kObservables> prediction_widened{};
   double clock_jump_m = 0.0;  // these three: ClockSteps
   double code_step_m = 0.0;
   std::array<double, kMaxSystemTimes> inter_system_step_m{};
@@ -74,8 +77,8 @@ class Ekf {
   // --- start ---
   // Starts from a point solution of the antenna, with the constant-velocity (or static) model. Its
   // sigmas are scaled by the learned errors; the position is as much less certain as few redundant
-  // codes leave it. A second call starts anew; only the last IMU sample and the vehicle constants
-  // survive.
+  // codes leave it. A solution of no satellites is an estimate whose covariance is taken as it is.
+  // A second call starts anew; only the last IMU sample and the vehicle constants survive.
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but the configuration.
   void reset();
@@ -139,9 +142,11 @@ class Ekf {
   const LearnedErrors& learned_errors() const { return assembler_.errors(); }
   // Returns whether carriers, and not codes, have kept the position since the last update.
   bool carriers_keep_position() const { return assembler_.carriers_keep_position(); }
+  // Returns the present sizes and times of the errors of codes and Dopplers, for reports.
   LearnedSummary learned_summary() const { return assembler_.learned_summary(); }
 
   // --- for the smoother ---
+  // Begins the process to the next keyframe (EkfConfig::keep_process).
   void begin_process() { estimate_.begin_process(); }
   // These return the measurements of the last update as it treated them, and the factor by which it
   // raised the sigmas of an observable whose measurements contradicted each other.

@@ -12,6 +12,7 @@
 
 namespace leonav {
 
+// A measurement that the update is not offered, with the reason.
 struct ExcludedMeasurement {
   std::size_t index = 0;  // into MeasurementEpoch::measurements
   Reason reason = Reason::kNotSolved;

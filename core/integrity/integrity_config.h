@@ -22,7 +22,7 @@ struct IntegrityConfig {
   // Probability per hour that an error exceeds its level without a warning; for each of the
   // horizontal, vertical and heading level alone.
   double risk_per_hour = 1e-5;
-  // Time after which errors are independent. The shorter, the more often an hour tries its luck.
+  // Time after which errors are independent. The shorter, the more independent errors an hour has.
   double error_correlation_s = 10.0;
   Overbound overbound;
   // Faults that begin in an hour: of one satellite, and of all satellites of a system at once.

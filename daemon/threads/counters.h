@@ -57,7 +57,7 @@ struct EngineCounters {
   std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
   // The same by source of the orbit: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
-  Gauge orbit_fallbacks, orbit_returns, satellite_faults;
+  Gauge orbit_fallbacks, orbit_returns, satellite_faults, widened_predictions;
   // Learned errors of codes and Dopplers: factor of the configured sigma in percent, correlation
   // time in ms; 0: none is learned.
   std::array<Gauge, 2> learned_sigma_percent, learned_time_ms;

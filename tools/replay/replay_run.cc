@@ -5,11 +5,30 @@
 #include <iomanip>
 #include <iostream>
 #include <limits>
+#include <sstream>
+#include <string>
 
 #include "drivers/lcm/event_log.h"
 #include "tools/replay/run_warnings.h"
 
 namespace leonav {
+namespace {
+
+// Returns the factors of the `count` classes that differ in one property, with commas; else they
+// are of GPS on a single frequency at full strength.
+std::string learned_factors(const LearnedErrors& errors, Observable observable,
+                            std::size_t ErrorClass::*property, std::size_t count) {
+  std::ostringstream text;
+  text << std::setprecision(2);
+  ErrorClass of;
+  of.observable = static_cast<std::size_t>(observable);
+  of.elevation = 2;
+  for (of.*property = 0; of.*property < count; ++(of.*property))
+    text << (of.*property == 0 ? "" : ", ") << errors.sigma_scale(of);
+  return text.str();
+}
+
+}  // namespace
 
 ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const JournalScan& scan)
     : prefix_(config.lcm.prefix),
@@ -149,6 +168,14 @@ void ReplayRun::print_learned_errors(std::ostream& out) {
           << ", " << 100.0 * moving.share << " % of the variance correlated over " << moving.time_s
           << " s, standing " << 100.0 * standing.share << " % over " << standing.time_s << " s\n";
     }
+    out << "learned errors of " << (observable == Observable::kCode ? "codes" : "Dopplers")
+        << " 35 to 50 deg: configured sigma times "
+        << learned_factors(errors, observable, &ErrorClass::system, kSystemCount)
+        << " of GPS, Galileo, BeiDou, LEO; "
+        << learned_factors(errors, observable, &ErrorClass::signal, kSignalClasses)
+        << " of single frequencies, pairs; "
+        << learned_factors(errors, observable, &ErrorClass::loss, kLossClasses)
+        << " of signals up to 3, 6, 10 dB, and more, weaker than they were\n";
   }
 }
 

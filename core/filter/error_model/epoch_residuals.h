@@ -8,10 +8,11 @@
 
 namespace leonav {
 
+// EpochResidual is what one code of an epoch shows of its error.
 struct EpochResidual {
   std::size_t index = 0;    // into the measurements
   double residual = 0.0;    // m
-  double variance = 0.0;    // of `residual`, from the variances of the measurements
+  double variance = 0.0;    // of `residual`, from the variances of the measurements, m^2
   double redundancy = 0.0;  // share of the measurement's own error that its residual shows, 0 to 1
 };
 using EpochResiduals = boost::container::static_vector<EpochResidual, kMaxMeasurements>;

@@ -28,8 +28,8 @@ double variance_inflation(const CorrelationModel& model, double dt);
 //   c(lag) = mean(u(t) u(t - lag)),   u = residual or innovation over its sigma
 // The model is the one of a fixed set of correlation times that fits c(lag) / c(0) best, with the
 // share between 0 and 1; errors smaller than their sigmas, c(0) < 1, have the share c(0) times
-// that. Classes are observable and elevation; those with few samples lean on their observable, and
-// that on the configured model.
+// that. Classes are observable, elevation and whether the vehicle stands; those with few samples
+// lean on their observable, and that on the configured model.
 class ErrorCorrelation {
  public:
   struct Sample {

@@ -32,8 +32,9 @@ class LearnedErrors {
   // the point solution that the filter starts from. Returns false if they are too few.
   bool fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                  const ClockRemovedInnovations& innovations, bool standing);
-  // Adds the codes of an epoch: their residuals (code_residuals()) at a position known from before
-  // with this covariance, ECEF, m^2. `standing`: the vehicle stands.
+  // Adds the codes of an epoch: their residuals (code_residuals()) at a position (ECEF) and a
+  // zenith ionosphere delay known from before, with the covariance of these four, m^2. `standing`:
+  // the vehicle stands.
   void add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                  const Eigen::Matrix4d& known_covariance, bool standing);
   // Adds the Dopplers of an epoch.

@@ -71,7 +71,8 @@ struct EkfConfig {
   // Correlation time of code errors (multipath, atmosphere), s; 0: independent from epoch to epoch.
   // A filter that takes correlated errors as independent becomes overconfident. Their variance in
   // the gain (not in the outlier test) is therefore multiplied by (1 + r) / (1 - r),
-  // r = exp(-dt / correlation time), which gives a long mean the variance that it really has.
+  // r = exp(-dt / correlation time), which gives a long mean the variance that it really has. With
+  // learn_errors the time is the least one, and share and time are learned (variance_inflation()).
   double code_correlation_time_s = 0.0;
   double doppler_correlation_time_s = 0.0;
   // Errors of codes and Dopplers that are larger than configured, or last longer, are learned on

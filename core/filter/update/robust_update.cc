@@ -89,10 +89,8 @@ double scale_for(const FilterMeasurement& measurement, const RobustUpdateResult&
   return std::min(limit, weighed.scale[static_cast<std::size_t>(measurement.observable)]);
 }
 
-// Returns the largest change of a factor. A carrier that was excluded and now is not, or the other
-// way round, counts as a change of one, however little it weighs: two carriers, each of which
-// agrees with the prediction where the other is left out, would alternate for ever. `limits` are
-// the factors that the prior allows: what it excludes, no number of others can bring back.
+// Returns the largest change of a factor. `limits` are the factors that the prior allows: what it
+// excludes, no number of others can bring back.
 double reweight(const RobustConfig& config, const SmallTable& ratios, double max_scale,
                 const SmallTable& limits, FilterMeasurements* measurements,
                 RobustUpdateResult* result) {
@@ -103,13 +101,40 @@ double reweight(const RobustConfig& config, const SmallTable& ratios, double max
     FilterMeasurement& measurement = (*measurements)[i];
     const double ratio = ratios[i] / scale_for(measurement, *result, max_scale);
     const double factor = std::min(limits[i], igg3_factor(ratio, config.k0, config.k1));
-    const bool alternates = measurement.observable == Observable::kCarrier &&
-                            (factor > 0.0) != (measurement.factor > 0.0);
-    change = std::max(change, alternates ? 1.0 : std::abs(factor - measurement.factor));
+    change = std::max(change, std::abs(factor - measurement.factor));
     measurement.factor = factor;
   }
   return change;
 }
+
+// Carriers that have come in or gone out in both of the last two passes. Two carriers, each of
+// which agrees with the prediction where the other is left out, do so for ever, however little they
+// weigh.
+class AlternatingCarriers {
+ public:
+  explicit AlternatingCarriers(const FilterMeasurements& measurements)
+      : carriers_(measurements.size()) {}
+
+  // Adds the factors after a pass.
+  void add(const FilterMeasurements& measurements) {
+    any_ = false;
+    for (std::size_t i = 0; i < carriers_.size(); ++i) {
+      Carrier& carrier = carriers_[i];
+      if (measurements[i].observable != Observable::kCarrier) continue;
+      const bool used = measurements[i].factor > 0.0, changed = used != carrier.used;
+      any_ = any_ || (changed && carrier.changed);
+      carrier = {used, changed};
+    }
+  }
+  bool any() const { return any_; }
+
+ private:
+  struct Carrier {
+    bool used = false, changed = false;
+  };
+  boost::container::static_vector<Carrier, kMaxMeasurements> carriers_;
+  bool any_ = false;
+};
 
 }  // namespace
 
@@ -121,6 +146,7 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits, bool*
   least_squares_.solve(*measurements);
   SmallTable ratios;
   double change = 1.0;
+  AlternatingCarriers alternating(*measurements);
   for (int pass = 0; pass < std::max(config.max_iterations, 1); ++pass) {
     const bool first = pass == 0;  // nothing used yet: innovations
     least_squares_.standardize(*measurements, &ratios);
@@ -132,10 +158,12 @@ void RobustUpdate::weigh(const RobustConfig& config, FactorLimits* limits, bool*
       for (std::size_t i = 0; i < limits->size(); ++i)
         (*limits)[i] = (*measurements)[i].factor > 0.0 ? 1.0 : 0.0;
     }
+    alternating.add(*measurements);
     least_squares_.solve(*measurements);
     if (change < kFactorTolerance) return;
   }
-  if (change < kUnconvergedChange || config.max_iterations < 3 || *worst_excluded) return;
+  const bool converges = change < kUnconvergedChange && !alternating.any();
+  if (converges || config.max_iterations < 3 || *worst_excluded) return;
   exclude_worst_first(config, *result, limits, measurements);
   *worst_excluded = true;
   weigh(config, limits, worst_excluded, measurements, result);

@@ -154,6 +154,12 @@ void add_velocity(const Problem& problem, MeasurementEpoch* epoch, PointSolution
 
 }  // namespace
 
+int redundancy(const PointSolution& point) {
+  int clocks = 0;
+  for (const double clock_m : point.clock_m) clocks += std::isfinite(clock_m) ? 1 : 0;
+  return point.satellites - 3 - clocks;
+}
+
 PointSolution solve_point(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,

@@ -38,6 +38,10 @@ struct PointSolution {
   double residual_rms_m = 0.0;
 };
 
+// Returns the number of satellites beyond those that the position and one clock per system time
+// need.
+int redundancy(const PointSolution& point);
+
 // Solves `raw` from scratch (an approximate position of zero is valid) and leaves in `epoch` the
 // preprocessed measurements at the solution with a reason for each. `biases` are those of
 // preprocess(), `faulty` satellites are not used. SystemConfig::max_satellites does not apply, so

@@ -52,6 +52,8 @@ std::string_view to_string(EventKind kind) {
       return "checkpoint";
     case EventKind::kSatelliteFault:
       return "satellite_fault";
+    case EventKind::kPredictionWidened:
+      return "prediction_widened";
   }
   return "unknown";
 }

@@ -46,6 +46,9 @@ enum class EventKind : std::uint8_t {
   // A satellite's carrier drifts away from the others'; it is not used for half an hour. code:
   // System, value: its number.
   kSatelliteFault = 23,
+  // Measurements agree with each other against the prediction, whose covariance was widened. code:
+  // Observable; value: the 1 sigma added per axis, m, of Dopplers m/s.
+  kPredictionWidened = 24,
 };
 // Returns the name of a kind as outputs show it, for instance "filter_reset".
 std::string_view to_string(EventKind kind);

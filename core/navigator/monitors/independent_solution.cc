@@ -1,7 +1,6 @@
 #include "core/navigator/monitors/independent_solution.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace leonav {
 namespace {
@@ -16,12 +15,6 @@ int outlier_count(const MeasurementEpoch& epoch, Observable observable) {
 }
 
 }  // namespace
-
-int redundancy(const PointSolution& point) {
-  int clocks = 0;
-  for (const double clock_m : point.clock_m) clocks += std::isfinite(clock_m) ? 1 : 0;
-  return point.satellites - 3 - clocks;
-}
 
 bool most_codes_agree(const MeasurementEpoch& epoch) {
   int offered = 0, used = 0;

@@ -31,10 +31,6 @@ class IndependentSolver {
 // Smallest redundancy of a point solution that may replace a running filter.
 inline constexpr int kMinResetRedundancy = 2;
 
-// Returns the number of satellites beyond those that the position and one clock per system time
-// need.
-int redundancy(const PointSolution& point);
-
 // Returns whether at least two thirds of the codes are used. A few codes always agree on some
 // position; only a majority is more than chance.
 bool most_codes_agree(const MeasurementEpoch& epoch);

@@ -20,8 +20,9 @@ struct PositionEstimate {
 // Returns the hypotheses of single satellites and of systems after an update with `measurements` of
 // `epoch`, which led to `estimate`. The separation is what the filter has followed of the suspect
 // carriers (SatelliteFaultMonitor), times the change of position per metre (FaultDirections); its
-// variance is the same with what is usual of all carriers. A fault whose separation is within one
-// sigma of the estimate along every axis raises no level, and is left out.
+// variance is the same with what is usual of all carriers. A fault whose separation, three of its
+// sigmas added, is within one sigma of the estimate along every axis is left out: its probability
+// is so small that the level would hardly rise.
 FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
                                            const MeasurementEpoch& epoch,
                                            const FilterMeasurements& measurements,

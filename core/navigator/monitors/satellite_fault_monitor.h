@@ -20,6 +20,7 @@ using CarrierInnovations = boost::container::static_vector<CarrierInnovation, kM
 // Returns the carriers of the filter's last update, but for those whose arc began with it.
 CarrierInnovations carrier_innovations(const FilterEvidence& evidence);
 
+// A satellite whose carrier drifts away from the others'.
 struct SatelliteFault {
   SatelliteId satellite;
   double followed_m = 0.0;  // so much of its error the filter has taken up, as a range

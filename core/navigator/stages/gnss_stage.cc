@@ -126,6 +126,7 @@ void GnssStage::update_filter(const EpochWork& work) {
   reporter_.add_update(front_end_.measurements(), update, ekf_);
   reporter_.report_consistency(filter_monitor_.add_consistency(update), work.time);
   reporter_.report_clock_steps(update, work.time);
+  reporter_.report_widened_prediction(update, work.time);
   code_combination_.add(front_end_.measurements(), ekf_.learned_errors(),
                         ekf_.carriers_keep_position());
   test_satellites(work, update);

@@ -67,6 +67,7 @@ void StageSink::on_epoch(const EpochReport& report) {
 void StageSink::on_event(const Event& event) {
   if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
   if (event.kind == EventKind::kSatelliteFault) counters_->satellite_faults.add(1);
+  if (event.kind == EventKind::kPredictionWidened) counters_->widened_predictions.add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

@@ -63,6 +63,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("satellite faults", counters->satellite_faults.get(), message);
+  add_count("widened predictions", counters->widened_predictions.get(), message);
   add_count("learned code sigma %", counters->learned_sigma_percent[0].get(), message);
   add_count("learned code time ms", counters->learned_time_ms[0].get(), message);
   add_count("learned doppler sigma %", counters->learned_sigma_percent[1].get(), message);

@@ -71,7 +71,7 @@ Outcome run(const EkfConfig& config, std::size_t gps, int epochs, const Step& st
     outcome.code_step_m += result.code_step_m;
     for (const double step_m : result.inter_system_step_m) outcome.inter_system_step_m += step_m;
     outcome.slipped += static_cast<int>(result.slipped.size());
-    outcome.forgotten += result.ambiguities_reset ? 1 : 0;
+    outcome.forgotten += result.prediction_widened[0] > 0.0 ? 1 : 0;
     if (k >= 4) outcome.rejected_late += result.rejected[0];
     outcome.apart_m =
         std::max(outcome.apart_m, (filter.state().p_e - undisturbed.state().p_e).norm());

@@ -131,10 +131,12 @@ TEST_CASE("an epoch that contradicts the prediction is left out; a second one is
   walk.truth().p_antenna_e += Vector3d{200.0, -150.0, 170.0};
   const EkfUpdateResult first = walk.filter().update(walk.next());
   CHECK(first.prediction_suspect);
+  CHECK(first.prediction_widened[0] == 0.0);
   CHECK(first.offered[0] == 0);
   CHECK(walk.error() > 290.0);
   const EkfUpdateResult result = walk.filter().update(walk.next());
   CHECK(result.prediction_suspect);
+  CHECK(result.prediction_widened[0] > 100.0);  // 300 m over three axes
   CHECK(result.rejected[0] <= 1);
   CHECK(walk.error() < 20.0);
   walk.run(5);

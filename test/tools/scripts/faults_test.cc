@@ -124,5 +124,5 @@ print(len(names), len(set(names)), any("satellites: [G05]" in script for _, scri
             "| a fault | GPS | filter | 1.23 (0.50; 3.0, 4.1) | 2.5 | 0.33 | 0.26 | 0 of 898 | no "
             "| - |\n"));
   CHECK(has(said, "| 0 of 898 | `improbable` after 9 s | 0.10 (0.05; 2.0, 3.0) |\n"));
-  CHECK(has(said, "7 7 True\n"));
+  CHECK(has(said, "9 9 True\n"));
 }

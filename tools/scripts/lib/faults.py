@@ -17,7 +17,7 @@ from experiments.judge import WEEK_S, columns, errors_of
 BEGIN_S, END_S, DURATION_S = 300, 900, 1200
 # Events that tell of a fault of the inputs or of the estimate; others come in every run.
 TELLING = {"improbable", "filter_reset", "clock_step", "constraints_left_out", "none_usable", "convention_suspect",
-           "satellite_fault"}
+           "satellite_fault", "prediction_widened"}
 ARM = "[0, 0, -1.2]"
 SCENES = {
     "open sky": ("config/scenario/open_sky.yaml", f"receiver.lever_arm_b_m={ARM}"),
@@ -137,8 +137,9 @@ class Drive:
 
 
 def faults_of(gps, leo):
-    """Name, script of the simulator, systems of the replay, its other settings."""
+    """Name, script of the simulator, systems of the replay, its other settings. What has no BEGIN_S acts from the start."""
     span = f"from_s: {BEGIN_S}, to_s: {END_S}"
+    always = f"from_s: 0, to_s: {DURATION_S}, systems: [gps, galileo, beidou, leo]"
     return [
         ("none", "[]", ("all", "GPS"), ()),
         ("satellite clock 1 cm/s", f"[{{kind: satellite_clock, {span}, satellites: [{gps}], drift_m_s: 0.01}}]", ("all", "GPS"), ()),
@@ -146,6 +147,8 @@ def faults_of(gps, leo):
         ("BeiDou 30 m off", f"[{{kind: satellite_clock, {span}, systems: [beidou], jump_m: 30}}]", ("all",), ()),
         ("a LEO orbit 5 m off", f"[{{kind: bad_orbit, {span}, satellites: [{leo}], radial_m: 5}}]", ("all",), ()),
         ("all LEO orbits 5 m off", f"[{{kind: bad_orbit, {span}, systems: [leo], radial_m: 5}}]", ("all",), ()),
+        ("all orbits 15 m off along", f"[{{kind: bad_orbit, {always}, along_m: 15}}]", ("all", "GPS"), ()),
+        ("all orbits 300 m off along", f"[{{kind: bad_orbit, {always}, along_m: 300}}]", ("all", "GPS"), ()),
         ("antenna 2 m higher", "[]", ("all", "GPS"), ("--set", "vehicle.lever_arm_b_m=[0, 0, 0.8]")),
     ]
 
@@ -169,10 +172,10 @@ def main():
             print(HEADER.format(scene=scene, seed=seed, gps=gps, leo=leo), flush=True)
             for name, script, choices, more in faults_of(gps, leo):
                 folder = plain if script == "[]" else drive.simulate(name, script)
+                told_from = begin if script == "[]" and not more or f"from_s: {BEGIN_S}," in script else start
                 for systems in choices:
                     for estimator in ESTIMATORS:
                         at = drive.replay(folder, systems, estimator, *more)
-                        told_from = start if more else begin  # a wrong configuration acts from the start
                         print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin, told_from))
 
 

@@ -126,6 +126,15 @@ void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime ti
                 result.inter_system_step_m[system]);
 }
 
+// An IMU that has failed contradicts every epoch, so the event is thinned.
+void EpochReporter::report_widened_prediction(const EkfUpdateResult& result, GpsTime time) {
+  for (std::size_t kind = 0; kind < kObservables; ++kind) {
+    const double sigma = result.prediction_widened[kind];
+    if (sigma > 0.0 && is_event_due(++widened_predictions_))
+      emit(EventKind::kPredictionWidened, static_cast<std::uint8_t>(kind), sigma, time);
+  }
+}
+
 void EpochReporter::report_outage(const OutageMonitor::Position& before,
                                   const OutageMonitor::Position& after, GpsTime time) {
   if (const auto over = outage_monitor_.add(time, before, after))

@@ -59,6 +59,8 @@ class EpochReporter {
   // Emits events for the result of FilterMonitor::add_consistency().
   void report_consistency(const std::array<std::optional<double>, 2>& improbable, GpsTime time);
   void report_clock_steps(const EkfUpdateResult& result, GpsTime time);
+  // Emits an event per observable that has widened the prediction's covariance.
+  void report_widened_prediction(const EkfUpdateResult& result, GpsTime time);
   // Emits events about outages. An update with satellites has moved the position from `before` to
   // `after`.
   void report_outage(const OutageMonitor::Position& before, const OutageMonitor::Position& after,
@@ -81,7 +83,7 @@ class EpochReporter {
   OrbitSourceMonitor orbit_source_monitor_;
   UsabilityMonitor usability_monitor_;
   OutageMonitor outage_monitor_;
-  std::uint64_t clock_steps_ = 0;
+  std::uint64_t clock_steps_ = 0, widened_predictions_ = 0;
   std::array<std::uint64_t, 5> orbit_changes_{};  // occurrences per OrbitChange
 };
 

@@ -251,7 +251,7 @@ TEST_CASE("carriers that contradict each other do not decide beside codes") {
 }
 
 TEST_CASE("two carriers that only an uncertain clock reconciles with the prediction are excluded") {
-  // Each alone is within three sigmas of the prediction, for the clock is unknown to a metre; both
+  // Each alone is within four sigmas of the prediction, for the clock is unknown to a metre; both
   // together want a movement of 40 sigmas. The weights would go back and forth between both and
   // none, and with few of them both would decide.
   EkfCovariance P = EkfCovariance::Zero(kSize, kSize);
