@@ -308,6 +308,12 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
   }
 }
 
+void Ekf::allow_for_wrong_ranges(double sigma_m) {
+  estimate_.inflate(Observable::kCode, square(sigma_m), 0.0);
+  remove_all_ambiguities(&estimate_);
+  assembler_.forget_codes();
+}
+
 // The carriers of this epoch say how their ambiguities have moved; those of the others may have
 // moved by as much.
 void Ekf::inflate_hidden_ambiguities(double sigma_m) {

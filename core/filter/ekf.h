@@ -145,6 +145,10 @@ class Ekf {
   // Returns the present sizes and times of the errors of codes and Dopplers, for reports.
   LearnedSummary learned_summary() const { return assembler_.learned_summary(); }
 
+  // Makes the position less certain, per axis, because the ranges that it rests on were wrong for
+  // minutes, and ends all ambiguities, which were found there.
+  void allow_for_wrong_ranges(double sigma_m);
+
   // --- for the smoother ---
   // Begins the process to the next keyframe (EkfConfig::keep_process).
   void begin_process() { estimate_.begin_process(); }

@@ -60,6 +60,8 @@ std::string_view to_string(Convention convention) {
       return "codes_exchanged";
     case Convention::kGyroRange:
       return "gyro_range";
+    case Convention::kOrbits:
+      return "orbits";
   }
   return "unknown";
 }

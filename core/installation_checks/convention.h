@@ -43,8 +43,9 @@ enum class Convention : std::uint8_t {
   kSignalsExchanged = 25,  // value: code rate over Doppler; two bands carry each other's names
   kCodesExchanged = 26,    // value: m, ionospheric delay of L1 at the zenith if they are
   kGyroRange = 27,         // rates beyond any IMU's range; value: rad/s
+  kOrbits = 28,            // codes contradict orbits or clocks for minutes; value: m, 1 sigma
 };
-inline constexpr std::size_t kConventionCount = 28;
+inline constexpr std::size_t kConventionCount = 29;
 // Returns the name of the event code: "force_in_g", ...
 std::string_view to_string(Convention convention);
 

@@ -117,6 +117,10 @@ std::string_view pattern(Convention convention, double value) {
              "gravity is "
              "right: degrees handed in as radians (multiply by pi/180), or rates as increments "
              "(multiply by the interval)";
+    case Convention::kOrbits:
+      return "the codes of a system's satellites have been # m off its orbits and clocks for "
+             "minutes: orbits or clocks of another day, of another product, or spoofed; hand in "
+             "those of this time";
   }
   return "an input does not follow leonav's conventions (#)";
 }

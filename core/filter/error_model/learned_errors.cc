@@ -63,6 +63,7 @@ void LearnedErrors::reset() {
   scale_.reset();
   correlation_.reset();
   losses_.reset();
+  lasting_.reset();
   last_time_ = GpsTime();
 }
 
@@ -107,6 +108,9 @@ void LearnedErrors::add_codes(const MeasurementEpoch& epoch, const FilterMeasure
     scale_.add({of, square(ratio), entry.redundancy});
     if (lasts_as_in_medium_orbit(satellite))
       correlation_.add({satellite.satellite, measurement.code, of, ratio}, epoch.time);
+    lasting_.add({satellite.satellite, satellite.orbit_issue, entry.residual, entry.redundancy,
+                  measurement.own_correlated_variance(), standing},
+                 epoch.time);
   }
 }
 
@@ -148,6 +152,7 @@ void LearnedErrors::end_epoch(GpsTime time) {
   const double passed_s = std::clamp(interval_s, 0.0, kLongestInterval_s);
   scale_.end_epoch(passed_s);
   correlation_.end_epoch(passed_s);
+  lasting_.end_epoch(time);
 }
 
 }  // namespace leonav

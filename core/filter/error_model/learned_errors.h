@@ -1,6 +1,7 @@
 // LearnedErrors is what the filter has learned about the errors of its measurements.
 #pragma once
 #include "core/filter/error_model/error_correlation.h"
+#include "core/filter/error_model/lasting_errors.h"
 #include "core/filter/error_model/learned_summary.h"
 #include "core/filter/error_model/sigma_scale.h"
 #include "core/filter/error_model/signal_loss.h"
@@ -53,6 +54,14 @@ class LearnedErrors {
   CorrelationModel carrier_correlation(double speed) const;
   // Returns how those of a code or Doppler are correlated in time, at a satellite in medium orbit.
   const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }
+  // Returns 1 sigma of errors of a system's ranges that last for minutes, beyond what orbits,
+  // clocks and atmosphere are stated to have, m; 0: none has been found.
+  double lasting_sigma_m(System system) const { return lasting_.sigma_m(system); }
+  std::array<double, kSystemCount> lasting_sigmas_m() const {
+    std::array<double, kSystemCount> sigmas_m;
+    for (const System system : kSystems) sigmas_m[index_of(system)] = lasting_sigma_m(system);
+    return sigmas_m;
+  }
   // Returns the errors of a vehicle that stands, or moves.
   LearnedSummary summary(bool standing) const;
 
@@ -61,6 +70,7 @@ class LearnedErrors {
   SigmaScale scale_;
   ErrorCorrelation correlation_;
   SignalLoss losses_;
+  LastingErrors lasting_;
   GpsTime last_time_;
 };
 

@@ -85,7 +85,7 @@ void read_fault(ConfigReader& group, std::vector<Fault>* faults) {
                            {"duplicate", FaultKind::kDuplicate},
                            {"receiver_reset", FaultKind::kReceiverReset}},
                           &fault.kind);
-  group.number("from_s", {0.0, 1e6}, &fault.from_s);
+  group.number("from_s", {-1e6, 1e6}, &fault.from_s);  // nodes of products lie before the start
   group.number("to_s", {0.0, 1e6}, &fault.to_s);
   if (!(fault.to_s > fault.from_s)) group.fail("to_s", "must be after from_s");
   const bool of_satellites =

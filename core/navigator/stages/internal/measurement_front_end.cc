@@ -1,9 +1,12 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
 #include "core/filter/state/covariance_blocks.h"
+#include "core/gnss/measurement/range_model.h"
 #include "core/gnss/positioning/point_solution.h"
 #include "core/gnss/propagation/ionosphere.h"
 #include "core/navigator/interface/filter_estimate.h"
@@ -28,6 +31,25 @@ bool is_accepted(const PointSolution& point) {
   return point.status == PointStatus::kOk && point.satellites >= kMinSatellites &&
          point.pdop <= kMaxPdop && point.residual_rms_m <= kMaxResidualRms_m &&
          point.p_e.allFinite() && point.covariance_p_e.allFinite();
+}
+
+// Ranges whose orbits or clocks were found to be wrong are less certain by what lasts of that.
+// Their carriers drift as the line of sight sweeps over the error: each radian shows it anew.
+void allow_for_lasting_errors(const LearnedErrors& errors, MeasurementEpoch* epoch) {
+  constexpr double kLasting_s = 3600.0;
+  for (Measurement& measurement : epoch->measurements) {
+    const SatelliteInView& satellite = epoch->satellites[measurement.satellite_index];
+    const double sigma_m = errors.lasting_sigma_m(satellite.satellite.system);
+    if (sigma_m == 0.0) continue;
+    if (measurement.observable == Observable::kCode) {
+      measurement.sigma = std::hypot(measurement.sigma, sigma_m);
+      measurement.correlated_sigma = std::hypot(measurement.correlated_sigma, sigma_m);
+      measurement.correlation_time_s = std::max(measurement.correlation_time_s, kLasting_s);
+    } else if (measurement.observable == Observable::kCarrier) {
+      const double rate = line_of_sight_rate(satellite, epoch->approximate_p_e);
+      measurement.random_walk = std::hypot(measurement.random_walk, sigma_m * std::sqrt(rate));
+    }
+  }
 }
 
 }  // namespace
@@ -135,6 +157,7 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
   preprocess(work.raw, ephemeris_store_, gnss_, approximate_p_e, measurements_.get(), aids(filter));
   measurements_->index = work.index;
   measurements_->ionosphere_step_m = std::exchange(ionosphere_step_m_, 0.0);
+  allow_for_lasting_errors(filter.learned_errors(), measurements_.get());
   if (!use_carrier_) return;
   const bool predicted = approximate_p_e == filter.antenna_position_e();
   change_prior_ = change_prior(filter, predicted);

@@ -1,0 +1,172 @@
+// Errors that last for minutes, as those of wrong orbits, are told from reflections.
+#include "core/filter/error_model/lasting_errors.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
+
+struct Street {
+  int satellites = 8;  // of each system
+  double white_m = 1.0, reflected_m = 3.0, reflected_s = 20.0;
+  bool standing = false;
+  std::vector<System> systems = {System::kGps};
+};
+using Bias = std::function<double(SatelliteId, double t)>;  // m
+
+// Draws codes once a second and asks `each` after every epoch; it returns whether to go on.
+void run(const Street& street, double duration_s, const Bias& bias, std::uint64_t seed,
+         const std::function<bool(const LastingErrors&, double t)>& each, double stated_m = 0.05) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const double r = std::exp(-1.0 / street.reflected_s);
+  LastingErrors errors;
+  std::vector<double> reflections;
+  for (double t = 0.0; t < duration_s; t += 1.0) {
+    std::size_t k = 0;
+    for (const System system : street.systems)
+      for (int i = 1; i <= street.satellites; ++i, ++k) {
+        if (reflections.size() <= k) reflections.push_back(street.reflected_m * normal(random));
+        double& reflection = reflections[k];
+        reflection = r * reflection + std::sqrt(1.0 - r * r) * street.reflected_m * normal(random);
+        LastingErrors::Sample sample;
+        sample.satellite = {system, static_cast<std::uint16_t>(i)};
+        sample.orbit = bias(sample.satellite, t) == 0.0 ? 1 : 2;
+        sample.redundancy = 0.5;
+        sample.residual_m = std::sqrt(0.5) * (bias(sample.satellite, t) + reflection +
+                                              street.white_m * normal(random));
+        const double sigma_m = errors.sigma_m(system);
+        sample.stated_variance = stated_m * stated_m + sigma_m * sigma_m;
+        sample.standing = street.standing;
+        errors.add(sample, kStart.plus_seconds(t));
+      }
+    errors.end_epoch(kStart.plus_seconds(t));
+    if (!each(errors, t)) return;
+  }
+}
+
+double alternating(SatelliteId satellite, double size_m) {
+  return satellite.number % 2 == 0 ? size_m : -size_m;
+}
+
+// Returns after how many seconds an error of `system` is found; the duration: never.
+double found_after(const Street& street, double duration_s, const Bias& bias, std::uint64_t seed,
+                   System system = System::kGps, double stated_m = 0.05) {
+  double after_s = duration_s;
+  run(
+      street, duration_s, bias, seed,
+      [&](const LastingErrors& errors, double t) {
+        if (errors.sigma_m(system) > 0.0) after_s = std::min(after_s, t);
+        return after_s == duration_s;
+      },
+      stated_m);
+  return after_s;
+}
+
+const Bias kNone = [](SatelliteId, double) { return 0.0; };
+
+}  // namespace
+
+TEST_CASE("reflections of a driving and a standing vehicle are not taken for wrong orbits") {
+  const bool standing = GENERATE(false, true);
+  Street street;
+  street.standing = standing;
+  street.reflected_s = standing ? 60.0 : 20.0;
+  int found = 0;
+  constexpr int kRuns = 40;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed)
+    found += found_after(street, 3600.0, kNone, seed) < 3600.0 ? 1 : 0;
+  CAPTURE(standing);
+  CHECK(found == 0);
+}
+
+TEST_CASE("biases of ten metres are found within minutes, with their size") {
+  const Bias bias = [](SatelliteId satellite, double) { return alternating(satellite, 10.0); };
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CHECK(found_after(Street(), 3600.0, bias, seed) < 300.0);
+    double sigma_m = 0.0;
+    run(Street(), 600.0, bias, seed, [&](const LastingErrors& errors, double) {
+      sigma_m = errors.sigma_m(System::kGps);
+      return true;
+    });
+    // Eight satellites count as four.
+    CHECK(sigma_m == Approx(10.0 * std::sqrt(2.0)).epsilon(0.25));
+  }
+}
+
+TEST_CASE("a standing vehicle takes longer to find them") {
+  Street street;
+  street.standing = true;
+  street.reflected_s = 60.0;
+  const Bias bias = [](SatelliteId satellite, double) { return alternating(satellite, 10.0); };
+  const double after_s = found_after(street, 3600.0, bias, 1);
+  CHECK(after_s > 1100.0);
+  CHECK(after_s < 2400.0);
+}
+
+TEST_CASE("biases within what is stated, or of two satellites only, are no finding") {
+  const Bias all = [](SatelliteId satellite, double) { return alternating(satellite, 3.0); };
+  Street open_sky;
+  open_sky.reflected_m = 0.3;
+  CHECK(found_after(open_sky, 1800.0, all, 1) < 300.0);
+  CHECK(found_after(open_sky, 1800.0, all, 1, System::kGps, 1.0) == 1800.0);
+  const Bias two = [](SatelliteId satellite, double) { return satellite.number <= 2 ? 30.0 : 0.0; };
+  CHECK(found_after(open_sky, 1800.0, two, 1) == 1800.0);
+}
+
+TEST_CASE("right orbits end a finding, wrong ones keep it") {
+  const Bias mended = [](SatelliteId satellite, double t) {
+    return t < 600.0 ? alternating(satellite, 20.0) : 0.0;
+  };
+  bool at_500 = false, at_1200 = true;
+  run(Street(), 1201.0, mended, 3, [&](const LastingErrors& errors, double t) {
+    if (t == 500.0) at_500 = errors.sigma_m(System::kGps) > 0.0;
+    if (t == 1200.0) at_1200 = errors.sigma_m(System::kGps) > 0.0;
+    return true;
+  });
+  CHECK(at_500);
+  CHECK_FALSE(at_1200);
+  const Bias wrong = [](SatelliteId satellite, double) { return alternating(satellite, 20.0); };
+  bool kept = true;
+  run(Street(), 1800.0, wrong, 3, [&](const LastingErrors& errors, double t) {
+    if (t > 300.0) kept = kept && errors.sigma_m(System::kGps) > 0.0;
+    return true;
+  });
+  CHECK(kept);
+}
+
+TEST_CASE("where most systems are wrong the others are taken for wrong too") {
+  Street street;
+  street.systems = {System::kGps, System::kGalileo, System::kBeidou};
+  const auto of = [](std::vector<System> wrong) {
+    return [wrong](SatelliteId satellite, double) {
+      for (const System system : wrong)
+        if (satellite.system == system) return alternating(satellite, 10.0);
+      return 0.0;
+    };
+  };
+  CHECK(found_after(street, 1200.0, of({System::kGps, System::kGalileo}), 1, System::kBeidou) <
+        300.0);
+  CHECK(found_after(street, 1200.0, of({System::kGps}), 1, System::kBeidou) == 1200.0);
+  CHECK(found_after(street, 1200.0, of({System::kGps}), 1, System::kGps) < 300.0);
+}
+
+TEST_CASE("errors of low orbits are found though they change along the pass") {
+  Street street;
+  street.systems = {System::kLeo};
+  street.satellites = 6;
+  street.reflected_s = 4.0;
+  street.reflected_m = 1.0;
+  const Bias bias = [](SatelliteId satellite, double t) {
+    return 20.0 + 0.1 * t * (satellite.number % 2 == 0 ? 1.0 : -1.0);
+  };
+  CHECK(found_after(street, 300.0, bias, 1, System::kLeo) < 120.0);
+}
