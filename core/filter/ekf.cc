@@ -11,6 +11,7 @@
 #include "core/filter/innovation_tests/prediction_consistency.h"
 #include "core/filter/ionosphere_delay.h"
 #include "core/filter/update/fault_directions.h"
+#include "core/gnss/measurement/dop.h"
 
 namespace leonav {
 
@@ -20,6 +21,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kUsualPdop = 3.0;  // where that of an epoch is not known
 // Where the codes of a start leave at most two degrees of freedom; of variance.
 constexpr double kFewCodesStartFactor = 9.0;
 
@@ -86,6 +88,10 @@ void Ekf::initialize(GpsTime time, const PointSolution& given) {
     point.covariance_p_e *=
         start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
     point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
+    double lasting_m = 0.0;
+    for (const System system : kSystems)
+      lasting_m = std::max(lasting_m, learned_errors().lasting().sigma_m(system));
+    point.covariance_p_e.diagonal().array() += square(kUsualPdop * lasting_m);
   }
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
@@ -145,6 +151,7 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
     result.innovations.push_back({.reason = measurement.reason});
   if (!initialized_) return result;
 
+  allow_for_lasting_errors(epoch);
   remove_ended_arcs(epoch, config_.max_arc_gap_s, &estimate_);
   make_room_for_new_arcs(epoch, &estimate_);
   inflate_disturbed_states(epoch, &estimate_);
@@ -231,11 +238,10 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
     tables = clock_removed_by_observable(measurements, covariance());
   }
   prediction_test_.finish_epoch(evidence, result->prediction_suspect);
-  if (!result->prediction_suspect) {
-    assembler_.learn_codes(epoch, position_and_ionosphere(covariance()));
-    assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
-    assembler_.finish_learning(epoch.time);
-  }
+  const bool agree = !result->prediction_suspect;
+  assembler_.learn_codes(epoch, position_and_ionosphere(covariance()), agree);
+  if (agree) assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
+  assembler_.finish_learning(epoch.time, agree);
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }
@@ -308,10 +314,28 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
   }
 }
 
-void Ekf::allow_for_wrong_ranges(double sigma_m) {
-  estimate_.inflate(Observable::kCode, square(sigma_m), 0.0);
+// What was found after the last update concerns this epoch's measurements, which contain it, and
+// the position, which earlier ones have led astray without.
+void Ekf::allow_for_lasting_errors(const MeasurementEpoch& epoch) {
+  constexpr double kGrown = 2.0, kChanged = 0.2;
+  double found_m = 0.0;
+  bool changed = false;
+  for (const System system : kSystems) {
+    const double sigma_m = learned_errors().lasting().sigma_m(system);
+    const double own_m = learned_errors().lasting().own_sigma_m(system);
+    LastingSigma& known = lasting_[index_of(system)];
+    if (own_m > kGrown * known.own_m) found_m = std::max(found_m, sigma_m);
+    if (own_m > kGrown * known.own_m || own_m == 0.0) known.own_m = own_m;
+    if (!(std::abs(sigma_m - known.of_codes_m) > kChanged * known.of_codes_m)) continue;
+    known.of_codes_m = sigma_m;
+    changed = true;
+  }
+  if (changed) assembler_.forget_codes();
+  if (found_m == 0.0) return;
+  const double pdop = dilution_of_precision(epoch, antenna_position_e()).pdop;
+  estimate_.inflate(Observable::kCode, square(found_m * (std::isfinite(pdop) ? pdop : kUsualPdop)),
+                    0.0);
   remove_all_ambiguities(&estimate_);
-  assembler_.forget_codes();
 }
 
 // The carriers of this epoch say how their ambiguities have moved; those of the others may have

@@ -145,10 +145,6 @@ class Ekf {
   // Returns the present sizes and times of the errors of codes and Dopplers, for reports.
   LearnedSummary learned_summary() const { return assembler_.learned_summary(); }
 
-  // Makes the position less certain, per axis, because the ranges that it rests on were wrong for
-  // minutes, and ends all ambiguities, which were found there.
-  void allow_for_wrong_ranges(double sigma_m);
-
   // --- for the smoother ---
   // Begins the process to the next keyframe (EkfConfig::keep_process).
   void begin_process() { estimate_.begin_process(); }
@@ -163,6 +159,7 @@ class Ekf {
   AntennaMotion antenna() const;
   // Fits the size of errors to the first epoch after the point solution, and the latter's sigmas
   // with it. Returns whether the measurements must be assembled again, with these sizes.
+  void allow_for_lasting_errors(const MeasurementEpoch& epoch);
   bool fit_first_errors(const MeasurementEpoch& epoch);
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
@@ -186,6 +183,12 @@ class Ekf {
   AttitudeConvergence attitude_convergence_;
   RobustUpdate robust_update_;
   std::array<double, kObservables> sigma_inflation_ = {1.0, 1.0, 1.0};  // in the last update
+  // Lasting errors of a system's ranges that the estimate allows for, m.
+  struct LastingSigma {
+    double own_m = 0.0;       // when the position was last made less certain for them
+    double of_codes_m = 0.0;  // since the weights of codes began anew
+  };
+  std::array<LastingSigma, kSystemCount> lasting_{};
   bool errors_unknown_;  // of measurements: no epoch has been seen since reset()
   GpsTime last_update_;
   bool initialized_ = false;

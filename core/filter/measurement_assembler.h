@@ -47,14 +47,15 @@ class MeasurementAssembler {
     code_model_.add_update(before, after, interval_s_);
   }
   // Learns from the codes of measurements(), or from the innovations of Dopplers, and ends the
-  // epoch.
-  void learn_codes(const MeasurementEpoch& epoch, const Eigen::Matrix4d& known_covariance) {
-    errors_.add_codes(epoch, measurements_, known_covariance, standing());
+  // epoch. `agree`: LearnedErrors::add_codes().
+  void learn_codes(const MeasurementEpoch& epoch, const Eigen::Matrix4d& known_covariance,
+                   bool agree) {
+    errors_.add_codes(epoch, measurements_, known_covariance, {standing(), speed_}, agree);
   }
   void learn_dopplers(const MeasurementEpoch& epoch, const ClockRemovedInnovations& innovations) {
     errors_.add_dopplers(epoch, measurements_, innovations, standing());
   }
-  void finish_learning(GpsTime time) { errors_.end_epoch(time); }
+  void finish_learning(GpsTime time, bool agree) { errors_.end_epoch(time, agree); }
   const LearnedErrors& errors() const { return errors_; }
   bool carriers_keep_position() const { return code_model_.carriers_keep_position(); }
   LearnedSummary learned_summary() const { return errors_.summary(standing()); }

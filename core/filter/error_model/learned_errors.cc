@@ -97,20 +97,22 @@ bool LearnedErrors::fit_first(const MeasurementEpoch& epoch, const FilterMeasure
 }
 
 void LearnedErrors::add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                              const Eigen::Matrix4d& known_covariance, bool standing) {
+                              const Eigen::Matrix4d& known_covariance, const Motion& motion,
+                              bool agree) {
   if (!learns_) return;
   for (const EpochResidual& entry : code_residuals(measurements, known_covariance)) {
     if (entry.redundancy < kLeastRedundancy) continue;
     const Measurement& measurement = epoch.measurements[measurements[entry.index].index];
     const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
-    const ErrorClass of = class_of(measurement, satellite, standing);
+    lasting_.add({satellite.satellite, entry.residual, entry.redundancy,
+                  measurement.lasting_variance, motion.speed_m_s},
+                 epoch.time);
+    if (!agree) continue;
+    const ErrorClass of = class_of(measurement, satellite, motion.standing);
     const double ratio = entry.residual / std::sqrt(entry.variance);
     scale_.add({of, square(ratio), entry.redundancy});
     if (lasts_as_in_medium_orbit(satellite))
       correlation_.add({satellite.satellite, measurement.code, of, ratio}, epoch.time);
-    lasting_.add({satellite.satellite, satellite.orbit_issue, entry.residual, entry.redundancy,
-                  measurement.own_correlated_variance(), standing},
-                 epoch.time);
   }
 }
 
@@ -145,14 +147,15 @@ LearnedSummary LearnedErrors::summary(bool standing) const {
   return {learns_, of_observable(Observable::kCode), of_observable(Observable::kDoppler)};
 }
 
-void LearnedErrors::end_epoch(GpsTime time) {
+void LearnedErrors::end_epoch(GpsTime time, bool agree) {
   if (!learns_) return;
+  lasting_.end_epoch(time);
+  if (!agree) return;
   const double interval_s = last_time_.is_set() ? seconds_between(time, last_time_) : 0.0;
   last_time_ = time;
   const double passed_s = std::clamp(interval_s, 0.0, kLongestInterval_s);
   scale_.end_epoch(passed_s);
   correlation_.end_epoch(passed_s);
-  lasting_.end_epoch(time);
 }
 
 }  // namespace leonav

@@ -33,16 +33,22 @@ class LearnedErrors {
   // the point solution that the filter starts from. Returns false if they are too few.
   bool fit_first(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                  const ClockRemovedInnovations& innovations, bool standing);
+  // How the antenna moves at an epoch.
+  struct Motion {
+    bool standing = false;
+    double speed_m_s = 0.0;
+  };
   // Adds the codes of an epoch: their residuals (code_residuals()) at a position (ECEF) and a
-  // zenith ionosphere delay known from before, with the covariance of these four, m^2. `standing`:
-  // the vehicle stands.
+  // zenith ionosphere delay known from before, with the covariance of these four, m^2. `agree` is
+  // false where codes or Dopplers contradicted the prediction; then only lasting errors are looked
+  // for.
   void add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
-                 const Eigen::Matrix4d& known_covariance, bool standing);
+                 const Eigen::Matrix4d& known_covariance, const Motion& motion, bool agree);
   // Adds the Dopplers of an epoch.
   void add_dopplers(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                     const ClockRemovedInnovations& innovations, bool standing);
-  // Ends the epoch.
-  void end_epoch(GpsTime time);
+  // Ends the epoch; `agree` as above.
+  void end_epoch(GpsTime time, bool agree);
 
   // Returns by how much the sigma of a measurement is larger than configured.
   double sigma_scale(const ErrorClass& of) const { return learns_ ? scale_.scale(of) : 1.0; }
@@ -54,14 +60,8 @@ class LearnedErrors {
   CorrelationModel carrier_correlation(double speed) const;
   // Returns how those of a code or Doppler are correlated in time, at a satellite in medium orbit.
   const CorrelationModel& correlation(const ErrorClass& of) const { return correlation_.model(of); }
-  // Returns 1 sigma of errors of a system's ranges that last for minutes, beyond what orbits,
-  // clocks and atmosphere are stated to have, m; 0: none has been found.
-  double lasting_sigma_m(System system) const { return lasting_.sigma_m(system); }
-  std::array<double, kSystemCount> lasting_sigmas_m() const {
-    std::array<double, kSystemCount> sigmas_m;
-    for (const System system : kSystems) sigmas_m[index_of(system)] = lasting_sigma_m(system);
-    return sigmas_m;
-  }
+  // Returns the errors of ranges that last for minutes, beyond what is stated.
+  const LastingErrors& lasting() const { return lasting_; }
   // Returns the errors of a vehicle that stands, or moves.
   LearnedSummary summary(bool standing) const;
 

@@ -114,6 +114,9 @@ struct Measurement {
   // ionosphere), and its correlation time.
   double correlated_sigma = 0.0;
   double correlation_time_s = 0.0;
+  // Code only, m^2: the part of sigma^2 that lasts for minutes, without what the satellites have of
+  // the ionosphere in common: orbit, clock, antenna, ionosphere, group delay, band, troposphere.
+  double lasting_variance = 0.0;
   IonosphereError ionosphere;  // of a code of one frequency
   // Carrier only.
   std::uint32_t arc = 0;     // identity of the uninterrupted arc; 0: none

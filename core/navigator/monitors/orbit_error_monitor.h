@@ -3,22 +3,16 @@
 #include <array>
 #include <optional>
 
-#include "core/gnss/signals/satellite.h"
+#include "core/filter/error_model/lasting_errors.h"
 
 namespace leonav {
 
-// It reports a system once, and again each time that the error has doubled.
+// It reports a system once, and again each time that its error has doubled.
 class OrbitErrorMonitor {
  public:
-  struct Finding {
-    System system = System::kGps;
-    double range_sigma_m = 0.0;
-  };
-
-  // Adds, per System, 1 sigma of the lasting errors of its ranges after an epoch, m (0: none;
-  // LearnedErrors::lasting_sigma_m()). Returns the system with the largest error among those to be
-  // reported.
-  std::optional<Finding> add(const std::array<double, kSystemCount>& lasting_sigma_m);
+  // Adds what is known after an epoch. Returns the largest 1 sigma of a range, m, among the systems
+  // that are to be reported, if there are any.
+  std::optional<double> add(const LastingErrors& errors);
 
  private:
   std::array<double, kSystemCount> reported_m_{};

@@ -2,14 +2,16 @@
 // converge again.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "core/base/gps_time.h"
 
 namespace leonav {
 
-// An outage is an interval of 5 s or more without an update by satellites. Its step is compared
-// with the sigma that the filter had before the update.
+// An outage is an interval of 5 s or more without an update by satellites that is also half as long
+// again as the shorter of the two intervals before: a receiver may send epochs every 30 s. Its step
+// is compared with the sigma that the filter had before the update.
 class OutageMonitor {
  public:
   // An estimate of the antenna's position.
@@ -34,9 +36,10 @@ class OutageMonitor {
 
  private:
   GpsTime last_, ended_;
-  double sigma_m_ = 0.0;       // 3D sigma after the last update
-  double sigma_then_m_ = 0.0;  // 3D sigma before the outage
-  bool converging_ = false;    // since an outage the sigma has not become as small as before
+  std::array<double, 2> last_intervals_s_{};  // between updates; 0: not known yet
+  double sigma_m_ = 0.0;                      // 3D sigma after the last update
+  double sigma_then_m_ = 0.0;                 // 3D sigma before the outage
+  bool converging_ = false;  // since an outage the sigma has not become as small as before
 };
 
 }  // namespace leonav

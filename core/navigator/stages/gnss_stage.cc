@@ -1,12 +1,9 @@
 #include "core/navigator/stages/gnss_stage.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <variant>
 
 #include "core/filter/state/covariance_blocks.h"
-#include "core/gnss/measurement/dop.h"
 #include "core/navigator/interface/solution_conversion.h"
 #include "core/navigator/stages/internal/anchor_from_filter.h"
 #include "core/navigator/stages/internal/attitude_carry_over.h"
@@ -134,7 +131,7 @@ void GnssStage::update_filter(const EpochWork& work) {
                         ekf_.carriers_keep_position());
   test_satellites(work, update);
   test_update(work, update);
-  if (!epoch_.filter_restarted) test_orbits(work);
+  report_orbits(work);
 }
 
 // A convicted satellite is not used from the next epoch on; what the filter has followed of its
@@ -163,19 +160,12 @@ void GnssStage::test_update(const EpochWork& work, const EkfUpdateResult& update
   apply(filter_monitor_.test_position(evidence, &solver), work.time);
 }
 
-// Wrong orbits have led the position astray as far as their ranges' errors and the geometry say.
-// From the next epoch on the measurements are as uncertain as they are
-// (MeasurementFrontEnd::measure).
-void GnssStage::test_orbits(const EpochWork& work) {
-  constexpr double kUsualPdop = 3.0;
-  const auto finding = orbit_errors_.add(ekf_.learned_errors().lasting_sigmas_m());
-  if (!finding) return;
-  const double pdop =
-      dilution_of_precision(front_end_.measurements(), ekf_.antenna_position_e()).pdop;
-  ekf_.allow_for_wrong_ranges(finding->range_sigma_m *
-                              (std::isfinite(pdop) ? std::max(pdop, 1.0) : kUsualPdop));
-  reporter_.emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(Convention::kOrbits),
-                 finding->range_sigma_m, work.time);
+// The filter takes what was found into account at its next update.
+void GnssStage::report_orbits(const EpochWork& work) {
+  const auto range_sigma_m = orbit_errors_.add(ekf_.learned_errors().lasting());
+  if (range_sigma_m)
+    reporter_.emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(Convention::kOrbits),
+                   *range_sigma_m, work.time);
 }
 
 void GnssStage::monitor_heading(const EpochWork& work) {

@@ -66,7 +66,7 @@ class GnssStage {
   void update_filter(const EpochWork& work);
   void test_satellites(const EpochWork& work, const EkfUpdateResult& update);
   void test_update(const EpochWork& work, const EkfUpdateResult& update);
-  void test_orbits(const EpochWork& work);
+  void report_orbits(const EpochWork& work);
   void monitor_heading(const EpochWork& work);
   void initialize_attitude(const EpochWork& work);
   void check_installation(const EpochWork& work);

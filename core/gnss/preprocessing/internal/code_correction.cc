@@ -218,22 +218,26 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
   code.observable = Observable::kCode;
   code.code = first.code;
   double range = unbiased_range(context, first);
-  double variance = square(noise1);
+  double variance = square(noise1);  // noise and bands
+  double band_variance = 0.0;
   double ionosphere = 0.0;  // variance of the model's error
   if (second != nullptr) {
     const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
     code.second_code = second->code;
     range = pair.gamma1 * range + pair.gamma2 * unbiased_range(context, *second);
+    const double of_first = square(pair.gamma1) * bias_variance(context, first);
+    const double of_second = square(pair.gamma2) * bias_variance(context, *second);
     variance = square(combined_sigma(pair, noise1, code_noise(context, elevation, *second))) +
-               square(pair.gamma1) * bias_variance(context, first) +
-               square(pair.gamma2) * bias_variance(context, *second);
+               of_first + of_second;
+    band_variance = of_first + of_second;
   } else if (context.has_position) {
     const LookAngles direction{satellite->elevation, satellite->azimuth};
     const double delay =
         klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
-    variance += bias_variance(context, first);
+    band_variance = bias_variance(context, first);
+    variance += band_variance;
     const double sigma = ionosphere_sigma(context, satellite->elevation, delay, f1);
     ionosphere = shared_by * square(sigma);
     code.ionosphere =
@@ -248,6 +252,8 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
   set_correlation(orbit, ionosphere, &code);
   code.sigma = std::sqrt(variance + square(group.sigma_m) + orbit + ionosphere +
                          atmosphere_variance(context, *satellite));
+  code.lasting_variance = band_variance + square(group.sigma_m) + code.own_correlated_variance() +
+                          atmosphere_variance(context, *satellite);
   return code;
 }
 

@@ -1,6 +1,7 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -33,21 +34,35 @@ bool is_accepted(const PointSolution& point) {
          point.p_e.allFinite() && point.covariance_p_e.allFinite();
 }
 
-// Ranges whose orbits or clocks were found to be wrong are less certain by what lasts of that.
-// Their carriers drift as the line of sight sweeps over the error: each radian shows it anew.
-void allow_for_lasting_errors(const LearnedErrors& errors, MeasurementEpoch* epoch) {
+// Ranges whose orbits or clocks were found to be wrong are less certain by what lasts of that,
+// which all codes of a satellite share. Carriers drift as the line of sight sweeps over the error,
+// each radian shows it anew, and Dopplers have its rate.
+void allow_for_lasting_errors(const LastingErrors& errors, MeasurementEpoch* epoch) {
   constexpr double kLasting_s = 3600.0;
+  std::array<int, kMaxSatellites> codes{};
+  for (const Measurement& measurement : epoch->measurements)
+    if (measurement.observable == Observable::kCode && is_used(measurement.reason))
+      ++codes[measurement.satellite_index];
   for (Measurement& measurement : epoch->measurements) {
     const SatelliteInView& satellite = epoch->satellites[measurement.satellite_index];
-    const double sigma_m = errors.lasting_sigma_m(satellite.satellite.system);
+    const double sigma_m = errors.sigma_m(satellite.satellite.system);
     if (sigma_m == 0.0) continue;
-    if (measurement.observable == Observable::kCode) {
-      measurement.sigma = std::hypot(measurement.sigma, sigma_m);
-      measurement.correlated_sigma = std::hypot(measurement.correlated_sigma, sigma_m);
-      measurement.correlation_time_s = std::max(measurement.correlation_time_s, kLasting_s);
-    } else if (measurement.observable == Observable::kCarrier) {
-      const double rate = line_of_sight_rate(satellite, epoch->approximate_p_e);
-      measurement.random_walk = std::hypot(measurement.random_walk, sigma_m * std::sqrt(rate));
+    const double rate = line_of_sight_rate(satellite, epoch->approximate_p_e);  // rad/s
+    switch (measurement.observable) {
+      case Observable::kCode: {
+        const double shared_m =
+            sigma_m * std::sqrt(std::max(codes[measurement.satellite_index], 1));
+        measurement.sigma = std::hypot(measurement.sigma, shared_m);
+        measurement.correlated_sigma = std::hypot(measurement.correlated_sigma, shared_m);
+        measurement.correlation_time_s = std::max(measurement.correlation_time_s, kLasting_s);
+        break;
+      }
+      case Observable::kCarrier:
+        measurement.random_walk = std::hypot(measurement.random_walk, sigma_m * std::sqrt(rate));
+        break;
+      case Observable::kDoppler:
+        measurement.sigma = std::hypot(measurement.sigma, sigma_m * rate);
+        break;
     }
   }
 }
@@ -157,7 +172,7 @@ void MeasurementFrontEnd::measure(const EpochWork& work, const Ekf& filter) {
   preprocess(work.raw, ephemeris_store_, gnss_, approximate_p_e, measurements_.get(), aids(filter));
   measurements_->index = work.index;
   measurements_->ionosphere_step_m = std::exchange(ionosphere_step_m_, 0.0);
-  allow_for_lasting_errors(filter.learned_errors(), measurements_.get());
+  allow_for_lasting_errors(filter.learned_errors().lasting(), measurements_.get());
   if (!use_carrier_) return;
   const bool predicted = approximate_p_e == filter.antenna_position_e();
   change_prior_ = change_prior(filter, predicted);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "support/catch.h"
@@ -17,20 +18,20 @@ const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
 struct Street {
   int satellites = 8;  // of each system
   double white_m = 1.0, reflected_m = 3.0, reflected_s = 20.0;
-  bool standing = false;
+  double speed_m_s = 10.0, interval_s = 1.0;
   std::vector<System> systems = {System::kGps};
 };
 using Bias = std::function<double(SatelliteId, double t)>;  // m
 
-// Draws codes once a second and asks `each` after every epoch; it returns whether to go on.
+// Draws codes and asks `each` after every epoch; it returns whether to go on.
 void run(const Street& street, double duration_s, const Bias& bias, std::uint64_t seed,
          const std::function<bool(const LastingErrors&, double t)>& each, double stated_m = 0.05) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const double r = std::exp(-1.0 / street.reflected_s);
+  const double r = std::exp(-street.interval_s / street.reflected_s);
   LastingErrors errors;
   std::vector<double> reflections;
-  for (double t = 0.0; t < duration_s; t += 1.0) {
+  for (double t = 0.0; t < duration_s; t += street.interval_s) {
     std::size_t k = 0;
     for (const System system : street.systems)
       for (int i = 1; i <= street.satellites; ++i, ++k) {
@@ -39,13 +40,11 @@ void run(const Street& street, double duration_s, const Bias& bias, std::uint64_
         reflection = r * reflection + std::sqrt(1.0 - r * r) * street.reflected_m * normal(random);
         LastingErrors::Sample sample;
         sample.satellite = {system, static_cast<std::uint16_t>(i)};
-        sample.orbit = bias(sample.satellite, t) == 0.0 ? 1 : 2;
         sample.redundancy = 0.5;
         sample.residual_m = std::sqrt(0.5) * (bias(sample.satellite, t) + reflection +
                                               street.white_m * normal(random));
-        const double sigma_m = errors.sigma_m(system);
-        sample.stated_variance = stated_m * stated_m + sigma_m * sigma_m;
-        sample.standing = street.standing;
+        sample.stated_variance = stated_m * stated_m;
+        sample.speed_m_s = street.speed_m_s;
         errors.add(sample, kStart.plus_seconds(t));
       }
     errors.end_epoch(kStart.plus_seconds(t));
@@ -75,16 +74,18 @@ const Bias kNone = [](SatelliteId, double) { return 0.0; };
 
 }  // namespace
 
-TEST_CASE("reflections of a driving and a standing vehicle are not taken for wrong orbits") {
-  const bool standing = GENERATE(false, true);
+TEST_CASE("reflections of driving, walking and standing are not taken for wrong orbits") {
+  // Speed, and how long a reflection lasts then.
+  const auto [speed_m_s, reflected_s] = GENERATE(std::pair(10.0, 20.0), std::pair(1.4, 60.0),
+                                                 std::pair(1.4, 120.0), std::pair(0.0, 600.0));
+  CAPTURE(speed_m_s, reflected_s);
   Street street;
-  street.standing = standing;
-  street.reflected_s = standing ? 60.0 : 20.0;
+  street.speed_m_s = speed_m_s;
+  street.reflected_s = reflected_s;
+  const double duration_s = speed_m_s > 5.0 ? 3600.0 : 4.0 * 3600.0;
   int found = 0;
-  constexpr int kRuns = 40;
-  for (std::uint64_t seed = 1; seed <= kRuns; ++seed)
-    found += found_after(street, 3600.0, kNone, seed) < 3600.0 ? 1 : 0;
-  CAPTURE(standing);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    found += found_after(street, duration_s, kNone, seed) < duration_s ? 1 : 0;
   CHECK(found == 0);
 }
 
@@ -104,12 +105,14 @@ TEST_CASE("biases of ten metres are found within minutes, with their size") {
 
 TEST_CASE("a standing vehicle takes longer to find them") {
   Street street;
-  street.standing = true;
-  street.reflected_s = 60.0;
-  const Bias bias = [](SatelliteId satellite, double) { return alternating(satellite, 10.0); };
-  const double after_s = found_after(street, 3600.0, bias, 1);
-  CHECK(after_s > 1100.0);
-  CHECK(after_s < 2400.0);
+  street.speed_m_s = 0.0;
+  street.reflected_s = 300.0;
+  street.interval_s = GENERATE(1.0, 30.0);
+  CAPTURE(street.interval_s);
+  const Bias bias = [](SatelliteId satellite, double) { return alternating(satellite, 20.0); };
+  const double after_s = found_after(street, 4.0 * 3600.0, bias, 1);
+  CHECK(after_s >= 3500.0);
+  CHECK(after_s < 8000.0);
 }
 
 TEST_CASE("biases within what is stated, or of two satellites only, are no finding") {
@@ -157,6 +160,33 @@ TEST_CASE("where most systems are wrong the others are taken for wrong too") {
         300.0);
   CHECK(found_after(street, 1200.0, of({System::kGps}), 1, System::kBeidou) == 1200.0);
   CHECK(found_after(street, 1200.0, of({System::kGps}), 1, System::kGps) < 300.0);
+}
+
+TEST_CASE("a finding counts the satellites in view, and ends when none can be tested") {
+  // Sixteen satellites, of which twelve set at 600 s, the others at 1200 s.
+  LastingErrors errors;
+  const auto add = [&errors](int satellites, double from_s, double to_s) {
+    for (double t = from_s; t < to_s; t += 1.0) {
+      for (int i = 1; i <= satellites; ++i) {
+        const SatelliteId satellite{System::kGps, static_cast<std::uint16_t>(i)};
+        errors.add({satellite, alternating(satellite, 5.0), 0.25, 1e-4, 10.0},
+                   kStart.plus_seconds(t));
+      }
+      errors.end_epoch(kStart.plus_seconds(t));
+    }
+  };
+  add(16, 0.0, 600.0);
+  CHECK(errors.own_sigma_m(System::kGps) == Approx(10.0));
+  CHECK(errors.sigma_m(System::kGps) == Approx(20.0));
+  CHECK(errors.sigma_m(System::kLeo) == Approx(20.0));  // all that can be tested are wrong
+  CHECK(errors.own_sigma_m(System::kLeo) == 0.0);
+  add(4, 600.0, 1200.0);
+  CHECK(errors.sigma_m(System::kGps) == Approx(10.0));
+  add(0, 1200.0, 1500.0);
+  CHECK(errors.sigma_m(System::kGps) > 0.0);
+  add(0, 1500.0, 2100.0);
+  CHECK(errors.sigma_m(System::kGps) == 0.0);
+  CHECK(errors.sigma_m(System::kLeo) == 0.0);
 }
 
 TEST_CASE("errors of low orbits are found though they change along the pass") {

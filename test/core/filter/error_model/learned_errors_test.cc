@@ -109,8 +109,8 @@ void drive(int seconds, CodeErrors* from, const Position& position, double posit
     const FilterMeasurements codes = test::codes_of(
         now, [&](std::size_t i) { return drawn(static_cast<Eigen::Index>(i)); }, scaled_sigma,
         position(rows, drawn));
-    errors->add_codes(now, codes, covariance, false);
-    errors->end_epoch(now.time);
+    errors->add_codes(now, codes, covariance, {}, true);
+    errors->end_epoch(now.time, true);
   }
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("a filter that is still uncertain of its velocity learns no correlatio
         innovations.push_back({i, i % 2 == 0 ? 1.0 : -1.0, 1.0 + predicted_variance, 1.0});
       epoch.time = kStart.plus_seconds(t);
       errors.add_dopplers(epoch, dopplers, innovations, false);
-      errors.end_epoch(epoch.time);
+      errors.end_epoch(epoch.time, true);
     }
     ErrorClass of = code_class(1);
     of.observable = static_cast<std::size_t>(Observable::kDoppler);

@@ -49,4 +49,13 @@ TEST_CASE("a second outage before all is as before is measured by what was befor
   CHECK(watch.reconverged());
 }
 
+TEST_CASE("epochs every half a minute are no outages, a longer interval is") {
+  OutageMonitor watch;
+  int told = 0;
+  for (int i = 0; i <= 100; ++i)
+    told += watch.add(kStart.plus_seconds(30.0 * i), at(0.0, 0.2), at(0.0, 0.1)) ? 1 : 0;
+  CHECK(told <= 2);
+  CHECK(watch.add(kStart.plus_seconds(3090.0), at(0.0, 0.2), at(0.0, 0.1)));
+}
+
 }  // namespace leonav

@@ -6,9 +6,10 @@
 namespace leonav::test {
 namespace {
 
-constexpr double kDuration_s = 600.0;
+constexpr double kDuration_s = 700.0;
 
-SyntheticDrive with_wrong_ranges(double size_m) {
+// Until `end_s`.
+SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
   SyntheticDriveOptions options;
   options.duration_s = kDuration_s;
   options.code_sigma_m = 1.0;
@@ -17,6 +18,7 @@ SyntheticDrive with_wrong_ranges(double size_m) {
   SyntheticDrive drive = synthetic_drive(options);
   for (RawEpoch& raw : drive.epochs)
     for (SignalObservation& o : raw.observations) {
+      if (seconds(raw.time) >= end_s) continue;
       const int third = (o.satellite.number + 2 * static_cast<int>(o.satellite.system)) % 3;
       const double range_m = size_m * (third - 1);
       o.pseudorange_m += range_m;
@@ -32,32 +34,59 @@ NavigatorConfig config_of(const SyntheticDrive& drive) {
   return config;
 }
 
+bool is_of_orbits(const Event& event) {
+  return event.kind == EventKind::kConventionSuspect &&
+         event.code == static_cast<std::uint8_t>(Convention::kOrbits);
+}
+
 int told(const RecordingSink& sink) {
-  return static_cast<int>(
-      std::count_if(sink.events.begin(), sink.events.end(), [](const Event& event) {
-        return event.kind == EventKind::kConventionSuspect &&
-               event.code == static_cast<std::uint8_t>(Convention::kOrbits);
-      }));
+  return static_cast<int>(std::count_if(sink.events.begin(), sink.events.end(), is_of_orbits));
+}
+
+// 3D, m, at the first epoch from `t` on.
+double sigma_at(const RecordingSink& sink, double t) {
+  for (const EpochReport& report : sink.epochs)
+    if (seconds(report.time) >= t) return report.solution.sigma_p_n.norm();
+  return 0.0;
 }
 
 TEST_CASE("orbits that are wrong by tens of metres are told, and the sigma holds from then on") {
-  const SyntheticDrive clean = with_wrong_ranges(0.0);
+  const SyntheticDrive clean = with_wrong_ranges(0.0, kDuration_s);
   CHECK(told(run(clean, config_of(clean))) == 0);
-  const SyntheticDrive drive = with_wrong_ranges(30.0);
+  const bool mended = GENERATE(false, true);
+  CAPTURE(mended);
+  const SyntheticDrive drive = with_wrong_ranges(30.0, mended ? 400.0 : kDuration_s);
   const RecordingSink sink = run(drive, config_of(drive));
   CHECK(told(sink) >= 1);
-  const auto first = std::find_if(sink.events.begin(), sink.events.end(), [](const Event& event) {
-    return event.kind == EventKind::kConventionSuspect &&
-           event.code == static_cast<std::uint8_t>(Convention::kOrbits);
-  });
+  CHECK(told(sink) <= 3);
+  const auto first = std::find_if(sink.events.begin(), sink.events.end(), is_of_orbits);
   REQUIRE(first != sink.events.end());
   CHECK(seconds(first->time) < 300.0);
-  const double error_m = worst_error(sink, drive, 400.0, kDuration_s);
-  const double sigma_m = sink.epochs.back().solution.sigma_p_n.norm();
-  CAPTURE(error_m, sigma_m);
-  CHECK(error_m > 3.0);
-  CHECK(error_m < 3.0 * sigma_m);
-  CHECK(sigma_m < 100.0);
+  double worst_m = 0.0;
+  for (double t = 320.0; t < 400.0; t += 10.0) {
+    const double error_m = worst_error(sink, drive, t, t + 10.0);
+    worst_m = std::max(worst_m, error_m);
+    const double sigma_m = sigma_at(sink, t);
+    CAPTURE(t, error_m, sigma_m);
+    CHECK(error_m < 3.0 * sigma_m);
+    CHECK(sigma_m < 150.0);
+  }
+  CHECK(worst_m > 3.0);
+  CHECK(sigma_at(sink, kDuration_s - 5.0) < (mended ? 10.0 : 150.0));
+  CHECK((sigma_at(sink, kDuration_s - 5.0) > 10.0) == !mended);
+}
+
+TEST_CASE("a smoother's window goes on where wrong orbits end all ambiguities") {
+  const SyntheticDrive drive = with_wrong_ranges(30.0, kDuration_s);
+  NavigatorConfig config = config_of(drive);
+  config.estimator = Estimator::kSmoother;
+  const RecordingSink sink = run(drive, config);
+  CHECK(told(sink) >= 1);
+  const auto good = std::count_if(
+      sink.smoothed.begin(), sink.smoothed.end(),
+      [](const SmootherReport& report) { return report.status == SmootherStatus::kOk; });
+  CAPTURE(good, sink.smoothed.size());
+  CHECK(good > 0.9 * kDuration_s);
 }
 
 }  // namespace
