@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
@@ -74,6 +75,7 @@ void Ekf::reset() {
   estimate_.forget_clocks();
   assembler_.forget_errors();
   errors_unknown_ = learned_errors().learns();
+  lasting_error_found_ = false;
   initialized_ = false;
 }
 
@@ -88,10 +90,9 @@ void Ekf::initialize(GpsTime time, const PointSolution& given) {
     point.covariance_p_e *=
         start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
     point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
-    double lasting_m = 0.0;
-    for (const System system : kSystems)
-      lasting_m = std::max(lasting_m, learned_errors().lasting().sigma_m(system));
-    point.covariance_p_e.diagonal().array() += square(kUsualPdop * lasting_m);
+    point.covariance_p_e.diagonal().array() +=
+        square(kUsualPdop * learned_errors().lasting().largest_sigma_m());
+    lasting_error_found_ = false;
   }
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
@@ -242,6 +243,8 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   assembler_.learn_codes(epoch, position_and_ionosphere(covariance()), agree);
   if (agree) assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
   assembler_.finish_learning(epoch.time, agree);
+  result->lasting_error_found_m = learned_errors().lasting().found_m();
+  lasting_error_found_ = result->lasting_error_found_m > 0.0;
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }
@@ -314,27 +317,24 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
   }
 }
 
-// What was found after the last update concerns this epoch's measurements, which contain it, and
-// the position, which earlier ones have led astray without.
+// The measurements of this epoch contain what was found. Those of before did not, and have led the
+// position astray.
 void Ekf::allow_for_lasting_errors(const MeasurementEpoch& epoch) {
-  constexpr double kGrown = 2.0, kChanged = 0.2;
-  double found_m = 0.0;
+  constexpr double kChanged = 0.2;  // as a share
+  const LastingErrors& errors = learned_errors().lasting();
   bool changed = false;
   for (const System system : kSystems) {
-    const double sigma_m = learned_errors().lasting().sigma_m(system);
-    const double own_m = learned_errors().lasting().own_sigma_m(system);
-    LastingSigma& known = lasting_[index_of(system)];
-    if (own_m > kGrown * known.own_m) found_m = std::max(found_m, sigma_m);
-    if (own_m > kGrown * known.own_m || own_m == 0.0) known.own_m = own_m;
-    if (!(std::abs(sigma_m - known.of_codes_m) > kChanged * known.of_codes_m)) continue;
-    known.of_codes_m = sigma_m;
+    const double sigma_m = errors.sigma_m(system);
+    double& of_codes_m = lasting_sigma_of_codes_m_[index_of(system)];
+    if (!(std::abs(sigma_m - of_codes_m) > kChanged * of_codes_m)) continue;
+    of_codes_m = sigma_m;
     changed = true;
   }
   if (changed) assembler_.forget_codes();
-  if (found_m == 0.0) return;
+  if (!std::exchange(lasting_error_found_, false)) return;
   const double pdop = dilution_of_precision(epoch, antenna_position_e()).pdop;
-  estimate_.inflate(Observable::kCode, square(found_m * (std::isfinite(pdop) ? pdop : kUsualPdop)),
-                    0.0);
+  const double sigma_m = errors.largest_sigma_m() * (std::isfinite(pdop) ? pdop : kUsualPdop);
+  estimate_.inflate(Observable::kCode, square(sigma_m), 0.0);
   remove_all_ambiguities(&estimate_);
 }
 

@@ -57,7 +57,8 @@ struct EkfUpdateResult {
   // velocity) was made less certain for that, m (m/s); 0: it was not. Codes end all ambiguities
   // too, which had been found at a wrong position.
   std::array<double, kObservables> prediction_widened{};
-  double clock_jump_m = 0.0;  // these three: ClockSteps
+  double lasting_error_found_m = 0.0;  // LastingErrors::found_m()
+  double clock_jump_m = 0.0;           // these three: ClockSteps
   double code_step_m = 0.0;
   std::array<double, kMaxSystemTimes> inter_system_step_m{};
   boost::container::static_vector<InnovationReport, kMaxMeasurements> innovations;
@@ -78,7 +79,8 @@ class Ekf {
   // Starts from a point solution of the antenna, with the constant-velocity (or static) model. Its
   // sigmas are scaled by the learned errors; the position is as much less certain as few redundant
   // codes leave it. A solution of no satellites is an estimate whose covariance is taken as it is.
-  // A second call starts anew; only the last IMU sample and the vehicle constants survive.
+  // A second call keeps the last IMU sample, the vehicle constants and the learned errors, and
+  // forgets the rest.
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but the configuration.
   void reset();
@@ -157,9 +159,11 @@ class Ekf {
 
  private:
   AntennaMotion antenna() const;
+  // Takes lasting errors that the last update has found into the estimate, and into the weights of
+  // codes.
+  void allow_for_lasting_errors(const MeasurementEpoch& epoch);
   // Fits the size of errors to the first epoch after the point solution, and the latter's sigmas
   // with it. Returns whether the measurements must be assembled again, with these sizes.
-  void allow_for_lasting_errors(const MeasurementEpoch& epoch);
   bool fit_first_errors(const MeasurementEpoch& epoch);
   void test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& antenna,
                        EkfUpdateResult* result);
@@ -183,12 +187,9 @@ class Ekf {
   AttitudeConvergence attitude_convergence_;
   RobustUpdate robust_update_;
   std::array<double, kObservables> sigma_inflation_ = {1.0, 1.0, 1.0};  // in the last update
-  // Lasting errors of a system's ranges that the estimate allows for, m.
-  struct LastingSigma {
-    double own_m = 0.0;       // when the position was last made less certain for them
-    double of_codes_m = 0.0;  // since the weights of codes began anew
-  };
-  std::array<LastingSigma, kSystemCount> lasting_{};
+  bool lasting_error_found_ = false;                                    // by the last update
+  // 1 sigma of the lasting errors, per System, that the weights of codes allow for, m.
+  std::array<double, kSystemCount> lasting_sigma_of_codes_m_{};
   bool errors_unknown_;  // of measurements: no epoch has been seen since reset()
   GpsTime last_update_;
   bool initialized_ = false;

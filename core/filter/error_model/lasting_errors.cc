@@ -10,7 +10,7 @@ namespace leonav {
 namespace {
 
 constexpr double kBlock_s = 30.0, kBlock_m = 150.0, kLongestBlock_s = 900.0, kLeoBlock_s = 10.0;
-constexpr double kLongestGap_s = 60.0;  // after a longer one a block begins anew
+constexpr double kLongestGap_s = 60.0;  // a longer one discards the block under way
 constexpr double kInView_s = 120.0;     // satellites that were seen so lately are tested
 constexpr double kForgotten_s = 900.0;
 constexpr double kUntested_s = 600.0;  // after that a verdict ends
@@ -20,6 +20,7 @@ constexpr double kStated = 3.0;    // c
 constexpr double kLeast_m = 1.0;
 constexpr int kMinSatellites = 3;  // to test a system, and with lasting errors to find it wrong
 constexpr int kMinToKeep = 2;      // to take it for wrong still
+constexpr double kGrown = 2.0;     // an error that has grown so is found again
 constexpr double kUnknowns = 4.0;  // position and clock
 constexpr double kShareToFind = 1.0 / 3.0, kShareToKeep = 1.0 / 6.0;
 
@@ -112,12 +113,17 @@ void LastingErrors::end_epoch(GpsTime time) {
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), forgotten), tracks_.end());
   std::array<int, kSystemCount> satellites{};
   int tested = 0, wrong = 0;
+  found_m_ = 0.0;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kSystemCount; ++i) {
     const Evidence evidence = evaluate(kSystems[i], time);
     satellites[i] = evidence.satellites;
     decide(evidence, time, &systems_[i]);
     const double range_m = systems_[i].range_m;
+    double& known_m = systems_[i].known_m;
+    const bool found = range_m > kGrown * known_m;
+    if (found) found_m_ = std::max(found_m_, range_m);
+    if (found || range_m == 0.0) known_m = range_m;
     tested += evidence.satellites >= kMinSatellites || range_m > 0.0 ? 1 : 0;
     wrong += range_m > 0.0 ? 1 : 0;
     if (range_m > 0.0) least_m = std::min(least_m, range_m);

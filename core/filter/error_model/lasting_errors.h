@@ -1,6 +1,7 @@
 // LastingErrors finds errors of codes that stay for minutes, as those of wrong orbits and clocks
 // do.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
 
@@ -36,14 +37,19 @@ class LastingErrors {
     double speed_m_s = 0.0;        // of the antenna
   };
   void add(const Sample& sample, GpsTime time);
-  // Ends the epoch: decides anew.
+  // Ends the epoch and decides, from the blocks that are complete, which systems are wrong.
   void end_epoch(GpsTime time);
   void reset() { *this = LastingErrors(); }
   // Returns 1 sigma of the errors of a system's ranges beyond what is stated, m, as it counts in a
   // position; 0: none has been found.
   double sigma_m(System system) const { return sigma_m_[index_of(system)]; }
+  // Returns the largest of all systems.
+  double largest_sigma_m() const { return *std::max_element(sigma_m_.begin(), sigma_m_.end()); }
   // Returns the same of a single range, and only of what the system's own codes show.
   double own_sigma_m(System system) const { return systems_[index_of(system)].range_m; }
+  // Returns the largest own_sigma_m() of the systems that the last epoch has found, or whose error
+  // it has found to be twice what it was; 0: there are none.
+  double found_m() const { return found_m_; }
 
  private:
   static constexpr std::size_t kBlocks = 8;
@@ -65,6 +71,7 @@ class LastingErrors {
   };
   struct Verdict {
     double range_m = 0.0;  // 0: not wrong
+    double known_m = 0.0;  // range_m when it was last found
     GpsTime tested;
   };
   Track* find(SatelliteId satellite, GpsTime time);
@@ -74,6 +81,7 @@ class LastingErrors {
   boost::container::static_vector<Track, kMaxArcs> tracks_;
   std::array<Verdict, kSystemCount> systems_;
   std::array<double, kSystemCount> sigma_m_{};
+  double found_m_ = 0.0;
 };
 
 }  // namespace leonav

@@ -126,12 +126,11 @@ void GnssStage::update_filter(const EpochWork& work) {
   reporter_.add_update(front_end_.measurements(), update, ekf_);
   reporter_.report_consistency(filter_monitor_.add_consistency(update), work.time);
   reporter_.report_clock_steps(update, work.time);
-  reporter_.report_widened_prediction(update, work.time);
+  reporter_.report_contradictions(update, work.time);
   code_combination_.add(front_end_.measurements(), ekf_.learned_errors(),
                         ekf_.carriers_keep_position());
   test_satellites(work, update);
   test_update(work, update);
-  report_orbits(work);
 }
 
 // A convicted satellite is not used from the next epoch on; what the filter has followed of its
@@ -158,14 +157,6 @@ void GnssStage::test_update(const EpochWork& work, const EkfUpdateResult& update
   apply(filter_monitor_.test_rejections(evidence), work.time);
   if (epoch_.filter_restarted) return;
   apply(filter_monitor_.test_position(evidence, &solver), work.time);
-}
-
-// The filter takes what was found into account at its next update.
-void GnssStage::report_orbits(const EpochWork& work) {
-  const auto range_sigma_m = orbit_errors_.add(ekf_.learned_errors().lasting());
-  if (range_sigma_m)
-    reporter_.emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(Convention::kOrbits),
-                   *range_sigma_m, work.time);
 }
 
 void GnssStage::monitor_heading(const EpochWork& work) {

@@ -8,7 +8,6 @@
 #include "core/navigator/interface/timed_mailbox.h"
 #include "core/navigator/monitors/code_combination_monitor.h"
 #include "core/navigator/monitors/filter_monitor.h"
-#include "core/navigator/monitors/orbit_error_monitor.h"
 #include "core/navigator/monitors/satellite_fault_hypotheses.h"
 #include "core/navigator/monitors/satellite_fault_monitor.h"
 #include "core/navigator/stages/internal/attitude_initializer.h"
@@ -66,7 +65,6 @@ class GnssStage {
   void update_filter(const EpochWork& work);
   void test_satellites(const EpochWork& work, const EkfUpdateResult& update);
   void test_update(const EpochWork& work, const EkfUpdateResult& update);
-  void report_orbits(const EpochWork& work);
   void monitor_heading(const EpochWork& work);
   void initialize_attitude(const EpochWork& work);
   void check_installation(const EpochWork& work);
@@ -91,7 +89,6 @@ class GnssStage {
   FilterMonitor filter_monitor_;
   CodeCombinationMonitor code_combination_;
   SatelliteFaultMonitor satellite_faults_;
-  OrbitErrorMonitor orbit_errors_;
   FaultHypotheses fault_hypotheses_;  // after the last update
   AttitudeInitializer attitude_;
   EpochReporter reporter_;

@@ -139,7 +139,7 @@ class Drive:
 def faults_of(gps, leo):
     """Name, script of the simulator, systems of the replay, its other settings. What has no BEGIN_S acts from the start."""
     span = f"from_s: {BEGIN_S}, to_s: {END_S}"
-    always = f"from_s: -36000, to_s: 36000, systems: [gps, galileo, beidou, leo]"
+    always = "from_s: -36000, to_s: 36000, systems: [gps, galileo, beidou, leo]"
     return [
         ("none", "[]", ("all", "GPS"), ()),
         ("satellite clock 1 cm/s", f"[{{kind: satellite_clock, {span}, satellites: [{gps}], drift_m_s: 0.01}}]", ("all", "GPS"), ()),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/installation_checks/convention.h"
 #include "core/navigator/interface/event_limiter.h"
 #include "core/navigator/stages/internal/epoch_report.h"
 
@@ -126,13 +127,16 @@ void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime ti
                 result.inter_system_step_m[system]);
 }
 
-// An IMU that has failed contradicts every epoch, so the event is thinned.
-void EpochReporter::report_widened_prediction(const EkfUpdateResult& result, GpsTime time) {
+// An IMU that has failed contradicts every epoch, so that the former event is thinned.
+void EpochReporter::report_contradictions(const EkfUpdateResult& result, GpsTime time) {
   for (std::size_t kind = 0; kind < kObservables; ++kind) {
     const double sigma = result.prediction_widened[kind];
     if (sigma > 0.0 && is_event_due(++widened_predictions_))
       emit(EventKind::kPredictionWidened, static_cast<std::uint8_t>(kind), sigma, time);
   }
+  if (result.lasting_error_found_m > 0.0)
+    emit(EventKind::kConventionSuspect, static_cast<std::uint8_t>(Convention::kOrbits),
+         result.lasting_error_found_m, time);
 }
 
 void EpochReporter::report_outage(const OutageMonitor::Position& before,

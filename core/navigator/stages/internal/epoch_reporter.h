@@ -59,8 +59,9 @@ class EpochReporter {
   // Emits events for the result of FilterMonitor::add_consistency().
   void report_consistency(const std::array<std::optional<double>, 2>& improbable, GpsTime time);
   void report_clock_steps(const EkfUpdateResult& result, GpsTime time);
-  // Emits an event per observable that has widened the prediction's covariance.
-  void report_widened_prediction(const EkfUpdateResult& result, GpsTime time);
+  // Emits an event per observable that has widened the prediction's covariance, and one where codes
+  // were found to contradict orbits or clocks for minutes.
+  void report_contradictions(const EkfUpdateResult& result, GpsTime time);
   // Emits events about outages. An update with satellites has moved the position from `before` to
   // `after`.
   void report_outage(const OutageMonitor::Position& before, const OutageMonitor::Position& after,

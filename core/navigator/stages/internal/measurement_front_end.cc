@@ -35,8 +35,8 @@ bool is_accepted(const PointSolution& point) {
 }
 
 // Ranges whose orbits or clocks were found to be wrong are less certain by what lasts of that,
-// which all codes of a satellite share. Carriers drift as the line of sight sweeps over the error,
-// each radian shows it anew, and Dopplers have its rate.
+// which all codes of a satellite share. The line of sight turns: a carrier changes by the whole
+// error for each radian, and a Doppler has the rate of this change.
 void allow_for_lasting_errors(const LastingErrors& errors, MeasurementEpoch* epoch) {
   constexpr double kLasting_s = 3600.0;
   std::array<int, kMaxSatellites> codes{};

@@ -189,6 +189,37 @@ TEST_CASE("a finding counts the satellites in view, and ends when none can be te
   CHECK(errors.sigma_m(System::kLeo) == 0.0);
 }
 
+TEST_CASE("an error is found once, when it has doubled, and when it comes back") {
+  LastingErrors errors;
+  double t = 0.0, largest_m = 0.0;
+  // Four satellites of GPS and of Galileo, off by these. Returns how often something is found.
+  const auto drive = [&](double seconds, double gps_m, double galileo_m) {
+    int found = 0;
+    for (const double end = t + seconds; t < end; t += 1.0) {
+      for (std::uint16_t i = 1; i <= 4; ++i) {
+        const SatelliteId gps{System::kGps, i}, galileo{System::kGalileo, i};
+        errors.add({gps, alternating(gps, gps_m), 1.0, 1e-4, 10.0}, kStart.plus_seconds(t));
+        errors.add({galileo, alternating(galileo, galileo_m), 1.0, 1e-4, 10.0},
+                   kStart.plus_seconds(t));
+      }
+      errors.end_epoch(kStart.plus_seconds(t));
+      if (errors.found_m() == 0.0) continue;
+      ++found;
+      largest_m = errors.found_m();
+    }
+    return found;
+  };
+  CHECK(drive(600.0, 0.0, 0.0) == 0);
+  CHECK(drive(600.0, 5.0, 9.0) >= 1);
+  CHECK(largest_m > 4.0);
+  CHECK(drive(600.0, 5.0, 9.0) == 0);
+  CHECK(drive(900.0, 5.0, 40.0) >= 1);
+  CHECK(largest_m > 18.0);
+  CHECK(drive(900.0, 0.0, 0.0) == 0);
+  CHECK(errors.largest_sigma_m() == 0.0);
+  CHECK(drive(600.0, 5.0, 0.0) >= 1);
+}
+
 TEST_CASE("errors of low orbits are found though they change along the pass") {
   Street street;
   street.systems = {System::kLeo};

@@ -9,12 +9,7 @@ namespace {
 constexpr double kBegin_s = 120.0, kDuration_s = 420.0;
 
 SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
-  SyntheticDriveOptions options;
-  options.duration_s = kDuration_s;
-  options.code_sigma_m = 1.0;
-  options.doppler_sigma_m_s = 0.05;
-  options.carrier_sigma_m = 0.003;
-  SyntheticDrive drive = synthetic_drive(options);
+  SyntheticDrive drive = noisy_drive(kDuration_s);
   for (RawEpoch& raw : drive.epochs) {
     const double range_m = drift_m_s * std::max(seconds(raw.time) - kBegin_s, 0.0);
     for (SignalObservation& o : raw.observations) {

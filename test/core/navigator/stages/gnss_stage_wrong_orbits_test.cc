@@ -10,12 +10,7 @@ constexpr double kDuration_s = 700.0;
 
 // Until `end_s`.
 SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
-  SyntheticDriveOptions options;
-  options.duration_s = kDuration_s;
-  options.code_sigma_m = 1.0;
-  options.doppler_sigma_m_s = 0.05;
-  options.carrier_sigma_m = 0.003;
-  SyntheticDrive drive = synthetic_drive(options);
+  SyntheticDrive drive = noisy_drive(kDuration_s);
   for (RawEpoch& raw : drive.epochs)
     for (SignalObservation& o : raw.observations) {
       if (seconds(raw.time) >= end_s) continue;
