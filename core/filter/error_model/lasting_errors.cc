@@ -35,17 +35,17 @@ LastingErrors::Track* LastingErrors::find(SatelliteId satellite, GpsTime time) {
   const auto found = std::find_if(tracks_.begin(), tracks_.end(),
                                   [&](const Track& track) { return track.satellite == satellite; });
   if (found != tracks_.end()) return &*found;
-  Track anew;
-  anew.satellite = satellite;
-  anew.last_time = time;
+  Track track;
+  track.satellite = satellite;
+  track.last_time = time;
   if (tracks_.size() < tracks_.capacity()) {
-    tracks_.push_back(anew);
+    tracks_.push_back(track);
     return &tracks_.back();
   }
   const auto oldest =
       std::min_element(tracks_.begin(), tracks_.end(),
                        [](const Track& a, const Track& b) { return a.last_time < b.last_time; });
-  *oldest = anew;
+  *oldest = track;
   return &*oldest;
 }
 
