@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kUsualPdop = 3.0;  // where that of an epoch is not known
+constexpr double kUsualPdop = 3.0;     // where that of an epoch is not known
+constexpr double kLargestPdop = 10.0;  // of the epochs that have led to a position
 // Where the codes of a start leave at most two degrees of freedom; of variance.
 constexpr double kFewCodesStartFactor = 9.0;
 
@@ -33,6 +34,10 @@ constexpr double kFewCodesStartFactor = 9.0;
 double start_factor(const PointSolution& point) {
   const double freedom = redundancy(point);
   return freedom > 2.0 ? freedom / (freedom - 2.0) : kFewCodesStartFactor;
+}
+
+double bounded_pdop(double pdop) {
+  return pdop > 0.0 && std::isfinite(pdop) ? std::min(pdop, kLargestPdop) : kUsualPdop;
 }
 
 // 1 sigma of the attitude about north, east and down at `p_e`, rad.
@@ -75,7 +80,7 @@ void Ekf::reset() {
   estimate_.forget_clocks();
   assembler_.forget_errors();
   errors_unknown_ = learned_errors().learns();
-  lasting_error_found_ = false;
+  lasting_change_ = {};
   initialized_ = false;
 }
 
@@ -91,8 +96,8 @@ void Ekf::initialize(GpsTime time, const PointSolution& given) {
         start_factor(given) * square(learned_errors().mean_scale(Observable::kCode));
     point.covariance_v_e *= square(learned_errors().mean_scale(Observable::kDoppler));
     point.covariance_p_e.diagonal().array() +=
-        square(kUsualPdop * learned_errors().lasting().largest_sigma_m());
-    lasting_error_found_ = false;
+        square(bounded_pdop(point.pdop) * learned_errors().lasting().largest_sigma_m());
+    lasting_change_ = {};
   }
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
@@ -243,8 +248,8 @@ void Ekf::test_prediction(const MeasurementEpoch& epoch, const AntennaMotion& an
   assembler_.learn_codes(epoch, position_and_ionosphere(covariance()), agree);
   if (agree) assembler_.learn_dopplers(epoch, table_of(tables, Observable::kDoppler));
   assembler_.finish_learning(epoch.time, agree);
-  result->lasting_error_found_m = learned_errors().lasting().found_m();
-  lasting_error_found_ = result->lasting_error_found_m > 0.0;
+  lasting_change_ = learned_errors().lasting().change();
+  result->lasting_error_found_m = lasting_change_.found_m;
   for (const Observable observable : {Observable::kCode, Observable::kCarrier})
     set_prior_ratios(table_of(tables, observable), &measurements);
 }
@@ -317,24 +322,14 @@ void Ekf::allow_for_fault(SatelliteId satellite, double range_m, const Measureme
   }
 }
 
-// The measurements of this epoch contain what was found. Those of before did not, and have led the
-// position astray.
+// The measurements of this epoch allow for what was found. Those of before did not, and have led
+// the position astray: by up to the PDOP along one axis.
 void Ekf::allow_for_lasting_errors(const MeasurementEpoch& epoch) {
-  constexpr double kChanged = 0.2;  // as a share
-  const LastingErrors& errors = learned_errors().lasting();
-  bool changed = false;
-  for (const System system : kSystems) {
-    const double sigma_m = errors.sigma_m(system);
-    double& of_codes_m = lasting_sigma_of_codes_m_[index_of(system)];
-    if (!(std::abs(sigma_m - of_codes_m) > kChanged * of_codes_m)) continue;
-    of_codes_m = sigma_m;
-    changed = true;
-  }
-  if (changed) assembler_.forget_codes();
-  if (!std::exchange(lasting_error_found_, false)) return;
-  const double pdop = dilution_of_precision(epoch, antenna_position_e()).pdop;
-  const double sigma_m = errors.largest_sigma_m() * (std::isfinite(pdop) ? pdop : kUsualPdop);
-  estimate_.inflate(Observable::kCode, square(sigma_m), 0.0);
+  const LastingErrors::Change change = std::exchange(lasting_change_, {});
+  if (change.codes_differ) assembler_.forget_codes();
+  if (!(change.growth_m > 0.0)) return;
+  const double pdop = bounded_pdop(dilution_of_precision(epoch, antenna_position_e()).pdop);
+  estimate_.inflate(Observable::kCode, square(pdop * change.growth_m), 0.0);
   remove_all_ambiguities(&estimate_);
 }
 

@@ -57,7 +57,7 @@ struct EkfUpdateResult {
   // velocity) was made less certain for that, m (m/s); 0: it was not. Codes end all ambiguities
   // too, which had been found at a wrong position.
   std::array<double, kObservables> prediction_widened{};
-  double lasting_error_found_m = 0.0;  // LastingErrors::found_m()
+  double lasting_error_found_m = 0.0;  // LastingErrors::Change::found_m
   double clock_jump_m = 0.0;           // these three: ClockSteps
   double code_step_m = 0.0;
   std::array<double, kMaxSystemTimes> inter_system_step_m{};
@@ -78,9 +78,9 @@ class Ekf {
   // --- start ---
   // Starts from a point solution of the antenna, with the constant-velocity (or static) model. Its
   // sigmas are scaled by the learned errors; the position is as much less certain as few redundant
-  // codes leave it. A solution of no satellites is an estimate whose covariance is taken as it is.
-  // A second call keeps the last IMU sample, the vehicle constants and the learned errors, and
-  // forgets the rest.
+  // codes leave it, and as ranges are whose errors last. A solution of no satellites is an estimate
+  // whose covariance is taken as it is. A second call keeps the last IMU sample, the vehicle
+  // constants and the learned errors, and forgets the rest.
   void initialize(GpsTime time, const PointSolution& point);
   // Forgets all but the configuration.
   void reset();
@@ -187,9 +187,7 @@ class Ekf {
   AttitudeConvergence attitude_convergence_;
   RobustUpdate robust_update_;
   std::array<double, kObservables> sigma_inflation_ = {1.0, 1.0, 1.0};  // in the last update
-  bool lasting_error_found_ = false;                                    // by the last update
-  // 1 sigma of the lasting errors, per System, that the weights of codes allow for, m.
-  std::array<double, kSystemCount> lasting_sigma_of_codes_m_{};
+  LastingErrors::Change lasting_change_;                                // by the last update
   bool errors_unknown_;  // of measurements: no epoch has been seen since reset()
   GpsTime last_update_;
   bool initialized_ = false;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "core/filter/error_model/learned_summary.h"
 #include "core/gnss/signals/satellite.h"
 #include "core/installation_checks/convention.h"
 #include "drivers/lcm/channels.h"
@@ -39,6 +40,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// The learned errors of one observable: over all classes, then by kLearnedClassNames.
+struct LearnedGauge {
+  Gauge sigma_percent;  // of the configured sigma; 0: none is learned
+  Gauge time_ms;        // of their correlation; 0: not learned by this property
+};
+using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
+
 struct EngineCounters {
   // io
   Gauge io_rounds;  // polls for messages, with or without one
@@ -58,10 +66,10 @@ struct EngineCounters {
   // The same by source of the orbit: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
   Gauge orbit_fallbacks, orbit_returns, satellite_faults, widened_predictions;
-  // Learned errors of codes and Dopplers: factor of the configured sigma in percent, correlation
-  // time in ms; 0: none is learned.
-  std::array<Gauge, 2> learned_sigma_percent, learned_time_ms;
-  Gauge alignment_need;  // pack_alignment_need(), alignment_text.h
+  // Learned errors of codes and Dopplers: over all classes, then by kLearnedClassNames.
+  std::array<LearnedGauges, 2> learned;
+  std::array<Gauge, kSystemCount> lasting_cm;  // LastingErrors; 0: none
+  Gauge alignment_need;                        // pack_alignment_need(), alignment_text.h
   Gauge worst_epoch_ns;
   Gauge keyframes_skipped;
   Gauge checkpoints_used, checkpoints_ignored;

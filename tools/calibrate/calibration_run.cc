@@ -30,6 +30,18 @@ constexpr double kShortest_s = 60.0;      // of driving straight ahead
 constexpr double kAlike_s = 20.0;         // correlation time of a road's cross slope
 constexpr double kSettledHeading = 0.05;  // rad, 1 sigma
 
+// Moves each number by `share` of the way to `errors`; with 1/n for the n-th it is the mean.
+void move_towards(const LearnedErrorsOf& errors, double share, LearnedErrorsOf* mean) {
+  const auto move = [share](const LearnedError& to, LearnedError* of) {
+    of->sigma_factor += share * (to.sigma_factor - of->sigma_factor);
+    of->correlated_share += share * (to.correlated_share - of->correlated_share);
+    of->correlation_time_s += share * (to.correlation_time_s - of->correlation_time_s);
+  };
+  move(errors.all, &mean->all);
+  for (std::size_t i = 0; i < errors.classes.size(); ++i)
+    move(errors.classes[i], &mean->classes[i]);
+}
+
 std::size_t place(int first, std::size_t i = 0) { return static_cast<std::size_t>(first) + i; }
 
 }  // namespace
@@ -73,21 +85,10 @@ CalibrationRun::CalibrationRun(const NavigatorConfig& config, const Installation
 
 void CalibrationRun::add_learned(const LearnedSummary& errors) {
   if (!errors.learned) return;
-  ++learned_epochs_;
-  learned_sum_.learned = true;
-  learned_sum_.code.sigma_factor += errors.code.sigma_factor;
-  learned_sum_.code.correlation_time_s += errors.code.correlation_time_s;
-  learned_sum_.doppler.sigma_factor += errors.doppler.sigma_factor;
-  learned_sum_.doppler.correlation_time_s += errors.doppler.correlation_time_s;
-}
-
-LearnedSummary CalibrationRun::learned() const {
-  const auto mean = [this](const LearnedError& sum) {
-    return LearnedError{sum.sigma_factor / learned_epochs_,
-                        sum.correlation_time_s / learned_epochs_};
-  };
-  if (!learned_sum_.learned) return {};
-  return {true, mean(learned_sum_.code), mean(learned_sum_.doppler)};
+  const double share = 1.0 / ++learned_epochs_;
+  learned_.learned = true;
+  move_towards(errors.code, share, &learned_.code);
+  move_towards(errors.doppler, share, &learned_.doppler);
 }
 
 void CalibrationRun::on_epoch(const EpochReport& report) {

@@ -34,7 +34,7 @@ class CalibrationRun final : private OutputSink {
   // Returns the seconds of straight driving from which the lean is estimated.
   double straight_s() const { return straight_s_; }
   // Returns the mean of what the filter has learned about the errors of codes and Dopplers.
-  LearnedSummary learned() const;
+  const LearnedSummary& learned() const { return learned_; }
   // Returns the result after the end of the log.
   Finding finding() const;
 
@@ -59,7 +59,7 @@ class CalibrationRun final : private OutputSink {
   double straight_s_ = 0.0;
   GpsTime last_epoch_;
   std::vector<StraightEpoch> straight_;
-  LearnedSummary learned_sum_ = {false, {0.0, 0.0}, {0.0, 0.0}};
+  LearnedSummary learned_;
   int learned_epochs_ = 0;
   Navigator navigator_;
   InputDispatch dispatch_;

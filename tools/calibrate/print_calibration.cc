@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "tools/common/format.h"
+#include "tools/common/learned_errors_text.h"
 
 namespace leonav {
 namespace {
@@ -84,13 +85,9 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
         << "\n";
   if (!unknown.empty()) out << "\nWhat this log does not tell:\n" << unknown;
   if (calibration.learned.learned) {
-    const auto line = [&](const char* of, const LearnedError& error) {
-      out << format("  %-10s %6.2f of the configured sigma, correlated over %.1f s\n", of,
-                    error.sigma_factor, error.correlation_time_s);
-    };
-    out << "\nErrors as the filter has learned them, mean over the log (nothing to configure):\n";
-    line("codes", calibration.learned.code);
-    line("Dopplers", calibration.learned.doppler);
+    out << "\nErrors as the filter has learned them, mean over the log (nothing to configure):\n"
+        << learned_errors_text("codes", calibration.learned.code)
+        << learned_errors_text("Dopplers", calibration.learned.doppler);
   }
   const Installation& found = calibration.found;
   const double degree = unit_of(Quantity::kRoll);
@@ -105,10 +102,16 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
 std::string json_of(const Calibration& calibration) {
   std::string text = format("{\"passes\": %d, \"settled\": %s", calibration.passes,
                             calibration.settled ? "true" : "false");
-  const auto add_learned = [&](const char* of, const LearnedError& error) {
-    text += std::string(",\n \"learned ") + of +
-            "\": {\"sigma_factor\": " + json_number(error.sigma_factor, 3) +
-            ", \"correlation_time_s\": " + json_number(error.correlation_time_s, 2) + "}";
+  const auto add_learned = [&](const char* of, const LearnedErrorsOf& errors) {
+    const auto numbers = [](const LearnedError& error) {
+      return "{\"sigma_factor\": " + json_number(error.sigma_factor, 3) +
+             ", \"correlated_share\": " + json_number(error.correlated_share, 3) +
+             ", \"correlation_time_s\": " + json_number(error.correlation_time_s, 2) + "}";
+    };
+    text += std::string(",\n \"learned ") + of + "\": " + numbers(errors.all);
+    for (std::size_t i = 0; i < errors.classes.size(); ++i)
+      text += std::string(",\n \"learned ") + of + ", " + std::string(kLearnedClassNames[i]) +
+              "\": " + numbers(errors.classes[i]);
   };
   if (calibration.learned.learned) {
     add_learned("codes", calibration.learned.code);

@@ -9,26 +9,11 @@
 #include <string>
 
 #include "drivers/lcm/event_log.h"
+#include "tools/common/format.h"
+#include "tools/common/learned_errors_text.h"
 #include "tools/replay/run_warnings.h"
 
 namespace leonav {
-namespace {
-
-// Returns the factors of the `count` classes that differ in one property, with commas; else they
-// are of GPS on a single frequency at full strength.
-std::string learned_factors(const LearnedErrors& errors, Observable observable,
-                            std::size_t ErrorClass::*property, std::size_t count) {
-  std::ostringstream text;
-  text << std::setprecision(2);
-  ErrorClass of;
-  of.observable = static_cast<std::size_t>(observable);
-  of.elevation = 2;
-  for (of.*property = 0; of.*property < count; ++(of.*property))
-    text << (of.*property == 0 ? "" : ", ") << errors.sigma_scale(of);
-  return text.str();
-}
-
-}  // namespace
 
 ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const JournalScan& scan)
     : prefix_(config.lcm.prefix),
@@ -145,38 +130,16 @@ void ReplayRun::print_odometer(std::ostream& out) {
 
 // Prints the errors of codes and Dopplers as the filter knew them at the end.
 void ReplayRun::print_learned_errors(std::ostream& out) {
-  constexpr std::array kElevations = {"below 20", "20 to 35", "35 to 50", "above 50"};
   const LearnedErrors& errors = navigator_.gnss().ekf().learned_errors();
   if (!errors.learns()) return;
-  out << std::setprecision(2);
-  for (const Observable observable : {Observable::kCode, Observable::kDoppler}) {
-    for (std::size_t elevation = 0; elevation < kElevationClasses; ++elevation) {
-      ErrorClass of;
-      of.observable = static_cast<std::size_t>(observable);
-      of.elevation = elevation;
-      double least = std::numeric_limits<double>::max(), most = 0.0;
-      for (of.system = 0; of.system < kSystemCount; ++of.system)
-        for (of.signal = 0; of.signal < kSignalClasses; ++of.signal) {
-          least = std::min(least, errors.sigma_scale(of));
-          most = std::max(most, errors.sigma_scale(of));
-        }
-      const CorrelationModel moving = errors.correlation(of);
-      of.motion = 1;
-      const CorrelationModel standing = errors.correlation(of);
-      out << "learned errors of " << (observable == Observable::kCode ? "codes " : "Dopplers ")
-          << kElevations[elevation] << " deg: configured sigma times " << least << " to " << most
-          << ", " << 100.0 * moving.share << " % of the variance correlated over " << moving.time_s
-          << " s, standing " << 100.0 * standing.share << " % over " << standing.time_s << " s\n";
-    }
-    out << "learned errors of " << (observable == Observable::kCode ? "codes" : "Dopplers")
-        << " 35 to 50 deg: configured sigma times "
-        << learned_factors(errors, observable, &ErrorClass::system, kSystemCount)
-        << " of GPS, Galileo, BeiDou, LEO; "
-        << learned_factors(errors, observable, &ErrorClass::signal, kSignalClasses)
-        << " of single frequencies, pairs; "
-        << learned_factors(errors, observable, &ErrorClass::loss, kLossClasses)
-        << " of signals up to 3, 6, 10 dB, and more, weaker than they were\n";
-  }
+  const LearnedSummary moving = errors.summary(false), standing = errors.summary(true);
+  out << "learned errors of " << learned_errors_text("codes", moving.code) << "learned errors of "
+      << learned_errors_text("Dopplers", moving.doppler);
+  const LearnedError& code = standing.code.all;
+  const LearnedError& doppler = standing.doppler.all;
+  out << format("while it stands: codes %.0f %% over %.1f s, Dopplers %.0f %% over %.1f s\n",
+                100.0 * code.correlated_share, code.correlation_time_s,
+                100.0 * doppler.correlated_share, doppler.correlation_time_s);
 }
 
 std::vector<std::string> ReplayRun::warnings() const {

@@ -117,7 +117,8 @@ void ResultFiles::add(const EpochReport& report) {
       .number(report.nis_degrees, 0)
       .number(report.wet_delay_m, 4)
       .number(report.wet_delay_sigma_m, 4);
-  for (const LearnedError& error : {report.learned_errors.code, report.learned_errors.doppler})
+  for (const LearnedError& error :
+       {report.learned_errors.code.all, report.learned_errors.doppler.all})
     epochs_.number(error.sigma_factor, 3).number(error.correlation_time_s, 2);
   epochs_.number(static_cast<double>(report.fault_hypotheses.size()), 0).end_row();
   write_satellites(report);

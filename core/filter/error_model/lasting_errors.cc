@@ -18,9 +18,11 @@ constexpr std::size_t kMinBlocks = 4;
 constexpr double kScatters = 3.0;  // b
 constexpr double kStated = 3.0;    // c
 constexpr double kLeast_m = 1.0;
-constexpr int kMinSatellites = 3;  // to test a system, and with lasting errors to find it wrong
-constexpr int kMinToKeep = 2;      // to take it for wrong still
-constexpr double kGrown = 2.0;     // an error that has grown so is found again
+constexpr int kMinSatellites = 3;    // to test a system, and with lasting errors to find it wrong
+constexpr int kMinToKeep = 2;        // to take it for wrong still
+constexpr double kFoundAgain = 2.0;  // an error that has grown so is found again
+// The position allows for an L that has grown or fallen so.
+constexpr double kGrown = 1.5, kFallen = 0.5;
 constexpr double kUnknowns = 4.0;  // position and clock
 constexpr double kShareToFind = 1.0 / 3.0, kShareToKeep = 1.0 / 6.0;
 
@@ -52,57 +54,65 @@ LastingErrors::Track* LastingErrors::find(SatelliteId satellite, GpsTime time) {
 void LastingErrors::add(const Sample& sample, GpsTime time) {
   Track& track = *find(sample.satellite, time);
   const double step_s = seconds_between(time, track.last_time);
-  if (!(step_s >= 0.0 && step_s <= kLongestGap_s)) track.block = Block();
+  if (!(step_s >= 0.0 && step_s <= kForgotten_s)) track = {sample.satellite, time, {}, {}};
   track.last_time = time;
   Block& block = track.block;
-  block.progress += std::clamp(step_s, 0.0, kLongestGap_s) *
-                    blocks_per_second(sample.satellite.system, sample.speed_m_s);
-  block.residuals += sample.residual_m;
-  block.redundancies += sample.redundancy;
-  block.variances += sample.stated_variance;
+  if (step_s >= 0.0 && step_s <= kLongestGap_s)
+    block.progress += step_s * blocks_per_second(sample.satellite.system, sample.speed_m_s);
+  else
+    block = Block();
+  block.residual += sample.residual_m;
+  block.redundancy += sample.redundancy;
+  block.stated_variance += sample.stated_variance;
   ++block.count;
   if (block.progress < 1.0) return;
-  if (track.means.size() == kBlocks) track.means.erase(track.means.begin());
-  track.means.push_back(block.residuals / block.count);
-  track.redundancy = block.redundancies / block.count;
-  track.stated_variance = block.variances / block.count;
+  if (track.blocks.size() == kBlocks) track.blocks.erase(track.blocks.begin());
+  block.residual /= block.count;
+  block.redundancy /= block.count;
+  block.stated_variance /= block.count;
+  track.blocks.push_back(block);
   block = Block();
 }
 
 LastingErrors::Evidence LastingErrors::evaluate(System system, GpsTime time) const {
   Evidence evidence;
   for (const Track& track : tracks_) {
-    if (track.satellite.system != system || track.means.size() < kMinBlocks ||
+    if (track.satellite.system != system ||
         std::abs(seconds_between(time, track.last_time)) > kInView_s)
       continue;
-    const auto n = static_cast<double>(track.means.size());
-    double mean = 0.0, scatter = 0.0;
-    for (const double block : track.means) mean += block / n;
-    for (std::size_t i = 1; i < track.means.size(); ++i)
-      scatter += square(track.means[i] - track.means[i - 1]) / (2.0 * (n - 1.0));
+    ++evidence.in_view;
+    if (track.blocks.size() < kMinBlocks) continue;
+    const auto n = static_cast<double>(track.blocks.size());
+    double mean = 0.0, redundancy = 0.0, stated_variance = 0.0, scatter = 0.0;
+    for (const Block& block : track.blocks) {
+      mean += block.residual / n;
+      redundancy += block.redundancy / n;
+      stated_variance += block.stated_variance / n;
+    }
+    for (std::size_t i = 1; i < track.blocks.size(); ++i)
+      scatter +=
+          square(track.blocks[i].residual - track.blocks[i - 1].residual) / (2.0 * (n - 1.0));
     const bool lasts = square(mean) > square(kScatters) * scatter &&
-                       square(mean) > square(kStated) * track.stated_variance &&
+                       square(mean) > square(kStated) * stated_variance &&
                        std::abs(mean) > kLeast_m;
     ++evidence.satellites;
     evidence.lasting += lasts ? 1 : 0;
     evidence.squares += square(mean);
-    evidence.redundancies += track.redundancy;
+    evidence.redundancies += redundancy;
   }
   return evidence;
 }
 
 void LastingErrors::decide(const Evidence& evidence, GpsTime time, Verdict* verdict) {
-  if (evidence.satellites < kMinSatellites || !(evidence.redundancies > 0.0)) {
-    const bool old =
-        verdict->tested.is_set() && std::abs(seconds_between(time, verdict->tested)) > kUntested_s;
-    if (old) *verdict = Verdict();
-    return;
-  }
+  const bool old =
+      verdict->tested.is_set() && std::abs(seconds_between(time, verdict->tested)) > kUntested_s;
+  if (old) verdict->range_sigma_m = 0.0;
+  if (evidence.satellites < kMinSatellites || !(evidence.redundancies > 0.0)) return;
   const double share = static_cast<double>(evidence.lasting) / evidence.satellites;
-  const bool wrong = verdict->range_m > 0.0
+  const bool wrong = verdict->range_sigma_m > 0.0
                          ? share > kShareToKeep && evidence.lasting >= kMinToKeep
                          : share >= kShareToFind && evidence.lasting >= kMinSatellites;
-  verdict->range_m = wrong ? std::sqrt(evidence.squares / evidence.redundancies) : 0.0;
+  verdict->range_sigma_m = wrong ? std::sqrt(evidence.squares / evidence.redundancies) : 0.0;
   verdict->tested = time;
 }
 
@@ -112,30 +122,43 @@ void LastingErrors::end_epoch(GpsTime time) {
   };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), forgotten), tracks_.end());
   std::array<int, kSystemCount> satellites{};
-  int tested = 0, wrong = 0;
-  found_m_ = 0.0;
+  int in_view = 0, wrong = 0;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kSystemCount; ++i) {
     const Evidence evidence = evaluate(kSystems[i], time);
     satellites[i] = evidence.satellites;
     decide(evidence, time, &systems_[i]);
-    const double range_m = systems_[i].range_m;
-    double& known_m = systems_[i].known_m;
-    const bool found = range_m > kGrown * known_m;
-    if (found) found_m_ = std::max(found_m_, range_m);
-    if (found || range_m == 0.0) known_m = range_m;
-    tested += evidence.satellites >= kMinSatellites || range_m > 0.0 ? 1 : 0;
-    wrong += range_m > 0.0 ? 1 : 0;
-    if (range_m > 0.0) least_m = std::min(least_m, range_m);
+    const double range_sigma_m = systems_[i].range_sigma_m;
+    in_view += evidence.in_view >= kMinSatellites || range_sigma_m > 0.0 ? 1 : 0;
+    wrong += range_sigma_m > 0.0 ? 1 : 0;
+    if (range_sigma_m > 0.0) least_m = std::min(least_m, range_sigma_m);
   }
-  const double of_others_m = 2 * wrong > tested ? least_m : 0.0;
+  const double of_others_m = 2 * wrong > in_view ? least_m : 0.0;
   int alike = 0;
   for (std::size_t i = 0; i < kSystemCount; ++i) {
-    sigma_m_[i] = std::max(systems_[i].range_m, of_others_m);
+    sigma_m_[i] = std::max(systems_[i].range_sigma_m, of_others_m);
     if (sigma_m_[i] > 0.0) alike += satellites[i];
   }
   const double factor = std::sqrt(std::max(alike / kUnknowns, 1.0));
   for (double& sigma_m : sigma_m_) sigma_m *= factor;
+  note_change();
+}
+
+void LastingErrors::note_change() {
+  change_ = {};
+  double growth = 0.0;  // of a variance
+  for (std::size_t i = 0; i < kSystemCount; ++i) {
+    Verdict& verdict = systems_[i];
+    const bool found = verdict.range_sigma_m > kFoundAgain * verdict.reported_m;
+    if (found) change_.found_m = std::max(change_.found_m, verdict.range_sigma_m);
+    if (found || verdict.range_sigma_m == 0.0) verdict.reported_m = verdict.range_sigma_m;
+    const double before_m = verdict.allowed_sigma_m;
+    const bool grown = sigma_m_[i] > kGrown * before_m;
+    if (grown) growth = std::max(growth, square(sigma_m_[i]) - square(before_m));
+    if (grown || sigma_m_[i] < kFallen * before_m) verdict.allowed_sigma_m = sigma_m_[i];
+    change_.codes_differ |= grown || (before_m > 0.0 && sigma_m_[i] == 0.0);
+  }
+  change_.growth_m = std::sqrt(growth);
 }
 
 }  // namespace leonav

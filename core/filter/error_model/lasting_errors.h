@@ -19,13 +19,13 @@ namespace leonav {
 //   |m| > 3 b,  |m| > 3 c,  |m| > 1 m,
 // c being the 1 sigma that is stated of what lasts in its codes. If a third of the satellites of a
 // system that are in view, and at least three, have such errors, its orbits or clocks are wrong,
-// until less than a sixth have, or one. The variance of its ranges is then, with the redundancy of
+// until a sixth or fewer have, or one. The variance of its ranges is then, with the redundancy of
 // each residual,
-//   sum of m^2 / sum of redundancy, times n/4.
+//   L^2 = sum of m^2 / sum of redundancy, times n/4.
 // Errors of one cause, a shift of time for one, are alike for all satellites and do not average, so
 // that the position is as uncertain as four satellites leave it; n are those of all wrong systems.
-// Where most of the systems that can be tested are wrong, the others are taken to be as wrong as
-// the best of these: residuals do not show whose fault it is.
+// Where most of the systems with three satellites in view are wrong, the others are taken to be as
+// wrong as the best of these: residuals do not show whose fault it is.
 class LastingErrors {
  public:
   // One code of one epoch.
@@ -40,48 +40,60 @@ class LastingErrors {
   // Ends the epoch and decides, from the blocks that are complete, which systems are wrong.
   void end_epoch(GpsTime time);
   void reset() { *this = LastingErrors(); }
-  // Returns 1 sigma of the errors of a system's ranges beyond what is stated, m, as it counts in a
-  // position; 0: none has been found.
+  // Returns L, m, of a system; 0: none has been found.
   double sigma_m(System system) const { return sigma_m_[index_of(system)]; }
   // Returns the largest of all systems.
   double largest_sigma_m() const { return *std::max_element(sigma_m_.begin(), sigma_m_.end()); }
   // Returns the same of a single range, and only of what the system's own codes show.
-  double own_sigma_m(System system) const { return systems_[index_of(system)].range_m; }
-  // Returns the largest own_sigma_m() of the systems that the last epoch has found, or whose error
-  // it has found to be twice what it was; 0: there are none.
-  double found_m() const { return found_m_; }
+  double own_sigma_m(System system) const { return systems_[index_of(system)].range_sigma_m; }
+
+  // What the last epoch has changed.
+  struct Change {
+    // The largest own_sigma_m() of the systems that it has found, or whose error it has found to be
+    // twice what it was, m; 0: there are none.
+    double found_m = 0.0;
+    // 1 sigma by which the ranges are worse than those that have led the position here, m: the root
+    // of how much a system's L^2 has grown since it last did; 0: none has grown by half.
+    double growth_m = 0.0;
+    // The errors of the codes to come are others than those before: they have grown, or end.
+    bool codes_differ = false;
+  };
+  const Change& change() const { return change_; }
 
  private:
   static constexpr std::size_t kBlocks = 8;
+  // Of the codes of one satellite: sums while it is under way, then means.
   struct Block {
-    double progress = 0.0;                                        // 0 to 1
-    double residuals = 0.0, redundancies = 0.0, variances = 0.0;  // sums
+    double progress = 0.0;  // 0 to 1
+    double residual = 0.0, redundancy = 0.0, stated_variance = 0.0;
     int count = 0;
   };
   struct Track {
     SatelliteId satellite;
     GpsTime last_time;
     Block block;                                             // under way
-    boost::container::static_vector<double, kBlocks> means;  // of the last blocks, m
-    double redundancy = 0.0, stated_variance = 0.0;          // of the last block
+    boost::container::static_vector<Block, kBlocks> blocks;  // the last ones
   };
   struct Evidence {
+    int in_view = 0;  // satellites, those included that cannot be tested yet
     int satellites = 0, lasting = 0;
     double squares = 0.0, redundancies = 0.0;
   };
   struct Verdict {
-    double range_m = 0.0;  // 0: not wrong
-    double known_m = 0.0;  // range_m when it was last found
+    double range_sigma_m = 0.0;    // own_sigma_m(); 0: not wrong
+    double reported_m = 0.0;       // the same when it was last found
+    double allowed_sigma_m = 0.0;  // L that the position allows for
     GpsTime tested;
   };
   Track* find(SatelliteId satellite, GpsTime time);
   Evidence evaluate(System system, GpsTime time) const;
   static void decide(const Evidence& evidence, GpsTime time, Verdict* verdict);
+  void note_change();
 
   boost::container::static_vector<Track, kMaxArcs> tracks_;
   std::array<Verdict, kSystemCount> systems_;
   std::array<double, kSystemCount> sigma_m_{};
-  double found_m_ = 0.0;
+  Change change_;
 };
 
 }  // namespace leonav

@@ -135,16 +135,28 @@ void LearnedErrors::add_dopplers(const MeasurementEpoch& epoch,
 }
 
 LearnedSummary LearnedErrors::summary(bool standing) const {
+  static_assert(kLearnedClassNames.size() ==
+                kSystemCount + kElevationClasses + kSignalClasses + kLossClasses);
   const auto of_observable = [&](Observable observable) {
     ErrorClass of;
     of.observable = static_cast<std::size_t>(observable);
     of.motion = standing ? 1 : 0;
-    LearnedError error = {mean_scale(observable), 0.0};
-    for (of.elevation = 0; of.elevation < kElevationClasses; ++of.elevation)
-      error.correlation_time_s += correlation(of).time_s / static_cast<double>(kElevationClasses);
-    return error;
+    LearnedErrorsOf errors;
+    scale_.summarize(observable, &errors);
+    for (of.elevation = 0; of.elevation < kElevationClasses; ++of.elevation) {
+      LearnedError& error = errors.classes[kSystemCount + of.elevation];
+      error.correlated_share = correlation(of).share;
+      error.correlation_time_s = correlation(of).time_s;
+      errors.all.correlated_share += error.correlated_share / kElevationClasses;
+      errors.all.correlation_time_s += error.correlation_time_s / kElevationClasses;
+    }
+    return errors;
   };
-  return {learns_, of_observable(Observable::kCode), of_observable(Observable::kDoppler)};
+  LearnedSummary summary = {
+      learns_, of_observable(Observable::kCode), of_observable(Observable::kDoppler), {}};
+  for (const System system : kSystems)
+    summary.lasting_m[index_of(system)] = lasting_.own_sigma_m(system);
+  return summary;
 }
 
 void LearnedErrors::end_epoch(GpsTime time, bool agree) {

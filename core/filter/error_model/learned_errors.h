@@ -40,8 +40,8 @@ class LearnedErrors {
   };
   // Adds the codes of an epoch: their residuals (code_residuals()) at a position (ECEF) and a
   // zenith ionosphere delay known from before, with the covariance of these four, m^2. `agree` is
-  // false where codes or Dopplers contradicted the prediction; then only lasting errors are looked
-  // for.
+  // false where codes, carriers or Dopplers contradicted the prediction; then only lasting errors
+  // are looked for, in what is not excluded.
   void add_codes(const MeasurementEpoch& epoch, const FilterMeasurements& measurements,
                  const Eigen::Matrix4d& known_covariance, const Motion& motion, bool agree);
   // Adds the Dopplers of an epoch.

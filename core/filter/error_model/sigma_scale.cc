@@ -127,4 +127,19 @@ double SigmaScale::scale(const ErrorClass& of) const {
   return std::exp(std::clamp(sum_of_terms(of), kSmallestLog, kLargestLog));
 }
 
+void SigmaScale::summarize(Observable observable, LearnedErrorsOf* summary) const {
+  const Terms& terms = terms_[static_cast<std::size_t>(observable)];
+  summary->all.sigma_factor = mean_scale(observable);
+  std::size_t next = 0;
+  const auto add = [&](const auto& of_property) {
+    for (const Term& term : of_property)
+      summary->classes[next++].sigma_factor =
+          std::exp(std::clamp(terms.base.value + term.value, kSmallestLog, kLargestLog));
+  };
+  add(terms.system);
+  add(terms.elevation);
+  add(terms.signal);
+  add(terms.loss);
+}
+
 }  // namespace leonav

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/filter/error_model/error_class.h"
+#include "core/filter/error_model/learned_summary.h"
 #include "core/filter/update/robust_update.h"
 
 namespace leonav {
@@ -43,6 +44,8 @@ class SigmaScale {
   double mean_scale(Observable observable) const;
   // Returns s of a class.
   double scale(const ErrorClass& of) const;
+  // Writes the factors of one observable: its mean, and what each property alone makes of it.
+  void summarize(Observable observable, LearnedErrorsOf* summary) const;
 
  private:
   struct Term {

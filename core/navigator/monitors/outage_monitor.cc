@@ -21,8 +21,9 @@ std::optional<OutageMonitor::Over> OutageMonitor::add(GpsTime time, const Positi
   std::optional<Over> over;
   const double gap_s = last_.is_set() ? seconds_between(time, last_) : 0.0;
   const double usual_s = std::min(last_intervals_s_[0], last_intervals_s_[1]);
+  const bool known = last_intervals_s_[0] > 0.0;
   if (last_.is_set()) last_intervals_s_ = {last_intervals_s_[1], gap_s};
-  if (gap_s >= kOutage_s && gap_s > kUsual * usual_s) {
+  if (known && gap_s >= kOutage_s && gap_s > kUsual * usual_s) {
     const double step_m = (after.p_e - before.p_e).norm();
     over = Over{gap_s, step_m, step_m / std::max(1e-6, sigma_of(before.covariance))};
     if (!converging_) sigma_then_m_ = sigma_m_;

@@ -10,8 +10,9 @@
 namespace leonav {
 
 // An outage is an interval of 5 s or more without an update by satellites that is also half as long
-// again as the shorter of the two intervals before: a receiver may send epochs every 30 s. Its step
-// is compared with the sigma that the filter had before the update.
+// again as the shorter of the two intervals before: a receiver may send epochs every 30 s. Before
+// two intervals are known there is none. Its step is compared with the sigma that the filter had
+// before the update.
 class OutageMonitor {
  public:
   // An estimate of the antenna's position.

@@ -15,6 +15,14 @@ std::int64_t micro(double level) {
   return std::isnan(level) ? -1 : std::llround(std::min(level * 1e6, 1e15));
 }
 
+void count_learned(const LearnedErrorsOf& errors, LearnedGauges* to) {
+  for (std::size_t i = 0; i < to->size(); ++i) {
+    const LearnedError& of = i == 0 ? errors.all : errors.classes[i - 1];
+    (*to)[i].sigma_percent.set(std::llround(of.sigma_factor * 1e2));
+    (*to)[i].time_ms.set(std::llround(of.correlation_time_s * 1e3));
+  }
+}
+
 }  // namespace
 
 void StageSink::on_solution(const Solution& solution) {
@@ -53,12 +61,13 @@ void StageSink::on_epoch(const EpochReport& report) {
     counters_->satellites_used[i].set(used[i]);
     counters_->ephemeris_age_ms[i].set(age[i]);
   }
-  const LearnedSummary& learned = report.learned_errors;
-  const std::array errors = {learned.code, learned.doppler};
-  for (std::size_t i = 0; i < errors.size() && learned.learned; ++i) {
-    counters_->learned_sigma_percent[i].set(std::llround(errors[i].sigma_factor * 1e2));
-    counters_->learned_time_ms[i].set(std::llround(errors[i].correlation_time_s * 1e3));
+  if (report.learned_errors.learned) {
+    count_learned(report.learned_errors.code, &counters_->learned[0]);
+    count_learned(report.learned_errors.doppler, &counters_->learned[1]);
+    for (std::size_t i = 0; i < kSystemCount; ++i)
+      counters_->lasting_cm[i].set(std::llround(report.learned_errors.lasting_m[i] * 1e2));
   }
+  counters_->widened_predictions.add(report.widened_predictions);
   counters_->alignment_need.set(pack_alignment_need(report.alignment));
   if (checkpoints_ != nullptr && report.checkpoint) checkpoints_->set(*report.checkpoint);
   encoder_.on_epoch(report);
@@ -67,7 +76,6 @@ void StageSink::on_epoch(const EpochReport& report) {
 void StageSink::on_event(const Event& event) {
   if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
   if (event.kind == EventKind::kSatelliteFault) counters_->satellite_faults.add(1);
-  if (event.kind == EventKind::kPredictionWidened) counters_->widened_predictions.add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

@@ -44,6 +44,15 @@ void add_levels(const EngineCounters& counters, Source source, health_t* message
   message->heading_protection_rad = scaled(counters.heading_protection_micro, unit);
 }
 
+// What is learned about the errors of one observable, over all classes and by class.
+void add_learned(const std::string& observable, const LearnedGauges& gauges, health_t* message) {
+  for (std::size_t i = 0; i < gauges.size(); ++i) {
+    const std::string of = i == 0 ? "" : " " + std::string(kLearnedClassNames[i - 1]);
+    add_count(observable + " sigma %" + of, gauges[i].sigma_percent.get(), message);
+    add_count(observable + " time ms" + of, gauges[i].time_ms.get(), message);
+  }
+}
+
 void add_counts(EngineCounters* counters, health_t* message) {
   for (const Channel channel : kInputChannels) {
     const std::string name(name_of(channel));
@@ -64,10 +73,11 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("satellite faults", counters->satellite_faults.get(), message);
   add_count("widened predictions", counters->widened_predictions.get(), message);
-  add_count("learned code sigma %", counters->learned_sigma_percent[0].get(), message);
-  add_count("learned code time ms", counters->learned_time_ms[0].get(), message);
-  add_count("learned doppler sigma %", counters->learned_sigma_percent[1].get(), message);
-  add_count("learned doppler time ms", counters->learned_time_ms[1].get(), message);
+  add_learned("learned code", counters->learned[0], message);
+  add_learned("learned doppler", counters->learned[1], message);
+  for (const System system : kSystems)
+    add_count("lasting code error cm " + std::string(to_string(system)),
+              counters->lasting_cm[index_of(system)].get(), message);
   add_count("filter resets", counters->resets.get(), message);
   add_count("checkpoints used", counters->checkpoints_used.get(), message);
   add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);

@@ -213,6 +213,10 @@ TEST_CASE("what is learned about errors is in HEALTH") {
     CHECK(count("learned " + of + " sigma %") >= 100);
     CHECK(count("learned " + of + " sigma %") <= 3000);
     CHECK(count("learned " + of + " time ms") >= 1000);
+    CHECK(count("learned " + of + " sigma % Galileo") >= 100);
+    CHECK(count("learned " + of + " sigma % over 10 dB weaker") >= 100);
+    CHECK(count("learned " + of + " time ms above 50 deg") >= 1000);
+    CHECK(count("learned " + of + " time ms Galileo") == 0);  // not by system
   }
 }
 

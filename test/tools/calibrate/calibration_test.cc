@@ -108,6 +108,26 @@ TEST_CASE("what only one half has observed is not compared, and the table says s
                        "lever_arm_forward_m\n") != std::string::npos);
 }
 
+TEST_CASE("what was learned about errors is printed by class, as text and as JSON") {
+  Calibration calibration;
+  std::ostringstream without;
+  print_calibration(calibration, without);
+  CHECK(without.str().find("learned") == std::string::npos);
+  calibration.learned.learned = true;
+  calibration.learned.code.all = {2.5, 0.9, 12.0};
+  calibration.learned.code.classes[4] = {4.0, 0.8, 17.0};
+  std::ostringstream out;
+  print_calibration(calibration, out);
+  CAPTURE(out.str());
+  CHECK(out.str().find("codes: 2.50 times the configured sigma, 90 % of the variance correlated "
+                       "over 12.0 s\n  GPS 1.00, Galileo 1.00, BeiDou 1.00, LEO 1.00\n  below 20 "
+                       "deg 4.00 (80 % over 17.0 s), 20 to 35 deg 1.00,") != std::string::npos);
+  const std::string json = json_of(calibration);
+  CHECK(value_of(json, "learned codes", "sigma_factor") == 2.5);
+  CHECK(value_of(json, "learned codes, below 20 deg", "correlation_time_s") == 17.0);
+  CHECK(value_of(json, "learned Dopplers, LEO", "sigma_factor") == 1.0);
+}
+
 TEST_CASE("a simulated drive shows how the IMU is built in, and a hand does not") {
   if (!have_programs("leonav-sim", "leonav-calibrate")) return;
   const TemporaryFile place("unused", "");

@@ -73,8 +73,11 @@ def heading_share(folder, truth, begin):
     return np.where(np.isnan(share), np.inf, share)[t >= begin].max()
 
 
-def judge(folder, truth, begin, told_from):
-    """The largest errors from the fault's begin on, and the first event that tells of it. Times: s since the truth's first."""
+def judge(folder, truth, begin, told_from, usual):
+    """The largest errors from the fault's begin on, and the first event that tells of it, of a kind that is not in `usual`.
+
+    Times: s since the truth's first.
+    """
     t, error = errors_of(folder / "solution.csv", truth)
     week, tow = columns(truth, ("gps_week", "gps_tow_s"))
     first = week[0] * WEEK_S + tow[0]
@@ -90,12 +93,16 @@ def judge(folder, truth, begin, told_from):
     worst = np.flatnonzero(late)[np.argmax(size[late])]
     at = lambda k: (size[k], sigma_3d[k], levels[:, k])
     result = dict(worst=at(worst), sigmas=(np.abs(error) / sigma)[:, late].max(), share=share[late].max(),
-                  heading=heading_share(folder, truth, begin), misleading=np.count_nonzero(share[late] > 1), epochs=np.count_nonzero(late), event=None)
+                  heading=heading_share(folder, truth, begin), misleading=np.count_nonzero(share[late] > 1), epochs=np.count_nonzero(late), event=None, kinds=set())
+    if result["misleading"]:
+        result["until"] = t[late & (share > 1)].max() - told_from
     for row in rows(folder / "events.csv"):
         told = seconds(row) - first
-        if row["event"] in TELLING and told >= told_from:
+        if row["event"] not in TELLING or told < told_from:
+            continue
+        result["kinds"].add(row["event"])
+        if result["event"] is None and row["event"] not in usual:
             result["event"] = row["event"], told - told_from, at(np.argmin(np.abs(t - told)))
-            break
     return result
 
 
@@ -105,11 +112,13 @@ def cell(size, sigma, levels):
 
 def print_row(name, systems, estimator, result):
     told = "no | -"
+    until = f", the last after {result['until']:.0f} s" if "until" in result else ""
     if result["event"]:
         kind, after, then = result["event"]
         told = f"`{kind}` after {after:.0f} s | {cell(*then)}"
     print(f"| {name} | {systems} | {estimator} | {cell(*result['worst'])} "
-          f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['heading']:.2f} | {result['misleading']} of {result['epochs']} | {told} |", flush=True)
+          f"| {result['sigmas']:.1f} | {result['share']:.2f} | {result['heading']:.2f} | {result['misleading']} of {result['epochs']}{until} | {told} |",
+          flush=True)
 
 
 class Drive:
@@ -170,13 +179,16 @@ def main():
             gps = steadiest(at / "satellites.csv", BEGIN_S, END_S, "G")
             leo = steadiest(at / "satellites.csv", BEGIN_S, BEGIN_S + 100, "LMNO")
             print(HEADER.format(scene=scene, seed=seed, gps=gps, leo=leo), flush=True)
+            usual = {}  # kinds of events of the drive without a fault, by systems and estimator
             for name, script, choices, more in faults_of(gps, leo):
                 folder = plain if script == "[]" else drive.simulate(name, script)
                 told_from = begin if script == "[]" and not more or f"from_s: {BEGIN_S}," in script else start
                 for systems in choices:
                     for estimator in ESTIMATORS:
                         at = drive.replay(folder, systems, estimator, *more)
-                        print_row(name, systems, estimator, judge(at, folder / "truth.csv", begin, told_from))
+                        result = judge(at, folder / "truth.csv", begin, told_from, usual.get((systems, estimator), set()))
+                        print_row(name, systems, estimator, result)
+                        usual.setdefault((systems, estimator), result["kinds"])
 
 
 if __name__ == "__main__":

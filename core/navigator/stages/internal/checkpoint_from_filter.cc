@@ -31,8 +31,8 @@ Checkpoint checkpoint_from_filter(const EpochWork& work, const Ekf& filter,
   checkpoint.heading_sigma = std::numbers::pi;
   const LearnedSummary learned = filter.learned_summary();
   if (learned.learned) {
-    checkpoint.code_sigma_factor = learned.code.sigma_factor;
-    checkpoint.doppler_sigma_factor = learned.doppler.sigma_factor;
+    checkpoint.code_sigma_factor = learned.code.all.sigma_factor;
+    checkpoint.doppler_sigma_factor = learned.doppler.all.sigma_factor;
   }
   if (!filter.has_attitude()) return checkpoint;
   checkpoint.heading = solution.yaw;

@@ -127,11 +127,13 @@ void EpochReporter::report_clock_steps(const EkfUpdateResult& result, GpsTime ti
                 result.inter_system_step_m[system]);
 }
 
-// An IMU that has failed contradicts every epoch, so that the former event is thinned.
+// An IMU that has failed contradicts every epoch, so that prediction_widened is thinned.
 void EpochReporter::report_contradictions(const EkfUpdateResult& result, GpsTime time) {
   for (std::size_t kind = 0; kind < kObservables; ++kind) {
     const double sigma = result.prediction_widened[kind];
-    if (sigma > 0.0 && is_event_due(++widened_predictions_))
+    if (!(sigma > 0.0)) continue;
+    ++report_->widened_predictions;
+    if (is_event_due(++widened_predictions_))
       emit(EventKind::kPredictionWidened, static_cast<std::uint8_t>(kind), sigma, time);
   }
   if (result.lasting_error_found_m > 0.0)

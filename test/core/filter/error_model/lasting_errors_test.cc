@@ -162,6 +162,77 @@ TEST_CASE("where most systems are wrong the others are taken for wrong too") {
   CHECK(found_after(street, 1200.0, of({System::kGps}), 1, System::kGps) < 300.0);
 }
 
+TEST_CASE("low orbits that are wrong from the start do not make GPS wrong, which takes longer") {
+  Street street;
+  street.systems = {System::kGps, System::kLeo};
+  street.speed_m_s = GENERATE(0.0, 10.0);
+  street.reflected_m = 0.3;
+  CAPTURE(street.speed_m_s);
+  const Bias of_leo = [](SatelliteId satellite, double) {
+    return satellite.system == System::kLeo ? alternating(satellite, 10.0) : 0.0;
+  };
+  CHECK(found_after(street, 1200.0, of_leo, 1, System::kLeo) < 60.0);
+  CHECK(found_after(street, 1200.0, of_leo, 1, System::kGps) == 1200.0);
+}
+
+TEST_CASE("after a gap a single code is no block, and after a long one nothing is left") {
+  // Four blocks of zero, the last incomplete, then one bad code after each gap.
+  for (const double gap_s : {61.0, 400.0, 1000.0}) {
+    CAPTURE(gap_s);
+    LastingErrors errors;
+    double t = 0.0;
+    const auto add = [&](double residual_m) {
+      for (std::uint16_t i = 1; i <= 4; ++i)
+        errors.add({{System::kGps, i}, residual_m, 1.0, 1e-4, 20.0}, kStart.plus_seconds(t));
+      errors.end_epoch(kStart.plus_seconds(t));
+    };
+    for (int gap = 0; gap < 8; ++gap, t += gap_s) add(50.0);
+    CHECK(errors.largest_sigma_m() == 0.0);
+    for (const double end = t + 300.0; t < end; t += 1.0) add(50.0);
+    CHECK(errors.largest_sigma_m() > 0.0);
+    t += gap_s;
+    add(0.0);
+    CHECK((errors.largest_sigma_m() > 0.0) == (gap_s < 600.0));
+  }
+}
+
+TEST_CASE("the position is told by how much ranges have become worse, up and down") {
+  LastingErrors errors;
+  double t = 0.0;
+  // Returns the root of the sum of squares of what L has grown by.
+  const auto drive = [&](double size_m) {
+    double sum = 0.0;
+    for (const double end = t + 900.0; t < end; t += 1.0) {
+      for (std::uint16_t i = 1; i <= 4; ++i) {
+        const SatelliteId satellite{System::kGps, i};
+        errors.add({satellite, alternating(satellite, size_m), 1.0, 1e-4, 10.0},
+                   kStart.plus_seconds(t));
+      }
+      errors.end_epoch(kStart.plus_seconds(t));
+      sum += errors.change().growth_m * errors.change().growth_m;
+      if (errors.change().growth_m > 0.0) CHECK(errors.change().codes_differ);
+    }
+    return std::sqrt(sum);
+  };
+  CHECK(drive(0.0) == 0.0);
+  const double grown_m = drive(10.0);
+  CHECK(grown_m > 6.0);
+  CHECK(grown_m <= 10.0);
+  CHECK(drive(10.0) == 0.0);
+  CHECK(drive(12.0) == 0.0);
+  CHECK(drive(3.0) < 3.5);  // a change looks like the end of an error; 3 m are then found anew
+  CHECK(drive(12.0) > 8.0);  // though it has been as bad before
+  bool differ = false;
+  for (const double end = t + 900.0; t < end; t += 1.0) {
+    for (std::uint16_t i = 1; i <= 4; ++i)
+      errors.add({{System::kGps, i}, 0.0, 1.0, 1e-4, 10.0}, kStart.plus_seconds(t));
+    errors.end_epoch(kStart.plus_seconds(t));
+    differ |= errors.change().codes_differ;
+  }
+  CHECK(differ);
+  CHECK(errors.largest_sigma_m() == 0.0);
+}
+
 TEST_CASE("a finding counts the satellites in view, and ends when none can be tested") {
   // Sixteen satellites, of which twelve set at 600 s, the others at 1200 s.
   LastingErrors errors;
@@ -203,9 +274,9 @@ TEST_CASE("an error is found once, when it has doubled, and when it comes back")
                    kStart.plus_seconds(t));
       }
       errors.end_epoch(kStart.plus_seconds(t));
-      if (errors.found_m() == 0.0) continue;
+      if (errors.change().found_m == 0.0) continue;
       ++found;
-      largest_m = errors.found_m();
+      largest_m = errors.change().found_m;
     }
     return found;
   };

@@ -25,9 +25,10 @@ TEST_CASE(
   CHECK(errors.correlation(code_class(0, kStanding)).time_s > 7.0);
   const LearnedSummary moving = errors.summary(false), standing = errors.summary(true);
   CHECK(moving.learned);
-  CHECK(moving.code.correlation_time_s == 7.0);
-  CHECK(standing.code.correlation_time_s == errors.correlation(code_class(0, kStanding)).time_s);
-  CHECK(moving.doppler.correlation_time_s > 0.0);
+  CHECK(moving.code.all.correlation_time_s == 7.0);
+  CHECK(standing.code.all.correlation_time_s ==
+        errors.correlation(code_class(0, kStanding)).time_s);
+  CHECK(moving.doppler.all.correlation_time_s > 0.0);
 }
 
 TEST_CASE("nothing configured, errors still last for some seconds and are not taken as small") {

@@ -131,3 +131,29 @@ TEST_CASE("after an hour of small errors a street is entered as quickly") {
     CHECK(scale.scale(test::code_class(1)) > 3.5);
   }
 }
+
+TEST_CASE("the summary tells what each property makes of the scale") {
+  std::mt19937_64 random(3);
+  SigmaScale scale;
+  ErrorClass low = test::code_class(0), high = test::code_class(3);
+  for (int t = 0; t < 300; ++t) {
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 10; ++i)
+      for (const auto& [of, times] : {std::pair(low, 6.0), std::pair(high, 2.0)}) {
+        const double z = times * normal(random) / scale.scale(of);
+        scale.add({of, z * z, 1.0});
+      }
+    scale.end_epoch(1.0);
+  }
+  LearnedErrorsOf summary;
+  scale.summarize(Observable::kCode, &summary);
+  CHECK(summary.all.sigma_factor == scale.mean_scale(Observable::kCode));
+  const auto of = [&](std::string_view name) {
+    const auto* found = std::find(kLearnedClassNames.begin(), kLearnedClassNames.end(), name);
+    return summary.classes[static_cast<std::size_t>(found - kLearnedClassNames.begin())]
+        .sigma_factor;
+  };
+  CHECK(of("below 20 deg") > 1.5 * of("above 50 deg"));
+  CHECK(of("35 to 50 deg") == summary.all.sigma_factor);  // never seen
+  CHECK(of("Galileo") == summary.all.sigma_factor);
+}

@@ -145,5 +145,24 @@ TEST_CASE("noise far above what is configured is reported, though nothing stands
   }
 }
 
+TEST_CASE("a position that all codes contradict is widened, told and counted") {
+  SyntheticDrive drive = drive_of(60.0);
+  const SyntheticDrive elsewhere = drive_of(60.0, 300.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  CHECK(run(drive, config).count(EventKind::kPredictionWidened) == 0);
+  for (std::size_t i = 0; i < drive.epochs.size(); ++i)
+    if (seconds(drive.epochs[i].time) >= 40.0) drive.epochs[i] = elsewhere.epochs[i];
+  const RecordingSink sink = run(drive, config);
+  std::size_t counted = 0, told = 0;
+  for (const EpochReport& report : sink.epochs) counted += static_cast<std::size_t>(report.widened_predictions);
+  for (const Event& event : sink.events) {
+    if (event.kind != EventKind::kPredictionWidened || event.code != 0) continue;
+    if (told++ == 0) CHECK(event.value > 100.0);  // 300 m over three axes
+    CHECK(seconds(event.time) >= 40.0);
+  }
+  CHECK(told >= 1);
+  CHECK(counted == sink.count(EventKind::kPredictionWidened));  // so few are not thinned
+}
+
 }  // namespace
 }  // namespace leonav::test
