@@ -70,12 +70,16 @@ def show(result):
         print("not told")
 # Before the fault, of another kind, without a time, and after the first that counts.
 tables([(2300, 101, "improbable"), (2300, 104, "aligned"), ("", "", "improbable"), (2300, 106, "satellite_fault"), (2300, 107, "improbable")])
-show(faults.judge(folder, folder / "truth.csv", 4, 4))
+show(faults.judge(folder, folder / "truth.csv", 4, 4, set()))
 # A level that is not known is none; who is told from the start takes what came before the begin.
 tables([(2300, 101, "improbable")], {7: ""})
-show(faults.judge(folder, folder / "truth.csv", 4, 0))
+show(faults.judge(folder, folder / "truth.csv", 4, 0, set()))
 tables([(2300, 101, "improbable")])
-show(faults.judge(folder, folder / "truth.csv", 7, 3))
+show(faults.judge(folder, folder / "truth.csv", 7, 3, set()))
+# What also comes without a fault does not tell.
+tables([(2300, 104, "prediction_widened"), (2300, 107, "satellite_fault")])
+result = faults.judge(folder, folder / "truth.csv", 4, 4, {"prediction_widened"})
+print("unusual", result["event"][0], sorted(result["kinds"]), f"until {result['until']:.1f}")
 )");
   INFO(said);
   CHECK(
@@ -88,6 +92,7 @@ show(faults.judge(folder, folder / "truth.csv", 7, 3))
   CHECK(has(said,
             "worst 3.000 0.7071 [10.0, 5.0] sigmas 6.00 share 0.60 heading 0.00 misleading 0 of "
             "3\nnot told\n"));
+  CHECK(has(said, "unusual satellite_fault ['prediction_widened', 'satellite_fault'] until 2.0\n"));
 }
 
 TEST_CASE("The steadiest satellite is used nearly always, and of these the highest", "[tools]") {

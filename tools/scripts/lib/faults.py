@@ -98,7 +98,7 @@ def judge(folder, truth, begin, told_from, usual):
         result["until"] = t[late & (share > 1)].max() - told_from
     for row in rows(folder / "events.csv"):
         told = seconds(row) - first
-        if row["event"] not in TELLING or told < told_from:
+        if row["event"] not in TELLING or not told >= told_from:
             continue
         result["kinds"].add(row["event"])
         if result["event"] is None and row["event"] not in usual:
