@@ -18,7 +18,8 @@ constexpr std::size_t kMinBlocks = 4;
 constexpr double kScatters = 3.0;  // b
 constexpr double kStated = 3.0;    // c
 constexpr double kLeast_m = 1.0;
-constexpr int kMinSatellites = 3;    // to test a system, and with lasting errors to find it wrong
+constexpr int kMinSatellites = 4;    // to test a system
+constexpr int kMinToFind = 3;        // with lasting errors, to find it wrong
 constexpr int kMinToKeep = 2;        // to take it for wrong still
 constexpr double kFoundAgain = 2.0;  // an error that has grown so is found again
 // The position allows for an L that has grown or fallen so.
@@ -76,31 +77,44 @@ void LastingErrors::add(const Sample& sample, GpsTime time) {
 
 LastingErrors::Evidence LastingErrors::evaluate(System system, GpsTime time) const {
   Evidence evidence;
+  boost::container::static_vector<Mean, kMaxArcs> means;
   for (const Track& track : tracks_) {
     if (track.satellite.system != system ||
         std::abs(seconds_between(time, track.last_time)) > kInView_s)
       continue;
     ++evidence.in_view;
-    if (track.blocks.size() < kMinBlocks) continue;
-    const auto n = static_cast<double>(track.blocks.size());
-    double mean = 0.0, redundancy = 0.0, stated_variance = 0.0, scatter = 0.0;
-    for (const Block& block : track.blocks) {
-      mean += block.residual / n;
-      redundancy += block.redundancy / n;
-      stated_variance += block.stated_variance / n;
-    }
-    for (std::size_t i = 1; i < track.blocks.size(); ++i)
-      scatter +=
-          square(track.blocks[i].residual - track.blocks[i - 1].residual) / (2.0 * (n - 1.0));
-    const bool lasts = square(mean) > square(kScatters) * scatter &&
-                       square(mean) > square(kStated) * stated_variance &&
-                       std::abs(mean) > kLeast_m;
-    ++evidence.satellites;
+    if (track.blocks.size() >= kMinBlocks) means.push_back(mean_of(track));
+  }
+  evidence.satellites = static_cast<int>(means.size());
+  if (means.empty()) return evidence;
+  std::sort(means.begin(), means.end(),
+            [](const Mean& a, const Mean& b) { return a.residual < b.residual; });
+  const std::size_t half = means.size() / 2;
+  const double median = 0.5 * (means[half].residual + means[means.size() - 1 - half].residual);
+  for (const Mean& mean : means) {
+    const double own_square = square(mean.residual - median);
+    const bool lasts = own_square > square(kScatters) * mean.scatter &&
+                       own_square > square(kStated) * mean.stated_variance &&
+                       own_square > square(kLeast_m);
     evidence.lasting += lasts ? 1 : 0;
-    evidence.squares += square(mean);
-    evidence.redundancies += redundancy;
+    evidence.squares += square(mean.residual);
+    evidence.redundancies += mean.redundancy;
   }
   return evidence;
+}
+
+LastingErrors::Mean LastingErrors::mean_of(const Track& track) {
+  Mean mean;
+  const auto n = static_cast<double>(track.blocks.size());
+  for (const Block& block : track.blocks) {
+    mean.residual += block.residual / n;
+    mean.redundancy += block.redundancy / n;
+    mean.stated_variance += block.stated_variance / n;
+  }
+  for (std::size_t i = 1; i < track.blocks.size(); ++i)
+    mean.scatter +=
+        square(track.blocks[i].residual - track.blocks[i - 1].residual) / (2.0 * (n - 1.0));
+  return mean;
 }
 
 void LastingErrors::decide(const Evidence& evidence, GpsTime time, Verdict* verdict) {
@@ -111,7 +125,7 @@ void LastingErrors::decide(const Evidence& evidence, GpsTime time, Verdict* verd
   const double share = static_cast<double>(evidence.lasting) / evidence.satellites;
   const bool wrong = verdict->range_sigma_m > 0.0
                          ? share > kShareToKeep && evidence.lasting >= kMinToKeep
-                         : share >= kShareToFind && evidence.lasting >= kMinSatellites;
+                         : share >= kShareToFind && evidence.lasting >= kMinToFind;
   verdict->range_sigma_m = wrong ? std::sqrt(evidence.squares / evidence.redundancies) : 0.0;
   verdict->tested = time;
 }

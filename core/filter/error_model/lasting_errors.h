@@ -14,17 +14,18 @@ namespace leonav {
 // A reflection ends when the vehicle has passed the wall, the error of an orbit stays. The
 // residuals of each satellite's codes are averaged in blocks: of 30 s and 150 m of way, whichever
 // is longer, but at most 15 min; of a LEO satellite 10 s. With m the mean of its last four to eight
-// blocks, and b^2 half the mean square of the differences of successive ones (von Neumann, Annals
-// of Mathematical Statistics 12, 1941), a satellite's error lasts if
-//   |m| > 3 b,  |m| > 3 c,  |m| > 1 m,
+// blocks, m_0 the median of these means over its system, whose clock one wrong satellite moves, and
+// b^2 half the mean square of the differences of successive blocks (von Neumann, Annals of
+// Mathematical Statistics 12, 1941), a satellite's error lasts if
+//   |m - m_0| > 3 b,  |m - m_0| > 3 c,  |m - m_0| > 1 m,
 // c being the 1 sigma that is stated of what lasts in its codes. If a third of the satellites of a
-// system that are in view, and at least three, have such errors, its orbits or clocks are wrong,
-// until a sixth or fewer have, or one. The variance of its ranges is then, with the redundancy of
-// each residual,
+// system that are in view, of four or more, and at least three have such errors, its orbits or
+// clocks are wrong, until a sixth or fewer have, or one. The variance of its ranges is then, with
+// the redundancy of each residual,
 //   L^2 = sum of m^2 / sum of redundancy, times n/4.
 // Errors of one cause, a shift of time for one, are alike for all satellites and do not average, so
 // that the position is as uncertain as four satellites leave it; n are those of all wrong systems.
-// Where most of the systems with three satellites in view are wrong, the others are taken to be as
+// Where most of the systems with four satellites in view are wrong, the others are taken to be as
 // wrong as the best of these: residuals do not show whose fault it is.
 class LastingErrors {
  public:
@@ -74,6 +75,12 @@ class LastingErrors {
     Block block;                                             // under way
     boost::container::static_vector<Block, kBlocks> blocks;  // the last ones
   };
+  // Over the blocks of a track.
+  struct Mean {
+    double residual = 0.0;  // m
+    double scatter = 0.0;   // b^2
+    double redundancy = 0.0, stated_variance = 0.0;
+  };
   struct Evidence {
     int in_view = 0;  // satellites, those included that cannot be tested yet
     int satellites = 0, lasting = 0;
@@ -86,6 +93,7 @@ class LastingErrors {
     GpsTime tested;
   };
   Track* find(SatelliteId satellite, GpsTime time);
+  static Mean mean_of(const Track& track);
   Evidence evaluate(System system, GpsTime time) const;
   static void decide(const Evidence& evidence, GpsTime time, Verdict* verdict);
   void note_change();

@@ -125,6 +125,18 @@ TEST_CASE("biases within what is stated, or of two satellites only, are no findi
   CHECK(found_after(open_sky, 1800.0, two, 1) == 1800.0);
 }
 
+TEST_CASE("a satellite that moves its system's clock makes no system wrong") {
+  Street open_sky;
+  open_sky.satellites = GENERATE(4, 5, 8);
+  open_sky.reflected_m = 0.3;
+  // One is 20 m off, and the clock takes its share of that.
+  const double n = open_sky.satellites;
+  const Bias bias = [n](SatelliteId satellite, double) {
+    return (satellite.number == 1 ? 20.0 : 0.0) - 20.0 / n;
+  };
+  CHECK(found_after(open_sky, 1800.0, bias, 1) == 1800.0);
+}
+
 TEST_CASE("right orbits end a finding, wrong ones keep it") {
   const Bias mended = [](SatelliteId satellite, double t) {
     return t < 600.0 ? alternating(satellite, 20.0) : 0.0;
@@ -176,14 +188,15 @@ TEST_CASE("low orbits that are wrong from the start do not make GPS wrong, which
 }
 
 TEST_CASE("after a gap a single code is no block, and after a long one nothing is left") {
-  // Four blocks of zero, the last incomplete, then one bad code after each gap.
+  // One bad code of each satellite after each gap, then blocks of them, then a gap again.
   for (const double gap_s : {61.0, 400.0, 1000.0}) {
     CAPTURE(gap_s);
     LastingErrors errors;
     double t = 0.0;
     const auto add = [&](double residual_m) {
       for (std::uint16_t i = 1; i <= 4; ++i)
-        errors.add({{System::kGps, i}, residual_m, 1.0, 1e-4, 20.0}, kStart.plus_seconds(t));
+        errors.add({{System::kGps, i}, alternating({System::kGps, i}, residual_m), 1.0, 1e-4, 20.0},
+                   kStart.plus_seconds(t));
       errors.end_epoch(kStart.plus_seconds(t));
     };
     for (int gap = 0; gap < 8; ++gap, t += gap_s) add(50.0);
@@ -220,7 +233,7 @@ TEST_CASE("the position is told by how much ranges have become worse, up and dow
   CHECK(grown_m <= 10.0);
   CHECK(drive(10.0) == 0.0);
   CHECK(drive(12.0) == 0.0);
-  CHECK(drive(3.0) < 3.5);  // a change looks like the end of an error; 3 m are then found anew
+  CHECK(drive(3.0) < 3.5);   // a change looks like the end of an error; 3 m are then found anew
   CHECK(drive(12.0) > 8.0);  // though it has been as bad before
   bool differ = false;
   for (const double end = t + 900.0; t < end; t += 1.0) {
@@ -298,7 +311,7 @@ TEST_CASE("errors of low orbits are found though they change along the pass") {
   street.reflected_s = 4.0;
   street.reflected_m = 1.0;
   const Bias bias = [](SatelliteId satellite, double t) {
-    return 20.0 + 0.1 * t * (satellite.number % 2 == 0 ? 1.0 : -1.0);
+    return (20.0 + 0.1 * t) * (satellite.number % 2 == 0 ? 1.0 : -1.0);
   };
   CHECK(found_after(street, 300.0, bias, 1, System::kLeo) < 120.0);
 }
