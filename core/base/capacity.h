@@ -24,9 +24,9 @@ inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-
 inline constexpr std::size_t kMaxPendingEpochs = 40;
 // Carrier arcs with an ambiguity in the filter: every satellite in view of four systems.
 inline constexpr std::size_t kMaxArcs = 64;
-// Fault hypotheses of one epoch: one for each of those satellites, and some for systems and
-// sensors.
-inline constexpr std::size_t kMaxFaultHypotheses = 80;
+// Fault hypotheses of one epoch: of each of those carriers a fault and a missed slip, and some of
+// systems and sensors.
+inline constexpr std::size_t kMaxFaultHypotheses = 2 * kMaxArcs + 16;
 
 // Odometer increments between two epochs: 100 Hz, 3 s.
 inline constexpr std::size_t kMaxOdometerBlock = 320;

@@ -25,8 +25,12 @@ struct IntegrityConfig {
   // Time after which errors are independent. The shorter, the more independent errors an hour has.
   double error_correlation_s = 10.0;
   Overbound overbound;
-  // Faults that begin in an hour: of one satellite, and of all satellites of a system at once.
-  double satellite_faults_per_hour = 1e-4, system_faults_per_hour = 1e-4;
+  // Faults that begin in an hour: of one satellite, and of all satellites of a system at once; of
+  // low orbits the third, for both.
+  double satellite_faults_per_hour = 1e-4, system_faults_per_hour = 1e-4,
+         leo_faults_per_hour = 1e-3;
+  // Cycle slips of one satellite in an hour that their tests miss.
+  double missed_slips_per_hour = 1e-2;
   // Time from the begin of a fault until it is detected, or its effect is gone.
   double fault_exposure_s = 600.0;
   // Levels above these make the health DEGRADED, m; 0: no limit.

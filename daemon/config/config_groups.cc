@@ -198,6 +198,8 @@ void read_integrity(ConfigReader& group, IntegrityConfig* config) {
   group.number("tail_factor", {1.0, 100.0}, &config->overbound.tail_factor);
   group.number("satellite_faults_per_hour", kFaultRate, &config->satellite_faults_per_hour);
   group.number("system_faults_per_hour", kFaultRate, &config->system_faults_per_hour);
+  group.number("leo_faults_per_hour", {0.0, 0.1}, &config->leo_faults_per_hour);
+  group.number("missed_slips_per_hour", {0.0, 1.0}, &config->missed_slips_per_hour);
   group.number("fault_exposure_s", {1.0, 3600.0}, &config->fault_exposure_s);
   group.number("horizontal_alert_limit_m", kAlertLimit, &config->horizontal_alert_limit_m);
   group.number("vertical_alert_limit_m", kAlertLimit, &config->vertical_alert_limit_m);

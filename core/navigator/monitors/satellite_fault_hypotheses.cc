@@ -13,6 +13,14 @@ namespace {
 // A separation within so many of its own sigmas may be chance.
 constexpr double kChance = 3.0;
 
+// Returns the change of a carrier by a slip that its tests may miss, m; 0: the signal is not known.
+double missed_slip_m(System system, const Measurement& carrier) {
+  const double first_hz = frequency_hz(system, carrier.code.band);
+  if (!(first_hz > 0.0)) return 0.0;
+  const bool pair = carrier.second_code != SignalCode();
+  return kSpeedOfLight / (first_hz + (pair ? frequency_hz(system, carrier.second_code.band) : 0.0));
+}
+
 // Whether |separation| and kChance of its sigmas are within one sigma of the filter, per axis.
 bool is_small(const FaultHypothesis& fault, const Eigen::Matrix3d& covariance_n) {
   const Eigen::Array3d reach =
@@ -40,19 +48,26 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
       faults.push_back(fault);
   };
   std::array<FaultHypothesis, kSystemCount> systems{};
-  for (FaultHypothesis& system : systems)
-    system.probability = probability(config.system_faults_per_hour);
+  for (const System system : kSystems)
+    systems[index_of(system)].probability = probability(
+        system == System::kLeo ? config.leo_faults_per_hour : config.system_faults_per_hour);
   const FaultDirections directions(measurements);
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const FilterMeasurement& m = measurements[i];
     if (m.observable != Observable::kCarrier || m.ambiguity < 0) continue;
     const Measurement& measurement = epoch.measurements[m.index];
     const SatelliteId satellite = epoch.satellites[measurement.satellite_index].satellite;
+    const Eigen::Vector3d per_metre_n = C_ne * directions.position_e(i);
+    FaultHypothesis slip;
+    slip.probability = probability(config.missed_slips_per_hour);
+    slip.separation_n = missed_slip_m(satellite.system, measurement) * per_metre_n;
+    add(slip);
     const auto followed = monitor.followed_range(satellite, measurement.code);
     if (!followed) continue;
-    const Eigen::Vector3d per_metre_n = C_ne * directions.position_e(i);
     FaultHypothesis fault;
-    fault.probability = probability(config.satellite_faults_per_hour);
+    fault.probability =
+        probability(satellite.system == System::kLeo ? config.leo_faults_per_hour
+                                                     : config.satellite_faults_per_hour);
     fault.separation_n = followed->range_m * per_metre_n;
     fault.separation_covariance_n =
         square(followed->usual_m) * per_metre_n * per_metre_n.transpose();

@@ -1,5 +1,5 @@
-// This function tells how far an undetected fault of a satellite or of a system may have moved the
-// position.
+// This function tells how far an undetected fault of a satellite or of a system, or a missed slip,
+// may have moved the position.
 #pragma once
 #include <Eigen/Core>
 
@@ -17,10 +17,12 @@ struct PositionEstimate {
   Eigen::Matrix3d covariance_e;
 };
 
-// Returns the hypotheses of single satellites and of systems after an update with `measurements` of
-// `epoch`, which led to `estimate`. The separation is what the filter has followed of the suspect
-// carriers (SatelliteFaultMonitor), times the change of position per metre (FaultDirections); its
-// variance is the same with what is usual of all carriers. A fault whose separation, three of its
+// Returns the hypotheses of single satellites, of missed slips and of systems after an update with
+// `measurements` of `epoch`, which led to `estimate`. The separation is what the filter has
+// followed of the suspect carriers (SatelliteFaultMonitor), times the change of position per metre
+// (FaultDirections); its variance is the same with what is usual of all carriers. A missed slip is
+// one cycle, of a pair one on both frequencies: c / (f_1 + f_2), the smallest that hides from the
+// difference of the two. A fault whose separation, three of its
 // sigmas added, is within one sigma of the estimate along every axis is left out: its probability
 // is so small that the level would hardly rise.
 FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,

@@ -20,9 +20,9 @@ using namespace ekf_index;
 constexpr int kGps = 6, kGalileo = 5, kCarriers = kGps + kGalileo;
 constexpr double kSigma_m = 0.003;
 
-SatelliteId satellite(int i) {
+SatelliteId satellite(int i, System second) {
   return i < kGps ? SatelliteId{System::kGps, static_cast<std::uint16_t>(i + 1)}
-                  : SatelliteId{System::kGalileo, static_cast<std::uint16_t>(i - kGps + 1)};
+                  : SatelliteId{second, static_cast<std::uint16_t>(i - kGps + 1)};
 }
 
 // One update: every satellite with one carrier, and what the filter has followed of them.
@@ -31,9 +31,11 @@ struct Update {
   FilterMeasurements measurements;
   SatelliteFaultMonitor monitor;
   PositionEstimate estimate;
+  System second;  // beside GPS
 
   // `drift_m`: of carriers that the filter follows, in each of the last hundred seconds.
-  explicit Update(const std::vector<double>& drift_m) {
+  explicit Update(const std::vector<double>& drift_m, System other = System::kGalileo)
+      : second(other) {
     for (int i = 0; i < kCarriers; ++i) add_carrier(i);
     std::mt19937_64 generator(3);
     std::normal_distribution<double> normal(0.0, kSigma_m);
@@ -41,7 +43,8 @@ struct Update {
       CarrierInnovations carriers;
       for (int i = 0; i < kCarriers; ++i) {
         const double drift = t >= 60 ? drift_m[static_cast<std::size_t>(i)] : 0.0;
-        carriers.push_back({satellite(i), SignalCode(), normal(generator) + drift, 0.0, kSigma_m});
+        carriers.push_back(
+            {satellite(i, second), SignalCode(), normal(generator) + drift, 0.0, kSigma_m});
       }
       REQUIRE_FALSE(monitor.add(carriers, GpsTime::from_week_and_tow(2300, t)));
     }
@@ -51,7 +54,7 @@ struct Update {
 
   void add_carrier(int i) {
     SatelliteInView view;
-    view.satellite = satellite(i);
+    view.satellite = satellite(i, second);
     epoch->satellites.push_back(view);
     Measurement measurement;
     measurement.observable = Observable::kCarrier;
@@ -70,7 +73,7 @@ struct Update {
   }
 
   double followed(int i) const {
-    return monitor.followed_range(satellite(i), SignalCode())->range_m;
+    return monitor.followed_range(satellite(i, second), SignalCode())->range_m;
   }
   // The change of a fit of position and two clocks where carrier i is `range_m` longer.
   Eigen::Vector3d moved_n(int i, double range_m) const {
@@ -125,11 +128,50 @@ TEST_CASE("a system's separation is the sum of its satellites'") {
   CHECK(faults.size() <= 2);
 }
 
+TEST_CASE("a missed slip moves a fit by one cycle, of a pair by one on both frequencies") {
+  Update update(drifting(2));
+  const auto slip = [&](std::size_t i, double rate_per_hour) {
+    IntegrityConfig config;
+    config.satellite_faults_per_hour = config.system_faults_per_hour = 0.0;
+    config.missed_slips_per_hour = rate_per_hour;
+    const double one_m = wavelength_m(System::kGps, '1');
+    const double both_m = 1.0 / (1.0 / one_m + 1.0 / wavelength_m(System::kGps, '2'));
+    const bool pair = update.epoch->measurements[i].second_code != SignalCode();
+    const FaultHypotheses faults = update.hypotheses(config);
+    const FaultHypothesis* found =
+        find(faults, update.moved_n(static_cast<int>(i), pair ? both_m : one_m));
+    return found != nullptr ? found->probability : 0.0;
+  };
+  CHECK(slip(1, 1e-2) == 0.0);  // of no known signal
+  update.epoch->measurements[1].code = {'1', 'C'};
+  update.epoch->measurements[3].code = {'1', 'C'};
+  update.epoch->measurements[3].second_code = {'2', 'W'};
+  CHECK(slip(1, 1e-2) == Approx(1e-2 * 600.0 / 3600.0));
+  CHECK(slip(3, 1e-2) == Approx(1e-2 * 600.0 / 3600.0));
+  CHECK(slip(1, 0.0) == 0.0);
+}
+
+TEST_CASE("low orbits have a rate of faults of their own, for one and for all") {
+  const Update update(drifting(8), System::kLeo);
+  IntegrityConfig config;
+  config.leo_faults_per_hour = 2e-3;
+  const FaultHypotheses faults = update.hypotheses(config);
+  const FaultHypothesis* one = find(faults, update.moved_n(8, update.followed(8)));
+  REQUIRE(one != nullptr);
+  CHECK(one->probability == Approx(2e-3 * 600.0 / 3600.0));
+  Eigen::Vector3d all = Eigen::Vector3d::Zero();
+  for (int i = kGps; i < kCarriers; ++i) all += update.moved_n(i, update.followed(i));
+  const FaultHypothesis* system = find(faults, all);
+  REQUIRE(system != nullptr);
+  CHECK(system->probability == Approx(2e-3 * 600.0 / 3600.0));
+}
+
 TEST_CASE("no hypotheses: rates of zero, an uncertain position, a filter that has just restarted") {
   Update update(drifting(2));
   REQUIRE_FALSE(update.hypotheses().empty());
   IntegrityConfig config;
   config.satellite_faults_per_hour = config.system_faults_per_hour = 0.0;
+  config.missed_slips_per_hour = 0.0;
   CHECK(update.hypotheses(config).empty());
   update.estimate.covariance_e *= 1e6;
   CHECK(update.hypotheses().empty());
