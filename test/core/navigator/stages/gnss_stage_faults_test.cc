@@ -154,7 +154,8 @@ TEST_CASE("a position that all codes contradict is widened, told and counted") {
     if (seconds(drive.epochs[i].time) >= 40.0) drive.epochs[i] = elsewhere.epochs[i];
   const RecordingSink sink = run(drive, config);
   std::size_t counted = 0, told = 0;
-  for (const EpochReport& report : sink.epochs) counted += static_cast<std::size_t>(report.widened_predictions);
+  for (const EpochReport& report : sink.epochs)
+    counted += static_cast<std::size_t>(report.widened_predictions);
   for (const Event& event : sink.events) {
     if (event.kind != EventKind::kPredictionWidened || event.code != 0) continue;
     if (told++ == 0) CHECK(event.value > 100.0);  // 300 m over three axes
