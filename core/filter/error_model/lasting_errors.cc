@@ -14,6 +14,7 @@ constexpr double kLongestGap_s = 60.0;  // a longer one discards the block under
 constexpr double kInView_s = 120.0;     // satellites that were seen so lately are tested
 constexpr double kForgotten_s = 900.0;
 constexpr double kUntested_s = 600.0;  // after that a verdict ends
+constexpr double kHold_s = 240.0;      // a system that is right for so long is right
 constexpr std::size_t kMinBlocks = 4;
 constexpr double kScatters = 3.0;  // b
 constexpr double kStated = 3.0;    // c
@@ -126,7 +127,13 @@ void LastingErrors::decide(const Evidence& evidence, GpsTime time, Verdict* verd
   const bool wrong = verdict->range_sigma_m > 0.0
                          ? share > kShareToKeep && evidence.lasting >= kMinToKeep
                          : share >= kShareToFind && evidence.lasting >= kMinToFind;
-  verdict->range_sigma_m = wrong ? std::sqrt(evidence.squares / evidence.redundancies) : 0.0;
+  if (wrong) {
+    verdict->range_sigma_m = std::sqrt(evidence.squares / evidence.redundancies);
+    verdict->wrong_until = time;
+  } else if (verdict->range_sigma_m > 0.0 &&
+             std::abs(seconds_between(time, verdict->wrong_until)) > kHold_s) {
+    verdict->range_sigma_m = 0.0;
+  }
   verdict->tested = time;
 }
 

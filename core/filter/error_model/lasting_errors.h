@@ -20,8 +20,8 @@ namespace leonav {
 //   |m - m_0| > 3 b,  |m - m_0| > 3 c,  |m - m_0| > 1 m,
 // c being the 1 sigma that is stated of what lasts in its codes. If a third of the satellites of a
 // system that are in view, of four or more, and at least three have such errors, its orbits or
-// clocks are wrong, until a sixth or fewer have, or one. The variance of its ranges is then, with
-// the redundancy of each residual,
+// clocks are wrong, until for four minutes a sixth or fewer have, or one. The variance of its
+// ranges is then, with the redundancy of each residual,
 //   L^2 = sum of m^2 / sum of redundancy, times n/4.
 // Errors of one cause, a shift of time for one, are alike for all satellites and do not average, so
 // that the position is as uncertain as four satellites leave it; n are those of all wrong systems.
@@ -90,7 +90,7 @@ class LastingErrors {
     double range_sigma_m = 0.0;    // own_sigma_m(); 0: not wrong
     double reported_m = 0.0;       // the same when it was last found
     double allowed_sigma_m = 0.0;  // L that the position allows for
-    GpsTime tested;
+    GpsTime tested, wrong_until;
   };
   Track* find(SatelliteId satellite, GpsTime time);
   static Mean mean_of(const Track& track);

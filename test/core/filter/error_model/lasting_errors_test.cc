@@ -141,14 +141,16 @@ TEST_CASE("right orbits end a finding, wrong ones keep it") {
   const Bias mended = [](SatelliteId satellite, double t) {
     return t < 600.0 ? alternating(satellite, 20.0) : 0.0;
   };
-  bool at_500 = false, at_1200 = true;
-  run(Street(), 1201.0, mended, 3, [&](const LastingErrors& errors, double t) {
+  bool at_500 = false, at_800 = false, at_1400 = true;
+  run(Street(), 1401.0, mended, 3, [&](const LastingErrors& errors, double t) {
     if (t == 500.0) at_500 = errors.sigma_m(System::kGps) > 0.0;
-    if (t == 1200.0) at_1200 = errors.sigma_m(System::kGps) > 0.0;
+    if (t == 800.0) at_800 = errors.sigma_m(System::kGps) > 0.0;
+    if (t == 1400.0) at_1400 = errors.sigma_m(System::kGps) > 0.0;
     return true;
   });
   CHECK(at_500);
-  CHECK_FALSE(at_1200);
+  CHECK(at_800);  // it may be chance
+  CHECK_FALSE(at_1400);
   const Bias wrong = [](SatelliteId satellite, double) { return alternating(satellite, 20.0); };
   bool kept = true;
   run(Street(), 1800.0, wrong, 3, [&](const LastingErrors& errors, double t) {

@@ -6,7 +6,7 @@
 namespace leonav::test {
 namespace {
 
-constexpr double kDuration_s = 700.0;
+constexpr double kDuration_s = 1000.0;
 
 // Until `end_s`.
 SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
