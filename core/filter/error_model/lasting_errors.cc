@@ -93,7 +93,7 @@ LastingErrors::Evidence LastingErrors::evaluate(System system, GpsTime time) con
   const std::size_t half = means.size() / 2;
   const double median = 0.5 * (means[half].residual + means[means.size() - 1 - half].residual);
   for (const Mean& mean : means) {
-    const double own_square = square(mean.residual - median);
+    const double own_square = std::min(square(mean.residual), square(mean.residual - median));
     const bool lasts = own_square > square(kScatters) * mean.scatter &&
                        own_square > square(kStated) * mean.stated_variance &&
                        own_square > square(kLeast_m);

@@ -17,7 +17,7 @@ namespace leonav {
 // blocks, m_0 the median of these means over its system, whose clock one wrong satellite moves, and
 // b^2 half the mean square of the differences of successive blocks (von Neumann, Annals of
 // Mathematical Statistics 12, 1941), a satellite's error lasts if
-//   |m - m_0| > 3 b,  |m - m_0| > 3 c,  |m - m_0| > 1 m,
+//   d > 3 b,  d > 3 c,  d > 1 m,   d = min(|m|, |m - m_0|),
 // c being the 1 sigma that is stated of what lasts in its codes. If a third of the satellites of a
 // system that are in view, of four or more, and at least three have such errors, its orbits or
 // clocks are wrong, until for four minutes a sixth or fewer have, or one. The variance of its
