@@ -32,11 +32,8 @@ void feed_messages(const SyntheticDrive& drive, Use use) {
 inline SyntheticDriveOptions noisy_drive(double duration_s) {
   SyntheticDriveOptions options;
   options.duration_s = duration_s;
-  options.code_sigma_m = 0.5;
-  options.doppler_sigma_m_s = 0.05;
-  options.carrier_sigma_m = 0.003;
   options.slip_probability = 0.002;
-  return options;
+  return with_noise(options, 0.5);
 }
 
 // For noisy_drive(), without what needs rights.

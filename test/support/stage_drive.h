@@ -24,14 +24,10 @@ inline SyntheticDrive drive_of(double duration_s, double east_m = 0.0, bool imu 
   return synthetic_drive(options);
 }
 
-// With white noise on codes, carriers and Dopplers.
-inline SyntheticDrive noisy_drive(double duration_s) {
+inline SyntheticDrive drive_with_noise(double duration_s) {
   SyntheticDriveOptions options;
   options.duration_s = duration_s;
-  options.code_sigma_m = 1.0;
-  options.doppler_sigma_m_s = 0.05;
-  options.carrier_sigma_m = 0.003;
-  return synthetic_drive(options);
+  return synthetic_drive(with_noise(options, 1.0));
 }
 
 inline double seconds(GpsTime time) { return seconds_between(time, kSkyEpoch); }

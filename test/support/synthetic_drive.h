@@ -51,6 +51,14 @@ inline SyntheticDriveOptions full_sky(SyntheticDriveOptions options) {
   return options;
 }
 
+// White noise on codes, Dopplers and carriers.
+inline SyntheticDriveOptions with_noise(SyntheticDriveOptions options, double code_sigma_m) {
+  options.code_sigma_m = code_sigma_m;
+  options.doppler_sigma_m_s = 0.05;
+  options.carrier_sigma_m = 0.003;
+  return options;
+}
+
 class SyntheticPath {
  public:
   explicit SyntheticPath(const SyntheticDriveOptions& options)

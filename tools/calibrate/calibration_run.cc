@@ -31,7 +31,7 @@ constexpr double kAlike_s = 20.0;         // correlation time of a road's cross 
 constexpr double kSettledHeading = 0.05;  // rad, 1 sigma
 
 // Moves each number by `share` of the way to `errors`; with 1/n for the n-th it is the mean.
-void move_towards(const LearnedErrorsOf& errors, double share, LearnedErrorsOf* mean) {
+void move_towards(const ObservableErrors& errors, double share, ObservableErrors* mean) {
   const auto move = [share](const LearnedError& to, LearnedError* of) {
     of->sigma_factor += share * (to.sigma_factor - of->sigma_factor);
     of->correlated_share += share * (to.correlated_share - of->correlated_share);

@@ -102,7 +102,7 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
 std::string json_of(const Calibration& calibration) {
   std::string text = format("{\"passes\": %d, \"settled\": %s", calibration.passes,
                             calibration.settled ? "true" : "false");
-  const auto add_learned = [&](const char* of, const LearnedErrorsOf& errors) {
+  const auto add_learned = [&](const char* of, const ObservableErrors& errors) {
     const auto numbers = [](const LearnedError& error) {
       return "{\"sigma_factor\": " + json_number(error.sigma_factor, 3) +
              ", \"correlated_share\": " + json_number(error.correlated_share, 3) +

@@ -9,6 +9,6 @@ namespace leonav {
 
 // Returns lines about one observable ("codes"): the factor on its configured sigma and how long
 // its errors last, then the same by class.
-std::string learned_errors_text(std::string_view observable, const LearnedErrorsOf& errors);
+std::string learned_errors_text(std::string_view observable, const ObservableErrors& errors);
 
 }  // namespace leonav

@@ -1,11 +1,7 @@
 #include "tools/replay/replay_run.h"
 
-#include <array>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
-#include <limits>
-#include <sstream>
 #include <string>
 
 #include "drivers/lcm/event_log.h"

@@ -141,7 +141,7 @@ LearnedSummary LearnedErrors::summary(bool standing) const {
     ErrorClass of;
     of.observable = static_cast<std::size_t>(observable);
     of.motion = standing ? 1 : 0;
-    LearnedErrorsOf errors;
+    ObservableErrors errors;
     scale_.summarize(observable, &errors);
     for (of.elevation = 0; of.elevation < kElevationClasses; ++of.elevation) {
       LearnedError& error = errors.classes[kSystemCount + of.elevation];

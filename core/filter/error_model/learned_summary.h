@@ -31,8 +31,8 @@ struct LearnedError {
   double correlation_time_s = 0.0;  // 0: not learned by this property
 };
 
-// The errors of one observable, of the vehicle as it moves or stands.
-struct LearnedErrorsOf {
+// The learned errors of one observable, of the vehicle as it moves or stands.
+struct ObservableErrors {
   LearnedError all;  // over the classes; share and time are means over elevations
   // By kLearnedClassNames: what the property alone makes of `all`. Correlation is learned by
   // elevation.
@@ -41,7 +41,7 @@ struct LearnedErrorsOf {
 
 struct LearnedSummary {
   bool learned = false;  // false: errors are as configured, and the rest says nothing
-  LearnedErrorsOf code, doppler;
+  ObservableErrors code, doppler;
   // LastingErrors::own_sigma_m() per System, m.
   std::array<double, kSystemCount> lasting_m{};
 };

@@ -127,7 +127,7 @@ double SigmaScale::scale(const ErrorClass& of) const {
   return std::exp(std::clamp(sum_of_terms(of), kSmallestLog, kLargestLog));
 }
 
-void SigmaScale::summarize(Observable observable, LearnedErrorsOf* summary) const {
+void SigmaScale::summarize(Observable observable, ObservableErrors* summary) const {
   const Terms& terms = terms_[static_cast<std::size_t>(observable)];
   summary->all.sigma_factor = mean_scale(observable);
   std::size_t next = 0;

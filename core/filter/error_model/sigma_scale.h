@@ -45,7 +45,7 @@ class SigmaScale {
   // Returns s of a class.
   double scale(const ErrorClass& of) const;
   // Writes the factors of one observable: its mean, and what each property alone makes of it.
-  void summarize(Observable observable, LearnedErrorsOf* summary) const;
+  void summarize(Observable observable, ObservableErrors* summary) const;
 
  private:
   struct Term {

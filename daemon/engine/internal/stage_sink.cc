@@ -15,7 +15,7 @@ std::int64_t micro(double level) {
   return std::isnan(level) ? -1 : std::llround(std::min(level * 1e6, 1e15));
 }
 
-void count_learned(const LearnedErrorsOf& errors, LearnedGauges* to) {
+void count_learned(const ObservableErrors& errors, LearnedGauges* to) {
   for (std::size_t i = 0; i < to->size(); ++i) {
     const LearnedError& of = i == 0 ? errors.all : errors.classes[i - 1];
     (*to)[i].sigma_percent.set(std::llround(of.sigma_factor * 1e2));

@@ -7,15 +7,12 @@
 namespace leonav::test {
 namespace {
 
-SyntheticDriveOptions noisy_inertial_drive(double duration_s) {
+SyntheticDriveOptions noisy_drive(double duration_s) {
   SyntheticDriveOptions options;
   options.duration_s = duration_s;
-  options.code_sigma_m = 1.0;
-  options.doppler_sigma_m_s = 0.05;
-  options.carrier_sigma_m = 0.003;
   options.angle_random_walk = 1e-4;
   options.velocity_random_walk = 1e-3;
-  return options;
+  return with_noise(options, 1.0);
 }
 
 NavigatorConfig smoother_config(const SyntheticDriveOptions& options) {
@@ -42,7 +39,7 @@ double rms_error(const std::vector<Solution>& solutions, const SyntheticDrive& d
 }  // namespace
 
 TEST_CASE("the smoother answers, no worse than the filter") {
-  const SyntheticDrive drive = synthetic_drive(noisy_inertial_drive(120.0));
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(120.0));
   RecordingSink of_filter, of_smoother;
   NavigatorConfig ekf = smoother_config(drive.options);
   ekf.estimator = Estimator::kEkf;
@@ -61,7 +58,7 @@ TEST_CASE("the smoother answers, no worse than the filter") {
 }
 
 TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
-  const SyntheticDrive drive = synthetic_drive(noisy_inertial_drive(60.0));
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
   const NavigatorConfig config = smoother_config(drive.options);
   std::vector<Decision> recorded;
   for (const std::uint64_t epoch : {25, 26, 40})
@@ -96,7 +93,7 @@ TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
 }
 
 TEST_CASE("epochs between two keyframes: the smoother's anchor goes on, with GNSS behind it") {
-  SyntheticDriveOptions options = noisy_inertial_drive(90.0);
+  SyntheticDriveOptions options = noisy_drive(90.0);
   options.epoch_interval_s = 0.2;
   const SyntheticDrive drive = synthetic_drive(options);
   NavigatorConfig config = smoother_config(options);
@@ -112,7 +109,7 @@ TEST_CASE("epochs between two keyframes: the smoother's anchor goes on, with GNS
 }
 
 TEST_CASE("without an IMU every epoch has its answer, and says whether GNSS is behind it") {
-  SyntheticDriveOptions options = noisy_inertial_drive(90.0);
+  SyntheticDriveOptions options = noisy_drive(90.0);
   options.epoch_interval_s = 0.5;
   SyntheticDrive drive = synthetic_drive(options);
   const auto is_out = [](GpsTime time) {

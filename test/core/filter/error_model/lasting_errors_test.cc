@@ -211,7 +211,7 @@ TEST_CASE("after a gap a single code is no block, and after a long one nothing i
   }
 }
 
-TEST_CASE("the position is told by how much ranges have become worse, up and down") {
+TEST_CASE("the growth of an error is reported, also after it has become smaller in between") {
   LastingErrors errors;
   double t = 0.0;
   // Returns the root of the sum of squares of what L has grown by.
@@ -235,7 +235,7 @@ TEST_CASE("the position is told by how much ranges have become worse, up and dow
   CHECK(grown_m <= 10.0);
   CHECK(drive(10.0) == 0.0);
   CHECK(drive(12.0) == 0.0);
-  CHECK(drive(3.0) < 3.5);   // a change looks like the end of an error; 3 m are then found anew
+  CHECK(drive(3.0) < 3.5);   // at most 3 m, if the step down passes for the end of the error
   CHECK(drive(12.0) > 8.0);  // though it has been as bad before
   bool differ = false;
   for (const double end = t + 900.0; t < end; t += 1.0) {

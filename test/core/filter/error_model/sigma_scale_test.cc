@@ -145,7 +145,7 @@ TEST_CASE("the summary tells what each property makes of the scale") {
       }
     scale.end_epoch(1.0);
   }
-  LearnedErrorsOf summary;
+  ObservableErrors summary;
   scale.summarize(Observable::kCode, &summary);
   CHECK(summary.all.sigma_factor == scale.mean_scale(Observable::kCode));
   const auto of = [&](std::string_view name) {

@@ -9,7 +9,7 @@ namespace {
 constexpr double kBegin_s = 120.0, kDuration_s = 420.0;
 
 SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
-  SyntheticDrive drive = noisy_drive(kDuration_s);
+  SyntheticDrive drive = drive_with_noise(kDuration_s);
   for (RawEpoch& raw : drive.epochs) {
     const double range_m = drift_m_s * std::max(seconds(raw.time) - kBegin_s, 0.0);
     for (SignalObservation& o : raw.observations) {

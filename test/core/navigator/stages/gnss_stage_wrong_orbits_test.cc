@@ -10,7 +10,7 @@ constexpr double kDuration_s = 1000.0;
 
 // Until `end_s`.
 SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
-  SyntheticDrive drive = noisy_drive(kDuration_s);
+  SyntheticDrive drive = drive_with_noise(kDuration_s);
   for (RawEpoch& raw : drive.epochs)
     for (SignalObservation& o : raw.observations) {
       if (seconds(raw.time) >= end_s) continue;
