@@ -1,9 +1,7 @@
 # Outside packages, all from Debian. LCM ships no CMake config, so it is found by hand.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost REQUIRED)
-if(BUILD_TESTING)
-  find_package(Ceres 2.1 REQUIRED)  # the reference that the smoother is judged by
-endif()
+find_package(Ceres 2.1 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(spdlog REQUIRED)

@@ -20,21 +20,14 @@ void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
   const EkfCorrection moved = active_part(keyframe.active, difference(keyframe.state, at));
   *information = at_information;
   *gradient = at_gradient;
-  gradient->noalias() -= at_information * moved;
-  const AttitudeJacobian change = attitude_jacobian(keyframe.active, keyframe.state, at);
-  if (change.index < 0) return;
-  auto rows = information->middleRows<3>(change.index);
-  rows = (change.of_error.transpose() * rows).eval();
-  auto columns = information->middleCols<3>(change.index);
-  columns = (columns * change.of_error).eval();
-  auto slope = gradient->segment<3>(change.index);
-  slope = (change.of_error.transpose() * slope).eval();
+  turn_to_errors(attitude_jacobian(keyframe.active, keyframe.state, at), moved, information,
+                 gradient);
 }
 
 }  // namespace
 
-AttitudeJacobian attitude_jacobian(const ActiveStates& active, const FilterState& estimate,
-                                   const FilterState& linearized_at) {
+AttitudeJacobian attitude_jacobian(const ActiveStates& active, const CoreState& estimate,
+                                   const CoreState& linearized_at) {
   AttitudeJacobian change;
   const auto found = std::find(active.core.begin(), active.core.end(), ekf_index::kAttitude);
   if (found == active.core.end()) return change;
@@ -66,20 +59,11 @@ void linearize_process_factor(const Keyframe& before, const Keyframe& keyframe,
   linear->F = process_factor.F;
   linear->noise = process_factor.noise;
   linear->offset = process_error(before, keyframe);
-  const AttitudeJacobian then = attitude_jacobian(before.active, before.state, process_factor.from);
-  if (then.index >= 0) {
-    auto columns = linear->F.middleCols<3>(then.index);
-    columns = (columns * then.of_error).eval();
-  }
   const AttitudeJacobian now =
       attitude_jacobian(keyframe.active, keyframe.state, process_factor.to);
+  turn_to_errors(attitude_jacobian(before.active, before.state, process_factor.from), now,
+                 &linear->F, &linear->noise);
   if (now.index < 0) return;
-  auto rows = linear->F.middleRows<3>(now.index);
-  rows = (now.to_error * rows).eval();
-  auto noise_rows = linear->noise.middleRows<3>(now.index);
-  noise_rows = (now.to_error * noise_rows).eval();
-  auto noise_columns = linear->noise.middleCols<3>(now.index);
-  noise_columns = (noise_columns * now.to_error.transpose()).eval();
   auto offset = linear->offset.segment<3>(now.index);
   offset = (now.to_error * offset).eval();
 }

@@ -7,6 +7,18 @@
 
 namespace leonav {
 
+// These multiply three rows or columns of a matrix by J, in place.
+template <typename Matrix>
+void rows_times(const Eigen::Matrix3d& J, Eigen::Index first, Matrix* matrix) {
+  for (Eigen::Index j = 0; j < matrix->cols(); ++j)
+    matrix->template block<3, 1>(first, j) = (J * matrix->template block<3, 1>(first, j)).eval();
+}
+template <typename Matrix>
+void columns_times(const Eigen::Matrix3d& J, Eigen::Index first, Matrix* matrix) {
+  for (Eigen::Index i = 0; i < matrix->rows(); ++i)
+    matrix->template block<1, 3>(i, first) = (matrix->template block<1, 3>(i, first) * J).eval();
+}
+
 // AttitudeJacobian turns an error of the estimate into a change of difference(estimate,
 // linearized_at).
 //
@@ -19,8 +31,34 @@ struct AttitudeJacobian {
   Eigen::Matrix3d to_error = Eigen::Matrix3d::Identity();  // J
 };
 // Returns J and its inverse for difference(estimate, linearized_at).
-AttitudeJacobian attitude_jacobian(const ActiveStates& active, const FilterState& estimate,
-                                   const FilterState& linearized_at);
+AttitudeJacobian attitude_jacobian(const ActiveStates& active, const CoreState& estimate,
+                                   const CoreState& linearized_at);
+
+// Turns F and the noise of a process factor, which hold for differences from where it was
+// linearized, into those of errors of the estimates, in place: `before` and `now` are the Jacobians
+// of both keyframes.
+template <typename Matrix>
+void turn_to_errors(const AttitudeJacobian& before, const AttitudeJacobian& now, Matrix* F,
+                    Matrix* noise) {
+  if (before.index >= 0) columns_times(before.of_error, before.index, F);
+  if (now.index < 0) return;
+  rows_times(now.to_error, now.index, F);
+  rows_times(now.to_error, now.index, noise);
+  columns_times(now.to_error.transpose(), now.index, noise);
+}
+
+// Turns information and gradient about a difference from where they were linearized into those
+// about the error of the estimate, in place; `moved` is the difference of the estimate.
+template <typename Matrix, typename Vector>
+void turn_to_errors(const AttitudeJacobian& change, const EkfCorrection& moved, Matrix* information,
+                    Vector* gradient) {
+  gradient->noalias() -= *information * moved;
+  if (change.index < 0) return;
+  rows_times(change.of_error.transpose(), change.index, information);
+  columns_times(change.of_error, change.index, information);
+  gradient->template segment<3>(change.index) =
+      (change.of_error.transpose() * gradient->template segment<3>(change.index)).eval();
+}
 
 // error_k = F error_(k-1) - offset + w,  w ~ N, with the errors of both keyframes' estimates in
 // active states.

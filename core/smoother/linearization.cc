@@ -25,19 +25,26 @@ AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_
   return antenna;
 }
 
+LinearMeasurement linearize(const Measurement& measurement, const SatelliteInView& satellite,
+                            const CoreState& state, const AntennaMotion& antenna) {
+  const MeasurementPrediction prediction =
+      predict_measurement(measurement, satellite, antenna, state.clocks, state.wet_delay_m,
+                          state.carrier_clock_m, state.ionosphere_m);
+  LinearMeasurement linear;
+  linear.residual = measurement.value - prediction.value;
+  linear.row = prediction.row;
+  linear.constants = prediction.constants;
+  return linear;
+}
+
 LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,
                             const AntennaMotion& antenna) {
   const FilterState& state = keyframe.state;
-  const SatelliteInView& satellite = keyframe.satellites[measurement.measurement.satellite_index];
-  const MeasurementPrediction prediction =
-      predict_measurement(measurement.measurement, satellite, antenna, state.clocks,
-                          state.wet_delay_m, state.carrier_clock_m, state.ionosphere_m);
-  LinearMeasurement linear;
-  linear.residual = measurement.measurement.value - prediction.value;
+  LinearMeasurement linear =
+      linearize(measurement.measurement,
+                keyframe.satellites[measurement.measurement.satellite_index], state, antenna);
   if (measurement.ambiguity >= 0)
     linear.residual -= state.ambiguities[static_cast<std::size_t>(measurement.ambiguity)].value_m;
-  linear.row = prediction.row;
-  linear.constants = prediction.constants;
   return linear;
 }
 

@@ -19,6 +19,10 @@ struct LinearMeasurement {
 // parameters only lever arm and time offset affect ranges; the derivative by the others is zero.
 double row_of(const LinearMeasurement& linear, int state);
 
+// Linearizes a measurement at `state`; of a carrier the residual still contains the ambiguity.
+LinearMeasurement linearize(const Measurement& measurement, const SatelliteInView& satellite,
+                            const CoreState& state, const AntennaMotion& antenna);
+
 // Returns position and velocity of the keyframe's antenna (ECEF) from its state and the lever arm
 // (m).
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b);

@@ -1,9 +1,5 @@
 #include "core/smoother/repropagation.h"
 
-#include <algorithm>
-#include <limits>
-#include <span>
-
 #include "core/smoother/window.h"
 
 namespace leonav {
@@ -17,11 +13,6 @@ using Eigen::Index;
 constexpr double kFarAttitude = 1e-3;   // rad
 constexpr double kFarVelocity = 5.0;    // m/s
 constexpr double kFarPosition = 100.0;  // m
-
-EkfConfig propagating(EkfConfig config) {
-  config.keep_process = true;
-  return config;
-}
 
 // What the propagator knows of: neither clocks nor delays of the atmosphere.
 bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
@@ -49,41 +40,15 @@ void take_information(const FilterProcess& process, const ActiveStates& active,
 
 }  // namespace
 
-Repropagator::Repropagator(const RepropagationConfig& config)
-    : motion_(config.motion),
-      estimate_(std::make_unique<StateEstimate>(propagating(config.ekf))),
-      propagator_(config.ekf, config.imu) {}
-
-// From the estimate before, with the constraints that the filter has used.
-void Repropagator::propagate(const Keyframe& before, const Keyframe& keyframe) {
-  estimate_->set_exactly(before.state, true);
-  propagator_.restart(before.state.nav, keyframe.sample_before_block);
-  const std::span<const ImuSample> block{keyframe.block.data(), keyframe.block.size()};
-  for (const ConstraintInstant& instant : keyframe.instants) {
-    // Samples that lie behind the estimate already are skipped.
-    propagator_.predict(block, instant.time, estimate_.get());
-    motion_measurements(motion_, instant, estimate_->state(), propagator_.body().measured_rate_b,
-                        &measurements_);
-    const auto unused = [&](const MotionMeasurement& measurement) {
-      return (instant.used >> measurement.component & 1) == 0;
-    };
-    measurements_.erase(std::remove_if(measurements_.begin(), measurements_.end(), unused),
-                        measurements_.end());
-    estimate_->constrain(&measurements_, std::numeric_limits<double>::infinity());
-  }
-  propagator_.predict(block, keyframe.time, estimate_.get());
-}
-
 void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
   if (!keyframe->has_attitude || !keyframe->block_complete) return;
   if (!is_far(difference(before.state, process_factor.from))) return;
-  propagate(before, *keyframe);
-
-  const FilterProcess& process = estimate_->process();
-  FilterState whole = estimate_->state();
-  // Constraints have moved the state away from where the process then leads.
-  if (process.has_information) add(process.transition.rightCols<1>(), true, &whole);
+  const StateEstimate& estimate = propagation_(
+      before.state, keyframe->sample_before_block, {keyframe->block.data(), keyframe->block.size()},
+      {keyframe->instants.data(), keyframe->instants.size()}, keyframe->time);
+  const FilterProcess& process = estimate.process();
+  const CoreState whole = uncorrected_state(estimate);
   FilterState to = predicted_state(before, *keyframe);
   to.nav = whole.nav;
   to.vehicle = whole.vehicle;

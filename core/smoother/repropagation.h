@@ -2,24 +2,16 @@
 // from where the factor was linearized.
 #pragma once
 #include <cstdint>
-#include <memory>
 
-#include "core/filter/estimate/inertial_propagator.h"
-#include "core/filter/estimate/state_estimate.h"
 #include "core/smoother/keyframe.h"
+#include "core/smoother/process_propagation.h"
 
 namespace leonav {
-
-struct RepropagationConfig {
-  EkfConfig ekf;
-  ImuErrorModel imu;
-  MotionConstraintConfig motion;
-};
 
 // Allocates when constructed, not after.
 class Repropagator {
  public:
-  explicit Repropagator(const RepropagationConfig& config);
+  explicit Repropagator(const ProcessPropagationConfig& config) : propagation_(config) {}
 
   // Does nothing while the keyframe before is near where the process factor begins. Otherwise the
   // factor is moved to begin there: position, velocity and attitude are integrated anew, with the F
@@ -29,12 +21,7 @@ class Repropagator {
   std::uint64_t repropagations() const { return repropagations_; }
 
  private:
-  void propagate(const Keyframe& before, const Keyframe& keyframe);
-
-  MotionConstraintConfig motion_;
-  MotionMeasurements measurements_;
-  std::unique_ptr<StateEstimate> estimate_;
-  InertialPropagator propagator_;
+  ProcessPropagation propagation_;
   std::uint64_t repropagations_ = 0;
 };
 

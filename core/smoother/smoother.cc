@@ -45,7 +45,8 @@ bool has_enough_satellites(const Window& window) {
 }  // namespace
 
 Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
-                   const Eigen::Vector3d& lever_arm_b, const RepropagationConfig& repropagation)
+                   const Eigen::Vector3d& lever_arm_b,
+                   const ProcessPropagationConfig& repropagation)
     : config_(config),
       robust_(robust),
       lever_arm_b_(lever_arm_b),

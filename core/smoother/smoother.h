@@ -47,7 +47,7 @@ class Smoother {
  public:
   // `lever_arm_b`: m, from the IMU to the antenna, body axes.
   Smoother(const SmootherConfig& config, const RobustConfig& robust,
-           const Eigen::Vector3d& lever_arm_b, const RepropagationConfig& repropagation);
+           const Eigen::Vector3d& lever_arm_b, const ProcessPropagationConfig& repropagation);
 
   // Adds a keyframe; one that does not follow the newest one starts a new window.
   void add(const KeyframeInput& input);

@@ -121,12 +121,11 @@ void StateEstimate::initialize(GpsTime time, const PointSolution& point,
   has_attitude_ = false;
 }
 
-void StateEstimate::set_exactly(const FilterState& state, bool has_attitude) {
-  state_ = state;
+void StateEstimate::set_exactly(const CoreState& state, bool has_attitude) {
+  static_cast<CoreState&>(state_) = state;
+  state_.ambiguities.clear();
   has_attitude_ = has_attitude;
-  const Eigen::Index states =
-      state.first_ambiguity() + static_cast<Eigen::Index>(state.ambiguities.size());
-  covariance_.setZero(states, states);
+  covariance_.setZero(state.size(), state.size());
   begin_process();
 }
 

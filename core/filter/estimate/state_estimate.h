@@ -48,8 +48,8 @@ class StateEstimate {
   // correlations.
   void initialize(GpsTime time, const PointSolution& point,
                   const Eigen::Vector3d& antenna_offset_e);
-  // Takes `state` as certain and begins its process.
-  void set_exactly(const FilterState& state, bool has_attitude);
+  // Takes `state` as certain and begins its process, without ambiguities and known clocks.
+  void set_exactly(const CoreState& state, bool has_attitude);
   // Removes the vehicle constants; to be followed by initialize().
   void remove_vehicle_constants() { state_.vehicle.clear(); }
   void forget_clocks() { known_clocks_ = ClockFlags{}; }

@@ -18,7 +18,7 @@ struct Stingy final : SolveBudget {
 };
 
 inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, const SmootherConfig& config) {
-  RepropagationConfig repropagation;
+  ProcessPropagationConfig repropagation;
   repropagation.ekf = drive.config();
   repropagation.imu = mems();
   repropagation.motion = Drive::motion();

@@ -23,8 +23,7 @@ void PendingKeyframe::make(const EpochWork& work, const MeasurementEpoch* measur
   keyframe->block.clear();
   keyframe->sample_before_block = before_block_;
   keyframe->instants = motion->instants();
-  keyframe->block_complete =
-      keyframe->follows_previous && block_complete_ && motion->instants_complete();
+  keyframe->block_complete = keyframe->valid && block_complete_ && motion->instants_complete();
   motion->clear_instants();
   if (keyframe->block_complete) keyframe->block = *block_;
   last_time_ = work.time;

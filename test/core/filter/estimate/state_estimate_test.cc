@@ -62,10 +62,13 @@ TEST_CASE("a vehicle constant that joins later gets its own state and leaves all
   config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
   FilterState state = turning_state();
   state.vehicle = {0.01, 0.02};
-  state.ambiguities.resize(3);
-  for (std::size_t i = 0; i < 3; ++i) state.ambiguities[i].value_m = 10.0 + double(i);
   StateEstimate estimate = after_a_second(config, state);
-  MotionMeasurements known(1);  // so that ambiguities are correlated with what is before them
+  for (std::size_t i = 0; i < 3; ++i) {
+    Ambiguity ambiguity;
+    ambiguity.value_m = 10.0 + double(i);
+    estimate.add_ambiguity(ambiguity, 1.0);
+  }
+  MotionMeasurements known(1);  // so that states are correlated
   known[0].variance = 1.0;
   known[0].row.setOnes();
   estimate.constrain(&known, 1e9);

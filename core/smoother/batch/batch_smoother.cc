@@ -1,0 +1,87 @@
+#include "core/smoother/batch/batch_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/smoother/batch/internal/log_linear.h"
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+using Eigen::Index;
+
+// As long as weights and attitudes are still the filter's, its factors do.
+constexpr int kIterationsBeforeExtension = 2;
+
+// Decides all robust factors at the estimates; returns the largest change of one and sums the cost.
+double reweigh(const BatchConfig& config, bool keep, LogGraph* graph, double* cost) {
+  double change = 0.0;
+  *cost = 0.0;
+  for (int k = 0; k < graph->size(); ++k) {
+    LogKeyframe& keyframe = graph->at(k);
+    const AntennaMotion antenna = antenna_of(keyframe, keyframe.state, graph->lever_arm_b());
+    for (LogMeasurement& measurement : keyframe.measurements) {
+      measurement.residual = linearize(*graph, keyframe, measurement, antenna).residual;
+      if (!keep && config.robust.enabled) {
+        const double factor = igg3_factor(measurement.residual / std::sqrt(measurement.variance),
+                                          config.robust.k0, config.robust.k1);
+        change = std::max(change, std::abs(factor - measurement.factor));
+        measurement.factor = factor;
+      }
+      *cost += 0.5 * measurement.factor * measurement.residual * measurement.residual /
+               measurement.gain_variance;
+    }
+  }
+  return change;
+}
+
+// Adds the corrections and says how far they have moved positions.
+void apply(const LogCorrections& corrections, LogGraph* graph, BatchIteration* iteration) {
+  for (int k = 0; k < graph->size(); ++k) {
+    LogKeyframe& keyframe = graph->at(k);
+    const EkfCorrection error =
+        full_error(keyframe.active, EkfCorrection(corrections.core[static_cast<std::size_t>(k)]));
+    add(error, keyframe.has_attitude, &keyframe.state);
+    const double moved_m = error.head<3>().norm();
+    iteration->moved_m = std::max(iteration->moved_m, moved_m);
+    iteration->moved_sigmas =
+        std::max(iteration->moved_sigmas, moved_m / std::max(keyframe.filter_sigma_m, 1e-6));
+  }
+  for (std::size_t i = 0; i < graph->pieces().size(); ++i)
+    graph->pieces()[i].value_m += corrections.pieces(static_cast<Index>(i));
+}
+
+}  // namespace
+
+BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProcesses* processes,
+                   const std::function<void(int, double)>& progress, LogGraph* graph) {
+  BatchResult result;
+  for (int i = 0; i < config.max_iterations; ++i) {
+    BatchIteration iteration;
+    iteration.reweighed = reweigh(config, i == 0, graph, &iteration.cost);
+    const auto share = [&](double done) { progress(i, done); };
+    result.solved =
+        solver ? solver(*graph, &result.last) : solve_chain(*graph, share, &result.last);
+    if (!result.solved) return result;
+    apply(result.last, graph, &iteration);
+    if (processes != nullptr && i + 1 == kIterationsBeforeExtension)
+      result.extension = processes->extend(graph);
+    else if (processes != nullptr)
+      iteration.reintegrated = processes->reintegrate(graph);
+    result.iterations.push_back(iteration);
+    result.converged =
+        i >= kIterationsBeforeExtension && iteration.moved_sigmas < config.converged_sigmas;
+    if (result.converged) break;
+  }
+  if (solver) {
+    result.solved = solve_chain(
+        *graph, [](double) {}, &result.last);
+    BatchIteration beyond;
+    if (result.solved) apply(result.last, graph, &beyond);
+    result.chain_apart_m = beyond.moved_m;
+  }
+  return result;
+}
+
+}  // namespace leonav

@@ -1,0 +1,90 @@
+#include "core/smoother/batch/internal/log_linear.h"
+
+#include <algorithm>
+
+#include "core/smoother/linear_process_factor.h"
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Adds 0.5 (x - at)^T information (x - at) - gradient^T (x - at) of the core states.
+void add_quadratic(const LogKeyframe& keyframe, const CoreState& at, MatrixXd information,
+                   VectorXd gradient, LogInformation* sum) {
+  const EkfCorrection moved = active_part(keyframe.active, difference(keyframe.state, at));
+  turn_to_errors(attitude_jacobian(keyframe.active, keyframe.state, at), moved, &information,
+                 &gradient);
+  const Index core = keyframe.core_size();
+  sum->matrix.topLeftCorner(core, core) += information;
+  sum->gradient.head(core) += gradient;
+}
+
+Index index_of_piece(const LogKeyframe& keyframe, int piece) {
+  const auto found = std::lower_bound(keyframe.pieces.begin(), keyframe.pieces.end(), piece);
+  return keyframe.core_size() + (found - keyframe.pieces.begin());
+}
+
+}  // namespace
+
+LogLinearProcess linearize_process(const LogGraph& graph, int k) {
+  const LogKeyframe& before = graph.at(k - 1);
+  const LogKeyframe& keyframe = graph.at(k);
+  const LogProcess& process = keyframe.process;
+  LogLinearProcess linear{process.F, process.noise, {}};
+  linear.offset = active_part(keyframe.active, difference(keyframe.state, process.to));
+  linear.offset.noalias() -=
+      process.F * active_part(before.active, difference(before.state, process.from));
+  const AttitudeJacobian now = attitude_jacobian(keyframe.active, keyframe.state, process.to);
+  turn_to_errors(attitude_jacobian(before.active, before.state, process.from), now, &linear.F,
+                 &linear.noise);
+  if (now.index >= 0)
+    linear.offset.segment<3>(now.index) =
+        (now.to_error * linear.offset.segment<3>(now.index)).eval();
+  return linear;
+}
+
+LinearMeasurement linearize(const LogGraph& graph, const LogKeyframe& keyframe,
+                            const LogMeasurement& measurement, const AntennaMotion& antenna) {
+  LinearMeasurement linear = linearize(measurement.measurement,
+                                       keyframe.satellites[measurement.measurement.satellite_index],
+                                       keyframe.state, antenna);
+  if (measurement.piece >= 0)
+    linear.residual -= graph.piece(measurement.piece).value_m + measurement.ambiguity_offset_m;
+  return linear;
+}
+
+void add_information(const LogGraph& graph, int k, LogInformation* sum) {
+  const LogKeyframe& keyframe = graph.at(k);
+  const Index core = keyframe.core_size();
+  if (keyframe.prior_information.size() > 0)
+    add_quadratic(keyframe, keyframe.prior_at, keyframe.prior_information, VectorXd::Zero(core),
+                  sum);
+  if (k + 1 < graph.size() && graph.at(k + 1).process.information.size() > 0) {
+    const LogProcess& process = graph.at(k + 1).process;
+    add_quadratic(keyframe, process.from, process.information, process.gradient, sum);
+  }
+  const AntennaMotion antenna = antenna_of(keyframe, keyframe.state, graph.lever_arm_b());
+  VectorXd row(core);
+  for (const LogMeasurement& measurement : keyframe.measurements) {
+    const double weight = measurement.factor / measurement.gain_variance;
+    if (!(weight > 0.0)) continue;
+    const LinearMeasurement linear = linearize(graph, keyframe, measurement, antenna);
+    for (Index i = 0; i < core; ++i)
+      row(i) = row_of(linear, keyframe.active.core[static_cast<std::size_t>(i)]);
+    for (Index j = 0; j < core; ++j)
+      if (row(j) != 0.0) sum->matrix.col(j).head(core) += (weight * row(j)) * row;
+    sum->gradient.head(core) += weight * linear.residual * row;
+    if (measurement.piece < 0) continue;
+    const Index piece = index_of_piece(keyframe, measurement.piece);
+    sum->matrix.row(piece).head(core) += weight * row.transpose();
+    sum->matrix.col(piece).head(core) += weight * row;
+    sum->matrix(piece, piece) += weight;
+    sum->gradient(piece) += weight * linear.residual;
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,29 @@
+// LogChain solves the linearized graph of a whole log by a forward and a backward pass over its
+// keyframes (Rauch, Tung, Striebel, AIAA J. 3(8), 1965).
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "core/smoother/batch/log_graph.h"
+
+namespace leonav {
+
+// The step to the minimum of the linearized cost.
+struct LogCorrections {
+  std::vector<Eigen::VectorXd> core;        // by keyframe, in active states
+  Eigen::VectorXd pieces;                   // m
+  std::vector<Eigen::MatrixXd> covariance;  // of the core states, by keyframe, all of the log known
+  // Without what comes later: the estimate of a filter with the same factors.
+  std::vector<Eigen::VectorXd> filtered_core;
+  std::vector<Eigen::MatrixXd> filtered_covariance;
+};
+
+// The state of the chain at a keyframe are its core states and the pieces under way. Information is
+// added where measurements are, covariance where the process leads on, so that a noise of zero
+// needs no inverse. `progress` gets the share done. Returns false if the log has no unique
+// solution.
+bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progress,
+                 LogCorrections* corrections);
+
+}  // namespace leonav

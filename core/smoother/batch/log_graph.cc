@@ -1,0 +1,166 @@
+#include "core/smoother/batch/log_graph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/filter/state/ambiguities.h"
+#include "core/filter/state/covariance_blocks.h"
+#include "core/smoother/linearization.h"
+
+namespace leonav {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+// A first guess of an ambiguity comes from one carrier and the filter's prediction; its variance is
+// such that it does not count.
+constexpr double kFirstGuessVariance = 1e6;  // m^2
+// A larger step of the filter's ambiguity is a new start.
+constexpr double kNewStartVariance = 1e3;  // m^2
+
+ActiveStates core_states(const KeyframeInput& input) {
+  ActiveStates active;
+  active.before_ambiguities = input.state.first_ambiguity();
+  for (int i = 0; i < active.before_ambiguities; ++i)
+    if (input.covariance(i, i) > 0.0) active.core.push_back(i);
+  return active;
+}
+
+template <typename Matrix>
+MatrixXd selected(const Matrix& matrix, const ActiveStates& rows, const ActiveStates& columns) {
+  MatrixXd part(rows.core_size(), columns.core_size());
+  for (Index i = 0; i < part.rows(); ++i)
+    for (Index j = 0; j < part.cols(); ++j)
+      part(i, j) =
+          matrix(rows.core[static_cast<std::size_t>(i)], columns.core[static_cast<std::size_t>(j)]);
+  return part;
+}
+
+MatrixXd inverse_of(const MatrixXd& covariance) {
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return scale.asDiagonal() * scaled.llt().solve(MatrixXd::Identity(scaled.rows(), scaled.cols())) *
+         scale.asDiagonal();
+}
+
+}  // namespace
+
+void LogGraph::add(const KeyframeInput& input) {
+  if (!input.valid) return;
+  const bool linked = !keyframes_.empty() && input.follows_previous;
+  LogKeyframe keyframe;
+  keyframe.index = input.index;
+  keyframe.time = input.time;
+  keyframe.has_attitude = input.has_attitude;
+  keyframe.has_gnss = input.has_gnss;
+  keyframe.active = core_states(input);
+  keyframe.state = input.state;
+  keyframe.filter_sigma_m = std::sqrt(position_covariance_e(input.covariance).trace());
+  keyframe.measured_rate_b = input.measured_rate_b;
+  keyframe.acceleration_e = input.acceleration_e;
+  keyframe.vertical_antenna_offset_e = input.vertical_antenna_offset_e;
+  keyframe.block.assign(input.block.begin(), input.block.end());
+  keyframe.block_complete = input.block_complete;
+  keyframe.sample_before_block = input.sample_before_block;
+  keyframe.instants.assign(input.instants.begin(), input.instants.end());
+  if (linked) {
+    add_process(input, keyframes_.back(), &keyframe);
+  } else {
+    keyframe.prior_at = input.state;
+    keyframe.prior_information =
+        inverse_of(selected(input.covariance, keyframe.active, keyframe.active));
+  }
+  follow_arcs(input, linked);
+  if (linked) add_measurements(input, &keyframe);
+  keyframe.pieces.clear();
+  for (auto& [id, arc] : arcs_) {
+    pieces_[static_cast<std::size_t>(arc.piece)].last = size();
+    keyframe.pieces.push_back(arc.piece);
+  }
+  std::sort(keyframe.pieces.begin(), keyframe.pieces.end());
+  keyframes_.push_back(std::move(keyframe));
+}
+
+void LogGraph::add_process(const KeyframeInput& input, const LogKeyframe& before,
+                           LogKeyframe* keyframe) {
+  LogProcess& process = keyframe->process;
+  process.exists = true;
+  process.from = input.from;
+  process.to = input.prior;
+  process.rows = keyframe->active;
+  process.columns = before.active;
+  process.F = selected(input.process.transition, keyframe->active, before.active);
+  process.noise = selected(input.process.noise, keyframe->active, keyframe->active);
+  if (!input.process.has_information) return;
+  process.information = selected(input.process.information, before.active, before.active);
+  process.gradient.resize(before.core_size());
+  for (Index i = 0; i < before.core_size(); ++i)
+    process.gradient(i) = input.process.gradient(before.active.core[static_cast<std::size_t>(i)]);
+}
+
+void LogGraph::follow_arcs(const KeyframeInput& input, bool linked) {
+  Arcs followed;
+  const Ambiguities& now = input.state.ambiguities;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const auto row = input.state.first_ambiguity() + static_cast<Index>(i);
+    const double variance = linked ? input.process.noise(row, row) : kFirstGuessVariance;
+    const auto known = arcs_.find(now[i].arc);
+    const int before = linked ? find_ambiguity(input.from.ambiguities, now[i].arc) : kNoAmbiguity;
+    if (known != arcs_.end() && before != kNoAmbiguity && variance < kNewStartVariance) {
+      Arc arc = known->second;
+      arc.pending_variance += variance;
+      arc.offset_m += input.prior.ambiguities[i].value_m -
+                      input.from.ambiguities[static_cast<std::size_t>(before)].value_m;
+      followed.emplace(now[i].arc, arc);
+      continue;
+    }
+    AmbiguityPiece piece;
+    piece.satellite = now[i].satellite;
+    piece.value_m = piece.start_value_m = now[i].value_m;
+    piece.step_variance = kFirstGuessVariance;
+    piece.first = piece.last = size();
+    followed.emplace(now[i].arc, Arc{static_cast<int>(pieces_.size()), 0.0, 0.0});
+    pieces_.push_back(piece);
+  }
+  arcs_ = std::move(followed);
+}
+
+void LogGraph::add_measurements(const KeyframeInput& input, LogKeyframe* keyframe) {
+  keyframe->satellites.assign(input.satellites.begin(), input.satellites.end());
+  for (const KeyframeMeasurement& given : input.measurements) {
+    LogMeasurement measurement;
+    measurement.measurement = given.measurement;
+    measurement.variance = given.variance;
+    measurement.gain_variance = given.gain_variance;
+    measurement.factor = given.factor;
+    if (given.ambiguity >= 0) {
+      const Ambiguity& ambiguity =
+          input.state.ambiguities[static_cast<std::size_t>(given.ambiguity)];
+      Arc& arc = arcs_.at(ambiguity.arc);
+      if (arc.pending_variance > given.variance) {
+        AmbiguityPiece next = pieces_[static_cast<std::size_t>(arc.piece)];
+        next.previous = arc.piece;
+        next.step_variance = arc.pending_variance;
+        next.first = next.last = size();
+        arc.piece = static_cast<int>(pieces_.size());
+        arc.pending_variance = 0.0;
+        pieces_.push_back(next);
+      }
+      measurement.piece = arc.piece;
+      measurement.ambiguity_offset_m = arc.offset_m;
+    }
+    keyframe->measurements.push_back(measurement);
+  }
+}
+
+AntennaMotion antenna_of(const LogKeyframe& keyframe, const CoreState& state,
+                         const Eigen::Vector3d& lever_arm_b) {
+  AntennaMotion antenna =
+      antenna_motion(state.nav, keyframe.measured_rate_b, lever_arm_b, keyframe.has_attitude,
+                     state.vehicle, keyframe.acceleration_e);
+  antenna.p_e += keyframe.vertical_antenna_offset_e;
+  return antenna;
+}
+
+}  // namespace leonav

@@ -1,0 +1,258 @@
+#include "core/smoother/batch/log_processes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "core/base/square.h"
+#include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
+
+namespace leonav {
+namespace {
+
+using namespace ekf_index;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// As for the window's factors (core/smoother/repropagation.cc).
+constexpr double kFarAttitude = 1e-3;   // rad
+constexpr double kFarVelocity = 5.0;    // m/s
+constexpr double kFarPosition = 100.0;  // m
+
+// 1 sigma of what nothing is known of: an attitude that only the whole log determines, and the
+// clocks behind a restart.
+constexpr double kUnknownAttitude = 0.5;  // rad
+constexpr double kUnknownClock = 1e6;     // m
+constexpr double kUnknownDrift = 1e3;     // m/s
+constexpr double kRestartedDelay = 0.1;   // m, zenith delays and carrier clock behind a restart
+constexpr double kLongestGap_s = 10.0;    // between keyframes that are joined
+
+// What the propagation knows of: neither clocks nor delays of the atmosphere.
+bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
+
+bool is_far(const CoreState& state, const CoreState& from) {
+  const EkfCorrection moved = difference(state, from);
+  return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
+         moved.segment<3>(kVelocity).norm() > kFarVelocity ||
+         moved.segment<3>(kPosition).norm() > kFarPosition;
+}
+
+// The rotation of an attitude body to ECEF by the Earth's over `seconds`.
+Quaterniond earth_rotation(double seconds) {
+  return quaternion_from_rotation_vector(Vector3d{0.0, 0.0, -kEarthRotationRate * seconds});
+}
+
+Index position_of(const ActiveStates& active, int state) {
+  const auto found = std::find(active.core.begin(), active.core.end(), state);
+  return found == active.core.end() ? -1 : found - active.core.begin();
+}
+
+double unknown_variance(int state) {
+  if (state < kClockDrift) return square(kUnknownClock);
+  return state < kWetDelay ? square(kUnknownDrift) : square(kRestartedDelay);
+}
+
+// Clocks, delays and ionosphere of `from`.
+void copy_slow_states(const CoreState& from, CoreState* to) {
+  to->clocks = from.clocks;
+  to->wet_delay_m = from.wet_delay_m;
+  to->carrier_clock_m = from.carrier_clock_m;
+  to->ionosphere_m = from.ionosphere_m;
+}
+
+}  // namespace
+
+bool LogProcesses::can_integrate(const LogKeyframe& before, const LogKeyframe& keyframe) const {
+  const double apart_s = seconds_between(keyframe.time, before.time);
+  return keyframe.block_complete && apart_s > 0.0 && apart_s < kLongestGap_s;
+}
+
+// The rotation of the body over the keyframe's block, in its own axes. It depends on the start by
+// the gyros' errors alone.
+Quaterniond LogProcesses::body_rotation(const LogKeyframe& keyframe, const NavState& start) {
+  CoreState from;
+  from.nav = start;
+  const NavState& to =
+      propagation_(from, keyframe.sample_before_block, keyframe.block, {}, keyframe.time)
+          .state()
+          .nav;
+  const Quaterniond turned = earth_rotation(seconds_between(keyframe.time, start.time));
+  return (turned * start.q_eb).conjugate() * to.q_eb;
+}
+
+// The filter's position is that of the antenna or, with a vertical arm, of the point below.
+void LogProcesses::give_attitude(const LogKeyframe& from, const Quaterniond& q_eb,
+                                 const Vector3d& lever_arm_b, LogKeyframe* keyframe) const {
+  const AntennaMotion antenna = antenna_of(*keyframe, keyframe->state, lever_arm_b);
+  const ActiveStates had = keyframe->active;
+  NavState& nav = keyframe->state.nav;
+  nav.q_eb = q_eb;
+  nav.errors = from.state.nav.errors;
+  keyframe->state.vehicle = from.state.vehicle;
+  keyframe->has_attitude = true;
+  keyframe->vertical_antenna_offset_e.setZero();
+  const AntennaMotion arm = antenna_of(*keyframe, keyframe->state, lever_arm_b);
+  nav.p_e += antenna.p_e - arm.p_e;
+  nav.v_e += antenna.v_e - arm.v_e;
+  ActiveStates& active = keyframe->active;
+  active.core.clear();
+  active.before_ambiguities = keyframe->state.size();
+  for (int state = 0; state < keyframe->state.size(); ++state) {
+    const ActiveStates& model = is_of_motion(state) ? from.active : had;
+    if (position_of(model, state) >= 0) active.core.push_back(state);
+  }
+  if (keyframe->prior_information.size() > 0) widen_prior(keyframe, had);
+}
+
+// The states that the keyframe did not have are as uncertain as the configuration says.
+void LogProcesses::widen_prior(LogKeyframe* keyframe, const ActiveStates& had) const {
+  const ImuErrorModel& imu = config_.imu;
+  MatrixXd information = MatrixXd::Zero(keyframe->core_size(), keyframe->core_size());
+  for (Index i = 0; i < information.rows(); ++i) {
+    const int state = keyframe->active.core[static_cast<std::size_t>(i)];
+    const Index before = position_of(had, state);
+    for (Index j = 0; before >= 0 && j < information.cols(); ++j) {
+      const Index other = position_of(had, keyframe->active.core[static_cast<std::size_t>(j)]);
+      if (other >= 0) information(i, j) = keyframe->prior_information(before, other);
+    }
+    if (before >= 0) continue;
+    double sigma = kUnknownAttitude;
+    if (state >= kGyroBias) sigma = imu.gyro_bias.sigma;
+    if (state >= kAccelBias) sigma = imu.accel_bias.sigma;
+    if (state >= kGyroScale) sigma = imu.gyro_scale.sigma;
+    if (state >= kAccelScale) sigma = imu.accel_scale.sigma;
+    if (state >= kSize) sigma = config_.ekf.vehicle.sigma[static_cast<std::size_t>(state - kSize)];
+    information(i, i) = 1.0 / square(sigma);
+  }
+  keyframe->prior_information = information;
+  keyframe->prior_at = keyframe->state;
+}
+
+// Position, velocity, attitude, IMU errors and vehicle constants come from the IMU; clocks and
+// delays follow the process that was there, or begin anew where there was none.
+void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
+  const StateEstimate& estimate = propagation_(before->state, keyframe->sample_before_block,
+                                               keyframe->block, keyframe->instants, keyframe->time);
+  const FilterProcess& inertial = estimate.process();
+  const LogProcess old = std::move(keyframe->process);
+  LogProcess& process = keyframe->process;
+  process = LogProcess();
+  process.exists = true;
+  process.from = before->state;
+  process.to = uncorrected_state(estimate);
+  const ActiveStates& rows = keyframe->active;
+  const ActiveStates& columns = before->active;
+  process.F.setZero(rows.core_size(), columns.core_size());
+  process.noise.setZero(rows.core_size(), rows.core_size());
+  // The old process may lack the states that a keyframe has got since.
+  const auto old_row = [&](int state) {
+    return old.exists ? position_of(old.rows, state) : Index(-1);
+  };
+  copy_slow_states(keyframe->state, &process.to);
+  if (old.exists) {
+    copy_slow_states(old.to, &process.to);
+    EkfCorrection moved = EkfCorrection::Zero(process.to.size());
+    const EkfCorrection then = difference(before->state, [&] {
+      CoreState from = before->state;
+      copy_slow_states(old.from, &from);
+      return from;
+    }());
+    for (const int row : rows.core) {
+      if (is_of_motion(row) || old_row(row) < 0) continue;
+      for (Index j = 0; j < old.columns.core_size(); ++j) {
+        const int column = old.columns.core[static_cast<std::size_t>(j)];
+        if (!is_of_motion(column)) moved(row) += old.F(old_row(row), j) * then(column);
+      }
+    }
+    add(moved, true, &process.to);
+  }
+  for (Index i = 0; i < rows.core_size(); ++i) {
+    const int row = rows.core[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < columns.core_size(); ++j) {
+      const int column = columns.core[static_cast<std::size_t>(j)];
+      if (is_of_motion(row) != is_of_motion(column)) continue;
+      if (is_of_motion(row)) {
+        process.F(i, j) = inertial.transition(row, column);
+      } else if (const Index from = old.exists ? position_of(old.columns, column) : -1;
+                 from >= 0 && old_row(row) >= 0) {
+        process.F(i, j) = old.F(old_row(row), from);
+      } else if (!old.exists && row == column && row >= kWetDelay) {
+        process.F(i, j) = 1.0;
+      }
+    }
+    for (Index j = 0; j < rows.core_size(); ++j) {
+      const int other = rows.core[static_cast<std::size_t>(j)];
+      if (is_of_motion(row) != is_of_motion(other)) continue;
+      if (is_of_motion(row))
+        process.noise(i, j) = inertial.noise(row, other);
+      else if (old_row(row) >= 0 && old_row(other) >= 0)
+        process.noise(i, j) = old.noise(old_row(row), old_row(other));
+      else if (i == j)
+        process.noise(i, j) = unknown_variance(row);
+    }
+  }
+  process.rows = rows;
+  process.columns = columns;
+  if (!inertial.has_information) return;
+  process.information.resize(columns.core_size(), columns.core_size());
+  process.gradient.resize(columns.core_size());
+  for (Index i = 0; i < columns.core_size(); ++i) {
+    const int row = columns.core[static_cast<std::size_t>(i)];
+    process.gradient(i) = inertial.gradient(row);
+    for (Index j = 0; j < columns.core_size(); ++j)
+      process.information(i, j) =
+          inertial.information(row, columns.core[static_cast<std::size_t>(j)]);
+  }
+}
+
+LogProcesses::Extension LogProcesses::extend(LogGraph* graph) {
+  Extension extension;
+  for (int k = graph->size() - 1; k > 0; --k) {
+    LogKeyframe& keyframe = graph->at(k);
+    LogKeyframe& before = graph->at(k - 1);
+    if (!keyframe.has_attitude || before.has_attitude || !can_integrate(before, keyframe)) continue;
+    NavState start = keyframe.state.nav;
+    start.time = before.time;
+    const Quaterniond turned = earth_rotation(seconds_between(keyframe.time, before.time));
+    const Quaterniond q_eb =
+        turned.conjugate() * keyframe.state.nav.q_eb * body_rotation(keyframe, start).conjugate();
+    give_attitude(keyframe, q_eb.normalized(), graph->lever_arm_b(), &before);
+    ++extension.attitudes;
+  }
+  for (int k = 1; k < graph->size(); ++k) {
+    LogKeyframe& before = graph->at(k - 1);
+    LogKeyframe& keyframe = graph->at(k);
+    if (!before.has_attitude || !can_integrate(before, keyframe)) continue;
+    if (!keyframe.has_attitude) {
+      const Quaterniond turned = earth_rotation(seconds_between(keyframe.time, before.time));
+      const Quaterniond q_eb =
+          turned * before.state.nav.q_eb * body_rotation(keyframe, before.state.nav);
+      give_attitude(before, q_eb.normalized(), graph->lever_arm_b(), &keyframe);
+      ++extension.attitudes;
+    }
+    if (!keyframe.process.exists) {
+      keyframe.prior_information.resize(0, 0);
+      ++extension.joined;
+    }
+    integrate(&before, &keyframe);
+  }
+  return extension;
+}
+
+int LogProcesses::reintegrate(LogGraph* graph) {
+  int count = 0;
+  for (int k = 1; k < graph->size(); ++k) {
+    LogKeyframe& before = graph->at(k - 1);
+    LogKeyframe& keyframe = graph->at(k);
+    if (!before.has_attitude || !keyframe.has_attitude || !keyframe.process.exists ||
+        !can_integrate(before, keyframe) || !is_far(before.state, keyframe.process.from))
+      continue;
+    integrate(&before, &keyframe);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace leonav

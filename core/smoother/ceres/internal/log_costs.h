@@ -1,0 +1,67 @@
+// This unit gives the terms of a LogGraph's cost to Ceres: priors, process factors, motion
+// constraints, codes and Dopplers, carriers, and the steps of ambiguities.
+#pragma once
+#include <ceres/cost_function.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/smoother/ceres/internal/log_unknowns.h"
+
+namespace leonav {
+
+// LogCost holds the residuals that depend on one keyframe's core states, or on those of two
+// successive ones, and on one ambiguity at most. It refers to graph and unknowns, which must
+// outlive it.
+class LogCost : public ceres::CostFunction {
+ public:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  const std::vector<int>& blocks() const { return blocks_; }
+  bool usable() const { return usable_; }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const final;
+
+ protected:
+  LogCost(const LogGraph& graph, const LogUnknowns& unknowns, std::vector<int> keyframes,
+          int piece = -1);
+
+  // A trial point, and what is wanted of it.
+  struct Evaluation {
+    std::vector<CoreState> states;  // of the keyframes
+    double ambiguity_error_m = 0.0;
+    Eigen::VectorXd* residuals;
+    // d residuals / d (change of the state), by keyframe; nullptr: not wanted.
+    std::vector<Eigen::MatrixXd>* jacobians;
+    Eigen::VectorXd* of_ambiguity;
+  };
+  virtual void evaluate(const Evaluation& at) const = 0;
+
+  const LogGraph& graph_;
+  std::vector<int> keyframes_;
+  bool usable_ = true;
+
+ private:
+  const LogUnknowns& unknowns_;
+  int piece_;
+  std::vector<int> blocks_;
+  std::vector<std::vector<int>> slots_;  // by keyframe and active state: index among blocks_
+};
+
+// Appends all terms of the cost. Returns false if one cannot be used.
+bool make_costs(const LogGraph& graph, const LogUnknowns& unknowns,
+                std::vector<std::unique_ptr<LogCost>>* costs);
+
+// The step from one piece of an ambiguity to the next, or from its first guess.
+class PieceCost final : public ceres::CostFunction {
+ public:
+  // `before` is nullptr where the piece does not go on from another.
+  PieceCost(const AmbiguityPiece& piece, const AmbiguityPiece* before);
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const final;
+
+ private:
+  double shift_m_, weight_;
+  bool follows_;
+};
+
+}  // namespace leonav

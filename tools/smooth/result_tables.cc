@@ -1,0 +1,90 @@
+#include "tools/smooth/result_tables.h"
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "drivers/csv/csv_writer.h"
+#include "drivers/csv/solution_csv.h"
+#include "tools/smooth/trajectory.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::string_view kResidualsHeader =
+    "gps_week,gps_tow_s,satellite,observable,signals,residual,sigma,test_ratio,weight_factor,"
+    "elevation_deg";
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+std::string_view name_of(Observable observable) {
+  switch (observable) {
+    case Observable::kCode:
+      return "code";
+    case Observable::kCarrier:
+      return "carrier";
+    case Observable::kDoppler:
+      return "doppler";
+  }
+  return "";
+}
+
+}  // namespace
+
+long write_solution(const std::string& path, const LogGraph& graph, const BatchResult& result,
+                    std::optional<double> rate_hz) {
+  SolutionCsvWriter writer(path);
+  const Trajectory trajectory(graph, result, Estimate::kSmoothed);
+  const auto write = [&writer](const Solution& solution) {
+    writer.write(to_solution_row(solution, std::nullopt, std::nullopt));
+  };
+  if (rate_hz) {
+    const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
+    GpsTime next;
+    trajectory.for_each_sample([&](const Solution& solution) {
+      if (solution.time < next) return;
+      write(solution);
+      next =
+          GpsTime::from_nanoseconds((solution.time.nanoseconds() / interval_ns + 1) * interval_ns);
+    });
+  } else {
+    for (int k = 0; k < graph.size(); ++k) write(trajectory.at(k));
+  }
+  writer.close();
+  return writer.rows();
+}
+
+void write_forward(const std::string& path, const LogGraph& graph, const BatchResult& result) {
+  SolutionCsvWriter writer(path);
+  const Trajectory trajectory(graph, result, Estimate::kForward);
+  for (int k = 0; k < graph.size(); ++k)
+    writer.write(to_solution_row(trajectory.at(k), std::nullopt, std::nullopt));
+  writer.close();
+}
+
+void write_residuals(const std::string& path, const LogGraph& graph) {
+  CsvWriter writer(path, kResidualsHeader);
+  for (int k = 0; k < graph.size(); ++k) {
+    const LogKeyframe& keyframe = graph.at(k);
+    for (const LogMeasurement& measurement : keyframe.measurements) {
+      const SatelliteInView& satellite =
+          keyframe.satellites[measurement.measurement.satellite_index];
+      std::string signals = to_string(measurement.measurement.code);
+      if (measurement.measurement.second_code.is_set())
+        signals += "+" + to_string(measurement.measurement.second_code);
+      const double sigma = std::sqrt(measurement.variance);
+      writer.time(keyframe.time)
+          .text(to_string(satellite.satellite))
+          .text(name_of(measurement.measurement.observable))
+          .text(signals)
+          .number(measurement.residual, 4)
+          .number(sigma, 4)
+          .number(std::abs(measurement.residual) / sigma, 3)
+          .number(measurement.factor, 4)
+          .number(satellite.elevation * kDegrees, 2)
+          .end_row();
+    }
+  }
+  writer.close();
+}
+
+}  // namespace leonav
