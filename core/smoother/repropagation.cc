@@ -40,29 +40,40 @@ void take_information(const FilterProcess& process, const ActiveStates& active,
 
 }  // namespace
 
-void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
+void Repropagator::integrate(const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
-  if (!keyframe->has_attitude || !keyframe->block_complete) return;
-  if (!is_far(difference(before.state, process_factor.from))) return;
+  if (!before.has_attitude || !keyframe->has_attitude || !keyframe->block_complete) return;
   const StateEstimate& estimate = propagation_(
       before.state, keyframe->sample_before_block, {keyframe->block.data(), keyframe->block.size()},
       {keyframe->instants.data(), keyframe->instants.size()}, keyframe->time);
   const FilterProcess& process = estimate.process();
-  const CoreState whole = uncorrected_state(estimate);
   FilterState to = predicted_state(before, *keyframe);
+  const CoreState whole = uncorrected_state(estimate);
   to.nav = whole.nav;
   to.vehicle = whole.vehicle;
-  const ProcessMatrix& F = process.transition;
-  if (process_factor.has_information) take_information(process, before.active, &process_factor);
+  process_factor.has_information = process.has_information;
+  if (process.has_information) take_information(process, before.active, &process_factor);
   for (Index i = 0; i < keyframe->active.core_size(); ++i) {
     const int row = keyframe->active.core[static_cast<std::size_t>(i)];
+    if (!is_of_motion(row)) continue;
     for (Index j = 0; j < before.active.core_size(); ++j) {
       const int column = before.active.core[static_cast<std::size_t>(j)];
-      if (is_of_motion(row) && is_of_motion(column)) process_factor.F(i, j) = F(row, column);
+      process_factor.F(i, j) = is_of_motion(column) ? process.transition(row, column) : 0.0;
+    }
+    for (Index j = 0; j < keyframe->active.core_size(); ++j) {
+      const int column = keyframe->active.core[static_cast<std::size_t>(j)];
+      process_factor.noise(i, j) = process_factor.noise(j, i) =
+          is_of_motion(column) ? process.noise(row, column) : 0.0;
     }
   }
   process_factor.from = before.state;
   process_factor.to = to;
+}
+
+void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
+  if (!keyframe->has_attitude || !keyframe->block_complete) return;
+  if (!is_far(difference(before.state, keyframe->process_factor.from))) return;
+  integrate(before, keyframe);
   ++repropagations_;
 }
 

@@ -13,10 +13,13 @@ class Repropagator {
  public:
   explicit Repropagator(const ProcessPropagationConfig& config) : propagation_(config) {}
 
-  // Does nothing while the keyframe before is near where the process factor begins. Otherwise the
-  // factor is moved to begin there: position, velocity and attitude are integrated anew, with the F
-  // of the inertial states, and the motion constraints that the filter has used are applied on the
-  // way. What is linear anyway (clocks, ambiguities) follows its old F; the noise stays.
+  // Makes the inertial part of a new keyframe's process factor the window's own: position,
+  // velocity, attitude, IMU errors and vehicle constants with their F and N are integrated from the
+  // estimate of the keyframe before, with the motion constraints that the filter has used. What is
+  // linear anyway (clocks, delays, ambiguities) follows the F and N it has. Does nothing without an
+  // attitude, or if samples are missing.
+  void integrate(const Keyframe& before, Keyframe* keyframe);
+  // Integrates again where the keyframe before has moved away from where the factor begins.
   void operator()(const Keyframe& before, Keyframe* keyframe);
   std::uint64_t repropagations() const { return repropagations_; }
 

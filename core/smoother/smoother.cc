@@ -62,11 +62,12 @@ void Smoother::add(const KeyframeInput& input) {
   if (!input.valid) return window_.clear();
   filter_state_ = input.state.nav;
   filter_sigma_m_ = position_sigma(input.covariance);
-  if (failed_ || !input.follows_previous) window_.clear();
+  const bool bridges = !input.follows_previous && can_bridge(window_, input);
+  if (failed_ || !(input.follows_previous || bridges)) window_.clear();
   failed_ = false;
   const bool follows = window_.size() > 0;
   if (window_.full()) marginalize_and_drop_oldest();
-  newest_follows_ = window_.size() > 0 && window_.append(input);
+  newest_follows_ = window_.size() > 0 && append(input);
   window_lost_ = follows && !newest_follows_;
   if (!newest_follows_) return (void)window_.start(input);
   if (config_.window > 1) return;
@@ -75,8 +76,22 @@ void Smoother::add(const KeyframeInput& input) {
   window_lost_ = !newest_follows_;
 }
 
+// Appends a keyframe with the window's own inertial process.
+bool Smoother::append(const KeyframeInput& input) {
+  if (input.follows_previous) {
+    if (!window_.append(input)) return false;
+  } else {
+    window_.append_apart(input);
+  }
+  const Keyframe& before = window_.at(window_.size() - 2);
+  Keyframe& newest = window_.newest();
+  repropagator_.integrate(before, &newest);
+  newest.state = predicted_state(before, newest);
+  return is_finite(newest.state);
+}
+
 void Smoother::marginalize_and_drop_oldest() {
-  if (marginalize_oldest(window_, lever_arm_b_, next_prior_.get()))
+  if (rts_solver_.marginalize_oldest(window_, lever_arm_b_, next_prior_.get()))
     window_.drop_oldest(*next_prior_);
   else
     window_.clear();

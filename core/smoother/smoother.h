@@ -49,7 +49,8 @@ class Smoother {
   Smoother(const SmootherConfig& config, const RobustConfig& robust,
            const Eigen::Vector3d& lever_arm_b, const ProcessPropagationConfig& repropagation);
 
-  // Adds a keyframe; one that does not follow the newest one starts a new window.
+  // Adds a keyframe. Where the filter has started over, the IMU connects it with the newest one;
+  // one that cannot be connected starts a new window.
   void add(const KeyframeInput& input);
   // Iterates from the state that the last committed solve left; the weights of all measurements are
   // decided anew at every iteration.
@@ -69,6 +70,7 @@ class Smoother {
     boost::container::static_vector<double, kMaxMeasurements> factors;
     bool weights_decided = false;
   };
+  bool append(const KeyframeInput& input);
   void save();
   void restore();
   void marginalize_and_drop_oldest();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/square.h"
 #include "core/smoother/internal/definite_inverse.h"
 
 namespace leonav {
@@ -21,6 +22,16 @@ ActiveStates active_states(const KeyframeInput& input) {
 Index whole_index(const ActiveStates& active, Index i) {
   if (i < active.core_size()) return active.core[static_cast<std::size_t>(i)];
   return active.before_ambiguities + i - active.core_size();
+}
+
+constexpr double kLongestBridge_s = 10.0;
+
+// Variances of what begins anew, m^2 or (m/s)^2: clocks and their drifts, delays, ambiguities.
+double unknown_variance(int state) {
+  using namespace ekf_index;
+  if (state < kClockDrift) return square(1e6);
+  if (state < kWetDelay) return square(1e3);
+  return state < kSize ? square(0.1) : square(1e3);
 }
 
 bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
@@ -55,6 +66,21 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
   return process_factor.F.allFinite() && noise.allFinite();
 }
 
+// A process of which nothing is known but that vehicle constants and delays stay about the same.
+void part(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
+  ProcessFactor& process_factor = keyframe->process_factor;
+  const ActiveStates& rows = keyframe->active;
+  process_factor.from = before.state;
+  process_factor.to = input.state;
+  process_factor.has_information = false;
+  process_factor.F.setZero(rows.size(), before.active.size());
+  process_factor.noise.setZero(rows.size(), rows.size());
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto row = static_cast<int>(whole_index(rows, i));
+    process_factor.noise(i, i) = unknown_variance(i < rows.core_size() ? row : ekf_index::kSize);
+  }
+}
+
 void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
   keyframe->index = input.index;
   keyframe->time = input.time;
@@ -64,6 +90,15 @@ void copy_common(const KeyframeInput& input, Keyframe* keyframe) {
   keyframe->acceleration_e = input.acceleration_e;
   keyframe->vertical_antenna_offset_e = input.vertical_antenna_offset_e;
   keyframe->weights_decided = false;
+}
+
+void copy_data(const KeyframeInput& input, Keyframe* keyframe) {
+  keyframe->satellites = input.satellites;
+  keyframe->measurements = input.measurements;
+  keyframe->block = input.block;
+  keyframe->block_complete = input.block_complete;
+  keyframe->sample_before_block = input.sample_before_block;
+  keyframe->instants = input.instants;
 }
 
 }  // namespace
@@ -98,12 +133,7 @@ bool Window::append(const KeyframeInput& input) {
   const Keyframe& before = newest();
   Keyframe& keyframe = slots_[slot(size_)];
   copy_common(input, &keyframe);
-  keyframe.satellites = input.satellites;
-  keyframe.measurements = input.measurements;
-  keyframe.block = input.block;
-  keyframe.block_complete = input.block_complete;
-  keyframe.sample_before_block = input.sample_before_block;
-  keyframe.instants = input.instants;
+  copy_data(input, &keyframe);
   keyframe.process_factor.from = input.from;
   keyframe.process_factor.to = input.prior;
   if (!make_link(input, before, &keyframe)) return false;
@@ -112,10 +142,29 @@ bool Window::append(const KeyframeInput& input) {
   return true;
 }
 
+void Window::append_apart(const KeyframeInput& input) {
+  const Keyframe& before = newest();
+  Keyframe& keyframe = slots_[slot(size_)];
+  copy_common(input, &keyframe);
+  copy_data(input, &keyframe);
+  keyframe.state = input.state;
+  part(input, before, &keyframe);
+  ++size_;
+}
+
 void Window::drop_oldest(const WindowPrior& prior) {
   prior_ = prior;
   first_ = slot(1);
   --size_;
+}
+
+bool can_bridge(const Window& window, const KeyframeInput& input) {
+  if (window.size() == 0 || !input.valid || !input.has_attitude || !input.block_complete)
+    return false;
+  const Keyframe& newest = window.newest();
+  const double apart_s = seconds_between(input.time, newest.time);
+  return newest.has_attitude && newest.active.before_ambiguities == input.state.first_ambiguity() &&
+         apart_s > 0.0 && apart_s < kLongestBridge_s;
 }
 
 FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe) {

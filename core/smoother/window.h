@@ -41,6 +41,10 @@ class Window {
   // Appends a keyframe at the state that the newest one predicts. Returns false if its process does
   // not begin at the newest keyframe or is not finite. Precondition: not full().
   bool append(const KeyframeInput& input);
+  // Appends a keyframe whose filter has started over, at the filter's state: nothing leads from the
+  // newest one to it until Repropagator::integrate() has added the inertial part of the process;
+  // clocks, delays and ambiguities begin anew. Precondition: not full().
+  void append_apart(const KeyframeInput& input);
   // Removes the oldest keyframe; `prior` is the information it leaves about the next.
   void drop_oldest(const WindowPrior& prior);
 
@@ -55,6 +59,10 @@ class Window {
   int size_ = 0;
   WindowPrior prior_;
 };
+
+// Returns whether the IMU's samples can connect the newest keyframe with one whose filter has
+// started over: both have an attitude, and no sample is missing.
+bool can_bridge(const Window& window, const KeyframeInput& input);
 
 // Returns the state of `keyframe` that the process factor predicts from `before`.
 FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe);

@@ -15,7 +15,7 @@ namespace leonav::synthetic {
 inline bool feed(const KeyframeInput& input, const Eigen::Vector3d& lever_b, Window* window) {
   if (window->full()) {
     const auto prior = std::make_unique<WindowPrior>();
-    if (!marginalize_oldest(*window, lever_b, prior.get())) return false;
+    if (!RtsSolver(2).marginalize_oldest(*window, lever_b, prior.get())) return false;
     window->drop_oldest(*prior);
   }
   if (window->size() > 0 && input.follows_previous && window->append(input)) return true;
