@@ -30,7 +30,7 @@ bool invert(const MatrixXd& matrix, MatrixXd* inverse) {
 
 // What the forward pass keeps of a keyframe.
 struct Step {
-  MatrixXd covariance;  // P_k, from all keyframes up to this one
+  MatrixXd covariance;  // P_k, from all keyframes up to this one and the constraints behind it
   VectorXd error;
   MatrixXd spread;  // T P_(k-1), with T the transition to this keyframe
   MatrixXd predicted_information;
@@ -96,7 +96,14 @@ void predict(const LogGraph& graph, int k, const Step& last, Step* step) {
       step->predicted.bottomLeftCorner(size - core, core).transpose();
 }
 
-bool update(const LogGraph& graph, int k, Step* step) {
+bool solve(const LogInformation& sum, Step* step) {
+  if (!invert(sum.matrix, &step->covariance)) return false;
+  step->error.noalias() = step->covariance * sum.gradient;
+  return step->error.allFinite();
+}
+
+// The forward estimate of a keyframe lacks what the constraints up to the next say of it.
+bool update(const LogGraph& graph, int k, Step* step, LogCorrections* corrections) {
   const Index size = graph.at(k).size();
   LogInformation sum{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   if (graph.at(k).process.exists) {
@@ -111,9 +118,12 @@ bool update(const LogGraph& graph, int k, Step* step) {
     }
   }
   add_information(graph, k, &sum);
-  if (!invert(sum.matrix, &step->covariance)) return false;
-  step->error.noalias() = step->covariance * sum.gradient;
-  return step->error.allFinite();
+  if (!solve(sum, step)) return false;
+  const Index core = graph.at(k).core_size();
+  corrections->filtered_core[static_cast<std::size_t>(k)] = step->error.head(core);
+  corrections->filtered_covariance[static_cast<std::size_t>(k)] =
+      step->covariance.topLeftCorner(core, core);
+  return !add_constraints(graph, k, &sum) || solve(sum, step);
 }
 
 }  // namespace
@@ -130,11 +140,7 @@ bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progr
   corrections->pieces.setZero(static_cast<Index>(graph.pieces().size()));
   for (int k = 0; k < size; ++k) {
     if (graph.at(k).process.exists) predict(graph, k, at(k - 1), &at(k));
-    if (!update(graph, k, &at(k))) return false;
-    const Index core = graph.at(k).core_size();
-    corrections->filtered_core[static_cast<std::size_t>(k)] = at(k).error.head(core);
-    corrections->filtered_covariance[static_cast<std::size_t>(k)] =
-        at(k).covariance.topLeftCorner(core, core);
+    if (!update(graph, k, &at(k), corrections)) return false;
     progress(0.6 * (k + 1) / size);
   }
   VectorXd error;
