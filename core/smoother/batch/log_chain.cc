@@ -32,7 +32,7 @@ constexpr double kForwardShare = 0.6;  // of the time, roughly
 
 // What the keyframes up to one say of it.
 struct Filtered {
-  MatrixXd covariance;  // P_k
+  MatrixXd covariance;  // P_k, with the constraints behind it
   VectorXd error;
 };
 
@@ -103,7 +103,14 @@ void predict(const LogGraph& graph, int k, const Filtered& last, Step* step) {
       step->predicted.bottomLeftCorner(size - core, core).transpose();
 }
 
-bool update(const LogGraph& graph, int k, Step* step) {
+bool solve(const LogInformation& sum, Filtered* filtered) {
+  if (!invert(sum.matrix, &filtered->covariance)) return false;
+  filtered->error.noalias() = filtered->covariance * sum.gradient;
+  return filtered->error.allFinite();
+}
+
+// The forward estimate of a keyframe lacks what the constraints up to the next say of it.
+bool update(const LogGraph& graph, int k, Step* step, LogCorrections* corrections) {
   const Index size = graph.at(k).size();
   LogInformation sum{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   if (graph.at(k).process.exists) {
@@ -119,20 +126,23 @@ bool update(const LogGraph& graph, int k, Step* step) {
   }
   add_information(graph, k, &sum);
   Filtered& filtered = step->filtered;
-  if (!invert(sum.matrix, &filtered.covariance)) return false;
-  filtered.error.noalias() = filtered.covariance * sum.gradient;
-  return filtered.error.allFinite();
+  if (!solve(sum, &filtered)) return false;
+  const Index core = graph.at(k).core_size();
+  corrections->filtered_core[static_cast<std::size_t>(k)] = filtered.error.head(core);
+  corrections->filtered_covariance[static_cast<std::size_t>(k)] =
+      filtered.covariance.topLeftCorner(core, core);
+  return !add_constraints(graph, k, &sum) || solve(sum, &filtered);
 }
 
 // Forward pass over a segment from what is known of the keyframe before it.
 bool pass_forward(const LogGraph& graph, int begin, int end, const Filtered& before,
-                  std::vector<Step>* steps) {
+                  std::vector<Step>* steps, LogCorrections* corrections) {
   steps->resize(static_cast<std::size_t>(end - begin));
   const Filtered* last = &before;
   for (int k = begin; k < end; ++k) {
     Step& step = (*steps)[static_cast<std::size_t>(k - begin)];
     if (graph.at(k).process.exists) predict(graph, k, *last, &step);
-    if (!update(graph, k, &step)) return false;
+    if (!update(graph, k, &step, corrections)) return false;
     last = &step.filtered;
   }
   return true;
@@ -155,14 +165,7 @@ bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progr
   std::vector<Filtered> before(1);  // of each segment
   for (int begin = 0; begin < size; begin += segment) {
     const int end = std::min(size, begin + segment);
-    if (!pass_forward(graph, begin, end, before.back(), &steps)) return false;
-    for (int k = begin; k < end; ++k) {
-      const Filtered& filtered = steps[static_cast<std::size_t>(k - begin)].filtered;
-      const Index core = graph.at(k).core_size();
-      corrections->filtered_core[static_cast<std::size_t>(k)] = filtered.error.head(core);
-      corrections->filtered_covariance[static_cast<std::size_t>(k)] =
-          filtered.covariance.topLeftCorner(core, core);
-    }
+    if (!pass_forward(graph, begin, end, before.back(), &steps, corrections)) return false;
     if (end < size) before.push_back(steps.back().filtered);
     progress(kForwardShare * end / size);
   }
@@ -171,7 +174,8 @@ bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progr
   MatrixXd covariance;
   for (int i = static_cast<int>(before.size()) - 1; i >= 0; --i) {
     const int begin = i * segment, end = std::min(size, begin + segment);
-    if (end < size && !pass_forward(graph, begin, end, before[static_cast<std::size_t>(i)], &steps))
+    if (end < size &&
+        !pass_forward(graph, begin, end, before[static_cast<std::size_t>(i)], &steps, corrections))
       return false;
     for (int k = end - 1; k >= begin; --k) {
       const auto place = static_cast<std::size_t>(k - begin);
