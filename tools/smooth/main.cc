@@ -136,13 +136,15 @@ int run(int argc, char** argv) {
 
   std::ostringstream summary;
   summary << "configuration: " << origin << "\nsolver: " << arguments.get("--solver") << "\n";
-  if (scan.truncated) summary << "warning: " << log << ": its last message is cut short\n";
+  if (!other_run.empty()) summary << "note: " << other_run << "\n";
   print_smoothed(graph, result, summary);
   const long rows = write_solution(out + "/solution.csv", graph, result, rate_hz);
   write_forward(out + "/forward.csv", graph, result);
   write_residuals(out + "/residuals.csv", graph);
   summary << "solution.csv rows: " << rows << "\n";
-  for (const std::string& warning : smoothing_warnings(graph, result)) {
+  std::vector<std::string> warnings = smoothing_warnings(graph, result);
+  if (scan.truncated) warnings.push_back(log + ": its last message is cut short");
+  for (const std::string& warning : warnings) {
     summary << "warning: " << warning << "\n";
     std::cerr << "leonav-smooth: WARNING: " << warning << "\n";
   }

@@ -65,6 +65,8 @@ BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProces
         solver ? solver(*graph, &result.last) : solve_chain(*graph, share, &result.last);
     if (!result.solved) return result;
     apply(result.last, graph, &iteration);
+    // Not behind the last one: the covariances are those of the states that it had.
+    if (i + 1 == config.max_iterations && !solver) processes = nullptr;
     if (processes != nullptr && i + 1 == kIterationsBeforeExtension)
       result.extension = processes->extend(graph);
     else if (processes != nullptr)

@@ -28,10 +28,17 @@ bool invert(const MatrixXd& matrix, MatrixXd* inverse) {
   return inverse->allFinite();
 }
 
-// What the forward pass keeps of a keyframe.
-struct Step {
-  MatrixXd covariance;  // P_k, from all keyframes up to this one
+constexpr double kForwardShare = 0.6;  // of the time, roughly
+
+// What the keyframes up to one say of it.
+struct Filtered {
+  MatrixXd covariance;  // P_k, with the constraints behind it
   VectorXd error;
+};
+
+// What the backward pass needs of a keyframe.
+struct Step {
+  Filtered filtered;
   MatrixXd spread;  // T P_(k-1), with T the transition to this keyframe
   MatrixXd predicted_information;
   MatrixXd predicted;  // T P_(k-1) T^T + N
@@ -61,7 +68,7 @@ Origin origin_of(const LogGraph& graph, const LogKeyframe& before, int piece) {
   return origin;
 }
 
-void predict(const LogGraph& graph, int k, const Step& last, Step* step) {
+void predict(const LogGraph& graph, int k, const Filtered& last, Step* step) {
   const LogKeyframe& before = graph.at(k - 1);
   const LogKeyframe& keyframe = graph.at(k);
   const LogLinearProcess process = linearize_process(graph, k);
@@ -96,7 +103,14 @@ void predict(const LogGraph& graph, int k, const Step& last, Step* step) {
       step->predicted.bottomLeftCorner(size - core, core).transpose();
 }
 
-bool update(const LogGraph& graph, int k, Step* step) {
+bool solve(const LogInformation& sum, Filtered* filtered) {
+  if (!invert(sum.matrix, &filtered->covariance)) return false;
+  filtered->error.noalias() = filtered->covariance * sum.gradient;
+  return filtered->error.allFinite();
+}
+
+// The forward estimate of a keyframe lacks what the constraints up to the next say of it.
+bool update(const LogGraph& graph, int k, Step* step, LogCorrections* corrections) {
   const Index size = graph.at(k).size();
   LogInformation sum{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   if (graph.at(k).process.exists) {
@@ -111,51 +125,80 @@ bool update(const LogGraph& graph, int k, Step* step) {
     }
   }
   add_information(graph, k, &sum);
-  if (!invert(sum.matrix, &step->covariance)) return false;
-  step->error.noalias() = step->covariance * sum.gradient;
-  return step->error.allFinite();
+  Filtered& filtered = step->filtered;
+  if (!solve(sum, &filtered)) return false;
+  const Index core = graph.at(k).core_size();
+  corrections->filtered_core[static_cast<std::size_t>(k)] = filtered.error.head(core);
+  corrections->filtered_covariance[static_cast<std::size_t>(k)] =
+      filtered.covariance.topLeftCorner(core, core);
+  return !add_constraints(graph, k, &sum) || solve(sum, &filtered);
+}
+
+// Forward pass over a segment from what is known of the keyframe before it.
+bool pass_forward(const LogGraph& graph, int begin, int end, const Filtered& before,
+                  std::vector<Step>* steps, LogCorrections* corrections) {
+  steps->resize(static_cast<std::size_t>(end - begin));
+  const Filtered* last = &before;
+  for (int k = begin; k < end; ++k) {
+    Step& step = (*steps)[static_cast<std::size_t>(k - begin)];
+    if (graph.at(k).process.exists) predict(graph, k, *last, &step);
+    if (!update(graph, k, &step, corrections)) return false;
+    last = &step.filtered;
+  }
+  return true;
 }
 
 }  // namespace
 
 bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progress,
-                 LogCorrections* corrections) {
+                 LogCorrections* corrections, int segment) {
   const int size = graph.size();
-  std::vector<Step> steps(static_cast<std::size_t>(size));
-  const auto at = [&](int k) -> Step& { return steps[static_cast<std::size_t>(k)]; };
-  corrections->core.resize(steps.size());
-  corrections->covariance.resize(steps.size());
-  corrections->filtered_core.resize(steps.size());
-  corrections->filtered_covariance.resize(steps.size());
+  const auto keyframes = static_cast<std::size_t>(size);
+  corrections->core.resize(keyframes);
+  corrections->covariance.resize(keyframes);
+  corrections->filtered_core.resize(keyframes);
+  corrections->filtered_covariance.resize(keyframes);
   corrections->pieces.setZero(static_cast<Index>(graph.pieces().size()));
-  for (int k = 0; k < size; ++k) {
-    if (graph.at(k).process.exists) predict(graph, k, at(k - 1), &at(k));
-    if (!update(graph, k, &at(k))) return false;
-    const Index core = graph.at(k).core_size();
-    corrections->filtered_core[static_cast<std::size_t>(k)] = at(k).error.head(core);
-    corrections->filtered_covariance[static_cast<std::size_t>(k)] =
-        at(k).covariance.topLeftCorner(core, core);
-    progress(0.6 * (k + 1) / size);
+  // The forward pass leaves the steps of the last segment; what is known at the begin of each gives
+  // those of the others again, bit for bit.
+  std::vector<Step> steps;
+  std::vector<Filtered> before(1);  // of each segment
+  for (int begin = 0; begin < size; begin += segment) {
+    const int end = std::min(size, begin + segment);
+    if (!pass_forward(graph, begin, end, before.back(), &steps, corrections)) return false;
+    if (end < size) before.push_back(steps.back().filtered);
+    progress(kForwardShare * end / size);
   }
+  Step beyond;  // the first one of the segment behind
   VectorXd error;
   MatrixXd covariance;
-  for (int k = size - 1; k >= 0; --k) {
-    if (k + 1 == size || !graph.at(k + 1).process.exists) {
-      error = at(k).error;
-      covariance = at(k).covariance;
-    } else {
-      const Step& next = at(k + 1);
-      const MatrixXd gain = next.spread.transpose() * next.predicted_information;
-      error = at(k).error + gain * (error - next.predicted_error);
-      covariance = at(k).covariance + gain * (covariance - next.predicted) * gain.transpose();
+  for (int i = static_cast<int>(before.size()) - 1; i >= 0; --i) {
+    const int begin = i * segment, end = std::min(size, begin + segment);
+    if (end < size &&
+        !pass_forward(graph, begin, end, before[static_cast<std::size_t>(i)], &steps, corrections))
+      return false;
+    for (int k = end - 1; k >= begin; --k) {
+      const auto place = static_cast<std::size_t>(k - begin);
+      const Filtered& filtered = steps[place].filtered;
+      if (k + 1 == size || !graph.at(k + 1).process.exists) {
+        error = filtered.error;
+        covariance = filtered.covariance;
+      } else {
+        const Step& next = k + 1 < end ? steps[place + 1] : beyond;
+        const MatrixXd gain = next.spread.transpose() * next.predicted_information;
+        error = filtered.error + gain * (error - next.predicted_error);
+        covariance = filtered.covariance + gain * (covariance - next.predicted) * gain.transpose();
+      }
+      const LogKeyframe& keyframe = graph.at(k);
+      const Index core = keyframe.core_size();
+      const auto at = static_cast<std::size_t>(k);
+      corrections->core[at] = error.head(core);
+      corrections->covariance[at] = covariance.topLeftCorner(core, core);
+      for (std::size_t j = 0; j < keyframe.pieces.size(); ++j)
+        corrections->pieces(keyframe.pieces[j]) = error(core + static_cast<Index>(j));
     }
-    const LogKeyframe& keyframe = graph.at(k);
-    const Index core = keyframe.core_size();
-    corrections->core[static_cast<std::size_t>(k)] = error.head(core);
-    corrections->covariance[static_cast<std::size_t>(k)] = covariance.topLeftCorner(core, core);
-    for (std::size_t i = 0; i < keyframe.pieces.size(); ++i)
-      corrections->pieces(keyframe.pieces[i]) = error(core + static_cast<Index>(i));
-    progress(1.0 - 0.4 * k / size);
+    beyond = std::move(steps.front());
+    progress(1.0 - (1.0 - kForwardShare) * begin / size);
   }
   return true;
 }

@@ -19,11 +19,16 @@ struct LogCorrections {
   std::vector<Eigen::MatrixXd> filtered_covariance;
 };
 
+// So many keyframes have the matrices of both passes in memory at a time. With all systems they are
+// a quarter of a megabyte each, most of it of ambiguities; of a day they would fill 20 GB.
+constexpr int kLogSegment = 1000;
+
 // The state of the chain at a keyframe are its core states and the pieces under way. Information is
 // added where measurements are, covariance where the process leads on, so that a noise of zero
-// needs no inverse. `progress` gets the share done. Returns false if the log has no unique
-// solution.
+// needs no inverse. A log longer than `segment` > 0 keyframes has the forward pass repeated,
+// segment by segment, on the way back: the same results to the bit. `progress` gets the share done.
+// Returns false if the log has no unique solution.
 bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progress,
-                 LogCorrections* corrections);
+                 LogCorrections* corrections, int segment = kLogSegment);
 
 }  // namespace leonav

@@ -54,6 +54,17 @@ double unknown_variance(int state) {
   return state < kWetDelay ? square(kUnknownDrift) : square(kRestartedDelay);
 }
 
+// Takes where a factor was linearized along when its keyframe gets an attitude: what the estimate
+// differs by stays.
+void move_along(const CoreState& had, const CoreState& state, CoreState* linearized_at) {
+  NavState& nav = linearized_at->nav;
+  nav.p_e += state.nav.p_e - had.nav.p_e;
+  nav.v_e += state.nav.v_e - had.nav.v_e;
+  nav.q_eb = state.nav.q_eb;
+  nav.errors = state.nav.errors;
+  linearized_at->vehicle = state.vehicle;
+}
+
 // Clocks, delays and ionosphere of `from`.
 void copy_slow_states(const CoreState& from, CoreState* to) {
   to->clocks = from.clocks;
@@ -84,8 +95,10 @@ Quaterniond LogProcesses::body_rotation(const LogKeyframe& keyframe, const NavSt
 
 // The filter's position is that of the antenna or, with a vertical arm, of the point below.
 void LogProcesses::give_attitude(const LogKeyframe& from, const Quaterniond& q_eb,
-                                 const Vector3d& lever_arm_b, LogKeyframe* keyframe) const {
+                                 const Vector3d& lever_arm_b, LogKeyframe* keyframe,
+                                 LogKeyframe* next) const {
   const AntennaMotion antenna = antenna_of(*keyframe, keyframe->state, lever_arm_b);
+  const CoreState had_state = keyframe->state;
   const ActiveStates had = keyframe->active;
   NavState& nav = keyframe->state.nav;
   nav.q_eb = q_eb;
@@ -103,12 +116,27 @@ void LogProcesses::give_attitude(const LogKeyframe& from, const Quaterniond& q_e
     const ActiveStates& model = is_of_motion(state) ? from.active : had;
     if (position_of(model, state) >= 0) active.core.push_back(state);
   }
-  if (keyframe->prior_information.size() > 0) widen_prior(keyframe, had);
+  if (keyframe->process.exists) move_along(had_state, keyframe->state, &keyframe->process.to);
+  if (next != nullptr && next->process.exists)
+    move_along(had_state, keyframe->state, &next->process.from);
+  if (keyframe->prior_information.size() == 0) return;
+  move_along(had_state, keyframe->state, &keyframe->prior_at);
+  widen_prior(keyframe, had);
 }
 
-// The states that the keyframe did not have are as uncertain as the configuration says.
-void LogProcesses::widen_prior(LogKeyframe* keyframe, const ActiveStates& had) const {
+// 1 sigma of a state of motion of which nothing but the configuration is known.
+double LogProcesses::configured_sigma(int state) const {
   const ImuErrorModel& imu = config_.imu;
+  if (state >= kSize) return config_.ekf.vehicle.sigma[static_cast<std::size_t>(state - kSize)];
+  if (state >= kAccelScale) return imu.accel_scale.sigma;
+  if (state >= kGyroScale) return imu.gyro_scale.sigma;
+  if (state >= kAccelBias) return imu.accel_bias.sigma;
+  return state >= kGyroBias ? imu.gyro_bias.sigma : kUnknownAttitude;
+}
+
+// The states that the keyframe did not have are as uncertain as the configuration says, about its
+// values: those of the estimate come from the rest of the log, which must not count twice.
+void LogProcesses::widen_prior(LogKeyframe* keyframe, const ActiveStates& had) const {
   MatrixXd information = MatrixXd::Zero(keyframe->core_size(), keyframe->core_size());
   for (Index i = 0; i < information.rows(); ++i) {
     const int state = keyframe->active.core[static_cast<std::size_t>(i)];
@@ -117,17 +145,43 @@ void LogProcesses::widen_prior(LogKeyframe* keyframe, const ActiveStates& had) c
       const Index other = position_of(had, keyframe->active.core[static_cast<std::size_t>(j)]);
       if (other >= 0) information(i, j) = keyframe->prior_information(before, other);
     }
-    if (before >= 0) continue;
-    double sigma = kUnknownAttitude;
-    if (state >= kGyroBias) sigma = imu.gyro_bias.sigma;
-    if (state >= kAccelBias) sigma = imu.accel_bias.sigma;
-    if (state >= kGyroScale) sigma = imu.gyro_scale.sigma;
-    if (state >= kAccelScale) sigma = imu.accel_scale.sigma;
-    if (state >= kSize) sigma = config_.ekf.vehicle.sigma[static_cast<std::size_t>(state - kSize)];
-    information(i, i) = 1.0 / square(sigma);
+    if (before < 0) information(i, i) = 1.0 / square(configured_sigma(state));
   }
   keyframe->prior_information = information;
-  keyframe->prior_at = keyframe->state;
+  keyframe->prior_at.nav.errors = ImuErrors();
+  std::fill(keyframe->prior_at.vehicle.begin(), keyframe->prior_at.vehicle.end(), 0.0);
+}
+
+// A factor that cannot be integrated stays the filter's; it knows nothing of the states that its
+// keyframes have got since.
+void LogProcesses::refit(const LogKeyframe& before, LogKeyframe* keyframe) const {
+  LogProcess& process = keyframe->process;
+  const ActiveStates& rows = keyframe->active;
+  const ActiveStates& columns = before.active;
+  if (rows.core == process.rows.core && columns.core == process.columns.core) return;
+  MatrixXd F = MatrixXd::Zero(rows.core_size(), columns.core_size());
+  MatrixXd noise = MatrixXd::Zero(rows.core_size(), rows.core_size());
+  for (Index i = 0; i < rows.core_size(); ++i) {
+    const int row = rows.core[static_cast<std::size_t>(i)];
+    const Index old_row = position_of(process.rows, row);
+    if (old_row < 0) {
+      noise(i, i) = square(configured_sigma(row));
+      continue;
+    }
+    for (Index j = 0; j < columns.core_size(); ++j) {
+      const int column = columns.core[static_cast<std::size_t>(j)];
+      const Index old_column = position_of(process.columns, column);
+      if (old_column >= 0) F(i, j) = process.F(old_row, old_column);
+    }
+    for (Index j = 0; j < rows.core_size(); ++j) {
+      const Index other = position_of(process.rows, rows.core[static_cast<std::size_t>(j)]);
+      if (other >= 0) noise(i, j) = process.noise(old_row, other);
+    }
+  }
+  process.F = F;
+  process.noise = noise;
+  process.rows = rows;
+  process.columns = columns;
 }
 
 // Position, velocity, attitude, IMU errors and vehicle constants come from the IMU; clocks and
@@ -218,18 +272,22 @@ LogProcesses::Extension LogProcesses::extend(LogGraph* graph) {
     const Quaterniond turned = earth_rotation(seconds_between(keyframe.time, before.time));
     const Quaterniond q_eb =
         turned.conjugate() * keyframe.state.nav.q_eb * body_rotation(keyframe, start).conjugate();
-    give_attitude(keyframe, q_eb.normalized(), graph->lever_arm_b(), &before);
+    give_attitude(keyframe, q_eb.normalized(), graph->lever_arm_b(), &before, &keyframe);
     ++extension.attitudes;
   }
   for (int k = 1; k < graph->size(); ++k) {
     LogKeyframe& before = graph->at(k - 1);
     LogKeyframe& keyframe = graph->at(k);
-    if (!before.has_attitude || !can_integrate(before, keyframe)) continue;
+    if (!before.has_attitude || !can_integrate(before, keyframe)) {
+      if (keyframe.process.exists) refit(before, &keyframe);
+      continue;
+    }
     if (!keyframe.has_attitude) {
       const Quaterniond turned = earth_rotation(seconds_between(keyframe.time, before.time));
       const Quaterniond q_eb =
           turned * before.state.nav.q_eb * body_rotation(keyframe, before.state.nav);
-      give_attitude(before, q_eb.normalized(), graph->lever_arm_b(), &keyframe);
+      give_attitude(before, q_eb.normalized(), graph->lever_arm_b(), &keyframe,
+                    k + 1 < graph->size() ? &graph->at(k + 1) : nullptr);
       ++extension.attitudes;
     }
     if (!keyframe.process.exists) {

@@ -29,8 +29,11 @@ class LogProcesses {
   bool can_integrate(const LogKeyframe& before, const LogKeyframe& keyframe) const;
   Eigen::Quaterniond body_rotation(const LogKeyframe& keyframe, const NavState& start);
   void give_attitude(const LogKeyframe& from, const Eigen::Quaterniond& q_eb,
-                     const Eigen::Vector3d& lever_arm_b, LogKeyframe* keyframe) const;
+                     const Eigen::Vector3d& lever_arm_b, LogKeyframe* keyframe,
+                     LogKeyframe* next) const;
+  double configured_sigma(int state) const;
   void widen_prior(LogKeyframe* keyframe, const ActiveStates& had) const;
+  void refit(const LogKeyframe& before, LogKeyframe* keyframe) const;
   void integrate(LogKeyframe* before, LogKeyframe* keyframe);
 
   ProcessPropagationConfig config_;

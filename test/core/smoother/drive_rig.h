@@ -30,7 +30,8 @@ struct DriveOptions {
   bool calibrating = false;                     // lever arm and time offset are estimated
   double random_walk = 0.0;                     // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
-  Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, at the start
+  Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, of the attitude that the filter is given
+  int aligned_at = 0;                           // epoch at whose end it is given that; 0: the start
   Eigen::Vector3d lever_b{0.5, 0.3, -1.2};
   // Changes what the receiver measures at an epoch (1 is the first), its truth included.
   std::function<void(int, MeasurementEpoch*)> edit;
@@ -61,11 +62,7 @@ class Drive {
     point.covariance_p_e = 9.0 * Eigen::Matrix3d::Identity();
     point.covariance_v_e = 0.04 * Eigen::Matrix3d::Identity();
     filter_.initialize(start.time, point);
-    if (!options.inertial) return;
-    const Eigen::Vector3d& sigma_rpy = options.sigma_rpy;
-    const Eigen::Vector3d rotation = options.noise * sigma_rpy.cwiseProduct(noise_.normal3());
-    filter_.set_attitude(quaternion_from_rotation_vector(C_en * -rotation) * start.q_eb, sigma_rpy,
-                         Eigen::Vector3d::Zero(), mems().gyro_bias.sigma);
+    if (options.inertial && options.aligned_at == 0) align();
   }
 
   // The next epoch, as the smoother is given it.
@@ -77,9 +74,10 @@ class Drive {
     if (options_.edit) options_.edit(epoch_, &measured_);
     predict();
     result_ = filter_.update(measured_);
+    if (epoch_ == options_.aligned_at) align();
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
-    input_->block_complete = input_->follows_previous;
+    input_->block_complete = input_->follows_previous || epoch_ == options_.aligned_at;
     return *input_;
   }
 
@@ -115,6 +113,15 @@ class Drive {
                         {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.01},
                         {0.0, 0.0, 0.0, 2e-4, 2e-4, 2e-4, 2e-6}};
     return config;
+  }
+
+  // Gives the filter the true attitude with an error of its sigmas.
+  void align() {
+    const Eigen::Vector3d& sigma_rpy = options_.sigma_rpy;
+    const Eigen::Vector3d rotation = options_.noise * sigma_rpy.cwiseProduct(noise_.normal3());
+    filter_.set_attitude(
+        quaternion_from_rotation_vector(C_en_at(truth().p_e) * -rotation) * truth().q_eb, sigma_rpy,
+        Eigen::Vector3d::Zero(), mems().gyro_bias.sigma);
   }
 
   void predict() {

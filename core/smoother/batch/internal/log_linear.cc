@@ -63,10 +63,6 @@ void add_information(const LogGraph& graph, int k, LogInformation* sum) {
   if (keyframe.prior_information.size() > 0)
     add_quadratic(keyframe, keyframe.prior_at, keyframe.prior_information, VectorXd::Zero(core),
                   sum);
-  if (k + 1 < graph.size() && graph.at(k + 1).process.information.size() > 0) {
-    const LogProcess& process = graph.at(k + 1).process;
-    add_quadratic(keyframe, process.from, process.information, process.gradient, sum);
-  }
   const AntennaMotion antenna = antenna_of(keyframe, keyframe.state, graph.lever_arm_b());
   VectorXd row(core);
   for (const LogMeasurement& measurement : keyframe.measurements) {
@@ -85,6 +81,13 @@ void add_information(const LogGraph& graph, int k, LogInformation* sum) {
     sum->matrix(piece, piece) += weight;
     sum->gradient(piece) += weight * linear.residual;
   }
+}
+
+bool add_constraints(const LogGraph& graph, int k, LogInformation* sum) {
+  if (k + 1 == graph.size() || graph.at(k + 1).process.information.size() == 0) return false;
+  const LogProcess& process = graph.at(k + 1).process;
+  add_quadratic(graph.at(k), process.from, process.information, process.gradient, sum);
+  return true;
 }
 
 }  // namespace leonav

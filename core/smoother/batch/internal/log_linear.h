@@ -23,9 +23,10 @@ struct LogLinearProcess {
 // Linearizes the process factor that leads to keyframe `k` > 0.
 LogLinearProcess linearize_process(const LogGraph& graph, int k);
 
-// Adds the information of a keyframe's measurements, of its own prior, and of the motion
-// constraints between it and the next.
+// Adds the information of a keyframe's measurements and of its own prior.
 void add_information(const LogGraph& graph, int k, LogInformation* sum);
+// Adds what motion constraints between a keyframe and the next say of it; false: there were none.
+bool add_constraints(const LogGraph& graph, int k, LogInformation* sum);
 
 // Returns a measurement's residual (measured minus predicted, without its ambiguity) and its row at
 // the keyframe's estimate.
