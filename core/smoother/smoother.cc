@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace leonav {
 namespace {
@@ -46,13 +47,15 @@ bool has_enough_satellites(const Window& window) {
 
 Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
                    const Eigen::Vector3d& lever_arm_b,
-                   const ProcessPropagationConfig& repropagation)
+                   const ProcessPropagationConfig& repropagation,
+                   std::unique_ptr<WindowSolver> minimizer)
     : config_(config),
       robust_(robust),
       lever_arm_b_(lever_arm_b),
       window_(config.window),
       weights_(robust, config.code_alike_s),
       rts_solver_(window_.capacity()),
+      minimizer_(std::move(minimizer)),
       repropagator_(repropagation),
       saved_(std::make_unique<Saved[]>(static_cast<std::size_t>(window_.capacity()))),
       next_prior_(std::make_unique<WindowPrior>()) {}
@@ -105,6 +108,15 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   result.status = newest_follows_ ? SmootherStatus::kOk
                   : window_lost_  ? SmootherStatus::kSingular
                                   : SmootherStatus::kStarted;
+  if (minimizer_ != nullptr) {
+    if (!minimize(budget, &result)) {
+      result.status = SmootherStatus::kSingular;
+      failed_ = true;
+      return result;
+    }
+    finish(&result);
+    return result;
+  }
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
     double moved_sigmas = 0.0, reweighed = 0.0;
@@ -126,17 +138,39 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
   if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
     *reweighed = weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
-  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;
   double moved_m = 0.0;
+  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_) || !apply_corrections(&moved_m))
+    return false;
+  *moved_sigmas = moved_m / std::max(filter_sigma_m_, 1e-6);
+  return true;
+}
+
+// Lets the minimizer take all steps at weights that are decided once. The chain then gives the
+// covariance, and the step where the minimizer has found none.
+bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
+  if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
+    weights_.update_factors(true, lever_arm_b_, &window_);
+  minimizer_->limit(budget);
+  const bool minimized = minimizer_->solve(window_, lever_arm_b_, &corrections_);
+  minimizer_->limit(nullptr);
+  result->iterations = std::max(1, minimizer_->iterations());
+  result->converged = minimized && result->iterations < config_.max_iterations;
+  double moved_m = 0.0;
+  if (minimized && !apply_corrections(&moved_m)) return false;
+  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;
+  return minimized || apply_corrections(&moved_m);
+}
+
+// Adds the corrections to the keyframes' states; `moved_m` is the largest step of a position.
+bool Smoother::apply_corrections(double* moved_m) {
   for (int i = 0; i < window_.size(); ++i) {
     Keyframe& keyframe = window_.at(i);
     const EkfCorrection error =
         full_error(keyframe.active, corrections_[static_cast<std::size_t>(i)]);
-    moved_m = std::max(moved_m, error.segment<3>(kPosition).norm());
+    *moved_m = std::max(*moved_m, error.segment<3>(kPosition).norm());
     leonav::add(error, keyframe.has_attitude, &keyframe.state);
     if (!is_finite(keyframe.state)) return false;
   }
-  *moved_sigmas = moved_m / std::max(filter_sigma_m_, 1e-6);
   return true;
 }
 

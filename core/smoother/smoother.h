@@ -19,14 +19,6 @@
 
 namespace leonav {
 
-// SolveBudget decides before every iteration but the first whether a solve may continue.
-class SolveBudget {
- public:
-  virtual ~SolveBudget() = default;
-  // Returns whether another iteration may begin after `iterations_done`.
-  virtual bool may_iterate(int iterations_done) = 0;
-};
-
 // Result of one solve.
 struct SmootherResult {
   SmootherStatus status = SmootherStatus::kNoFilter;
@@ -45,9 +37,12 @@ struct SmootherResult {
 // throws.
 class Smoother {
  public:
-  // `lever_arm_b`: m, from the IMU to the antenna, body axes.
+  // `lever_arm_b`: m, from the IMU to the antenna, body axes. `minimizer` takes all steps of a
+  // solve at once; nullptr: the chain takes them one by one. Where the minimizer finds none, the
+  // chain does.
   Smoother(const SmootherConfig& config, const RobustConfig& robust,
-           const Eigen::Vector3d& lever_arm_b, const ProcessPropagationConfig& repropagation);
+           const Eigen::Vector3d& lever_arm_b, const ProcessPropagationConfig& repropagation,
+           std::unique_ptr<WindowSolver> minimizer = nullptr);
 
   // Adds a keyframe. Where the filter has started over, the IMU connects it with the newest one;
   // one that cannot be connected starts a new window.
@@ -75,6 +70,8 @@ class Smoother {
   void restore();
   void marginalize_and_drop_oldest();
   bool iterate(int iteration, double* moved_sigmas, double* reweighed);
+  bool minimize(SolveBudget* budget, SmootherResult* result);
+  bool apply_corrections(double* moved_m);
   void finish(SmootherResult* result);
 
   SmootherConfig config_;
@@ -83,6 +80,7 @@ class Smoother {
   Window window_;
   WindowWeights weights_;
   RtsSolver rts_solver_;
+  std::unique_ptr<WindowSolver> minimizer_;
   Repropagator repropagator_;
   WindowCorrections corrections_;
   std::unique_ptr<Saved[]> saved_;

@@ -3,11 +3,26 @@
 
 namespace leonav {
 
+// What takes the steps of the window.
+enum class SmootherSolver : unsigned char {
+  kChain,  // forward and backward pass over the keyframes; allocates nothing
+  kCeres   // Levenberg-Marquardt of Ceres; allocates
+};
+
+// The robust weights that Ceres uses.
+enum class CeresLoss : unsigned char {
+  kIgg3,  // IGG-III, decided before the solve as for the chain
+  kHuber,
+  kCauchy
+};
+
 // Settings of the smoother; the names of the configuration keys are those of group `smoother`.
 struct SmootherConfig {
+  SmootherSolver solver = SmootherSolver::kChain;
+  CeresLoss ceres_loss = CeresLoss::kIgg3;
   int window = 20;                    // keyframes, 1 to kMaxWindow
   double keyframe_interval_s = 0.95;  // an epoch closer to the last keyframe is not a keyframe
-  int max_iterations = 4;             // linearizations of one solve
+  int max_iterations = 4;             // linearizations of one solve; for Ceres, its iterations
   bool reweigh = true;  // decide weights anew at every iteration; false: the filter's weights
   // Errors of a satellite's code less than this apart count as one when the mean of its residuals
   // over the window is tested; 0: each code is tested by itself only.

@@ -172,6 +172,13 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
 }
 
 void read_smoother(ConfigReader& group, SmootherConfig* config) {
+  group.choice<SmootherSolver>(
+      "solver", {{"chain", SmootherSolver::kChain}, {"ceres", SmootherSolver::kCeres}},
+      &config->solver);
+  group.choice<CeresLoss>(
+      "ceres_loss",
+      {{"igg3", CeresLoss::kIgg3}, {"huber", CeresLoss::kHuber}, {"cauchy", CeresLoss::kCauchy}},
+      &config->ceres_loss);
   group.integer("window", 1, static_cast<int>(kMaxWindow), &config->window);
   group.number("keyframe_interval_s", {0.0, 10.0}, &config->keyframe_interval_s);
   group.integer("max_iterations", 1, 20, &config->max_iterations);

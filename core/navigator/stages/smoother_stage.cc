@@ -1,7 +1,10 @@
 #include "core/navigator/stages/smoother_stage.h"
 
+#include <memory>
+
 #include "core/filter/state/covariance_blocks.h"
 #include "core/navigator/interface/solution_conversion.h"
+#include "core/smoother/ceres/ceres_solver.h"
 
 namespace leonav {
 namespace {
@@ -17,6 +20,16 @@ Solution solution_of(const Anchor& anchor, Source source) {
   return solution;
 }
 
+// Returns what takes all steps of a solve at once; nullptr: the smoother's own chain takes them.
+std::unique_ptr<WindowSolver> minimizer(const SmootherConfig& config) {
+  if (config.solver == SmootherSolver::kChain) return nullptr;
+  LogCeresOptions options;
+  options.threads = 1;  // the order of sums decides bits
+  options.max_iterations = config.max_iterations;
+  options.loss = config.ceres_loss;
+  return std::make_unique<CeresSolver>(options);
+}
+
 }  // namespace
 
 SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<SmootherAnchor>* mailbox,
@@ -27,7 +40,8 @@ SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<Smoothe
       inertial_(config.motion == MotionModel::kInertial),
       integrity_(config.integrity),
       smoother_(config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
-                {config.ekf, config.imu, config.vehicle.motion.constraints}) {}
+                {config.ekf, config.imu, config.vehicle.motion.constraints},
+                minimizer(config.smoother)) {}
 
 void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   smoother_.add(input);

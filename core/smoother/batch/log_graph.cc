@@ -44,6 +44,26 @@ MatrixXd inverse_of(const MatrixXd& covariance) {
          scale.asDiagonal();
 }
 
+// The filter's estimate, which contains the keyframe's measurements.
+void set_prior(const KeyframeInput& input, LogKeyframe* keyframe) {
+  const ActiveStates& active = keyframe->active;
+  const auto pieces = static_cast<Index>(input.state.ambiguities.size());
+  MatrixXd covariance(active.core_size() + pieces, active.core_size() + pieces);
+  const auto whole = [&](Index i) {
+    return i < active.core_size() ? active.core[static_cast<std::size_t>(i)]
+                                  : active.before_ambiguities + i - active.core_size();
+  };
+  for (Index i = 0; i < covariance.rows(); ++i)
+    for (Index j = 0; j < covariance.cols(); ++j)
+      covariance(i, j) = input.covariance(whole(i), whole(j));
+  keyframe->prior_information = inverse_of(covariance);
+  keyframe->prior_gradient.setZero(covariance.rows());
+  keyframe->prior_at = input.state;
+  keyframe->prior_pieces_at.resize(pieces);
+  for (Index i = 0; i < pieces; ++i)
+    keyframe->prior_pieces_at(i) = input.state.ambiguities[static_cast<std::size_t>(i)].value_m;
+}
+
 }  // namespace
 
 void LogGraph::add(const KeyframeInput& input) {
@@ -67,9 +87,7 @@ void LogGraph::add(const KeyframeInput& input) {
   if (linked) {
     add_process(input, keyframes_.back(), &keyframe);
   } else {
-    keyframe.prior_at = input.state;
-    keyframe.prior_information =
-        inverse_of(selected(input.covariance, keyframe.active, keyframe.active));
+    set_prior(input, &keyframe);
   }
   follow_arcs(input, linked);
   if (linked) add_measurements(input, &keyframe);

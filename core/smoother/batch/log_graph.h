@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "core/filter/update/measurement_model.h"
@@ -58,8 +59,12 @@ struct LogKeyframe {
   CoreState state;              // the estimate
   double filter_sigma_m = 0.0;  // of the filter's position, 3D
   LogProcess process;
-  Eigen::MatrixXd prior_information;  // of the core states where no process leads here
+  // Where no process leads here: 0.5 d^T information d - gradient^T d, with d the core states and
+  // then the pieces minus the values given.
+  Eigen::MatrixXd prior_information;
+  Eigen::VectorXd prior_gradient;
   CoreState prior_at;
+  Eigen::VectorXd prior_pieces_at;
   Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_e = Eigen::Vector3d::Zero();
   Eigen::Vector3d vertical_antenna_offset_e = Eigen::Vector3d::Zero();
@@ -83,6 +88,12 @@ class LogGraph {
 
   // Appends an epoch as the filter has treated it; one without a state is left out.
   void add(const KeyframeInput& input);
+  // Appends a keyframe that is complete, and a piece, whose index it returns.
+  void add(LogKeyframe keyframe) { keyframes_.push_back(std::move(keyframe)); }
+  int add(const AmbiguityPiece& piece) {
+    pieces_.push_back(piece);
+    return static_cast<int>(pieces_.size()) - 1;
+  }
 
   int size() const { return static_cast<int>(keyframes_.size()); }
   LogKeyframe& at(int k) { return keyframes_[static_cast<std::size_t>(k)]; }

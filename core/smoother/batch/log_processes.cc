@@ -137,17 +137,27 @@ double LogProcesses::configured_sigma(int state) const {
 // The states that the keyframe did not have are as uncertain as the configuration says, about its
 // values: those of the estimate come from the rest of the log, which must not count twice.
 void LogProcesses::widen_prior(LogKeyframe* keyframe, const ActiveStates& had) const {
-  MatrixXd information = MatrixXd::Zero(keyframe->core_size(), keyframe->core_size());
+  const Index core = keyframe->core_size();
+  // Where a state or a piece was in the prior; -1: nowhere.
+  const auto old_index = [&](Index i) {
+    if (i >= core) return had.core_size() + i - core;
+    return position_of(had, keyframe->active.core[static_cast<std::size_t>(i)]);
+  };
+  MatrixXd information = MatrixXd::Zero(keyframe->size(), keyframe->size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(keyframe->size());
   for (Index i = 0; i < information.rows(); ++i) {
-    const int state = keyframe->active.core[static_cast<std::size_t>(i)];
-    const Index before = position_of(had, state);
-    for (Index j = 0; before >= 0 && j < information.cols(); ++j) {
-      const Index other = position_of(had, keyframe->active.core[static_cast<std::size_t>(j)]);
-      if (other >= 0) information(i, j) = keyframe->prior_information(before, other);
+    const Index before = old_index(i);
+    if (before < 0) {
+      const int state = keyframe->active.core[static_cast<std::size_t>(i)];
+      information(i, i) = 1.0 / square(configured_sigma(state));
+      continue;
     }
-    if (before < 0) information(i, i) = 1.0 / square(configured_sigma(state));
+    gradient(i) = keyframe->prior_gradient(before);
+    for (Index j = 0; j < information.cols(); ++j)
+      if (old_index(j) >= 0) information(i, j) = keyframe->prior_information(before, old_index(j));
   }
   keyframe->prior_information = information;
+  keyframe->prior_gradient = gradient;
   keyframe->prior_at.nav.errors = ImuErrors();
   std::fill(keyframe->prior_at.vehicle.begin(), keyframe->prior_at.vehicle.end(), 0.0);
 }

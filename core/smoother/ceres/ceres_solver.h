@@ -1,24 +1,31 @@
-// CeresSolver minimizes the window's cost by Ceres, as the reference for the steps of RtsSolver.
+// CeresSolver minimizes the window's cost by Ceres (http://ceres-solver.org).
 #pragma once
+#include "core/smoother/ceres/log_ceres.h"
 #include "core/smoother/window_solver.h"
 
 namespace leonav {
 
-// CeresSolver minimizes the cost fully, at the present weights, in one thread, with a fresh problem
-// per call.
-//
-// A state that the process does not change (an ambiguity without a random walk) is one unknown for
-// all keyframes that have it. Allocates memory; not for the service.
+// Levenberg-Marquardt on the whole window, in other unknowns than those of RtsSolver: a state that
+// the process does not change is one unknown for all its keyframes. It allocates.
 class CeresSolver final : public WindowSolver {
  public:
-  // Returns false also where the process changes only combinations of states.
+  explicit CeresSolver(const LogCeresOptions& options = {}) : options_(options) {}
+
+  // Computes corrections that lead to the minimum, as far as the iterations reach. Returns false
+  // also for a window that a LogGraph cannot hold (window_graph.h); summary() says why.
   bool solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
              WindowCorrections* corrections) override;
 
-  int iterations() const { return iterations_; }  // iterations of the last solve()
+  void limit(SolveBudget* budget) override { budget_ = budget; }
+  int iterations() const override { return summary_.iterations; }
+
+  // Of the last solve().
+  const LogCeresSummary& summary() const { return summary_; }
 
  private:
-  int iterations_ = 0;
+  LogCeresOptions options_;
+  SolveBudget* budget_ = nullptr;
+  LogCeresSummary summary_;
 };
 
 }  // namespace leonav

@@ -2,6 +2,10 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -10,10 +14,22 @@
 namespace leonav {
 namespace {
 
+ceres::LinearSolverType type_of(LogCeresLinear linear) {
+  switch (linear) {
+    case LogCeresLinear::kSparseSchur:
+      return ceres::SPARSE_SCHUR;
+    case LogCeresLinear::kDenseSchur:
+      return ceres::DENSE_SCHUR;
+    case LogCeresLinear::kSparseNormal:
+      break;
+  }
+  return ceres::SPARSE_NORMAL_CHOLESKY;
+}
+
 // Gauss-Newton steps, damped only where they do not reduce the cost.
 ceres::Solver::Options solver_options(const LogCeresOptions& options) {
   ceres::Solver::Options given;
-  given.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  given.linear_solver_type = type_of(options.linear);
   given.num_threads = options.threads;
   given.initial_trust_region_radius = 1e16;
   given.max_trust_region_radius = 1e16;
@@ -23,6 +39,52 @@ ceres::Solver::Options solver_options(const LogCeresOptions& options) {
   given.parameter_tolerance = 0.0;
   given.logging_type = ceres::SILENT;
   return given;
+}
+
+// Ends the solve where somebody says so.
+class Limit final : public ceres::IterationCallback {
+ public:
+  explicit Limit(const std::function<bool(int)>& may_iterate) : may_iterate_(may_iterate) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (summary.iteration == 0 || may_iterate_(summary.iteration)) return ceres::SOLVER_CONTINUE;
+    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  const std::function<bool(int)>& may_iterate_;
+};
+
+std::unique_ptr<ceres::LossFunction> loss_of(const LogCeresOptions& options, const LogCost& cost) {
+  const double ratio = cost.gain_to_test_sigma();
+  if (!(ratio > 0.0) || options.loss == CeresLoss::kIgg3) return nullptr;
+  const double scale = options.loss_sigmas / ratio;
+  if (options.loss == CeresLoss::kHuber) return std::make_unique<ceres::HuberLoss>(scale);
+  return std::make_unique<ceres::CauchyLoss>(scale);
+}
+
+bool take_last_step(LogUnknowns* unknowns, ceres::Problem* problem) {
+  ceres::Problem::EvaluateOptions order;
+  for (int block = 0; block < unknowns->blocks(); ++block)
+    if (problem->HasParameterBlock(unknowns->values(block)))
+      order.parameter_blocks.push_back(unknowns->values(block));
+  std::vector<double> values;
+  ceres::CRSMatrix rows;
+  if (!problem->Evaluate(order, nullptr, &values, nullptr, &rows)) return false;
+  Eigen::SparseMatrix<double> J = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+      rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
+      rows.cols.data(), rows.values.data());
+  Eigen::VectorXd scale(J.cols());
+  for (Eigen::Index i = 0; i < J.cols(); ++i) scale(i) = 1.0 / J.col(i).norm();
+  J = J * scale.asDiagonal();
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> root(J.transpose() * J);
+  if (root.info() != Eigen::Success) return false;
+  const Eigen::Map<const Eigen::VectorXd> residuals(values.data(), rows.num_rows);
+  const Eigen::VectorXd change =
+      -scale.cwiseProduct(root.solve(Eigen::VectorXd(J.transpose() * residuals)));
+  Eigen::Index i = 0;
+  for (double* block : order.parameter_blocks)
+    for (int k = 0; k < problem->ParameterBlockSize(block); ++k) block[k] += change(i++);
+  return change.allFinite();
 }
 
 }  // namespace
@@ -35,18 +97,23 @@ bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
     return false;
   }
   std::vector<std::unique_ptr<LogCost>> costs;
-  if (!make_costs(graph, unknowns, &costs)) {
+  if (!make_costs(graph, unknowns, options.loss == CeresLoss::kIgg3, &costs)) {
     summary->message = "a factor has no definite covariance";
     return false;
   }
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.disable_all_safety_checks = true;
+  std::vector<std::unique_ptr<ceres::LossFunction>> losses;
   ceres::Problem problem(ownership);
   std::vector<double*> values;
   for (const auto& cost : costs) {
     values.clear();
     for (const int block : cost->blocks()) values.push_back(unknowns.values(block));
-    if (cost->num_residuals() > 0) problem.AddResidualBlock(cost.get(), nullptr, values);
+    losses.push_back(loss_of(options, *cost));
+    if (cost->num_residuals() > 0)
+      problem.AddResidualBlock(cost.get(), losses.back().get(), values);
   }
   std::vector<std::unique_ptr<PieceCost>> steps;
   for (std::size_t i = 0; i < graph.pieces().size(); ++i) {
@@ -59,14 +126,21 @@ bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
     problem.AddResidualBlock(steps.back().get(), nullptr, values);
   }
   ceres::Solver::Summary solved;
-  ceres::Solve(solver_options(options), &problem, &solved);
-  summary->iterations = static_cast<int>(solved.iterations.size());
+  ceres::Solver::Options solver = solver_options(options);
+  Limit limit(options.may_iterate);
+  if (options.may_iterate) solver.callbacks.push_back(&limit);
+  ceres::Solve(solver, &problem, &solved);
+  summary->iterations = std::max(0, static_cast<int>(solved.iterations.size()) - 1);
+  summary->linear_s = solved.linear_solver_time_in_seconds;
+  summary->total_s = solved.total_time_in_seconds;
   summary->cost_before = solved.initial_cost;
   summary->cost_after = solved.final_cost;
   summary->parameters = solved.num_parameters;
   summary->residuals = solved.num_residuals;
   summary->message = solved.message;
   if (!solved.IsSolutionUsable()) return false;
+  for (int i = 0; i < options.last_steps; ++i)
+    if (!take_last_step(&unknowns, &problem)) return false;
   corrections->core.resize(static_cast<std::size_t>(graph.size()));
   for (int k = 0; k < graph.size(); ++k)
     corrections->core[static_cast<std::size_t>(k)] = unknowns.error(k);

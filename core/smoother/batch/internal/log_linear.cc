@@ -23,6 +23,24 @@ void add_quadratic(const LogKeyframe& keyframe, const CoreState& at, MatrixXd in
   sum->gradient.head(core) += gradient;
 }
 
+// The prior of core states and pieces.
+void add_prior(const LogGraph& graph, const LogKeyframe& keyframe, LogInformation* sum) {
+  MatrixXd information = keyframe.prior_information;
+  VectorXd gradient = keyframe.prior_gradient;
+  EkfCorrection moved(keyframe.size());
+  moved.head(keyframe.core_size()) =
+      active_part(keyframe.active, difference(keyframe.state, keyframe.prior_at));
+  for (std::size_t i = 0; i < keyframe.pieces.size(); ++i) {
+    const auto piece = static_cast<Index>(i);
+    moved(keyframe.core_size() + piece) =
+        graph.piece(keyframe.pieces[i]).value_m - keyframe.prior_pieces_at(piece);
+  }
+  turn_to_errors(attitude_jacobian(keyframe.active, keyframe.state, keyframe.prior_at), moved,
+                 &information, &gradient);
+  sum->matrix += information;
+  sum->gradient += gradient;
+}
+
 Index index_of_piece(const LogKeyframe& keyframe, int piece) {
   const auto found = std::lower_bound(keyframe.pieces.begin(), keyframe.pieces.end(), piece);
   return keyframe.core_size() + (found - keyframe.pieces.begin());
@@ -60,9 +78,7 @@ LinearMeasurement linearize(const LogGraph& graph, const LogKeyframe& keyframe,
 void add_information(const LogGraph& graph, int k, LogInformation* sum) {
   const LogKeyframe& keyframe = graph.at(k);
   const Index core = keyframe.core_size();
-  if (keyframe.prior_information.size() > 0)
-    add_quadratic(keyframe, keyframe.prior_at, keyframe.prior_information, VectorXd::Zero(core),
-                  sum);
+  if (keyframe.prior_information.size() > 0) add_prior(graph, keyframe, sum);
   const AntennaMotion antenna = antenna_of(keyframe, keyframe.state, graph.lever_arm_b());
   VectorXd row(core);
   for (const LogMeasurement& measurement : keyframe.measurements) {

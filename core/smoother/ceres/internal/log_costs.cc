@@ -23,12 +23,16 @@ void to_change(const ActiveStates& active, const CoreState& state, const CoreSta
   if (change.index >= 0) columns_times(change.of_error, change.index, jacobian);
 }
 
-// A quadratic term 0.5 d^T information d - gradient^T d of a keyframe, d = x - at.
+// A quadratic term 0.5 d^T information d - gradient^T d of a keyframe, d = x - at; `pieces_at` are
+// the values of the first of its pieces as far as the term contains them.
 class QuadraticCost final : public LogCost {
  public:
   QuadraticCost(const LogGraph& graph, const LogUnknowns& unknowns, int keyframe,
-                const CoreState& at, const MatrixXd& information, const VectorXd& gradient)
-      : LogCost(graph, unknowns, {keyframe}), at_(at) {
+                const CoreState& at, const VectorXd& pieces_at, const MatrixXd& information,
+                const VectorXd& gradient)
+      : LogCost(graph, unknowns, {keyframe}, first(graph.at(keyframe).pieces, pieces_at.size())),
+        at_(at),
+        pieces_moved_(pieces_at.size()) {
     constexpr double kNothing = 1e-12;  // times the largest eigenvalue: rounding
     const VectorXd scale = information.diagonal().cwiseMax(0.0).cwiseSqrt();
     const VectorXd inverse = (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
@@ -41,20 +45,32 @@ class QuadraticCost final : public LogCost {
     root_ = sigma.asDiagonal() * directions.transpose() * scale.asDiagonal();
     whitened_gradient_ = sigma.cwiseInverse().asDiagonal() *
                          (directions.transpose() * (inverse.asDiagonal() * gradient));
+    for (Index i = 0; i < pieces_moved_.size(); ++i)
+      pieces_moved_(i) =
+          graph.piece(graph.at(keyframe).pieces[static_cast<std::size_t>(i)]).value_m -
+          pieces_at(i);
     usable_ = parts.info() == Eigen::Success && root_.allFinite() && whitened_gradient_.allFinite();
     set_num_residuals(static_cast<int>(rank));
   }
 
  private:
+  static std::vector<int> first(const std::vector<int>& pieces, Index count) {
+    return {pieces.begin(), pieces.begin() + count};
+  }
+
   void evaluate(const Evaluation& at) const override {
     const ActiveStates& active = graph_.at(keyframes_[0]).active;
-    *at.residuals = root_ * active_part(active, difference(at.states[0], at_)) - whitened_gradient_;
+    const Index core = active.core_size(), pieces = pieces_moved_.size();
+    *at.residuals = root_.leftCols(core) * active_part(active, difference(at.states[0], at_)) +
+                    root_.rightCols(pieces) * (pieces_moved_ + at.pieces) - whitened_gradient_;
     if (at.jacobians == nullptr) return;
-    (*at.jacobians)[0] = root_;
+    (*at.jacobians)[0] = root_.leftCols(core);
     to_change(active, at.states[0], at_, &(*at.jacobians)[0]);
+    *at.of_pieces = root_.rightCols(pieces);
   }
 
   CoreState at_;
+  VectorXd pieces_moved_;
   MatrixXd root_;               // R with R^T R = information, of as many rows as that has rank
   VectorXd whitened_gradient_;  // R^-T gradient
 };
@@ -104,9 +120,16 @@ class ProcessCost final : public LogCost {
 class MeasurementsCost final : public LogCost {
  public:
   MeasurementsCost(const LogGraph& graph, const LogUnknowns& unknowns, int k, int piece,
-                   std::vector<const LogMeasurement*> measurements)
-      : LogCost(graph, unknowns, {k}, piece), measurements_(std::move(measurements)) {
+                   std::vector<const LogMeasurement*> measurements, bool factors)
+      : LogCost(graph, unknowns, {k}, piece >= 0 ? std::vector<int>{piece} : std::vector<int>{}),
+        measurements_(std::move(measurements)),
+        factors_(factors) {
     set_num_residuals(static_cast<int>(measurements_.size()));
+  }
+
+  double gain_to_test_sigma() const override {
+    if (measurements_.size() != 1) return 0.0;
+    return std::sqrt(measurements_[0]->gain_variance / measurements_[0]->variance);
   }
 
  private:
@@ -117,30 +140,35 @@ class MeasurementsCost final : public LogCost {
     const AntennaMotion antenna = antenna_of(keyframe, state, graph_.lever_arm_b());
     for (Index i = 0; i < at.residuals->size(); ++i) {
       const LogMeasurement& measurement = *measurements_[static_cast<std::size_t>(i)];
-      const double root = std::sqrt(measurement.factor / measurement.gain_variance);
+      const double factor = factors_ ? measurement.factor : 1.0;
+      const double root = std::sqrt(factor / measurement.gain_variance);
       const LinearMeasurement linear =
           linearize(measurement.measurement,
                     keyframe.satellites[measurement.measurement.satellite_index], state, antenna);
       double residual = linear.residual;
       if (measurement.piece >= 0)
-        residual -= graph_.piece(measurement.piece).value_m + at.ambiguity_error_m +
-                    measurement.ambiguity_offset_m;
+        residual -=
+            graph_.piece(measurement.piece).value_m + at.pieces(0) + measurement.ambiguity_offset_m;
       (*at.residuals)(i) = -root * residual;
       if (at.jacobians == nullptr) continue;
       for (Index j = 0; j < active.core_size(); ++j)
         (*at.jacobians)[0](i, j) = root * row_of(linear, active.core[static_cast<std::size_t>(j)]);
-      (*at.of_ambiguity)(i) = root;
+      if (at.of_pieces->cols() > 0) (*at.of_pieces)(i, 0) = root;
     }
   }
 
   std::vector<const LogMeasurement*> measurements_;
+  bool factors_;
 };
 
 }  // namespace
 
 LogCost::LogCost(const LogGraph& graph, const LogUnknowns& unknowns, std::vector<int> keyframes,
-                 int piece)
-    : graph_(graph), keyframes_(std::move(keyframes)), unknowns_(unknowns), piece_(piece) {
+                 std::vector<int> pieces)
+    : graph_(graph),
+      keyframes_(std::move(keyframes)),
+      unknowns_(unknowns),
+      pieces_(std::move(pieces)) {
   for (const int k : keyframes_)
     for (const LogUnknowns::Entry& entry : unknowns.entries(k)) blocks_.push_back(entry.block);
   std::sort(blocks_.begin(), blocks_.end());
@@ -152,7 +180,7 @@ LogCost::LogCost(const LogGraph& graph, const LogUnknowns& unknowns, std::vector
           std::lower_bound(blocks_.begin(), blocks_.end(), entry.block) - blocks_.begin()));
     slots_.push_back(slots);
   }
-  if (piece_ >= 0) blocks_.push_back(unknowns.block_of_piece(piece_));
+  for (const int piece : pieces_) blocks_.push_back(unknowns.block_of_piece(piece));
   for (const int block : blocks_)
     mutable_parameter_block_sizes()->push_back(unknowns.size_of(block));
 }
@@ -162,12 +190,15 @@ bool LogCost::Evaluate(double const* const* parameters, double* residuals,
   const std::size_t count = keyframes_.size();
   Evaluation at;
   std::vector<MatrixXd> of_changes(count);
-  VectorXd of_ambiguity = VectorXd::Zero(num_residuals());
+  const std::size_t first_piece = blocks_.size() - pieces_.size();
+  MatrixXd of_pieces = MatrixXd::Zero(num_residuals(), static_cast<Index>(pieces_.size()));
   VectorXd values(num_residuals());
   at.residuals = &values;
   at.jacobians = jacobians != nullptr ? &of_changes : nullptr;
-  at.of_ambiguity = &of_ambiguity;
-  if (piece_ >= 0) at.ambiguity_error_m = parameters[blocks_.size() - 1][0];
+  at.of_pieces = &of_pieces;
+  at.pieces.resize(of_pieces.cols());
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    at.pieces(static_cast<Index>(i)) = parameters[first_piece + i][0];
   for (std::size_t i = 0; i < count; ++i) {
     const LogKeyframe& keyframe = graph_.at(keyframes_[i]);
     const LogUnknowns::Entries& entries = unknowns_.entries(keyframes_[i]);
@@ -199,36 +230,38 @@ bool LogCost::Evaluate(double const* const* parameters, double* residuals,
           .col(entries[j].offset) += of_changes[i].col(static_cast<Index>(j));
     }
   }
-  if (piece_ >= 0 && jacobians[blocks_.size() - 1] != nullptr)
-    VectorXd::Map(jacobians[blocks_.size() - 1], num_residuals()) = of_ambiguity;
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    if (jacobians[first_piece + i] != nullptr)
+      VectorXd::Map(jacobians[first_piece + i], num_residuals()) =
+          of_pieces.col(static_cast<Index>(i));
   return values.allFinite();
 }
 
-bool make_costs(const LogGraph& graph, const LogUnknowns& unknowns,
+bool make_costs(const LogGraph& graph, const LogUnknowns& unknowns, bool factors,
                 std::vector<std::unique_ptr<LogCost>>* costs) {
   for (int k = 0; k < graph.size(); ++k) {
     const LogKeyframe& keyframe = graph.at(k);
     const LogProcess& process = keyframe.process;
     if (keyframe.prior_information.size() > 0)
-      costs->push_back(std::make_unique<QuadraticCost>(graph, unknowns, k, keyframe.prior_at,
-                                                       keyframe.prior_information,
-                                                       VectorXd::Zero(keyframe.core_size())));
+      costs->push_back(std::make_unique<QuadraticCost>(
+          graph, unknowns, k, keyframe.prior_at, keyframe.prior_pieces_at,
+          keyframe.prior_information, keyframe.prior_gradient));
     if (process.exists) costs->push_back(std::make_unique<ProcessCost>(graph, unknowns, k));
     if (process.information.size() > 0)
-      costs->push_back(std::make_unique<QuadraticCost>(graph, unknowns, k - 1, process.from,
-                                                       process.information, process.gradient));
+      costs->push_back(std::make_unique<QuadraticCost>(
+          graph, unknowns, k - 1, process.from, VectorXd(), process.information, process.gradient));
     std::vector<const LogMeasurement*> plain;
     for (const LogMeasurement& measurement : keyframe.measurements) {
-      if (!(measurement.factor > 0.0)) continue;
-      if (measurement.piece < 0)
+      if (factors && !(measurement.factor > 0.0)) continue;
+      if (measurement.piece < 0 && factors)
         plain.push_back(&measurement);
       else
-        costs->push_back(
-            std::make_unique<MeasurementsCost>(graph, unknowns, k, measurement.piece,
-                                               std::vector<const LogMeasurement*>{&measurement}));
+        costs->push_back(std::make_unique<MeasurementsCost>(
+            graph, unknowns, k, measurement.piece, std::vector<const LogMeasurement*>{&measurement},
+            factors));
     }
     if (!plain.empty())
-      costs->push_back(std::make_unique<MeasurementsCost>(graph, unknowns, k, -1, plain));
+      costs->push_back(std::make_unique<MeasurementsCost>(graph, unknowns, k, -1, plain, factors));
   }
   return std::all_of(costs->begin(), costs->end(),
                      [](const std::unique_ptr<LogCost>& cost) { return cost->usable(); });

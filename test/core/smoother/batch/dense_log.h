@@ -76,8 +76,11 @@ class DenseRows {
     used_ += value.size();
   }
   // 0.5 d^T information d - gradient^T d, with d = moved + slope e. The information may lack rank.
+  // d is made of a keyframe's core states, from column `first` on, and of pieces, from
+  // `first_piece`.
   void add_quadratic(Eigen::Index first, const Eigen::MatrixXd& slope, const Eigen::VectorXd& moved,
-                     const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient) {
+                     const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
+                     Eigen::Index first_piece = 0) {
     constexpr double kNothing = 1e-13;  // times the largest eigenvalue
     const Eigen::VectorXd scale =
         information.diagonal().unaryExpr([](double x) { return x > 0.0 ? std::sqrt(x) : 1.0; });
@@ -91,7 +94,10 @@ class DenseRows {
       const Eigen::RowVectorXd root = sigma * direction.cwiseProduct(scale).transpose();
       Eigen::VectorXd value(1);
       value(0) = direction.dot(scale.cwiseInverse().cwiseProduct(gradient)) / sigma - root * moved;
-      add({{first, root * slope}}, value);
+      const Eigen::Index core = slope.rows(), pieces = moved.size() - core;
+      std::vector<Part> of_states = {{first, root.head(core) * slope}};
+      if (pieces > 0) of_states.push_back({first_piece, root.tail(pieces)});
+      add(of_states, value);
     }
   }
   void solve(DenseLog* log) const {
@@ -173,6 +179,24 @@ inline void add_step_of_piece(const LogGraph& graph, int i, const DenseLog& log,
   rows->add(parts, Eigen::VectorXd::Constant(1, root * (expected - piece.value_m)));
 }
 
+// The pieces of a keyframe with a prior begin there, one after the other.
+inline void add_prior_rows(const LogGraph& graph, int k, const DenseLog& log, DenseRows* rows) {
+  const LogKeyframe& keyframe = graph.at(k);
+  Eigen::VectorXd moved(keyframe.size());
+  moved.head(keyframe.core_size()) =
+      active_part(keyframe.active, difference(keyframe.state, keyframe.prior_at));
+  for (std::size_t i = 0; i < keyframe.pieces.size(); ++i) {
+    const auto piece = static_cast<Eigen::Index>(i);
+    moved(keyframe.core_size() + piece) =
+        graph.piece(keyframe.pieces[i]).value_m - keyframe.prior_pieces_at(piece);
+  }
+  const Eigen::Index first_piece =
+      keyframe.pieces.empty() ? 0 : log.first.back() + keyframe.pieces.front();
+  rows->add_quadratic(log.first[static_cast<std::size_t>(k)],
+                      slope_of_difference(keyframe, keyframe.state, keyframe.prior_at), moved,
+                      keyframe.prior_information, keyframe.prior_gradient, first_piece);
+}
+
 inline DenseLog dense_log(const LogGraph& graph) {
   DenseLog log;
   log.first.push_back(0);
@@ -183,12 +207,7 @@ inline DenseLog dense_log(const LogGraph& graph) {
   for (int k = 0; k < graph.size(); ++k) {
     const LogKeyframe& keyframe = graph.at(k);
     if (keyframe.process.exists) add_process_rows(graph, k, log, &rows);
-    if (keyframe.prior_information.size() > 0)
-      rows.add_quadratic(
-          log.first[static_cast<std::size_t>(k)],
-          slope_of_difference(keyframe, keyframe.state, keyframe.prior_at),
-          active_part(keyframe.active, difference(keyframe.state, keyframe.prior_at)),
-          keyframe.prior_information, Eigen::VectorXd::Zero(keyframe.core_size()));
+    if (keyframe.prior_information.size() > 0) add_prior_rows(graph, k, log, &rows);
     add_measurement_rows(graph, k, log, &rows);
   }
   for (int i = 0; i < pieces; ++i) add_step_of_piece(graph, i, log, &rows);

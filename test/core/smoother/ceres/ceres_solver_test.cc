@@ -50,7 +50,10 @@ void compare(const DriveOptions& options, int capacity, int epochs) {
   Drive drive(options);
   Window by_chain(capacity), by_ceres(capacity);
   RtsSolver chain(capacity);
-  CeresSolver ceres;
+  LogCeresOptions precise;
+  precise.max_iterations = 50;
+  precise.last_steps = 3;
+  CeresSolver ceres(precise);
   for (int i = 0; i < epochs; ++i) {
     const KeyframeInput& input = drive.step();
     feed(input, drive.lever_b(), &by_chain);
