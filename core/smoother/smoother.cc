@@ -11,7 +11,6 @@ using namespace ekf_index;
 using Eigen::Index;
 
 constexpr std::size_t kEnoughSatellites = 4;
-constexpr double kSettledWeights = 1e-2;  // weights have converged when no factor changes more
 // The window has diverged if it is farther from the filter than the sigmas of both together, and
 // than this. Two estimates from the same measurements differ by less than the less accurate one is
 // wrong: the variance of their difference is P_filter - P_window where both are efficient (Hausman,
@@ -119,15 +118,14 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   }
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
-    double moved_sigmas = 0.0, reweighed = 0.0;
+    double moved_sigmas = 0.0;
     // The iteration that fails counts: a replay has to make it too.
-    if (!iterate(result.iterations++, &moved_sigmas, &reweighed)) {
+    if (!iterate(result.iterations++, &moved_sigmas)) {
       result.status = SmootherStatus::kSingular;
       failed_ = true;
       return result;
     }
-    result.converged = result.iterations > 1 && moved_sigmas < config_.converged_sigmas &&
-                       reweighed < kSettledWeights;
+    result.converged = moved_sigmas < config_.converged_sigmas;
     if (result.converged) break;
   }
   finish(&result);
@@ -135,9 +133,9 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 }
 
 // Does one iteration: weights, one step, and the length of that step in sigmas.
-bool Smoother::iterate(int iteration, double* moved_sigmas, double* reweighed) {
+bool Smoother::iterate(int iteration, double* moved_sigmas) {
   if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
-    *reweighed = weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
+    weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
   double moved_m = 0.0;
   if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_) || !apply_corrections(&moved_m))
     return false;
@@ -200,6 +198,19 @@ void Smoother::finish(SmootherResult* result) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }
+  if (config_.fixed_lag && result->status == SmootherStatus::kOk && window_.full())
+    add_lagged(result);
+}
+
+void Smoother::add_lagged(SmootherResult* result) const {
+  const Keyframe& oldest = window_.at(0);
+  LaggedState& lagged = result->lagged;
+  rts_solver_.oldest_covariance(window_, &lagged.covariance);
+  lagged.valid = lagged.covariance.allFinite();
+  lagged.index = oldest.index;
+  lagged.has_attitude = oldest.has_attitude;
+  lagged.state = oldest.state.nav;
+  lagged.time_offset_s = oldest.has_attitude ? time_offset_of(oldest.state.vehicle) : 0.0;
 }
 
 void Smoother::commit_or_roll_back(bool taken) {

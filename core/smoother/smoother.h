@@ -19,6 +19,16 @@
 
 namespace leonav {
 
+// The oldest keyframe of a full window, from all of the window: a fixed lag behind the newest one.
+struct LaggedState {
+  bool valid = false;
+  std::uint64_t index = 0;  // of its epoch
+  bool has_attitude = false;
+  NavState state;
+  PoseCovariance covariance = PoseCovariance::Zero();
+  double time_offset_s = 0.0;
+};
+
 // Result of one solve.
 struct SmootherResult {
   SmootherStatus status = SmootherStatus::kNoFilter;
@@ -29,6 +39,7 @@ struct SmootherResult {
   InertialCovariance covariance = InertialCovariance::Zero();
   int used = 0;                // measurements of the newest keyframe with a factor above zero
   double time_offset_s = 0.0;  // estimated: the state is this much later than its stamp
+  LaggedState lagged;
 };
 
 // Smoother works keyframe by keyframe: add(), solve(), then commit_or_roll_back().
@@ -47,8 +58,8 @@ class Smoother {
   // Adds a keyframe. Where the filter has started over, the IMU connects it with the newest one;
   // one that cannot be connected starts a new window.
   void add(const KeyframeInput& input);
-  // Iterates from the state that the last committed solve left; the weights of all measurements are
-  // decided anew at every iteration.
+  // Iterates from the state that the last committed solve left, until a step is short; the weights
+  // of all measurements are decided anew at every iteration.
   SmootherResult solve(SolveBudget* budget);
   // Commits the last solve if its result was taken. Otherwise the window returns to its state
   // before solve(), so that later results do not depend on how many iterations were done.
@@ -69,10 +80,11 @@ class Smoother {
   void save();
   void restore();
   void marginalize_and_drop_oldest();
-  bool iterate(int iteration, double* moved_sigmas, double* reweighed);
+  bool iterate(int iteration, double* moved_sigmas);
   bool minimize(SolveBudget* budget, SmootherResult* result);
   bool apply_corrections(double* moved_m);
   void finish(SmootherResult* result);
+  void add_lagged(SmootherResult* result) const;
 
   SmootherConfig config_;
   RobustConfig robust_;

@@ -22,7 +22,7 @@ struct SmootherConfig {
   CeresLoss ceres_loss = CeresLoss::kIgg3;
   int window = 20;                    // keyframes, 1 to kMaxWindow
   double keyframe_interval_s = 0.95;  // an epoch closer to the last keyframe is not a keyframe
-  int max_iterations = 4;             // linearizations of one solve; for Ceres, its iterations
+  int max_iterations = 2;             // linearizations of one solve; for Ceres, its iterations
   bool reweigh = true;  // decide weights anew at every iteration; false: the filter's weights
   // Errors of a satellite's code less than this apart count as one when the mean of its residuals
   // over the window is tested; 0: each code is tested by itself only.
@@ -31,8 +31,11 @@ struct SmootherConfig {
   // service only: the journal records the number of iterations that resulted.
   double time_limit_s = 0.25;
   // A solve ends when the largest correction of a position, in sigmas of the filter's position, is
-  // below this.
-  double converged_sigmas = 0.01;
+  // below this. The states move on from solve to solve, so that a shorter step leaves next to
+  // nothing of what is not linear.
+  double converged_sigmas = 0.5;
+
+  bool fixed_lag = true;  // give the oldest keyframe's state too, once the window is full
 
   bool operator==(const SmootherConfig&) const = default;
 };

@@ -186,6 +186,7 @@ void read_smoother(ConfigReader& group, SmootherConfig* config) {
   group.number("code_alike_s", {0.0, 1e4}, &config->code_alike_s);
   group.number("time_limit_ms", {0.0, 1e4}, &config->time_limit_s, kMillisecond);
   group.number("converged_sigmas", {1e-9, 1.0}, &config->converged_sigmas);
+  group.boolean("fixed_lag", &config->fixed_lag);
 }
 
 void read_robust(ConfigReader& group, RobustConfig* config) {

@@ -18,7 +18,7 @@ class EncodingSink : public OutputSink {
  public:
   // `schema`: the version of the messages; an older one to compare with an older journal.
   explicit EncodingSink(MessageTarget* target, OutputSchema schema = OutputSchema::kNewest)
-      : target_(target), encoder_(schema) {}
+      : target_(target), schema_(schema), encoder_(schema) {}
   void on_solution(const Solution& solution) override {
     target_->take(Channel::kSolution, encoder_.encode(solution));
   }
@@ -35,10 +35,14 @@ class EncodingSink : public OutputSink {
   }
   void on_smoother(const SmootherReport& report) override {
     target_->take(Channel::kSmoother, encoder_.encode(report));
+    // Journals of the first version have no such channel.
+    if (report.lagged.source != Source::kNone && schema_ != OutputSchema::kFirst)
+      target_->take(Channel::kSmoothed, encoder_.encode(report.lagged));
   }
 
  private:
   MessageTarget* target_;
+  OutputSchema schema_;
   Encoder encoder_;
 };
 

@@ -17,6 +17,8 @@ std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes) {
     }
     case Channel::kSmoother:
       return 7;
+    case Channel::kSmoothed:
+      return 9;
     case Channel::kEpoch:
     case Channel::kConstraints:  // of one epoch, behind it
       return 2;

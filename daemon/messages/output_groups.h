@@ -11,10 +11,10 @@
 namespace leonav {
 
 // The order within a group does not depend on how threads interleave. SOLUTION, DECISION (of the
-// inertial stage), EPOCH, EVENT by stage, SMOOTHER, and DECISION of the GNSS stage.
-inline constexpr std::array<std::string_view, 9> kOutputGroups = {
-    "SOLUTION",   "DECISION",       "EPOCH",    "EVENT sequencer",  "EVENT inertial",
-    "EVENT gnss", "EVENT smoother", "SMOOTHER", "DECISION keyframe"};
+// inertial stage), EPOCH, EVENT by stage, SMOOTHER, DECISION of the GNSS stage, and SMOOTHED.
+inline constexpr std::array<std::string_view, 10> kOutputGroups = {
+    "SOLUTION",   "DECISION",       "EPOCH",    "EVENT sequencer",   "EVENT inertial",
+    "EVENT gnss", "EVENT smoother", "SMOOTHER", "DECISION keyframe", "SMOOTHED"};
 
 // nullopt: not compared (inputs; HEALTH, which depends on the machine).
 std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes);

@@ -29,11 +29,12 @@ enum class Channel : std::uint8_t {
   kEvent,
   kDecision,
   kSmoother,
+  kSmoothed,
   kHealth,
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 18;
+inline constexpr std::size_t kChannelCount = 19;
 inline constexpr std::array<Channel, 9> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
     Channel::kOrbitClock, Channel::kIonosphere, Channel::kAntenna,

@@ -127,6 +127,10 @@ void ResultFiles::add(const EpochReport& report) {
 }
 
 void ResultFiles::add(const SmootherReport& report) {
+  if (report.lagged.source != Source::kNone) {
+    if (!smoothed_) smoothed_.emplace(folder_ + "/smoothed.csv");
+    smoothed_->write(to_solution_row(report.lagged, std::nullopt, std::nullopt));
+  }
   if (!row_ || row_epoch_ != report.index || report.solution.source != Source::kSmoother) return;
   row_ = to_solution_row(report.solution, row_->satellites, row_->pdop);
 }
@@ -210,6 +214,7 @@ void ResultFiles::close() {
   measurements_.close();
   events_.close();
   if (constraints_) constraints_->close();
+  if (smoothed_) smoothed_->close();
 }
 
 }  // namespace leonav

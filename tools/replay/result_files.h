@@ -1,8 +1,9 @@
 // ResultFiles writes the tables of a replay: solution, epochs, satellites, measurements, events and
 // constraints.
 //
-// The files are solution.csv, epochs.csv, satellites.csv, measurements.csv, events.csv and, where
-// the motion is constrained, constraints.csv.
+// The files are solution.csv, epochs.csv, satellites.csv, measurements.csv, events.csv; where the
+// motion is constrained, constraints.csv; and of the smoother smoothed.csv, its states at a fixed
+// lag.
 #pragma once
 #include <optional>
 #include <string>
@@ -46,7 +47,8 @@ class ResultFiles {
   SolutionCsvWriter solution_;
   CsvWriter epochs_, satellites_file_, measurements_, events_;
   std::string folder_;
-  std::optional<CsvWriter> constraints_;  // opened for the first constraint
+  std::optional<CsvWriter> constraints_;       // opened for the first constraint
+  std::optional<SolutionCsvWriter> smoothed_;  // opened for the first state at a fixed lag
 };
 
 }  // namespace leonav

@@ -16,6 +16,9 @@ struct SmootherReport {
   bool converged = false;
   int keyframes = 0;  // number of keyframes in the window
   int used = 0;       // measurements of this keyframe with a weight factor above zero
+  // At the oldest keyframe of a full window, from all of the window; source kNone: there is none.
+  // It has no protection levels.
+  Solution lagged;
   Solution solution;  // source kSmoother if the solve gave a state, else kNone
 };
 

@@ -20,6 +20,16 @@ Solution solution_of(const Anchor& anchor, Source source) {
   return solution;
 }
 
+Solution solution_of(const LaggedState& lagged) {
+  Solution solution;
+  fill_solution(at_stamp(lagged.state, lagged.time_offset_s), lagged.covariance,
+                lagged.has_attitude, &solution);
+  solution.source = Source::kSmoother;
+  solution.anchor_epoch = lagged.index;
+  if (!is_finite(solution)) solution.source = Source::kNone;
+  return solution;
+}
+
 // Returns what takes all steps of a solve at once; nullptr: the smoother's own chain takes them.
 std::unique_ptr<WindowSolver> minimizer(const SmootherConfig& config) {
   if (config.solver == SmootherSolver::kChain) return nullptr;
@@ -96,6 +106,8 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
   report.used = result.used;
   if (update.anchor.valid) report.solution = solution_of(update.anchor, Source::kSmoother);
   report.solution.time = input.time;
+  if (result.lagged.valid) report.lagged = solution_of(result.lagged);
+  report.lagged.sequence = report.sequence;
   sink_->on_smoother(report);
   if (inertial_ || !input.valid) return;
   Solution solution = report.solution;

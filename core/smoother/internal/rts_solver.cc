@@ -85,12 +85,6 @@ void gather(const From& from, const Indices& rows, const Indices& columns, To* t
       (*to)(static_cast<Index>(i), static_cast<Index>(j)) = from(rows[i], columns[j]);
 }
 
-template <typename To, typename From>
-void gather(const From& from, const Indices& rows, To* to) {
-  to->resize(static_cast<Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) (*to)(static_cast<Index>(i)) = from(rows[i]);
-}
-
 template <typename From, typename To>
 void scatter(const From& from, const Indices& rows, const Indices& columns, To* to) {
   for (std::size_t j = 0; j < columns.size(); ++j)
@@ -98,29 +92,46 @@ void scatter(const From& from, const Indices& rows, const Indices& columns, To* 
       (*to)(rows[i], columns[j]) = from(static_cast<Index>(i), static_cast<Index>(j));
 }
 
-template <typename From, typename To>
-void scatter(const From& from, const Indices& rows, To* to) {
-  for (std::size_t i = 0; i < rows.size(); ++i) (*to)(rows[i]) = from(static_cast<Index>(i));
+// One column of the right side for each pose state of the oldest keyframe.
+using Columns = BoundedMatrix<kMaxSize, kPoseStates>;
+
+// Selects or places rows.
+template <typename Rhs>
+void gather_rows(const Rhs& from, const Indices& rows, Rhs* to) {
+  to->resize(static_cast<Index>(rows.size()), from.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) to->row(static_cast<Index>(i)) = from.row(rows[i]);
+}
+template <typename Rhs>
+void scatter_rows(const Rhs& from, const Indices& rows, Rhs* to) {
+  for (std::size_t i = 0; i < rows.size(); ++i) to->row(rows[i]) = from.row(static_cast<Index>(i));
 }
 
 }  // namespace
 
+// A right side on its way forward, as the backward pass needs it.
+template <typename Rhs>
+struct RtsSolver::Reduced {
+  Rhs moved;      // y = L^-1 g_x
+  Rhs predicted;  // X^T y, of a gradient minus the offset: the mean of x at b = 0
+  Rhs walking;    // T^-1 of the part of the ambiguities that walk
+};
+
 // What the backward pass needs of the forward one; names as in the header.
 struct RtsSolver::Step {
   Partition partition;
-  EkfCovariance root;             // L
-  EkfCovariance spread;           // X
-  EkfCovariance predicted;        // W
-  Border border;                  // Y
-  Border predicted_border;        // Z
-  EkfCorrection reduced;          // y
-  EkfCorrection predicted_error;  // X^T y - offset: the mean of x at b = 0
-  EkfCorrection kept_offset;      // by state of the later keyframe; zero where it is moved
+  EkfCovariance root;       // L
+  EkfCovariance spread;     // X
+  EkfCovariance predicted;  // W
+  Border border;            // Y
+  Border predicted_border;  // Z
   // Of the ambiguities that walk:
-  BorderMatrix walk_root;     // T
-  WalkRows walk_rows;         // V
-  BorderVector walk_reduced;  // T^-1 times the gradient
-  BorderVector walk_weight;   // diagonal of Q^-1
+  BorderMatrix walk_root;    // T
+  WalkRows walk_rows;        // V
+  BorderVector walk_weight;  // diagonal of Q^-1
+  // The offset of the process, by state of the later keyframe.
+  EkfCorrection offset;
+  Reduced<EkfCorrection> gradient;
+  Reduced<Columns> units;
 };
 
 RtsSolver::RtsSolver(int capacity)
@@ -155,8 +166,6 @@ bool RtsSolver::move_on(const Window& window, int i, Step* step) {
   const auto lower = step->root.triangularView<Eigen::Lower>();
   gather(information_, parts.moved_before, parts.kept_before, &step->border);
   lower.solveInPlace(step->border);
-  gather(gradient_, parts.moved_before, &step->reduced);
-  lower.solveInPlace(step->reduced);
   step->spread.resize(static_cast<Index>(parts.moved_before.size()),
                       static_cast<Index>(parts.moved.size()));
   for (std::size_t j = 0; j < parts.moved.size(); ++j)
@@ -171,41 +180,82 @@ bool RtsSolver::move_on(const Window& window, int i, Step* step) {
   covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
   if (!invert(covariance, &step->predicted)) return false;
   step->predicted_border.noalias() = step->spread.transpose() * step->border;
-  EkfCorrection offset;
-  gather(process.offset, parts.moved, &offset);
-  step->predicted_error.noalias() = step->spread.transpose() * step->reduced;
-  step->predicted_error -= offset;
+  step->offset = process.offset;
 
   BorderMatrix kept;  // S, then A'_bb
   gather(information_, parts.kept_before, parts.kept_before, &kept);
-  BorderVector kept_gradient;
-  gather(gradient_, parts.kept_before, &kept_gradient);
   kept.selfadjointView<Eigen::Lower>().rankUpdate(step->border.transpose(), -1.0);
-  kept_gradient.noalias() -= step->border.transpose() * step->reduced;
   Border coupling;  // A'_xb
   coupling.noalias() = step->predicted * step->predicted_border;
   BorderMatrix added;
   added.noalias() = step->predicted_border.transpose() * coupling;
   kept.triangularView<Eigen::StrictlyUpper>() = kept.transpose();
   kept += added;
-  const EkfCorrection moved_gradient = step->predicted * step->predicted_error;
-  kept_gradient.noalias() += step->predicted_border.transpose() * moved_gradient;
 
   const Index size = keyframe.active.size();
   information_.resize(size, size);
-  gradient_.resize(size);
   scatter(step->predicted, parts.moved, parts.moved, &information_);
   scatter(kept, parts.kept, parts.kept, &information_);
   scatter(coupling, parts.moved, parts.kept, &information_);
   scatter(coupling.transpose(), parts.kept, parts.moved, &information_);
-  scatter(moved_gradient, parts.moved, &gradient_);
-  scatter(kept_gradient, parts.kept, &gradient_);
-  if (!walk(process.noise, step)) return false;
-  // From errors of the earlier keyframe's ambiguities to those of the later one's.
-  step->kept_offset.setZero(size);
-  for (const int state : parts.kept) step->kept_offset(state) = process.offset(state);
-  gradient_.noalias() -= information_ * step->kept_offset;
-  return true;
+  return walk(process.noise, step);
+}
+
+// Leads a right side on, as move_on() leads the information. `offset` is that of the process, or
+// empty.
+template <typename Rhs>
+void RtsSolver::forward(const Step& step, const EkfCorrection& offset, Rhs* rhs,
+                        Reduced<Rhs>* reduced) const {
+  const Partition& parts = step.partition;
+  gather_rows(*rhs, parts.moved_before, &reduced->moved);
+  step.root.triangularView<Eigen::Lower>().solveInPlace(reduced->moved);
+  Rhs kept;
+  gather_rows(*rhs, parts.kept_before, &kept);
+  kept.noalias() -= step.border.transpose() * reduced->moved;
+  reduced->predicted.noalias() = step.spread.transpose() * reduced->moved;
+  if (offset.size() > 0)
+    for (std::size_t i = 0; i < parts.moved.size(); ++i)
+      reduced->predicted.row(static_cast<Index>(i)).array() -= offset(parts.moved[i]);
+  const Rhs moved = step.predicted * reduced->predicted;
+  kept.noalias() += step.predicted_border.transpose() * moved;
+  rhs->resize(static_cast<Index>(parts.moved.size() + parts.kept.size()), rhs->cols());
+  scatter_rows(moved, parts.moved, rhs);
+  scatter_rows(kept, parts.kept, rhs);
+  if (parts.walking.empty()) return;
+  gather_rows(*rhs, parts.walking, &reduced->walking);
+  step.walk_root.triangularView<Eigen::Lower>().solveInPlace(reduced->walking);
+  rhs->noalias() -= step.walk_rows.transpose() * reduced->walking;
+}
+
+// Leads a solution at the later keyframe back to the earlier one.
+template <typename Rhs>
+void RtsSolver::backward(const Step& step, const Reduced<Rhs>& reduced, Rhs* solution) const {
+  const Partition& parts = step.partition;
+  if (!parts.walking.empty()) {
+    Rhs walked;
+    gather_rows(*solution, parts.walking, &walked);
+    for (const int walking : parts.walking) solution->row(walking).setZero();
+    walked = step.walk_weight.asDiagonal() * walked;
+    step.walk_root.triangularView<Eigen::Lower>().solveInPlace(walked);
+    walked += reduced.walking;
+    walked.noalias() -= step.walk_rows * *solution;
+    step.walk_root.transpose().triangularView<Eigen::Upper>().solveInPlace(walked);
+    scatter_rows(walked, parts.walking, solution);
+  }
+  Rhs kept;
+  gather_rows(*solution, parts.kept, &kept);
+  Rhs unexplained;  // x' minus its mean given b
+  gather_rows(*solution, parts.moved, &unexplained);
+  unexplained -= reduced.predicted;
+  unexplained.noalias() += step.predicted_border * kept;
+  Rhs moved = reduced.moved;
+  moved.noalias() -= step.border * kept;
+  const Rhs weighed = step.predicted * unexplained;
+  moved.noalias() += step.spread * weighed;
+  step.root.transpose().triangularView<Eigen::Upper>().solveInPlace(moved);
+  solution->resize(moved.rows() + kept.rows(), solution->cols());
+  scatter_rows(moved, parts.moved_before, solution);
+  scatter_rows(kept, parts.kept_before, solution);
 }
 
 // Takes away what the random walk of ambiguities makes uncertain.
@@ -215,7 +265,6 @@ bool RtsSolver::walk(const EkfCovariance& noise, Step* step) {
   const auto count = static_cast<Index>(walking.size());
   step->walk_root.resize(count, count);
   step->walk_rows.resize(count, information_.cols());
-  step->walk_reduced.resize(count);
   step->walk_weight.resize(count);
   for (Index i = 0; i < count; ++i) {
     const int row = walking[static_cast<std::size_t>(i)];
@@ -224,56 +273,21 @@ bool RtsSolver::walk(const EkfCovariance& noise, Step* step) {
     step->walk_weight(i) = 1.0 / noise(row, row);
     step->walk_root(i, i) += step->walk_weight(i);
     step->walk_rows.row(i) = information_.row(row);
-    step->walk_reduced(i) = gradient_(row);
   }
   const Eigen::LLT<Eigen::Ref<BorderMatrix>, Eigen::Lower> root(step->walk_root);
   if (root.info() != Eigen::Success) return false;
   const auto lower = step->walk_root.triangularView<Eigen::Lower>();
   lower.solveInPlace(step->walk_rows);
-  lower.solveInPlace(step->walk_reduced);
   information_.selfadjointView<Eigen::Lower>().rankUpdate(step->walk_rows.transpose(), -1.0);
   information_.triangularView<Eigen::StrictlyUpper>() = information_.transpose();
-  gradient_.noalias() -= step->walk_rows.transpose() * step->walk_reduced;
   return true;
 }
 
-bool RtsSolver::solve_newest() {
-  if (!factorize(&information_)) return false;
-  information_.triangularView<Eigen::Lower>().solveInPlace(gradient_);
-  information_.transpose().triangularView<Eigen::Upper>().solveInPlace(gradient_);
-  return gradient_.allFinite();
-}
-
-void RtsSolver::solve_backward(int i, WindowCorrections* corrections) const {
-  const Step& step = steps_[static_cast<std::size_t>(i)];
-  const Partition& parts = step.partition;
-  EkfCorrection next = (*corrections)[static_cast<std::size_t>(i) + 1] + step.kept_offset;
-  if (!parts.walking.empty()) {
-    BorderVector walked;
-    gather(next, parts.walking, &walked);
-    for (const int walking : parts.walking) next(walking) = 0.0;
-    walked = walked.cwiseProduct(step.walk_weight);
-    step.walk_root.triangularView<Eigen::Lower>().solveInPlace(walked);
-    walked += step.walk_reduced;
-    walked.noalias() -= step.walk_rows * next;
-    step.walk_root.transpose().triangularView<Eigen::Upper>().solveInPlace(walked);
-    scatter(walked, parts.walking, &next);
-  }
-  BorderVector kept;
-  gather(next, parts.kept, &kept);
-  EkfCorrection unexplained;  // x' minus its mean given b
-  gather(next, parts.moved, &unexplained);
-  unexplained -= step.predicted_error;
-  unexplained.noalias() += step.predicted_border * kept;
-  EkfCorrection moved = step.reduced;
-  moved.noalias() -= step.border * kept;
-  const EkfCorrection weighed = step.predicted * unexplained;
-  moved.noalias() += step.spread * weighed;
-  step.root.transpose().triangularView<Eigen::Upper>().solveInPlace(moved);
-  EkfCorrection& correction = (*corrections)[static_cast<std::size_t>(i)];
-  correction.resize(moved.size() + kept.size());
-  scatter(moved, parts.moved_before, &correction);
-  scatter(kept, parts.kept_before, &correction);
+// Solves for the newest keyframe by the root that information_ then is.
+template <typename Rhs>
+void RtsSolver::solve_newest(Rhs* rhs) const {
+  information_.triangularView<Eigen::Lower>().solveInPlace(*rhs);
+  information_.transpose().triangularView<Eigen::Upper>().solveInPlace(*rhs);
 }
 
 bool RtsSolver::solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
@@ -281,16 +295,58 @@ bool RtsSolver::solve(const Window& window, const Eigen::Vector3d& lever_arm_b,
   size_ = window.size();
   for (int i = 0; i < size_; ++i) {
     collect(window, lever_arm_b, i);
-    if (i + 1 < size_ && !move_on(window, i, &steps_[static_cast<std::size_t>(i)])) return false;
+    if (i + 1 == size_) break;
+    Step& step = steps_[static_cast<std::size_t>(i)];
+    if (!move_on(window, i, &step)) return false;
+    lead_gradient(&step);
   }
-  if (!solve_newest()) return false;
+  if (!factorize(&information_)) return false;
+  solve_newest(&gradient_);
   corrections->resize(static_cast<std::size_t>(size_));
-  corrections->back() = gradient_;
-  for (int i = size_ - 2; i >= 0; --i) {
-    solve_backward(i, corrections);
-    if (!(*corrections)[static_cast<std::size_t>(i)].allFinite()) return false;
+  for (int i = size_ - 1; i >= 0; --i) {
+    EkfCorrection& correction = (*corrections)[static_cast<std::size_t>(i)];
+    if (i + 1 == size_) {
+      correction = gradient_;
+    } else {
+      const Step& step = steps_[static_cast<std::size_t>(i)];
+      correction = (*corrections)[static_cast<std::size_t>(i) + 1];
+      for (const int state : step.partition.kept) correction(state) += step.offset(state);
+      backward(step, step.gradient, &correction);
+    }
+    if (!correction.allFinite()) return false;
   }
   return true;
+}
+
+// From errors of the earlier keyframe's ambiguities to those of the later one's.
+void RtsSolver::lead_gradient(Step* step) {
+  forward(*step, step->offset, &gradient_, &step->gradient);
+  EkfCorrection kept = EkfCorrection::Zero(gradient_.size());
+  for (const int state : step->partition.kept) kept(state) = step->offset(state);
+  gradient_.noalias() -= information_ * kept;
+}
+
+void RtsSolver::oldest_covariance(const Window& window, PoseCovariance* covariance) const {
+  const ActiveStates& active = window.at(0).active;
+  Index poses = 0;
+  while (poses < active.core_size() && active.core[static_cast<std::size_t>(poses)] < kPoseStates)
+    ++poses;
+  Columns units = Columns::Zero(active.size(), poses);
+  units.topRows(poses).setIdentity();
+  for (int i = 0; i + 1 < size_; ++i) {
+    Step& step = steps_[static_cast<std::size_t>(i)];
+    forward(step, EkfCorrection(), &units, &step.units);
+  }
+  solve_newest(&units);
+  for (int i = size_ - 2; i >= 0; --i) {
+    const Step& step = steps_[static_cast<std::size_t>(i)];
+    backward(step, step.units, &units);
+  }
+  covariance->setZero();
+  for (Index i = 0; i < poses; ++i)
+    for (Index j = 0; j < poses; ++j)
+      (*covariance)(active.core[static_cast<std::size_t>(i)],
+                    active.core[static_cast<std::size_t>(j)]) = 0.5 * (units(i, j) + units(j, i));
 }
 
 void RtsSolver::newest_covariance(EkfCovariance* covariance) const {
@@ -306,6 +362,7 @@ bool RtsSolver::marginalize_oldest(const Window& window, const Eigen::Vector3d& 
                                    WindowPrior* prior) {
   collect(window, lever_arm_b, 0);
   if (!move_on(window, 0, &steps_[0])) return false;
+  lead_gradient(&steps_[0]);
   prior->at = window.at(1).state;
   prior->information = information_;
   prior->gradient = gradient_;

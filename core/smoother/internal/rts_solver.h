@@ -12,6 +12,10 @@
 
 namespace leonav {
 
+// Position, velocity and attitude, the first states in the order of ekf_index.
+inline constexpr int kPoseStates = 9;
+using PoseCovariance = Eigen::Matrix<double, kPoseStates, kPoseStates>;
+
 // The forward pass collects the information of all keyframes up to one, the backward pass adds that
 // of the later ones (Rauch, Tung, Striebel, AIAA J. 3(8), 1965). The states of a keyframe are split
 // into those x that the process moves, and the ambiguities b that it carries over, which are a
@@ -41,6 +45,10 @@ class RtsSolver final : public WindowSolver {
   // have succeeded, at the states that were given to it.
   void newest_covariance(EkfCovariance* covariance) const;
 
+  // Returns the covariance of the oldest keyframe's position, velocity and attitude, from all of
+  // the window, after the last solve() of it.
+  void oldest_covariance(const Window& window, PoseCovariance* covariance) const;
+
   // Marginalizes the oldest keyframe: computes the prior that it leaves on the next one, at the
   // keyframes' states. Returns false if that is not finite. Precondition: at least two keyframes.
   bool marginalize_oldest(const Window& window, const Eigen::Vector3d& lever_arm_b,
@@ -48,11 +56,19 @@ class RtsSolver final : public WindowSolver {
 
  private:
   struct Step;
+  template <typename Rhs>
+  struct Reduced;
   void collect(const Window& window, const Eigen::Vector3d& lever_arm_b, int i);
   bool move_on(const Window& window, int i, Step* step);
   bool walk(const EkfCovariance& noise, Step* step);
-  bool solve_newest();
-  void solve_backward(int i, WindowCorrections* corrections) const;
+  void lead_gradient(Step* step);
+  template <typename Rhs>
+  void forward(const Step& step, const EkfCorrection& offset, Rhs* rhs,
+               Reduced<Rhs>* reduced) const;
+  template <typename Rhs>
+  void backward(const Step& step, const Reduced<Rhs>& reduced, Rhs* solution) const;
+  template <typename Rhs>
+  void solve_newest(Rhs* rhs) const;
 
   std::unique_ptr<Step[]> steps_;  // step i leads from keyframe i to the next
   int size_ = 0;

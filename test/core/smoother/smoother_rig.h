@@ -29,6 +29,7 @@ inline std::unique_ptr<Smoother> smoother_of(const Drive& drive, int window, int
   SmootherConfig config;
   config.window = window;
   config.max_iterations = iterations;
+  config.converged_sigmas = 0.01;
   return smoother_of(drive, config);
 }
 

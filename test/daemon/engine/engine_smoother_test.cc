@@ -35,6 +35,8 @@ DaemonConfig smoother_config() {
   config.navigator.estimator = Estimator::kSmoother;
   config.navigator.smoother.window = 8;
   config.navigator.smoother.time_limit_s = 0.0;  // nothing here may depend on the clock
+  config.navigator.smoother.max_iterations = 4;  // so that there are some to be held at or cut off
+  config.navigator.smoother.converged_sigmas = 0.01;
   return config;
 }
 
