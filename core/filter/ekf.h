@@ -150,9 +150,11 @@ class Ekf {
   // --- for the smoother ---
   // Begins the process to the next keyframe (EkfConfig::keep_process).
   void begin_process() { estimate_.begin_process(); }
-  // These return the measurements of the last update as it treated them, and the factor by which it
-  // raised the sigmas of an observable whose measurements contradicted each other.
+  // These return the measurements of the last update as it treated them, the seconds from the one
+  // before to it, and the factor by which it raised the sigmas of an observable whose measurements
+  // contradicted each other.
   const FilterMeasurements& measurements() const { return assembler_.measurements(); }
+  double update_interval_s() const { return assembler_.interval_s(); }
   double sigma_inflation(Observable observable) const {
     return sigma_inflation_[static_cast<std::size_t>(observable)];
   }

@@ -95,6 +95,8 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   correlation.time_s = std::min(correlation.time_s, longest_reflection_s(line_of_sight_rate));
   const double inflation = variance_inflation(correlation, dt);
   entry->gain_variance = inflation * entry->variance;
+  entry->correlated_share = correlation.share;
+  entry->correlation_time_s = correlation.time_s;
   if (measurement.observable == Observable::kCode)
     code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate),
                       entry);

@@ -66,6 +66,8 @@ class MeasurementAssembler {
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }
   const FilterMeasurements& measurements() const { return measurements_; }
+  // Returns the seconds from the update before to measurements().
+  double interval_s() const { return interval_s_; }
   const ExcludedMeasurements& excluded() const { return excluded_; }
   int arcs_without_capacity() const { return arcs_without_capacity_; }
   // Moves entries to excluded(), as outliers.

@@ -39,6 +39,8 @@ struct KeyframeInput {
   bool valid = false;  // the filter has a state
   // The filter has not started over since the previous keyframe.
   bool follows_previous = false;
+  // An attitude from outside has replaced the filter's since then (FilterProcess::replaced).
+  bool attitude_replaced = false;
   bool has_attitude = false;
   bool has_gnss = false;  // the filter has used GNSS recently
   FilterState from;       // the filter's at the previous keyframe, after its update

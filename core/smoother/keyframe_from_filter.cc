@@ -4,15 +4,27 @@
 #include <array>
 
 #include "core/base/square.h"
+#include "core/filter/error_model/error_correlation.h"
 
 namespace leonav {
 namespace {
 
 constexpr int kNoIndex = -1;
 
+// Returns the variance in the gain of a measurement that stands for all since the keyframe before.
+// The filter has inflated it so that the mean over all its epochs has the right variance; the less
+// often correlated errors are seen, the less each of them has to be inflated.
+double thinned(const FilterMeasurement& used, double epoch_s, double keyframe_s) {
+  if (!(keyframe_s > epoch_s) || !(epoch_s > 0.0)) return used.gain_variance;
+  const CorrelationModel errors = {used.correlated_share, used.correlation_time_s};
+  const double share = variance_inflation(errors, keyframe_s) / variance_inflation(errors, epoch_s);
+  return std::max(share * used.gain_variance, used.variance);
+}
+
 // What was offered to the filter's update, with the variances that it gave: codes and Dopplers that
 // contradicted each other weigh less, and what it rejected has the factor 0.
 void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, KeyframeInput* input) {
+  const double keyframe_s = seconds_between(input->time, input->from.nav.time);
   std::array<int, kMaxSatellites> slot;
   slot.fill(kNoIndex);
   for (const FilterMeasurement& used : filter.measurements()) {
@@ -28,7 +40,7 @@ void copy_measurements(const MeasurementEpoch& epoch, const Ekf& filter, Keyfram
       measurement.ambiguity = used.ambiguity - input->state.first_ambiguity();
     const double inflation = square(filter.sigma_inflation(used.observable));
     measurement.variance = used.variance * inflation;
-    measurement.gain_variance = used.gain_variance * inflation;
+    measurement.gain_variance = thinned(used, filter.update_interval_s(), keyframe_s) * inflation;
     measurement.factor = std::min(1.0, used.factor * inflation);
     input->measurements.push_back(measurement);
   }
@@ -45,6 +57,7 @@ void keyframe_from_filter(std::uint64_t index, GpsTime time, const MeasurementEp
   input->valid = filter->initialized() && filter->estimate().is_finite();
   input->follows_previous = input->valid && filter->estimate().process().continuous;
   if (!input->valid) return;
+  input->attitude_replaced = filter->estimate().process().replaced;
   input->has_attitude = filter->has_attitude();
   input->state = filter->filter_state();
   input->covariance = filter->covariance();

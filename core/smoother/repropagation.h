@@ -1,5 +1,5 @@
-// Repropagator integrates the IMU block of a process factor again where the estimate has moved away
-// from where the factor was linearized.
+// Repropagator integrates the IMU block of a process factor from the window's own estimate: of a
+// new keyframe, and again where the estimate has moved away from where the factor was linearized.
 #pragma once
 #include <cstdint>
 

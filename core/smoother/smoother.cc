@@ -144,7 +144,7 @@ bool Smoother::iterate(int iteration, double* moved_sigmas) {
 }
 
 // Lets the minimizer take all steps at weights that are decided once. The chain then gives the
-// covariance, and the step where the minimizer has found none.
+// covariance and what is left to the minimum, and the step where the minimizer has found none.
 bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
   if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
     weights_.update_factors(true, lever_arm_b_, &window_);
@@ -152,11 +152,15 @@ bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
   const bool minimized = minimizer_->solve(window_, lever_arm_b_, &corrections_);
   minimizer_->limit(nullptr);
   result->iterations = std::max(1, minimizer_->iterations());
-  result->converged = minimized && result->iterations < config_.max_iterations;
   double moved_m = 0.0;
   if (minimized && !apply_corrections(&moved_m)) return false;
+  moved_m = 0.0;  // what is left
   if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;
-  return minimized || apply_corrections(&moved_m);
+  if (!minimized) return apply_corrections(&moved_m);
+  for (const EkfCorrection& left : corrections_)
+    moved_m = std::max(moved_m, left.segment<3>(kPosition).norm());
+  result->converged = moved_m < config_.converged_sigmas * std::max(filter_sigma_m_, 1e-6);
+  return true;
 }
 
 // Adds the corrections to the keyframes' states; `moved_m` is the largest step of a position.

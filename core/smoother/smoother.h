@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "core/filter/state/covariance_blocks.h"
-#include "core/smoother/internal/rts_solver.h"
 #include "core/smoother/internal/window_weights.h"
 #include "core/smoother/repropagation.h"
+#include "core/smoother/rts_solver.h"
 #include "core/smoother/smoother_config.h"
 #include "core/smoother/smoother_status.h"
 #include "core/smoother/window.h"
@@ -44,8 +44,8 @@ struct SmootherResult {
 
 // Smoother works keyframe by keyframe: add(), solve(), then commit_or_roll_back().
 //
-// The last call states whether the result was in time. Allocates when constructed, not after; never
-// throws.
+// The last call states whether the result was in time. Without a minimizer it allocates when
+// constructed, not after, and it never throws.
 class Smoother {
  public:
   // `lever_arm_b`: m, from the IMU to the antenna, body axes. `minimizer` takes all steps of a

@@ -66,18 +66,24 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
   return process_factor.F.allFinite() && noise.allFinite();
 }
 
-// A process of which nothing is known but that vehicle constants and delays stay about the same.
+// A process of which nothing is known but that the delays stay about the same.
 void part(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
   const ActiveStates& rows = keyframe->active;
   process_factor.from = before.state;
   process_factor.to = input.state;
+  process_factor.to.wet_delay_m = before.state.wet_delay_m;
+  process_factor.to.carrier_clock_m = before.state.carrier_clock_m;
+  process_factor.to.ionosphere_m = before.state.ionosphere_m;
   process_factor.has_information = false;
   process_factor.F.setZero(rows.size(), before.active.size());
   process_factor.noise.setZero(rows.size(), rows.size());
   for (Index i = 0; i < rows.size(); ++i) {
     const auto row = static_cast<int>(whole_index(rows, i));
     process_factor.noise(i, i) = unknown_variance(i < rows.core_size() ? row : ekf_index::kSize);
+    if (i < rows.core_size() && row >= ekf_index::kWetDelay && row < ekf_index::kSize)
+      for (Index j = 0; j < before.active.core_size(); ++j)
+        if (before.active.core[static_cast<std::size_t>(j)] == row) process_factor.F(i, j) = 1.0;
   }
 }
 
@@ -106,6 +112,13 @@ void copy_data(const KeyframeInput& input, Keyframe* keyframe) {
 Window::Window(int capacity)
     : capacity_(std::clamp(capacity, 2, static_cast<int>(kMaxWindow))),
       slots_(std::make_unique<Keyframe[]>(static_cast<std::size_t>(capacity_))) {}
+
+Window::Window(const Window& other) : Window(other.capacity_) {
+  first_ = other.first_;
+  size_ = other.size_;
+  prior_ = other.prior_;
+  for (int i = 0; i < size_; ++i) at(i) = other.at(i);
+}
 
 bool Window::start(const KeyframeInput& input) {
   first_ = 0;
@@ -159,7 +172,8 @@ void Window::drop_oldest(const WindowPrior& prior) {
 }
 
 bool can_bridge(const Window& window, const KeyframeInput& input) {
-  if (window.size() == 0 || !input.valid || !input.has_attitude || !input.block_complete)
+  if (window.size() == 0 || !input.valid || !input.has_attitude || input.attitude_replaced ||
+      !input.block_complete)
     return false;
   const Keyframe& newest = window.newest();
   const double apart_s = seconds_between(input.time, newest.time);

@@ -24,6 +24,9 @@ class Window {
  public:
   // `capacity`: keyframes.
   explicit Window(int capacity);
+  Window(const Window& other);
+  Window& operator=(const Window&) = delete;
+  Window(Window&&) = default;
 
   void clear() { size_ = 0; }
   int size() const { return size_; }
@@ -61,7 +64,7 @@ class Window {
 };
 
 // Returns whether the IMU's samples can connect the newest keyframe with one whose filter has
-// started over: both have an attitude, and no sample is missing.
+// started over: both have an attitude, none came from outside, and the samples are at hand.
 bool can_bridge(const Window& window, const KeyframeInput& input);
 
 // Returns the state of `keyframe` that the process factor predicts from `before`.

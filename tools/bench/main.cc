@@ -12,6 +12,7 @@
 #include "drivers/lcm/event_log.h"
 #include "tools/bench/growth.h"
 #include "tools/bench/process_measures.h"
+#include "tools/bench/solver_comparison.h"
 #include "tools/bench/timed_stages.h"
 #include "tools/common/arguments.h"
 #include "tools/common/configuration_options.h"
@@ -154,6 +155,9 @@ int body(int argc, char** argv) {
       .flag("--growth",
             "instead: an hour's log or a day's once through the smoother; prints after ten minutes "
             "and every hour what it\n                   needs, and fails where that grows")
+      .option("--solvers", "N",
+              "instead: solve every N-th window of the smoother by its chain and by Ceres, compare "
+              "minima and times of a step,\n                   and fail where they differ")
       .option("--min-satellites", "N", "fail unless half of the epochs use so many");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) throw leonav::UsageError("give one log (--help)");
@@ -169,6 +173,13 @@ int body(int argc, char** argv) {
   const leonav::DaemonConfig config = leonav::load_configuration(arguments);
   if (arguments.has("--growth")) {
     leonav::measure_growth(config.navigator, arguments.positional()[0], config.lcm.prefix);
+    return 0;
+  }
+  if (arguments.has("--solvers")) {
+    const double every = arguments.number("--solvers");
+    if (!(every >= 1.0 && every <= 1e6)) throw leonav::UsageError("--solvers must be 1 to 1000000");
+    leonav::compare_solvers(config.navigator, arguments.positional()[0], config.lcm.prefix,
+                            static_cast<int>(every));
     return 0;
   }
   const Recording recording = load(arguments.positional()[0], config.lcm.prefix);

@@ -89,7 +89,7 @@ void Trajectory::for_each_sample_before(int k,
   const double interval_s = seconds_between(keyframe.time, before.time);
   for (std::size_t i = 0; i + 1 < states.size(); ++i) {
     const double share = seconds_between(states[i].time, before.time) / interval_s;
-    CoreState between = start;
+    CoreState between = end;
     between.nav = states[i];
     EkfCorrection error = share * missed;
     error.segment<ekf_index::kSize - ekf_index::kGyroBias>(ekf_index::kGyroBias).setZero();

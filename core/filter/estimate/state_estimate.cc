@@ -153,6 +153,7 @@ void StateEstimate::replace_attitude(const Eigen::Quaterniond& q_eb, const Vecto
   P.middleRows<3>(kAttitude).setZero();
   P.middleCols<3>(kAttitude).setZero();
   apply_attitude(before, q_eb, sigma_rpy, P, model, body);
+  process_.replaced = true;
 }
 
 // `of_antenna` is the covariance with position and velocity of the antenna, its attitude empty.
@@ -498,6 +499,7 @@ void StateEstimate::restart_vehicle_constants(const AntennaMotion& antenna) {
   }
   apply_antenna_transform(antenna, -1.0);
   process_.continuous = false;
+  process_.replaced = true;
 }
 
 boost::container::static_vector<EkfCovariance*, 2> StateEstimate::covariance_and_noise() {

@@ -23,11 +23,15 @@ struct FilterProcess {
   // False once something other than a process has happened: the filter was started, or was given an
   // attitude from outside.
   bool continuous = false;
+  // True once an attitude from outside has replaced the filter's own, or vehicle constants were
+  // started anew: the IMU's samples then do not lead from one side to the other.
+  bool replaced = false;
 
   void begin(Eigen::Index states) {
     transition.setIdentity(states, states + 1);
     noise.setZero(states, states);
     continuous = true;
+    replaced = false;
     has_information = false;
   }
   // Conditions the process on a measurement h x_now = innovation with noise of `variance`.

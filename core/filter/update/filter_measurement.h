@@ -14,6 +14,8 @@ struct FilterMeasurement {
   double innovation = 0.0;
   double variance = 0.0;       // of the measurement alone, for the outlier test
   double gain_variance = 0.0;  // the same with its correlation in time, for the gain
+  // That correlation: the share of the variance that is correlated, and its time.
+  double correlated_share = 0.0, correlation_time_s = 1.0;
   EkfVector row = EkfVector::Zero();
   // |innovation| over its sigma with the clocks removed (prediction_consistency.h), tested beside
   // the plain one before anything is used.

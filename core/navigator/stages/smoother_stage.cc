@@ -31,12 +31,13 @@ Solution solution_of(const LaggedState& lagged) {
 }
 
 // Returns what takes all steps of a solve at once; nullptr: the smoother's own chain takes them.
-std::unique_ptr<WindowSolver> minimizer(const SmootherConfig& config) {
+std::unique_ptr<WindowSolver> minimizer(const SmootherConfig& config, bool robust) {
   if (config.solver == SmootherSolver::kChain) return nullptr;
   LogCeresOptions options;
   options.threads = 1;  // the order of sums decides bits
+  options.reproducible = true;
   options.max_iterations = config.max_iterations;
-  options.loss = config.ceres_loss;
+  if (robust) options.loss = config.ceres_loss;
   return std::make_unique<CeresSolver>(options);
 }
 
@@ -51,7 +52,7 @@ SmootherStage::SmootherStage(const NavigatorConfig& config, TimedMailbox<Smoothe
       integrity_(config.integrity),
       smoother_(config.smoother, config.ekf.robust, config.vehicle.lever_arm_b,
                 {config.ekf, config.imu, config.vehicle.motion.constraints},
-                minimizer(config.smoother)) {}
+                minimizer(config.smoother, config.ekf.robust.enabled)) {}
 
 void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   smoother_.add(input);

@@ -74,6 +74,7 @@ void LogGraph::add(const KeyframeInput& input) {
   keyframe.time = input.time;
   keyframe.has_attitude = input.has_attitude;
   keyframe.has_gnss = input.has_gnss;
+  keyframe.attitude_replaced = input.attitude_replaced;
   keyframe.active = core_states(input);
   keyframe.state = input.state;
   keyframe.filter_sigma_m = std::sqrt(position_covariance_e(input.covariance).trace());

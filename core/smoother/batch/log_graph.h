@@ -55,9 +55,10 @@ struct LogKeyframe {
   GpsTime time;
   bool has_attitude = false;
   bool has_gnss = false;
-  ActiveStates active;          // of core states; ambiguities: none
-  CoreState state;              // the estimate
-  double filter_sigma_m = 0.0;  // of the filter's position, 3D
+  bool attitude_replaced = false;  // as KeyframeInput
+  ActiveStates active;             // of core states; ambiguities: none
+  CoreState state;                 // the estimate
+  double filter_sigma_m = 0.0;     // of the filter's position, 3D
   LogProcess process;
   // Where no process leads here: 0.5 d^T information d - gradient^T d, with d the core states and
   // then the pieces minus the values given.

@@ -206,6 +206,7 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
   process.exists = true;
   process.from = before->state;
   process.to = uncorrected_state(estimate);
+  process.to.vehicle.resize(keyframe->state.vehicle.size(), 0.0);
   const ActiveStates& rows = keyframe->active;
   const ActiveStates& columns = before->active;
   process.F.setZero(rows.core_size(), columns.core_size());
@@ -214,7 +215,8 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
   const auto old_row = [&](int state) {
     return old.exists ? position_of(old.rows, state) : Index(-1);
   };
-  copy_slow_states(keyframe->state, &process.to);
+  copy_slow_states(before->state, &process.to);
+  process.to.clocks = keyframe->state.clocks;
   if (old.exists) {
     copy_slow_states(old.to, &process.to);
     EkfCorrection moved = EkfCorrection::Zero(process.to.size());
@@ -237,6 +239,7 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
     for (Index j = 0; j < columns.core_size(); ++j) {
       const int column = columns.core[static_cast<std::size_t>(j)];
       if (is_of_motion(row) != is_of_motion(column)) continue;
+      if (row >= before->state.size()) continue;  // a vehicle constant that begins here
       if (is_of_motion(row)) {
         process.F(i, j) = inertial.transition(row, column);
       } else if (const Index from = old.exists ? position_of(old.columns, column) : -1;
@@ -249,7 +252,9 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
     for (Index j = 0; j < rows.core_size(); ++j) {
       const int other = rows.core[static_cast<std::size_t>(j)];
       if (is_of_motion(row) != is_of_motion(other)) continue;
-      if (is_of_motion(row))
+      if (row >= before->state.size() || other >= before->state.size())
+        process.noise(i, j) = i == j ? square(configured_sigma(row)) : 0.0;
+      else if (is_of_motion(row))
         process.noise(i, j) = inertial.noise(row, other);
       else if (old_row(row) >= 0 && old_row(other) >= 0)
         process.noise(i, j) = old.noise(old_row(row), old_row(other));
@@ -301,6 +306,7 @@ LogProcesses::Extension LogProcesses::extend(LogGraph* graph) {
       ++extension.attitudes;
     }
     if (!keyframe.process.exists) {
+      if (keyframe.attitude_replaced) continue;  // what came from outside counts, not the IMU
       keyframe.prior_information.resize(0, 0);
       ++extension.joined;
     }

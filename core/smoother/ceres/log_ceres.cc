@@ -38,6 +38,10 @@ ceres::Solver::Options solver_options(const LogCeresOptions& options) {
   given.gradient_tolerance = 0.0;
   given.parameter_tolerance = 0.0;
   given.logging_type = ceres::SILENT;
+  if (options.reproducible) {
+    given.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    given.dense_linear_algebra_library_type = ceres::EIGEN;
+  }
   return given;
 }
 
@@ -60,6 +64,16 @@ std::unique_ptr<ceres::LossFunction> loss_of(const LogCeresOptions& options, con
   const double scale = options.loss_sigmas / ratio;
   if (options.loss == CeresLoss::kHuber) return std::make_unique<ceres::HuberLoss>(scale);
   return std::make_unique<ceres::CauchyLoss>(scale);
+}
+
+// Returns whether the estimate is the minimum, or nearer to it than it was.
+bool has_moved(const ceres::Solver::Summary& solved) {
+  if (solved.termination_type == ceres::CONVERGENCE) return true;
+  return solved.IsSolutionUsable() &&
+         std::any_of(solved.iterations.begin(), solved.iterations.end(),
+                     [](const ceres::IterationSummary& step) {
+                       return step.iteration > 0 && step.step_is_successful;
+                     });
 }
 
 bool take_last_step(LogUnknowns* unknowns, ceres::Problem* problem) {
@@ -130,7 +144,8 @@ bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
   Limit limit(options.may_iterate);
   if (options.may_iterate) solver.callbacks.push_back(&limit);
   ceres::Solve(solver, &problem, &solved);
-  summary->iterations = std::max(0, static_cast<int>(solved.iterations.size()) - 1);
+  const bool failed = solved.termination_type == ceres::FAILURE;
+  summary->iterations = static_cast<int>(solved.iterations.size()) - 1 + (failed ? 1 : 0);
   summary->linear_s = solved.linear_solver_time_in_seconds;
   summary->total_s = solved.total_time_in_seconds;
   summary->cost_before = solved.initial_cost;
@@ -138,7 +153,7 @@ bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
   summary->parameters = solved.num_parameters;
   summary->residuals = solved.num_residuals;
   summary->message = solved.message;
-  if (!solved.IsSolutionUsable()) return false;
+  if (!has_moved(solved)) return false;
   for (int i = 0; i < options.last_steps; ++i)
     if (!take_last_step(&unknowns, &problem)) return false;
   corrections->core.resize(static_cast<std::size_t>(graph.size()));

@@ -22,6 +22,9 @@ struct LogCeresOptions {
   LogCeresLinear linear = LogCeresLinear::kSparseNormal;
   CeresLoss loss = CeresLoss::kIgg3;  // otherwise all factors count as one
   double loss_sigmas = 1.5;           // from which on a residual weighs less
+  // Solves by Eigen alone, so that the result does not depend on the machine's linear algebra
+  // library.
+  bool reproducible = false;
   // Steps of Gauss and Newton beyond, without a test of the cost. Ranges are known to 4e-9 m, a
   // millionth of a carrier's sigma, and in the sum of squares steps of a thousandth of a sigma are
   // lost in rounding.
@@ -31,7 +34,7 @@ struct LogCeresOptions {
 };
 
 struct LogCeresSummary {
-  int iterations = 0;  // steps tried
+  int iterations = 0;  // steps tried, a last one that failed included
   double cost_before = 0.0, cost_after = 0.0;
   int parameters = 0, residuals = 0;
   double linear_s = 0.0, total_s = 0.0;  // wall time of the linear solver, and of all in Ceres

@@ -1,5 +1,5 @@
 // The window's own solver against dense least squares and against the filter.
-#include "core/smoother/internal/rts_solver.h"
+#include "core/smoother/rts_solver.h"
 
 #include <Eigen/Dense>
 #include <memory>
@@ -17,6 +17,7 @@ using namespace synthetic;
 struct Apart {
   double dense = 0.0;              // of all keyframes, the chain's step from the dense one
   double covariance = 0.0;         // likewise, of the newest
+  double oldest = 0.0;             // covariance of the oldest pose, in correlations
   double filter = 0.0;             // of the newest, the chain's state from the filter's
   double filter_covariance = 0.0;  // likewise
 };
@@ -39,6 +40,12 @@ Apart compare(const DriveOptions& options, int epochs) {
   chain.newest_covariance(&covariance);
   const Eigen::Index n = covariance.rows();
   apart.covariance = apart_in_correlations(covariance, dense.covariance.bottomRightCorner(n, n));
+  // Position and velocity, and the attitude where there is one, are its first states.
+  PoseCovariance pose;
+  chain.oldest_covariance(window, &pose);
+  const Eigen::Index poses = options.inertial ? kPoseStates : 6;
+  apart.oldest = apart_in_correlations(pose.topLeftCorner(poses, poses),
+                                       dense.covariance.topLeftCorner(poses, poses));
   apply(*corrections, &window);
   const Ekf& filter = drive.filter();
   apart.filter = apart_in_sigmas(window.newest().state, filter.filter_state(), filter.covariance());
@@ -56,8 +63,8 @@ Apart compare(const DriveOptions& options, int epochs) {
 
 void report(const char* what, const Apart& apart) {
   WARN(what << ": from dense least squares " << apart.dense << " sigma, covariance "
-            << apart.covariance << "; from the filter " << apart.filter << " sigma, covariance "
-            << apart.filter_covariance);
+            << apart.covariance << ", oldest " << apart.oldest << "; from the filter "
+            << apart.filter << " sigma, covariance " << apart.filter_covariance);
 }
 
 }  // namespace
@@ -75,6 +82,7 @@ TEST_CASE("a linear window is the batch least squares and the filter") {
   report("constant velocity", apart);
   CHECK(apart.dense < 1e-9);
   CHECK(apart.covariance < 1e-9);
+  CHECK(apart.oldest < 1e-9);
   CHECK(apart.filter < 1e-9);
   CHECK(apart.filter_covariance < (options.noise < 1e-4 ? 1e-9 : 1e-7));
 }
@@ -90,6 +98,7 @@ TEST_CASE("an inertial window with carriers is the batch least squares and the f
   report("inertial with carriers", apart);
   CHECK(apart.dense < 1e-9);
   CHECK(apart.covariance < 3e-8);  // what the dense one's floor under the noise leaves
+  CHECK(apart.oldest < 1e-6);      // the floor again, of more keyframes
   CHECK(apart.filter < 1e-6);
   CHECK(apart.filter_covariance < 0.03 * options.noise + 1e-7);
 }

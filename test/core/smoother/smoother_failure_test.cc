@@ -41,6 +41,12 @@ const Fault kFaults[] = {
     {"the filter has started over without an attitude",
      [](KeyframeInput* input) { input->follows_previous = input->has_attitude = false; },
      SmootherStatus::kStarted},
+    {"an attitude from outside has replaced the filter's",
+     [](KeyframeInput* input) {
+       input->follows_previous = false;
+       input->attitude_replaced = true;
+     },
+     SmootherStatus::kStarted},
     {"the filter has started over", [](KeyframeInput* input) { input->follows_previous = false; },
      SmootherStatus::kOk},
     {"there is no filter", [](KeyframeInput* input) { input->valid = false; },
@@ -50,7 +56,7 @@ const Fault kFaults[] = {
 }  // namespace
 
 TEST_CASE("what cannot be solved is reported, and the smoother starts over") {
-  const Fault& fault = kFaults[GENERATE(range(0, 9))];
+  const Fault& fault = kFaults[GENERATE(range(0, 10))];
   CAPTURE(fault.name);
   const bool full = GENERATE(false, true);
   Drive drive{DriveOptions{}};

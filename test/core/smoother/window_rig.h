@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/smoother/internal/rts_solver.h"
+#include "core/smoother/rts_solver.h"
 #include "core/smoother/window.h"
 
 namespace leonav::synthetic {

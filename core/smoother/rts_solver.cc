@@ -1,4 +1,4 @@
-#include "core/smoother/internal/rts_solver.h"
+#include "core/smoother/rts_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +59,7 @@ void Partition::of(const LinearProcessFactor& process_factor, Index core_before,
       leads_to = static_cast<int>(i);
     }
     const bool is_kept = entries == 1 && leads_to >= core && F(leads_to, j) == 1.0 &&
+                         (F.row(leads_to).array() != 0.0).count() == 1 &&
                          walks_alone(process_factor.noise, leads_to);
     if (is_kept)
       origin[static_cast<std::size_t>(leads_to)] = column;

@@ -1,0 +1,21 @@
+// This unit solves the smoother's windows by its own chain and by Ceres, and compares results and
+// times.
+#pragma once
+#include <string>
+
+#include "core/navigator/interface/navigator_config.h"
+
+namespace leonav {
+
+// Streams the log through the smoother. From every `every`-th window on, with the weights that it
+// has and estimates that are displaced by a sigma, both solvers look for the minimum; then one step
+// of each is timed, of Ceres by every linear solver that it has for this. Prints the largest
+// differences of cost and states, and the times.
+//
+// Throws std::runtime_error if one solver finds a minimum that the other does not, or if the costs
+// differ by more than 1e-9 of themselves or the states by more than 1e-6 of the newest keyframe's
+// sigmas, or three roundings of a range over the sigma of a carrier if that is more.
+void compare_solvers(const NavigatorConfig& config, const std::string& log_path,
+                     const std::string& prefix, int every);
+
+}  // namespace leonav
