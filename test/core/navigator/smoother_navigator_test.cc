@@ -1,4 +1,5 @@
 // The smoother in the pipeline: it answers, misses leave the filter's answer, and both replay.
+#include <algorithm>
 #include <cmath>
 
 #include "support/catch.h"
@@ -55,6 +56,74 @@ TEST_CASE("the smoother answers, no worse than the filter") {
   const double smoother_m = rms_error(of_smoother.solutions, drive, 40.0);
   INFO("filter " << filter_m << " m, smoother " << smoother_m << " m");
   CHECK(smoother_m < 1.03 * filter_m);
+}
+
+TEST_CASE("the oldest keyframe of a full window is given too, better than when it was the newest") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(120.0));
+  RecordingSink sink;
+  Navigator navigator(smoother_config(drive.options), &sink);
+  feed(drive, &navigator);
+  std::vector<Solution> lagged, newest;
+  double most_sigmas = 0.0;
+  for (const SmootherReport& report : sink.smoothed) {
+    if (report.lagged.source == Source::kNone) continue;
+    CHECK(report.keyframes == 10);
+    CHECK(seconds_between(report.solution.time, report.lagged.time) == Approx(9.0));
+    CHECK(std::isnan(report.lagged.horizontal_protection_m));
+    lagged.push_back(report.lagged);
+    newest.push_back(report.solution);
+    const double error_m = (report.lagged.p_e - drive.truth_at(report.lagged.time).p_e).norm();
+    most_sigmas = std::max(most_sigmas, error_m / report.lagged.sigma_p_n.norm());
+  }
+  REQUIRE(lagged.size() > 40);
+  const double lagged_m = rms_error(lagged, drive, 0.0), newest_m = rms_error(newest, drive, 0.0);
+  INFO("oldest " << lagged_m << " m, newest " << newest_m << " m");
+  CHECK(lagged_m < 1.01 * newest_m);
+  CHECK(most_sigmas < 3.5);
+
+  NavigatorConfig without = smoother_config(drive.options);
+  without.smoother.fixed_lag = false;
+  RecordingSink none;
+  Navigator other(without, &none);
+  feed(drive, &other);
+  for (const SmootherReport& report : none.smoothed) CHECK(report.lagged.source == Source::kNone);
+}
+
+TEST_CASE("Ceres answers as the chain does") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
+  RecordingSink of_chain, of_ceres;
+  NavigatorConfig config = smoother_config(drive.options);
+  Navigator chain(config, &of_chain);
+  feed(drive, &chain);
+  config.smoother.solver = SmootherSolver::kCeres;
+  config.smoother.ceres_loss = GENERATE(CeresLoss::kIgg3, CeresLoss::kHuber, CeresLoss::kCauchy);
+  Navigator ceres(config, &of_ceres);
+  feed(drive, &ceres);
+  REQUIRE(of_ceres.smoothed.size() == of_chain.smoothed.size());
+  CHECK(of_ceres.count(EventKind::kSmootherFailed) == 0);
+  const Solution& a = of_ceres.smoothed.back().solution;
+  const Solution& b = of_chain.smoothed.back().solution;
+  CHECK(a.source == Source::kSmoother);
+  CHECK((a.p_e - b.p_e).norm() < 0.3 * b.sigma_p_n.norm());
+}
+
+TEST_CASE("a heading from outside replaces the window's as well") {
+  SyntheticDriveOptions options = noisy_drive(60.0);
+  options.standstill_s = 1000.0;
+  const SyntheticDrive drive = synthetic_drive(options);
+  RecordingSink sink;
+  Navigator navigator(smoother_config(options), &sink);
+  const double truth_yaw = std::atan2(100.0, 100.0);
+  int seen = 0;
+  feed(drive, &navigator, [&](const RawEpoch&, Sequencer* sequencer) {
+    ++seen;
+    if (seen == 10) sequencer->on_command({CommandKind::kSetHeading, truth_yaw + 0.5, 0.05});
+    if (seen == 30) sequencer->on_command({CommandKind::kSetHeading, truth_yaw, 0.02});
+  });
+  const Solution& last = sink.smoothed.back().solution;
+  REQUIRE(last.source == Source::kSmoother);
+  CHECK(last.yaw == Approx(truth_yaw).margin(3.0 * last.sigma_rpy.z()));
+  CHECK(last.sigma_rpy.z() < 0.03);
 }
 
 TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
