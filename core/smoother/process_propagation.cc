@@ -3,8 +3,22 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/square.h"
+
 namespace leonav {
 namespace {
+
+using namespace ekf_index;
+
+// An attitude off by this turns 1 g of specific force over a second into 5e-6 m/s beyond the first
+// order; a scale of 1e-3 beside it does less.
+constexpr double kFarAttitude = 1e-3;   // rad
+constexpr double kFarVelocity = 5.0;    // m/s
+constexpr double kFarPosition = 100.0;  // m
+
+constexpr double kUnknownClock = 1e6;    // m
+constexpr double kUnknownDrift = 1e3;    // m/s
+constexpr double kRestartedDelay = 0.1;  // m
 
 EkfConfig propagating(EkfConfig config) {
   config.keep_process = true;
@@ -39,6 +53,20 @@ const StateEstimate& ProcessPropagation::operator()(const CoreState& from,
   }
   propagator_.predict(block, to, estimate_.get());
   return *estimate_;
+}
+
+bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
+
+bool is_far(const CoreState& state, const CoreState& from) {
+  const EkfCorrection moved = difference(state, from);
+  return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
+         moved.segment<3>(kVelocity).norm() > kFarVelocity ||
+         moved.segment<3>(kPosition).norm() > kFarPosition;
+}
+
+double restarted_variance(int state) {
+  if (state < kClockDrift) return square(kUnknownClock);
+  return state < kWetDelay ? square(kUnknownDrift) : square(kRestartedDelay);
 }
 
 CoreState uncorrected_state(const StateEstimate& propagated) {

@@ -40,6 +40,17 @@ class ProcessPropagation {
   InertialPropagator propagator_;
 };
 
+// Returns whether the propagation moves a state (of ekf_index): all but clocks and delays.
+bool is_of_motion(int state);
+// Returns whether a factor linearized at `from` must be integrated again because its keyframe is
+// now at `state`.
+bool is_far(const CoreState& state, const CoreState& from);
+// Returns the variance of a clock, drift or delay behind a restart of the filter, SI units: clocks
+// begin anew, and delays have hardly changed.
+double restarted_variance(int state);
+// Keyframes further apart are not connected by the IMU alone.
+inline constexpr double kLongestBridge_s = 10.0;
+
 // Returns where the process alone leads: the state without the corrections by motion constraints.
 CoreState uncorrected_state(const StateEstimate& propagated);
 

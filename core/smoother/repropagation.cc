@@ -5,23 +5,7 @@
 namespace leonav {
 namespace {
 
-using namespace ekf_index;
 using Eigen::Index;
-
-// An attitude off by this turns 1 g of specific force over a second into 5e-6 m/s beyond the first
-// order; a scale of 1e-3 beside it does less.
-constexpr double kFarAttitude = 1e-3;   // rad
-constexpr double kFarVelocity = 5.0;    // m/s
-constexpr double kFarPosition = 100.0;  // m
-
-// What the propagator knows of: neither clocks nor delays of the atmosphere.
-bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
-
-bool is_far(const EkfCorrection& moved) {
-  return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
-         moved.segment<3>(kVelocity).norm() > kFarVelocity ||
-         moved.segment<3>(kPosition).norm() > kFarPosition;
-}
 
 // Information of motion constraints about the inertial states before; they concern no others.
 void take_information(const FilterProcess& process, const ActiveStates& active,
@@ -72,7 +56,7 @@ void Repropagator::integrate(const Keyframe& before, Keyframe* keyframe) {
 
 void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
   if (!keyframe->has_attitude || !keyframe->block_complete) return;
-  if (!is_far(difference(before.state, keyframe->process_factor.from))) return;
+  if (!is_far(before.state, keyframe->process_factor.from)) return;
   integrate(before, keyframe);
   ++repropagations_;
 }

@@ -58,8 +58,8 @@ class Smoother {
   // Adds a keyframe. Where the filter has started over, the IMU connects it with the newest one;
   // one that cannot be connected starts a new window.
   void add(const KeyframeInput& input);
-  // Iterates from the state that the last committed solve left, until a step is short; the weights
-  // of all measurements are decided anew at every iteration.
+  // Iterates from the state that the last committed solve left, until a step is short. The chain
+  // computes the weights of all measurements before every step, a minimizer once.
   SmootherResult solve(SolveBudget* budget);
   // Commits the last solve if its result was taken. Otherwise the window returns to its state
   // before solve(), so that later results do not depend on how many iterations were done.

@@ -4,6 +4,7 @@
 
 #include "core/base/square.h"
 #include "core/smoother/internal/definite_inverse.h"
+#include "core/smoother/process_propagation.h"
 
 namespace leonav {
 namespace {
@@ -24,15 +25,7 @@ Index whole_index(const ActiveStates& active, Index i) {
   return active.before_ambiguities + i - active.core_size();
 }
 
-constexpr double kLongestBridge_s = 10.0;
-
-// Variances of what begins anew, m^2 or (m/s)^2: clocks and their drifts, delays, ambiguities.
-double unknown_variance(int state) {
-  using namespace ekf_index;
-  if (state < kClockDrift) return square(1e6);
-  if (state < kWetDelay) return square(1e3);
-  return state < kSize ? square(0.1) : square(1e3);
-}
+constexpr double kUnknownAmbiguity = 1e3;  // m, 1 sigma of one that begins anew
 
 bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
@@ -80,7 +73,8 @@ void part(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe
   process_factor.noise.setZero(rows.size(), rows.size());
   for (Index i = 0; i < rows.size(); ++i) {
     const auto row = static_cast<int>(whole_index(rows, i));
-    process_factor.noise(i, i) = unknown_variance(i < rows.core_size() ? row : ekf_index::kSize);
+    process_factor.noise(i, i) =
+        i < rows.core_size() ? restarted_variance(row) : square(kUnknownAmbiguity);
     if (i < rows.core_size() && row >= ekf_index::kWetDelay && row < ekf_index::kSize)
       for (Index j = 0; j < before.active.core_size(); ++j)
         if (before.active.core[static_cast<std::size_t>(j)] == row) process_factor.F(i, j) = 1.0;

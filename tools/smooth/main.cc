@@ -42,8 +42,11 @@ Arguments declare() {
               "rows of solution.csv at this rate instead of one per epoch; at most the IMU's")
       .option("--interval", "SECONDS",
               "smallest interval of the epochs used; 0: all. For long logs at high rates", "0")
-      .option("--solver", "NAME",
-              "ceres, or chain: forward and backward passes, faster, in less memory", "ceres")
+      .option(
+          "--solver", "NAME",
+          "ceres; chain: forward and backward passes, faster, in less memory; or auto: ceres for "
+          "up to 20000 epochs,\n                   chain for more",
+          "auto")
       .option("--iterations", "N", "at most", "20");
   return arguments;
 }
@@ -57,9 +60,18 @@ double number_within(const Arguments& arguments, const std::string& name, double
   throw UsageError(text.str());
 }
 
+// Ceres needs some 0.4 MB an epoch with the satellites of four systems.
+constexpr int kMostForCeres = 20'000;
+
+std::string solver_name(const Arguments& arguments) {
+  std::string name = arguments.get("--solver");
+  if (name != "ceres" && name != "chain" && name != "auto")
+    throw UsageError("--solver: must be auto, ceres or chain");
+  return name;
+}
+
 LogSolver solver_of(const std::string& name) {
   if (name == "chain") return nullptr;
-  if (name != "ceres") throw UsageError("--solver: must be ceres or chain");
   return [](const LogGraph& graph, LogCorrections* corrections) {
     LogCeresSummary summary;
     if (solve_by_ceres(graph, {}, corrections, &summary)) return true;
@@ -106,7 +118,7 @@ int run(int argc, char** argv) {
   BatchConfig batch;
   batch.max_iterations = static_cast<int>(number_within(arguments, "--iterations", 1.0, 1000.0));
   const double interval_s = number_within(arguments, "--interval", 0.0, 3600.0);
-  const LogSolver solver = solver_of(arguments.get("--solver"));
+  std::string solver = solver_name(arguments);
   auto [config, origin, other_run] = choose_configuration(log, arguments);
   NavigatorConfig& navigator = config.navigator;
   navigator.smoother.keyframe_interval_s = interval_s;
@@ -130,12 +142,13 @@ int run(int argc, char** argv) {
       // Most logs need half a dozen iterations; what is left shrinks with each.
       bar.show(1.0 - (1.0 - kPassShare) * std::pow(0.7, iteration + share));
     };
-    result = smooth(batch, solver, inertial ? &processes : nullptr, progress, &graph);
+    if (solver == "auto") solver = graph.size() > kMostForCeres ? "chain" : "ceres";
+    result = smooth(batch, solver_of(solver), inertial ? &processes : nullptr, progress, &graph);
   }
   if (!result.solved) throw std::runtime_error(log + ": the epochs have no unique solution");
 
   std::ostringstream summary;
-  summary << "configuration: " << origin << "\nsolver: " << arguments.get("--solver") << "\n";
+  summary << "configuration: " << origin << "\nsolver: " << solver << "\n";
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
   print_smoothed(graph, result, summary);
   const long rows = write_solution(out + "/solution.csv", graph, result, rate_hz);

@@ -23,8 +23,8 @@ struct FilterProcess {
   // False once something other than a process has happened: the filter was started, or was given an
   // attitude from outside.
   bool continuous = false;
-  // True once an attitude from outside has replaced the filter's own, or vehicle constants were
-  // started anew: the IMU's samples then do not lead from one side to the other.
+  // True once an attitude from outside has replaced the filter's, or the vehicle constants got
+  // their start variances again. Integrating the IMU's samples then does not give the later state.
   bool replaced = false;
 
   void begin(Eigen::Index states) {

@@ -14,26 +14,24 @@ using Eigen::Index;
 // As long as weights and attitudes are still the filter's, its factors do.
 constexpr int kIterationsBeforeExtension = 2;
 
-// Decides all robust factors at the estimates; returns the largest change of one and sums the cost.
-double reweigh(const BatchConfig& config, bool keep, LogGraph* graph, double* cost) {
-  double change = 0.0;
-  *cost = 0.0;
+// Computes the residuals and, unless they are to be kept, the robust factors at the estimates.
+// Returns the cost of the measurements.
+double reweigh(const BatchConfig& config, bool keep, LogGraph* graph) {
+  double cost = 0.0;
   for (int k = 0; k < graph->size(); ++k) {
     LogKeyframe& keyframe = graph->at(k);
     const AntennaMotion antenna = antenna_of(keyframe, keyframe.state, graph->lever_arm_b());
     for (LogMeasurement& measurement : keyframe.measurements) {
       measurement.residual = linearize(*graph, keyframe, measurement, antenna).residual;
       if (!keep && config.robust.enabled) {
-        const double factor = igg3_factor(measurement.residual / std::sqrt(measurement.variance),
-                                          config.robust.k0, config.robust.k1);
-        change = std::max(change, std::abs(factor - measurement.factor));
-        measurement.factor = factor;
+        measurement.factor = igg3_factor(measurement.residual / std::sqrt(measurement.variance),
+                                         config.robust.k0, config.robust.k1);
       }
-      *cost += 0.5 * measurement.factor * measurement.residual * measurement.residual /
-               measurement.gain_variance;
+      cost += 0.5 * measurement.factor * measurement.residual * measurement.residual /
+              measurement.gain_variance;
     }
   }
-  return change;
+  return cost;
 }
 
 // Adds the corrections and says how far they have moved positions.
@@ -59,7 +57,7 @@ BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProces
   BatchResult result;
   for (int i = 0; i < config.max_iterations; ++i) {
     BatchIteration iteration;
-    iteration.reweighed = reweigh(config, i == 0, graph, &iteration.cost);
+    iteration.cost = reweigh(config, i == 0, graph);
     const auto share = [&](double done) { progress(i, done); };
     result.solved =
         solver ? solver(*graph, &result.last) : solve_chain(*graph, share, &result.last);

@@ -1,5 +1,4 @@
-// BatchSmoother estimates a whole log at once: every epoch from all measurements before and after
-// it.
+// This unit estimates a whole log at once: every epoch from all measurements before and after it.
 #pragma once
 #include <functional>
 #include <vector>
@@ -26,7 +25,6 @@ struct BatchIteration {
   double cost = 0.0;          // of the measurements, before it
   double moved_m = 0.0;       // the largest step of a position
   double moved_sigmas = 0.0;  // the largest in sigmas of the filter
-  double reweighed = 0.0;     // the largest change of a robust factor
   int reintegrated = 0;       // process factors, after it
 };
 
@@ -39,11 +37,11 @@ struct BatchResult {
   LogCorrections last;         // with the covariances at the solution
 };
 
-// Iterates from the states that the graph holds and leaves the smoothed ones there. Weights are
-// IGG-III of the residuals over their sigmas, decided anew at every iteration. After the first ones
-// `processes` (nullptr: there is no IMU) takes over the inertial factors. `solver` takes the steps
-// (nullptr: the chain); the covariances are the chain's in either case. `progress` gets the
-// iteration and the share of it that is done.
+// Iterates from the states that the graph holds and leaves the smoothed ones there. Every iteration
+// computes the weights, IGG-III of the residuals over their sigmas, and then takes a step. From the
+// third iteration on the inertial factors are those of `processes`; nullptr: there is no IMU, and
+// the filter's stay. `solver` takes the steps (nullptr: the chain); the covariances are the chain's
+// in either case. `progress` gets the iteration and the share of it that is done.
 BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProcesses* processes,
                    const std::function<void(int, double)>& progress, LogGraph* graph);
 

@@ -1,10 +1,10 @@
 #include "core/smoother/batch/log_chain.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/base/square.h"
 #include "core/smoother/batch/internal/log_linear.h"
+#include "core/smoother/internal/definite_inverse.h"
 
 namespace leonav {
 namespace {
@@ -12,21 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// A matrix and its inverse by Cholesky, scaled to a unit diagonal.
-bool invert(const MatrixXd& matrix, MatrixXd* inverse) {
-  const VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite()) return false;
-  const Eigen::LLT<MatrixXd> root(scale.asDiagonal() * matrix * scale.asDiagonal());
-  if (root.info() != Eigen::Success) return false;
-  MatrixXd solved = MatrixXd::Identity(matrix.rows(), matrix.cols());
-  root.matrixL().solveInPlace(solved);
-  inverse->setZero(matrix.rows(), matrix.cols());
-  inverse->selfadjointView<Eigen::Lower>().rankUpdate(solved.transpose());
-  inverse->triangularView<Eigen::StrictlyUpper>() = inverse->transpose();
-  *inverse = scale.asDiagonal() * *inverse * scale.asDiagonal();
-  return inverse->allFinite();
-}
 
 constexpr double kForwardShare = 0.6;  // of the time, roughly
 

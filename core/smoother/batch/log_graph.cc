@@ -5,6 +5,7 @@
 
 #include "core/filter/state/ambiguities.h"
 #include "core/filter/state/covariance_blocks.h"
+#include "core/smoother/internal/definite_inverse.h"
 #include "core/smoother/linearization.h"
 
 namespace leonav {
@@ -37,15 +38,9 @@ MatrixXd selected(const Matrix& matrix, const ActiveStates& rows, const ActiveSt
   return part;
 }
 
-MatrixXd inverse_of(const MatrixXd& covariance) {
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return scale.asDiagonal() * scaled.llt().solve(MatrixXd::Identity(scaled.rows(), scaled.cols())) *
-         scale.asDiagonal();
-}
-
-// The filter's estimate, which contains the keyframe's measurements.
-void set_prior(const KeyframeInput& input, LogKeyframe* keyframe) {
+// Sets the filter's estimate, which contains the keyframe's measurements. Returns false if its
+// covariance is not positive definite.
+bool set_prior(const KeyframeInput& input, LogKeyframe* keyframe) {
   const ActiveStates& active = keyframe->active;
   const auto pieces = static_cast<Index>(input.state.ambiguities.size());
   MatrixXd covariance(active.core_size() + pieces, active.core_size() + pieces);
@@ -56,19 +51,20 @@ void set_prior(const KeyframeInput& input, LogKeyframe* keyframe) {
   for (Index i = 0; i < covariance.rows(); ++i)
     for (Index j = 0; j < covariance.cols(); ++j)
       covariance(i, j) = input.covariance(whole(i), whole(j));
-  keyframe->prior_information = inverse_of(covariance);
+  if (!invert(covariance, &keyframe->prior_information)) return false;
   keyframe->prior_gradient.setZero(covariance.rows());
   keyframe->prior_at = input.state;
   keyframe->prior_pieces_at.resize(pieces);
   for (Index i = 0; i < pieces; ++i)
     keyframe->prior_pieces_at(i) = input.state.ambiguities[static_cast<std::size_t>(i)].value_m;
+  return true;
 }
 
 }  // namespace
 
 void LogGraph::add(const KeyframeInput& input) {
   if (!input.valid) return;
-  const bool linked = !keyframes_.empty() && input.follows_previous;
+  const bool linked = !keyframes_.empty() && !left_out_ && input.follows_previous;
   LogKeyframe keyframe;
   keyframe.index = input.index;
   keyframe.time = input.time;
@@ -85,18 +81,15 @@ void LogGraph::add(const KeyframeInput& input) {
   keyframe.block_complete = input.block_complete;
   keyframe.sample_before_block = input.sample_before_block;
   keyframe.instants.assign(input.instants.begin(), input.instants.end());
-  if (linked) {
+  if (linked)
     add_process(input, keyframes_.back(), &keyframe);
-  } else {
-    set_prior(input, &keyframe);
-  }
+  else if (!set_prior(input, &keyframe))
+    return (void)(left_out_ = true);
+  left_out_ = false;
   follow_arcs(input, linked);
   if (linked) add_measurements(input, &keyframe);
   keyframe.pieces.clear();
-  for (auto& [id, arc] : arcs_) {
-    pieces_[static_cast<std::size_t>(arc.piece)].last = size();
-    keyframe.pieces.push_back(arc.piece);
-  }
+  for (const auto& [id, arc] : arcs_) keyframe.pieces.push_back(arc.piece);
   std::sort(keyframe.pieces.begin(), keyframe.pieces.end());
   keyframes_.push_back(std::move(keyframe));
 }
@@ -138,7 +131,6 @@ void LogGraph::follow_arcs(const KeyframeInput& input, bool linked) {
     piece.satellite = now[i].satellite;
     piece.value_m = piece.start_value_m = now[i].value_m;
     piece.step_variance = kFirstGuessVariance;
-    piece.first = piece.last = size();
     followed.emplace(now[i].arc, Arc{static_cast<int>(pieces_.size()), 0.0, 0.0});
     pieces_.push_back(piece);
   }
@@ -161,7 +153,6 @@ void LogGraph::add_measurements(const KeyframeInput& input, LogKeyframe* keyfram
         AmbiguityPiece next = pieces_[static_cast<std::size_t>(arc.piece)];
         next.previous = arc.piece;
         next.step_variance = arc.pending_variance;
-        next.first = next.last = size();
         arc.piece = static_cast<int>(pieces_.size());
         arc.pending_variance = 0.0;
         pieces_.push_back(next);

@@ -24,7 +24,6 @@ struct AmbiguityPiece {
   double start_value_m = 0.0;  // where it does not go on from another piece: the first guess
   int previous = -1;           // piece from which it goes on; -1: none
   double step_variance = 0.0;  // m^2, against `previous`, or of the first guess
-  int first = 0, last = 0;     // keyframes
 };
 
 // One measurement of a keyframe; its weight is factor / gain_variance.
@@ -87,7 +86,8 @@ class LogGraph {
   // `lever_arm_b`: m, from the IMU to the antenna, body axes.
   explicit LogGraph(const Eigen::Vector3d& lever_arm_b) : lever_arm_b_(lever_arm_b) {}
 
-  // Appends an epoch as the filter has treated it; one without a state is left out.
+  // Appends an epoch as the filter has treated it; one without a state, or a first one whose
+  // covariance is not positive definite, is left out.
   void add(const KeyframeInput& input);
   // Appends a keyframe that is complete, and a piece, whose index it returns.
   void add(LogKeyframe keyframe) { keyframes_.push_back(std::move(keyframe)); }
@@ -121,6 +121,7 @@ class LogGraph {
   std::vector<LogKeyframe> keyframes_;
   std::vector<AmbiguityPiece> pieces_;
   Arcs arcs_;
+  bool left_out_ = false;  // the epoch before, because its covariance was none
 };
 
 // Returns position and velocity of the keyframe's antenna, ECEF, at `state`.

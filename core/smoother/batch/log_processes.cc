@@ -16,28 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// As for the window's factors (core/smoother/repropagation.cc).
-constexpr double kFarAttitude = 1e-3;   // rad
-constexpr double kFarVelocity = 5.0;    // m/s
-constexpr double kFarPosition = 100.0;  // m
-
-// 1 sigma of what nothing is known of: an attitude that only the whole log determines, and the
-// clocks behind a restart.
-constexpr double kUnknownAttitude = 0.5;  // rad
-constexpr double kUnknownClock = 1e6;     // m
-constexpr double kUnknownDrift = 1e3;     // m/s
-constexpr double kRestartedDelay = 0.1;   // m, zenith delays and carrier clock behind a restart
-constexpr double kLongestGap_s = 10.0;    // between keyframes that are joined
-
-// What the propagation knows of: neither clocks nor delays of the atmosphere.
-bool is_of_motion(int state) { return state < kInsSize || state >= kSize; }
-
-bool is_far(const CoreState& state, const CoreState& from) {
-  const EkfCorrection moved = difference(state, from);
-  return moved.segment<3>(kAttitude).norm() > kFarAttitude ||
-         moved.segment<3>(kVelocity).norm() > kFarVelocity ||
-         moved.segment<3>(kPosition).norm() > kFarPosition;
-}
+constexpr double kUnknownAttitude = 0.5;  // rad, 1 sigma: only the whole log determines it
 
 // The rotation of an attitude body to ECEF by the Earth's over `seconds`.
 Quaterniond earth_rotation(double seconds) {
@@ -47,11 +26,6 @@ Quaterniond earth_rotation(double seconds) {
 Index position_of(const ActiveStates& active, int state) {
   const auto found = std::find(active.core.begin(), active.core.end(), state);
   return found == active.core.end() ? -1 : found - active.core.begin();
-}
-
-double unknown_variance(int state) {
-  if (state < kClockDrift) return square(kUnknownClock);
-  return state < kWetDelay ? square(kUnknownDrift) : square(kRestartedDelay);
 }
 
 // Takes where a factor was linearized along when its keyframe gets an attitude: what the estimate
@@ -77,7 +51,9 @@ void copy_slow_states(const CoreState& from, CoreState* to) {
 
 bool LogProcesses::can_integrate(const LogKeyframe& before, const LogKeyframe& keyframe) const {
   const double apart_s = seconds_between(keyframe.time, before.time);
-  return keyframe.block_complete && apart_s > 0.0 && apart_s < kLongestGap_s;
+  const ImuSample& sample_before = keyframe.sample_before_block;
+  const bool reaches_back = sample_before.interval_ns == 0 || sample_before.time <= before.time;
+  return keyframe.block_complete && reaches_back && apart_s > 0.0 && apart_s < kLongestBridge_s;
 }
 
 // The rotation of the body over the keyframe's block, in its own axes. It depends on the start by
@@ -194,8 +170,9 @@ void LogProcesses::refit(const LogKeyframe& before, LogKeyframe* keyframe) const
   process.columns = columns;
 }
 
-// Position, velocity, attitude, IMU errors and vehicle constants come from the IMU; clocks and
-// delays follow the process that was there, or begin anew where there was none.
+// The IMU gives the process of position, velocity, attitude, IMU errors and vehicle constants.
+// Clocks and delays keep the process that the factor had. Without one, clocks are unknown, and
+// delays are those of the keyframe before with some noise.
 void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
   const StateEstimate& estimate = propagation_(before->state, keyframe->sample_before_block,
                                                keyframe->block, keyframe->instants, keyframe->time);
@@ -259,7 +236,7 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
       else if (old_row(row) >= 0 && old_row(other) >= 0)
         process.noise(i, j) = old.noise(old_row(row), old_row(other));
       else if (i == j)
-        process.noise(i, j) = unknown_variance(row);
+        process.noise(i, j) = restarted_variance(row);
     }
   }
   process.rows = rows;

@@ -21,8 +21,8 @@ class LogProcesses {
     int attitudes = 0, joined = 0;
   };
   Extension extend(LogGraph* graph);
-  // Integrates those factors anew that begin away from where they were linearized; returns how
-  // many.
+  // Repeats the integration of every factor whose first keyframe has moved away from the state at
+  // which the factor was linearized. Returns the number of such factors.
   int reintegrate(LogGraph* graph);
 
  private:

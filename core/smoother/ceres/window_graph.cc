@@ -53,7 +53,7 @@ struct Followed {
 };
 
 // Follows the keyframe's ambiguities. `last` is the keyframe before, with its `before`.
-std::vector<Followed> follow(const Keyframe* last, const Keyframe& keyframe, int k,
+std::vector<Followed> follow(const Keyframe* last, const Keyframe& keyframe,
                              const std::vector<Followed>& before, LogGraph* graph) {
   const ProcessFactor& factor = keyframe.process_factor;
   const Index core = keyframe.active.core_size();
@@ -64,7 +64,6 @@ std::vector<Followed> follow(const Keyframe* last, const Keyframe& keyframe, int
     piece.satellite = ambiguity.satellite;
     piece.value_m = piece.start_value_m = ambiguity.value_m;
     piece.step_variance = kNoStep;  // the prior knows of it
-    piece.first = piece.last = k;
     Followed one;
     if (last != nullptr) {
       const Index row = core + static_cast<Index>(i);
@@ -80,7 +79,6 @@ std::vector<Followed> follow(const Keyframe* last, const Keyframe& keyframe, int
         piece.value_m -= one.offset_m;
       }
       if (from >= 0 && !(piece.step_variance > 0.0)) {
-        graph->pieces()[static_cast<std::size_t>(one.piece)].last = k;
         followed.push_back(one);
         continue;
       }
@@ -140,7 +138,7 @@ std::optional<WindowGraph> graph_of(const Window& window, const Eigen::Vector3d&
     of.acceleration_e = keyframe.acceleration_e;
     of.vertical_antenna_offset_e = keyframe.vertical_antenna_offset_e;
     if (k > 0) copy_process(*last, keyframe, &of.process);
-    before = follow(last, keyframe, k, before, &graph);
+    before = follow(last, keyframe, before, &graph);
     result.ambiguities_m.emplace_back();
     for (const Followed& ambiguity : before) {
       of.pieces.push_back(ambiguity.piece);

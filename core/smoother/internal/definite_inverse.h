@@ -1,11 +1,30 @@
 // This unit inverts a covariance matrix of states with very different units.
 #pragma once
-#include "core/filter/state/ekf_state.h"
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 namespace leonav {
 
 // Inverts a positive definite matrix whose diagonal may span many orders of magnitude. Returns
-// false if it is not positive definite.
-bool invert(const EkfCovariance& matrix, EkfCovariance* inverse);
+// false if it is not positive definite. `Matrix` has its own storage; one of fixed capacity
+// allocates nothing.
+template <typename Matrix>
+bool invert(const Matrix& matrix, Matrix* inverse) {
+  using Vector =
+      Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1>;
+  const Eigen::Index n = matrix.rows();
+  const Vector scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+  if (!scale.allFinite()) return false;
+  const Matrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  const Eigen::LLT<Matrix> root(scaled);
+  if (root.info() != Eigen::Success) return false;
+  Matrix solved = Matrix::Identity(n, n);
+  root.matrixL().solveInPlace(solved);
+  inverse->setZero(n, n);
+  inverse->template selfadjointView<Eigen::Lower>().rankUpdate(solved.transpose());
+  inverse->template triangularView<Eigen::StrictlyUpper>() = inverse->transpose();
+  *inverse = scale.asDiagonal() * *inverse * scale.asDiagonal();
+  return inverse->allFinite();
+}
 
 }  // namespace leonav
