@@ -46,18 +46,6 @@ std::string_view name_of(OrbitSource source) {
   return "none";
 }
 
-std::string_view name_of(Observable observable) {
-  switch (observable) {
-    case Observable::kCode:
-      return "code";
-    case Observable::kCarrier:
-      return "carrier";
-    case Observable::kDoppler:
-      return "doppler";
-  }
-  return "";
-}
-
 // Returns "geometry_free|doppler"; empty if there is no cause.
 std::string to_string(SlipCauses causes) {
   std::string names;
@@ -176,7 +164,7 @@ void ResultFiles::write_measurements(const EpochReport& report) {
     if (aiding.second_code.is_set()) signals += "+" + to_string(aiding.second_code);
     measurements_.time(report.time)
         .text(to_string(aiding.satellite))
-        .text(name_of(aiding.observable))
+        .text(to_string(aiding.observable))
         .text(signals)
         .number(aiding.observation, 4)
         .number(aiding.innovation, 4)

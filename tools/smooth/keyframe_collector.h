@@ -13,7 +13,7 @@ namespace leonav {
 
 // Counts of a pass of the filter.
 struct PassCounts {
-  long epochs = 0, keyframes = 0, resets = 0;
+  long epochs = 0, resets = 0;
 };
 
 // KeyframeCollector is fed with a log's messages. Nothing is late: it works in the caller's thread.
@@ -29,7 +29,6 @@ class KeyframeCollector final : private StageInputs, private KeyframeSink, priva
 
   void dispatch(Channel channel, ByteSpan data) { dispatch_.dispatch(channel, data); }
   const PassCounts& counts() const { return counts_; }
-  const GnssStage& gnss() const { return gnss_; }
 
  private:
   void open_epoch(std::uint64_t index) override { mailbox_.open(index); }
@@ -37,10 +36,7 @@ class KeyframeCollector final : private StageInputs, private KeyframeSink, priva
   void push_gnss(const GnssWork& work) override { gnss_.process(work); }
   void event(const Event&) override {}
   KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
-  void push_keyframe() override {
-    ++counts_.keyframes;
-    graph_->add(*keyframe_);
-  }
+  void push_keyframe() override { graph_->add(*keyframe_); }
   void no_keyframe(const Solution&, bool) override {}
   void on_solution(const Solution&) override {}
   void on_epoch(const EpochReport&) override { ++counts_.epochs; }

@@ -80,9 +80,9 @@ LogSolver solver_of(const std::string& name) {
   };
 }
 
-// Feeds the log to the filter, which leaves its keyframes in the graph.
-void collect(const std::string& log, const DaemonConfig& config, ProgressBar* bar,
-             LogGraph* graph) {
+// Feeds the log to the filter, which leaves its keyframes in the graph. Returns what it has met.
+PassCounts collect(const std::string& log, const DaemonConfig& config, ProgressBar* bar,
+                   LogGraph* graph) {
   KeyframeCollector collector(config.navigator, graph);
   EventLogReader reader(log);
   LogEvent event;
@@ -92,6 +92,7 @@ void collect(const std::string& log, const DaemonConfig& config, ProgressBar* ba
     bar->show(kPassShare * static_cast<double>(reader.position_bytes()) /
               static_cast<double>(reader.size_bytes()));
   }
+  return collector.counts();
 }
 
 void require_inputs(const JournalScan& scan, const std::string& log, const std::string& prefix) {
@@ -130,9 +131,10 @@ int run(int argc, char** argv) {
   write_text(out + "/configuration.yaml", effective_text(config.source));
   LogGraph graph(navigator.vehicle.lever_arm_b);
   BatchResult result;
+  PassCounts pass;
   {
     ProgressBar bar(&std::cerr, "leonav-smooth", is_stderr_terminal());
-    collect(log, config, &bar, &graph);
+    pass = collect(log, config, &bar, &graph);
     if (graph.size() < 2)
       throw std::runtime_error(log + ": the filter found no position in the log (" +
                                scan.describe() + "); leonav-replay tells why");
@@ -150,6 +152,8 @@ int run(int argc, char** argv) {
   std::ostringstream summary;
   summary << "configuration: " << origin << "\nsolver: " << solver << "\n";
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
+  summary << "epochs of the log: " << pass.epochs << "\nrestarts of the filter: " << pass.resets
+          << "\n";
   print_smoothed(graph, result, summary);
   const long rows = write_solution(out + "/solution.csv", graph, result, rate_hz);
   write_forward(out + "/forward.csv", graph, result);

@@ -16,18 +16,6 @@ constexpr std::string_view kResidualsHeader =
     "elevation_deg";
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-std::string_view name_of(Observable observable) {
-  switch (observable) {
-    case Observable::kCode:
-      return "code";
-    case Observable::kCarrier:
-      return "carrier";
-    case Observable::kDoppler:
-      return "doppler";
-  }
-  return "";
-}
-
 }  // namespace
 
 long write_solution(const std::string& path, const LogGraph& graph, const BatchResult& result,
@@ -74,7 +62,7 @@ void write_residuals(const std::string& path, const LogGraph& graph) {
       const double sigma = std::sqrt(measurement.variance);
       writer.time(keyframe.time)
           .text(to_string(satellite.satellite))
-          .text(name_of(measurement.measurement.observable))
+          .text(to_string(measurement.measurement.observable))
           .text(signals)
           .number(measurement.residual, 4)
           .number(sigma, 4)

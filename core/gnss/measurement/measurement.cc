@@ -2,6 +2,18 @@
 
 namespace leonav {
 
+std::string_view to_string(Observable observable) {
+  switch (observable) {
+    case Observable::kCode:
+      return "code";
+    case Observable::kCarrier:
+      return "carrier";
+    case Observable::kDoppler:
+      return "doppler";
+  }
+  return "";
+}
+
 std::string_view to_string(Reason reason) {
   switch (reason) {
     case Reason::kUsed:

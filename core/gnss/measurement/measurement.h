@@ -14,6 +14,7 @@ namespace leonav {
 
 // The values are on the wire: append only.
 enum class Observable : std::uint8_t { kCode = 0, kCarrier = 1, kDoppler = 2 };
+std::string_view to_string(Observable observable);  // "code", "carrier", "doppler"
 
 // Reason why a satellite or a measurement was used or excluded. On the wire: append only.
 enum class Reason : std::uint8_t {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <vector>
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
@@ -255,6 +256,8 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
 
 LogProcesses::Extension LogProcesses::extend(LogGraph* graph) {
   Extension extension;
+  std::vector<bool> aligned;  // by the filter
+  for (int k = 0; k < graph->size(); ++k) aligned.push_back(graph->at(k).has_attitude);
   for (int k = graph->size() - 1; k > 0; --k) {
     LogKeyframe& keyframe = graph->at(k);
     LogKeyframe& before = graph->at(k - 1);
@@ -285,7 +288,8 @@ LogProcesses::Extension LogProcesses::extend(LogGraph* graph) {
     if (!keyframe.process.exists) {
       if (keyframe.attitude_replaced) continue;  // what came from outside counts, not the IMU
       keyframe.prior_information.resize(0, 0);
-      ++extension.joined;
+      // An alignment is no gap.
+      if (aligned[static_cast<std::size_t>(k - 1)]) ++extension.joined;
     }
     integrate(&before, &keyframe);
   }

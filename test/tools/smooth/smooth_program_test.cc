@@ -78,7 +78,7 @@ TEST_CASE("leonav-smooth refuses a wrong command line with exit code 2") {
     CHECK(run.exit_code == 2);
     CHECK_THAT(run.err, Contains(named));
   };
-  refused("--preset car --solver qr " + rest, "--solver: must be ceres or chain");
+  refused("--preset car --solver qr " + rest, "--solver: must be auto, ceres or chain");
   refused("--preset car --rate 0 " + rest, "--rate: must be 0.001 to 1000");
   refused("--preset car --iterations 0 " + rest, "--iterations");
   refused("--preset car --interval -1 " + rest, "--interval");
