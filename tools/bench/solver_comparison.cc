@@ -25,15 +25,20 @@ using Eigen::Index;
 constexpr int kSteps = 8;  // of Gauss and Newton, far more than it takes
 constexpr double kMostCost = 1e-9, kMostSigmas = 1e-6;
 constexpr double kRangeRounding_m = 4e-9;  // of 2e7 m in a double
+constexpr int kTimedApart = 10;            // solves from one timed window to the next, at least
 
 struct LinearSolver {
   const char* name;
   LogCeresLinear linear;
+  LogCeresLibrary library;
 };
-constexpr std::array<LinearSolver, 3> kLinearSolvers = {
-    {{"Ceres, sparse normal equations", LogCeresLinear::kSparseNormal},
-     {"Ceres, sparse Schur", LogCeresLinear::kSparseSchur},
-     {"Ceres, dense Schur", LogCeresLinear::kDenseSchur}}};
+constexpr std::array<LinearSolver, 5> kLinearSolvers = {
+    {{"Ceres, sparse normal equations", LogCeresLinear::kSparseNormal, LogCeresLibrary::kDefault},
+     {"Ceres, sparse Schur", LogCeresLinear::kSparseSchur, LogCeresLibrary::kDefault},
+     {"Ceres, CXSparse, normal equations", LogCeresLinear::kSparseNormal,
+      LogCeresLibrary::kCxSparse},
+     {"Ceres, CXSparse, Schur", LogCeresLinear::kSparseSchur, LogCeresLibrary::kCxSparse},
+     {"Ceres, dense Schur", LogCeresLinear::kDenseSchur, LogCeresLibrary::kDefault}}};
 
 void apply(const WindowCorrections& corrections, Window* window) {
   for (int i = 0; i < window->size(); ++i) {
@@ -64,12 +69,21 @@ double least_carrier_sigma(const Window& window) {
   return least;
 }
 
+// Returns how many satellites have weight in a keyframe.
+double satellites(const Keyframe& keyframe) {
+  std::array<bool, kMaxSatellites> used{};
+  for (const KeyframeMeasurement& m : keyframe.measurements)
+    if (m.factor > 0.0) used[m.measurement.satellite_index] = true;
+  return static_cast<double>(std::count(used.begin(), used.end(), true));
+}
+
 class Comparison {
  public:
   Comparison(const NavigatorConfig& config, int window)
       : lever_arm_b_(config.vehicle.lever_arm_b), chain_(window), ceres_(precise()) {}
 
-  void add(const Window& window) {
+  // `index` counts the solves of the smoother.
+  void add(const Window& window, long index) {
     if (window.size() < 2) return;
     Window by_chain(window), by_ceres(window);
     EkfCovariance covariance;
@@ -83,6 +97,7 @@ class Comparison {
       return;
     }
     ++windows_;
+    satellites_.push_back(satellites(window.newest()));
     const bool chain = iterate(&by_chain);
     const bool ceres = ceres_.solve(by_ceres, lever_arm_b_, &corrections_);
     if (ceres) apply(corrections_, &by_ceres);
@@ -102,11 +117,16 @@ class Comparison {
     const double sigmas_apart = apart.cwiseQuotient(sigmas).cwiseAbs().maxCoeff();
     most_sigmas_ = std::max(most_sigmas_, sigmas_apart);
     most_of_allowed_ = std::max(most_of_allowed_, sigmas_apart / allowed);
+    if (windows_ > 1 && index < timed_ + kTimedApart) return;
+    timed_ = index;
     time_steps(window);
   }
 
   void print() const {
-    std::printf("windows: %ld, with noise that Ceres is not given: %ld\n", windows_, not_given_);
+    std::vector<double> satellites = satellites_;
+    std::sort(satellites.begin(), satellites.end());
+    std::printf("windows: %ld, with noise that Ceres is not given: %ld; satellites: median %.0f\n",
+                windows_, not_given_, satellites.empty() ? 0 : quantile_below(satellites, 0.5));
     std::printf("minimum found by the chain alone: %ld, by Ceres alone: %ld\n", only_chain_,
                 only_ceres_);
     std::printf("largest difference of cost: %.2e of it; of the newest states: %.2e sigma\n",
@@ -155,7 +175,9 @@ class Comparison {
     chain_.solve(window, lever_arm_b_, &corrections_);
     watch.stop(&chain_times_);
     for (std::size_t i = 0; i < kLinearSolvers.size(); ++i) {
+      if (!has_library(kLinearSolvers[i].library)) continue;
       LogCeresOptions one;
+      one.library = kLinearSolvers[i].library;
       one.threads = 1;
       one.max_iterations = 1;
       one.linear = kLinearSolvers[i].linear;
@@ -184,8 +206,9 @@ class Comparison {
   RtsSolver chain_;
   CeresSolver ceres_;
   WindowCorrections corrections_;
-  long windows_ = 0, not_given_ = 0, only_chain_ = 0, only_ceres_ = 0;
+  long timed_ = 0, windows_ = 0, not_given_ = 0, only_chain_ = 0, only_ceres_ = 0;
   double most_cost_ = 0.0, most_sigmas_ = 0.0, most_of_allowed_ = 0.0;
+  std::vector<double> satellites_;
   Times chain_times_;
   std::array<Times, kLinearSolvers.size()> ceres_times_;
 };
@@ -208,7 +231,8 @@ void compare_solvers(const NavigatorConfig& config, const std::string& log_path,
     dispatch.dispatch(*channel, event.data);
     if (stages.solve.wall_s.size() == solves) continue;
     solves = stages.solve.wall_s.size();
-    if (solves % static_cast<std::size_t>(every) == 0) comparison->add(*stages.window());
+    if (solves % static_cast<std::size_t>(every) == 0)
+      comparison->add(*stages.window(), static_cast<long>(solves));
   }
   comparison->print();
   comparison->require();

@@ -35,7 +35,7 @@ std::unique_ptr<WindowSolver> minimizer(const SmootherConfig& config, bool robus
   if (config.solver == SmootherSolver::kChain) return nullptr;
   LogCeresOptions options;
   options.threads = 1;  // the order of sums decides bits
-  options.reproducible = true;
+  options.library = LogCeresLibrary::kEigen;
   options.max_iterations = config.max_iterations;
   if (robust) options.loss = config.ceres_loss;
   return std::make_unique<CeresSolver>(options);

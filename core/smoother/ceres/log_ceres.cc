@@ -26,6 +26,11 @@ ceres::LinearSolverType type_of(LogCeresLinear linear) {
   return ceres::SPARSE_NORMAL_CHOLESKY;
 }
 
+// By its name, because a Ceres without CXSparse may not have the constant either.
+bool find_cx_sparse(ceres::SparseLinearAlgebraLibraryType* type) {
+  return ceres::StringToSparseLinearAlgebraLibraryType("CX_SPARSE", type);
+}
+
 // Gauss-Newton steps, damped only where they do not reduce the cost.
 ceres::Solver::Options solver_options(const LogCeresOptions& options) {
   ceres::Solver::Options given;
@@ -38,9 +43,11 @@ ceres::Solver::Options solver_options(const LogCeresOptions& options) {
   given.gradient_tolerance = 0.0;
   given.parameter_tolerance = 0.0;
   given.logging_type = ceres::SILENT;
-  if (options.reproducible) {
+  if (options.library == LogCeresLibrary::kEigen) {
     given.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     given.dense_linear_algebra_library_type = ceres::EIGEN;
+  } else if (options.library == LogCeresLibrary::kCxSparse) {
+    find_cx_sparse(&given.sparse_linear_algebra_library_type);
   }
   return given;
 }
@@ -102,6 +109,13 @@ bool take_last_step(LogUnknowns* unknowns, ceres::Problem* problem) {
 }
 
 }  // namespace
+
+bool has_library(LogCeresLibrary library) {
+  if (library == LogCeresLibrary::kDefault) return true;
+  ceres::SparseLinearAlgebraLibraryType type = ceres::EIGEN_SPARSE;
+  if (library == LogCeresLibrary::kCxSparse && !find_cx_sparse(&type)) return false;
+  return ceres::IsSparseLinearAlgebraLibraryTypeAvailable(type);
+}
 
 bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
                     LogCorrections* corrections, LogCeresSummary* summary) {

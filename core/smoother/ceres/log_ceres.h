@@ -16,15 +16,21 @@ enum class LogCeresLinear {
   kDenseSchur     // dense Cholesky after that
 };
 
+// The library that factorizes sparse matrices for Ceres.
+enum class LogCeresLibrary {
+  kDefault,   // Ceres's choice: SuiteSparse where it was built with it
+  kCxSparse,  // not in every Ceres
+  kEigen      // for dense matrices too: the result does not depend on the machine's libraries
+};
+bool has_library(LogCeresLibrary library);
+
 struct LogCeresOptions {
   int threads = 2;
   int max_iterations = 10;
   LogCeresLinear linear = LogCeresLinear::kSparseNormal;
   CeresLoss loss = CeresLoss::kIgg3;  // otherwise all factors count as one
   double loss_sigmas = 1.5;           // from which on a residual weighs less
-  // Solves by Eigen alone, so that the result does not depend on the machine's linear algebra
-  // library.
-  bool reproducible = false;
+  LogCeresLibrary library = LogCeresLibrary::kDefault;
   // Steps of Gauss and Newton beyond, without a test of the cost. Ranges are known to 4e-9 m, a
   // millionth of a carrier's sigma, and in the sum of squares steps of a thousandth of a sigma are
   // lost in rounding.
