@@ -17,6 +17,7 @@
 #include "daemon/config/load_config.h"
 #include "daemon/config/presets.h"
 #include "daemon/engine/engine.h"
+#include "daemon/engine/solve_time.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
 #include "daemon/service/lcm_link.h"
@@ -120,7 +121,22 @@ EngineHooks drill_hooks(const DrillConfig& drill) {
   return hooks;
 }
 
+// Throws ConfigError where the smoother cannot keep its deadline on this machine.
+void check_solve_time(const NavigatorConfig& config) {
+  if (config.estimator != Estimator::kSmoother || config.motion != MotionModel::kInertial) return;
+  const SolveTime time = measure_solve_time(config);
+  if (time.solved < kMeasuredSolves)
+    return spdlog::warn("the smoother's time could not be measured");
+  require_in_time(config, time);
+  spdlog::info(
+      "an iteration over {} keyframes with {} satellites takes {:.1f} ms here, the deadline is "
+      "{:.0f} ms",
+      config.smoother.window, time.satellites, time.solve_s * 1e3,
+      config.realtime.deadline_smoother_s * 1e3);
+}
+
 int run(const DaemonConfig& config) {
+  check_solve_time(config.navigator);
   const sigset_t set = stop_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread exists: all inherit it
   std::signal(SIGPIPE, SIG_IGN);

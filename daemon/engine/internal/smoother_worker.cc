@@ -1,5 +1,6 @@
 #include "daemon/engine/internal/smoother_worker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,10 +63,13 @@ void SmootherWorker::process(const KeyframeInput& keyframe) {
   counters_->worst_solve_ns.raise_to(solve_watch_.nanoseconds());
 }
 
-// Elapsed time ends the solve here; how many iterations came of it is in the journal.
-bool SmootherWorker::may_iterate(int) {
+// Elapsed time ends the solve here; how many iterations came of it is in the journal. The next
+// iteration takes as long as those before it did in the mean.
+bool SmootherWorker::may_iterate(int iterations_done) {
   if (inertial_ && !mailbox_.is_open(epoch_)) return false;
-  if (inertial_ && time_limit_ns_ > 0 && solve_watch_.nanoseconds() > time_limit_ns_) return false;
+  const std::int64_t elapsed_ns = solve_watch_.nanoseconds();
+  const std::int64_t next_ns = elapsed_ns / std::max(iterations_done, 1);
+  if (inertial_ && time_limit_ns_ > 0 && elapsed_ns + next_ns > time_limit_ns_) return false;
   if (before_iteration_) before_iteration_(epoch_);
   return true;
 }

@@ -36,6 +36,18 @@ TEST_CASE("--lcm-url is judged like lcm.url") {
   }
 }
 
+TEST_CASE("a smoother that cannot keep its deadline on this machine is refused") {
+  if (!test::have_programs("leonavd")) return;
+  const auto run = test::run_program(
+      "leonavd", kConfig +
+                     "--lcm-url memq:// --set estimator=smoother --set smoother.solver=ceres --set "
+                     "smoother.window=60 "
+                     "--set realtime.deadline_smoother_ms=1 --set realtime.deadline_ekf_ms=1");
+  CHECK(run.exit_code == 3);
+  CHECK(run.err.find("smoother.window: one iteration over 60 keyframes") != std::string::npos);
+  CHECK(run.err.find("shorten the window, lengthen the deadline") != std::string::npos);
+}
+
 TEST_CASE("a daemon without LCM touches no journal") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile journal("journal", "the evidence");

@@ -257,7 +257,7 @@ class Study:
         todo = self.missing(estimator, name, value)
         for count, (case, run) in enumerate(todo, 1):
             say(f"{what}: {case.name}, replay {count} of {len(todo)}")
-            choice = ["--set", "estimator=smoother"] if estimator == "smoother" else []
+            choice = ["--set", f"estimator={estimator}"]
             figures = judged(program, case, run, [*choice, *settings], os.path.join(self.out, "replay"))
             self.results.add(dict(zip(RESULT, (case.name, run[0], estimator, name, value, *figures))))
 

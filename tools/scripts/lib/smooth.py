@@ -26,8 +26,10 @@ SEEDS = (1, 2, 3)
 CAR = [*ALIGNMENT, "vehicle.kind=car"]
 SYSTEMS = {"all": "gnss.systems=[gps, galileo, beidou, leo]", "GPS": "gnss.systems=[gps]"}
 STREETS_S, SETTLE_S = 1200.0, 120.0
-FAMILIES = {"city": ("urban", ["places=city"]), "dense city": ("urban", ["places=dense_city"]), "correlated": ("correlated", [])}
-ESTIMATORS = ("filter", "smoother", "whole log", "forward")
+FAMILIES = {"city": ("urban", ["places=city"]), "dense city": ("urban", ["places=dense_city"]), "correlated": ("correlated", []),
+            "recorded": ("recorded", [])}
+LAGGED = "fixed lag"  # the smoother's state at its oldest keyframe
+ESTIMATORS = ("filter", "smoother", LAGGED, "whole log", "forward")
 
 # From and to, s from the start; no satellite at all.
 TUNNELS, TUNNELS_S = ((600, 660), (840, 900), (1080, 1140)), 1300.0
@@ -76,13 +78,14 @@ def simulate(bin_folder, folder, scenario, seed, duration_s, settings):
 def estimate(bin_folder, log, out, preset, settings, live=()):
     """{estimator: solution}; warns where the whole log has not converged."""
     words = ["--preset", preset, *with_settings(settings)]
-    run(bin_folder / "leonav-replay", *words, log, "--out", out / "filter")
+    run(bin_folder / "leonav-replay", *words, *with_settings(["estimator=ekf"]), log, "--out", out / "filter")
     run(bin_folder / "leonav-replay", *words, *with_settings(["estimator=smoother", *live]), log, "--out", out / "smoother")
     run(bin_folder / "leonav-smooth", *words, "--solver", "chain", log, "--out", out / "whole")
     for line in (out / "whole/summary.txt").read_text().splitlines():
         if line.startswith("warning:"):
             print(f"{out.name}: {line}", file=sys.stderr)
-    return dict(zip(ESTIMATORS, (out / "filter/solution.csv", out / "smoother/solution.csv", out / "whole/solution.csv", out / "whole/forward.csv")))
+    return dict(zip(ESTIMATORS, (out / "filter/solution.csv", out / "smoother/solution.csv", out / "smoother/smoothed.csv",
+                                 out / "whole/solution.csv", out / "whole/forward.csv")))
 
 
 def print_table(header, rows):
@@ -188,11 +191,13 @@ def tunnels(bin_folder, out):
             found = {}
             for folder in logs:
                 settings = [*ALIGNMENT, SYSTEMS["GPS"], kind, *told]
-                for name, solution in estimate(bin_folder, folder / "run.lcmlog", folder / vehicle, "urban", settings).items():
+                solutions = estimate(bin_folder, folder / "run.lcmlog", folder / vehicle, "urban", settings)
+                solutions.pop(LAGGED)  # no states without satellites
+                for name, solution in solutions.items():
                     for place, values in tunnel_errors(solution, folder / "truth.csv").items():
                         found.setdefault((name, place), []).extend(values)
             errors = {key: np.array(values) for key, values in found.items()}
-            for name in ESTIMATORS:
+            for name in solutions:
                 cells = []
                 for place in ("middle", "end", "worst"):
                     error, sigma = errors[name, place].T

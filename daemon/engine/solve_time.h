@@ -1,0 +1,27 @@
+// This function measures how long a solve of the smoother takes on this machine, before the service
+// depends on it.
+#pragma once
+#include "core/navigator/interface/navigator_config.h"
+
+namespace leonav {
+
+inline constexpr int kMeasuredSolves = 9;
+
+struct SolveTime {
+  int satellites = 0;    // of the measured keyframes
+  int solved = 0;        // of kMeasuredSolves, those with a result
+  double solve_s = 0.0;  // median of solves with one iteration, wall time
+};
+
+// Measures, in the caller's thread, solves of a full window: a vehicle that stands at zero latitude
+// under as many satellites as the configured systems have in view under an open sky, at most as
+// many as the configuration uses; codes and Dopplers on two frequencies, one carrier, 200 IMU
+// samples a second. Allocates. Precondition: the configuration's estimator is the smoother, with an
+// IMU.
+SolveTime measure_solve_time(const NavigatorConfig& config);
+
+// Throws ConfigError where a solve takes more than half of the time until its deadline: the filter
+// needs some of that time too, and a machine is not always as quick.
+void require_in_time(const NavigatorConfig& config, const SolveTime& time);
+
+}  // namespace leonav
