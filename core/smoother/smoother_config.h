@@ -27,8 +27,9 @@ struct SmootherConfig {
   // Errors of a satellite's code less than this apart count as one when the mean of its residuals
   // over the window is tested; 0: each code is tested by itself only.
   double code_alike_s = 5.0;
-  // Time after which no further iteration of a solve begins; 0: until the deadline. It acts in the
-  // service only: the journal records the number of iterations that resulted.
+  // Time within which a further iteration of a solve must end, at the pace of those before it; 0:
+  // no limit but the deadline. It acts in the service only: the journal records the number of
+  // iterations that resulted.
   double time_limit_s = 0.25;
   // A solve ends when the largest correction of a position, in sigmas of the filter's position, is
   // below this. The states move on from solve to solve, so that a shorter step leaves next to

@@ -43,7 +43,7 @@ def arguments():
                                      "OUT/report.md. A second call does only what is not there yet: runs whose commands, "
                                      "programs or files changed are done again.")
     parser.add_argument("out", nargs="?", default="experiments-output", help="output folder [experiments-output]")
-    parser.add_argument("--bin", help="folder of leonav-sim, leonav-replay, leonav-eval; without it they are built first")
+    parser.add_argument("--bin", help="folder of leonav-sim, leonav-replay, leonav-smooth and leonav-eval; without it they are built first")
     parser.add_argument("--rows", action="append", metavar="PATTERN", help="only rows whose name matches, as in 'code-*'; may be "
                         "repeated (--list tells the names)")
     parser.add_argument("--seeds", type=at_least(1), default=5,

@@ -73,19 +73,23 @@ def errors_of(solution_path, truth_path):
 def judge(row, folder, out):
     result = numbers_of(os.path.join(out, "errors.json"))
     t, error = errors_of(os.path.join(out, "solution.csv"), os.path.join(folder, "truth.csv"))
-    week, tow, satellites, pdop = columns(os.path.join(out, "epochs.csv"), ("gps_week", "gps_tow_s", "satellites", "pdop"))
-    t_epoch = (week - week[0]) * WEEK_S + tow - tow[0]
+    if row.is_whole_log():  # its epochs are the filter's, whose row has them
+        t_epoch, satellites, pdop = t, np.zeros(0), np.zeros(0)
+    else:
+        week, tow, satellites, pdop = columns(os.path.join(out, "epochs.csv"), ("gps_week", "gps_tow_s", "satellites", "pdop"))
+        t_epoch = (week - week[0]) * WEEK_S + tow - tow[0]
     settled = t >= row.settle_epochs
     judged = t_epoch >= row.settle_epochs
-    good = judged & (pdop > 0.0) & (pdop < MAX_PDOP)
+    told = judged[:len(satellites)]
+    good = told & (pdop > 0.0) & (pdop < MAX_PDOP)
     np.savez_compressed(os.path.join(out, "series.npz"), t=t.astype(np.float32), error=error.astype(np.float32),
                         t_epoch=t_epoch.astype(np.float32), satellites=satellites.astype(np.float32),
                         pdop=pdop.astype(np.float32))
     result |= {
         "availability": float(np.count_nonzero(settled)) / max(1, int(np.count_nonzero(judged))),
         "within_5m": [100.0 * float(np.mean(np.abs(e[settled]) < 5.0)) for e in error] if settled.any() else None,
-        "satellites": float(np.mean(satellites[judged])) if judged.any() else None,
-        "below_four": float(np.mean(satellites[judged] < 4)) if judged.any() else None,
+        "satellites": float(np.mean(satellites[told])) if told.any() else None,
+        "below_four": float(np.mean(satellites[told] < 4)) if told.any() else None,
         "pdop": float(np.mean(pdop[good])) if good.any() else None,
     }
     result["odometer_scale_percent"] = odometer_scale_of(os.path.join(out, "summary.txt"))

@@ -149,7 +149,7 @@ SMOOTHED_GROUPS = ("code", "code-plain", "few-gps", "few-leo", "carrier", "carri
 
 
 def smoother_rows(rows):
-    """The same drives, the same measurements, the sliding window's answer."""
+    """The same drives, the same measurements: the sliding window's answer, and the whole log's, its bound."""
     result = []
     for row in rows:
         if row.group not in SMOOTHED_GROUPS:
@@ -158,7 +158,11 @@ def smoother_rows(rows):
                       "low": row.published}.get(row.group)
         result.append(Row(f"fgo-{row.name}", f"fgo-{row.group}", row.title, row.scene, row.settings + ["estimator=smoother"],
                           row.settle_epochs, row.bound_m, published_))
-        result[-1].filter, result[-1].published_sets = row, row.published_sets
+        smoother = result[-1]
+        smoother.filter, smoother.published_sets = row, row.published_sets
+        result.append(Row(f"whole-{row.name}", f"whole-{row.group}", row.title, row.scene, row.settings, row.settle_epochs, row.bound_m))
+        result[-1].program, result[-1].published_sets = "leonav-smooth", row.published_sets
+        smoother.whole_log = result[-1]
     return result
 
 

@@ -118,7 +118,7 @@ def within_lines(rows, results):
 
 def sky_lines(rows, results):
     lines = []
-    for row in (row for row in rows if row.filter is None):
+    for row in (row for row in rows if row.filter is None and not row.is_whole_log()):
         key = row.name.removeprefix("code-").removeprefix("carrier-").removesuffix("-ins")
         for where, satellites, pdop in published.SKY.get(key, []):
             wanted = where == published.A and row.group == "code" and "INS" not in row.title

@@ -26,7 +26,7 @@ class Site:
         self.root, self.bin, self.out, self.keep_logs = root, bin_folder, out, keep_logs
         self.work = self.caller = None  # while an engine runs
         self.fingerprint = self.digest_files([os.path.join(bin_folder, p) for p in
-                                              ("leonav-sim", "leonav-replay", "leonav-eval")])
+                                              ("leonav-sim", "leonav-replay", "leonav-smooth", "leonav-eval")])
 
     @staticmethod
     def digest_files(paths):
@@ -61,7 +61,9 @@ class Site:
                  "--truth", os.path.join(folder, "truth.csv"), "-o", log]]
 
     def replay_command(self, row, folder, out):
-        return [os.path.join(self.bin, "leonav-replay"), "--preset", "urban", *programs.with_settings(row.settings),
+        # The chain: Ceres needs gigabytes for logs as long as these.
+        solver = ["--solver", "chain"] if row.is_whole_log() else []
+        return [os.path.join(self.bin, row.program), "--preset", "urban", *programs.with_settings(row.settings), *solver,
                 os.path.join(folder, "run.lcmlog"), "--out", out]
 
     def eval_command(self, row, folder, out):

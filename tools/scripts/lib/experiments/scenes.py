@@ -32,9 +32,14 @@ class Row:
         self.by_time = bound_m < 1.0  # judged by when it converges, not by its errors
         self.matched = None  # name of the row whose drives are as the estimator takes them to be
         self.filter = None  # row of the same drives and settings that the filter answers, where this one is the smoother's
+        self.whole_log = None  # row of the same drives and settings that leonav-smooth answers, where this one is the smoother's
+        self.program = "leonav-replay"
         self.studied = None  # row that this one varies
         self.published_sets = None  # 3D errors of the four sets
         self.housed = None  # row of the same drives whose LEO satellites stand behind the same houses as the others
+
+    def is_whole_log(self):
+        return self.program == "leonav-smooth"
 
     def is_set(self):
         """Judged from where it has converged on."""

@@ -160,7 +160,8 @@ class Verdict:
 
 def lines(rows, results):
     # Of the smoother those rows alone whose improvement is published.
-    verdicts = [Verdict(partner, row, results) for partner, row in pairs(rows) if row.filter is None or published_3d(row) is not None]
+    verdicts = [Verdict(partner, row, results) for partner, row in pairs(rows)
+                if not row.is_whole_log() and (row.filter is None or published_3d(row) is not None)]
     if not verdicts:
         return []
     judged = [v for v in verdicts if v.before is not None]
