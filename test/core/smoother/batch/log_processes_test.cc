@@ -85,6 +85,23 @@ double normalized(const Log& log, const BatchResult& result, int k, int first,
 
 }  // namespace
 
+TEST_CASE("a gap is joined where the IMU's samples reach back to the epoch before it") {
+  constexpr std::uint64_t kGap = 6;
+  const bool reaches = GENERATE(true, false);
+  Log log({}, 10, [reaches](KeyframeInput* input) {
+    if (input->index != kGap) return;
+    input->follows_previous = false;
+    input->sample_before_block.interval_ns = 5'000'000;
+    input->sample_before_block.time =
+        reaches ? input->from.nav.time : input->time.plus_seconds(-0.5);
+  });
+  REQUIRE(segments(log.graph) == 2);
+  const LogProcesses::Extension extension = log.processes.extend(&log.graph);
+  CAPTURE(reaches);
+  CHECK(extension.joined == (reaches ? 1 : 0));
+  CHECK(segments(log.graph) == (reaches ? 1 : 2));
+}
+
 TEST_CASE("factors integrated from the filter's estimates are the filter's") {
   DriveOptions options;
   const int kind = GENERATE(0, 1, 2);
