@@ -41,6 +41,8 @@ struct KeyframeInput {
   bool follows_previous = false;
   // An attitude from outside has replaced the filter's since then (FilterProcess::replaced).
   bool attitude_replaced = false;
+  // The filter has started over since then, because of something that the window has wrong too.
+  bool ends_window = false;
   bool has_attitude = false;
   bool has_gnss = false;  // the filter has used GNSS recently
   FilterState from;       // the filter's at the previous keyframe, after its update

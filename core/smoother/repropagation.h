@@ -21,6 +21,8 @@ class Repropagator {
   void integrate(const Keyframe& before, Keyframe* keyframe);
   // Integrates again where the keyframe before has moved away from where the factor begins.
   void operator()(const Keyframe& before, Keyframe* keyframe);
+  // Returns the motion of the body at the end of the last factor that was integrated.
+  const BodyMotion& body() const { return propagation_.body(); }
   std::uint64_t repropagations() const { return repropagations_; }
 
  private:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/smoother/linearization.h"
+
 namespace leonav {
 namespace {
 
@@ -11,11 +13,8 @@ using namespace ekf_index;
 using Eigen::Index;
 
 constexpr std::size_t kEnoughSatellites = 4;
-// The window has diverged if it is farther from the filter than the sigmas of both together, and
-// than this. Two estimates from the same measurements differ by less than the less accurate one is
-// wrong: the variance of their difference is P_filter - P_window where both are efficient (Hausman,
-// Econometrica 46(6), 1978).
-constexpr double kSmallestDivergence_m = 0.3;
+// A filter that has started over has caught up once its sigma is so many times the window's.
+constexpr double kAsCertain = 1.1;
 // Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
 // then, and a few satellites would outvote the others.
 constexpr double kVague_m = 5.0;
@@ -62,33 +61,50 @@ Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
 void Smoother::add(const KeyframeInput& input) {
   if (solved_) commit_or_roll_back(false);
   if (!input.valid) return window_.clear();
-  filter_state_ = input.state.nav;
+  filter_has_attitude_ = input.has_attitude;
+  filter_position_e_ = input.state.nav.p_e;
+  if (!input.has_attitude) filter_position_e_ += input.vertical_antenna_offset_e;
   filter_sigma_m_ = position_sigma(input.covariance);
-  const bool bridges = !input.follows_previous && can_bridge(window_, input);
-  if (failed_ || !(input.follows_previous || bridges)) window_.clear();
+  const bool filter_goes_on = input.follows_previous && has_all_of_window(input);
+  if (failed_ || !(filter_goes_on || can_bridge(window_, input))) window_.clear();
   failed_ = false;
   const bool follows = window_.size() > 0;
   if (window_.full()) marginalize_and_drop_oldest();
   newest_follows_ = window_.size() > 0 && append(input);
   window_lost_ = follows && !newest_follows_;
-  if (!newest_follows_) return (void)window_.start(input);
+  if (!newest_follows_) {
+    window_sigma_m_ = std::numeric_limits<double>::infinity();
+    believed_.reset();
+    filter_is_younger_ = false;
+    return (void)window_.start(input);
+  }
   if (config_.window > 1) return;
   marginalize_and_drop_oldest();  // a window of one keyframe has all earlier ones in its prior
   newest_follows_ = window_.size() > 0;
   window_lost_ = !newest_follows_;
 }
 
+// Returns whether the filter has an attitude where the window has one.
+bool Smoother::has_all_of_window(const KeyframeInput& input) const {
+  return input.has_attitude || window_.size() == 0 || !window_.newest().has_attitude;
+}
+
 // Appends a keyframe with the window's own inertial process.
 bool Smoother::append(const KeyframeInput& input) {
-  if (input.follows_previous) {
+  if (input.follows_previous && has_all_of_window(input)) {
     if (!window_.append(input)) return false;
   } else {
+    filter_is_younger_ = filter_is_younger_ || !input.follows_previous;
     window_.append_apart(input);
   }
   const Keyframe& before = window_.at(window_.size() - 2);
   Keyframe& newest = window_.newest();
   repropagator_.integrate(before, &newest);
   newest.state = predicted_state(before, newest);
+  if (!input.has_attitude && newest.has_attitude) {
+    newest.measured_rate_b = repropagator_.body().measured_rate_b;
+    newest.acceleration_e = repropagator_.body().acceleration_e;
+  }
   return is_finite(newest.state);
 }
 
@@ -134,19 +150,19 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
 
 // Does one iteration: weights, one step, and the length of that step in sigmas.
 bool Smoother::iterate(int iteration, double* moved_sigmas) {
-  if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
+  if (robust_.enabled && config_.reweigh && sigma_m() < kVague_m)
     weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
   double moved_m = 0.0;
   if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_) || !apply_corrections(&moved_m))
     return false;
-  *moved_sigmas = moved_m / std::max(filter_sigma_m_, 1e-6);
+  *moved_sigmas = moved_m / std::max(sigma_m(), 1e-6);
   return true;
 }
 
 // Lets the minimizer take all steps at weights that are decided once. The chain then gives the
 // covariance and what is left to the minimum, and the step where the minimizer has found none.
 bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
-  if (robust_.enabled && config_.reweigh && filter_sigma_m_ < kVague_m)
+  if (robust_.enabled && config_.reweigh && sigma_m() < kVague_m)
     weights_.update_factors(true, lever_arm_b_, &window_);
   minimizer_->limit(budget);
   const bool minimized = minimizer_->solve(window_, lever_arm_b_, &corrections_);
@@ -159,7 +175,7 @@ bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
   if (!minimized) return apply_corrections(&moved_m);
   for (const EkfCorrection& left : corrections_)
     moved_m = std::max(moved_m, left.segment<3>(kPosition).norm());
-  result->converged = moved_m < config_.converged_sigmas * std::max(filter_sigma_m_, 1e-6);
+  result->converged = moved_m < config_.converged_sigmas * std::max(sigma_m(), 1e-6);
   return true;
 }
 
@@ -174,6 +190,26 @@ bool Smoother::apply_corrections(double* moved_m) {
     if (!is_finite(keyframe.state)) return false;
   }
   return true;
+}
+
+// How far window and filter are apart after a solve.
+WindowAgainstFilter Smoother::against_filter(const Keyframe& newest) const {
+  WindowAgainstFilter at;
+  const AntennaMotion antenna = antenna_of(newest, lever_arm_b_);
+  const Eigen::Vector3d position_e = filter_has_attitude_ ? newest.state.nav.p_e : antenna.p_e;
+  at.apart_m = (position_e - filter_position_e_).norm();
+  at.window_sigma_m = solved_sigma_m_;
+  at.filter_sigma_m = filter_sigma_m_;
+  at.filter_is_younger = filter_is_younger_;
+  int codes = 0, fitting = 0;
+  for (const KeyframeMeasurement& measurement : newest.measurements) {
+    if (measurement.measurement.observable != Observable::kCode) continue;
+    const double residual = linearize(measurement, newest, antenna).residual;
+    ++codes;
+    fitting += std::abs(residual) < robust_.k1 * std::sqrt(measurement.variance) ? 1 : 0;
+  }
+  at.codes_fit_window = 2 * fitting > codes;
+  return at;
 }
 
 void Smoother::finish(SmootherResult* result) {
@@ -195,10 +231,8 @@ void Smoother::finish(SmootherResult* result) {
     result->status = SmootherStatus::kFewSatellites;
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
-  const double apart_m = (result->state.p_e - filter_state_.p_e).norm();
-  const double sigma_m =
-      filter_sigma_m_ + std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
-  if (!result->covariance.allFinite() || !(apart_m < std::max(kSmallestDivergence_m, sigma_m))) {
+  solved_sigma_m_ = std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
+  if (!result->covariance.allFinite() || !believed_(against_filter(newest))) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }
@@ -226,6 +260,9 @@ void Smoother::commit_or_roll_back(bool taken) {
     return;
   }
   if (failed_) return;
+  window_sigma_m_ = solved_sigma_m_;
+  believed_.commit();
+  if (filter_sigma_m_ < kAsCertain * window_sigma_m_) filter_is_younger_ = false;
   for (int i = 1; i < window_.size(); ++i) repropagator_(window_.at(i - 1), &window_.at(i));
 }
 

@@ -5,11 +5,14 @@
 // 2017), with the oldest keyframe marginalized. Position and velocity in ECEF, SI units.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "core/filter/state/covariance_blocks.h"
+#include "core/smoother/internal/divergence_test.h"
 #include "core/smoother/internal/window_weights.h"
 #include "core/smoother/repropagation.h"
 #include "core/smoother/rts_solver.h"
@@ -76,6 +79,7 @@ class Smoother {
     boost::container::static_vector<double, kMaxMeasurements> factors;
     bool weights_decided = false;
   };
+  bool has_all_of_window(const KeyframeInput& input) const;
   bool append(const KeyframeInput& input);
   void save();
   void restore();
@@ -83,6 +87,8 @@ class Smoother {
   bool iterate(int iteration, double* moved_sigmas);
   bool minimize(SolveBudget* budget, SmootherResult* result);
   bool apply_corrections(double* moved_m);
+  double sigma_m() const { return std::min(filter_sigma_m_, window_sigma_m_); }
+  WindowAgainstFilter against_filter(const Keyframe& newest) const;
   void finish(SmootherResult* result);
   void add_lagged(SmootherResult* result) const;
 
@@ -94,11 +100,19 @@ class Smoother {
   RtsSolver rts_solver_;
   std::unique_ptr<WindowSolver> minimizer_;
   Repropagator repropagator_;
+  DivergenceTest believed_;
   WindowCorrections corrections_;
   std::unique_ptr<Saved[]> saved_;
   std::unique_ptr<WindowPrior> next_prior_;
-  NavState filter_state_;  // at the newest keyframe
+  // The filter at the newest keyframe. Without an attitude its position is compared at the antenna.
+  Eigen::Vector3d filter_position_e_ = Eigen::Vector3d::Zero();
+  bool filter_has_attitude_ = false;
+  bool filter_is_younger_ = false;  // it has started over within the window
   double filter_sigma_m_ = 0.0;
+  // 1 sigma of the window's position at its newest keyframe (3D): by the last solve that was taken,
+  // and by the last one. Infinite: the window has begun since.
+  double window_sigma_m_ = std::numeric_limits<double>::infinity();
+  double solved_sigma_m_ = std::numeric_limits<double>::infinity();
   bool solved_ = false;          // and neither committed nor rolled back
   bool failed_ = false;          // the window starts over with the next keyframe
   bool newest_follows_ = false;  // the newest keyframe follows the one before it

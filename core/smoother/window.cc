@@ -20,6 +20,27 @@ ActiveStates active_states(const KeyframeInput& input) {
   return active;
 }
 
+// The states of motion of the keyframe before, whose filter had an attitude; all others of the
+// filter.
+ActiveStates states_with_motion_of(const ActiveStates& before, const KeyframeInput& input) {
+  ActiveStates active = active_states(input);
+  active.core.clear();
+  auto moving = before.core.begin();
+  for (int i = 0; i < active.before_ambiguities; ++i) {
+    while (moving != before.core.end() && *moving < i) ++moving;
+    const bool estimated = is_of_motion(i) ? moving != before.core.end() && *moving == i
+                                           : input.covariance(i, i) > 0.0;
+    if (estimated) active.core.push_back(i);
+  }
+  return active;
+}
+
+void take_motion(const CoreState& of, CoreState* state) {
+  state->nav = of.nav;
+  state->vehicle = of.vehicle;
+  state->random_walk = of.random_walk;
+}
+
 Index whole_index(const ActiveStates& active, Index i) {
   if (i < active.core_size()) return active.core[static_cast<std::size_t>(i)];
   return active.before_ambiguities + i - active.core_size();
@@ -59,12 +80,45 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
   return process_factor.F.allFinite() && noise.allFinite();
 }
 
+// The filter's process of clocks, delays and ambiguities, and none of the motion. Returns false if
+// the filter's did not begin at the keyframe before.
+bool keep_without_motion(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
+  ProcessFactor& process_factor = keyframe->process_factor;
+  const ActiveStates& rows = keyframe->active;
+  const ActiveStates& columns = before.active;
+  const ProcessMatrix& transition = input.process.transition;
+  if (!input.follows_previous ||
+      transition.cols() != columns.before_ambiguities + columns.ambiguities + 1)
+    return false;
+  process_factor.from = input.from;
+  process_factor.to = input.prior;
+  take_motion(before.state, &process_factor.from);
+  take_motion(before.state, &process_factor.to);
+  process_factor.has_information = false;
+  process_factor.F.setZero(rows.size(), columns.size());
+  process_factor.noise.setZero(rows.size(), rows.size());
+  const auto moves = [](const ActiveStates& active, Index i) {
+    return i < active.core_size() && is_of_motion(active.core[static_cast<std::size_t>(i)]);
+  };
+  for (Index i = 0; i < rows.size(); ++i) {
+    if (moves(rows, i)) continue;
+    const Index row = whole_index(rows, i);
+    for (Index j = 0; j < columns.size(); ++j)
+      if (!moves(columns, j)) process_factor.F(i, j) = transition(row, whole_index(columns, j));
+    for (Index j = 0; j < rows.size(); ++j)
+      if (!moves(rows, j))
+        process_factor.noise(i, j) = input.process.noise(row, whole_index(rows, j));
+  }
+  return process_factor.F.allFinite() && process_factor.noise.allFinite();
+}
+
 // A process of which nothing is known but that the delays stay about the same.
 void part(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
   const ActiveStates& rows = keyframe->active;
   process_factor.from = before.state;
   process_factor.to = input.state;
+  if (!input.has_attitude) take_motion(before.state, &process_factor.to);
   process_factor.to.wet_delay_m = before.state.wet_delay_m;
   process_factor.to.carrier_clock_m = before.state.carrier_clock_m;
   process_factor.to.ionosphere_m = before.state.ionosphere_m;
@@ -155,7 +209,13 @@ void Window::append_apart(const KeyframeInput& input) {
   copy_common(input, &keyframe);
   copy_data(input, &keyframe);
   keyframe.state = input.state;
-  part(input, before, &keyframe);
+  if (!input.has_attitude) {
+    keyframe.has_attitude = true;
+    keyframe.active = states_with_motion_of(before.active, input);
+    keyframe.vertical_antenna_offset_e.setZero();
+    take_motion(before.state, &keyframe.state);
+  }
+  if (!keep_without_motion(input, before, &keyframe)) part(input, before, &keyframe);
   ++size_;
 }
 
@@ -166,11 +226,13 @@ void Window::drop_oldest(const WindowPrior& prior) {
 }
 
 bool can_bridge(const Window& window, const KeyframeInput& input) {
-  if (window.size() == 0 || !input.valid || !input.has_attitude || input.attitude_replaced ||
+  if (window.size() == 0 || !input.valid || input.attitude_replaced || input.ends_window ||
       !input.block_complete)
     return false;
   const Keyframe& newest = window.newest();
   const double apart_s = seconds_between(input.time, newest.time);
+  const ImuSample& sample_before = input.sample_before_block;
+  if (sample_before.interval_ns != 0 && sample_before.time > newest.time) return false;
   return newest.has_attitude && newest.active.before_ambiguities == input.state.first_ambiguity() &&
          apart_s > 0.0 && apart_s < kLongestBridge_s;
 }

@@ -44,9 +44,10 @@ class Window {
   // Appends a keyframe at the state that the newest one predicts. Returns false if its process does
   // not begin at the newest keyframe or is not finite. Precondition: not full().
   bool append(const KeyframeInput& input);
-  // Appends a keyframe whose filter has started over, at the filter's state: nothing leads from the
-  // newest one to it until Repropagator::integrate() has added the inertial part of the process;
-  // clocks, delays and ambiguities begin anew. Precondition: not full().
+  // Appends a keyframe whose filter has started over, or has no attitude where the window has one:
+  // nothing of the vehicle's motion leads from the newest one to it until Repropagator::integrate()
+  // has added the inertial part of the process. Clocks, delays and ambiguities go on as the
+  // filter's or, where it has started over, begin anew. Preconditions: not full(), can_bridge().
   void append_apart(const KeyframeInput& input);
   // Removes the oldest keyframe; `prior` is the information it leaves about the next.
   void drop_oldest(const WindowPrior& prior);
@@ -64,7 +65,8 @@ class Window {
 };
 
 // Returns whether the IMU's samples can connect the newest keyframe with one whose filter has
-// started over: both have an attitude, none came from outside, and the samples are at hand.
+// started over or has no attitude: the newest one has an attitude, none has come from outside
+// since, and the samples are at hand.
 bool can_bridge(const Window& window, const KeyframeInput& input);
 
 // Returns the state of `keyframe` that the process factor predicts from `before`.

@@ -281,6 +281,10 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.clears_motion_aiding) motion_aiding_.reset();
   if (plan.clears_outage_monitor) reporter_.reset_outage();
   if (plan.clears_installation_monitor) installation_monitor_.clear();
+  // What a user or an overflow ends was not wrong, and where the attitude was right, the window
+  // holds what the filter had wrong against new measurements.
+  if (!plan.keeps_attitude && cause != ResetCause::kCommand && cause != ResetCause::kNotFinite)
+    pending_keyframe_.end_window();
   filter_monitor_.filter_restarted(time, plan.clears_times);
   satellite_faults_.filter_restarted(plan.clears_times);
   fault_hypotheses_.clear();

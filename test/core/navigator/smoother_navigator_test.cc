@@ -126,6 +126,37 @@ TEST_CASE("a heading from outside replaces the window's as well") {
   CHECK(last.sigma_rpy.z() < 0.03);
 }
 
+TEST_CASE("a filter restarted in mid-drive leaves the smoother its attitude and its position") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(120.0));
+  RecordingSink sink;
+  Navigator navigator(smoother_config(drive.options), &sink);
+  int seen = 0;
+  GpsTime restart;
+  feed(drive, &navigator, [&](const RawEpoch& epoch, Sequencer* sequencer) {
+    if (++seen != 70) return;
+    restart = epoch.time;
+    sequencer->on_command({CommandKind::kRestart});
+  });
+  REQUIRE(sink.count(EventKind::kFilterReset) == 1);
+  double before_m = 0.0, after_m = 0.0;
+  int without_attitude = 0;
+  for (const Solution& solution : sink.solutions) {
+    const double since_s = seconds_between(solution.time, restart);
+    if (since_s < -30.0) continue;
+    double& most_m = since_s < 0.0 ? before_m : after_m;
+    if (since_s > 0.0 && solution.source != Source::kSmoother) {
+      ++without_attitude;
+      continue;
+    }
+    most_m = std::max(most_m, (solution.p_e - drive.truth_at(solution.time).p_e).norm());
+  }
+  INFO("largest error before " << before_m << " m, after " << after_m << " m; without the smoother "
+                               << without_attitude << " of " << sink.solutions.size());
+  CHECK(without_attitude < 600);  // three seconds: two epochs, and the deadline
+  CHECK(after_m < 2.0 * before_m);
+  CHECK(sink.count(EventKind::kSmootherFailed) == 0);
+}
+
 TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
   const NavigatorConfig config = smoother_config(drive.options);

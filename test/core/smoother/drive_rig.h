@@ -32,6 +32,9 @@ struct DriveOptions {
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, of the attitude that the filter is given
   int aligned_at = 0;                           // epoch at whose end it is given that; 0: the start
+  // Epoch at which the filter starts over from a point solution, and at whose end it has an
+  // attitude again; 0: never.
+  int restarted_at = 0, aligned_again_at = 0;
   Eigen::Vector3d lever_b{0.5, 0.3, -1.2};
   // Changes what the receiver measures at an epoch (1 is the first), its truth included.
   std::function<void(int, MeasurementEpoch*)> edit;
@@ -73,11 +76,13 @@ class Drive {
     measured_ = measure_epoch();
     if (options_.edit) options_.edit(epoch_, &measured_);
     predict();
+    if (epoch_ == options_.restarted_at) restart();
     result_ = filter_.update(measured_);
-    if (epoch_ == options_.aligned_at) align();
+    const bool aligns = epoch_ == options_.aligned_at || epoch_ == options_.aligned_again_at;
+    if (aligns) align();
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
-    input_->block_complete = input_->follows_previous || epoch_ == options_.aligned_at;
+    input_->block_complete = input_->follows_previous || aligns || epoch_ == options_.restarted_at;
     return *input_;
   }
 
@@ -113,6 +118,14 @@ class Drive {
                         {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.01},
                         {0.0, 0.0, 0.0, 2e-4, 2e-4, 2e-4, 2e-6}};
     return config;
+  }
+
+  void restart() {
+    PointSolution point = point_near(truth_, 3.0 * options_.noise, 0.2 * options_.noise, &noise_);
+    point.covariance_p_e = 9.0 * Eigen::Matrix3d::Identity();
+    point.covariance_v_e = 0.04 * Eigen::Matrix3d::Identity();
+    filter_.reset();
+    filter_.initialize(measured_.time, point);
   }
 
   // Gives the filter the true attitude with an error of its sigmas.

@@ -40,6 +40,12 @@ const Fault kFaults[] = {
      SmootherStatus::kDiverged},
     {"the filter has started over without an attitude",
      [](KeyframeInput* input) { input->follows_previous = input->has_attitude = false; },
+     SmootherStatus::kOk},
+    {"the filter has started over, because of what the window has wrong too",
+     [](KeyframeInput* input) {
+       input->follows_previous = false;
+       input->ends_window = true;
+     },
      SmootherStatus::kStarted},
     {"an attitude from outside has replaced the filter's",
      [](KeyframeInput* input) {
@@ -56,7 +62,7 @@ const Fault kFaults[] = {
 }  // namespace
 
 TEST_CASE("what cannot be solved is reported, and the smoother starts over") {
-  const Fault& fault = kFaults[GENERATE(range(0, 10))];
+  const Fault& fault = kFaults[GENERATE(range(0, 11))];
   CAPTURE(fault.name);
   const bool full = GENERATE(false, true);
   Drive drive{DriveOptions{}};

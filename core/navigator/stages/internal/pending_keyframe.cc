@@ -13,6 +13,7 @@ void PendingKeyframe::add(const ImuBlock& block) {
 }
 
 bool PendingKeyframe::is_due(const Ekf& ekf, GpsTime time) const {
+  if (!ekf.initialized()) return false;  // the samples are kept for the next keyframe
   return !last_time_.is_set() || !ekf.estimate().process().continuous ||
          seconds_between(time, last_time_) >= interval_s_;
 }
@@ -20,6 +21,8 @@ bool PendingKeyframe::is_due(const Ekf& ekf, GpsTime time) const {
 void PendingKeyframe::make(const EpochWork& work, const MeasurementEpoch* measurements,
                            MotionAiding* motion, Ekf* ekf, KeyframeInput* keyframe) {
   keyframe_from_filter(work.index, work.time, measurements, &last_state_, ekf, keyframe);
+  keyframe->ends_window = ends_window_;
+  ends_window_ = false;
   keyframe->block.clear();
   keyframe->sample_before_block = before_block_;
   keyframe->instants = motion->instants();

@@ -17,9 +17,11 @@ class PendingKeyframe {
 
   // Adds the IMU samples since the epoch before; call it at every epoch, keyframe or not.
   void add(const ImuBlock& block);
-  // Returns whether an epoch is to be a keyframe: it is not too soon after the last one, or the
-  // filter has started over since.
+  // Returns whether an epoch is to be a keyframe: the filter has a state, and it is not too soon
+  // after the last one, or the filter has started over since.
   bool is_due(const Ekf& ekf, GpsTime time) const;
+  // Marks the next keyframe as one that ends the smoother's window (KeyframeInput::ends_window).
+  void end_window() { ends_window_ = true; }
   // Fills `keyframe` and begins the filter's process to the next one. `measurements` is the epoch
   // as the filter's update used it; nullptr: there was no update. The constraint instants of
   // `motion` move into the keyframe.
@@ -34,6 +36,7 @@ class PendingKeyframe {
   std::unique_ptr<ImuBlock> block_ = std::make_unique<ImuBlock>();
   ImuSample before_block_, newest_;  // the last sample before the block, and of all
   bool block_complete_ = true;
+  bool ends_window_ = false;
 };
 
 }  // namespace leonav
