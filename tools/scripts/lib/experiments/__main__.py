@@ -84,7 +84,7 @@ def main():
     rows = chosen_rows(options)
     if options.list:
         for row in rows:
-            print(f"{row.name:40} {report.TITLES[row.group]}: {row.title}")
+            print(f"{row.name:40} {report.title_of(row)}: {row.title}")
         return 0
     seeds = list(range(options.first_seed, options.first_seed + options.seeds))
     four = [1, 2, 3, 4] if not options.quick else seeds

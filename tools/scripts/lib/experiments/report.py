@@ -36,6 +36,12 @@ TITLES = {
     "open-leo": "LEO as the papers simulate it: over the same drives without their houses, all masked at 5 degrees",
     **motion.TITLES,
 }
+
+
+def title_of(row):
+    return "The whole log: " + TITLES[row.group.removeprefix("whole-")] if row.is_whole_log() else TITLES[row.group]
+
+
 WIDTH = 110  # characters of a line of prose
 TARGET_S = {"gps": 240.0, "gps-gal-bds": 120.0}
 
