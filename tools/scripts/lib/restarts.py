@@ -22,6 +22,7 @@ DURATION_S = 600.0
 LEVER_ARM_B = np.array([0.0, 0.0, -1.2])  # m, of the scenarios and of preset urban
 RESTART, SET_HEADING = 0, 1  # kinds of command_t
 GOOD_SIGMA, HONEST_SIGMA = math.radians(2.0), math.radians(30.0)  # of wrong headings: the former claims to be good
+LEVELS = ("protection_horizontal_m", "protection_vertical_m")
 ESTIMATORS = ("filter", "smoother", "whole log")
 BEFORE, FIRST, SECOND = (-30.0, 0.0), (0.0, 30.0), (30.0, 120.0)
 SETTLED_S, JUDGED_S = 120.0, (0.0, 120.0)
@@ -127,10 +128,17 @@ class Track:
     sigma: np.ndarray
     heading: np.ndarray
     heading_sigma: np.ndarray
+    level: np.ndarray  # protection levels, horizontal and vertical, m; NaN: none is known
 
     def within(self, spans):
         inside = np.any([(self.t >= begin) & (self.t < end) for begin, end in spans], axis=0)
-        return Track(self.t[inside], self.error[:, inside], self.sigma[:, inside], self.heading[inside], self.heading_sigma[inside])
+        return Track(*(getattr(self, field.name)[..., inside] for field in dataclasses.fields(Track)))
+
+    def beyond_level(self):
+        """How many epochs have an error above its level, and the largest share of a level."""
+        north, east, down = self.error
+        share = np.array([np.hypot(north, east), np.abs(down)]) / self.level
+        return int(np.count_nonzero(np.any(share > 1.0, axis=0))), float(np.nanmax(share))
 
     def sizes(self):
         return np.linalg.norm(self.error, axis=0)
@@ -138,7 +146,7 @@ class Track:
 
 def track_of(solution, truth):
     """A position without an attitude is the antenna's, and is judged by the antenna's true one."""
-    table = measure.columns(solution, (*measure.POSITION, *measure.SIGMA, "yaw_deg", "std_yaw_deg"))
+    table = measure.columns(solution, (*measure.POSITION, *measure.SIGMA, "yaw_deg", "std_yaw_deg", *LEVELS))
     t = table[0] * measure.WEEK_S + table[1] - truth.origin
     _, own, true = np.intersect1d(np.round(t, 3), np.round(truth.t, 3), return_indices=True)
     table, yaw = table[:, own], np.radians(table[8, own])
@@ -146,7 +154,7 @@ def track_of(solution, truth):
     error = np.einsum("kij,kj->ki", truth.turn[true], place - truth.place[true])
     error[np.isnan(yaw)] -= truth.arm_n()[true][np.isnan(yaw)]
     heading = (yaw - truth.attitude[2][true] + math.pi) % math.tau - math.pi
-    return Track(truth.t[true], error.T, table[5:8], heading, np.radians(table[9]))
+    return Track(truth.t[true], error.T, table[5:8], heading, np.radians(table[9]), table[10:12])
 
 
 def joined(tracks):
@@ -335,16 +343,22 @@ def print_errors(results):
 
 
 def print_found(results):
+    """What the estimators noticed, and what they did not."""
     rows = []
     for name in CASES:
         for systems in SYSTEMS:
             runs = [one for family in FAMILIES for one in results[name, systems, family, "filter"]]
             times = [one.found[0] for one in runs if one.found]
+            beyond = []
+            for which in ESTIMATORS[:2]:
+                own = [one for family in FAMILIES for one in results[name, systems, family, which]]
+                counts, shares = zip(*(one.track.within([(one.begins[0], DURATION_S)]).beyond_level() for one in own))
+                beyond.append(f"{sum(counts)} in {sum(count > 0 for count in counts)} drives ({max(shares):.2f})")
             rows.append((name, systems, f"{len(times)} of {len(runs)}", f"{np.median(times):.0f}, {max(times):.0f}" if times else "-",
-                         f"{np.mean([one.failures for one in runs]):.1f}"))
-    print(f"Where the heading monitor restarted the filter (`filter_reset`, code 6), and windows that were given up (`smoother_failed`) in the "
-          f"{JUDGED_S[1]:g} s after:\n")
-    print_table(("event", "systems", "drives with a heading reset", "after s: median, last", "windows given up a drive"), rows)
+                         f"{np.mean([one.failures for one in runs]):.1f}", *beyond))
+    print("Where the heading monitor restarted the filter (`filter_reset`, code 6), windows that were given up (`smoother_failed`) in the "
+          f"{JUDGED_S[1]:g} s after, and epochs to the end with an error beyond its protection level, in brackets the largest share of a level:\n")
+    print_table(("event", "systems", "drives with a heading reset", "after s: median, last", "windows given up a drive", "beyond a level, filter", "smoother"), rows)
 
 
 def judge(results):
