@@ -15,12 +15,23 @@ using Eigen::Index;
 constexpr std::size_t kEnoughSatellites = 4;
 // A filter that has started over has caught up once its sigma is so many times the window's.
 constexpr double kAsCertain = 1.1;
+constexpr double kLongestYounger_s = 180.0;  // after that it counts as of the window's age anyway
+// An attitude that a filter finds anew ends a window that is farther from it than so many of its
+// sigmas (three axes together).
+constexpr double kAttitudeContradiction = 5.0;
 // Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
 // then, and a few satellites would outvote the others.
 constexpr double kVague_m = 5.0;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
+}
+
+// Returns whether the filter's new attitude contradicts the window's.
+bool contradicts_attitude(const Keyframe& keyframe, const KeyframeInput& input) {
+  const double variance = input.covariance.block<3, 3>(kAttitude, kAttitude).trace();
+  const double apart = keyframe.state.nav.q_eb.angularDistance(input.state.nav.q_eb);
+  return apart > kAttitudeContradiction * std::sqrt(std::max(0.0, variance));
 }
 
 // Returns whether the window has measurements of enough satellites to determine a position.
@@ -75,7 +86,7 @@ void Smoother::add(const KeyframeInput& input) {
   if (!newest_follows_) {
     window_sigma_m_ = std::numeric_limits<double>::infinity();
     believed_.reset();
-    filter_is_younger_ = false;
+    restarted_ = GpsTime();
     return (void)window_.start(input);
   }
   if (config_.window > 1) return;
@@ -94,13 +105,16 @@ bool Smoother::append(const KeyframeInput& input) {
   if (input.follows_previous && has_all_of_window(input)) {
     if (!window_.append(input)) return false;
   } else {
-    filter_is_younger_ = filter_is_younger_ || !input.follows_previous;
+    if (!input.follows_previous && !input.has_attitude) restarted_ = input.time;
     window_.append_apart(input);
   }
   const Keyframe& before = window_.at(window_.size() - 2);
   Keyframe& newest = window_.newest();
+  newest.process_factor.to.random_walk = before.state.random_walk;
   repropagator_.integrate(before, &newest);
   newest.state = predicted_state(before, newest);
+  const bool aligned_again = filter_is_younger() && input.has_attitude && !input.follows_previous;
+  if (aligned_again && contradicts_attitude(newest, input)) return false;
   if (!input.has_attitude && newest.has_attitude) {
     newest.measured_rate_b = repropagator_.body().measured_rate_b;
     newest.acceleration_e = repropagator_.body().acceleration_e;
@@ -200,7 +214,7 @@ WindowAgainstFilter Smoother::against_filter(const Keyframe& newest) const {
   at.apart_m = (position_e - filter_position_e_).norm();
   at.window_sigma_m = solved_sigma_m_;
   at.filter_sigma_m = filter_sigma_m_;
-  at.filter_is_younger = filter_is_younger_;
+  at.filter_is_younger = filter_is_younger();
   int codes = 0, fitting = 0;
   for (const KeyframeMeasurement& measurement : newest.measurements) {
     if (measurement.measurement.observable != Observable::kCode) continue;
@@ -208,7 +222,7 @@ WindowAgainstFilter Smoother::against_filter(const Keyframe& newest) const {
     ++codes;
     fitting += std::abs(residual) < robust_.k1 * std::sqrt(measurement.variance) ? 1 : 0;
   }
-  at.codes_fit_window = 2 * fitting > codes;
+  at.codes_fit_window = codes == 0 || 2 * fitting > codes;
   return at;
 }
 
@@ -217,6 +231,8 @@ void Smoother::finish(SmootherResult* result) {
   result->has_attitude = newest.has_attitude;
   result->state = newest.state.nav;
   result->time_offset_s = newest.has_attitude ? time_offset_of(newest.state.vehicle) : 0.0;
+  result->random_walk = newest.state.random_walk;
+  result->filter_is_younger = filter_is_younger();
   EkfCovariance covariance;
   rts_solver_.newest_covariance(&covariance);
   const ActiveStates& active = newest.active;
@@ -262,7 +278,10 @@ void Smoother::commit_or_roll_back(bool taken) {
   if (failed_) return;
   window_sigma_m_ = solved_sigma_m_;
   believed_.commit();
-  if (filter_sigma_m_ < kAsCertain * window_sigma_m_) filter_is_younger_ = false;
+  const bool caught_up = filter_sigma_m_ < kAsCertain * window_sigma_m_ ||
+                         (filter_is_younger() &&
+                          seconds_between(window_.newest().time, restarted_) > kLongestYounger_s);
+  if (caught_up) restarted_ = GpsTime();
   for (int i = 1; i < window_.size(); ++i) repropagator_(window_.at(i - 1), &window_.at(i));
 }
 

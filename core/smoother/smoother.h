@@ -40,8 +40,10 @@ struct SmootherResult {
   bool has_attitude = false;
   NavState state;  // at the newest keyframe
   InertialCovariance covariance = InertialCovariance::Zero();
-  int used = 0;                // measurements of the newest keyframe with a factor above zero
-  double time_offset_s = 0.0;  // estimated: the state is this much later than its stamp
+  int used = 0;                    // measurements of the newest keyframe with a factor above zero
+  double time_offset_s = 0.0;      // estimated: the state is this much later than its stamp
+  AttitudeRandomWalk random_walk;  // of the window's attitude, from here on
+  bool filter_is_younger = false;  // it has started over within the window, and knows less
   LaggedState lagged;
 };
 
@@ -81,6 +83,7 @@ class Smoother {
   };
   bool has_all_of_window(const KeyframeInput& input) const;
   bool append(const KeyframeInput& input);
+  bool filter_is_younger() const { return restarted_.is_set(); }
   void save();
   void restore();
   void marginalize_and_drop_oldest();
@@ -107,7 +110,7 @@ class Smoother {
   // The filter at the newest keyframe. Without an attitude its position is compared at the antenna.
   Eigen::Vector3d filter_position_e_ = Eigen::Vector3d::Zero();
   bool filter_has_attitude_ = false;
-  bool filter_is_younger_ = false;  // it has started over within the window
+  GpsTime restarted_;  // when the filter has started over, while it knows less; otherwise unset
   double filter_sigma_m_ = 0.0;
   // 1 sigma of the window's position at its newest keyframe (3D): by the last solve that was taken,
   // and by the last one. Infinite: the window has begun since.

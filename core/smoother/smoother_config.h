@@ -31,9 +31,9 @@ struct SmootherConfig {
   // no limit but the deadline. It acts in the service only: the journal records the number of
   // iterations that resulted.
   double time_limit_s = 0.25;
-  // A solve ends when the largest correction of a position, in sigmas of the filter's position, is
-  // below this. The states move on from solve to solve, so that a shorter step leaves next to
-  // nothing of what is not linear.
+  // A solve ends when the largest correction of a position is below this, in sigmas of the filter's
+  // position or, if it is smaller, the window's. The states move on from solve to solve, so that a
+  // shorter step leaves next to nothing of what is not linear.
   double converged_sigmas = 0.5;
 
   bool fixed_lag = true;  // give the oldest keyframe's state too, once the window is full

@@ -16,8 +16,8 @@ struct SolveTime {
 // Measures, in the caller's thread, solves of a full window: a vehicle that stands at zero latitude
 // under as many satellites as the configured systems have in view under an open sky, at most as
 // many as the configuration uses; codes and Dopplers on two frequencies, one carrier, 200 IMU
-// samples a second. Allocates. Precondition: the configuration's estimator is the smoother, with an
-// IMU.
+// samples a second. Slips, vehicle constants and a second iteration come on top. Allocates.
+// Precondition: the configuration's estimator is the smoother, with an IMU.
 SolveTime measure_solve_time(const NavigatorConfig& config);
 
 // Throws ConfigError where a solve takes more than half of the time until its deadline: the filter

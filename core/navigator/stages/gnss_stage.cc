@@ -241,7 +241,8 @@ void GnssStage::process_work(const Command& command) {
 // Replaces only the attitude; position, velocity, clocks and IMU errors do not change.
 void GnssStage::set_heading(double heading, double sigma) {
   const auto turned = attitude_.set_heading(heading, sigma, ekf_);
-  if (!turned) return;
+  // The window may have an attitude where the filter has none.
+  if (!turned) return pending_keyframe_.end_window();
   ekf_.replace_attitude(turned->q_eb, turned->sigma_rpy);
   attitude_.start_heading_monitor(ekf_);
   reporter_.emit(EventKind::kAligned, 1, sigma, ekf_.state().time);
@@ -272,6 +273,7 @@ void GnssStage::apply(const FilterVerdict& verdict, GpsTime time) {
 
 void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, double value,
                       const PointSolution& start) {
+  const bool attitude_lost = ekf_.has_attitude() && !plan.keeps_attitude;
   if (plan.clears_external_heading) attitude_.forget_heading();
   if (plan.filter == FilterReset::kReset) ekf_.reset();
   if (plan.filter == FilterReset::kRestart) restart_filter(plan, time, start);
@@ -281,10 +283,11 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.clears_motion_aiding) motion_aiding_.reset();
   if (plan.clears_outage_monitor) reporter_.reset_outage();
   if (plan.clears_installation_monitor) installation_monitor_.clear();
-  // What a user or an overflow ends was not wrong, and where the attitude was right, the window
-  // holds what the filter had wrong against new measurements.
-  if (!plan.keeps_attitude && cause != ResetCause::kCommand && cause != ResetCause::kNotFinite)
-    pending_keyframe_.end_window();
+  // An attitude that a user or an overflow ends was not found wrong. Where the filter had none, the
+  // window's is its own.
+  const bool found_wrong =
+      attitude_lost && cause != ResetCause::kCommand && cause != ResetCause::kNotFinite;
+  if (found_wrong || cause == ResetCause::kTimeBase) pending_keyframe_.end_window();
   filter_monitor_.filter_restarted(time, plan.clears_times);
   satellite_faults_.filter_restarted(plan.clears_times);
   fault_hypotheses_.clear();

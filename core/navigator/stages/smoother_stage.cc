@@ -64,10 +64,18 @@ void SmootherStage::process(const KeyframeInput& input, SolveBudget* budget) {
   if (delivered) report(input, result, update);
 }
 
-// Adds the protection levels for the fault hypotheses of the keyframe.
-void SmootherStage::add_levels(const KeyframeInput& input, Anchor* anchor) const {
+// Adds the protection levels for the fault hypotheses of the keyframe. These are the filter's,
+// which leave out what is small beside its own sigma: where it has started over and the window has
+// not, that sigma is added.
+void SmootherStage::add_levels(const KeyframeInput& input, bool filter_is_younger,
+                               Anchor* anchor) const {
   const Solution solution = solution_of(*anchor, Source::kSmoother);
-  const NominalError error = nominal_error(anchor->covariance.topLeftCorner<9, 9>(), solution);
+  NominalError error = nominal_error(anchor->covariance.topLeftCorner<9, 9>(), solution);
+  if (filter_is_younger) {
+    const InertialCovariance of_filter = inertial_covariance(input.covariance);
+    error.position_covariance_n +=
+        nominal_error(of_filter.topLeftCorner<9, 9>(), solution).position_covariance_n;
+  }
   const FaultHypotheses& faults = input.fault_hypotheses;
   anchor->levels = LevelGrowth(error, {faults.data(), faults.size()}, integrity_);
 }
@@ -85,10 +93,10 @@ SmootherAnchor SmootherStage::anchor_of(const KeyframeInput& input,
   update.anchor.state = result.state;
   update.anchor.covariance = result.covariance;
   update.anchor.time_offset_s = result.time_offset_s;
-  update.anchor.random_walk = input.state.random_walk;
+  update.anchor.random_walk = result.random_walk;
   update.anchor.gnss_used = result.used > 0;
   update.anchor.valid = is_finite(solution_of(update.anchor, Source::kSmoother));
-  if (update.anchor.valid) add_levels(input, &update.anchor);
+  if (update.anchor.valid) add_levels(input, result.filter_is_younger, &update.anchor);
   return update;
 }
 
@@ -117,7 +125,7 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
     filter.index = input.index;
     filter.state = input.state.nav;
     filter.covariance = inertial_covariance(input.covariance);
-    add_levels(input, &filter);
+    add_levels(input, false, &filter);
     solution = solution_of(filter, Source::kEkf);
   }
   if (!input.has_gnss) solution.source = Source::kInsOnly;

@@ -33,7 +33,7 @@ class SmootherStage {
   Source source() const { return source_; }
 
  private:
-  void add_levels(const KeyframeInput& input, Anchor* anchor) const;
+  void add_levels(const KeyframeInput& input, bool filter_is_younger, Anchor* anchor) const;
   SmootherAnchor anchor_of(const KeyframeInput& input, const SmootherResult& result) const;
   void publish(Solution solution);
   void report(const KeyframeInput& input, const SmootherResult& result,

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kAlwaysAllowed_m = 0.3;
 constexpr double kDifference = 3.0;  // sigmas
-constexpr double kKnowsLess = 2.0;   // window's sigmas from which on the codes decide
 constexpr int kContradictions = 10;
 
 }  // namespace
@@ -21,7 +20,6 @@ bool DivergenceTest::operator()(const WindowAgainstFilter& at) {
   if (!at.filter_is_younger) return false;
   const double variance = square(at.filter_sigma_m) - square(at.window_sigma_m);
   if (at.apart_m < kDifference * std::sqrt(std::max(0.0, variance))) return true;
-  if (!(at.filter_sigma_m > kKnowsLess * at.window_sigma_m)) return false;
   if (at.codes_fit_window) return true;
   with_last_solve_ = contradictions_ + 1;
   return with_last_solve_ < kContradictions;

@@ -15,10 +15,9 @@ struct WindowAgainstFilter {
 // Two estimates from the same measurements differ by less than the less accurate one is wrong: the
 // variance of their difference is P_filter - P_window where the window is efficient (Hausman,
 // Econometrica 46(6), 1978). So the window is given up where they are farther apart than the sigmas
-// of both together. A filter that has started over lacks measurements that the window has, until it
-// is as certain: their difference may then be three times the root of that variance. Beyond it, as
-// long as its sigma is much larger than the window's, the codes decide: the window is given up once
-// they have contradicted it in ten solves in a row.
+// of both together. A filter that has started over lacks measurements that the window has: their
+// difference may then be three times the root of that variance. Beyond it the codes decide: the
+// window is given up once they have contradicted it in ten solves in a row.
 class DivergenceTest {
  public:
   // Returns whether the window is believed after a solve.

@@ -157,6 +157,24 @@ TEST_CASE("a filter restarted in mid-drive leaves the smoother its attitude and 
   CHECK(sink.count(EventKind::kSmootherFailed) == 0);
 }
 
+TEST_CASE("a heading given between a restart and the alignment ends the window") {
+  SyntheticDriveOptions options = noisy_drive(80.0);
+  options.standstill_s = 1000.0;
+  const SyntheticDrive drive = synthetic_drive(options);
+  RecordingSink sink;
+  Navigator navigator(smoother_config(options), &sink);
+  const double truth_yaw = std::atan2(100.0, 100.0);
+  int seen = 0;
+  feed(drive, &navigator, [&](const RawEpoch&, Sequencer* sequencer) {
+    ++seen;
+    if (seen == 10) sequencer->on_command({CommandKind::kSetHeading, truth_yaw + 0.5, 0.05});
+    if (seen == 40) sequencer->on_command({CommandKind::kRestart});
+    if (seen == 42) sequencer->on_command({CommandKind::kSetHeading, truth_yaw, 0.3});
+  });
+  const Solution& last = sink.solutions.back();
+  CHECK(last.yaw == Approx(truth_yaw).margin(0.2));
+}
+
 TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
   const NavigatorConfig config = smoother_config(drive.options);
