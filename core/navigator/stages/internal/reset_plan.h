@@ -30,7 +30,8 @@ enum class CarrierReset : unsigned char {
 //
 // Other parts end by themselves. The heading monitor stops at the next epoch whose filter has no
 // attitude. CarrierSpeed starts anew, because the carriers give no displacement over a reset. The
-// next epoch whose filter has a state is a keyframe, because the filter's process does not continue.
+// next epoch whose filter has a state is a keyframe, because the filter's process does not
+// continue.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
   // For kRestart only.
