@@ -5,7 +5,7 @@
 
 #include "core/base/square.h"
 #include "core/filter/carrier_ambiguities.h"
-#include "core/filter/error_model/reflection_time.h"
+#include "core/filter/error_model/reflection.h"
 #include "core/filter/update/measurement_model.h"
 #include "core/gnss/measurement/range_model.h"
 
@@ -70,7 +70,9 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
         continue;
       }
       // The random walk comes from the orbit, which may be another by now.
-      estimate->set_ambiguity_random_walk(entry.ambiguity, measurement.random_walk);
+      estimate->set_ambiguity_random_walk(
+          entry.ambiguity,
+          random_walk(epoch, measurement, line_of_sight_rate(satellite, antenna.p_e)));
       entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
     }
     measurements_.push_back(entry);
@@ -100,6 +102,25 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   if (measurement.observable == Observable::kCode)
     code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate),
                       entry);
+}
+
+// A signal that has lost strength may be a reflection, with a way that is as much longer as codes
+// of its class are learned to be off; its carrier then drifts.
+double MeasurementAssembler::random_walk(const MeasurementEpoch& epoch, const Measurement& carrier,
+                                         double line_of_sight_rate) const {
+  for (const Measurement& code : epoch.measurements) {
+    if (code.observable != Observable::kCode || code.satellite_index != carrier.satellite_index)
+      continue;
+    const ErrorClass of =
+        errors_.class_of(code, epoch.satellites[code.satellite_index], standing());
+    if (of.loss == 0) break;
+    const double scale = errors_.sigma_scale(of);
+    const double noise = std::max(code.own_variance() - code.own_correlated_variance(), 0.0);
+    const double detour_m = std::sqrt((square(scale) - 1.0) * noise);
+    return std::hypot(carrier.random_walk, reflected_random_walk(detour_m, line_of_sight_rate,
+                                                                 errors_.correlation(of).time_s));
+  }
+  return carrier.random_walk;
 }
 
 template <typename Predicate>

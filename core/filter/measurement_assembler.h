@@ -76,6 +76,10 @@ class MeasurementAssembler {
 
  private:
   static constexpr double kStandingSpeed_m_s = 0.3;
+  // Returns the random walk of a carrier's ambiguity, m/sqrt(s): Measurement::random_walk, and what
+  // a reflection adds.
+  double random_walk(const MeasurementEpoch& epoch, const Measurement& carrier,
+                     double line_of_sight_rate) const;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
              double line_of_sight_rate, double dt, FilterMeasurement* entry);

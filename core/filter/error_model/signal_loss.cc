@@ -1,6 +1,7 @@
 #include "core/filter/error_model/signal_loss.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace leonav {
 namespace {
@@ -11,12 +12,22 @@ constexpr double kDecay_db_per_s = 0.3 / 60.0;
 
 void SignalLoss::reset() { references_.fill({}); }
 
+std::optional<std::size_t> SignalLoss::place_of(const SatelliteInView& satellite) {
+  if (!is_valid(satellite.satellite) || !(satellite.cn0_dbhz > 0.0)) return std::nullopt;
+  if (satellite.satellite.system == System::kLeo) {
+    const double step = satellite.elevation / (0.5 * std::numbers::pi) * kElevations;
+    return kMaxEphemerisSatellites +
+           static_cast<std::size_t>(std::clamp(step, 0.0, kElevations - 1.0));
+  }
+  const std::size_t index = table_index_of(satellite.satellite);
+  return index < kMaxEphemerisSatellites ? std::optional(index) : std::nullopt;
+}
+
 void SignalLoss::add(const MeasurementEpoch& epoch) {
   for (const SatelliteInView& satellite : epoch.satellites) {
-    if (!is_valid(satellite.satellite) || !(satellite.cn0_dbhz > 0.0)) continue;
-    const std::size_t index = table_index_of(satellite.satellite);
-    if (index >= references_.size()) continue;
-    Reference& reference = references_[index];
+    const auto place = place_of(satellite);
+    if (!place) continue;
+    Reference& reference = references_[*place];
     const double passed_s =
         reference.time.is_set() ? std::max(seconds_between(epoch.time, reference.time), 0.0) : 0.0;
     reference.cn0_dbhz =
@@ -26,12 +37,8 @@ void SignalLoss::add(const MeasurementEpoch& epoch) {
 }
 
 double SignalLoss::loss_db(const SatelliteInView& satellite) const {
-  if (satellite.satellite.system == System::kLeo || !is_valid(satellite.satellite) ||
-      !(satellite.cn0_dbhz > 0.0))
-    return 0.0;
-  const std::size_t index = table_index_of(satellite.satellite);
-  if (index >= references_.size()) return 0.0;
-  return std::max(references_[index].cn0_dbhz - satellite.cn0_dbhz, 0.0);
+  const auto place = place_of(satellite);
+  return place ? std::max(references_[*place].cn0_dbhz - satellite.cn0_dbhz, 0.0) : 0.0;
 }
 
 }  // namespace leonav

@@ -5,6 +5,7 @@
 
 #include "carrier_receiver.h"
 #include "core/filter/ekf.h"
+#include "core/filter/error_model/reflection.h"
 #include "core/filter/state/ambiguities.h"
 #include "support/catch.h"
 
@@ -276,6 +277,38 @@ TEST_CASE("a prediction kilometres off is linearized where the codes say") {
       CHECK(after > before + 0.3);
     }
   }
+}
+
+TEST_CASE("a carrier that has lost strength may drift as a reflection does, others may not") {
+  Receiver receiver(3);
+  EkfConfig config = static_config();
+  config.learn_errors = true;
+  Ekf filter(config, ImuErrorModel(), Vector3d::Zero());
+  filter.start_errors(5.0, 1.0);
+  filter.initialize(synthetic::kStart, receiver.point());
+  const auto measured = [&](double t, double first_cn0_dbhz) {
+    MeasurementEpoch epoch = receiver.measure(t);
+    for (SatelliteInView& view : epoch.satellites) view.cn0_dbhz = 45.0;
+    epoch.satellites[0].cn0_dbhz = first_cn0_dbhz;
+    return epoch;
+  };
+  step(&filter, measured(kStep_s, 45.0));
+  for (const Ambiguity& ambiguity : filter.filter_state().ambiguities)
+    CHECK(ambiguity.random_walk == 0.0);
+  const MeasurementEpoch weak = measured(2.0 * kStep_s, 37.0);
+  step(&filter, weak);
+  const SatelliteInView& view = weak.satellites[0];
+  const double rate = line_of_sight_rate(view, filter.state().p_e);
+  ErrorClass of = error_class(weak.measurements[0], view, 8.0, true);
+  const double scale = filter.learned_errors().sigma_scale(of);
+  const auto& ambiguities = filter.filter_state().ambiguities;
+  REQUIRE(ambiguities.size() == 8);
+  CHECK(scale > 2.0);
+  CHECK(ambiguities[0].random_walk ==
+        Approx(reflected_random_walk(std::sqrt(scale * scale - 1.0) * kCode, rate,
+                                     filter.learned_errors().correlation(of).time_s))
+            .epsilon(0.3));  // what is learned has gone on since
+  for (std::size_t i = 1; i < 8; ++i) CHECK(ambiguities[i].random_walk == 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-#include "core/filter/error_model/reflection_time.h"
+#include "core/filter/error_model/reflection.h"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -14,6 +15,10 @@ constexpr double kReflectionAngle = 2.0 * std::numbers::pi / 180.0;
 double longest_reflection_s(double line_of_sight_rate) {
   return line_of_sight_rate > 0.0 ? kReflectionAngle / line_of_sight_rate
                                   : std::numeric_limits<double>::infinity();
+}
+
+double reflected_random_walk(double detour_m, double line_of_sight_rate, double duration_s) {
+  return detour_m * line_of_sight_rate * std::sqrt(duration_s);
 }
 
 }  // namespace leonav
