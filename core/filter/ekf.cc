@@ -136,6 +136,13 @@ void Ekf::replace_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma
   prediction_test_.forget_consistency();
 }
 
+void Ekf::replace_motion(const NavState& nav, const InertialCovariance& covariance,
+                         const AttitudeRandomWalk& random_walk) {
+  estimate_.replace_motion(nav, covariance, random_walk);
+  restart_clock_offsets();
+  prediction_test_.forget_consistency();
+}
+
 void Ekf::raise_attitude_noise(double noise, double seconds) {
   estimate_.raise_attitude_noise(noise, seconds);
 }

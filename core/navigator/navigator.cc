@@ -48,6 +48,10 @@ void Navigator::no_keyframe(const Solution& filter, bool due) {
   smoother_->process_non_keyframe(filter, due);
 }
 
+bool Navigator::result_of(std::uint64_t epoch, SmootherAnchor* result) {
+  return smoother_mailbox_.read(epoch, result);
+}
+
 bool Navigator::may_iterate(int iterations_done) {
   return iterations_allowed_ < 0 || iterations_done < iterations_allowed_;
 }

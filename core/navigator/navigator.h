@@ -66,6 +66,7 @@ class Navigator final : private StageInputs, private KeyframeSink, private Solve
   KeyframeInput* next_keyframe(std::uint64_t epoch) override;
   void push_keyframe() override;
   void no_keyframe(const Solution& filter, bool due) override;
+  bool result_of(std::uint64_t epoch, SmootherAnchor* result) override;
   bool may_iterate(int iterations_done) override;
 
   // The recorded decisions about the results of one epoch.

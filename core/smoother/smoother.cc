@@ -16,6 +16,8 @@ constexpr std::size_t kEnoughSatellites = 4;
 // A filter that has started over has caught up once its sigma is so many times the window's.
 constexpr double kAsCertain = 1.1;
 constexpr double kLongestYounger_s = 180.0;  // after that it counts as of the window's age anyway
+// A filter that has started over stays on its own so long, to see whether the window is wrong.
+constexpr double kOnItsOwn_s = 10.0;
 // An attitude that a filter finds anew ends a window that is farther from it than so many of its
 // sigmas (three axes together).
 constexpr double kAttitudeContradiction = 5.0;
@@ -248,10 +250,15 @@ void Smoother::finish(SmootherResult* result) {
   for (const KeyframeMeasurement& measurement : newest.measurements)
     result->used += measurement.factor > 0.0 ? 1 : 0;
   solved_sigma_m_ = std::sqrt(std::max(0.0, result->covariance.topLeftCorner<3, 3>().trace()));
-  if (!result->covariance.allFinite() || !believed_(against_filter(newest))) {
+  const WindowAgainstFilter at = against_filter(newest);
+  if (!result->covariance.allFinite() || !believed_(at)) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }
+  result->filter_may_follow = filter_is_younger() && at.codes_fit_window &&
+                              result->status == SmootherStatus::kOk &&
+                              seconds_between(newest.time, restarted_) >= kOnItsOwn_s &&
+                              filter_sigma_m_ > kAsCertain * solved_sigma_m_;
   if (config_.fixed_lag && result->status == SmootherStatus::kOk && window_.full())
     add_lagged(result);
 }

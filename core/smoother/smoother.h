@@ -44,6 +44,9 @@ struct SmootherResult {
   double time_offset_s = 0.0;      // estimated: the state is this much later than its stamp
   AttitudeRandomWalk random_walk;  // of the window's attitude, from here on
   bool filter_is_younger = false;  // it has started over within the window, and knows less
+  // It has been so for a while in which codes did not contradict the window: the filter may take
+  // the window's state.
+  bool filter_may_follow = false;
   LaggedState lagged;
 };
 

@@ -105,6 +105,9 @@ class TimedStages final : private StageInputs, private KeyframeSink, private Sol
   void no_keyframe(const Solution& filter, bool due) override {
     smoother_->process_non_keyframe(filter, due);
   }
+  bool result_of(std::uint64_t epoch, SmootherAnchor* result) override {
+    return smoother_mailbox_.read(epoch, result);
+  }
   bool may_iterate(int) override { return true; }
   void event(const Event&) override {}
 

@@ -38,6 +38,7 @@ class KeyframeCollector final : private StageInputs, private KeyframeSink, priva
   KeyframeInput* next_keyframe(std::uint64_t) override { return keyframe_.get(); }
   void push_keyframe() override { graph_->add(*keyframe_); }
   void no_keyframe(const Solution&, bool) override {}
+  bool result_of(std::uint64_t, SmootherAnchor*) override { return false; }
   void on_solution(const Solution&) override {}
   void on_epoch(const EpochReport&) override { ++counts_.epochs; }
   void on_event(const Event& event) override {

@@ -156,6 +156,19 @@ void StateEstimate::replace_attitude(const Eigen::Quaterniond& q_eb, const Vecto
   process_.replaced = true;
 }
 
+void StateEstimate::replace_motion(const NavState& nav, const InertialCovariance& covariance,
+                                   const AttitudeRandomWalk& random_walk) {
+  while (!state_.ambiguities.empty())
+    remove_ambiguity(static_cast<int>(state_.ambiguities.size()) - 1);
+  state_.nav = nav;
+  state_.random_walk = random_walk;
+  covariance_.topRows<kInsSize>().setZero();
+  covariance_.leftCols<kInsSize>().setZero();
+  covariance_.topLeftCorner<kInsSize, kInsSize>() = covariance;
+  has_attitude_ = true;
+  process_.continuous = false;
+}
+
 // `of_antenna` is the covariance with position and velocity of the antenna, its attitude empty.
 void StateEstimate::apply_attitude(const AntennaMotion& before, const Eigen::Quaterniond& q_eb,
                                    const Vector3d& sigma_rpy, const EkfCovariance& of_antenna,

@@ -7,6 +7,7 @@
 
 #include "core/filter/estimate/antenna_model.h"
 #include "core/filter/process/ins_transition.h"
+#include "core/filter/state/covariance_blocks.h"
 #include "core/filter/state/ekf_config.h"
 #include "core/filter/state/ekf_state.h"
 #include "core/filter/state/filter_process.h"
@@ -63,6 +64,11 @@ class StateEstimate {
   // Replaces the attitude alone; IMU errors keep their values and correlations.
   void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
                         const AntennaModel& model, const BodyMotion& body);
+  // Replaces position, velocity, attitude and IMU errors, with their covariance, by another
+  // estimate's of the same time. All other states keep their values and variances and lose their
+  // correlations with these; ambiguities end.
+  void replace_motion(const NavState& nav, const InertialCovariance& covariance,
+                      const AttitudeRandomWalk& random_walk);
   // Until `seconds` from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside
   // that of the gyros.
   void raise_attitude_noise(double noise, double seconds);

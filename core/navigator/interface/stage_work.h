@@ -48,6 +48,8 @@ struct EpochWork {
   RawEpoch raw;
   ImuBlock block;
   OdometerBlock odometer;  // increments received since the epoch before that end by this one
+  // The smoother's deadline of the epoch before has passed: its result is decided.
+  bool smoother_decided = false;
 };
 
 // On the wire: append only.
@@ -90,6 +92,7 @@ struct SmootherAnchor {
   bool due = false;  // false: the epoch follows the last keyframe too soon to be one itself
   SmootherStatus status = SmootherStatus::kNoFilter;
   std::int32_t iterations = 0;
+  bool filter_may_follow = false;  // SmootherResult::filter_may_follow
 };
 
 // KeyframeSink takes keyframes from the GnssStage to the SmootherStage.
@@ -103,6 +106,9 @@ class KeyframeSink {
   // Reports that the epoch is no keyframe, because none is due or there is no room. `filter` is the
   // filter's solution at the epoch.
   virtual void no_keyframe(const Solution& filter, bool due) = 0;
+  // Returns the smoother's result of an epoch whose deadline has passed in data time; false: it was
+  // a miss, and remains one.
+  virtual bool result_of(std::uint64_t epoch, SmootherAnchor* result) = 0;
 };
 
 }  // namespace leonav

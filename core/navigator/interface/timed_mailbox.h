@@ -35,6 +35,11 @@ class TimedMailbox {
   // False: the epoch is cancelled, a miss.
   bool take(std::uint64_t epoch, T* result);
 
+  // Returns what take() returns, or has returned, to the stage that feeds the worker, and frees
+  // nothing. Call it after the deadline in data time, and before the worker gets epoch
+  // `epoch` + kMaxMailboxEpochs.
+  bool read(std::uint64_t epoch, T* result);
+
   // Makes deliver() fail and take() return a miss, to replay a recorded miss.
   void cancel(std::uint64_t epoch);
 
@@ -80,6 +85,18 @@ bool TimedMailbox<T>::take(std::uint64_t epoch, T* result) {
   if (expected != tag(epoch, kReady)) return false;
   *result = s.value;
   s.tag.store(tag(epoch, kFree), std::memory_order_release);
+  return true;
+}
+
+template <typename T>
+bool TimedMailbox<T>::read(std::uint64_t epoch, T* result) {
+  Slot& s = slot(epoch);
+  std::uint64_t expected = tag(epoch, kOpen);
+  if (s.tag.compare_exchange_strong(expected, tag(epoch, kCancelled), std::memory_order_acq_rel)) {
+    return false;
+  }
+  if (expected != tag(epoch, kReady) && expected != tag(epoch, kFree)) return false;
+  *result = s.value;
   return true;
 }
 

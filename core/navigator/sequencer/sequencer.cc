@@ -80,6 +80,7 @@ void Sequencer::start_new_time(double jump_s) {
   epochs_.clear();
   imu_since_epoch_.clear();
   odometer_.clear();
+  last_deadline_smoother_ = GpsTime();
   push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
 }
 
@@ -179,6 +180,8 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
   work.index = next_index_++;
   work.time = time;
   work.empty = raw == nullptr;
+  work.smoother_decided =
+      last_deadline_smoother_.is_set() && last_deadline_smoother_ <= imu_.time();
   work.raw.time = time;
   if (raw != nullptr) work.raw = *raw;
   imu_since_epoch_.move_to_block(time, &work.block);
@@ -198,6 +201,7 @@ void Sequencer::open_at_inertial_stage(const EpochWork& work) {
   if (config_.estimator == Estimator::kSmoother)
     issued.deadline_smoother =
         imu_.time().plus_seconds(std::max(realtime.deadline_ekf_s, realtime.deadline_smoother_s));
+  last_deadline_smoother_ = issued.deadline_smoother;
   stages_->push_inertial(issued);
 }
 

@@ -138,6 +138,7 @@ class Sequencer {
   RefusedImuMonitor refused_imu_;
   StampOffsetMonitor stamp_offset_;
   std::uint64_t next_index_ = 1;
+  GpsTime last_deadline_smoother_;  // of the epoch issued last
   std::unique_ptr<GnssWork> work_;  // too large for a thread's stack
 };
 

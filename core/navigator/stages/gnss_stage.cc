@@ -53,6 +53,7 @@ void GnssStage::process(const GnssWork& work) {
 void GnssStage::process_work(const EpochWork& work) {
   reporter_.start(work);
   epoch_ = EpochState();
+  follow_window(work);
   predict(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);
   if (!work.empty) use_measurements(work);
@@ -70,6 +71,26 @@ void GnssStage::process_work(const EpochWork& work) {
   reporter_.report_orbit_changes();
   publish(work);
   push_keyframe(work);
+}
+
+// A filter that has started over takes the state of the smoother's window, once it is decided that
+// this is in time, for it knows more. What the filter does thereby depends on data time alone.
+void GnssStage::follow_window(const EpochWork& work) {
+  if (keyframes_ == nullptr || !inertial_ || !work.smoother_decided || !ekf_.initialized()) return;
+  SmootherAnchor result;
+  if (!keyframes_->result_of(work.index - 1, &result) || !result.filter_may_follow) return;
+  const Anchor& window = result.anchor;
+  if (!window.valid || window.state.time != ekf_.state().time) return;
+  const double moved_m = (window.state.p_e - ekf_.state().p_e).norm();
+  ekf_.replace_motion(window.state, window.covariance, window.random_walk);
+  attitude_.reset_alignment();
+  attitude_.start_heading_monitor(ekf_);
+  reporter_.report_checkpoint(attitude_.discard_checkpoint(), work.time);
+  filter_monitor_.filter_restarted(work.time, false);
+  satellite_faults_.filter_restarted(false);
+  fault_hypotheses_.clear();
+  reporter_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kWindow), moved_m,
+                 last_epoch_time_);
 }
 
 void GnssStage::predict(const EpochWork& work) {

@@ -58,6 +58,7 @@ class GnssStage {
   void process_work(const SatelliteData& data) {
     front_end_.add(data);
   }
+  void follow_window(const EpochWork& work);
   void predict(const EpochWork& work);
   void use_measurements(const EpochWork& work);
   void start_filter(const EpochWork& work);

@@ -86,6 +86,7 @@ SmootherAnchor SmootherStage::anchor_of(const KeyframeInput& input,
   update.due = true;
   update.status = result.status;
   update.iterations = result.iterations;
+  update.filter_may_follow = result.filter_may_follow && result.has_attitude;
   update.anchor.index = input.index;
   if (result.status != SmootherStatus::kOk) return update;
   update.anchor.valid = true;

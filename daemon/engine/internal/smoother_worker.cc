@@ -44,6 +44,10 @@ void SmootherWorker::no_keyframe(const Solution& filter, bool due) {
   stage_.process_non_keyframe(filter, due);
 }
 
+bool SmootherWorker::result_of(std::uint64_t epoch, SmootherAnchor* result) {
+  return mailbox_.read(epoch, result);
+}
+
 void SmootherWorker::run() {
   for (;;) {
     const std::uint32_t ticket = wakeup_.ticket();

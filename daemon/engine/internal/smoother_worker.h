@@ -28,6 +28,7 @@ class SmootherWorker final : public KeyframeSink, private SolveBudget {
   KeyframeInput* next_keyframe(std::uint64_t epoch) override;
   void push_keyframe() override;
   void no_keyframe(const Solution& filter, bool due) override;
+  bool result_of(std::uint64_t epoch, SmootherAnchor* result) override;
 
   // Source of the last answer; without an IMU, in the GNSS thread.
   Source source() const { return stage_.source(); }

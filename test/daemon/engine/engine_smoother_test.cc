@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <leonav/event_t.hpp>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ using test::check_same;
 using test::Collector;
 using test::Input;
 
-constexpr std::size_t kDecisions = 1, kSmoother = 7, kKeyframes = 8;
+constexpr std::size_t kDecisions = 1, kGnssEvents = 5, kSmoother = 7, kKeyframes = 8;
 
 const std::vector<Input>& inputs() {
   static const std::vector<Input> list = test::drive_messages([](Channel) { return true; });
@@ -59,13 +60,29 @@ std::vector<Decision> decisions_of(const Collector& outputs) {
   return decisions;
 }
 
-Collector replay(const std::vector<Decision>& decisions) {
-  return test::run_navigator(smoother_config().navigator, inputs(), decisions);
+// The same with the command to restart the filter behind an epoch.
+std::vector<Input> inputs_with_restart() {
+  std::vector<Input> list;
+  Encoder encoder;
+  int epochs = 0;
+  for (const Input& input : inputs()) {
+    list.push_back(input);
+    if (input.channel != Channel::kGnssEpoch || ++epochs != 30) continue;
+    const ByteSpan bytes = encoder.encode(Command(), test::kSkyEpoch, 1);
+    list.push_back({Channel::kCommand, {bytes.begin(), bytes.end()}});
+  }
+  return list;
+}
+
+Collector replay(const std::vector<Decision>& decisions,
+                 const std::vector<Input>& list = inputs()) {
+  return test::run_navigator(smoother_config().navigator, list, decisions);
 }
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }
 
-Collector run_engine(Hold hold, double time_limit_s = 0.0) {
+Collector run_engine(Hold hold, double time_limit_s = 0.0,
+                     const std::vector<Input>& list = inputs()) {
   std::atomic<std::uint64_t> samples{0}, held_until{0};
   std::uint64_t last_epoch = 0;
   int iteration = 0;
@@ -74,7 +91,7 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0) {
     iteration = std::exchange(last_epoch, epoch) == epoch ? iteration + 1 : 0;
     if (hold == Hold::kNever || epoch % 3 != 0) return;
     if (iteration != (hold == Hold::kBefore ? 0 : 1)) return;
-    const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, inputs().size());
+    const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, list.size());
     held_until = until;
     while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
   };
@@ -84,7 +101,7 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0) {
   Engine engine(config, &outputs, hooks);
   engine.start();
   std::int64_t stamp = 0;
-  for (const Input& input : inputs()) {
+  for (const Input& input : list) {
     engine.receive(input.channel, input.bytes, ++stamp);
     ++samples;
     while (!engine.idle() && !(samples.load() < held_until.load() && is_done(engine.gnss_work()) &&
@@ -93,6 +110,18 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0) {
   }
   REQUIRE(engine.finish());
   return outputs;
+}
+
+int resets_of(const Collector& outputs, ResetCause cause) {
+  int resets = 0;
+  for (const Bytes& bytes : outputs.groups[kGnssEvents]) {
+    event_t event{};
+    const int size = static_cast<int>(bytes.size());
+    REQUIRE(event.decode(bytes.data(), 0, size) == size);
+    const bool reset = event.kind == static_cast<int>(EventKind::kFilterReset);
+    resets += reset && event.code == static_cast<int>(cause) ? 1 : 0;
+  }
+  return resets;
 }
 
 int missed_of(const std::vector<Decision>& decisions, Decision::Subject subject) {
@@ -131,4 +160,13 @@ TEST_CASE("solves that time has cut short replay with as many iterations, the la
   const Collector in_time = run_engine(Hold::kNever), hurried = run_engine(Hold::kNever, 1e-9);
   CHECK(in_time.groups[kSmoother] != hurried.groups[kSmoother]);
   check_same(replay(decisions_of(hurried)), hurried);
+}
+
+TEST_CASE("a filter that follows the window after a restart replays, with and without misses") {
+  const Hold hold = GENERATE(Hold::kNever, Hold::kBefore, Hold::kWithin);
+  const std::vector<Input> list = inputs_with_restart();
+  const Collector live = run_engine(hold, 0.0, list);
+  CHECK(resets_of(live, ResetCause::kCommand) == 1);
+  CHECK(resets_of(live, ResetCause::kWindow) == 1);
+  check_same(replay(decisions_of(live), list), live);
 }
