@@ -90,6 +90,7 @@ void ResultFiles::add(const EpochReport& report) {
     write_row();
     row_ = to_solution_row(report.solution, satellites_, pdop_);
     row_epoch_ = report.index;
+    if (filter_) filter_->write(*row_);
   }
   epochs_.time(report.time)
       .number(static_cast<double>(report.index), 0)
@@ -118,6 +119,10 @@ void ResultFiles::add(const SmootherReport& report) {
   if (report.lagged.source != Source::kNone) {
     if (!smoothed_) smoothed_.emplace(folder_ + "/smoothed.csv");
     smoothed_->write(to_solution_row(report.lagged, std::nullopt, std::nullopt));
+  }
+  if (row_ && !filter_) {
+    filter_.emplace(folder_ + "/filter.csv");
+    filter_->write(*row_);
   }
   if (!row_ || row_epoch_ != report.index || report.solution.source != Source::kSmoother) return;
   row_ = to_solution_row(report.solution, row_->satellites, row_->pdop);
@@ -203,6 +208,7 @@ void ResultFiles::close() {
   events_.close();
   if (constraints_) constraints_->close();
   if (smoothed_) smoothed_->close();
+  if (filter_) filter_->close();
 }
 
 }  // namespace leonav

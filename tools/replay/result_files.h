@@ -2,8 +2,8 @@
 // constraints.
 //
 // The files are solution.csv, epochs.csv, satellites.csv, measurements.csv, events.csv; where the
-// motion is constrained, constraints.csv; and of the smoother smoothed.csv, its states at a fixed
-// lag.
+// motion is constrained, constraints.csv; and with the smoother smoothed.csv, its states at a fixed
+// lag, and filter.csv, the filter's own estimate, which answers where the smoother is late.
 #pragma once
 #include <optional>
 #include <string>
@@ -49,6 +49,7 @@ class ResultFiles {
   std::string folder_;
   std::optional<CsvWriter> constraints_;       // opened for the first constraint
   std::optional<SolutionCsvWriter> smoothed_;  // opened for the first state at a fixed lag
+  std::optional<SolutionCsvWriter> filter_;    // opened for the first result of the smoother
 };
 
 }  // namespace leonav

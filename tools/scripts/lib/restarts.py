@@ -23,7 +23,8 @@ LEVER_ARM_B = np.array([0.0, 0.0, -1.2])  # m, of the scenarios and of preset ur
 RESTART, SET_HEADING = 0, 1  # kinds of command_t
 GOOD_SIGMA, HONEST_SIGMA = math.radians(2.0), math.radians(30.0)  # of wrong headings: the former claims to be good
 LEVELS = ("protection_horizontal_m", "protection_vertical_m")
-ESTIMATORS = ("filter", "smoother", "whole log")
+BESIDE = "filter beside the smoother"  # it answers where the smoother is late
+ESTIMATORS = ("filter", "smoother", "whole log", BESIDE)
 BEFORE, FIRST, SECOND = (-30.0, 0.0), (0.0, 30.0), (30.0, 120.0)
 SETTLED_S, JUDGED_S = 120.0, (0.0, 120.0)
 RATE_HZ = 10.0  # at which the time without an answer is counted
@@ -256,6 +257,11 @@ def begun_tracks(bin_folder, log, out, settings, begins, truth):
     return {name: joined(tracks) for name, tracks in parts.items()}
 
 
+def estimates(bin_folder, log, at, settings):
+    """{estimator: solution}, and that of the filter in the smoother's service."""
+    return {**estimate(bin_folder, log, at, "urban", settings), BESIDE: at / "smoother/filter.csv"}
+
+
 def drive(bin_folder, out, seed, family, results, command_t):
     scenario, scene = FAMILIES[family]
     folder = out / f"{family.replace(' ', '_')}-{seed}"
@@ -264,13 +270,13 @@ def drive(bin_folder, out, seed, family, results, command_t):
     plain = {}
     for systems, key in SYSTEMS.items():
         at = folder / f"plain-{systems}"
-        plain[systems] = estimate(bin_folder, log, at, "urban", [*CAR, key]), replay_rate(bin_folder, log, at, [*CAR, key])
+        plain[systems] = estimates(bin_folder, log, at, [*CAR, key]), replay_rate(bin_folder, log, at, [*CAR, key])
     for name, case in CASES.items():
         write_commanded(log, commanded, case.commands, truth, command_t)
         begins = (truth.departure,) if case.from_departure else tuple(command.at for command in case.commands)
         for systems, key in SYSTEMS.items():
             at = folder / f"{re.sub('[^a-z0-9]+', '_', name)}-{systems}"
-            solutions = estimate(bin_folder, commanded, at, "urban", [*CAR, key])
+            solutions = estimates(bin_folder, commanded, at, [*CAR, key])
             rated = replay_rate(bin_folder, commanded, at, [*CAR, key])
             for which in ESTIMATORS[:2]:
                 require_effect(at / which, truth, case.commands)
