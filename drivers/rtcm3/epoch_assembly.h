@@ -41,7 +41,7 @@ class EpochAssembly {
             OnEpoch on_epoch) {
     const std::optional<GpsTime> time = begin(type, message, near);
     if (time && epoch_.time.is_set() && *time != epoch_.time) {
-      ++counters_.not_ended;
+      if (!counters_.bit_is_wrong) ++counters_.not_ended;
       if (complete()) on_epoch(epoch_);
       clear();
     }
@@ -55,7 +55,7 @@ class EpochAssembly {
   template <typename OnEpoch>
   void finish(OnEpoch on_epoch) {
     if (!epoch_.time.is_set()) return;
-    ++counters_.not_ended;
+    if (!counters_.bit_is_wrong) ++counters_.not_ended;
     if (complete()) on_epoch(epoch_);
     clear();
   }

@@ -12,6 +12,7 @@ struct Rtcm3Decoder::State {
   GpsTime near;      // what times are completed with: the reference, then the last epoch's time
   GpsTime received;  // when the present message came; unset: not known
   Rtcm3EphemerisCounters ephemerides;
+  Rtcm3SsrCounters ssr;
   std::uint64_t station_messages = 0, damaged_station_messages = 0;
   std::map<std::uint16_t, std::uint64_t> unused;
 };
@@ -53,6 +54,8 @@ void Rtcm3Decoder::dispatch(const Rtcm3Frame& frame, Rtcm3Handler* handler) {
                           [&](const RawEpoch& epoch) { take_epoch(epoch, handler); });
   } else if (is_broadcast_ephemeris(frame.type)) {
     take_ephemeris(frame, handler);
+  } else if (const std::optional<SsrType> ssr = ssr_type(frame.type, frame.message)) {
+    take_ssr(*ssr, frame, handler);
   } else if (!take_station(frame, handler)) {
     ++state_->unused[frame.type];
   }
@@ -99,6 +102,27 @@ void Rtcm3Decoder::take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler
   handler->on_ephemeris(ephemeris);
 }
 
+void Rtcm3Decoder::take_ssr(const SsrType& type, const Rtcm3Frame& frame, Rtcm3Handler* handler) {
+  Rtcm3SsrCounters& counters = state_->ssr;
+  if (!state_->near.is_set()) {
+    ++counters.without_reference;
+    return;
+  }
+  SsrMessage message;
+  switch (read_ssr(type, frame.message, state_->near, &message, &counters.left_out)) {
+    case SsrStatus::kBadLength:
+      ++counters.bad_length;
+      return;
+    case SsrStatus::kBadTime:
+      ++counters.bad_time;
+      return;
+    case SsrStatus::kOk:
+      break;
+  }
+  ++counters.messages;
+  handler->on_ssr(message);
+}
+
 // Returns whether it is a message of the station.
 bool Rtcm3Decoder::take_station(const Rtcm3Frame& frame, Rtcm3Handler* handler) {
   bool is_whole = false;
@@ -123,6 +147,7 @@ Rtcm3Counters Rtcm3Decoder::counters() const {
   counters.epochs = state_->assembly.counters();
   counters.measurements = state_->assembly.measurement_counters();
   counters.ephemerides = state_->ephemerides;
+  counters.ssr = state_->ssr;
   counters.station_messages = state_->station_messages;
   counters.damaged_station_messages = state_->damaged_station_messages;
   counters.unused = state_->unused;

@@ -1,5 +1,5 @@
-// This unit decodes an RTCM 3 byte stream to observations, ephemerides and what it says of its
-// station. Source: RTCM 10403.3.
+// This unit decodes an RTCM 3 byte stream to observations, ephemerides, corrections and what it
+// says of its station. Source: RTCM 10403.3.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -11,6 +11,7 @@
 #include "core/gnss/signals/observation.h"
 #include "drivers/rtcm3/epoch_assembly.h"
 #include "drivers/rtcm3/rtcm3_framer.h"
+#include "drivers/rtcm3/ssr_reader.h"
 #include "drivers/rtcm3/station_messages.h"
 
 namespace leonav {
@@ -23,6 +24,7 @@ class Rtcm3Handler {
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_station_position(const StationPosition&) {}
   virtual void on_station_equipment(const StationEquipment&) {}
+  virtual void on_ssr(const SsrMessage&) {}
 };
 
 // Counts of ephemeris messages.
@@ -37,12 +39,22 @@ struct Rtcm3EphemerisCounters {
   std::uint64_t without_reference = 0;  // the week is not known
 };
 
+// Counts of SSR messages of the systems that are used.
+struct Rtcm3SsrCounters {
+  std::uint64_t messages = 0;  // given out
+  std::uint64_t bad_length = 0;
+  std::uint64_t bad_time = 0;           // time beyond the end of the week
+  std::uint64_t without_reference = 0;  // the week is not known
+  SsrLeftOut left_out;
+};
+
 // Counts of all parts of the decoder.
 struct Rtcm3Counters {
   Rtcm3FramerCounters framer;
   EpochAssemblyCounters epochs;
   MsmMeasurementCounters measurements;
   Rtcm3EphemerisCounters ephemerides;
+  Rtcm3SsrCounters ssr;
   std::uint64_t station_messages = 0;
   std::uint64_t damaged_station_messages = 0;     // shorter than their fields
   std::map<std::uint16_t, std::uint64_t> unused;  // other messages, by number
@@ -82,6 +94,7 @@ class Rtcm3Decoder {
   void dispatch(const Rtcm3Frame& frame, Rtcm3Handler* handler);
   void take_epoch(const RawEpoch& epoch, Rtcm3Handler* handler);
   void take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler);
+  void take_ssr(const SsrType& type, const Rtcm3Frame& frame, Rtcm3Handler* handler);
   bool take_station(const Rtcm3Frame& frame, Rtcm3Handler* handler);
 
   struct State;

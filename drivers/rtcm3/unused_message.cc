@@ -18,14 +18,14 @@ constexpr Range kRanges[] = {
     {1041, 1041, "NavIC ephemeris (system not used)"},
     {1043, 1043, "SBAS ephemeris (system not used)"},
     {1044, 1044, "QZSS ephemeris (system not used)"},
-    {1057, 1068, "SSR corrections"},
+    {1063, 1068, "SSR corrections of GLONASS (system not used)"},
     {1081, 1087, "GLONASS observations (system not used)"},
     {1101, 1107, "SBAS observations (system not used)"},
     {1111, 1117, "QZSS observations (system not used)"},
     {1131, 1137, "NavIC observations (system not used)"},
     {1230, 1230, "GLONASS code and phase biases (system not used)"},
-    {1240, 1270, "SSR corrections"},
-    {4076, 4076, "IGS SSR corrections"},
+    {1246, 1270, "SSR corrections of a system not used, or of the ionosphere"},
+    {4076, 4076, "IGS SSR corrections of a system not used, or of the ionosphere"},
     {4001, 4095, "a maker's own message"},
 };
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What the PyPI package pyrtcm reads in RTCM 3 bytes, as an oracle for drivers/rtcm3.
 
-  rtcm3.py fields FILE                 one line of numbers for each measurement, ephemeris, position and equipment
+  rtcm3.py fields FILE                 one line of numbers for each measurement, ephemeris, position, equipment, and satellite
+                                       of corrections
   rtcm3.py split FILE NUMBER... >OUT   the frames with these message numbers, each MSM marked as the last of its epoch, so
                                        that programs which expect all systems at one time accept each by itself
   rtcm3.py --have                      exits 0 if pyrtcm is there
@@ -48,6 +49,7 @@ def whole(value, power=0, unit=None):
 def lock_of(indicator, extended):
     if not extended:
         return LOCK_MS[indicator]
+    indicator = min(indicator, 704)  # what is above is reserved
     row = [r for r in LOCK_EXTENDED if r[0] <= indicator][-1]
     return indicator * row[1] - row[2]
 
@@ -120,6 +122,72 @@ def print_ephemeris(message):
           *(repr(float(value)) for value in values))
 
 
+SSR_KINDS = {"1057": "G o", "1058": "G c", "1059": "G b", "1060": "G oc", "1061": "G a", "1062": "G h",
+             "1240": "E o", "1241": "E c", "1242": "E b", "1243": "E oc", "1244": "E a", "1245": "E h",
+             "1258": "C o", "1259": "C c", "1260": "C b", "1261": "C oc", "1262": "C a", "1263": "C h"}
+for first, system in ((20, "G"), (60, "E"), (100, "C")):
+    for offset, kind in enumerate(("o", "c", "oc", "h", "b", "p", "a"), 1):
+        SSR_KINDS[f"4076_{first + offset:03d}"] = f"{system} {kind}"
+SSR_HIGHEST = {"G": 63, "E": 50, "C": 63}
+SSR_SIGNALS = {"G": "1C 1P 1W 1Y 1M 2C 2D 2S 2L 2X 2P 2W 2Y 2M 5I 5Q 5X 1S 1L 1X".split(),
+               "E": "1A 1B 1C 1X 1Z 5I 5Q 5X 7I 7Q 7X 8I 8Q 8X 6A 6B 6C 6X 6Z".split(),
+               "C": "2I 2Q 2X 6I 6Q 6X 7I 7Q 7X 1D 1P 1X 5D 5P 5X".split()}
+# Names of the fields: of RTCM by system, of the IGS.
+SSR_SATELLITE = {"G": "DF068", "E": "DF252", "C": "DF488", "I": "IDF011"}
+SSR_ISSUE = {"G": "DF071", "E": "DF459", "C": "DF471", "I": "IDF012"}
+SSR_SIGNAL = {"G": "DF380", "E": "DF382", "C": "DF467", "I": "IDF024"}
+SSR_EPOCH = {"G": "DF385", "E": "DF458", "C": "DF465", "I": "IDF003"}
+SSR_HEADER = {False: ("DF391", "DF388", "DF413", "DF414", "DF415", "DF387"),
+              True: ("IDF004", "IDF005", "IDF007", "IDF008", "IDF009", "IDF010")}
+# Field of RTCM and of the IGS, pyrtcm's unit of it, and the unit in 10^-7 m (a fifth for the drift's rate).
+SSR_ORBIT = (("DF365", "IDF013", 0.1, 1000), ("DF366", "IDF014", 0.4, 4000), ("DF367", "IDF015", 0.4, 4000),
+             ("DF368", "IDF016", 0.001, 10), ("DF369", "IDF017", 0.004, 40), ("DF370", "IDF018", 0.004, 40))
+SSR_CLOCK = (("DF376", "IDF019", 0.1, 1000), ("DF377", "IDF020", 0.001, 10), ("DF378", "IDF021", 0.00002, 0.2))
+
+
+def ssr_values(message, fields, igs, index):
+    values = []
+    for rtcm, igs_name, unit, unit_e7 in fields:
+        number = whole(get(message, igs_name if igs else rtcm, index), unit=unit)
+        values.append(repr(number * 2.0 / 1e8 if unit_e7 == 0.2 else number * unit_e7 / 1e7))
+    return values
+
+
+def print_ssr(message):
+    number = message.identity
+    system, kind = SSR_KINDS[number].split()
+    igs = number.startswith("4076")
+    names = "I" if igs else system
+    head = [number, getattr(message, SSR_EPOCH[names])] + [getattr(message, name) for name in SSR_HEADER[igs][:5]]
+    for i in range(1, getattr(message, SSR_HEADER[igs][5]) + 1):
+        satellite = get(message, SSR_SATELLITE[names], i)
+        if not 1 <= satellite <= SSR_HIGHEST[system]:
+            continue
+        line = ["S"] + head + [f"{system}{satellite:02d}"]
+        if "o" in kind:
+            toe = get(message, "DF470", i) // 8 if names == "C" else -1
+            line += ["o", get(message, SSR_ISSUE[names], i), toe] + ssr_values(message, SSR_ORBIT, igs, i)
+        if "c" in kind:
+            line += ["c"] + ssr_values(message, SSR_CLOCK, igs, i)
+        if kind == "h":
+            line += ["h", repr(whole(get(message, "IDF022" if igs else "DF390", i), unit=0.1) * 1000 / 1e7)]
+        if kind == "a":
+            line += ["a", get(message, "IDF034" if igs else "DF389", i)]
+        if kind == "p":
+            line += ["y", repr(get(message, "IDF026", i) * PI), repr(get(message, "IDF027", i) * PI)]
+        for k in range(1, get(message, "IDF023" if igs else "DF379", i) + 1 if kind in "bp" else 1):
+            signal = get(message, SSR_SIGNAL[names], i, k)
+            if signal >= len(SSR_SIGNALS[system]):
+                continue
+            line += [kind, SSR_SIGNALS[system][signal]]
+            if kind == "b":
+                line += [repr(whole(get(message, "IDF025" if igs else "DF383", i, k), unit=0.01) * 100000 / 1e7)]
+            else:
+                line += [get(message, "IDF029", i, k), get(message, "IDF030", i, k), get(message, "IDF031", i, k),
+                         repr(whole(get(message, "IDF028", i, k), unit=0.0001) * 1000 / 1e7)]
+        print(*line)
+
+
 def text(message, length, characters):
     parts = [get(message, characters, i) for i in range(1, getattr(message, length) + 1)]
     return "".join(str(part) for part in parts).rstrip() or "-"
@@ -132,6 +200,8 @@ def print_fields(path):
             print_observations(message)
         elif number in EPHEMERIDES:
             print_ephemeris(message)
+        elif number in SSR_KINDS:
+            print_ssr(message)
         elif number in ("1005", "1006"):
             print("P", number, message.DF003, repr(message.DF025), repr(message.DF026), repr(message.DF027),
                   repr(message.DF028) if number == "1006" else "nan")
