@@ -47,7 +47,7 @@ void compare(double ours, double theirs, Agreement* agreement, double more = 0.0
 Agreement compare_observations(const std::vector<std::uint8_t>& bytes, GpsTime reference,
                                const std::string& date) {
   const test::TemporaryFile stream("stream.rtcm3", text_of(bytes));
-  REQUIRE(test::run("nice convbin -r rtcm3 -v 3.04 -os -od -tr " + date + " -o '" +
+  REQUIRE(test::run("convbin -r rtcm3 -v 3.04 -os -od -tr " + date + " -o '" +
                     stream.beside("rinex.obs") + "' '" + stream.path() + "' >/dev/null 2>&1"));
   const auto ours = test::decode_rtcm3(bytes, reference);
   ObservationReader reader(stream.beside("rinex.obs"));
@@ -121,7 +121,7 @@ Key key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe, e.issue}
 
 // str2str does not end with its input: it is ended once its output has stopped growing.
 bool convert_walk(const std::string& output) {
-  return test::run("nice str2str -in 'file://" + test::shared_data(test::kWalkUbx) +
+  return test::run("str2str -in 'file://" + test::shared_data(test::kWalkUbx) +
                    "#ubx' -out 'file://" + output +
                    "#rtcm3' -msg 1077,1087,1097,1127,1019,1042 >/dev/null 2>&1 & pid=$!; "
                    "size=0; for i in $(seq 60); do sleep 3; now=$(stat -c %s '" +
@@ -178,7 +178,7 @@ TEST_CASE("Ephemerides agree with convbin's to the twelfth digit") {
     CAPTURE(part.name);
     const auto bytes = test::stream_bytes(test::shared_data(part.name));
     const test::TemporaryFile stream("stream.rtcm3", text_of(bytes));
-    REQUIRE(test::run("nice convbin -r rtcm3 -v 3.04 -tr " + std::string(part.date) + " -n '" +
+    REQUIRE(test::run("convbin -r rtcm3 -v 3.04 -tr " + std::string(part.date) + " -n '" +
                       stream.beside("rinex.nav") + "' '" + stream.path() + "' >/dev/null 2>&1"));
     const NavigationFile theirs = read_navigation(stream.beside("rinex.nav"));
     const auto ours = test::decode_rtcm3(bytes, part.reference);

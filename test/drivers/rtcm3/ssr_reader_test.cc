@@ -102,8 +102,7 @@ struct Comparison {
 
 Comparison compare(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   const test::TemporaryFile place("fields.txt", "");
-  REQUIRE(test::run("nice " + test::oracle_command() + "fields '" + path + "' >'" + place.path() +
-                    "'"));
+  REQUIRE(test::run(test::oracle_command() + "fields '" + path + "' >'" + place.path() + "'"));
   std::vector<Words> theirs;
   for (Words& line : test::words_of(place.path())) {
     if (line[0] == "S") theirs.push_back(std::move(line));
@@ -155,7 +154,7 @@ TEST_CASE("Generated corrections of every kind agree with pyrtcm to the last bit
   const test::TemporaryFile stream("ssr.rtcm3", std::string(bytes.begin(), bytes.end()));
   const Comparison comparison = compare(stream.path(), bytes);
   CHECK(comparison.messages == 20 * 36);
-  CHECK(comparison.satellites > 900);
+  CHECK(comparison.satellites == 989);
   CHECK(comparison.different == 0);
 }
 
@@ -165,7 +164,7 @@ TEST_CASE("Corrections that are cut off, of an impossible time or without a week
   const auto extents = test::frame_extents(bytes);
   for (const auto& extent : extents) {
     const auto frame = std::span(bytes).subspan(extent.first, extent.size);
-    test::append(&stream, test::framed(frame.subspan(3, 12)));  // within the first satellite
+    test::append(&stream, test::framed(frame.subspan(3, 9)));  // before the first satellite
     const std::size_t time_at = extent.type == 4076 ? 23 : 12;
     test::append(&stream, test::edited(frame, {{time_at, 20, 604'800}}));
   }
