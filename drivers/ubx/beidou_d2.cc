@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "drivers/ubx/beidou_time.h"
-#include "drivers/ubx/bit_field.h"
-#include "drivers/ubx/gps_lnav.h"
+#include "drivers/binary/accuracy_index.h"
+#include "drivers/binary/beidou_time.h"
+#include "drivers/binary/bit_field.h"
 
 namespace leonav {
 namespace {

@@ -1,7 +1,7 @@
 #include "drivers/ubx/beidou_subframe.h"
 
 #include "core/base/gps_time.h"
-#include "drivers/ubx/bit_field.h"
+#include "drivers/binary/bit_field.h"
 
 namespace leonav {
 namespace {

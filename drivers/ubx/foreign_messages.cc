@@ -1,6 +1,6 @@
 #include "drivers/ubx/foreign_messages.h"
 
-#include "drivers/ubx/crc24q.h"
+#include "drivers/binary/crc24q.h"
 
 namespace leonav {
 namespace {

@@ -4,9 +4,10 @@
 #include <numbers>
 
 #include "core/base/calendar.h"
-#include "drivers/ubx/bit_field.h"
-#include "drivers/ubx/crc24q.h"
-#include "drivers/ubx/galileo_inav.h"
+#include "drivers/binary/accuracy_index.h"
+#include "drivers/binary/bit_field.h"
+#include "drivers/binary/crc24q.h"
+#include "drivers/binary/week_time.h"
 
 namespace leonav {
 namespace {

@@ -1,11 +1,12 @@
 #include "drivers/ubx/galileo_inav.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "core/base/calendar.h"
-#include "drivers/ubx/bit_field.h"
-#include "drivers/ubx/crc24q.h"
+#include "drivers/binary/accuracy_index.h"
+#include "drivers/binary/bit_field.h"
+#include "drivers/binary/crc24q.h"
+#include "drivers/binary/week_time.h"
 
 namespace leonav {
 namespace {
@@ -20,14 +21,6 @@ std::uint32_t issue_of(std::span<const std::uint8_t> bits) {
 }
 
 }  // namespace
-
-double galileo_sisa_m(unsigned index) {
-  if (index < 50) return 0.01 * index;
-  if (index < 75) return 0.5 + 0.02 * (index - 50);
-  if (index < 100) return 1.0 + 0.04 * (index - 75);
-  if (index < 126) return 2.0 + 0.16 * (index - 100);
-  return -1.0;
-}
 
 SubframeStatus GalileoInav::add(std::span<const std::uint32_t, kWords> words,
                                 const SubframeOrigin& origin, NavigationUpdate* update) {

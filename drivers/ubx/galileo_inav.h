@@ -9,10 +9,6 @@
 
 namespace leonav {
 
-// Returns the signal-in-space accuracy in metres of an index (OS-SIS-ICD table 89); -1: no
-// prediction or spare.
-double galileo_sisa_m(unsigned index);
-
 // The decoder collects the words of one satellite; E1-B and E5b send the same ones and share it.
 class GalileoInav {
  public:

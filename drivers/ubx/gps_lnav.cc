@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/ubx/bit_field.h"
+#include "drivers/binary/accuracy_index.h"
+#include "drivers/binary/bit_field.h"
+#include "drivers/binary/week_time.h"
 
 namespace leonav {
 namespace {
@@ -60,12 +62,6 @@ KlobucharModel decode_klobuchar(BitReader r) {
 }
 
 }  // namespace
-
-double nominal_accuracy_m(unsigned index) {
-  constexpr std::array<double, 7> kFine = {2.0, 2.8, 4.0, 5.7, 8.0, 11.3, 16.0};
-  if (index < kFine.size()) return kFine[index];
-  return index < 15 ? std::ldexp(1.0, static_cast<int>(index) - 2) : -1.0;
-}
 
 bool gps_parity_is_good(std::span<const std::uint32_t, GpsLnav::kWords> words) {
   for (const std::uint32_t word : words) {

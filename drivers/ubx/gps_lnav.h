@@ -10,10 +10,6 @@
 
 namespace leonav {
 
-// Returns the user range accuracy in metres of an index of GPS or BeiDou D1/D2: the nominal value X
-// of IS-GPS-200N 20.3.3.3.1.3 (2.8 m for 1, ...). It is -1 for 15, "no prediction".
-double nominal_accuracy_m(unsigned index);
-
 // The decoder collects the subframes of one satellite.
 class GpsLnav {
  public:

@@ -1,9 +1,9 @@
 #include "drivers/ubx/rxm_sfrbx.h"
 
 #include <array>
-#include <cmath>
 
 #include "core/gnss/orbits/satellite_state.h"
+#include "drivers/binary/reported_ephemerides.h"
 #include "drivers/ubx/beidou_d1.h"
 #include "drivers/ubx/beidou_d2.h"
 #include "drivers/ubx/galileo_fnav.h"
@@ -22,35 +22,6 @@ constexpr std::size_t kSatellites = 64;
 
 using Words = std::span<const std::uint32_t>;
 
-// Returns whether both have the same contents, whenever they were sent.
-bool say_the_same(const Ephemeris& a, const Ephemeris& b) {
-  const auto elements = [](const Ephemeris& e) {
-    return std::array{e.sqrt_a,
-                      e.eccentricity,
-                      e.m0,
-                      e.delta_n,
-                      e.omega0,
-                      e.omega_dot,
-                      e.i0,
-                      e.i_dot,
-                      e.omega,
-                      e.cuc,
-                      e.cus,
-                      e.crc,
-                      e.crs,
-                      e.cic,
-                      e.cis,
-                      e.af0,
-                      e.af1,
-                      e.af2,
-                      e.accuracy_m,
-                      e.group_delay_s[0],
-                      e.group_delay_s[1]};
-  };
-  return a.toe == b.toe && a.toc == b.toc && a.issue == b.issue && a.issue_clock == b.issue_clock &&
-         a.health == b.health && elements(a) == elements(b);
-}
-
 }  // namespace
 
 // There is one collector per satellite and message; a satellite number is below kSatellites.
@@ -60,8 +31,7 @@ struct RxmSfrbxDecoder::State {
   std::array<GalileoFnav, kSatellites> galileo_fnav;
   std::array<BeidouD1, kSatellites> beidou_d1;
   std::array<BeidouD2, kSatellites> beidou_d2;
-  // Ephemerides last reported, by NavigationMessage.
-  std::array<std::array<Ephemeris, kSatellites>, 5> reported;
+  ReportedEphemerides reported;
 
   SubframeStatus add_gps(std::uint8_t signal_id, Words words, const SubframeOrigin& origin,
                          NavigationUpdate* update);
@@ -182,10 +152,7 @@ bool RxmSfrbxDecoder::is_new_issue(const Ephemeris& ephemeris) {
     ++counters_.not_sane;
     return false;
   }
-  Ephemeris& last =
-      state_->reported[static_cast<std::size_t>(ephemeris.message)][ephemeris.satellite.number];
-  if (last.toe.is_set() && say_the_same(last, ephemeris)) return false;
-  last = ephemeris;
+  if (!state_->reported.is_new(ephemeris)) return false;
   ++counters_.ephemerides;
   return true;
 }

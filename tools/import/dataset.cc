@@ -3,16 +3,34 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "core/base/calendar.h"
 #include "drivers/text/line_reader.h"
 #include "drivers/text/nearest_word.h"
+#include "drivers/text/parse.h"
 
 namespace leonav {
 namespace {
 
 long line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
+
+constexpr const char* kDateKey = "date";
+
+// Reads a day as YYYY-MM-DD; returns nullopt for any other text and for days that no month has.
+std::optional<GpsTime> noon_of(const std::string& text) {
+  constexpr std::size_t kYear = 4, kMonth = 7, kLength = 10;
+  if (text.size() != kLength || text[kYear] != '-' || text[kMonth] != '-') return std::nullopt;
+  const auto year = parse_int(text.substr(0, 4)), month = parse_int(text.substr(5, 2)),
+             day = parse_int(text.substr(8, 2));
+  if (!year || !month || !day || *year < 1980 || *year > 2099) return std::nullopt;
+  const GpsTime noon = from_calendar({*year, *month, *day, 12, 0, 0.0});
+  const CalendarTime back = to_calendar(noon);
+  if (back.year != *year || back.month != *month || back.day != *day) return std::nullopt;
+  return noon;
+}
 
 class DatasetParser {
  public:
@@ -33,6 +51,10 @@ class DatasetParser {
     if (!key_node.IsScalar()) fail(key_node, "a key must be a word");
     const std::string& key = key_node.Scalar();
     if (!seen_.insert(key).second) fail(key_node, "key '" + key + "' is given twice; keep one");
+    if (key == kDateKey) {
+      dataset_.date = read_date(value);
+      return;
+    }
     for (const auto& [name, text] : texts_) {
       if (key == name) {
         if (!value.IsScalar() && !value.IsNull()) fail(value, "'" + key + "' must be text");
@@ -65,6 +87,13 @@ class DatasetParser {
     return paths;
   }
 
+  GpsTime read_date(const YAML::Node& value) const {
+    if (value.IsNull() || (value.IsScalar() && value.Scalar().empty())) return {};
+    const std::optional<GpsTime> date = value.IsScalar() ? noon_of(value.Scalar()) : std::nullopt;
+    if (!date) fail(value, "'date' must be the day of the recording, written as 2024-03-20");
+    return *date;
+  }
+
   void add(const std::string& text, std::vector<std::string>* paths) const {
     if (text.empty()) return;
     const auto folder = std::filesystem::path(dataset_.path).parent_path();
@@ -72,7 +101,7 @@ class DatasetParser {
   }
 
   [[noreturn]] void fail_unknown(const YAML::Node& node, const std::string& key) const {
-    std::vector<std::string> known;
+    std::vector<std::string> known = {kDateKey};
     for (const auto& [name, text] : texts_) known.push_back(name);
     for (const auto& [name, paths] : lists_) known.push_back(name);
     std::string message = "unknown key '" + key + "'";

@@ -3,14 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "core/base/gps_time.h"
+
 namespace leonav {
 
 // Paths are complete: those in the file are relative to its folder. Empty: not given.
 struct Dataset {
   std::string path;  // path of the dataset.yaml
   std::string name;
-  std::vector<std::string> observations;    // RINEX or .ubx, in order of time
-  std::vector<std::string> navigation;      // RINEX
+  // Noon of the day of the recording, for files whose messages give the time of week alone (RTCM
+  // 3); unset: not given. Their first message must be within three and a half days of it.
+  GpsTime date;
+  std::vector<std::string> observations;    // RINEX, .ubx, .rtcm3 or .rtcm, in order of time
+  std::vector<std::string> navigation;      // RINEX, .rtcm3 or .rtcm
   std::vector<std::string> orbits;          // SP3
   std::vector<std::string> clocks;          // RINEX clock
   std::vector<std::string> antenna_models;  // ANTEX
@@ -23,7 +28,8 @@ struct Dataset {
 
 // Reads dataset.yaml.
 //
-// Each key holds a path or a list of paths; "" and [] stand for none. Throws FileError with file
+// Each key holds a path or a list of paths; "" and [] stand for none. `date` is a day as
+// 2024-03-20. Throws FileError with file
 // and line for unreadable YAML, a second document in it, an unknown key (with the nearest known
 // one) and a key given twice.
 Dataset load_dataset(const std::string& path);

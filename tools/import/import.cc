@@ -19,6 +19,7 @@
 #include "drivers/text/stamp_order.h"
 #include "tools/import/internal/antenna_source.h"
 #include "tools/import/internal/observation_source.h"
+#include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
 
@@ -33,7 +34,7 @@ class Import {
       : dataset_(dataset),
         options_(options),
         progress_(progress),
-        observations_(dataset.observations, &report_) {}
+        observations_(dataset.observations, dataset.date, &report_) {}
 
   ImportReport run(const std::string& output) {
     check_output(output, dataset_.files());
@@ -113,7 +114,7 @@ void Import::warn_of_missing() {
   }
   if (dataset_.navigation.empty() && dataset_.orbits.empty()) {
     warn(
-        "no navigation and no orbits: unless the observations bring ephemerides (.ubx), no "
+        "no navigation and no orbits: unless the observations bring ephemerides (.ubx, .rtcm3), no "
         "satellite has a position and there will be no solution");
   } else if (dataset_.navigation.empty()) {
     warn(
@@ -146,6 +147,11 @@ void Import::warn_of_missing() {
 
 void Import::load_navigation() {
   for (const std::string& path : dataset_.navigation) {
+    if (has_rtcm3_name(path)) {
+      const std::vector<Ephemeris> read = read_rtcm3_ephemerides(path, dataset_.date, &report_);
+      navigation_.insert(navigation_.end(), read.begin(), read.end());
+      continue;
+    }
     NavigationFile file = read_navigation(path);
     for (const ReadCounts::Skip& skip : file.counts.skipped) {
       report_.skip(path + ":" + std::to_string(skip.first_line), skip.reason, skip.count);

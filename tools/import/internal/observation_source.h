@@ -2,26 +2,24 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "core/gnss/orbits/ephemeris.h"
-#include "core/gnss/signals/observation.h"
 #include "tools/import/import_report.h"
+#include "tools/import/internal/observation_file.h"
 
 namespace leonav {
 
-using ObservationItem = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
-
-// RINEX and .ubx files are read one after the other, and epochs come in strictly increasing time.
+// RINEX, .ubx, .rtcm3 and .rtcm files are read one after the other, and epochs come in strictly
+// increasing time.
 //
 // An epoch whose time contradicts those around it, in its file or the next, is counted and left
-// out, and its losses of lock are passed on. UBX files also give the navigation data they hold, in
-// the order of the file.
+// out, and its losses of lock are passed on. UBX and RTCM 3 files also give the navigation data
+// they hold, in the order of the file.
 class ObservationSource {
  public:
   // `report` gets what the files leave out, file by file, and must outlive this object.
-  ObservationSource(std::vector<std::string> paths, ImportReport* report);
+  // `date` is the dataset's, for files whose messages lack the week.
+  ObservationSource(std::vector<std::string> paths, GpsTime date, ImportReport* report);
   ~ObservationSource();
 
   // Reads the next item; returns false at the end of the last file. Throws FileError for a file

@@ -1,7 +1,7 @@
 // This header converts BeiDou seconds of week to GPS time.
 #pragma once
 #include "core/base/calendar.h"
-#include "drivers/ubx/navigation_frame.h"
+#include "drivers/binary/week_time.h"
 
 namespace leonav {
 

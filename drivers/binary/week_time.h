@@ -1,0 +1,42 @@
+// This header finds full instants from times of week and truncated week numbers.
+#pragma once
+#include <cstdint>
+
+#include "core/base/gps_time.h"
+
+namespace leonav {
+
+// Returns the full week whose remainder modulo `modulus` is `truncated`, nearest to
+// `reference_week`.
+constexpr int full_week(int truncated, int modulus, int reference_week) {
+  int difference = (truncated - reference_week) % modulus;
+  if (difference < 0) difference += modulus;
+  if (difference > modulus / 2) difference -= modulus;
+  return reference_week + difference;
+}
+
+// Returns the instant with this time of week, in nanoseconds and less than two weeks, that is
+// nearest to `near`.
+constexpr GpsTime nearest_instant_ns(std::int64_t tow_ns, GpsTime near) {
+  const std::int64_t start = near.week() * kNanosecondsPerWeek;
+  GpsTime time = GpsTime::from_nanoseconds(start + tow_ns);
+  const std::int64_t ahead = time.nanoseconds() - near.nanoseconds();
+  if (ahead > kNanosecondsPerWeek / 2) time = time.plus_nanoseconds(-kNanosecondsPerWeek);
+  if (ahead < -kNanosecondsPerWeek / 2) time = time.plus_nanoseconds(kNanosecondsPerWeek);
+  return time;
+}
+
+// Returns the same of a time of week in seconds.
+constexpr GpsTime nearest_instant(std::int64_t tow_s, GpsTime near) {
+  return nearest_instant_ns(tow_s * kNanosecondsPerSecond, near);
+}
+
+// Returns whether a broadcast week number can be that of `time`: the week itself or, since receiver
+// and satellite may be on two sides of a week's end, a neighbour. `offset` is week zero of the
+// system's own count in GPS weeks.
+constexpr bool week_agrees(int truncated, int modulus, int offset, GpsTime time) {
+  const int difference = full_week(truncated + offset, modulus, time.week()) - time.week();
+  return difference >= -1 && difference <= 1;
+}
+
+}  // namespace leonav

@@ -1,0 +1,106 @@
+#include "drivers/rtcm3/epoch_assembly.h"
+
+#include <algorithm>
+
+#include "core/base/calendar.h"
+#include "drivers/binary/week_time.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::int64_t kMillisecondsPerWeek = kSecondsPerWeek * 1000;
+constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+
+// GPS and Galileo count milliseconds of a week of GPS time, BeiDou of its own, 14 s behind.
+GpsTime instant_of(System system, std::uint32_t epoch_ms, GpsTime near) {
+  const std::int64_t offset_ms = system == System::kBeidou ? -1000 * kBeidouMinusGpsSeconds : 0;
+  return nearest_instant_ns((epoch_ms + offset_ms) * kNanosecondsPerMillisecond, near);
+}
+
+}  // namespace
+
+std::optional<GpsTime> EpochAssembly::begin(const MsmType& type,
+                                            std::span<const std::uint8_t> message, GpsTime near) {
+  more_follow_ = true;
+  const std::optional<MsmHeader> header = read_msm_header(type, message);
+  if (!header) {
+    ++counters_.bad_length;
+    return std::nullopt;
+  }
+  if (!station_) station_ = header->station;
+  if (*station_ != header->station) {
+    ++counters_.other_station;
+    return std::nullopt;
+  }
+  // The last message of an epoch may be one of a system that is not used.
+  more_follow_ = header->more_follow;
+  if (!type.system) return std::nullopt;
+  if (!type.has_full_range()) {
+    ++counters_.without_full_range;
+    return std::nullopt;
+  }
+  if (header->epoch_ms >= kMillisecondsPerWeek) {
+    ++counters_.bad_time;
+    return std::nullopt;
+  }
+  if (!near.is_set()) {
+    ++counters_.without_reference;
+    return std::nullopt;
+  }
+  switch (read_msm(type, message, &message_)) {
+    case MsmStatus::kOk:
+      break;
+    case MsmStatus::kBadLength:
+      ++counters_.bad_length;
+      return std::nullopt;
+    case MsmStatus::kBadMask:
+      ++counters_.bad_mask;
+      return std::nullopt;
+  }
+  return instant_of(*type.system, header->epoch_ms, near);
+}
+
+bool EpochAssembly::add(std::optional<GpsTime> time) {
+  if (time) {
+    if (*time == last_given_) {
+      count_late();
+      return false;
+    }
+    epoch_.time = *time;
+    ++counters_.messages;
+    observations_.add(message_, &epoch_);
+  }
+  return epoch_.time.is_set() && !more_follow_ && !counters_.bit_is_wrong;
+}
+
+void EpochAssembly::count_late() {
+  constexpr int kEnough = 2;
+  ++counters_.late;
+  if (went_on_) return;
+  went_on_ = true;
+  if (++gone_on_in_row_ == kEnough) counters_.bit_is_wrong = true;
+}
+
+// Returns whether the epoch has anything to give out.
+bool EpochAssembly::complete() {
+  last_given_ = epoch_.time;
+  if (!went_on_) gone_on_in_row_ = 0;
+  went_on_ = false;
+  if (epoch_.observations.empty()) {
+    ++counters_.empty_epochs;
+    return false;
+  }
+  std::sort(epoch_.observations.begin(), epoch_.observations.end(),
+            [](const SignalObservation& a, const SignalObservation& b) {
+              return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
+            });
+  ++counters_.epochs;
+  return true;
+}
+
+void EpochAssembly::clear() {
+  epoch_.time = {};
+  epoch_.observations.clear();
+}
+
+}  // namespace leonav

@@ -1,0 +1,54 @@
+// This unit turns multiple signal messages into observations and keeps the lock state of every
+// signal. Source: RTCM 10403.3, 3.5.16.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "core/gnss/signals/observation.h"
+#include "drivers/rtcm3/msm_lock_time.h"
+#include "drivers/rtcm3/msm_message.h"
+
+namespace leonav {
+
+// Counts of measurements, which are signals of a satellite at an epoch.
+struct MsmMeasurementCounters {
+  std::uint64_t measurements = 0;     // put into epochs
+  std::uint64_t unknown_signal = 0;   // bit of the signal mask without a RINEX code
+  std::uint64_t bad_satellite = 0;    // number outside its system's range
+  std::uint64_t bad_value = 0;        // single values out of range (left out)
+  std::uint64_t duplicates = 0;       // same satellite and code twice in an epoch
+  std::uint64_t empty = 0;            // neither code nor carrier nor Doppler
+  std::uint64_t beyond_capacity = 0;  // more than an epoch can hold
+};
+
+// One receiver's observations.
+class MsmObservations {
+ public:
+  // Adds the message's measurements to the epoch, in the order of the message. Of a satellite and
+  // code that come twice at one time, the first is used.
+  //
+  // Code and carrier are (rough + fine) 299792.458 m/ms, the carrier divided by the wavelength, and
+  // the Doppler is minus (rough + fine rate) over the wavelength: a growing range is a falling
+  // frequency.
+  void add(const MsmMessage& message, RawEpoch* epoch);
+  const MsmMeasurementCounters& counters() const { return counters_; }
+
+ private:
+  struct SignalState {
+    GpsTime seen;  // last epoch with this signal, with or without a carrier
+    MsmLock lock;
+  };
+  static constexpr std::size_t kSystems = 3;
+  static constexpr std::size_t kSatellites = 64;
+  static constexpr std::size_t kSignals = 33;
+
+  bool decode(const MsmMessage& message, const MsmCell& cell, GpsTime time,
+              SignalObservation* observation);
+  double checked(double value, double low, double high);
+  SignalState& state_of(const MsmMessage& message, const MsmCell& cell);
+
+  MsmMeasurementCounters counters_;
+  std::array<std::array<std::array<SignalState, kSignals>, kSatellites>, kSystems> states_{};
+};
+
+}  // namespace leonav

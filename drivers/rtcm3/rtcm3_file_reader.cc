@@ -1,0 +1,108 @@
+#include "drivers/rtcm3/rtcm3_file_reader.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/text/parse.h"
+
+namespace leonav {
+namespace {
+
+// The bytes of a file in chunks.
+class ByteFile {
+ public:
+  explicit ByteFile(const std::string& path) : path_(path) {
+    if (std::filesystem::is_directory(path)) {
+      throw FileError(path, 0, "is a directory; name a file of RTCM 3 bytes");
+    }
+    errno = 0;
+    file_.open(path, std::ios::binary);
+    if (!file_) {
+      throw FileError(path, 0,
+                      std::string("cannot be opened (") + std::strerror(errno) +
+                          "); check the path and the permissions");
+    }
+  }
+
+  // Returns the next bytes; none at the end of the file.
+  std::span<const std::uint8_t> next() {
+    if (!file_) return {};
+    file_.read(chunk_.data(), chunk_.size());
+    if (file_.bad()) throw FileError(path_, 0, "cannot be read to its end; check the disk");
+    return {reinterpret_cast<const std::uint8_t*>(chunk_.data()),
+            static_cast<std::size_t>(file_.gcount())};
+  }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::array<char, 4096> chunk_;
+};
+
+}  // namespace
+
+struct Rtcm3FileReader::State : Rtcm3Handler {
+  State(const std::string& path, const Rtcm3Options& options) : file(path), decoder(options) {}
+
+  void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
+  void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
+  void on_station_position(const StationPosition& position) override {
+    outputs.emplace_back(position);
+  }
+  void on_station_equipment(const StationEquipment& equipment) override {
+    outputs.emplace_back(equipment);
+  }
+
+  ByteFile file;
+  Rtcm3Decoder decoder;
+  std::deque<Rtcm3Output> outputs;  // of the last chunk
+  bool at_end = false;
+};
+
+Rtcm3FileReader::Rtcm3FileReader(const std::string& path, const Rtcm3Options& options)
+    : state_(std::make_unique<State>(path, options)) {}
+Rtcm3FileReader::~Rtcm3FileReader() = default;
+Rtcm3FileReader::Rtcm3FileReader(Rtcm3FileReader&&) noexcept = default;
+
+bool Rtcm3FileReader::next(Rtcm3Output* output) {
+  State& s = *state_;
+  while (s.outputs.empty() && !s.at_end) {
+    const std::span<const std::uint8_t> bytes = s.file.next();
+    s.decoder.feed(bytes, &s);
+    if (bytes.empty()) {
+      s.at_end = true;
+      s.decoder.finish(&s);
+    }
+  }
+  if (s.outputs.empty()) return false;
+  *output = std::move(s.outputs.front());
+  s.outputs.pop_front();
+  return true;
+}
+
+Rtcm3Counters Rtcm3FileReader::counters() const { return state_->decoder.counters(); }
+
+std::string first_antenna(const std::string& path) {
+  ByteFile file(path);
+  Rtcm3Framer framer;
+  while (true) {
+    std::span<const std::uint8_t> bytes = file.next();
+    const bool at_end = bytes.empty();
+    if (at_end) framer.finish();
+    do {
+      bytes = bytes.subspan(framer.append(bytes));
+      for (Rtcm3Frame frame; framer.next(&frame);) {
+        if (!is_station_equipment(frame.type)) continue;
+        const auto equipment = read_station_equipment(frame.type, frame.message);
+        if (equipment && !equipment->antenna.empty()) return equipment->antenna;
+      }
+    } while (!bytes.empty());
+    if (at_end) return {};
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,104 @@
+// RTCM 3 recordings in an import: observations, navigation, and the date that they need.
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/text/parse.h"
+#include "support/catch.h"
+#include "support/shared_data.h"
+#include "support/temporary_file.h"
+#include "tools/import/import.h"
+
+namespace leonav {
+namespace {
+
+constexpr const char* kManyTypes = "wire/rtcm_NTRIP-USCL00CHL0.bin";
+constexpr const char* kGmsd7 = "wire/rtklib_GMSD7_20121014.rtcm3";
+constexpr const char* kSsrHour = "wire/ssr_idd2023229c.rtc";
+
+// A dataset beside a copy of a recording.
+struct Recording {
+  Recording(const std::string& yaml_text, const char* source, const std::string& name)
+      : yaml("set.yaml", yaml_text) {
+    std::filesystem::copy_file(test::shared_data(source), yaml.beside(name));
+  }
+  ImportReport import() const {
+    return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  }
+  std::string error() const {
+    try {
+      import();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  }
+  test::TemporaryFile yaml;
+};
+
+long left_out(const ImportReport& report, const std::string& reason) {
+  long count = 0;
+  for (const auto& skip : report.skipped) {
+    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
+  }
+  return count;
+}
+
+using Catch::Contains;
+
+}  // namespace
+
+TEST_CASE("an RTCM 3 recording gives epochs, ephemerides and its antenna", "[import]") {
+  if (!test::have_shared_data(kManyTypes)) return;
+  const Recording recording("date: 2024-03-19\nobservations: a.RTCM\n", kManyTypes, "a.RTCM");
+  const ImportReport report = recording.import();
+  CHECK(report.epochs == 1);
+  CHECK(report.ephemerides == 4);
+  CHECK(report.first == GpsTime::from_week_and_tow(2306, 318'945.0));
+  CHECK(left_out(report, "message 1087: GLONASS observations (system not used)") == 1);
+  CHECK(left_out(report, "message 1004: GPS observations of the old form") == 1);
+  CHECK(left_out(report, "message 1230: GLONASS code and phase biases") == 1);
+  CHECK(left_out(report, "twice in an epoch") == 100);
+}
+
+TEST_CASE("an RTCM 3 recording needs a date, and says so", "[import]") {
+  if (!test::have_shared_data(kGmsd7)) return;
+  CHECK_THAT(Recording("observations: a.rtcm3\n", kGmsd7, "a.rtcm3").error(),
+             Contains("a.rtcm3") && Contains("date: 2024-03-20"));
+  CHECK_THAT(Recording("navigation: a.rtcm3\n", kGmsd7, "a.rtcm3").error(),
+             Contains("a.rtcm3") && Contains("date: 2024-03-20"));
+  // A wrong year gives no ephemerides: their own weeks contradict it.
+  CHECK_THAT(Recording("date: 2013-10-14\nnavigation: a.rtcm3\n", kGmsd7, "a.rtcm3").error(),
+             Contains("no usable ephemeris") && Contains("date is wrong"));
+  for (const char* wrong : {"2012-13-01", "2012-02-30", "12-10-14", "2012/10/14", "[2012-10-14]"}) {
+    CHECK_THAT(
+        Recording("date: " + std::string(wrong) + "\nobservations: a.rtcm3\n", kGmsd7, "a.rtcm3")
+            .error(),
+        Contains("set.yaml:1") && Contains("'date' must be the day"));
+  }
+}
+
+TEST_CASE("ephemerides of a stream of corrections serve as navigation", "[import]") {
+  if (!test::have_shared_data(kGmsd7) || !test::have_shared_data(kSsrHour)) return;
+  // The epochs are of another year than the ephemerides: each is refused by its own week.
+  const Recording old("date: 2012-10-14\nobservations: a.rtcm3\n", kGmsd7, "a.rtcm3");
+  const ImportReport report = old.import();
+  CHECK(report.epochs >= 257);
+  CHECK(report.ephemerides > 5);
+  std::filesystem::copy_file(test::shared_data(kSsrHour), old.yaml.beside("b.rtcm"));
+  const test::TemporaryFile yaml("set.yaml",
+                                 "date: 2023-08-17\nobservations: " + std::string("a.obs") +
+                                     "\nnavigation: " + old.yaml.beside("b.rtcm") + "\n");
+  std::ofstream(yaml.beside("a.obs"))
+      << "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
+         "G    1 C1C                                                  SYS / # / OBS TYPES\n"
+         "                                                            END OF HEADER\n"
+         "> 2023 08 17 01 59 59.0000000  0  1\nG01  20000000.000\n"
+         "> 2023 08 17 03 00  0.0000000  0  1\nG01  20000000.000\n";
+  const ImportReport with =
+      import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  CHECK(with.ephemerides > 50);
+  CHECK(left_out(with, "SSR corrections") > 1000);
+  CHECK(left_out(with, "ephemeris that repeats the one before") > 5000);
+}
+
+}  // namespace leonav
