@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/gnss/orbits/satellite_state.h"
+#include "drivers/text/little_endian.h"
 #include "drivers/ubx/beidou_d1.h"
 #include "drivers/ubx/beidou_d2.h"
 #include "drivers/ubx/galileo_fnav.h"
 #include "drivers/ubx/galileo_inav.h"
 #include "drivers/ubx/gps_lnav.h"
-#include "drivers/ubx/little_endian.h"
 #include "drivers/ubx/ubx_signal.h"
 
 namespace leonav {
