@@ -26,6 +26,7 @@ struct StreamConfig {
   FormatKind format = FormatKind::kUbx;
   LineLayout line;         // of kImuLine
   ImuStampOptions stamps;  // of inertial sensors
+  double repeat_s = 30.0;  // of a receiver: an ephemeris is sent again after so long; 0: never
   std::string record;      // file for every byte; empty: none
   double silent_s = 3.0;   // a stream without bytes for so long is told
 };

@@ -78,7 +78,7 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
 std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& stream) {
   switch (stream.format) {
     case FormatKind::kUbx:
-      return std::make_unique<UbxFormat>(config.gnss_latency_s, &gps, &output);
+      return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
     case FormatKind::kImuLine:

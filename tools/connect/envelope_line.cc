@@ -10,6 +10,8 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kStepAfter = 5, kLargeStepAfter = 2;
 constexpr double kLargeStep_ns = 0.5e9;
+// Messages that were held up are late by less, and none is ever so early.
+bool is_surely_step(double off_ns) { return off_ns < -kLargeStep_ns || off_ns > 2e9; }
 // A second contradicts the line by more than this many sigmas, and more than this.
 constexpr double kOddSigmas = 5.0, kLeastOdd_ns = 2e6;
 
@@ -68,7 +70,7 @@ void EnvelopeLine::close_second() {
         odd_.empty() || (odd_.back().delay_ns > delay_at(odd_.back().x_ns)) == (off_ns > 0.0);
     if (!same_sense) odd_.clear();
     odd_.push_back(point);
-    if (odd_.size() >= (std::abs(off_ns) > kLargeStep_ns ? kLargeStepAfter : kStepAfter)) {
+    if (odd_.size() >= (is_surely_step(off_ns) ? kLargeStepAfter : kStepAfter)) {
       follow_step();
     }
     return;

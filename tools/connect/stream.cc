@@ -23,6 +23,7 @@ void Stream::start() { source_->start(this); }
 
 void Stream::finish() {
   if (recording_ && !recording_->flush()) tell_recording_error();
+  recording_.reset();
 }
 
 void Stream::on_open() {
@@ -60,6 +61,7 @@ void Stream::on_end(const std::string& why) {
 }
 
 void Stream::look() {
+  if (recording_ && !recording_->flush()) tell_recording_error();
   if (has_ended()) return;
   const std::int64_t now_ns = clock_->now_ns();
   watch_.look(now_ns, *format_);

@@ -23,7 +23,7 @@ class Stream final : public ByteSink {
          std::unique_ptr<StreamFormat> format);
 
   void start();
-  // Once a second: decides the state anew, and logs what has changed.
+  // Once a second: decides the state anew, logs what has changed, and writes the recording out.
   void look();
   // Completes the recording.
   void finish();

@@ -152,7 +152,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
       group.fail("rate_hz", "is for lines without a column of time; leave it out");
     }
   }
-  if (stream->format != FormatKind::kUbx) {
+  if (stream->format == FormatKind::kUbx) {
+    group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
+  } else {
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
   }
   group.text("record", &stream->record);

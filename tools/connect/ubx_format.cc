@@ -17,12 +17,14 @@ void UbxFormat::on_epoch(const RawEpoch& epoch) {
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
+  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
 }
 
 void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) {
   Ephemeris sent = ephemeris;
   sent.transmission_time = transmission_time(ephemeris);
   output_->send(sent);
+  repeater_.remember(sent, last_epoch_);
   ++messages_;
   ++ephemerides_;
 }
