@@ -20,6 +20,7 @@
 #include "daemon/engine/solve_time.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
+#include "daemon/link/lcm_publisher.h"
 #include "daemon/service/lcm_link.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/text/checkpoint_text.h"

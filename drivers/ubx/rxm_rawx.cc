@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/ubx/little_endian.h"
+#include "drivers/binary/little_endian.h"
 #include "drivers/ubx/ubx_signal.h"
 
 namespace leonav {

@@ -3,13 +3,13 @@
 #include <array>
 
 #include "core/gnss/orbits/satellite_state.h"
+#include "drivers/binary/little_endian.h"
 #include "drivers/binary/reported_ephemerides.h"
 #include "drivers/ubx/beidou_d1.h"
 #include "drivers/ubx/beidou_d2.h"
 #include "drivers/ubx/galileo_fnav.h"
 #include "drivers/ubx/galileo_inav.h"
 #include "drivers/ubx/gps_lnav.h"
-#include "drivers/ubx/little_endian.h"
 #include "drivers/ubx/ubx_signal.h"
 
 namespace leonav {

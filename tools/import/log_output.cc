@@ -46,9 +46,9 @@ void LogOutput::remove_part() {
   fs::remove(part_path_, ignored);
 }
 
-void LogOutput::put(GpsTime arrival, Channel channel, ByteSpan bytes) {
+void LogOutput::put(GpsTime arrival, const InputMessage& message) {
   last_stamp_us_ = std::max(last_stamp_us_ + 1, arrival.nanoseconds() / 1000);
-  if (!writer_->write(last_stamp_us_, names_[index_of(channel)], bytes)) {
+  if (!writer_->write(last_stamp_us_, names_[index_of(message.channel)], message.bytes)) {
     throw EventLogError(writer_->error());
   }
 }
@@ -59,19 +59,19 @@ void LogOutput::extend_span(GpsTime time) {
 }
 
 void LogOutput::write(GpsTime arrival, const ImuSample& sample) {
-  put(arrival, Channel::kImu, encoder_.encode(sample, next_sequence(Channel::kImu)));
+  put(arrival, messages_.encode(sample));
   extend_span(sample.time);
   ++report_->imu_samples;
 }
 
 void LogOutput::write(GpsTime arrival, const OdometerIncrement& increment) {
-  put(arrival, Channel::kOdometer, encoder_.encode(increment, next_sequence(Channel::kOdometer)));
+  put(arrival, messages_.encode(increment));
   extend_span(increment.time);
   ++report_->odometer_increments;
 }
 
 void LogOutput::write(GpsTime arrival, const RawEpoch& epoch) {
-  put(arrival, Channel::kGnssEpoch, encoder_.encode(epoch, next_sequence(Channel::kGnssEpoch)));
+  put(arrival, messages_.encode(epoch));
   extend_span(epoch.time);
   ++report_->epochs;
   for (const SignalObservation& observation : epoch.observations) {
@@ -82,25 +82,23 @@ void LogOutput::write(GpsTime arrival, const RawEpoch& epoch) {
 }
 
 void LogOutput::write(GpsTime arrival, const Ephemeris& ephemeris) {
-  put(arrival, Channel::kEphemeris, encoder_.encode(ephemeris, next_sequence(Channel::kEphemeris)));
+  put(arrival, messages_.encode(ephemeris));
   ++report_->ephemerides;
 }
 
 void LogOutput::write(GpsTime arrival, const KlobucharModel& model) {
-  put(arrival, Channel::kIonosphere,
-      encoder_.encode(model, arrival, next_sequence(Channel::kIonosphere)));
+  put(arrival, messages_.encode(model, arrival));
   ++report_->ionosphere_models;
 }
 
 void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
-  put(arrival, Channel::kOrbitClock, encoder_.encode(states, next_sequence(Channel::kOrbitClock)));
+  put(arrival, messages_.encode(states));
   const bool clocks = !states.empty() && states.front().is_clock_only();
   ++(clocks ? report_->clock_epochs : report_->orbit_epochs);
 }
 
 void LogOutput::write(GpsTime arrival, const AntennaPattern& pattern) {
-  put(arrival, Channel::kAntenna,
-      encoder_.encode(pattern, arrival, next_sequence(Channel::kAntenna)));
+  put(arrival, messages_.encode(pattern, arrival));
 }
 
 void LogOutput::commit() {

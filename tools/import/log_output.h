@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/lcm/channels.h"
-#include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
+#include "drivers/lcm/input_messages.h"
 #include "tools/import/import_report.h"
 
 namespace leonav {
@@ -38,8 +38,7 @@ class LogOutput {
   void commit();
 
  private:
-  void put(GpsTime arrival, Channel channel, ByteSpan bytes);
-  std::uint64_t next_sequence(Channel channel) { return ++sequences_[index_of(channel)]; }
+  void put(GpsTime arrival, const InputMessage& message);
   void extend_span(GpsTime time);
 
   void remove_part();
@@ -47,8 +46,7 @@ class LogOutput {
   std::string path_, part_path_;
   ImportReport* report_;
   std::optional<EventLogWriter> writer_;
-  Encoder encoder_;
-  std::array<std::uint64_t, kChannelCount> sequences_{};
+  InputMessages messages_;
   std::array<std::string, kChannelCount> names_;
   std::int64_t last_stamp_us_ = 0;
   std::set<SatelliteId> satellites_;

@@ -1,12 +1,12 @@
-// This header reads little-endian numbers from a UBX payload.
+// This header reads little-endian numbers from the payload of a binary message.
 #pragma once
 #include <bit>
 #include <cstdint>
 
 namespace leonav {
 
-// Each function reads the u-blox type of its name (U2, U4, U8, R4, R8) at `p`; the caller checks
-// the length.
+// Each function reads an unsigned integer (u) or an IEEE 754 number (r) of 2, 4 or 8 bytes at `p`;
+// the caller checks the length.
 constexpr std::uint16_t read_u2(const std::uint8_t* p) {
   return static_cast<std::uint16_t>(p[0] | (p[1] << 8));
 }

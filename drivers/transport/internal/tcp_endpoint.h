@@ -1,0 +1,28 @@
+// The TcpEndpoint is a connection to a server on the network.
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <string>
+
+#include "drivers/transport/internal/endpoint.h"
+#include "drivers/transport/live_sources.h"
+
+namespace leonav {
+
+class TcpEndpoint final : public Endpoint {
+ public:
+  TcpEndpoint(boost::asio::io_context* io, const TcpOptions& options)
+      : options_(options), resolver_(*io), socket_(*io) {}
+  void open(Opened opened) override;
+  void read(boost::asio::mutable_buffer buffer, Read done) override;
+  void close() override;
+  bool can_be_half_open() const override { return true; }
+  std::string text_of(const boost::system::error_code& error) const override;
+
+ private:
+  TcpOptions options_;
+  boost::asio::ip::tcp::resolver resolver_;
+  boost::asio::ip::tcp::socket socket_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,23 @@
+// RetryWait tells how long to wait before a connection is tried again.
+#pragma once
+#include <algorithm>
+
+namespace leonav {
+
+// The wait doubles from half a second to half a minute, until bytes have come.
+class RetryWait {
+ public:
+  static constexpr double kFirst_s = 0.5, kLongest_s = 30.0;
+
+  double next_s() {
+    const double wait_s = wait_s_;
+    wait_s_ = std::min(2.0 * wait_s_, kLongest_s);
+    return wait_s;
+  }
+  void reset() { wait_s_ = kFirst_s; }
+
+ private:
+  double wait_s_ = kFirst_s;
+};
+
+}  // namespace leonav

@@ -1,0 +1,111 @@
+// Lines of text from an inertial sensor, good and damaged.
+#include "drivers/imu_line/imu_line_decoder.h"
+
+#include <numbers>
+
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+class Collector : public ImuLineHandler {
+ public:
+  void on_line(const ImuLine& line) override { lines.push_back(line); }
+  std::vector<ImuLine> lines;
+};
+
+LineLayout layout() {
+  using enum LineColumn;
+  LineLayout layout;
+  layout.columns = {kClockMs, kGyroX, kGyroY, kGyroZ, kSkip, kAccelX, kAccelY, kAccelZ};
+  layout.gyro_unit = std::numbers::pi / 180.0;
+  layout.accel_unit = 9.80665;
+  return layout;
+}
+
+Collector decode(const LineLayout& how, const std::string& text,
+                 ImuLineCounters* counters = nullptr) {
+  ImuLineDecoder decoder(how);
+  Collector collector;
+  for (const char c : text) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    decoder.feed({&byte, 1}, &collector);
+  }
+  if (counters != nullptr) *counters = decoder.counters();
+  return collector;
+}
+
+}  // namespace
+
+TEST_CASE("A line becomes SI units in the vehicle's axes", "[imu_line]") {
+  LineLayout how = layout();
+  how.axes = {2, 1, -3};  // forward is y, right is x, down is against z
+  const auto lines = decode(how, "12.5, 1,2,3, ignored, 0.1,0.2,1.0\r\n").lines;
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].clock_ns == 12'500'000);
+  CHECK(lines[0].gyro[0] == Approx(2.0 * std::numbers::pi / 180.0));
+  CHECK(lines[0].gyro[2] == Approx(-3.0 * std::numbers::pi / 180.0));
+  CHECK(lines[0].accel[1] == Approx(0.1 * 9.80665));
+  CHECK(lines[0].accel[2] == Approx(-9.80665));
+  CHECK_FALSE(lines[0].gps_time);
+}
+
+TEST_CASE("A damaged line costs itself only, with its reason", "[imu_line]") {
+  ImuLineCounters counters;
+  const std::string good = "1,0,0,0,x,0,0,-1\n";
+  const std::string text = good + "1,0,0,0,x,0,0\n" + "1,0,nan,0,x,0,0,-1\n" +
+                           "1,99999,0,0,x,0,0,-1\n" + std::string(5000, 'a') + "\n" + good +
+                           std::string("1,0,\0", 5) + "\n" + good + "1,0,0";
+  CHECK(decode(layout(), text, &counters).lines.size() == 3);
+  CHECK(counters.lines == 3);
+  CHECK(counters.bad_columns == 2);
+  CHECK(counters.bad_values == 2);
+  CHECK(counters.too_long == 1);
+}
+
+TEST_CASE("Prefix, blanks and checksum", "[imu_line]") {
+  using enum LineColumn;
+  LineLayout how;
+  how.columns = {kGpsWeek, kGpsTowS, kGyroX, kGyroY, kGyroZ, kAccelX, kAccelY, kAccelZ};
+  how.separator = ' ';
+  how.prefix = "$IMU";
+  how.has_checksum = true;
+  const std::string body = "IMU 2136  345600.005 0 0 0.1 0 0 -9.8";
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  const char* digits = "0123456789ABCDEF";
+  const std::string sentence = "$" + body + "*" + digits[sum / 16] + digits[sum % 16] + "\r\n";
+  ImuLineCounters counters;
+  std::string broken = sentence;
+  broken[20] ^= 1;
+  const auto lines = decode(how, sentence + broken + "$OTHER 1\n" + sentence, &counters).lines;
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[1].gps_time->week() == 2136);
+  CHECK(lines[1].gps_time->tow_s() == 345600.005);
+  CHECK(counters.bad_checksums == 1);
+  CHECK(counters.other_lines == 1);
+}
+
+TEST_CASE("A layout that cannot be read is refused with the reason", "[imu_line]") {
+  using enum LineColumn;
+  CHECK(problem_of(layout()).empty());
+  LineLayout how = layout();
+  how.axes = {1, 2, -3};
+  CHECK_THAT(problem_of(how), Catch::Contains("mirrored"));
+  how.axes = {1, 1, 3};
+  CHECK_THAT(problem_of(how), Catch::Contains("once each"));
+  for (const std::array<int, 3>& good :
+       {std::array{1, -2, -3}, std::array{2, 1, -3}, std::array{2, 3, 1}, std::array{-2, 1, 3},
+        std::array{-1, -2, 3}}) {
+    how.axes = good;
+    CHECK(problem_of(how).empty());
+  }
+  how = layout();
+  how.columns[1] = kSkip;
+  CHECK_THAT(problem_of(how), Catch::Contains("gyro_x"));
+  how = layout();
+  how.columns[4] = kGpsWeek;
+  CHECK_THAT(problem_of(how), Catch::Contains("together"));
+}
+
+}  // namespace leonav

@@ -1,0 +1,121 @@
+// Stamps and samples of inertial readings.
+#include <cmath>
+
+#include "support/catch.h"
+#include "tools/connect/imu_sampler.h"
+#include "tools/connect/imu_stamper.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+const GpsTime kStart = GpsTime::from_week_and_tow(2136, 345'600.0);
+// When the host's clock of arrivals shows zero, GPS time is kStart.
+GpsTime gps_at(std::int64_t host_ns) { return kStart.plus_nanoseconds(host_ns); }
+
+// A receiver at 1 Hz whose epochs arrive after 50 ms.
+void feed_epochs(GpsClock* clock, int from_s, int to_s) {
+  for (int s = from_s; s < to_s; ++s) {
+    clock->on_epoch(gps_at(s * kSecond), s * kSecond + 50'000'000);
+  }
+}
+
+ImuReading reading_at(std::int64_t host_ns, std::int64_t latency_ns) {
+  ImuReading reading;
+  reading.arrival_ns = host_ns + latency_ns;
+  reading.clock_ns = 77 * kSecond + host_ns;
+  reading.accel = {0.0, 0.0, -9.8};
+  return reading;
+}
+
+}  // namespace
+
+TEST_CASE("A sensor's own GPS time is its stamp, and outlives its loss for ten minutes",
+          "[connect]") {
+  const GpsClock clock(TimeReference::kGnss, 0.05);
+  ImuStamper stamper(&clock, {});
+  ImuReading reading = reading_at(5 * kSecond, 3'000'000);
+  reading.gps_time = gps_at(5 * kSecond);
+  CHECK(stamper.stamp(reading) == gps_at(5 * kSecond));
+  CHECK(stamper.kind() == ImuStamper::Kind::kGpsTime);
+  CHECK(std::isnan(stamper.sigma_s()));
+  CHECK(stamper.stamp(reading_at(6 * kSecond, 9'000'000)) == gps_at(6 * kSecond));
+  CHECK(stamper.kind() == ImuStamper::Kind::kHeldOffset);
+  CHECK_FALSE(stamper.stamp(reading_at(606 * kSecond, 3'000'000)));
+}
+
+TEST_CASE("A sensor's own clock is tied to GPS time by arrivals", "[connect]") {
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  ImuStamper stamper(&clock, {0.004, 0.0});
+  std::optional<GpsTime> stamp;
+  const auto run = [&](int from_s, int to_s) {
+    for (std::int64_t t = from_s * kSecond; t < to_s * kSecond; t += 5'000'000) {
+      stamp = stamper.stamp(reading_at(t, 4'000'000 + (t / 5'000'000 % 3) * 1'000'000));
+    }
+  };
+  run(0, 7);
+  CHECK_FALSE(stamp);
+  CHECK_THAT(stamper.text(), Catch::Contains("no receiver's epoch has come"));
+  feed_epochs(&clock, 0, 8);
+  run(7, 8);
+  REQUIRE(stamp);
+  CHECK(std::abs(nanoseconds_between(*stamp, gps_at(8 * kSecond - 5'000'000))) < 1000);
+  CHECK(stamper.kind() == ImuStamper::Kind::kLine);
+  CHECK_THAT(stamper.text(), Catch::Contains("1 sigma"));
+
+  // A reading whose clock contradicts its arrival is not stamped.
+  ImuReading wild = reading_at(8 * kSecond, 4'000'000);
+  *wild.clock_ns += 3600 * kSecond;
+  CHECK_FALSE(stamper.stamp(wild));
+  CHECK(stamper.contradictions() == 1);
+}
+
+TEST_CASE("A host that keeps UTC needs no receiver", "[connect]") {
+  const GpsClock clock(TimeReference::kHost, 0.05);
+  // 2020-12-17 00:00:00 UTC is 1608163200 s since 1970, and 18 s later in GPS time.
+  CHECK(clock.at(1'608'163'200 * kSecond) == kStart.plus_seconds(18.0));
+}
+
+TEST_CASE("Rates become increments over the time since the reading before", "[connect]") {
+  ImuSampler sampler;
+  ImuReading reading;
+  reading.gyro = {0.1, 0.0, 0.0};
+  reading.accel = {0.0, 0.0, -9.8};
+  CHECK_FALSE(sampler.sample(kStart, reading));
+  const auto second = sampler.sample(kStart.plus_nanoseconds(5'000'000), reading);
+  REQUIRE(second);
+  CHECK(second->interval_ns == 5'000'000);
+  CHECK(second->delta_theta_b.x() == Approx(0.0005));
+  CHECK(second->delta_velocity_b.z() == Approx(-0.049));
+  // After a gap a reading covers the usual interval only.
+  const auto late = sampler.sample(kStart.plus_nanoseconds(65'000'000), reading);
+  REQUIRE(late);
+  CHECK(late->interval_ns == 5'000'000);
+  CHECK(sampler.counters().gaps == 1);
+  // One that does not come later is left out.
+  CHECK_FALSE(sampler.sample(kStart.plus_nanoseconds(65'000'000), reading));
+  CHECK(sampler.counters().out_of_order == 1);
+}
+
+TEST_CASE("Increments keep their own interval, and impossible ones are counted", "[connect]") {
+  ImuSampler sampler;
+  ImuReading reading;
+  reading.are_increments = true;
+  reading.interval_s = static_cast<double>(0.005F);
+  reading.accel = {0.0, 0.0, -0.049};
+  const auto first = sampler.sample(kStart, reading);
+  REQUIRE(first);
+  CHECK(first->interval_ns == 5'000'000);
+  CHECK(first->delta_velocity_b.z() == -0.049);
+  double time_s = 1.0;
+  for (const double interval_s : {0.0, -0.005, 0.2, 2.0, static_cast<double>(NAN)}) {
+    reading.interval_s = interval_s;
+    CHECK_FALSE(sampler.sample(kStart.plus_seconds(time_s += 0.005), reading));
+  }
+  reading.interval_s = 0.005;
+  reading.gyro = {1.0, 0.0, 0.0};  // 200 rad/s
+  CHECK_FALSE(sampler.sample(kStart.plus_seconds(3.0), reading));
+  CHECK(sampler.counters().impossible == 6);
+}
+
+}  // namespace leonav

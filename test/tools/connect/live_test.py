@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""live_test.py BIN_DIR WORK_DIR: leonav-connect from pseudo-terminals to LCM, against leonav-import of the same bytes.
+
+A simulated drive leaves as UBX on one pseudo-terminal and as VectorNav binary on another, with noise between the messages.
+What leonav-connect publishes must be what leonav-import writes: GNSS messages to the last bit, IMU samples within the
+sensor's 32-bit numbers. LCM is UDP, and the logger loses messages where the machine is busy: how many were published is
+what the program says, and messages are compared by their sequence. Its recordings, played as files, must give the same once more. Then a sensor without GPS time,
+with a clock that drifts, must be stamped by arrivals within what its sigma says. Runs in a network namespace of its own;
+exit 77: none can be made here.
+"""
+import os
+import pathlib
+import random
+import re
+import signal
+import struct
+import subprocess
+import sys
+import threading
+import time
+import tty
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path += [str(HERE), str(ROOT / "tools/scripts/lib")]
+import lcm_log  # noqa: E402
+import ubx_bytes  # noqa: E402
+import vectornav_bytes  # noqa: E402
+
+SPEED = 4.0
+IMU = struct.Struct(">qqqiq6d")  # fingerprint, time, sequence, schema, interval, increments
+
+
+def fail(text):
+    sys.exit(f"FAILED: {text}")
+
+
+def enter_namespace():
+    if os.environ.get("LEONAV_IN_NAMESPACE") != "yes":
+        for enter in (["unshare", "-n"], ["unshare", "-rn"]):
+            if subprocess.run([*enter, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+                os.environ["LEONAV_IN_NAMESPACE"] = "yes"
+                os.execvp(enter[0], [*enter, sys.executable, *sys.argv])
+        print("SKIPPED: no network namespace can be made here")
+        sys.exit(77)
+    subprocess.run(["ip", "link", "set", "lo", "up", "multicast", "on"], check=True)
+    subprocess.run(["ip", "route", "add", "224.0.0.0/4", "dev", "lo"], check=True)
+
+
+class Terminal:
+    """A pseudo-terminal whose other side a sensor would be."""
+
+    def __init__(self):
+        self.sensor, self.port = os.openpty()
+        tty.setraw(self.port)
+        self.name = os.ttyname(self.port)
+
+    def send(self, data):
+        while data:
+            data = data[os.write(self.sensor, data):]
+
+
+class Run:
+    """leonav-connect with a logger beside it."""
+
+    def __init__(self, work, name, config):
+        self.log, self.text = work / f"{name}.lcmlog", work / f"{name}.txt"
+        (work / f"{name}.yaml").write_text(config)
+        self.logger = subprocess.Popen(["lcm-logger", "--lcm-url=udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304", str(self.log)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(1)
+        with open(self.text, "w", encoding="utf-8") as text:
+            self.process = subprocess.Popen([BIN / "leonav-connect", work / f"{name}.yaml"], stderr=text)
+
+    def says(self, words, times=1):
+        for _ in range(600):
+            if self.text.read_text(encoding="utf-8").count(words) >= times:
+                return
+            if self.process.poll() is not None:
+                break
+            time.sleep(0.1)
+        print(self.text.read_text(encoding="utf-8"))
+        fail(f"leonav-connect did not say '{words}'")
+
+    def finish(self, stop):
+        if stop:
+            self.process.send_signal(signal.SIGTERM)
+        status = self.process.wait(timeout=120)
+        time.sleep(1)
+        self.logger.send_signal(signal.SIGTERM)
+        self.logger.wait(timeout=20)
+        print(self.text.read_text(encoding="utf-8"))
+        if status != 0:
+            fail(f"leonav-connect ended with {status}")
+        text = self.text.read_text(encoding="utf-8")
+        self.published = {name: int(count) for name, count in re.findall(r"(\w+): \w+, \d+ bytes, (\d+) messages", text)}
+        return channels(self.log)
+
+
+def channels(path):
+    """{channel: {sequence: message}}"""
+    found = {}
+    for _, channel, payload in lcm_log.messages(path):
+        found.setdefault(channel, {})[struct.unpack_from(">q", payload, 16)[0]] = payload
+    return found
+
+
+def check_loss(what, published, wanted, captured):
+    if published != wanted:
+        fail(f"{what}: {published} messages were published, not {wanted}")
+    if captured < 0.1 * wanted:
+        fail(f"{what}: the logger has only {captured} of {wanted} messages; is the machine overloaded?")
+
+
+def same_gnss(expected, run, found, where):
+    names = ("LEONAV_GNSS_EPOCH", "LEONAV_EPHEMERIS", "LEONAV_IONOSPHERE")
+    check_loss(f"{where}: GNSS", run.published["receiver"], sum(len(expected[name]) for name in names),
+               sum(len(found.get(name, {})) for name in names))
+    for name in names:
+        got = found.get(name, {})
+        wrong = [sequence for sequence, payload in got.items() if expected[name].get(sequence) != payload]
+        if wrong:
+            fail(f"{where}: {name}: messages {wrong[:5]} differ from those of the import")
+        print(f"{where}: {name}: {len(got)} messages of {len(expected[name])}, equal to the last bit")
+
+
+def same_imu(expected, run, found, where):
+    """The sensor's numbers have 24 bits; the first sample of the file has no interval on the wire."""
+    wanted = {sequence - 1: IMU.unpack(payload) for sequence, payload in expected["LEONAV_IMU"].items() if sequence > 1}
+    got = {sequence: IMU.unpack(payload) for sequence, payload in found.get("LEONAV_IMU", {}).items()}
+    check_loss(f"{where}: IMU", run.published["imu"], len(wanted), len(got))
+    worst = 0.0
+    for sequence, b in got.items():
+        a = wanted[sequence]
+        if a[1] != b[1] or a[4] != b[4]:
+            fail(f"{where}: a sample at {b[1]} over {b[4]} ns instead of {a[1]}, {a[4]}")
+        worst = max(worst, *(abs(x - y) / max(abs(x), 1e-9) for x, y in zip(a[5:], b[5:])))
+    if worst > 3e-7:
+        fail(f"{where}: increments differ by {worst:.1e} of themselves")
+    print(f"{where}: LEONAV_IMU: {len(got)} samples of {len(wanted)}, stamps equal, increments within {worst:.1e} of themselves")
+
+
+def simulate(work):
+    """Exports a short drive; returns (GPS time in ns, bytes) of every message of receiver and sensor, and the import's log."""
+    subprocess.run([BIN / "leonav-sim", ROOT / "config/scenario/open_sky.yaml", "--set", "duration_s=40", "--set", "route.standing_s=5",
+                    "--export", work / "export", "-o", work / "run.lcmlog"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    locks, receiver, waiting = {}, [], None
+    for instant, satellites in ubx_bytes.epochs(work / "export/run.obs"):
+        if waiting is None:
+            waiting = sorted(ubx_bytes.broadcasts(work / "export/run.nav", instant[0]))
+        data = ubx_bytes.rawx(instant, satellites, locks)
+        while waiting and waiting[0][0] <= instant[0]:
+            data += waiting.pop(0)[1]
+        receiver.append((round((instant[0] + instant[1]) * 1e9), data))
+    (work / "receiver.ubx").write_bytes(b"".join(data for _, data in receiver))
+    (work / "dataset.yaml").write_text("observations: receiver.ubx\nimu: export/imu.csv\n")
+    subprocess.run([BIN / "leonav-import", work / "dataset.yaml", "-o", work / "import.lcmlog"], check=True, stdout=subprocess.DEVNULL)
+    return receiver, channels(work / "import.lcmlog")
+
+
+def play(terminal, messages, noise, first_ns):
+    """At SPEED, with bytes of nobody between the messages."""
+    begin = time.monotonic()
+    for time_ns, data in messages:
+        wait = (time_ns - first_ns) * 1e-9 / SPEED - (time.monotonic() - begin)
+        if wait > 0:
+            time.sleep(wait)
+        terminal.send(noise() + data)
+
+
+def live(work, receiver, sensor, expected):
+    gnss, imu = Terminal(), Terminal()
+    run = Run(work, "live", f"""
+streams:
+  - {{name: receiver, source: serial, device: {gnss.name}, baud: 460800, format: ubx, repeat_ephemerides_s: 0, record: receiver.leoraw}}
+  - {{name: imu, source: serial, device: {imu.name}, baud: 921600, format: vectornav, record: imu.leoraw}}
+""")
+    run.says("is open", 2)
+    first_ns = min(receiver[0][0], sensor[0][0])
+    dice = random.Random(1)
+    sentence = b"$GNTXT,01,01,02,noise*2D\r\n"
+    junk = lambda: dice.choice([b"", b"", b"", sentence, b"\xb5\x62\x02\x15", b"\xfa\x01", dice.randbytes(7).replace(b"\xb5", b"").replace(b"\xfa", b"")])
+    # A false start may hold a message back until more bytes have come: nothing may be lost by it.
+    threads = [threading.Thread(target=play, args=(gnss, receiver, junk, first_ns)),
+               threading.Thread(target=play, args=(imu, sensor, lambda: junk() if dice.random() < 0.05 else b"", first_ns))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for terminal in (gnss, imu):
+        terminal.send(bytes(12000))  # releases what a false start holds back
+    time.sleep(2)
+    found = run.finish(stop=True)
+    same_gnss(expected, run, found, "live")
+    same_imu(expected, run, found, "live")
+    if "LEONAV_STREAMS" not in found:
+        fail("no status was published")
+
+
+def played_again(work, expected):
+    run = Run(work, "again", """
+playback_speed: 1
+streams:
+  - {name: receiver, source: file, path: receiver.leoraw, format: ubx, repeat_ephemerides_s: 0}
+  - {name: imu, source: file, path: imu.leoraw, format: vectornav}
+""")
+    found = run.finish(stop=False)
+    same_gnss(expected, run, found, "recordings")
+    same_imu(expected, run, found, "recordings")
+
+
+def recording(path, messages, delay):
+    """A recording of messages that arrive `delay()` seconds after their time."""
+    latest = 0
+    with open(path, "wb") as file:
+        file.write(b"leonav recording 1\n")
+        for time_ns, data in messages:
+            latest = max(latest, time_ns + 315964800 * 10**9 - 18 * 10**9 + round(delay() * 1e9))
+            file.write(struct.pack("<qI", latest, len(data)) + data)
+
+
+def own_clock(work, receiver, expected):
+    """Latencies of at least 50 ms and 4 ms, with queues behind them; the sensor's clock is 100 ppm fast."""
+    dice = random.Random(2)
+    sensor = list(vectornav_bytes.messages(work / "export/imu.csv", "startup", 100.0))
+    recording(work / "gnss_late.leoraw", receiver, lambda: 0.05 + dice.expovariate(1 / 0.003))
+    recording(work / "imu_late.leoraw", sensor, lambda: 0.004 + dice.expovariate(1 / 0.002) + (0.2 if dice.random() < 0.001 else 0.0))
+    run = Run(work, "clock", """
+playback_speed: 5
+streams:
+  - {name: receiver, source: file, path: gnss_late.leoraw, format: ubx, repeat_ephemerides_s: 0}
+  - {name: imu, source: file, path: imu_late.leoraw, format: vectornav, latency_ms: 4}
+""")
+    found = run.finish(stop=False)
+    same_gnss(expected, run, found, "own clock")
+    # Samples are missing at the start only, until both clocks are tied: the last one published is the sensor's last.
+    truth = [time_ns for time_ns, _ in sensor]
+    missing = len(truth) - run.published["imu"]
+    errors = [(IMU.unpack(payload)[1] - truth[missing + sequence - 1]) * 1e-6 for sequence, payload in sorted(found["LEONAV_IMU"].items())]
+    late = errors[len(errors) // 2:]
+    print(f"own clock: {len(errors)} of {len(truth)} samples; stamps off by {min(errors):.2f} to {max(errors):.2f} ms, "
+          f"in the second half by {min(late):.2f} to {max(late):.2f} ms")
+    if run.published["imu"] < 0.8 * len(truth) or max(map(abs, late)) > 1.5:
+        fail("the sensor's clock is not tied to GPS time")
+
+
+def main():
+    global BIN
+    enter_namespace()
+    BIN, work = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    work.mkdir(parents=True, exist_ok=True)
+    receiver, expected = simulate(work)
+    sensor = list(vectornav_bytes.messages(work / "export/imu.csv", "gps"))
+    live(work, receiver, sensor, expected)
+    played_again(work, expected)
+    own_clock(work, receiver, expected)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,106 @@
+// What is told of a stream, second by second.
+#include "tools/connect/stream_watch.h"
+
+#include <cmath>
+
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+class FakeFormat : public StreamFormat {
+ public:
+  void feed(std::span<const std::uint8_t>, std::int64_t) override {}
+  FormatCounts counts() const override { return now; }
+  std::optional<DataTime> data_time() const override { return std::nullopt; }
+  std::string detail() const override { return "all is well"; }
+  std::string why_no_frames() const override { return "is the baud rate right?"; }
+  std::string why_no_messages() const override { return "switch it on"; }
+  FormatCounts now;
+};
+
+// A stream of which each second brings some bytes, frames and messages.
+struct Rig {
+  void seconds(int count, std::size_t bytes, std::uint64_t frames, std::uint64_t messages) {
+    for (int i = 0; i < count; ++i) {
+      now_ns += 1'000'000'000;
+      if (bytes > 0) watch.on_bytes(bytes, now_ns);
+      format.now.frames += frames;
+      format.now.messages += messages;
+      watch.look(now_ns, format);
+    }
+  }
+  StreamWatch watch{WatchLimits{}};
+  FakeFormat format;
+  std::int64_t now_ns = 1'000'000'000'000;
+};
+
+}  // namespace
+
+TEST_CASE("A stream is good once messages are published, and silent when bytes stop", "[connect]") {
+  Rig rig;
+  CHECK(rig.watch.state() == StreamState::kConnecting);
+  rig.watch.on_open(rig.now_ns);
+  rig.seconds(2, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kConnecting);
+  rig.seconds(2, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kSilent);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("is the sensor on"));
+  CHECK(std::isnan(rig.watch.byte_age_s(rig.now_ns)));
+  rig.seconds(1, 100, 3, 3);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  CHECK(rig.watch.text() == "all is well");
+  rig.seconds(3, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(1, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kSilent);
+  CHECK(rig.watch.byte_age_s(rig.now_ns) == 4.0);
+}
+
+TEST_CASE("Bytes without a whole message are told within seconds, with the remedy", "[connect]") {
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  rig.seconds(6, 100, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kConnecting);
+  rig.seconds(1, 100, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kUnreadable);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("baud rate"));
+  rig.seconds(1, 100, 1, 1);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  // Also where it was good before.
+  rig.seconds(7, 100, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kUnreadable);
+}
+
+TEST_CASE("Whole messages with nothing to publish are told, with the remedy", "[connect]") {
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  rig.seconds(12, 100, 5, 0);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  CHECK(rig.watch.text() == "switch it on");
+  // A receiver with an epoch every five seconds, and silence in between, is good.
+  Rig slow;
+  slow.watch.on_open(slow.now_ns);
+  for (int i = 0; i < 5; ++i) {
+    slow.seconds(1, 500, 1, 1);
+    CHECK(slow.watch.state() == StreamState::kGood);
+    slow.seconds(2, 0, 0, 0);
+    CHECK(slow.watch.state() == StreamState::kGood);
+  }
+}
+
+TEST_CASE("Failures and the end keep their reason", "[connect]") {
+  Rig rig;
+  rig.watch.on_failure("there is no such device");
+  rig.seconds(20, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kWaiting);
+  CHECK(rig.watch.text() == "there is no such device");
+  CHECK(rig.watch.failures() == 1);
+  CHECK(rig.watch.silence_s(rig.now_ns) == 0.0);
+  rig.watch.on_open(rig.now_ns);
+  rig.watch.on_end("");
+  CHECK(rig.watch.state() == StreamState::kEnded);
+  CHECK(rig.watch.failures() == 1);
+}
+
+}  // namespace leonav

@@ -1,0 +1,90 @@
+#include "tools/connect/connect_config.h"
+
+#include <filesystem>
+#include <set>
+
+#include "daemon/config/config_file.h"
+#include "daemon/config/config_groups.h"
+#include "daemon/config/load_config.h"
+#include "tools/connect/stream_keys.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kMillisecond = 1e-3;
+constexpr std::size_t kMaxStreams = 64;  // of streams_t
+
+bool is_inertial(FormatKind format) { return format != FormatKind::kUbx; }
+
+// Two senders on one channel would be one stream with twice the messages.
+void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>& streams) {
+  if (streams.empty()) root.fail("streams", "must list at least one stream");
+  if (streams.size() > kMaxStreams) root.fail("streams", "more than 64");
+  std::set<std::string> names;
+  int receivers = 0, inertial = 0, inputs = 0;
+  for (const StreamConfig& stream : streams) {
+    if (!names.insert(stream.name).second) {
+      root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
+    }
+    ++(is_inertial(stream.format) ? inertial : receivers);
+    inputs += std::holds_alternative<InputOptions>(stream.source);
+  }
+  if (receivers > 1 || inertial > 1) {
+    root.fail("streams", receivers > 1
+                             ? "two receivers would publish on one channel, GNSS_EPOCH; run "
+                               "leonav-connect once for each, with another lcm.prefix"
+                             : "two inertial sensors would publish on one channel, IMU; run "
+                               "leonav-connect once for each, with another lcm.prefix");
+  }
+  if (inputs > 1) root.fail("streams", "only one can be read from standard input");
+}
+
+}  // namespace
+
+std::string text_of(const SourceOptions& source) {
+  if (const auto* serial = std::get_if<SerialOptions>(&source)) {
+    return serial->device + " at " + std::to_string(serial->baud) + " baud";
+  }
+  if (const auto* tcp = std::get_if<TcpOptions>(&source)) {
+    return tcp->host + ":" + std::to_string(tcp->port);
+  }
+  if (const auto* file = std::get_if<FileOptions>(&source)) return file->path;
+  return "standard input";
+}
+
+const char* name_of(FormatKind format) {
+  switch (format) {
+    case FormatKind::kUbx:
+      return "ubx";
+    case FormatKind::kVectornav:
+      return "vectornav";
+    case FormatKind::kImuLine:
+      break;
+  }
+  return "imu_line";
+}
+
+ConnectConfig load_connect_config(const std::string& path,
+                                  const std::vector<std::string>& overrides) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  ConnectConfig config;
+  ConfigSource source{path};
+  read_yaml(read_config_file(path), overrides, &source, [&](ConfigReader& root) {
+    root.group("lcm", [&](ConfigReader& group) { read_lcm(group, &config.lcm); });
+    root.group("time", [&](ConfigReader& group) {
+      group.choice<TimeReference>("reference",
+                                  {{"gnss", TimeReference::kGnss}, {"host", TimeReference::kHost}},
+                                  &config.reference);
+      group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kMillisecond);
+    });
+    root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
+    root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
+    root.groups("streams", [&](ConfigReader& group) {
+      read_stream(group, folder, &config.streams.emplace_back());
+    });
+    refuse_conflicts(root, config.streams);
+  });
+  return config;
+}
+
+}  // namespace leonav

@@ -1,0 +1,52 @@
+// ConnectConfig is the configuration of leonav-connect.
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "daemon/config/daemon_config.h"
+#include "drivers/imu_line/line_layout.h"
+#include "drivers/transport/live_sources.h"
+#include "tools/connect/gps_clock.h"
+#include "tools/connect/imu_stamper.h"
+
+namespace leonav {
+
+struct InputOptions {};  // standard input
+struct FileOptions {
+  std::string path;
+};
+using SourceOptions = std::variant<SerialOptions, TcpOptions, InputOptions, FileOptions>;
+
+enum class FormatKind : std::uint8_t { kUbx, kVectornav, kImuLine };
+
+struct StreamConfig {
+  std::string name;
+  SourceOptions source;
+  FormatKind format = FormatKind::kUbx;
+  LineLayout line;         // of kImuLine
+  ImuStampOptions stamps;  // of inertial sensors
+  double repeat_s = 30.0;  // of a receiver: an ephemeris is sent again after so long; 0: never
+  std::string record;      // file for every byte; empty: none
+  double silent_s = 3.0;   // a stream without bytes for so long is told
+};
+
+struct ConnectConfig {
+  LcmConfig lcm;
+  TimeReference reference = TimeReference::kGnss;
+  double gnss_latency_s = 0.05;
+  double playback_speed = 1.0;
+  double status_interval_s = 10.0;  // of the text for each stream; 0: only changes
+  std::vector<StreamConfig> streams;
+};
+
+// Returns what the source is, for logs: "/dev/ttyACM0 at 115200 baud".
+std::string text_of(const SourceOptions& source);
+const char* name_of(FormatKind format);
+
+// Reads a configuration file with the overrides of a command line ("key=value"). Paths in it are
+// relative to its folder. Throws ConfigError with file, line, key and remedy.
+ConnectConfig load_connect_config(const std::string& path,
+                                  const std::vector<std::string>& overrides);
+
+}  // namespace leonav

@@ -1,0 +1,152 @@
+#include "tools/connect/connector.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <csignal>
+#include <vector>
+
+#include "daemon/link/lcm_publisher.h"
+#include "drivers/transport/file_source.h"
+#include "tools/connect/imu_line_format.h"
+#include "tools/connect/message_output.h"
+#include "tools/connect/stream.h"
+#include "tools/connect/stream_status.h"
+#include "tools/connect/ubx_format.h"
+#include "tools/connect/vectornav_format.h"
+
+namespace leonav {
+
+namespace asio = boost::asio;
+
+struct Connector::State {
+  explicit State(const ConnectConfig& configuration)
+      : config(configuration),
+        publisher(config.lcm),
+        output(&publisher),
+        gps(config.reference, config.gnss_latency_s),
+        clocks(config.playback_speed, &clock),
+        signals(io, SIGTERM, SIGINT),
+        second(io) {
+    for (const StreamConfig& stream : config.streams) {
+      streams.push_back(
+          std::make_unique<Stream>(stream, &clock, make_source(stream), make_format(stream)));
+    }
+  }
+
+  std::unique_ptr<ByteSource> make_source(const StreamConfig& stream);
+  std::unique_ptr<StreamFormat> make_format(const StreamConfig& stream);
+  void wait_for_signal();
+  void wait_a_second();
+  void each_second();
+  void publish_status();
+  bool all_have_ended() const {
+    return std::all_of(streams.begin(), streams.end(),
+                       [](const auto& stream) { return stream->has_ended(); });
+  }
+
+  ConnectConfig config;
+  LcmPublisher publisher;
+  MessageOutput output;
+  GpsClock gps;
+  ArrivalClock clock;
+  PlaybackClocks clocks;
+  asio::io_context io;  // before all that uses it
+  asio::signal_set signals;
+  asio::steady_timer second;
+  std::vector<std::unique_ptr<Stream>> streams;
+  std::uint64_t seconds = 0;
+  bool was_stopped = false;
+};
+
+std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& stream) {
+  if (const auto* serial = std::get_if<SerialOptions>(&stream.source)) {
+    return make_serial_source(&io, &clock, *serial);
+  }
+  if (const auto* tcp = std::get_if<TcpOptions>(&stream.source)) {
+    return make_tcp_source(&io, &clock, *tcp);
+  }
+  if (const auto* file = std::get_if<FileOptions>(&stream.source)) {
+    return make_file_source(&io, &clocks, file->path);
+  }
+  return make_input_source(&io, &clock);
+}
+
+std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& stream) {
+  switch (stream.format) {
+    case FormatKind::kUbx:
+      return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output);
+    case FormatKind::kVectornav:
+      return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
+    case FormatKind::kImuLine:
+      break;
+  }
+  return std::make_unique<ImuLineFormat>(stream.line, &gps, stream.stamps, &output);
+}
+
+// The second signal ends the process at once.
+void Connector::State::wait_for_signal() {
+  signals.async_wait([this](const boost::system::error_code& error, int signal) {
+    if (error) return;
+    spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+    signals.clear();
+    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+    was_stopped = true;
+    io.stop();
+  });
+}
+
+void Connector::State::wait_a_second() {
+  second.expires_after(std::chrono::seconds(1));
+  second.async_wait([this](const boost::system::error_code& error) {
+    if (error) return;
+    each_second();
+    if (all_have_ended()) return io.stop();
+    wait_a_second();
+  });
+}
+
+void Connector::State::each_second() {
+  ++seconds;
+  for (const auto& stream : streams) stream->look();
+  publish_status();
+  const auto interval = static_cast<std::uint64_t>(config.status_interval_s);
+  if (interval == 0 || seconds % interval != 0) return;
+  for (const auto& stream : streams) spdlog::info("{}", status_text(*stream, clock.now_ns()));
+}
+
+void Connector::State::publish_status() {
+  const streams_t message = streams_message(streams, output.last_time(), seconds, clock.now_ns());
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  publisher.publish(kStreamsChannel, bytes);
+}
+
+Connector::Connector(const ConnectConfig& config) : state_(std::make_unique<State>(config)) {}
+Connector::~Connector() = default;
+
+ConnectorEnd Connector::run() {
+  State& s = *state_;
+  std::signal(SIGPIPE, SIG_IGN);
+  s.wait_for_signal();
+  for (const auto& stream : s.streams) stream->start();
+  s.wait_a_second();
+  spdlog::info("running; LCM {}, channels {}*, {} streams", s.config.lcm.url, s.config.lcm.prefix,
+               s.streams.size());
+  s.io.run();
+  bool failed = s.output.sent() == 0;
+  for (const auto& stream : s.streams) {
+    stream->finish();
+    failed = failed || stream->watch().failures() > 0;
+    spdlog::info("{}", status_text(*stream, s.clock.now_ns()));
+  }
+  s.publish_status();
+  if (s.was_stopped) return ConnectorEnd::kStopped;
+  return failed ? ConnectorEnd::kFailed : ConnectorEnd::kDone;
+}
+
+}  // namespace leonav

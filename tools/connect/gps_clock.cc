@@ -1,0 +1,27 @@
+#include "tools/connect/gps_clock.h"
+
+#include "core/base/calendar.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::int64_t kGpsEpochSince1970_s = 315'964'800;
+
+}  // namespace
+
+void GpsClock::on_epoch(GpsTime time, std::int64_t arrival_ns) {
+  if (reference_ == TimeReference::kGnss) line_.add(time.nanoseconds(), arrival_ns);
+}
+
+std::optional<GpsTime> GpsClock::at(std::int64_t arrival_ns) const {
+  if (reference_ == TimeReference::kHost) {
+    const GpsTime utc =
+        GpsTime::from_nanoseconds(arrival_ns - kGpsEpochSince1970_s * kNanosecondsPerSecond);
+    const GpsTime first = utc.plus_seconds(leap_seconds(utc));
+    return utc.plus_seconds(leap_seconds(first));
+  }
+  if (!line_.is_ready()) return std::nullopt;
+  return GpsTime::from_nanoseconds(line_.clock_ns(arrival_ns)).plus_seconds(latency_s_);
+}
+
+}  // namespace leonav

@@ -1,0 +1,26 @@
+#include "tools/connect/imu_format.h"
+
+namespace leonav {
+
+void ImuFormat::take(const ImuReading& reading) {
+  if (reading.gps_time) {
+    data_time_ = {true, reading.gps_time->nanoseconds()};
+  } else if (reading.clock_ns) {
+    data_time_ = {false, *reading.clock_ns};
+  }
+  const std::optional<GpsTime> time = stamper_.stamp(reading);
+  if (!time) return;
+  const std::optional<ImuSample> sample = sampler_.sample(*time, reading);
+  if (!sample) return;
+  output_->send(*sample);
+  output_->note_time(sample->time);
+  ++messages_;
+}
+
+void ImuFormat::add_to(FormatCounts* counts) const {
+  const ImuSamplerCounters& c = sampler_.counters();
+  counts->messages += messages_;
+  counts->refused += stamper_.contradictions() + c.out_of_order + c.impossible;
+}
+
+}  // namespace leonav

@@ -1,0 +1,81 @@
+#include "tools/connect/imu_stamper.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tools/common/format.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::int64_t kHold_ns = 600 * kNanosecondsPerSecond;
+
+}  // namespace
+
+std::optional<GpsTime> ImuStamper::stamp(const ImuReading& reading) {
+  std::optional<std::int64_t> clock_ns = reading.clock_ns;
+  if (!clock_ns && options_.rate_hz > 0.0) {
+    clock_ns = std::llround(static_cast<double>(count_++) / options_.rate_hz * 1e9);
+  }
+  if (clock_ns) line_.add(*clock_ns, reading.arrival_ns);
+  if (reading.gps_time) {
+    kind_ = Kind::kGpsTime;
+    if (reading.clock_ns) {
+      gps_minus_clock_ns_ = reading.gps_time->nanoseconds() - *reading.clock_ns;
+      last_gps_clock_ns_ = *reading.clock_ns;
+    }
+    return reading.gps_time;
+  }
+  if (!clock_ns) {
+    kind_ = Kind::kNone;
+    return std::nullopt;
+  }
+  if (gps_minus_clock_ns_) {
+    const std::int64_t held_ns = *clock_ns - last_gps_clock_ns_;
+    if (held_ns >= 0 && held_ns < kHold_ns) {
+      kind_ = Kind::kHeldOffset;
+      return GpsTime::from_nanoseconds(*clock_ns + *gps_minus_clock_ns_);
+    }
+    gps_minus_clock_ns_.reset();  // held too long, or the sensor has started anew
+  }
+  return by_line(*clock_ns, reading.arrival_ns);
+}
+
+std::optional<GpsTime> ImuStamper::by_line(std::int64_t clock_ns, std::int64_t arrival_ns) {
+  kind_ = Kind::kNone;
+  if (!line_.is_ready()) return std::nullopt;
+  if (!line_.agrees(clock_ns, arrival_ns)) {
+    ++contradictions_;
+    return std::nullopt;
+  }
+  const std::optional<GpsTime> arrival = gps_->at(line_.arrival_ns(clock_ns));
+  if (!arrival) return std::nullopt;
+  kind_ = Kind::kLine;
+  return arrival->plus_seconds(-options_.latency_s);
+}
+
+double ImuStamper::sigma_s() const {
+  if (kind_ != Kind::kLine) return std::numeric_limits<double>::quiet_NaN();
+  return std::hypot(line_.sigma_s(), gps_->sigma_s());
+}
+
+std::string ImuStamper::text() const {
+  switch (kind_) {
+    case Kind::kGpsTime:
+      return "stamped by the sensor's GPS time";
+    case Kind::kHeldOffset:
+      return "the sensor has lost GPS time; stamped by its clock as it was set";
+    case Kind::kLine:
+      return format("stamped by %s and arrivals, 1 sigma %.2f ms, drift %.1f ppm, %llu steps",
+                    options_.rate_hz > 0.0 ? "count" : "the sensor's clock", sigma_s() * 1e3,
+                    line_.drift() * 1e6, static_cast<unsigned long long>(line_.steps())) +
+             (line_.steps() > 0 ? format(", the last by %.3f s", line_.last_step_s()) : "");
+    case Kind::kNone:
+      break;
+  }
+  if (!line_.is_ready()) return "no stamps yet: too few readings with a clock";
+  return gps_->at(0) ? "readings contradict the clock that they had before"
+                     : "no stamps yet: GPS time is not known, as no receiver's epoch has come";
+}
+
+}  // namespace leonav

@@ -1,0 +1,78 @@
+// leonav-connect: receivers and inertial sensors into LCM. Exit codes: 0 stopped cleanly, or every
+// stream ended; 1 failure while running; 2 wrong command line; 3 configuration; 4 LCM or network.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+#include "daemon/config/load_config.h"
+#include "daemon/link/open_lcm.h"
+#include "tools/common/arguments.h"
+#include "tools/connect/connector.h"
+
+namespace {
+
+using namespace leonav;
+
+constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4;
+
+int connect_main(int argc, char** argv) {
+  Arguments arguments(
+      "leonav-connect", "CONFIG.yaml [options]",
+      "Reads receivers and inertial sensors and publishes what they measure on LCM, for leonavd.\n"
+      "CONFIG.yaml lists the streams. Each has a name, a source and a format:\n"
+      "\n"
+      "  streams:\n"
+      "    - name: receiver\n"
+      "      source: serial            # serial, tcp, stdin or file\n"
+      "      device: /dev/ttyACM0      # serial: device and baud; tcp: host and port; file: path\n"
+      "      baud: 460800\n"
+      "      format: ubx               # ubx, vectornav or imu_line\n"
+      "      record: receiver.leoraw   # optional: every byte, for a file source later\n"
+      "    - {name: imu, source: serial, device: /dev/ttyUSB0, baud: 921600, format: vectornav}\n"
+      "\n"
+      "Every key is explained in config/connect.yaml and docs/operations/connect.md. The state of\n"
+      "each stream is logged when it changes, and published once a second on STREAMS.\n"
+      "SIGTERM and SIGINT end the program; it ends by itself when every stream has ended.\n"
+      "Exit codes: 0 stopped or ended, 1 failure while running or nothing published, 2 command\n"
+      "line, 3 configuration, 4 LCM.");
+  arguments.option("--set", "KEY=VALUE", "a key outside of 'streams', may be repeated")
+      .flag("--check", "only say whether the configuration is good");
+  if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.positional().size() != 1) {
+    throw UsageError("give one CONFIG.yaml (leonav-connect --help)");
+  }
+  const std::string path = arguments.positional().front();
+  const ConnectConfig config = load_connect_config(path, arguments.all("--set"));
+  if (arguments.has("--check")) {
+    spdlog::info("{}: good, {} streams", path, config.streams.size());
+    return 0;
+  }
+  return Connector(config).run() == ConnectorEnd::kFailed ? kExitFailure : 0;
+}
+
+int guarded_main(int argc, char** argv) {
+  try {
+    return connect_main(argc, argv);
+  } catch (const UsageError& error) {
+    spdlog::error("{}", error.what());
+    return kExitUsage;
+  } catch (const ConfigError& error) {
+    spdlog::error("{}", error.what());
+    return kExitConfig;
+  } catch (const LcmError& error) {
+    spdlog::error("{}", error.what());
+    return kExitLcm;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return kExitFailure;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("leonav-connect"));
+  spdlog::set_pattern("leonav-connect %H:%M:%S.%e %l: %v");
+  return guarded_main(argc, argv);
+}

@@ -1,0 +1,36 @@
+// The MessageOutput publishes what streams decode, as one sender with one count for each channel.
+#pragma once
+#include "core/base/gps_time.h"
+#include "daemon/messages/encoding_sink.h"
+#include "drivers/lcm/input_messages.h"
+
+namespace leonav {
+
+class MessageOutput {
+ public:
+  // `target` must outlive this object.
+  explicit MessageOutput(MessageTarget* target) : target_(target) {}
+
+  // The arguments are those of InputMessages::encode().
+  template <typename... Values>
+  void send(const Values&... values) {
+    const InputMessage message = messages_.encode(values...);
+    target_->take(message.channel, message.bytes);
+    ++sent_;
+  }
+  // The time of the latest measurement sent, for the status.
+  void note_time(GpsTime time) {
+    if (time > last_time_) last_time_ = time;
+  }
+
+  GpsTime last_time() const { return last_time_; }
+  std::uint64_t sent() const { return sent_; }
+
+ private:
+  MessageTarget* target_;
+  InputMessages messages_;
+  GpsTime last_time_;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace leonav

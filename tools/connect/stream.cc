@@ -1,0 +1,86 @@
+#include "tools/connect/stream.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace leonav {
+
+Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
+               std::unique_ptr<ByteSource> source, std::unique_ptr<StreamFormat> format)
+    : name_(config.name),
+      source_text_(text_of(config.source)),
+      clock_(clock),
+      source_(std::move(source)),
+      format_(std::move(format)),
+      watch_(WatchLimits{.silent_s = config.silent_s}) {
+  if (config.record.empty()) return;
+  recording_.emplace(config.record);
+  spdlog::info("{}: every byte goes to {}", name_, recording_->path());
+}
+
+void Stream::start() { source_->start(this); }
+
+void Stream::finish() {
+  if (recording_ && !recording_->flush()) tell_recording_error();
+  recording_.reset();
+}
+
+void Stream::on_open() {
+  watch_.on_open(clock_->now_ns());
+  told_failure_.clear();
+  spdlog::info("{}: {} is open", name_, source_text_);
+}
+
+void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
+  if (recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
+  watch_.on_bytes(bytes.size(), clock_->now_ns());
+  format_->feed(bytes, arrival_ns);
+}
+
+// The same failure is told once, however often it is tried.
+void Stream::on_failure(const std::string& why, double retry_s) {
+  watch_.on_failure(why);
+  told_ = watch_.state();
+  if (why == std::exchange(told_failure_, why)) return;
+  spdlog::warn("{}: {}; trying again in {} s, then ever more rarely, at least every {:.0f} s",
+               name_, why, retry_s, RetryWait::kLongest_s);
+}
+
+void Stream::on_end(const std::string& why) {
+  format_->finish();
+  look();
+  watch_.on_end(why);
+  told_ = watch_.state();
+  if (why.empty()) {
+    spdlog::info("{}: {} has ended, after {} messages", name_, source_text_,
+                 format_->counts().messages);
+  } else {
+    spdlog::error("{}: {}", name_, why);
+  }
+}
+
+void Stream::look() {
+  if (recording_ && !recording_->flush()) tell_recording_error();
+  if (has_ended()) return;
+  const std::int64_t now_ns = clock_->now_ns();
+  watch_.look(now_ns, *format_);
+  const StreamState state = watch_.state();
+  if (state != std::exchange(told_, state)) {
+    const bool is_bad = state == StreamState::kSilent || state == StreamState::kUnreadable ||
+                        state == StreamState::kNoData;
+    spdlog::log(is_bad ? spdlog::level::warn : spdlog::level::info, "{}: {}{}{}", name_,
+                name_of(state), watch_.text().empty() ? "" : ": ", watch_.text());
+  }
+  if (watch_.silence_s(now_ns) > kReconnectAfter_s) {
+    source_->reconnect("no byte for 10 s: the connection may be dead");
+  }
+}
+
+// Once: the stream goes on without its recording.
+void Stream::tell_recording_error() {
+  spdlog::error("{}: the recording ends: {}", name_, recording_->error());
+  recording_.reset();
+}
+
+}  // namespace leonav

@@ -1,0 +1,55 @@
+// A Stream joins a source, a format, a watch and, where it is asked for, a recording.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drivers/transport/recording.h"
+#include "drivers/transport/retry_wait.h"
+#include "tools/connect/connect_config.h"
+#include "tools/connect/stream_format.h"
+#include "tools/connect/stream_watch.h"
+
+namespace leonav {
+
+class Stream final : public ByteSink {
+ public:
+  // A server that has sent nothing for so long is connected anew: the connection may be dead
+  // without either side knowing.
+  static constexpr double kReconnectAfter_s = 10.0;
+
+  // `clock` must outlive this object. Throws FileError where the recording cannot be created.
+  Stream(const StreamConfig& config, const ArrivalClock* clock, std::unique_ptr<ByteSource> source,
+         std::unique_ptr<StreamFormat> format);
+
+  void start();
+  // Once a second: decides the state anew, logs what has changed, and writes the recording out.
+  void look();
+  // Completes the recording.
+  void finish();
+
+  const std::string& name() const { return name_; }
+  const std::string& source_text() const { return source_text_; }
+  const StreamWatch& watch() const { return watch_; }
+  const StreamFormat& format() const { return *format_; }
+  bool has_ended() const { return watch_.state() == StreamState::kEnded; }
+
+ private:
+  void on_open() override;
+  void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
+  void on_failure(const std::string& why, double retry_s) override;
+  void on_end(const std::string& why) override;
+  std::optional<DataTime> data_time() const override { return format_->data_time(); }
+  void tell_recording_error();
+
+  std::string name_, source_text_;
+  const ArrivalClock* clock_;
+  std::unique_ptr<ByteSource> source_;
+  std::unique_ptr<StreamFormat> format_;
+  StreamWatch watch_;
+  std::optional<RecordingWriter> recording_;
+  StreamState told_ = StreamState::kConnecting;
+  std::string told_failure_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,9 @@
+#include "tools/connect/stream_format.h"
+
+#include <limits>
+
+namespace leonav {
+
+double StreamFormat::stamp_sigma_s() const { return std::numeric_limits<double>::quiet_NaN(); }
+
+}  // namespace leonav

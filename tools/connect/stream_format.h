@@ -1,0 +1,40 @@
+// A StreamFormat turns the bytes of one stream into messages.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "drivers/transport/byte_source.h"
+
+namespace leonav {
+
+// Counts since the start, for the stream's status.
+struct FormatCounts {
+  std::uint64_t frames = 0;    // messages or lines of the format that are whole
+  std::uint64_t messages = 0;  // published
+  std::uint64_t damaged = 0;   // refused by checksum, length or number of columns
+  std::uint64_t refused = 0;   // whole, but with values or times that cannot be used
+};
+
+class StreamFormat {
+ public:
+  virtual ~StreamFormat() = default;
+  // Decodes and publishes. Any bytes may come; a damaged message loses nothing but itself.
+  virtual void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) = 0;
+  // No more bytes will come.
+  virtual void finish() {}
+  virtual FormatCounts counts() const = 0;
+  // The time of the last message, by which a file without recorded arrivals is played.
+  virtual std::optional<DataTime> data_time() const = 0;
+  // What the format tells of itself while all is well; may be empty.
+  virtual std::string detail() const = 0;
+  // Why bytes came and no whole message, or whole messages and nothing to publish, with a remedy: a
+  // sentence without a full stop.
+  virtual std::string why_no_frames() const = 0;
+  virtual std::string why_no_messages() const = 0;
+  // 1 sigma of the stamps against GPS time, s; NaN where they are the device's own.
+  virtual double stamp_sigma_s() const;
+};
+
+}  // namespace leonav

@@ -1,0 +1,165 @@
+#include "tools/connect/stream_keys.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+namespace leonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0, kMillisecond = 1e-3;
+constexpr double kStandardGravity_m_s2 = 9.80665;
+
+enum class SourceKind : std::uint8_t { kSerial, kTcp, kInput, kFile };
+
+const std::vector<std::pair<std::string, LineColumn>> kColumns = {
+    {"skip", LineColumn::kSkip},         {"gyro_x", LineColumn::kGyroX},
+    {"gyro_y", LineColumn::kGyroY},      {"gyro_z", LineColumn::kGyroZ},
+    {"accel_x", LineColumn::kAccelX},    {"accel_y", LineColumn::kAccelY},
+    {"accel_z", LineColumn::kAccelZ},    {"gps_week", LineColumn::kGpsWeek},
+    {"gps_tow_s", LineColumn::kGpsTowS}, {"clock_s", LineColumn::kClockS},
+    {"clock_ms", LineColumn::kClockMs},  {"clock_us", LineColumn::kClockUs},
+    {"clock_ns", LineColumn::kClockNs},  {"interval_s", LineColumn::kIntervalS}};
+
+std::string in_folder(const std::string& folder, const std::string& path) {
+  return path.empty() ? "" : (std::filesystem::path(folder) / path).string();
+}
+
+void read_source(ConfigReader& group, const std::string& folder, SourceOptions* source) {
+  SourceKind kind = SourceKind::kSerial;
+  group.choice<SourceKind>("source",
+                           {{"serial", SourceKind::kSerial},
+                            {"tcp", SourceKind::kTcp},
+                            {"stdin", SourceKind::kInput},
+                            {"file", SourceKind::kFile}},
+                           &kind);
+  if (kind == SourceKind::kSerial) {
+    SerialOptions options;
+    int baud = 115'200;
+    group.text("device", &options.device);
+    group.integer("baud", 300, 12'000'000, &baud);
+    if (options.device.empty()) group.fail("device", "must name a port, such as /dev/ttyACM0");
+    options.baud = static_cast<unsigned>(baud);
+    *source = options;
+  } else if (kind == SourceKind::kTcp) {
+    TcpOptions options;
+    int port = 0;
+    group.text("host", &options.host);
+    group.integer("port", 0, 65'535, &port);
+    if (options.host.empty()) group.fail("host", "must be the server's name or address");
+    if (port == 0) group.fail("port", "must be given, from 1 to 65535");
+    options.port = static_cast<std::uint16_t>(port);
+    *source = options;
+  } else if (kind == SourceKind::kFile) {
+    FileOptions options;
+    group.text("path", &options.path);
+    if (options.path.empty()) group.fail("path", "must name a recording or a file of bytes");
+    options.path = in_folder(folder, options.path);
+    *source = options;
+  } else {
+    *source = InputOptions();
+  }
+}
+
+std::vector<LineColumn> read_columns(ConfigReader& group) {
+  std::vector<std::string> names;
+  std::vector<LineColumn> columns;
+  std::string known;
+  for (const auto& [name, column] : kColumns) known += (known.empty() ? "" : ", ") + name;
+  group.list("columns", &names, "list of " + known);
+  for (const std::string& name : names) {
+    const auto found = std::find_if(kColumns.begin(), kColumns.end(),
+                                    [&name](const auto& one) { return one.first == name; });
+    if (found == kColumns.end()) {
+      group.fail("columns", "'" + name + "' is no column; known are " + known);
+    }
+    columns.push_back(found->second);
+  }
+  return columns;
+}
+
+void read_axes(ConfigReader& group, std::array<int, 3>* axes) {
+  std::vector<std::string> names;
+  if (!group.list("axes", &names, "list of the axes that point forward, right, down")) return;
+  if (names.size() != 3) group.fail("axes", "must have three entries: forward, right, down");
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::string name = names[i];
+    const bool is_negative = name.starts_with('-');
+    if (is_negative) name.erase(0, 1);
+    if (name != "x" && name != "y" && name != "z") {
+      group.fail("axes", "'" + names[i] + "' is no axis; use x, y, z, -x, -y, -z");
+    }
+    const int axis = name[0] - 'x' + 1;
+    (*axes)[i] = is_negative ? -axis : axis;
+  }
+}
+
+void read_line(ConfigReader& group, LineLayout* layout) {
+  layout->columns = read_columns(group);
+  group.choice<char>("separator",
+                     {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}},
+                     &layout->separator);
+  group.text("prefix", &layout->prefix);
+  group.boolean("checksum", &layout->has_checksum);
+  group.boolean("increments", &layout->are_increments);
+  double gyro_scale = 1.0, accel_scale = 1.0;
+  if (layout->are_increments) {
+    group.choice<double>("gyro_unit", {{"rad", 1.0}, {"deg", kDegree}}, &layout->gyro_unit);
+    group.choice<double>("accel_unit", {{"m/s", 1.0}}, &layout->accel_unit);
+  } else {
+    group.choice<double>("gyro_unit", {{"rad/s", 1.0}, {"deg/s", kDegree}}, &layout->gyro_unit);
+    group.choice<double>(
+        "accel_unit",
+        {{"m/s^2", 1.0}, {"g", kStandardGravity_m_s2}, {"mg", 1e-3 * kStandardGravity_m_s2}},
+        &layout->accel_unit);
+  }
+  group.number("gyro_scale", {-1e9, 1e9}, &gyro_scale);
+  group.number("accel_scale", {-1e9, 1e9}, &accel_scale);
+  layout->gyro_unit *= gyro_scale;
+  layout->accel_unit *= accel_scale;
+  read_axes(group, &layout->axes);
+  if (const std::string problem = problem_of(*layout); !problem.empty()) {
+    group.fail("columns", problem);
+  }
+}
+
+bool has_clock(const LineLayout& layout) {
+  return std::any_of(layout.columns.begin(), layout.columns.end(), [](LineColumn column) {
+    return column >= LineColumn::kGpsWeek && column <= LineColumn::kClockNs;
+  });
+}
+
+}  // namespace
+
+void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* stream) {
+  group.text("name", &stream->name);
+  if (stream->name.empty()) group.fail("name", "must be given: messages tell streams by it");
+  read_source(group, folder, &stream->source);
+  group.choice<FormatKind>("format",
+                           {{"ubx", FormatKind::kUbx},
+                            {"vectornav", FormatKind::kVectornav},
+                            {"imu_line", FormatKind::kImuLine}},
+                           &stream->format);
+  if (stream->format == FormatKind::kImuLine) {
+    group.group("line", [&](ConfigReader& line) { read_line(line, &stream->line); });
+    group.number("rate_hz", {0.0, 10'000.0}, &stream->stamps.rate_hz);
+    if (stream->line.columns.empty()) group.fail("line", "must describe the columns");
+    if (!has_clock(stream->line) && stream->stamps.rate_hz <= 0.0) {
+      group.fail("rate_hz", "must be given where no column is a time: lines are then counted");
+    }
+    if (has_clock(stream->line) && stream->stamps.rate_hz > 0.0) {
+      group.fail("rate_hz", "is for lines without a column of time; leave it out");
+    }
+  }
+  if (stream->format == FormatKind::kUbx) {
+    group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
+  } else {
+    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
+  }
+  group.text("record", &stream->record);
+  stream->record = in_folder(folder, stream->record);
+  group.number("silent_s", {1.0, 3600.0}, &stream->silent_s);
+}
+
+}  // namespace leonav

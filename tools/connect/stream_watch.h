@@ -1,0 +1,79 @@
+// The StreamWatch decides in which state a stream is, and says so in a sentence.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "tools/connect/stream_format.h"
+
+namespace leonav {
+
+enum class StreamState : std::uint8_t {
+  kConnecting,  // being opened, or open for too short a time to tell
+  kWaiting,     // could not be opened or broke off; tried again later
+  kSilent,      // open, but no byte comes
+  kUnreadable,  // bytes come, but no whole message
+  kNoData,      // whole messages come, but nothing to publish
+  kGood,        // messages are published
+  kEnded,       // finished for good
+};
+
+// Returns the word for the state in logs and in stream_t.
+const char* name_of(StreamState state);
+
+struct WatchLimits {
+  double silent_s = 3.0;      // without a byte
+  double unreadable_s = 5.0;  // with bytes, but without a whole message
+  double no_data_s = 10.0;    // with whole messages, but without one published
+};
+
+// Times are those of the ArrivalClock.
+class StreamWatch {
+ public:
+  explicit StreamWatch(const WatchLimits& limits) : limits_(limits) {}
+
+  void on_open(std::int64_t now_ns);
+  void on_bytes(std::size_t count, std::int64_t now_ns);
+  void on_failure(const std::string& why);
+  void on_end(const std::string& why);
+
+  // Looks at the stream; to be called about once a second.
+  void look(std::int64_t now_ns, const StreamFormat& format);
+
+  StreamState state() const { return state_; }
+  // What is wrong and what to do, or what the format tells of itself.
+  const std::string& text() const { return text_; }
+  // How long an open connection has brought nothing, s; 0: it does, or is not open.
+  double silence_s(std::int64_t now_ns) const;
+
+  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t failures() const { return failures_; }
+  // Since the last byte and the last message published, s; NaN: there was none.
+  double byte_age_s(std::int64_t now_ns) const { return age_s(last_byte_ns_, now_ns); }
+  double message_age_s(std::int64_t now_ns) const { return age_s(last_message_ns_, now_ns); }
+
+ private:
+  using Instant = std::optional<std::int64_t>;
+  static double age_s(Instant since, std::int64_t now_ns) {
+    return since ? static_cast<double>(now_ns - *since) * 1e-9
+                 : std::numeric_limits<double>::quiet_NaN();
+  }
+  void set(StreamState state, const std::string& text) {
+    state_ = state;
+    text_ = text;
+  }
+
+  WatchLimits limits_;
+  StreamState state_ = StreamState::kConnecting;
+  std::string text_;
+  bool is_open_ = false;
+  std::int64_t opened_ns_ = 0;
+  Instant last_byte_ns_, last_message_ns_;
+  // Since when bytes come without a message, and messages without one published.
+  Instant unreadable_since_ns_, no_data_since_ns_;
+  std::uint64_t bytes_ = 0, bytes_seen_ = 0, failures_ = 0;
+  FormatCounts seen_;  // at the last look
+};
+
+}  // namespace leonav
