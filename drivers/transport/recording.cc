@@ -44,8 +44,9 @@ bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_
   for (std::size_t i = 0; i < 4; ++i) {
     header[8 + i] = static_cast<std::uint8_t>(bytes.size() >> (8 * i));
   }
-  const bool written = std::fwrite(header.data(), 1, header.size(), file_.get()) == header.size() &&
-                       std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
+  const bool written =
+      std::fwrite(header.data(), 1, header.size(), file_.get()) == header.size() &&
+      (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size());
   return written || fail();
 }
 
@@ -100,7 +101,7 @@ bool BlockReader::next_recorded(Block* block) {
                         ": no block begins there; what came before it has been used");
   }
   block->bytes.resize(length);
-  return std::fread(block->bytes.data(), 1, length, file_.get()) == length;
+  return length == 0 || std::fread(block->bytes.data(), 1, length, file_.get()) == length;
 }
 
 }  // namespace leonav
