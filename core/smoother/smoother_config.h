@@ -34,7 +34,7 @@ struct SmootherConfig {
   // A solve ends when the largest correction of a position is below this, in sigmas of the filter's
   // position or, if it is smaller, the window's. The states move on from solve to solve, so that a
   // shorter step leaves next to nothing of what is not linear.
-  double converged_sigmas = 0.5;
+  double converged_sigmas = 1.0;
 
   bool fixed_lag = true;  // give the oldest keyframe's state too, once the window is full
 
