@@ -19,7 +19,7 @@ inline std::string oracle_command() {
 // Each is true if the program is there; otherwise it prints that the test is skipped.
 inline bool have_pyrtcm() {
   if (std::system((oracle_command() + "--have 2>/dev/null").c_str()) == 0) return true;
-  std::cout << "SKIPPED: no Python with pyrtcm (pip install pyrtcm; LEONAV_PYTHON names another)\n";
+  std::cout << "SKIPPED (optional): no Python with pyrtcm (LEONAV_PYTHON names another)\n";
   return false;
 }
 inline bool have_program(const std::string& name) {
