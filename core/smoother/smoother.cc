@@ -16,8 +16,10 @@ constexpr std::size_t kEnoughSatellites = 4;
 // A filter that has started over has caught up once its sigma is so many times the window's.
 constexpr double kAsCertain = 1.1;
 constexpr double kLongestYounger_s = 180.0;  // after that it counts as of the window's age anyway
-// A filter that has started over stays on its own so long, to see whether the window is wrong.
+// A filter that has started over stays on its own so long, and until so many solves in a row had at
+// least so many codes of which most fit the window.
 constexpr double kOnItsOwn_s = 10.0;
+constexpr int kFittingSolves = 8, kFittingCodes = 4;
 // An attitude that a filter finds anew ends a window that is farther from it than so many of its
 // sigmas (three axes together).
 constexpr double kAttitudeContradiction = 5.0;
@@ -88,6 +90,7 @@ void Smoother::add(const KeyframeInput& input) {
   if (!newest_follows_) {
     window_sigma_m_ = std::numeric_limits<double>::infinity();
     believed_.reset();
+    fitting_ = 0;
     restarted_ = GpsTime();
     return (void)window_.start(input);
   }
@@ -108,6 +111,7 @@ bool Smoother::append(const KeyframeInput& input) {
     if (!window_.append(input)) return false;
   } else {
     if (!input.follows_previous && !input.has_attitude) restarted_ = input.time;
+    if (!input.follows_previous) fitting_ = 0;
     window_.append_apart(input);
   }
   const Keyframe& before = window_.at(window_.size() - 2);
@@ -225,6 +229,7 @@ WindowAgainstFilter Smoother::against_filter(const Keyframe& newest) const {
     fitting += std::abs(residual) < robust_.k1 * std::sqrt(measurement.variance) ? 1 : 0;
   }
   at.codes_fit_window = codes == 0 || 2 * fitting > codes;
+  at.codes = codes;
   return at;
 }
 
@@ -255,8 +260,10 @@ void Smoother::finish(SmootherResult* result) {
     result->status = SmootherStatus::kDiverged;
     failed_ = true;
   }
-  result->filter_may_follow = filter_is_younger() && at.codes_fit_window &&
-                              result->status == SmootherStatus::kOk &&
+  fitting_with_last_ = fitting_;
+  if (at.codes >= kFittingCodes) fitting_with_last_ = at.codes_fit_window ? fitting_ + 1 : 0;
+  result->filter_may_follow = filter_is_younger() && result->status == SmootherStatus::kOk &&
+                              fitting_with_last_ >= kFittingSolves &&
                               seconds_between(newest.time, restarted_) >= kOnItsOwn_s &&
                               filter_sigma_m_ > kAsCertain * solved_sigma_m_;
   if (config_.fixed_lag && result->status == SmootherStatus::kOk && window_.full())
@@ -285,6 +292,7 @@ void Smoother::commit_or_roll_back(bool taken) {
   if (failed_) return;
   window_sigma_m_ = solved_sigma_m_;
   believed_.commit();
+  fitting_ = fitting_with_last_;
   const bool caught_up = filter_sigma_m_ < kAsCertain * window_sigma_m_ ||
                          (filter_is_younger() &&
                           seconds_between(window_.newest().time, restarted_) > kLongestYounger_s);

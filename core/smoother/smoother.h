@@ -44,8 +44,8 @@ struct SmootherResult {
   double time_offset_s = 0.0;      // estimated: the state is this much later than its stamp
   AttitudeRandomWalk random_walk;  // of the window's attitude, from here on
   bool filter_is_younger = false;  // it has started over within the window, and knows less
-  // It has been so for a while in which codes did not contradict the window: the filter may take
-  // the window's state.
+  // It has been so for a while in which codes have fitted the window: the filter may take the
+  // window's state.
   bool filter_may_follow = false;
   LaggedState lagged;
 };
@@ -114,6 +114,8 @@ class Smoother {
   Eigen::Vector3d filter_position_e_ = Eigen::Vector3d::Zero();
   bool filter_has_attitude_ = false;
   GpsTime restarted_;  // when the filter has started over, while it knows less; otherwise unset
+  // Solves in a row since then whose codes have fitted the window: taken ones, and with the last.
+  int fitting_ = 0, fitting_with_last_ = 0;
   double filter_sigma_m_ = 0.0;
   // 1 sigma of the window's position at its newest keyframe (3D): by the last solve that was taken,
   // and by the last one. Infinite: the window has begun since.

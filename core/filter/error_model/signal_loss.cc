@@ -15,9 +15,9 @@ void SignalLoss::reset() { references_.fill({}); }
 std::optional<std::size_t> SignalLoss::place_of(const SatelliteInView& satellite) {
   if (!is_valid(satellite.satellite) || !(satellite.cn0_dbhz > 0.0)) return std::nullopt;
   if (satellite.satellite.system == System::kLeo) {
+    if (!(satellite.elevation > 0.0)) return std::nullopt;  // or it is not known
     const double step = satellite.elevation / (0.5 * std::numbers::pi) * kElevations;
-    return kMaxEphemerisSatellites +
-           static_cast<std::size_t>(std::clamp(step, 0.0, kElevations - 1.0));
+    return kMaxEphemerisSatellites + static_cast<std::size_t>(std::min(step, kElevations - 1.0));
   }
   const std::size_t index = table_index_of(satellite.satellite);
   return index < kMaxEphemerisSatellites ? std::optional(index) : std::nullopt;

@@ -30,7 +30,7 @@ class SignalLoss {
     double cn0_dbhz = 0.0;
     GpsTime time;
   };
-  // Returns the place of a satellite's reference; nothing without a C/N0.
+  // Returns the place of a satellite's reference; nothing without C/N0, in low orbit elevation.
   static std::optional<std::size_t> place_of(const SatelliteInView& satellite);
 
   // Those of satellites, then those of elevations of low orbits.

@@ -74,15 +74,19 @@ void GnssStage::process_work(const EpochWork& work) {
 }
 
 // A filter that has started over takes the state of the smoother's window, once it is decided that
-// this is in time, for it knows more. What the filter does thereby depends on data time alone.
+// this is in time, for it knows more. What the filter does thereby depends on data time alone. What
+// has come from outside since the keyframe counts more: a process that is not continuous any more,
+// or a heading that ends the window.
 void GnssStage::follow_window(const EpochWork& work) {
   if (keyframes_ == nullptr || !inertial_ || !work.smoother_decided || !ekf_.initialized()) return;
+  if (!ekf_.estimate().process().continuous || pending_keyframe_.ends_window()) return;
   SmootherAnchor result;
   if (!keyframes_->result_of(work.index - 1, &result) || !result.filter_may_follow) return;
   const Anchor& window = result.anchor;
   if (!window.valid || window.state.time != ekf_.state().time) return;
   const double moved_m = (window.state.p_e - ekf_.state().p_e).norm();
   ekf_.replace_motion(window.state, window.covariance, window.random_walk);
+  front_end_.reset_position();
   attitude_.reset_alignment();
   attitude_.start_heading_monitor(ekf_);
   reporter_.report_checkpoint(attitude_.discard_checkpoint(), work.time);

@@ -9,7 +9,8 @@ struct WindowAgainstFilter {
   double window_sigma_m = 0.0;  // 1 sigma of the positions, 3D
   double filter_sigma_m = 0.0;
   bool filter_is_younger = false;  // it has started over within the window
-  bool codes_fit_window = false;   // most codes of the keyframe fit the window's estimate
+  bool codes_fit_window = false;   // most codes of the keyframe fit the window's estimate, or none
+  int codes = 0;                   // of the keyframe
 };
 
 // Two estimates from the same measurements differ by less than the less accurate one is wrong: the

@@ -186,6 +186,30 @@ TEST_CASE("a heading given between a restart and the alignment ends the window")
   CHECK(last.yaw == Approx(truth_yaw).margin(0.2));
 }
 
+TEST_CASE("a heading given right before the filter would follow the window is kept") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(100.0));
+  // Replays a restart and, behind the keyframe after which the filter would follow, a heading.
+  const auto run = [&](GpsTime follows, RecordingSink* sink) {
+    Navigator navigator(smoother_config(drive.options), sink);
+    int seen = 0;
+    feed(drive, &navigator, [&](const RawEpoch& epoch, Sequencer* sequencer) {
+      if (++seen == 70) sequencer->on_command({CommandKind::kRestart});
+      if (!follows.is_set() || std::abs(seconds_between(epoch.time, follows) - 1.0) > 1e-6) return;
+      sequencer->on_command({CommandKind::kSetHeading, sink->epochs.back().solution.yaw, 0.02});
+    });
+  };
+  RecordingSink alone, with_heading;
+  run(GpsTime(), &alone);
+  const auto followed =
+      std::find_if(alone.events.begin(), alone.events.end(), [](const Event& event) {
+        return event.kind == EventKind::kFilterReset &&
+               event.code == static_cast<std::uint8_t>(ResetCause::kWindow);
+      });
+  REQUIRE(followed != alone.events.end());
+  run(followed->time, &with_heading);
+  CHECK(resets(with_heading) == std::vector<ResetCause>{ResetCause::kCommand});
+}
+
 TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   const SyntheticDrive drive = synthetic_drive(noisy_drive(60.0));
   const NavigatorConfig config = smoother_config(drive.options);

@@ -22,6 +22,7 @@ class PendingKeyframe {
   bool is_due(const Ekf& ekf, GpsTime time) const;
   // Marks the next keyframe as one that ends the smoother's window (KeyframeInput::ends_window).
   void end_window() { ends_window_ = true; }
+  bool ends_window() const { return ends_window_; }
   // Fills `keyframe` and begins the filter's process to the next one. `measurements` is the epoch
   // as the filter's update used it; nullptr: there was no update. The constraint instants of
   // `motion` move into the keyframe.

@@ -32,6 +32,10 @@ enum class CarrierReset : unsigned char {
 // attitude. CarrierSpeed starts anew, because the carriers give no displacement over a reset. The
 // next epoch whose filter has a state is a keyframe, because the filter's process does not
 // continue.
+//
+// A filter that follows the smoother's window (GnssStage::follow_window) is no reset: it takes a
+// state over. Its carriers end, the next epoch is not tested against the last one, the alignment
+// and the evidence of FilterMonitor and SatelliteFaultMonitor are cleared.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
   // For kRestart only.

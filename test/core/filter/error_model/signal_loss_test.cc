@@ -67,7 +67,8 @@ TEST_CASE("a satellite in low orbit loses what it is weaker than others at its e
   CHECK(series.add(kLeo8, 30.0) == Approx(20.0).margin(0.02));
   CHECK(series.add(kLeo7, 44.0, 1.0, 0.9) == 0.0);  // no other has been there
   CHECK(series.add(kLeo8, 44.0, 1.0, 0.5 * std::numbers::pi) == 0.0);
-  CHECK(series.add(kLeo7, 40.0, 1.0, -0.1) == 0.0);
+  CHECK(series.add(kLeo7, 50.0, 1.0, 0.0) == 0.0);  // its elevation is not known
+  CHECK(series.add(kLeo7, 40.0, 1.0, 0.01) == 0.0);
   CHECK(series.add(kLeo8, 36.0, 1.0, 0.05) == Approx(4.0).margin(0.02));
   CHECK(series.add(kGps7, 20.0) == 0.0);  // a satellite in medium orbit has its own reference
 }

@@ -37,6 +37,30 @@ TEST_CASE("after a miss or a cancel the result is dropped") {
   CHECK(mailbox.open(6 + kMaxMailboxEpochs));
 }
 
+TEST_CASE("who reads a result at its deadline and who takes it see the same, in either order") {
+  TimedMailbox<int> mailbox;
+  int taken = 0, read = 0;
+  CHECK_FALSE(mailbox.read(1, &read));  // never opened
+  REQUIRE(mailbox.open(1));
+  CHECK(mailbox.deliver(1, 11));
+  CHECK(mailbox.read(1, &read));
+  CHECK(mailbox.take(1, &taken));
+  CHECK(read == 11);
+  CHECK(taken == 11);
+  read = 0;
+  CHECK(mailbox.read(1, &read));  // also once the slot is free
+  CHECK(read == 11);
+  REQUIRE(mailbox.open(2));
+  CHECK_FALSE(mailbox.read(2, &read));  // a miss
+  CHECK_FALSE(mailbox.deliver(2, 12));
+  CHECK_FALSE(mailbox.take(2, &taken));
+  REQUIRE(mailbox.open(3));
+  CHECK_FALSE(mailbox.take(3, &taken));
+  CHECK_FALSE(mailbox.read(3, &read));
+  REQUIRE(mailbox.open(1 + kMaxMailboxEpochs));
+  CHECK_FALSE(mailbox.read(1, &read));  // another epoch's slot by now
+}
+
 TEST_CASE("of a worker and a navigator in a race exactly one wins, and the value is whole") {
   constexpr std::uint64_t kRounds = 100'000;
   using Value = std::array<std::uint64_t, 16>;  // torn if written while read
