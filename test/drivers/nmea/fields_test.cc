@@ -24,7 +24,7 @@ std::string all(const PlaceFields& place) { return place.angle + place.hemispher
 
 TEST_CASE("The checksum is that of a sentence of the standard's literature", "[nmea]") {
   CHECK(nmea_checksum("GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,") == 0x47);
-  CHECK(Sentence("GNHDT").field("").field("T").line() == "$GNHDT,,T*0D\r\n");
+  CHECK(Sentence("GNHDT").field("").field("T").line() == "$GNHDT,,T*05\r\n");
 }
 
 TEST_CASE("UTC is GPS time less the leap seconds of that day", "[nmea]") {
