@@ -1,0 +1,103 @@
+// Which solutions are written, what a slow reader gets, what a wrong configuration says.
+#include "daemon/config/load_config.h"
+#include "drivers/lcm/encode.h"
+#include "support/catch.h"
+#include "tools/serve/sentence_feed.h"
+
+namespace leonav {
+namespace {
+
+const GpsTime kStart = GpsTime::from_week_and_tow(2136, 345'600.0);
+
+std::string problem(const std::vector<std::string>& overrides, const std::string& path = "") {
+  try {
+    load_serve_config(path, overrides);
+    return "none";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("One instant a second of the solution's time is written", "[serve]") {
+  OutputPace pace(1.0);
+  int due = 0;
+  for (int i = 0; i < 1000; ++i) due += pace.is_due(kStart.plus_nanoseconds(i * 5'000'000LL));
+  CHECK(due == 5);
+  CHECK(pace.is_due(kStart.plus_nanoseconds(4'999'999'500)));  // half a microsecond early
+  CHECK_FALSE(pace.is_due(kStart.plus_seconds(5.0)));
+  CHECK_FALSE(pace.is_due(kStart.plus_seconds(1.0)));  // out of order
+  CHECK(pace.is_due(kStart.plus_seconds(-100.0)));     // another run
+}
+
+TEST_CASE("A slow reader loses whole instants and is told how many sentences", "[serve]") {
+  OutputQueue queue;
+  auto batch = std::make_shared<Batch>();
+  batch->text = std::string(6'000, 'x');
+  batch->sentences = 8;
+  CHECK(queue.offer(batch));
+  CHECK(queue.offer(batch));
+  CHECK_FALSE(queue.offer(batch));
+  CHECK(queue.lost_sentences() == 8);
+  queue.consume(10);
+  CHECK(queue.size() == 5'990);
+  queue.consume(5'990);
+  CHECK(queue.offer(batch));
+  queue.consume(6'000);
+  CHECK(std::string(queue.data(), queue.size()).find("8 sentences lost") != std::string::npos);
+  queue.consume(queue.size());
+  CHECK(queue.size() == 6'000);
+  queue.consume(queue.size());
+  CHECK(queue.is_empty());
+}
+
+TEST_CASE("Messages become sentences, damaged ones are counted", "[serve]") {
+  const ServeConfig config = load_serve_config("", {"tcp.port=1", "sentences=[GGA, GSA]"});
+  SentenceFeed feed(config);
+  Encoder encoder;
+  EpochReport epoch;
+  epoch.time = kStart;
+  epoch.satellites_used = 1;
+  epoch.hdop = 1.5;
+  epoch.satellites.push_back({});
+  epoch.satellites[0].satellite = {System::kGalileo, 7};
+  const auto encoded = encoder.encode(epoch);
+  feed.on_epoch(encoded);
+  feed.on_epoch(encoded.subspan(0, encoded.size() - 1));
+  std::vector<std::uint8_t> damaged(encoded.begin(), encoded.end());
+  damaged[28] = 0x7F;  // the first count
+  feed.on_epoch(damaged);
+  CHECK(feed.refused() == 2);
+  Solution solution;
+  solution.time = kStart;
+  solution.source = Source::kSmoother;
+  const auto batch = feed.on_solution(encoder.encode(solution));
+  REQUIRE(batch);
+  CHECK(batch->sentences == 2);
+  CHECK(batch->text.find(",1,01,1.50,") != std::string::npos);
+  CHECK(batch->text.find("$GNGSA,A,3,07,") != std::string::npos);
+  CHECK_FALSE(feed.on_solution(encoder.encode(solution)));  // the same instant
+  solution.time = kStart.plus_seconds(1.0);
+  solution.latitude = 2.0;
+  CHECK_FALSE(feed.on_solution(encoder.encode(solution)));
+  solution.latitude = std::nan("");
+  CHECK_FALSE(feed.on_solution(encoder.encode(solution)));
+  CHECK(feed.refused() == 4);
+  // Satellites of an epoch long ago are not told.
+  solution.latitude = 0.0;
+  solution.time = kStart.plus_seconds(6.0);
+  const auto later = feed.on_solution(encoder.encode(solution));
+  REQUIRE(later);
+  CHECK(later->text.find(",1,00,,") != std::string::npos);
+}
+
+TEST_CASE("The example configuration is good, and mistakes are told with the remedy", "[serve]") {
+  CHECK(problem({}, LEONAV_SOURCE_DIR "/config/serve.yaml") == "none");
+  CHECK_THAT(problem({"rate_hz=1"}), Catch::Contains("there is no output"));
+  CHECK_THAT(problem({"tcp.port=1", "sentences=[GLL]"}), Catch::Contains("'GLL' is none"));
+  CHECK_THAT(problem({"tcp.port=1", "tcp.address=here"}), Catch::Contains("127.0.0.1"));
+  CHECK_THAT(problem({"tcp.prot=1"}), Catch::Contains("tcp.prot"));
+}
+
+}  // namespace leonav
