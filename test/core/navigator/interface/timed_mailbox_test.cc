@@ -1,8 +1,10 @@
 #include "core/navigator/interface/timed_mailbox.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include "support/catch.h"
 
@@ -111,6 +113,63 @@ TEST_CASE("of a worker and a navigator in a race exactly one wins, and the value
   CHECK(torn == 0);
   CHECK(taken >= kRounds / 5);
   CHECK(taken <= kRounds - kRounds / 5);
+}
+
+TEST_CASE("who feeds the worker and reads its results sees what the navigator takes, in any race") {
+  constexpr std::uint64_t kRounds = 30'000;
+  using Value = std::array<std::uint64_t, 16>;
+  TimedMailbox<Value> mailbox;
+  std::atomic<std::uint64_t> opened{0}, fed{0}, taken_rounds{0};
+  std::vector<char> taken(kRounds + 1), read(kRounds + 1);
+  std::uint64_t torn = 0;
+  std::thread worker([&] {
+    for (std::uint64_t k = 1; k <= kRounds; ++k) {
+      while (fed.load(std::memory_order_acquire) < k) std::this_thread::yield();
+      for (std::uint64_t spin = 0; spin < k % 5 * 40; ++spin) fed.load();
+      Value value;
+      value.fill(k);
+      mailbox.deliver(k, value);
+    }
+  });
+  std::thread feeder([&] {  // it reads the epoch before whenever it begins one
+    for (std::uint64_t k = 1; k <= kRounds; ++k) {
+      while (opened.load(std::memory_order_acquire) < k) std::this_thread::yield();
+      for (std::uint64_t spin = 0; spin < k % 3 * 60; ++spin) opened.load();
+      Value value;
+      if (k > 1 && mailbox.read(k - 1, &value)) {
+        read[k - 1] = 1;
+        for (const std::uint64_t word : value) torn += word != k - 1 ? 1 : 0;
+      }
+      fed.store(k, std::memory_order_release);
+    }
+  });
+  std::thread navigator([&] {
+    for (std::uint64_t k = 1; k <= kRounds; ++k) {
+      while (opened.load(std::memory_order_acquire) < k) std::this_thread::yield();
+      for (std::uint64_t spin = 0; spin < k % 7 * 40; ++spin) opened.load();
+      Value value;
+      taken[k] = mailbox.take(k, &value) ? 1 : 0;
+      taken_rounds.store(k, std::memory_order_release);
+    }
+  });
+  for (std::uint64_t k = 1; k <= kRounds; ++k) {
+    REQUIRE(mailbox.open(k));
+    opened.store(k, std::memory_order_release);
+    const std::uint64_t lead = k % 3 == 0 ? 0 : 16;
+    while (taken_rounds.load(std::memory_order_acquire) + lead < k ||
+           fed.load(std::memory_order_acquire) + lead < k) {
+      std::this_thread::yield();
+    }
+  }
+  worker.join();
+  feeder.join();
+  navigator.join();
+  taken.back() = 0;  // nobody has read the last one
+  CHECK(read == taken);
+  CHECK(torn == 0);
+  const auto of_all = std::count(taken.begin(), taken.end(), 1);
+  CHECK(of_all > 0);
+  CHECK(of_all < static_cast<std::ptrdiff_t>(kRounds) - 1);
 }
 
 }  // namespace
