@@ -56,6 +56,8 @@ const char* name_of(FormatKind format) {
   switch (format) {
     case FormatKind::kUbx:
       return "ubx";
+    case FormatKind::kRtcm3:
+      return "rtcm3";
     case FormatKind::kVectornav:
       return "vectornav";
     case FormatKind::kImuLine:

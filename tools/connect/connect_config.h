@@ -18,7 +18,7 @@ struct FileOptions {
 };
 using SourceOptions = std::variant<SerialOptions, TcpOptions, InputOptions, FileOptions>;
 
-enum class FormatKind : std::uint8_t { kUbx, kVectornav, kImuLine };
+enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kVectornav, kImuLine };
 
 struct StreamConfig {
   std::string name;
@@ -27,6 +27,7 @@ struct StreamConfig {
   LineLayout line;         // of kImuLine
   ImuStampOptions stamps;  // of inertial sensors
   double repeat_s = 30.0;  // of a receiver: an ephemeris is sent again after so long; 0: never
+  GpsTime day;             // of kRtcm3 from a file: noon of the day it was recorded
   std::string record;      // file for every byte; empty: none
   double silent_s = 3.0;   // a stream without bytes for so long is told
 };

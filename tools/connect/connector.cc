@@ -13,6 +13,7 @@
 #include "drivers/transport/file_source.h"
 #include "tools/connect/imu_line_format.h"
 #include "tools/connect/message_output.h"
+#include "tools/connect/rtcm3_format.h"
 #include "tools/connect/stream.h"
 #include "tools/connect/stream_status.h"
 #include "tools/connect/ubx_format.h"
@@ -79,6 +80,8 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
   switch (stream.format) {
     case FormatKind::kUbx:
       return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output);
+    case FormatKind::kRtcm3:
+      return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
     case FormatKind::kImuLine:

@@ -27,7 +27,7 @@ int connect_main(int argc, char** argv) {
       "      source: serial            # serial, tcp, stdin or file\n"
       "      device: /dev/ttyACM0      # serial: device and baud; tcp: host and port; file: path\n"
       "      baud: 460800\n"
-      "      format: ubx               # ubx, vectornav or imu_line\n"
+      "      format: ubx               # ubx, rtcm3, vectornav or imu_line\n"
       "      record: receiver.leoraw   # optional: every byte, for a file source later\n"
       "    - {name: imu, source: serial, device: /dev/ttyUSB0, baud: 921600, format: vectornav}\n"
       "\n"

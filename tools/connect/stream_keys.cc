@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <utility>
+
+#include "tools/common/day.h"
 
 namespace leonav {
 namespace {
@@ -124,6 +127,18 @@ void read_line(ConfigReader& group, LineLayout* layout) {
   }
 }
 
+// RTCM has times of week alone; of a live stream the host's clock knows the week.
+void read_day(ConfigReader& group, StreamConfig* stream) {
+  if (!std::holds_alternative<FileOptions>(stream->source)) return;
+  std::string date;
+  group.text("date", &date);
+  const std::optional<GpsTime> day = noon_of(date);
+  if (!day)
+    group.fail("date",
+               "must be the day of the recording, written as 2024-03-20: RTCM 3 gives no week");
+  stream->day = *day;
+}
+
 bool has_clock(const LineLayout& layout) {
   return std::any_of(layout.columns.begin(), layout.columns.end(), [](LineColumn column) {
     return column >= LineColumn::kGpsWeek && column <= LineColumn::kClockNs;
@@ -138,6 +153,7 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   read_source(group, folder, &stream->source);
   group.choice<FormatKind>("format",
                            {{"ubx", FormatKind::kUbx},
+                            {"rtcm3", FormatKind::kRtcm3},
                             {"vectornav", FormatKind::kVectornav},
                             {"imu_line", FormatKind::kImuLine}},
                            &stream->format);
@@ -152,7 +168,8 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
       group.fail("rate_hz", "is for lines without a column of time; leave it out");
     }
   }
-  if (stream->format == FormatKind::kUbx) {
+  if (stream->format == FormatKind::kRtcm3) read_day(group, stream);
+  if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
   } else {
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);

@@ -27,6 +27,21 @@ TEST_CASE("The example configuration is good, and says what it seems to say", "[
   CHECK(config.streams[1].format == FormatKind::kVectornav);
 }
 
+TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
+  const ConnectConfig config =
+      load(stream("name: base, source: file, path: a.rtcm3, format: rtcm3, date: 2024-03-20"));
+  CHECK(config.streams.at(0).format == FormatKind::kRtcm3);
+  CHECK(config.streams.at(0).day.is_set());
+  CHECK_FALSE(load(stream("name: base, source: tcp, host: caster, port: 2101, format: rtcm3"))
+                  .streams.at(0)
+                  .day.is_set());
+  CHECK_THROWS_AS(load(stream("name: base, source: file, path: a.rtcm3, format: rtcm3")),
+                  ConfigError);
+  CHECK_THROWS_AS(
+      load(stream("name: base, source: file, path: a.rtcm3, format: rtcm3, date: 2024-02-30")),
+      ConfigError);
+}
+
 TEST_CASE("A sensor that writes text is described by columns, units and axes", "[connect]") {
   const ConnectConfig config = load(
       stream("name: imu, source: tcp, host: sensor, port: 4001, format: imu_line, latency_ms: 2,"

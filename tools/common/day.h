@@ -1,0 +1,14 @@
+// This function reads a day that a user has written.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "core/base/gps_time.h"
+
+namespace leonav {
+
+// Returns noon (GPS time) of a day written as YYYY-MM-DD, 1980 to 2099; nullopt for any other text
+// and for days that no month has.
+std::optional<GpsTime> noon_of(const std::string& text);
+
+}  // namespace leonav

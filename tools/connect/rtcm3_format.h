@@ -1,0 +1,50 @@
+// The Rtcm3Format publishes the observations and broadcast ephemerides of an RTCM 3 stream.
+#pragma once
+#include "drivers/rtcm3/rtcm3_decoder.h"
+#include "tools/connect/ephemeris_repeater.h"
+#include "tools/connect/gps_clock.h"
+#include "tools/connect/message_output.h"
+#include "tools/connect/stream_format.h"
+
+namespace leonav {
+
+// The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of the MSM of an
+// instant, EPHEMERIS of 1019, 1042, 1045 and 1046. Besides, ephemerides are repeated. RTCM gives no
+// week: it is that of a day that is told, otherwise that of the host's clock at each arrival.
+class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
+ public:
+  // `day`: an instant within three days of the stream's beginning; unset: the stream is live.
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. Both pointers must
+  // outlive this object.
+  Rtcm3Format(GpsTime day, double repeat_s, GpsClock* clock, MessageOutput* output)
+      : is_live_(!day.is_set()),
+        clock_(clock),
+        output_(output),
+        repeater_(repeat_s, output),
+        decoder_({day}) {}
+
+  void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
+  void finish() override { decoder_.finish(this); }
+  FormatCounts counts() const override;
+  std::optional<DataTime> data_time() const override;
+  std::string detail() const override;
+  std::string why_no_frames() const override;
+  std::string why_no_messages() const override;
+
+ private:
+  void on_epoch(const RawEpoch& epoch) override;
+  void on_ephemeris(const Ephemeris& ephemeris) override;
+
+  bool is_live_;
+  GpsClock* clock_;
+  MessageOutput* output_;
+  EphemerisRepeater repeater_;
+  GpsClock host_{TimeReference::kHost, 0.0};
+  Rtcm3Decoder decoder_;
+  std::int64_t arrival_ns_ = 0;  // of the bytes at hand
+  GpsTime last_epoch_;
+  std::size_t last_signals_ = 0;
+  std::uint64_t messages_ = 0, ephemerides_ = 0;
+};
+
+}  // namespace leonav
