@@ -103,8 +103,8 @@ class Ekf {
   // Does nothing without an attitude.
   void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
   // Takes position, velocity, attitude and IMU errors, with their covariance, from another estimate
-  // of the same time (StateEstimate::replace_motion). Clock offsets start anew at the next update,
-  // with all ambiguities. Precondition: initialized, and not a static point.
+  // of the same time (StateEstimate::replace_motion). The next update starts all clock offsets and
+  // ambiguities again. Precondition: initialized, and not a static point.
   void replace_motion(const NavState& nav, const InertialCovariance& covariance,
                       const AttitudeRandomWalk& random_walk);
   // For `seconds` from now the attitude turns by a random walk of `noise`, rad/sqrt(s), beside that

@@ -20,8 +20,8 @@ constexpr double kLongestYounger_s = 180.0;  // after that it counts as of the w
 // least so many codes of which most fit the window.
 constexpr double kOnItsOwn_s = 10.0;
 constexpr int kFittingSolves = 8, kFittingCodes = 4;
-// An attitude that a filter finds anew ends a window that is farther from it than so many of its
-// sigmas (three axes together).
+// When a filter has aligned again, the window ends if its attitude differs from the filter's by
+// more than so many sigmas of the filter's (three axes together).
 constexpr double kAttitudeContradiction = 5.0;
 // Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
 // then, and a few satellites would outvote the others.

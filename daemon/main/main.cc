@@ -1,13 +1,11 @@
 // leonavd: the navigation daemon. Exit codes: 0 stopped cleanly; 1 failure while running; 2 wrong
 // command line; 3 configuration; 4 LCM or network; 5 journal.
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <ctime>
-#include <exception>
 #include <iostream>
 #include <thread>
 #include <utility>
@@ -26,12 +24,11 @@
 #include "daemon/text/checkpoint_text.h"
 #include "daemon/threads/wall_clock.h"
 #include "tools/common/configuration_options.h"
+#include "tools/common/service/service_main.h"
 
 namespace {
 
 using namespace leonav;
-
-constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4, kExitJournal = 5;
 
 // Blocked in every thread; `main` takes them one at a time. A second one ends the process at once.
 sigset_t stop_signals() {
@@ -250,31 +247,6 @@ int daemon_main(int argc, char** argv) {
   return checks ? check(arguments) : run(configuration(arguments));
 }
 
-int guarded_main(int argc, char** argv) {
-  try {
-    return daemon_main(argc, argv);
-  } catch (const UsageError& error) {
-    spdlog::error("{}", error.what());
-    return kExitUsage;
-  } catch (const ConfigError& error) {
-    spdlog::error("{}", error.what());
-    return kExitConfig;
-  } catch (const LcmError& error) {
-    spdlog::error("{}", error.what());
-    return kExitLcm;
-  } catch (const EventLogError& error) {
-    spdlog::error("{}", error.what());
-    return kExitJournal;
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return kExitFailure;
-  }
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("leonavd"));
-  spdlog::set_pattern("leonavd %H:%M:%S.%e %l: %v");
-  return guarded_main(argc, argv);
-}
+int main(int argc, char** argv) { return service_main("leonavd", argc, argv, daemon_main); }

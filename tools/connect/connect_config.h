@@ -7,8 +7,8 @@
 #include "daemon/config/daemon_config.h"
 #include "drivers/imu_line/line_layout.h"
 #include "drivers/transport/live_sources.h"
-#include "tools/connect/gps_clock.h"
-#include "tools/connect/imu_stamper.h"
+#include "tools/connect/stamps/gps_clock.h"
+#include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 

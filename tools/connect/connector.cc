@@ -11,13 +11,13 @@
 
 #include "daemon/link/lcm_publisher.h"
 #include "drivers/transport/file_source.h"
-#include "tools/connect/imu_line_format.h"
-#include "tools/connect/message_output.h"
-#include "tools/connect/rtcm3_format.h"
+#include "tools/connect/formats/imu_line_format.h"
+#include "tools/connect/formats/message_output.h"
+#include "tools/connect/formats/rtcm3_format.h"
+#include "tools/connect/formats/ubx_format.h"
+#include "tools/connect/formats/vectornav_format.h"
 #include "tools/connect/stream.h"
 #include "tools/connect/stream_status.h"
-#include "tools/connect/ubx_format.h"
-#include "tools/connect/vectornav_format.h"
 
 namespace leonav {
 

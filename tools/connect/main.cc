@@ -1,20 +1,14 @@
 // leonav-connect: receivers and inertial sensors into LCM. Exit codes: 0 stopped cleanly, or every
 // stream ended; 1 failure while running; 2 wrong command line; 3 configuration; 4 LCM or network.
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <exception>
-
-#include "daemon/config/load_config.h"
-#include "daemon/link/open_lcm.h"
 #include "tools/common/arguments.h"
+#include "tools/common/service/service_main.h"
 #include "tools/connect/connector.h"
 
 namespace {
 
 using namespace leonav;
-
-constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4;
 
 int connect_main(int argc, char** argv) {
   Arguments arguments(
@@ -51,28 +45,6 @@ int connect_main(int argc, char** argv) {
   return Connector(config).run() == ConnectorEnd::kFailed ? kExitFailure : 0;
 }
 
-int guarded_main(int argc, char** argv) {
-  try {
-    return connect_main(argc, argv);
-  } catch (const UsageError& error) {
-    spdlog::error("{}", error.what());
-    return kExitUsage;
-  } catch (const ConfigError& error) {
-    spdlog::error("{}", error.what());
-    return kExitConfig;
-  } catch (const LcmError& error) {
-    spdlog::error("{}", error.what());
-    return kExitLcm;
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return kExitFailure;
-  }
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("leonav-connect"));
-  spdlog::set_pattern("leonav-connect %H:%M:%S.%e %l: %v");
-  return guarded_main(argc, argv);
-}
+int main(int argc, char** argv) { return service_main("leonav-connect", argc, argv, connect_main); }

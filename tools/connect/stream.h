@@ -7,7 +7,7 @@
 #include "drivers/transport/recording.h"
 #include "drivers/transport/retry_wait.h"
 #include "tools/connect/connect_config.h"
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/stream_format.h"
 #include "tools/connect/stream_watch.h"
 
 namespace leonav {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/stream_format.h"
 
 namespace leonav {
 

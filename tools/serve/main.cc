@@ -1,20 +1,15 @@
 // leonav-serve: solutions as NMEA 0183. Exit codes: 0 stopped cleanly; 1 failure while running; 2
 // wrong command line; 3 configuration; 4 LCM or network.
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <exception>
-
 #include "daemon/config/load_config.h"
-#include "daemon/link/open_lcm.h"
 #include "tools/common/arguments.h"
+#include "tools/common/service/service_main.h"
 #include "tools/serve/server.h"
 
 namespace {
 
 using namespace leonav;
-
-constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4;
 
 // The options are keys of the configuration under shorter names.
 std::vector<std::string> overrides_of(const Arguments& arguments) {
@@ -82,28 +77,6 @@ int serve_main(int argc, char** argv) {
   return Server(config).run() ? 0 : kExitFailure;
 }
 
-int guarded_main(int argc, char** argv) {
-  try {
-    return serve_main(argc, argv);
-  } catch (const UsageError& error) {
-    spdlog::error("{}", error.what());
-    return kExitUsage;
-  } catch (const ConfigError& error) {
-    spdlog::error("{}", error.what());
-    return kExitConfig;
-  } catch (const LcmError& error) {
-    spdlog::error("{}", error.what());
-    return kExitLcm;
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return kExitFailure;
-  }
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("leonav-serve"));
-  spdlog::set_pattern("leonav-serve %H:%M:%S.%e %l: %v");
-  return guarded_main(argc, argv);
-}
+int main(int argc, char** argv) { return service_main("leonav-serve", argc, argv, serve_main); }

@@ -71,7 +71,7 @@ enum class ResetCause : std::uint8_t {
   // Nearly all measurements were rejected. value: m, the new sigma of a filter that is restarted,
   // the discrepancy of the codes for one that is dropped.
   kLockedOut = 5,
-  kHeading = 6,  // the heading was wrong and is found anew; value: rad, its error
+  kHeading = 6,  // the heading was wrong; the alignment starts again. value: rad, its error
   // A filter that has started over takes the state of the smoother's window, which knows more;
   // value: m, change of the position.
   kWindow = 7

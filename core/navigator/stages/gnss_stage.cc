@@ -86,15 +86,9 @@ void GnssStage::follow_window(const EpochWork& work) {
   if (!window.valid || window.state.time != ekf_.state().time) return;
   const double moved_m = (window.state.p_e - ekf_.state().p_e).norm();
   ekf_.replace_motion(window.state, window.covariance, window.random_walk);
-  front_end_.reset_position();
-  attitude_.reset_alignment();
+  reset(kWindowReset, last_epoch_time_, ResetCause::kWindow, moved_m);
   attitude_.start_heading_monitor(ekf_);
-  reporter_.report_checkpoint(attitude_.discard_checkpoint(), work.time);
-  filter_monitor_.filter_restarted(work.time, false);
-  satellite_faults_.filter_restarted(false);
-  fault_hypotheses_.clear();
-  reporter_.emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kWindow), moved_m,
-                 last_epoch_time_);
+  reporter_.report_checkpoint(attitude_.discard_checkpoint(), last_epoch_time_);
 }
 
 void GnssStage::predict(const EpochWork& work) {

@@ -74,7 +74,7 @@ class GnssStage {
   void push_keyframe(const EpochWork& work);
   void set_heading(double heading, double sigma);
 
-  // The only members that drop or restart the filter or restart its clocks, beside follow_window().
+  // The only members that drop or restart the filter or restart its clocks.
   void apply(const FilterVerdict& verdict, GpsTime time);
   void reset(const ResetPlan& plan, GpsTime time, ResetCause cause, double value,
              const PointSolution& start = {});

@@ -11,6 +11,7 @@
 #include "oracle_programs.h"
 #include "rtcm3_streams.h"
 #include "support/catch.h"
+#include "support/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {
@@ -72,30 +73,12 @@ std::vector<Words> msm_lines(const std::vector<std::uint8_t>& bytes, GpsTime tim
   return lines;
 }
 
-std::vector<double> elements_of(const Ephemeris& e) {
-  return {static_cast<double>(e.issue),
-          static_cast<double>(e.issue_clock),
-          static_cast<double>(e.health),
-          e.sqrt_a,
-          e.eccentricity,
-          e.m0,
-          e.delta_n,
-          e.omega0,
-          e.omega_dot,
-          e.i0,
-          e.i_dot,
-          e.omega,
-          e.cuc,
-          e.cus,
-          e.crc,
-          e.crs,
-          e.cic,
-          e.cis,
-          e.af0,
-          e.af1,
-          e.af2,
-          e.group_delay_s[0],
-          e.group_delay_s[1]};
+// With the whole numbers in front.
+std::vector<double> contents_of(const Ephemeris& e) {
+  std::vector<double> contents = {static_cast<double>(e.issue), static_cast<double>(e.issue_clock),
+                                  static_cast<double>(e.health)};
+  for (const double element : test::elements_of(e)) contents.push_back(element);
+  return contents;
 }
 
 double time_of_week(const Ephemeris& e, GpsTime time) {
@@ -182,7 +165,7 @@ TEST_CASE("Every ephemeris agrees with pyrtcm to the last bit") {
       CHECK(to_string(e.satellite) == line[2]);
       CHECK(time_of_week(e, e.toe) == number(line[4]));
       CHECK(time_of_week(e, e.toc) == number(line[5]));
-      const auto elements = elements_of(e);
+      const auto elements = contents_of(e);
       REQUIRE(elements.size() + 6 == line.size());
       for (std::size_t k = 0; k < elements.size(); ++k) {
         const double theirs_k = number(line[k + 6]);

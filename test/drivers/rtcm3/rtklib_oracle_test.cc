@@ -10,6 +10,7 @@
 #include "oracle_programs.h"
 #include "rtcm3_streams.h"
 #include "support/catch.h"
+#include "support/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {
@@ -93,28 +94,7 @@ double last_digit(double value) {
   return 0.5001e-12 * std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0);
 }
 
-std::array<double, 20> elements_of(const Ephemeris& e) {
-  return {e.sqrt_a,
-          e.eccentricity,
-          e.m0,
-          e.delta_n,
-          e.omega0,
-          e.omega_dot,
-          e.i0,
-          e.i_dot,
-          e.omega,
-          e.cuc,
-          e.cus,
-          e.crc,
-          e.crs,
-          e.cic,
-          e.cis,
-          e.af0,
-          e.af1,
-          e.af2,
-          e.group_delay_s[0],
-          e.group_delay_s[1]};
-}
+using test::elements_of;
 
 using Key = std::tuple<SatelliteId, NavigationMessage, GpsTime, std::uint16_t>;
 Key key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe, e.issue}; }

@@ -7,6 +7,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ubx/walk_recording.h"
 #include "support/catch.h"
+#include "support/ephemeris_elements.h"
 
 namespace leonav {
 namespace {
@@ -48,29 +49,7 @@ TEST_CASE("Ephemerides agree with RTKLIB's in every field") {
     // For BeiDou convbin puts a number of its own making where the age of data belongs.
     if (t.satellite.system != System::kBeidou) CHECK(o.issue == t.issue);
     if (t.satellite.system == System::kGps) CHECK(o.issue_clock == t.issue_clock);
-    const auto fields = [](const Ephemeris& e) {
-      return std::array{e.sqrt_a,
-                        e.eccentricity,
-                        e.m0,
-                        e.delta_n,
-                        e.omega0,
-                        e.omega_dot,
-                        e.i0,
-                        e.i_dot,
-                        e.omega,
-                        e.cuc,
-                        e.cus,
-                        e.crc,
-                        e.crs,
-                        e.cic,
-                        e.cis,
-                        e.af0,
-                        e.af1,
-                        e.af2,
-                        e.group_delay_s[0],
-                        e.group_delay_s[1]};
-    };
-    const auto a = fields(o), b = fields(t);
+    const auto a = test::elements_of(o), b = test::elements_of(t);
     for (std::size_t i = 0; i < a.size(); ++i) {
       CAPTURE(i, a[i], b[i]);
       CHECK(std::abs(a[i] - b[i]) <= last_digit(a[i]));

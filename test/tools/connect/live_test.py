@@ -22,29 +22,14 @@ import tty
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-sys.path += [str(HERE), str(ROOT / "tools/scripts/lib")]
+sys.path += [str(HERE), str(HERE.parent), str(ROOT / "tools/scripts/lib")]
 import lcm_log  # noqa: E402
 import ubx_bytes  # noqa: E402
 import vectornav_bytes  # noqa: E402
+from live_program import enter_namespace, fail  # noqa: E402
 
 SPEED = 4.0
 IMU = struct.Struct(">qqqiq6d")  # fingerprint, time, sequence, schema, interval, increments
-
-
-def fail(text):
-    sys.exit(f"FAILED: {text}")
-
-
-def enter_namespace():
-    if os.environ.get("LEONAV_IN_NAMESPACE") != "yes":
-        for enter in (["unshare", "-n"], ["unshare", "-rn"]):
-            if subprocess.run([*enter, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-                os.environ["LEONAV_IN_NAMESPACE"] = "yes"
-                os.execvp(enter[0], [*enter, sys.executable, *sys.argv])
-        print("SKIPPED: no network namespace can be made here")
-        sys.exit(77)
-    subprocess.run(["ip", "link", "set", "lo", "up", "multicast", "on"], check=True)
-    subprocess.run(["ip", "route", "add", "224.0.0.0/4", "dev", "lo"], check=True)
 
 
 class Terminal:

@@ -20,26 +20,14 @@ import sys
 import threading
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path.append(str(HERE.parent))
+from live_program import enter_namespace, fail  # noqa: E402
+
 PORT, RATE, INSTANTS = 10110, 20, 2000
 GPS_EPOCH = datetime.datetime(1980, 1, 6)
 START = datetime.datetime(2024, 2, 28, 23, 59, 30)  # UTC; a leap day begins within the run
-
-
-def fail(text):
-    sys.exit(f"FAILED: {text}")
-
-
-def enter_namespace():
-    if os.environ.get("LEONAV_IN_NAMESPACE") != "yes":
-        for enter in (["unshare", "-n"], ["unshare", "-rn"]):
-            if subprocess.run([*enter, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-                os.environ["LEONAV_IN_NAMESPACE"] = "yes"
-                os.execvp(enter[0], [*enter, sys.executable, *sys.argv])
-        print("SKIPPED: no network namespace can be made here")
-        sys.exit(77)
-    subprocess.run(["ip", "link", "set", "lo", "up", "multicast", "on"], check=True)
-    subprocess.run(["ip", "route", "add", "224.0.0.0/4", "dev", "lo"], check=True)
 
 
 class Publisher:

@@ -1,6 +1,6 @@
 """Restarts and wrong headings by COMMAND messages: errors before, meanwhile and after; Markdown tables to standard output.
 
-  restarts.py BIN OUT     OUT/types holds lcm-gen's Python of command_t; exits with 1 if a bound does not hold
+  restarts.py BIN OUT [SCENES [SEEDS]]     OUT/types holds lcm-gen's Python of command_t; exits with 1 if a bound does not hold
 
 Times are seconds since the truth's first epoch.
 """
@@ -399,10 +399,27 @@ def judge(results):
     return all([verdict(kept, text) for kept, text in verdicts])
 
 
+def choose(scenes="", seeds=""):
+    """Leaves only these scenes and seeds, each a list with commas; empty: all."""
+    global SEEDS
+    wanted = [scene.strip() for scene in scenes.split(",") if scene.strip()]
+    for scene in wanted:
+        if scene not in FAMILIES:
+            sys.exit(f"no scene '{scene}'; there are: {', '.join(FAMILIES)}")
+    for scene in list(FAMILIES):
+        if wanted and scene not in wanted:
+            del FAMILIES[scene]
+    try:
+        SEEDS = [int(seed) for seed in seeds.split(",") if seed.strip()] or SEEDS
+    except ValueError:
+        sys.exit(f"seeds are whole numbers with commas, not '{seeds}'")
+
+
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4, 5):
         sys.exit(__doc__)
     bin_folder, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    choose(*sys.argv[3:])
     command_t = command_type(out)
     results = {}
     for family in FAMILIES:

@@ -1,4 +1,4 @@
-// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are four
+// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are five
 // presets.
 #pragma once
 
@@ -8,6 +8,7 @@ namespace leonav {
 enum class FilterReset : unsigned char {
   kReset,    // only the configuration remains; a later point solution starts the filter
   kRestart,  // the filter starts at once from a point solution
+  kReplaced  // the filter has taken another estimate's state before
 };
 // The carriers' part of a reset.
 enum class CarrierReset : unsigned char {
@@ -32,10 +33,6 @@ enum class CarrierReset : unsigned char {
 // attitude. CarrierSpeed starts anew, because the carriers give no displacement over a reset. The
 // next epoch whose filter has a state is a keyframe, because the filter's process does not
 // continue.
-//
-// A filter that follows the smoother's window (GnssStage::follow_window) is no reset: it takes a
-// state over. Its carriers end, the next epoch is not tested against the last one, the alignment
-// and the evidence of FilterMonitor and SatelliteFaultMonitor are cleared.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
   // For kRestart only.
@@ -84,6 +81,13 @@ inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .clears_alignment = true,
                                             .clears_external_heading = true,
                                             .counts_as_gnss_epoch = true};
+
+// Reset of a filter that has taken over the state of the smoother's window, attitude included.
+inline constexpr ResetPlan kWindowReset = {.filter = FilterReset::kReplaced,
+                                           .keeps_vehicle_constants = true,
+                                           .keeps_attitude = true,
+                                           .carriers = CarrierReset::kPosition,
+                                           .clears_alignment = true};
 
 // Returns the reset after a wrong position or velocity: the filter restarts from a point solution.
 // A good attitude, which took a drive to find, is kept with the estimated IMU errors; otherwise the

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/inertial/strapdown/imu.h"
-#include "tools/connect/imu_reading.h"
+#include "tools/connect/stamps/imu_reading.h"
 
 namespace leonav {
 

@@ -1,4 +1,4 @@
-#include "tools/connect/imu_sampler.h"
+#include "tools/connect/stamps/imu_sampler.h"
 
 #include <algorithm>
 #include <cmath>

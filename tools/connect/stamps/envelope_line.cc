@@ -1,4 +1,4 @@
-#include "tools/connect/envelope_line.h"
+#include "tools/connect/stamps/envelope_line.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,4 @@
-#include "tools/connect/ubx_format.h"
-
-#include "tools/common/format.h"
-#include "tools/import/product_schedule.h"
+#include "tools/connect/formats/ubx_format.h"
 
 namespace leonav {
 
@@ -10,52 +7,23 @@ void UbxFormat::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_n
   decoder_.feed(bytes, this);
 }
 
-void UbxFormat::on_epoch(const RawEpoch& epoch) {
-  clock_->on_epoch(epoch.time, arrival_ns_);
-  last_epoch_ = epoch.time;
-  last_signals_ = epoch.observations.size();
-  output_->send(epoch);
-  output_->note_time(epoch.time);
-  ++messages_;
-  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
-}
-
-void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) {
-  Ephemeris sent = ephemeris;
-  sent.transmission_time = transmission_time(ephemeris);
-  output_->send(sent);
-  repeater_.remember(sent, last_epoch_);
-  ++messages_;
-  ++ephemerides_;
-}
-
+void UbxFormat::on_epoch(const RawEpoch& epoch) { receiver_.send(epoch, arrival_ns_); }
+void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
 void UbxFormat::on_klobuchar(const KlobucharModel& model) {
-  output_->send(model, last_epoch_.plus_seconds(latency_s_));
-  ++messages_;
+  receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));
 }
 
 FormatCounts UbxFormat::counts() const {
   const UbxCounters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.messages;
-  counts.messages = messages_;
+  counts.messages = receiver_.messages();
   counts.damaged = c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete;
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +
                    c.rawx.bad_satellite + c.sfrbx.bad_length + c.sfrbx.bad_version +
                    c.sfrbx.bad_satellite + c.sfrbx.bad_parity + c.sfrbx.bad_week +
                    c.sfrbx.wrong_satellite + c.sfrbx.not_sane;
   return counts;
-}
-
-std::optional<DataTime> UbxFormat::data_time() const {
-  if (!last_epoch_.is_set()) return std::nullopt;
-  return DataTime{true, last_epoch_.nanoseconds()};
-}
-
-std::string UbxFormat::detail() const {
-  if (!last_epoch_.is_set()) return "";
-  return format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
-                static_cast<unsigned long long>(ephemerides_));
 }
 
 std::string UbxFormat::why_no_frames() const {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "drivers/imu_line/imu_line_decoder.h"
-#include "tools/connect/imu_format.h"
+#include "tools/connect/formats/imu_format.h"
 
 namespace leonav {
 

@@ -1,4 +1,4 @@
-#include "tools/connect/imu_stamper.h"
+#include "tools/connect/stamps/imu_stamper.h"
 
 #include <cmath>
 #include <limits>

@@ -1,10 +1,8 @@
 // The UbxFormat publishes a u-blox receiver's raw measurements and broadcast ephemerides.
 #pragma once
 #include "drivers/ubx/ubx_decoder.h"
-#include "tools/connect/ephemeris_repeater.h"
-#include "tools/connect/gps_clock.h"
-#include "tools/connect/message_output.h"
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/receiver_output.h"
+#include "tools/connect/formats/stream_format.h"
 
 namespace leonav {
 
@@ -16,13 +14,13 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
   // epochs' arrivals set `clock`. Both pointers must outlive this object.
   UbxFormat(double latency_s, double repeat_s, GpsClock* clock, MessageOutput* output)
-      : latency_s_(latency_s), clock_(clock), output_(output), repeater_(repeat_s, output) {}
+      : latency_s_(latency_s), receiver_(repeat_s, clock, output) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   void finish() override { decoder_.finish(this); }
   FormatCounts counts() const override;
-  std::optional<DataTime> data_time() const override;
-  std::string detail() const override;
+  std::optional<DataTime> data_time() const override { return receiver_.data_time(); }
+  std::string detail() const override { return receiver_.detail(); }
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
 
@@ -32,14 +30,9 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   void on_klobuchar(const KlobucharModel& model) override;
 
   double latency_s_;
-  GpsClock* clock_;
-  MessageOutput* output_;
-  EphemerisRepeater repeater_;
+  ReceiverOutput receiver_;
   UbxDecoder decoder_;
   std::int64_t arrival_ns_ = 0;  // of the bytes at hand
-  GpsTime last_epoch_;
-  std::size_t last_signals_ = 0;
-  std::uint64_t messages_ = 0, ephemerides_ = 0;
 };
 
 }  // namespace leonav

@@ -1,7 +1,7 @@
 // The VectornavFormat publishes the samples of a VectorNav sensor.
 #pragma once
 #include "drivers/vectornav/vectornav_decoder.h"
-#include "tools/connect/imu_format.h"
+#include "tools/connect/formats/imu_format.h"
 
 namespace leonav {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/base/gps_time.h"
-#include "tools/connect/envelope_line.h"
+#include "tools/connect/stamps/envelope_line.h"
 
 namespace leonav {
 

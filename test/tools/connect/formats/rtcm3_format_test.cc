@@ -1,6 +1,6 @@
 // What leonav-connect publishes of an RTCM 3 stream, from messages encoded here by the standard's
 // tables.
-#include "tools/connect/rtcm3_format.h"
+#include "tools/connect/formats/rtcm3_format.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "tools/connect/gps_clock.h"
+#include "tools/connect/stamps/gps_clock.h"
 
 #include "core/base/calendar.h"
 

@@ -1,4 +1,4 @@
-#include "tools/connect/imu_format.h"
+#include "tools/connect/formats/imu_format.h"
 
 namespace leonav {
 

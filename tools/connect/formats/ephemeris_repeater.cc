@@ -1,4 +1,4 @@
-#include "tools/connect/ephemeris_repeater.h"
+#include "tools/connect/formats/ephemeris_repeater.h"
 
 #include <cmath>
 

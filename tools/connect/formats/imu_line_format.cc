@@ -1,4 +1,4 @@
-#include "tools/connect/imu_line_format.h"
+#include "tools/connect/formats/imu_line_format.h"
 
 namespace leonav {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/connect/envelope_line.h"
-#include "tools/connect/gps_clock.h"
-#include "tools/connect/imu_reading.h"
+#include "tools/connect/stamps/envelope_line.h"
+#include "tools/connect/stamps/gps_clock.h"
+#include "tools/connect/stamps/imu_reading.h"
 
 namespace leonav {
 

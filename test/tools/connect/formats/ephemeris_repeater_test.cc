@@ -1,5 +1,5 @@
 // Ephemerides are sent again, a few at each epoch, as long as they can serve.
-#include "tools/connect/ephemeris_repeater.h"
+#include "tools/connect/formats/ephemeris_repeater.h"
 
 #include "support/catch.h"
 

@@ -1,9 +1,6 @@
-#include "tools/connect/rtcm3_format.h"
+#include "tools/connect/formats/rtcm3_format.h"
 
 #include <string_view>
-
-#include "tools/common/format.h"
-#include "tools/import/product_schedule.h"
 
 namespace leonav {
 
@@ -13,30 +10,14 @@ void Rtcm3Format::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival
   decoder_.feed(bytes, this);
 }
 
-void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
-  clock_->on_epoch(epoch.time, arrival_ns_);
-  last_epoch_ = epoch.time;
-  last_signals_ = epoch.observations.size();
-  output_->send(epoch);
-  output_->note_time(epoch.time);
-  ++messages_;
-  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
-}
-
-void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) {
-  Ephemeris sent = ephemeris;
-  sent.transmission_time = transmission_time(ephemeris);
-  output_->send(sent);
-  repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
-  ++messages_;
-  ++ephemerides_;
-}
+void Rtcm3Format::on_epoch(const RawEpoch& epoch) { receiver_.send(epoch, arrival_ns_); }
+void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
 
 FormatCounts Rtcm3Format::counts() const {
   const Rtcm3Counters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.frames;
-  counts.messages = messages_;
+  counts.messages = receiver_.messages();
   counts.damaged = c.framer.bad_checksums + c.framer.incomplete + c.framer.too_short;
   counts.refused = c.epochs.bad_length + c.epochs.bad_mask + c.epochs.bad_time + c.epochs.late +
                    c.epochs.other_station + c.epochs.without_reference +
@@ -45,17 +26,6 @@ FormatCounts Rtcm3Format::counts() const {
                    c.ephemerides.bad_satellite + c.ephemerides.bad_time + c.ephemerides.bad_week +
                    c.ephemerides.not_sane + c.ephemerides.without_reference;
   return counts;
-}
-
-std::optional<DataTime> Rtcm3Format::data_time() const {
-  if (!last_epoch_.is_set()) return std::nullopt;
-  return DataTime{true, last_epoch_.nanoseconds()};
-}
-
-std::string Rtcm3Format::detail() const {
-  if (!last_epoch_.is_set() && ephemerides_ == 0) return "";
-  return format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
-                static_cast<unsigned long long>(ephemerides_));
 }
 
 std::string Rtcm3Format::why_no_frames() const {

@@ -1,9 +1,9 @@
 // The ImuFormat is what all formats of inertial sensors share: stamp, sample, publish, report.
 #pragma once
-#include "tools/connect/imu_sampler.h"
-#include "tools/connect/imu_stamper.h"
-#include "tools/connect/message_output.h"
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/message_output.h"
+#include "tools/connect/formats/stream_format.h"
+#include "tools/connect/stamps/imu_sampler.h"
+#include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 

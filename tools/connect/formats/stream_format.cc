@@ -1,4 +1,4 @@
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/stream_format.h"
 
 #include <limits>
 

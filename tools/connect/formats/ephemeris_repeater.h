@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/gnss/orbits/ephemeris.h"
-#include "tools/connect/message_output.h"
+#include "tools/connect/formats/message_output.h"
 
 namespace leonav {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "support/catch.h"
-#include "tools/connect/imu_sampler.h"
-#include "tools/connect/imu_stamper.h"
+#include "tools/connect/stamps/imu_sampler.h"
+#include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 namespace {

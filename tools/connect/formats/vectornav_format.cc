@@ -1,4 +1,4 @@
-#include "tools/connect/vectornav_format.h"
+#include "tools/connect/formats/vectornav_format.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The line through arrivals, on delays that are made here: exponential queues over a least delay.
-#include "tools/connect/envelope_line.h"
+#include "tools/connect/stamps/envelope_line.h"
 
 #include <cmath>
 #include <random>

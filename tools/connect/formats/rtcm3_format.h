@@ -1,10 +1,8 @@
 // The Rtcm3Format publishes the observations and broadcast ephemerides of an RTCM 3 stream.
 #pragma once
 #include "drivers/rtcm3/rtcm3_decoder.h"
-#include "tools/connect/ephemeris_repeater.h"
-#include "tools/connect/gps_clock.h"
-#include "tools/connect/message_output.h"
-#include "tools/connect/stream_format.h"
+#include "tools/connect/formats/receiver_output.h"
+#include "tools/connect/formats/stream_format.h"
 
 namespace leonav {
 
@@ -17,17 +15,13 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. Both pointers must
   // outlive this object.
   Rtcm3Format(GpsTime day, double repeat_s, GpsClock* clock, MessageOutput* output)
-      : is_live_(!day.is_set()),
-        clock_(clock),
-        output_(output),
-        repeater_(repeat_s, output),
-        decoder_({day}) {}
+      : is_live_(!day.is_set()), receiver_(repeat_s, clock, output), decoder_({day}) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   void finish() override { decoder_.finish(this); }
   FormatCounts counts() const override;
-  std::optional<DataTime> data_time() const override;
-  std::string detail() const override;
+  std::optional<DataTime> data_time() const override { return receiver_.data_time(); }
+  std::string detail() const override { return receiver_.detail(); }
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
 
@@ -36,15 +30,10 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   void on_ephemeris(const Ephemeris& ephemeris) override;
 
   bool is_live_;
-  GpsClock* clock_;
-  MessageOutput* output_;
-  EphemerisRepeater repeater_;
+  ReceiverOutput receiver_;
   GpsClock host_{TimeReference::kHost, 0.0};
   Rtcm3Decoder decoder_;
   std::int64_t arrival_ns_ = 0;  // of the bytes at hand
-  GpsTime last_epoch_;
-  std::size_t last_signals_ = 0;
-  std::uint64_t messages_ = 0, ephemerides_ = 0;
 };
 
 }  // namespace leonav

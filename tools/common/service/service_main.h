@@ -1,0 +1,15 @@
+// The programs that run beside each other as services start and end alike.
+#pragma once
+
+namespace leonav {
+
+// Exit codes of the services, as their --help tells them.
+inline constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm = 4,
+                     kExitJournal = 5;
+
+// Logs to standard error under the program's `name` and returns what `body` returns. Of an
+// exception it logs the text and returns the exit code of its kind: UsageError, ConfigError,
+// LcmError, EventLogError, else kExitFailure.
+int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv));
+
+}  // namespace leonav

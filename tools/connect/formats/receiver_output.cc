@@ -1,0 +1,43 @@
+#include "tools/connect/formats/receiver_output.h"
+
+#include "tools/common/format.h"
+#include "tools/import/product_schedule.h"
+
+namespace leonav {
+
+void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
+  clock_->on_epoch(epoch.time, arrival_ns);
+  last_epoch_ = epoch.time;
+  last_signals_ = epoch.observations.size();
+  output_->send(epoch);
+  output_->note_time(epoch.time);
+  ++messages_;
+  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
+}
+
+void ReceiverOutput::send(const Ephemeris& ephemeris) {
+  Ephemeris sent = ephemeris;
+  sent.transmission_time = transmission_time(ephemeris);
+  output_->send(sent);
+  repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
+  ++messages_;
+  ++ephemerides_;
+}
+
+void ReceiverOutput::send(const KlobucharModel& model, GpsTime received) {
+  output_->send(model, received);
+  ++messages_;
+}
+
+std::optional<DataTime> ReceiverOutput::data_time() const {
+  if (!last_epoch_.is_set()) return std::nullopt;
+  return DataTime{true, last_epoch_.nanoseconds()};
+}
+
+std::string ReceiverOutput::detail() const {
+  if (!last_epoch_.is_set() && ephemerides_ == 0) return "";
+  return format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
+                static_cast<unsigned long long>(ephemerides_));
+}
+
+}  // namespace leonav

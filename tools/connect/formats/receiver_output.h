@@ -1,0 +1,45 @@
+// The ReceiverOutput publishes what one GNSS receiver has measured and received.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/transport/byte_source.h"
+#include "tools/connect/formats/ephemeris_repeater.h"
+#include "tools/connect/formats/message_output.h"
+#include "tools/connect/stamps/gps_clock.h"
+
+namespace leonav {
+
+// Every format of receivers sends through it, so that all of them publish the same messages as
+// leonav-import writes. Besides, ephemerides are repeated.
+class ReceiverOutput {
+ public:
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. Both pointers must
+  // outlive this object.
+  ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output)
+      : clock_(clock), output_(output), repeater_(repeat_s, output) {}
+
+  // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock.
+  void send(const RawEpoch& epoch, std::int64_t arrival_ns);
+  void send(const Ephemeris& ephemeris);
+  // `received`: GPS time.
+  void send(const KlobucharModel& model, GpsTime received);
+
+  GpsTime last_epoch() const { return last_epoch_; }
+  std::uint64_t messages() const { return messages_; }  // published
+  // The time of the last epoch, by which a file without recorded arrivals is played.
+  std::optional<DataTime> data_time() const;
+  // What came, in a few words; empty while nothing has come.
+  std::string detail() const;
+
+ private:
+  GpsClock* clock_;
+  MessageOutput* output_;
+  EphemerisRepeater repeater_;
+  GpsTime last_epoch_;
+  std::size_t last_signals_ = 0;
+  std::uint64_t messages_ = 0, ephemerides_ = 0;
+};
+
+}  // namespace leonav
