@@ -108,11 +108,11 @@ void put_header(GpsTime time, std::string_view frame, CdrWriter* writer) {
       .text(frame);
 }
 
-void put(const Eigen::Vector3d& vector, CdrWriter* writer) {
+void put_vector(const Eigen::Vector3d& vector, CdrWriter* writer) {
   for (const double value : vector) writer->put(value);
 }
 
-void put(const Matrix6& matrix, CdrWriter* writer) { writer->array({matrix.data(), 36}); }
+void put_matrix(const Matrix6& matrix, CdrWriter* writer) { writer->array({matrix.data(), 36}); }
 
 // C_un: from north, east, down to east, north, up.
 Eigen::Matrix3d east_north_up_from_ned() {
@@ -192,12 +192,12 @@ std::optional<std::string> odometry(const SolutionRow& row, const Geodetic& orig
   CdrWriter writer;
   put_header(row.pva.time, kMap, &writer);
   writer.text(kVehicle);
-  put(p_m, &writer);
+  put_vector(p_m, &writer);
   for (const double value : q_mf.coeffs()) writer.put(value);  // x, y, z, w
-  put(pose, &writer);
-  put(C_fn * row.pva.v_n.value_or(Eigen::Vector3d::Zero()), &writer);
-  put(Eigen::Vector3d::Zero(), &writer);
-  put(twist, &writer);
+  put_matrix(pose, &writer);
+  put_vector(C_fn * row.pva.v_n.value_or(Eigen::Vector3d::Zero()), &writer);
+  put_vector(Eigen::Vector3d::Zero(), &writer);
+  put_matrix(twist, &writer);
   return writer.bytes();
 }
 

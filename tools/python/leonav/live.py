@@ -81,19 +81,18 @@ class Assembler:
 
 
 def subscribe(channels=None, prefix="LEONAV_", url="udpm://239.255.76.67:7667", timeout_s=None) -> Iterator[Message]:
-    """Yields messages as they come; ends when none has come for `timeout_s`, None: never.
+    """Returns an iterator over messages as they come, which ends when none has come for `timeout_s`, None: never.
 
-    `channels` names those to yield, without prefix; None yields all of leonav's. `url` and `prefix` are lcm.url and lcm.prefix of
-    the configuration; only udpm is known. Messages that cannot be decoded are left out. LeonavError says what is in the way where
-    the network cannot be joined.
+    It listens from the call on. `channels` names those to yield, without prefix; None yields all of leonav's. `url` and `prefix`
+    are lcm.url and lcm.prefix of the configuration; only udpm is known. Messages that cannot be decoded are left out.
+    LeonavError says what is in the way where the network cannot be joined.
     """
     match = re.fullmatch(r"udpm://([\d.]+):(\d+)(\?.*)?", url)
     if not match:
         raise LeonavError(f"{url}: must be like udpm://239.255.76.67:7667")
     group, port = match.group(1), int(match.group(2))
     wanted = None if channels is None else {channels} if isinstance(channels, str) else set(channels)
-    with _join(url, group, port) as receiver:
-        yield from _receive(receiver, wanted, prefix, timeout_s)
+    return _receive(_join(url, group, port), wanted, prefix, timeout_s)
 
 
 def _join(url, group, port):
@@ -112,6 +111,11 @@ def _join(url, group, port):
 
 
 def _receive(receiver, wanted, prefix, timeout_s):
+    with receiver:
+        yield from _messages(receiver, wanted, prefix, timeout_s)
+
+
+def _messages(receiver, wanted, prefix, timeout_s):
     assembler, last = Assembler(), time.monotonic()
     while True:
         left = None if timeout_s is None else last + timeout_s - time.monotonic()

@@ -30,7 +30,8 @@ def _native(array):
 
 def _spread(columns, pattern, array, suffixes, scale=1.0):
     for index, suffix in enumerate(suffixes):
-        columns[pattern.format(suffix)] = _native(array[:, index]) * scale
+        column = _native(array[:, index])
+        columns[pattern.format(suffix)] = column if scale == 1.0 else column * scale
 
 
 def _solution_columns(m):
