@@ -50,11 +50,12 @@ def drive(start=datetime.datetime(2024, 2, 28, 23, 59, 58, 250000, tzinfo=dateti
         utc = start + datetime.timedelta(seconds=index + (30 if index > gap_after else 0))
         week, tow = gps(utc, leap)
         east = longitude + index * 1e-4
-        attitude = [2.0 - 0.1 * index, -3.0 + 0.2 * index, 100.0 + 5 * index] if index >= 2 else ["", "", ""]
+        attitude = [2.0 - 0.1 * index, -3.0 + 0.2 * index, 80.0 + 5 * index] if index >= 2 else ["", "", ""]
         sigma_attitude = [0.1, 0.2, 0.5] if index >= 2 else ["", "", ""]
         source = "aligning" if index < 2 else "ins" if index in (9, 10) else "smoother" if index > 15 else "ekf"
-        rows.append(Row(week, round(tow, 3), 45.0 + index * 1.25e-4, (east + 180) % 360 - 180, 300.125 + index, 11.0, 7.0, -0.5, *attitude, 0.5,
-                        0.25, 1.5, 0.01, 0.02, 0.04, *sigma_attitude, source, 9 + index % 3, 1.75, 5.5, 8.25, 2.5 if index >= 2 else ""))
+        rows.append(Row(week, round(tow, 3), 45.0 + index * 1.25e-4, (east + 180) % 360 - 180, 300.125 + index, 11.0, 7.0, -0.5,
+                        *attitude, 0.5, 0.25, 1.5, 0.01, 0.02, 0.04, *sigma_attitude, source, 9 + index % 3, 1.75, 5.5, 8.25,
+                        2.5 if index >= 2 else ""))
         times.append(utc)
     return rows, times
 
@@ -80,11 +81,13 @@ def ecef(latitude_deg, longitude_deg, height):
     a, e2 = 6378137.0, 6.69437999014e-3
     phi, lam = math.radians(latitude_deg), math.radians(longitude_deg)
     n = a / math.sqrt(1 - e2 * math.sin(phi) ** 2)
-    return ((n + height) * math.cos(phi) * math.cos(lam), (n + height) * math.cos(phi) * math.sin(lam), (n * (1 - e2) + height) * math.sin(phi))
+    return ((n + height) * math.cos(phi) * math.cos(lam), (n + height) * math.cos(phi) * math.sin(lam),
+            (n * (1 - e2) + height) * math.sin(phi))
 
 
 def east_north_up(row, origin):
-    d = [a - b for a, b in zip(ecef(row.latitude_deg, row.longitude_deg, row.height_m), ecef(origin.latitude_deg, origin.longitude_deg, origin.height_m))]
+    d = [a - b for a, b in zip(ecef(row.latitude_deg, row.longitude_deg, row.height_m),
+                               ecef(origin.latitude_deg, origin.longitude_deg, origin.height_m))]
     phi, lam = math.radians(origin.latitude_deg), math.radians(origin.longitude_deg)
     return (-math.sin(lam) * d[0] + math.cos(lam) * d[1],
             -math.sin(phi) * math.cos(lam) * d[0] - math.sin(phi) * math.sin(lam) * d[1] + math.cos(phi) * d[2],
@@ -100,7 +103,8 @@ def product(a, b):
 def orientation(row):
     """Of forward-left-up against east-north-up: the heading counts from east to the left, and the pitch changes its sign."""
     yaw, pitch, roll = math.radians(90 - row.yaw_deg) / 2, -math.radians(row.pitch_deg) / 2, math.radians(row.roll_deg) / 2
-    return product(product((0, 0, math.sin(yaw), math.cos(yaw)), (0, math.sin(pitch), 0, math.cos(pitch))), (math.sin(roll), 0, 0, math.cos(roll)))
+    return product(product((0, 0, math.sin(yaw), math.cos(yaw)), (0, math.sin(pitch), 0, math.cos(pitch))),
+                   (math.sin(roll), 0, 0, math.cos(roll)))
 
 
 def turned(quaternion, vector):
@@ -174,7 +178,8 @@ class Mcap:
         elif opcode == 7:
             channel, size = struct.unpack_from("<HI", content)
             for time, offset in struct.iter_unpack("<QQ", content[6:6 + size]):
-                assert struct.unpack_from("<H", self.inner, offset + 9)[0] == channel and struct.unpack_from("<Q", self.inner, offset + 15)[0] == time
+                assert struct.unpack_from("<H", self.inner, offset + 9)[0] == channel
+                assert struct.unpack_from("<Q", self.inner, offset + 15)[0] == time
                 self.indexed += 1
 
     def chunk(self, content):
@@ -275,7 +280,8 @@ class Maps(Test):
         points = [one for one in root.iter(KML + "Placemark") if one.find(KML + "Point") is not None]
         self.assertEqual(len(points), 20)
         for row, time, point in zip(self.rows, self.times, points):
-            self.close(point.find(f"{KML}Point/{KML}coordinates").text.split(","), [row.longitude_deg, row.latitude_deg, row.height_m], 1e-9)
+            self.close(point.find(f"{KML}Point/{KML}coordinates").text.split(","),
+                       [row.longitude_deg, row.latitude_deg, row.height_m], 1e-9)
             self.assertEqual(utc_of(point.find(f"{KML}TimeStamp/{KML}when").text), time)
             more = {one.get("name"): one.text for one in point.iter(KML + "SimpleData")}
             self.assertTrue(set(more) <= set(fields))
@@ -326,7 +332,8 @@ class Errors(Test):
 
     def test_wrong_command_lines_are_told(self):
         csv = write_csv(drive()[0])
-        for arguments, expected in (((csv,), "--out"), ((csv, "--out", WORK / "a.shp"), "--format"), (("--out", WORK / "a.gpx"), "expected one RUN"),
+        for arguments, expected in (((csv,), "--out"), ((csv, "--out", WORK / "a.shp"), "--format"),
+                                    (("--out", WORK / "a.gpx"), "expected one RUN"),
                                     ((csv, "--out", csv, "--format", "gpx"), "is the file that is read"),
                                     ((csv, "--out", WORK / "a.gpx", "--rate", "0"), "--rate: must be")):
             self.assertIn(expected, export(*arguments, expect=2).stderr)
@@ -350,7 +357,8 @@ class Ros(Test):
     def test_the_file_is_sound_and_its_messages_are_those_of_the_solution(self):
         mcap = Mcap(self.out)
         self.assertEqual(sorted((name, encoding, schema[0], schema[1]) for name, encoding, schema in mcap.topics.values()),
-                         [("/leonav/fix", "cdr", "sensor_msgs/msg/NavSatFix", "ros2msg"), ("/leonav/odometry", "cdr", "nav_msgs/msg/Odometry", "ros2msg"),
+                         [("/leonav/fix", "cdr", "sensor_msgs/msg/NavSatFix", "ros2msg"),
+                          ("/leonav/odometry", "cdr", "nav_msgs/msg/Odometry", "ros2msg"),
                           ("/leonav/source", "cdr", "std_msgs/msg/String", "ros2msg")])
         fixes = mcap.messages["/leonav/fix"]
         self.assertEqual([time for time, _ in fixes], [self.ns(time) for time in self.times])
@@ -439,7 +447,8 @@ class Logs(Test):
         message.time_ns = row.gps_week * 604800 * 10**9 + round(row.gps_tow_s * 1000) * 10**6
         message.sequence, message.schema = index + 1, 2
         message.source = ("none", "aligning", "ins", "ekf", "smoother").index(row.source)
-        message.latitude_rad, message.longitude_rad, message.height_m = math.radians(row.latitude_deg), math.radians(row.longitude_deg), row.height_m
+        message.latitude_rad, message.longitude_rad = math.radians(row.latitude_deg), math.radians(row.longitude_deg)
+        message.height_m = row.height_m
         message.v_n = [row.v_north_m_s, row.v_east_m_s, row.v_down_m_s]
         message.has_attitude = row.roll_deg != ""
         if message.has_attitude:

@@ -222,8 +222,8 @@ def ephemeris(m):
                "message": names.named(m["message"], names.EPHEMERIS_MESSAGES)}
     for name in ("toe", "toc"):
         columns[f"{name}_gps_week"], columns[f"{name}_gps_tow_s"] = gps_time.week_and_tow(m[f"{name}_ns"])
-    units = {"sqrt_a": "_sqrt_m", "m0": "_rad", "delta_n": "_rad_s", "omega0": "_rad", "omega_dot": "_rad_s", "i0": "_rad", "i_dot": "_rad_s",
-             "omega": "_rad", "cuc": "_rad", "cus": "_rad", "crc": "_m", "crs": "_m", "cic": "_rad", "cis": "_rad", "af0": "_s",
+    units = {"sqrt_a": "_sqrt_m", "m0": "_rad", "delta_n": "_rad_s", "omega0": "_rad", "omega_dot": "_rad_s", "i0": "_rad",
+             "i_dot": "_rad_s", "omega": "_rad", "cuc": "_rad", "cus": "_rad", "crc": "_m", "crs": "_m", "cic": "_rad", "cis": "_rad", "af0": "_s",
              "af1": "_s_s", "af2": "_s_s2"}
     for name in ("issue", "issue_clock", "health", "accuracy_m", "eccentricity", *units):
         columns[name + units.get(name, "")] = _native(m[name])
