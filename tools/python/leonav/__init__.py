@@ -9,8 +9,17 @@
 from .errors import LeonavError, LeonavWarning
 from .event_log import Event, events
 from .live import Message, subscribe
-from .log import read_log
 from .message import decode
-from .solution_csv import read_solution
 
 __all__ = ["Event", "LeonavError", "LeonavWarning", "Message", "decode", "events", "read_log", "read_solution", "subscribe"]
+
+
+def __getattr__(name):
+    """Imports what needs pandas when it is first used: live messages need numpy only."""
+    if name == "read_log":
+        from .log import read_log
+        return read_log
+    if name == "read_solution":
+        from .solution_csv import read_solution
+        return read_solution
+    raise AttributeError(f"module 'leonav' has no attribute '{name}'")
