@@ -21,7 +21,7 @@ Arguments declare() {
       "or a solution.csv of leonav-replay or leonav-smooth. The ending of FILE chooses the "
       "format:\n"
       "\n"
-      "  .gpx       GPX 1.1: hiking and mapping programs, RTKLIB, JOSM\n"
+      "  .gpx       GPX 1.1: hiking and mapping programs, JOSM\n"
       "  .kml       KML 2.2: Google Earth, QGIS\n"
       "  .geojson   GeoJSON (also .json): QGIS, web maps, geopandas\n"
       "  .mcap      MCAP with messages of ROS 2: Foxglove, ros2 bag, PlotJuggler\n"

@@ -482,6 +482,15 @@ class Logs(Test):
             else:
                 self.assertEqual(one.read_text(), other.read_text())
 
+    def test_smoothed_states_and_another_prefix_can_be_chosen(self):
+        rows, _ = drive()
+        log, out = WORK / "smoothed.journal", WORK / "smoothed.geojson"
+        lcm_log.write(log, [*((0, "CAR_SOLUTION", self.solution(row, 0).encode()) for row in rows),
+                            *((1, "CAR_SMOOTHED", self.solution(row, 0).encode()) for row in rows[:7])])
+        self.assertIn("7 points", export(log, "--out", out, "--prefix", "CAR_", "--smoothed").stdout)
+        self.assertIn("20 points", export(log, "--out", out, "--prefix", "CAR_").stdout)
+        self.assertIn("no message on LEONAV_SMOOTHED", export(log, "--out", out, "--smoothed", expect=1).stderr)
+
     def test_damaged_messages_are_told_and_lose_nothing_else(self):
         rows, _ = drive()
         log, some = WORK / "damaged.journal", list(self.messages(rows))
