@@ -11,6 +11,7 @@
 #include "drivers/lcm/decode_output.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
+#include "drivers/text/stamp_order.h"
 
 namespace leonav {
 namespace {
@@ -25,7 +26,7 @@ bool is_log(const std::string& path) {
 }
 
 // Decides which solutions become points. The grid is anchored to GPS time, as that of
-// leonav-replay --rate.
+// leonav-replay --rate. Times must increase.
 class PointGrid {
  public:
   explicit PointGrid(std::optional<double> rate_hz) {
@@ -33,9 +34,9 @@ class PointGrid {
   }
   bool takes(GpsTime time) {
     if (time < next_) return false;
-    next_ = interval_ns_ > 0
-                ? GpsTime::from_nanoseconds((time.nanoseconds() / interval_ns_ + 1) * interval_ns_)
-                : time.plus_nanoseconds(1);
+    if (interval_ns_ > 0) {
+      next_ = GpsTime::from_nanoseconds((time.nanoseconds() / interval_ns_ + 1) * interval_ns_);
+    }
     return true;
   }
 
@@ -52,8 +53,7 @@ class LogTrack {
         solution_name_(
             channel_name(choice.smoothed ? Channel::kSmoothed : Channel::kSolution, choice.prefix)),
         epoch_name_(channel_name(Channel::kEpoch, choice.prefix)),
-        with_epochs_(!choice.smoothed),
-        grid_(choice.rate_hz) {}
+        with_epochs_(!choice.smoothed) {}
 
   ExportTrack read() {
     EventLogReader reader(path_);
@@ -69,6 +69,7 @@ class LogTrack {
                                 ": the last event is cut short and left out");
     }
     warn_of_refused();
+    drop_disordered();
     if (track_.rows.empty()) throw FileError(path_, 0, why_empty());
     return std::move(track_);
   }
@@ -82,14 +83,7 @@ class LogTrack {
       return;
     }
     if (solution.source == Source::kNone) return;
-    if (!track_.rows.empty() && solution.time <= last_) {
-      ++not_later_;
-      return;
-    }
-    last_ = solution.time;
-    if (grid_.takes(solution.time)) {
-      track_.rows.push_back(to_solution_row(solution, satellites_, pdop_));
-    }
+    track_.rows.push_back(to_solution_row(solution, satellites_, pdop_));
   }
 
   void on_epoch(const LogEvent& event) {
@@ -105,11 +99,23 @@ class LogTrack {
       track_.warnings.push_back(path_ + ": " + std::to_string(count) + " messages of " +
                                 solution_name_ + " are left out: " + std::string(to_string(fault)));
     }
-    if (not_later_ > 0) {
-      track_.warnings.push_back(path_ + ": " + std::to_string(not_later_) + " messages of " +
-                                solution_name_ +
-                                " are left out: not later than the one before them");
+  }
+
+  // A wrong time excludes only itself, also one that leaps ahead.
+  void drop_disordered() {
+    std::vector<GpsTime> stamps;
+    stamps.reserve(track_.rows.size());
+    for (const SolutionRow& row : track_.rows) stamps.push_back(row.pva.time);
+    const std::vector<bool> in_order = stamps_in_order(stamps);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < in_order.size(); ++i) {
+      if (in_order[i]) track_.rows[kept++] = track_.rows[i];
     }
+    if (kept == in_order.size()) return;
+    track_.warnings.push_back(path_ + ": " + std::to_string(in_order.size() - kept) +
+                              " messages of " + solution_name_ +
+                              " are left out: their time does not fit those around them");
+    track_.rows.resize(kept);
   }
 
   std::string why_empty() const {
@@ -129,22 +135,17 @@ class LogTrack {
 
   std::string path_, solution_name_, epoch_name_;
   bool with_epochs_;
-  PointGrid grid_;
   ExportTrack track_;
-  GpsTime last_;
   std::optional<int> satellites_;
   std::optional<double> pdop_;
   std::map<InputFault, long> refused_;
-  long solutions_ = 0, not_later_ = 0;
+  long solutions_ = 0;
 };
 
-ExportTrack load_csv(const std::string& path, const TrackChoice& choice) {
+ExportTrack load_csv(const std::string& path) {
   SolutionCsv csv = read_solution_csv(path);
   ExportTrack track;
-  PointGrid grid(choice.rate_hz);
-  for (const SolutionRow& row : csv.rows) {
-    if (grid.takes(row.pva.time)) track.rows.push_back(row);
-  }
+  track.rows = std::move(csv.rows);
   if (csv.report.skipped > 0) {
     const std::string first = csv.report.problems.empty() ? path : csv.report.problems.front();
     track.warnings.push_back(first + " (" + std::to_string(csv.report.skipped) +
@@ -156,7 +157,10 @@ ExportTrack load_csv(const std::string& path, const TrackChoice& choice) {
 }  // namespace
 
 ExportTrack load_track(const std::string& path, const TrackChoice& choice) {
-  return is_log(path) ? LogTrack(path, choice).read() : load_csv(path, choice);
+  ExportTrack track = is_log(path) ? LogTrack(path, choice).read() : load_csv(path);
+  PointGrid grid(choice.rate_hz);
+  std::erase_if(track.rows, [&](const SolutionRow& row) { return !grid.takes(row.pva.time); });
+  return track;
 }
 
 std::vector<TrackPart> parts_of(std::span<const SolutionRow> rows, double gap_s) {

@@ -500,9 +500,18 @@ class Logs(Test):
         log.write_bytes(log.read_bytes()[:-10])
         done = export(log, "--out", WORK / "damaged.geojson")
         self.assertIn("18 points", done.stdout)
-        for told in ("1 messages of LEONAV_SOLUTION are left out: undecodable", "1 messages of LEONAV_SOLUTION are left out: not later",
+        for told in ("1 messages of LEONAV_SOLUTION are left out: undecodable", "1 messages of LEONAV_SOLUTION are left out: their time does not fit",
                      "the last event is cut short"):
             self.assertIn(told, done.stderr)
+
+    def test_a_time_that_leaps_ahead_loses_only_itself(self):
+        rows, _ = drive()
+        rows[6] = rows[6]._replace(gps_week=rows[6].gps_week + 500)
+        log = WORK / "leap.journal"
+        lcm_log.write(log, self.messages(rows))
+        done = export(log, "--out", WORK / "leap.mcap")
+        self.assertIn("19 fixes", done.stdout)
+        self.assertIn("1 messages of LEONAV_SOLUTION are left out: their time does not fit those around them", done.stderr)
 
     def test_a_log_without_solutions_says_what_to_do(self):
         log, out = WORK / "inputs.lcmlog", WORK / "inputs.gpx"
