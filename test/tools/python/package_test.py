@@ -140,6 +140,22 @@ class Types(unittest.TestCase):
                 except leonav.LeonavError as error:
                     self.assertTrue(str(error))
 
+    def test_no_message_breaks_the_picture_of_leonav_top(self):
+        sys.path.append(str(ROOT / "tools" / "top"))
+        from top.picture import State, picture
+        dice, state = random.Random(8), State()
+        for channel, name in (("HEALTH", "health_t"), ("SOLUTION", "solution_t"), ("EPOCH", "epoch_t"), ("EVENT", "event_t"),
+                              ("STREAMS", "streams_t")) * 60:
+            data = bytearray(filled(self.generated, lcm_types.TYPES[name], dice).encode())
+            for _ in range(3):
+                data[dice.randrange(8, len(data))] = dice.choice((0, 0x7F, 0xFF, dice.randrange(256)))
+            try:
+                state.take(leonav.Message(channel, *leonav.decode(data)), 0.0)
+            except leonav.LeonavError:
+                continue
+            for line in picture(state, 1.0, 80, 40):
+                self.assertTrue(line.isprintable() and len(line) <= 80, line)
+
     def test_a_log_of_random_messages_on_every_channel_gives_tables(self):
         dice = random.Random(3)
         from leonav.tables import CHANNELS

@@ -51,7 +51,9 @@ class _Channel:
             if self.is_fixed:
                 whole = np.dtype([("fingerprint", "S8"), ("message", kind.dtype)])
                 messages = np.frombuffer(b"".join(messages), whole)["message"]
-            for suffix, table in self.make(messages).items():
+            with np.errstate(over="ignore", invalid="ignore"):  # a damaged message may hold any number
+                made = self.make(messages)
+            for suffix, table in made.items():
                 parts[self.name + suffix].append(table)
         return {name: some[0] if len(some) == 1 else pd.concat(some, ignore_index=True) for name, some in parts.items()}
 
