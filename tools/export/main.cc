@@ -34,14 +34,14 @@ Arguments declare() {
       .option("--format", "NAME", "gpx, kml, geojson or mcap, whatever the ending")
       .option("--rate", "HZ",
               "at most so many points per second of the run, 0.001 to 1000; all: every one.\n"
-              "                   1 unless given, of MCAP all")
+              "                        1 unless given, of MCAP all")
       .option("--gap", "SECONDS",
               "no line over a longer time without position; five median\n"
-              "                   intervals, at least 2 s, unless given")
+              "                        intervals, at least 2 s, unless given")
       .option("--geoid-separation", "M",
               "height of the geoid above the ellipsoid: GPX and KML then have heights\n"
-              "                   above sea level. Unless given, GPX has heights above the\n"
-              "                   ellipsoid and KML lies on the ground")
+              "                        above sea level. Unless given, GPX has heights above the\n"
+              "                        ellipsoid and KML lies on the ground")
       .option("--prefix", "TEXT", "of a log's channels, as lcm.prefix", "LEONAV_")
       .flag("--smoothed", "of a journal: SMOOTHED, the smoother's states at a fixed lag")
       .option("--name", "TEXT", "name of the track; the name of RUN unless given");
