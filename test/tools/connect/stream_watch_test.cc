@@ -30,7 +30,7 @@ struct Rig {
       watch.look(now_ns, format);
     }
   }
-  StreamWatch watch{WatchLimits{}};
+  StreamWatch watch{WatchLimits{}, "is the sensor on?"};
   FakeFormat format;
   std::int64_t now_ns = 1'000'000'000'000;
 };
