@@ -6,6 +6,7 @@
 #include <boost/beast/http/buffer_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <cctype>
+#include <limits>
 #include <string_view>
 
 #include "drivers/text/parse.h"
@@ -57,7 +58,7 @@ void NtripReply::read_start() {
     if (compared < kHttp.size()) return;
     http_ = std::make_unique<Http>();
     http_->parser.header_limit(kMaxHeader);
-    http_->parser.body_limit(boost::none);
+    http_->parser.body_limit(std::numeric_limits<std::uint64_t>::max());
     return;
   }
   const auto end = std::find(waiting_.begin(), waiting_.end(), '\n');
