@@ -78,7 +78,7 @@ TEST_CASE("Answers are understood, in whatever pieces they come", "[ntrip]") {
       {"SOURCETABLE 200 OK\r\nServer: a\r\n\r\nSTR;B", NtripAnswer::kMountpoint, ""},
       {kChunked + "3\r\none\r\n4;a=b\r\ntwo!\r\n", NtripAnswer::kStream, "onetwo!"},
       {kChunked + "3\r\none\r\n0\r\n\r\n", NtripAnswer::kEnded, "one"},
-      {kChunked + "3\r\noneXX", NtripAnswer::kBrokenChunk, "one"},
+      {kChunked + "3\r\noneXX\r\n", NtripAnswer::kBrokenChunk, "one"},
       {kChunked + "zz\r\n", NtripAnswer::kBrokenChunk, ""},
       {kOk + kType + "\r\nall to the end", NtripAnswer::kStream, "all to the end"},
       {"HTTP/1.0 200 OK\r\n\r\nno type", NtripAnswer::kStream, "no type"},
