@@ -47,10 +47,11 @@ void Stream::on_failure(const std::string& why, double retry_s) {
   watch_.on_failure(why, retry_s, clock_->now_ns());
   told_ = watch_.state();
   if (why == std::exchange(told_failure_, why)) return;
-  spdlog::warn("{}: {}; trying again in {} s{}", name_, why, retry_s,
-               retry_s < RetryWait::kLongest_s
-                   ? format(", then ever more rarely, at least every %.0f s", RetryWait::kLongest_s)
-                   : "");
+  spdlog::warn(
+      "{}: {}; trying again in {} s{}", name_, why, retry_s,
+      retry_s < RetryWait::kLongest_s
+          ? leonav::format(", then ever more rarely, at least every %.0f s", RetryWait::kLongest_s)
+          : "");
 }
 
 void Stream::on_end(const std::string& why) {
@@ -80,7 +81,7 @@ void Stream::look() {
   }
   if (watch_.silence_s(now_ns) > reconnect_after_s_) {
     source_->reconnect(
-        format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
+        leonav::format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
   }
 }
 
