@@ -47,11 +47,11 @@ void Stream::on_failure(const std::string& why, double retry_s) {
   watch_.on_failure(why, retry_s, clock_->now_ns());
   told_ = watch_.state();
   if (why == std::exchange(told_failure_, why)) return;
-  spdlog::warn(
-      "{}: {}; trying again in {} s{}", name_, why, retry_s,
-      retry_s < RetryWait::kLongest_s
-          ? leonav::format(", then ever more rarely, at least every %.0f s", RetryWait::kLongest_s)
-          : "");
+  const bool waits_grow = retry_s >= RetryWait::kFirst_s && retry_s < RetryWait::kLongest_s;
+  spdlog::warn("{}: {}; trying again in {} s{}", name_, why, retry_s,
+               waits_grow ? leonav::format(", then ever more rarely, at least every %.0f s",
+                                           RetryWait::kLongest_s)
+                          : "");
 }
 
 void Stream::on_end(const std::string& why) {

@@ -30,9 +30,9 @@ def wait_for(what, done):
 
 
 def recorded(path):
-    """The bytes of a recording."""
+    """The bytes of a recording, as far as it has been written out."""
     data, found = path.read_bytes(), b""
-    at = data.index(b"\n") + 1
+    at = len("leonav recording 1\n")
     while at + 12 <= len(data):
         length = struct.unpack_from("<qI", data, at)[1]
         found += data[at + 12:at + 12 + length]
