@@ -68,7 +68,7 @@ TEST_CASE("A stream of a caster, of a client and of datagrams is described", "[c
       "rtcm3, credentials_file: " +
       credentials.path();
   const ConnectConfig config =
-      load(stream(caster + ", version: 2, tls: yes, position: [52.5, 13.4, 80], "
+      load(stream(caster + ", version: 2, tls: true, position: [52.5, 13.4, 80], "
                            "position_interval_s: 5"));
   const auto& ntrip = std::get<NtripOptions>(config.streams.at(0).source);
   CHECK(ntrip.port == 2101);
@@ -90,7 +90,7 @@ TEST_CASE("A stream of a caster, of a client and of datagrams is described", "[c
   CHECK_THAT(problem(caster + ", position: [91, 0, 0]"), Catch::Contains("latitude"));
   CHECK_THAT(problem(caster + ", position: [1, 2]"), Catch::Contains("latitude"));
   CHECK_THAT(problem(caster + ", ca_file: a.pem"), Catch::Contains("ca_file"));
-  CHECK_THAT(problem(caster + ", tls: yes, ca_file: none.pem"), Catch::Contains("PEM"));
+  CHECK_THAT(problem(caster + ", tls: true, ca_file: none.pem"), Catch::Contains("PEM"));
   CHECK_THAT(problem("name: a, source: ntrip, host: b, mountpoint: \"B C\", format: rtcm3"),
              Catch::Contains("mountpoint"));
   CHECK_THAT(problem("name: a, source: ntrip, host: \"b\\r\\nX: y\", mountpoint: B, format: rtcm3"),
