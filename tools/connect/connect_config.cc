@@ -40,7 +40,8 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
                              ? "two receivers would publish on one channel, GNSS_EPOCH; run "
                                "leonav-connect once for each, with another lcm.prefix"
                              : "two inertial sensors would publish on one channel, IMU; run "
-                               "leonav-connect once for each, with another lcm.prefix");
+                               "leonav-connect once for each, with another lcm.prefix, or leave "
+                               "out 'inertial: true' of a stream of format oem7");
   }
   if (inputs > 1) root.fail("streams", "only one can be read from standard input");
 }

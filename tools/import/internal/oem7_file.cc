@@ -22,9 +22,7 @@ void report_framer(const std::string& path, const Oem7FramerCounters& framer,
            {{"message with a wrong checksum", framer.bad_checksums},
             {"message with an impossible length", framer.bad_headers},
             {"message that the end of the file cuts off", framer.incomplete},
-            {"byte of text between the messages", framer.text_bytes},
-            {"byte of no message (damage, or another protocol)",
-             framer.bytes_skipped - framer.text_bytes}},
+            {"byte of no message (text, damage, or another protocol)", framer.bytes_skipped}},
            report);
 }
 
