@@ -11,10 +11,13 @@ int body(int argc, char** argv) {
       "leonav-import", "dataset.yaml -o run.lcmlog [options]",
       "Turns a recording in files into an LCM event log, in the order and at the times a live\n"
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
-      "relative to the file: observations (RINEX 2 or 3, .ubx, .rtcm3, .rtcm),\n"
-      "navigation (RINEX 2 or 3, .rtcm3, .rtcm), orbits (SP3), clocks, antenna_models (ANTEX),\n"
-      "imu (imu.csv), truth; and as text name, receiver_antenna (type and radome, where the\n"
-      "observations' header is wrong), and date (YYYY-MM-DD, of the recording: RTCM 3 messages do\n"
+      "relative to the file: observations (RINEX 2 or 3, .ubx, .rtcm3, .rtcm,\n"
+      "NovAtel's .oem7 or .gps), navigation (RINEX 2 or 3, .rtcm3, .rtcm), orbits (SP3), clocks,\n"
+      "antenna_models (ANTEX), imu (imu.csv; .oem7 or .gps with RAWIMUSX or its relatives), "
+      "truth;\n"
+      "imu_scale ([rad, m/s] of a count, for a NovAtel IMU whose type has no documented scale);\n"
+      "and as text name, receiver_antenna (type and radome, where the observations' header is\n"
+      "wrong), and date (YYYY-MM-DD, of the recording: RTCM 3 messages do\n"
       "not say the week; up to three days off will do).");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")

@@ -46,6 +46,26 @@ TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
       ConfigError);
 }
 
+TEST_CASE("A NovAtel stream is a receiver, and an inertial sensor where that is asked for",
+          "[connect]") {
+  const std::string receiver = "name: span, source: tcp, host: span, port: 3001, format: oem7";
+  const StreamConfig plain = load(stream(receiver)).streams.at(0);
+  CHECK(plain.format == FormatKind::kOem7);
+  CHECK_FALSE(plain.oem7.is_inertial);
+  CHECK_FALSE(plain.oem7.imu_scale);
+  const StreamConfig span =
+      load(stream(receiver + ", inertial: true, imu_scale: [1e-9, 2e-8]")).streams.at(0);
+  CHECK(span.oem7.is_inertial);
+  CHECK(span.oem7.imu_scale->angle_rad == 1e-9);
+  CHECK(span.oem7.imu_scale->velocity_m_s == 2e-8);
+  for (const char* scale : {"[1e-9]", "[1e-9, 0]", "[1e-9, -1e-9]", "[1, 2]", "[a, b]", "7"}) {
+    CHECK_THROWS_AS(load(stream(receiver + ", imu_scale: " + scale)), ConfigError);
+  }
+  const std::string other = "  - {name: imu, source: stdin, format: vectornav}\n";
+  CHECK(load(stream(receiver) + other).streams.size() == 2);
+  CHECK_THROWS_AS(load(stream(receiver + ", inertial: true") + other), ConfigError);
+}
+
 TEST_CASE("A sensor that writes text is described by columns, units and axes", "[connect]") {
   const ConnectConfig config = load(
       stream("name: imu, source: tcp, host: sensor, port: 4001, format: imu_line, latency_ms: 2,"
