@@ -86,6 +86,8 @@ struct Bench {
 // All runs do the same work: what a solve's fastest one takes is free of most interruptions.
 void keep_fastest(const std::vector<double>& run_s, std::vector<double>* fastest_s) {
   if (fastest_s->empty()) *fastest_s = run_s;
+  if (fastest_s->size() != run_s.size())
+    throw std::runtime_error("two runs differ in their solves");
   for (std::size_t i = 0; i < fastest_s->size(); ++i)
     (*fastest_s)[i] = std::min((*fastest_s)[i], run_s[i]);
 }

@@ -76,6 +76,8 @@ void read_position(ConfigReader& group, NtripOptions* options) {
   const ReportedPosition position{values[0] * kDegree, values[1] * kDegree, values[2]};
   options->position_line = [position] { return position_line_now(position); };
   group.number("position_interval_s", {0.0, 3600.0}, &options->position_interval_s);
+  if (options->position_interval_s > 0.0 && options->position_interval_s < 1.0)
+    group.fail("position_interval_s", "must be at least 1 s, or 0 for once");
 }
 
 NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {

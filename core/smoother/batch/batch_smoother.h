@@ -38,10 +38,11 @@ struct BatchResult {
 };
 
 // Iterates from the states that the graph holds and leaves the smoothed ones there. Every iteration
-// computes the weights, IGG-III of the residuals over their sigmas, and then takes a step. From the
-// third iteration on the inertial factors are those of `processes`; nullptr: there is no IMU, and
-// the filter's stay. `solver` takes the steps (nullptr: the chain); the covariances are the chain's
-// in either case. `progress` gets the iteration and the share of it that is done.
+// computes the weights, IGG-III of the residuals over their sigmas (unless `robust.enabled` is
+// false: then they stay as the graph has them), and then takes a step. From the third iteration on
+// the inertial factors are those of `processes`; nullptr: the filter's stay, as they do without an
+// IMU. `solver` takes the steps (nullptr: the chain); the covariances are the chain's in either
+// case. `progress` gets the iteration and the share of it that is done.
 BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProcesses* processes,
                    const std::function<void(int, double)>& progress, LogGraph* graph);
 

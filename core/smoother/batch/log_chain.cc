@@ -138,6 +138,7 @@ bool pass_forward(const LogGraph& graph, int begin, int end, const Filtered& bef
 bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progress,
                  LogCorrections* corrections, int segment) {
   const int size = graph.size();
+  if (size == 0) return false;
   const auto keyframes = static_cast<std::size_t>(size);
   corrections->core.resize(keyframes);
   corrections->covariance.resize(keyframes);

@@ -27,7 +27,7 @@ constexpr int kLogSegment = 1000;
 // added where measurements are, covariance where the process leads on, so that a noise of zero
 // needs no inverse. A log longer than `segment` > 0 keyframes has the forward pass repeated,
 // segment by segment, on the way back: the same results to the bit. `progress` gets the share done.
-// Returns false if the log has no unique solution.
+// Returns false if the log has no keyframe or no unique solution.
 bool solve_chain(const LogGraph& graph, const std::function<void(double)>& progress,
                  LogCorrections* corrections, int segment = kLogSegment);
 

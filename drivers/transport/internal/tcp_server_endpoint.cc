@@ -35,9 +35,12 @@ void TcpServerEndpoint::open(Opened opened) {
       return;
     }
   }
+  // A client may have been accepted just when waiting for it was given up.
+  error_code ignored;
+  client_.close(ignored);
   acceptor_.async_accept(client_, [this, opened = std::move(opened)](const error_code& error) {
-    error_code ignored;
-    if (!error) client_.set_option(asio::socket_base::keep_alive(true), ignored);
+    error_code unset;
+    if (!error) client_.set_option(asio::socket_base::keep_alive(true), unset);
     opened(error);
   });
 }
@@ -60,7 +63,7 @@ RetryBounds TcpServerEndpoint::retry_bounds() const {
 
 std::string TcpServerEndpoint::text_of(const error_code& error) const {
   const std::string what = options_.address + ":" + std::to_string(options_.port) + ": ";
-  if (error == asio::error::timed_out) return what + "no client has connected so far";
+  if (error == asio::error::timed_out) return what + "no client is connected";
   if (error == asio::error::eof || error == asio::error::connection_reset) {
     return what + "the client closed the connection; the next one is awaited";
   }

@@ -181,6 +181,21 @@ TEST_CASE("a log of a parked vehicle shows nothing of the installation: an error
   CHECK(stands.err.find("does the vehicle drive?") != std::string::npos);
 }
 
+TEST_CASE("a log without any epoch has no installation: an error") {
+  if (!have_programs("leonav-sim", "leonav-calibrate")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  REQUIRE(
+      run_program("leonav-sim",
+                  LEONAV_SOURCE_DIR "/config/scenario/open_sky.yaml --set duration_s=5 -o " + log)
+          .exit_code == 0);
+  const ProgramRun empty = run_program(
+      "leonav-calibrate", "--preset urban --set vehicle.kind=car --set lcm.prefix=ELSE_ " + log);
+  CAPTURE(empty.err);
+  CHECK(empty.exit_code == 1);
+  CHECK(empty.err.find("has found no attitude") != std::string::npos);
+}
+
 TEST_CASE("leonav-calibrate refuses what it cannot use") {
   if (!have_programs("leonav-calibrate")) return;
   CHECK(run_program("leonav-calibrate", "").exit_code == 2);
