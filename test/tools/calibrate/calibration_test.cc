@@ -187,7 +187,7 @@ TEST_CASE("a log without any epoch has no installation: an error") {
   const std::string log = place.beside("run.lcmlog");
   REQUIRE(
       run_program("leonav-sim",
-                  LEONAV_SOURCE_DIR "/config/scenario/open_sky.yaml --set duration_s=5 -o " + log)
+                  LEONAV_SOURCE_DIR "/config/scenario/open_sky.yaml --set duration_s=60 -o " + log)
           .exit_code == 0);
   const ProgramRun empty = run_program(
       "leonav-calibrate", "--preset urban --set vehicle.kind=car --set lcm.prefix=ELSE_ " + log);

@@ -81,7 +81,7 @@ def ntrip(work):
     (work / "credentials").write_text("me\nopen:sesame\n")
     os.chmod(work / "credentials", 0o600)
     keys = f"source: ntrip, host: localhost, port: {port}, tls: true, ca_file: caster/ca.pem, credentials_file: credentials"
-    run = Run(work, "base", f"{keys}, mountpoint: POSITION, position: [52.5, 13.4, 80], position_interval_s: 0.1")
+    run = Run(work, "base", f"{keys}, mountpoint: POSITION, position: [52.5, 13.4, 80], position_interval_s: 1")
     run.says("is open")
     wait_for("two positions", lambda: said().count("position $GPGGA,") >= 2)
     data = run.finish()
