@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/binary/gps_lnav_data.h"
 #include "drivers/ubx/navigation_frame.h"
 
 namespace leonav {
@@ -20,9 +21,8 @@ class GpsLnav {
                      NavigationUpdate* update);
 
  private:
-  using Bits = std::array<std::uint8_t, 30>;  // ten words of 24 data bits
   struct Subframe {
-    Bits bits{};
+    GpsLnavBits bits{};
     GpsTime sent;  // unset: not received yet
   };
 

@@ -14,8 +14,11 @@ namespace {
 constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
-bool is_inertial(FormatKind format) {
-  return format == FormatKind::kVectornav || format == FormatKind::kImuLine;
+bool is_receiver(const StreamConfig& stream) {
+  return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kImuLine;
+}
+bool is_inertial(const StreamConfig& stream) {
+  return !is_receiver(stream) || stream.oem7.is_inertial;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -28,7 +31,8 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
     if (!names.insert(stream.name).second) {
       root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
     }
-    ++(is_inertial(stream.format) ? inertial : receivers);
+    receivers += is_receiver(stream);
+    inertial += is_inertial(stream);
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {
@@ -49,6 +53,8 @@ const char* name_of(FormatKind format) {
       return "ubx";
     case FormatKind::kRtcm3:
       return "rtcm3";
+    case FormatKind::kOem7:
+      return "oem7";
     case FormatKind::kVectornav:
       return "vectornav";
     case FormatKind::kImuLine:

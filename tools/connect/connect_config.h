@@ -5,19 +5,21 @@
 
 #include "daemon/config/daemon_config.h"
 #include "drivers/imu_line/line_layout.h"
+#include "tools/connect/formats/oem7_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
 #include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 
-enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kVectornav, kImuLine };
+enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kVectornav, kImuLine };
 
 struct StreamConfig {
   std::string name;
   SourceOptions source;
   FormatKind format = FormatKind::kUbx;
   LineLayout line;         // of kImuLine
+  Oem7StreamOptions oem7;  // of kOem7
   ImuStampOptions stamps;  // of inertial sensors
   double repeat_s = 30.0;  // of a receiver: an ephemeris is sent again after so long; 0: never
   GpsTime day;             // of kRtcm3 from a file: noon of the day it was recorded

@@ -15,6 +15,7 @@
 #include "drivers/transport/ntrip_source.h"
 #include "tools/connect/formats/imu_line_format.h"
 #include "tools/connect/formats/message_output.h"
+#include "tools/connect/formats/oem7_format.h"
 #include "tools/connect/formats/rtcm3_format.h"
 #include "tools/connect/formats/ubx_format.h"
 #include "tools/connect/formats/vectornav_format.h"
@@ -93,6 +94,9 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output);
     case FormatKind::kRtcm3:
       return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output);
+    case FormatKind::kOem7:
+      return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
+                                          &output);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
     case FormatKind::kImuLine:

@@ -102,6 +102,18 @@ void read_day(ConfigReader& group, StreamConfig* stream) {
   stream->day = *day;
 }
 
+// A SPAN receiver's own inertial sensor.
+void read_oem7(ConfigReader& group, Oem7StreamOptions* options) {
+  group.boolean("inertial", &options->is_inertial);
+  std::vector<double> scale;
+  group.numbers("imu_scale", {0.0, 1.0}, &scale);
+  if (scale.empty()) return;
+  if (scale.size() != 2 || scale[0] <= 0.0 || scale[1] <= 0.0) {
+    group.fail("imu_scale", "must be two numbers above 0: what a count stands for, in rad and m/s");
+  }
+  options->imu_scale = ImuScale{scale[0], scale[1]};
+}
+
 bool has_clock(const LineLayout& layout) {
   return std::any_of(layout.columns.begin(), layout.columns.end(), [](LineColumn column) {
     return column >= LineColumn::kGpsWeek && column <= LineColumn::kClockNs;
@@ -117,6 +129,7 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   group.choice<FormatKind>("format",
                            {{"ubx", FormatKind::kUbx},
                             {"rtcm3", FormatKind::kRtcm3},
+                            {"oem7", FormatKind::kOem7},
                             {"vectornav", FormatKind::kVectornav},
                             {"imu_line", FormatKind::kImuLine}},
                            &stream->format);
@@ -132,7 +145,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
     }
   }
   if (stream->format == FormatKind::kRtcm3) read_day(group, stream);
-  if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3) {
+  if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
+  if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
+      stream->format == FormatKind::kOem7) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
   } else {
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);

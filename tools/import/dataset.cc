@@ -18,6 +18,7 @@ namespace {
 long line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
 
 constexpr const char* kDateKey = "date";
+constexpr const char* kScaleKey = "imu_scale";
 
 class DatasetParser {
  public:
@@ -40,6 +41,10 @@ class DatasetParser {
     if (!seen_.insert(key).second) fail(key_node, "key '" + key + "' is given twice; keep one");
     if (key == kDateKey) {
       dataset_.date = read_date(value);
+      return;
+    }
+    if (key == kScaleKey) {
+      dataset_.imu_scale = read_scale(value);
       return;
     }
     for (const auto& [name, text] : texts_) {
@@ -81,6 +86,18 @@ class DatasetParser {
     return *date;
   }
 
+  ImuScale read_scale(const YAML::Node& value) const {
+    std::vector<double> numbers;
+    for (const YAML::Node& item : value) {
+      const auto number = item.IsScalar() ? parse_double(item.Scalar()) : std::nullopt;
+      if (number && *number > 0.0 && *number <= 1.0) numbers.push_back(*number);
+    }
+    if (numbers.size() != 2 || value.size() != 2) {
+      fail(value, "'imu_scale' must be two numbers, what a count stands for: [rad, m/s]");
+    }
+    return {numbers[0], numbers[1]};
+  }
+
   void add(const std::string& text, std::vector<std::string>* paths) const {
     if (text.empty()) return;
     const auto folder = std::filesystem::path(dataset_.path).parent_path();
@@ -88,7 +105,7 @@ class DatasetParser {
   }
 
   [[noreturn]] void fail_unknown(const YAML::Node& node, const std::string& key) const {
-    std::vector<std::string> known = {kDateKey};
+    std::vector<std::string> known = {kDateKey, kScaleKey};
     for (const auto& [name, text] : texts_) known.push_back(name);
     for (const auto& [name, paths] : lists_) known.push_back(name);
     std::string message = "unknown key '" + key + "'";

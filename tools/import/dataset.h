@@ -1,9 +1,11 @@
 // Dataset lists the files of a recording, as dataset.yaml names them.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/gps_time.h"
+#include "drivers/oem7/imu_scale.h"
 
 namespace leonav {
 
@@ -14,14 +16,16 @@ struct Dataset {
   // Noon of the day of the recording, for files whose messages give the time of week alone (RTCM
   // 3); unset: not given. Their first message must be within three and a half days of it.
   GpsTime date;
-  std::vector<std::string> observations;    // RINEX, .ubx, .rtcm3 or .rtcm, in order of time
-  std::vector<std::string> navigation;      // RINEX, .rtcm3 or .rtcm
-  std::vector<std::string> orbits;          // SP3
-  std::vector<std::string> clocks;          // RINEX clock
+  std::vector<std::string>
+      observations;                     // in order of time; ObservationSource says of which formats
+  std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
+  std::vector<std::string> orbits;      // SP3
+  std::vector<std::string> clocks;      // RINEX clock
   std::vector<std::string> antenna_models;  // ANTEX
-  std::string receiver_antenna;    // type and radome; empty: as in the observations' header
-  std::vector<std::string> imu;    // imu.csv
-  std::vector<std::string> truth;  // truth.csv
+  std::string receiver_antenna;       // type and radome; empty: as in the observations' header
+  std::vector<std::string> imu;       // imu.csv, .oem7 or .gps
+  std::optional<ImuScale> imu_scale;  // of a count, where an IMU of .oem7 has no documented one
+  std::vector<std::string> truth;     // truth.csv
 
   std::vector<std::string> files() const;  // all files, including dataset.yaml
 };
@@ -29,9 +33,8 @@ struct Dataset {
 // Reads dataset.yaml.
 //
 // Each key holds a path or a list of paths; "" and [] stand for none. `date` is a day as
-// 2024-03-20. Throws FileError with file
-// and line for unreadable YAML, a second document in it, an unknown key (with the nearest known
-// one) and a key given twice.
+// 2024-03-20, `imu_scale` a list of two numbers. Throws FileError with file and line for unreadable
+// YAML, a second document in it, an unknown key (with the nearest known one) and a key given twice.
 Dataset load_dataset(const std::string& path);
 
 }  // namespace leonav

@@ -19,6 +19,7 @@
 #include "drivers/text/stamp_order.h"
 #include "tools/import/internal/antenna_source.h"
 #include "tools/import/internal/observation_source.h"
+#include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
@@ -70,6 +71,7 @@ class Import {
   void load_navigation();
   void load_orbits();
   void load_clocks(GpsTime start);
+  std::vector<ImuSample> read_imu(const std::string& path);
   void load_imu();
   void schedule(GpsTime start);
   void send_first(GpsTime start, LogOutput* log);
@@ -114,8 +116,9 @@ void Import::warn_of_missing() {
   }
   if (dataset_.navigation.empty() && dataset_.orbits.empty()) {
     warn(
-        "no navigation and no orbits: unless the observations bring ephemerides (.ubx, .rtcm3), no "
-        "satellite has a position and there will be no solution");
+        "no navigation and no orbits: unless the observations bring ephemerides (.ubx, .oem7, "
+        ".rtcm3), "
+        "no satellite has a position and there will be no solution");
   } else if (dataset_.navigation.empty()) {
     warn(
         "no navigation: no group delays and no ionosphere model, so single-frequency positions "
@@ -205,13 +208,26 @@ void Import::load_clocks(GpsTime start) {
   }
 }
 
+// Returns the samples of an imu.csv or of a NovAtel file.
+std::vector<ImuSample> Import::read_imu(const std::string& path) {
+  if (has_oem7_name(path)) return read_oem7_imu(path, dataset_.imu_scale, &report_);
+  ImuCsv csv = read_imu_csv(path);
+  const bool located = !csv.report.problems.empty();
+  report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);
+  report_.warn_if_most_lost(path, "rows", csv.report.skipped, csv.report.skipped + csv.report.rows);
+  if (csv.gaps > 0) {
+    report_.warnings.push_back(path + " has " + std::to_string(csv.gaps) +
+                               " gaps: the solution is interrupted or worse after them");
+  }
+  return std::move(csv.samples);
+}
+
 void Import::load_imu() {
   std::vector<ImuSample> all;
   std::vector<GpsTime> stamps;
   for (const std::string& path : dataset_.imu) {
-    ImuCsv csv = read_imu_csv(path);
     long outside = 0;
-    for (const ImuSample& sample : csv.samples) {
+    for (const ImuSample& sample : read_imu(path)) {
       if (is_before(sample.time) || is_after(sample.time)) {
         ++outside;
       } else {
@@ -219,15 +235,7 @@ void Import::load_imu() {
         stamps.push_back(sample.time);
       }
     }
-    const bool located = !csv.report.problems.empty();
-    report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);
     report_.skip(path, "IMU sample outside the time asked for", outside);
-    report_.warn_if_most_lost(path, "rows", csv.report.skipped,
-                              csv.report.skipped + csv.report.rows);
-    if (csv.gaps > 0) {
-      report_.warnings.push_back(path + " has " + std::to_string(csv.gaps) +
-                                 " gaps: the solution is interrupted or worse after them");
-    }
   }
   // Each file is tested for order separately: a wrong stamp at the end of one must not affect the
   // next.

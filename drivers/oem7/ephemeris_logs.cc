@@ -1,0 +1,264 @@
+#include "drivers/oem7/ephemeris_logs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gnss/orbits/satellite_state.h"
+#include "drivers/binary/accuracy_index.h"
+#include "drivers/binary/beidou_time.h"
+#include "drivers/binary/gps_lnav_data.h"
+#include "drivers/binary/little_endian.h"
+#include "drivers/binary/week_time.h"
+
+namespace leonav {
+namespace {
+
+// Takes the fields of a log one after the other; the caller has checked the length.
+class Fields {
+ public:
+  explicit Fields(std::span<const std::uint8_t> payload) : next_(payload.data()) {}
+
+  std::uint8_t byte() { return *next_++; }
+  std::uint32_t number() { return read_u4(step(4)); }
+  double real() { return read_r8(step(8)); }
+  void skip(std::size_t count) { next_ += count; }
+
+ private:
+  const std::uint8_t* step(std::size_t count) {
+    const std::uint8_t* here = next_;
+    next_ += count;
+    return here;
+  }
+  const std::uint8_t* next_;
+};
+
+bool set_satellite(System system, std::uint32_t number, Ephemeris* e) {
+  if (number > kHighestNumber[index_of(system)]) return false;
+  e->satellite = {system, static_cast<std::uint16_t>(number)};
+  return is_valid(e->satellite);
+}
+
+std::uint16_t to_u2(std::uint32_t value) {
+  return static_cast<std::uint16_t>(std::min<std::uint32_t>(value, 0xFFFF));
+}
+
+// Returns the instant with a time of week in seconds that is nearest to `near`; unset if there is
+// no such time.
+GpsTime instant(double tow_s, GpsTime near) {
+  if (!(tow_s >= 0.0 && tow_s < static_cast<double>(kSecondsPerWeek))) return {};
+  return nearest_instant_ns(std::llround(tow_s * 1e9), near);
+}
+
+// Returns whether a full week is that of `time`, or a neighbour of it.
+bool is_week_of(std::uint32_t week, GpsTime time) {
+  const std::int64_t difference = std::int64_t{week} - time.week();
+  return difference >= -1 && difference <= 1;
+}
+
+EphemerisStatus sane(const Ephemeris& e) {
+  return is_sane(e) ? EphemerisStatus::kOk : EphemerisStatus::kNotSane;
+}
+
+GpsLnavBits subframe_at(std::span<const std::uint8_t> payload, std::size_t offset) {
+  GpsLnavBits bits{};
+  std::copy_n(payload.begin() + static_cast<std::ptrdiff_t>(offset), bits.size(), bits.begin());
+  return bits;
+}
+
+}  // namespace
+
+EphemerisStatus read_rawephem(std::span<const std::uint8_t> payload, GpsTime near,
+                              Ephemeris* ephemeris) {
+  constexpr std::size_t kSize = 12 + 3 * 30;
+  if (payload.size() < kSize) return EphemerisStatus::kBadLength;
+  if (!set_satellite(System::kGps, read_u4(payload.data()), ephemeris)) {
+    return EphemerisStatus::kBadSatellite;
+  }
+  std::array<GpsLnavBits, 3> subframes;
+  GpsTime sent;
+  for (std::uint32_t i = 0; i < subframes.size(); ++i) {
+    subframes[i] = subframe_at(payload, 12 + 30 * i);
+    const std::optional<GpsLnavHead> head = read_gps_lnav_head(subframes[i]);
+    if (!head || head->number != i + 1) return EphemerisStatus::kBadSubframes;
+    sent = std::max(sent, nearest_instant(head->sent_tow_s, near));
+  }
+  const auto& [first, second, third] = subframes;
+  if (!gps_lnav_issues_agree(first, second, third)) return EphemerisStatus::kBadSubframes;
+  if (!gps_lnav_week_agrees(first, sent)) return EphemerisStatus::kBadWeek;
+  *ephemeris = decode_gps_lnav(ephemeris->satellite, sent, first, second, third);
+  return sane(*ephemeris);
+}
+
+EphemerisStatus read_gpsephem(std::span<const std::uint8_t> payload, GpsTime near,
+                              Ephemeris* ephemeris) {
+  constexpr std::size_t kSize = 224;
+  if (payload.size() < kSize) return EphemerisStatus::kBadLength;
+  Ephemeris& e = *ephemeris;
+  e = {};
+  Fields f(payload);
+  if (!set_satellite(System::kGps, f.number(), &e)) return EphemerisStatus::kBadSatellite;
+  e.message = NavigationMessage::kGpsLnav;
+  e.transmission_time = instant(f.real(), near);
+  e.health = to_u2(f.number());
+  const std::uint32_t issue2 = f.number(), issue3 = f.number();
+  const std::uint32_t week = f.number();
+  f.skip(4);  // the week of the time of transmission
+  e.toe = instant(f.real(), near);
+  e.sqrt_a = std::sqrt(f.real());
+  e.delta_n = f.real();
+  e.m0 = f.real();
+  e.eccentricity = f.real();
+  e.omega = f.real();
+  e.cuc = f.real();
+  e.cus = f.real();
+  e.crc = f.real();
+  e.crs = f.real();
+  e.cic = f.real();
+  e.cis = f.real();
+  e.i0 = f.real();
+  e.i_dot = f.real();
+  e.omega0 = f.real();
+  e.omega_dot = f.real();
+  const std::uint32_t issue_clock = f.number();
+  e.toc = instant(f.real(), near);
+  e.group_delay_s[0] = f.real();
+  e.af0 = f.real();
+  e.af1 = f.real();
+  e.af2 = f.real();
+  f.skip(4 + 8);  // anti-spoofing, corrected mean motion
+  e.accuracy_m = std::sqrt(f.real());
+  e.issue = to_u2(issue2);
+  e.issue_clock = to_u2(issue_clock);
+  if (!e.toe.is_set() || !e.toc.is_set() || !e.transmission_time.is_set()) {
+    return EphemerisStatus::kBadTime;
+  }
+  if (!is_week_of(week, e.toe)) return EphemerisStatus::kBadWeek;
+  if (issue2 != issue3 || (issue_clock & 0xFF) != issue2) return EphemerisStatus::kBadSubframes;
+  if (!std::isfinite(e.accuracy_m)) return EphemerisStatus::kNotSane;
+  return sane(e);
+}
+
+EphemerisStatus read_bdsephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                  Ephemeris* ephemeris) {
+  constexpr std::size_t kSize = 196;
+  if (payload.size() < kSize) return EphemerisStatus::kBadLength;
+  Ephemeris& e = *ephemeris;
+  e = {};
+  Fields f(payload);
+  if (!set_satellite(System::kBeidou, f.number(), &e)) return EphemerisStatus::kBadSatellite;
+  e.message = is_beidou_geostationary(e.satellite) ? NavigationMessage::kBeidouD2
+                                                   : NavigationMessage::kBeidouD1;
+  e.transmission_time = near;
+  const std::uint32_t week = f.number();
+  e.accuracy_m = f.real();
+  e.health = to_u2(f.number());
+  e.group_delay_s[0] = f.real();
+  e.group_delay_s[1] = f.real();
+  e.issue_clock = to_u2(f.number());
+  const std::uint32_t toc_s = f.number();
+  e.af0 = f.real();
+  e.af1 = f.real();
+  e.af2 = f.real();
+  e.issue = to_u2(f.number());
+  const std::uint32_t toe_s = f.number();
+  e.sqrt_a = f.real();
+  e.eccentricity = f.real();
+  e.omega = f.real();
+  e.delta_n = f.real();
+  e.m0 = f.real();
+  e.omega0 = f.real();
+  e.omega_dot = f.real();
+  e.i0 = f.real();
+  e.i_dot = f.real();
+  e.cuc = f.real();
+  e.cus = f.real();
+  e.crc = f.real();
+  e.crs = f.real();
+  e.cic = f.real();
+  e.cis = f.real();
+  if (toe_s >= kSecondsPerWeek || toc_s >= kSecondsPerWeek) return EphemerisStatus::kBadTime;
+  e.toe = nearest_beidou_instant(toe_s, near);
+  e.toc = nearest_beidou_instant(toc_s, near);
+  if (week >= kBeidouWeekModulus || !beidou_week_agrees(static_cast<int>(week), e.toe)) {
+    return EphemerisStatus::kBadWeek;
+  }
+  if (!std::isfinite(e.accuracy_m)) return EphemerisStatus::kNotSane;
+  return sane(e);
+}
+
+EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                  GalileoSets* sets) {
+  constexpr std::size_t kSize = 220;
+  if (payload.size() < kSize) return EphemerisStatus::kBadLength;
+  Ephemeris e;
+  Fields f(payload);
+  if (!set_satellite(System::kGalileo, f.number(), &e)) return EphemerisStatus::kBadSatellite;
+  e.transmission_time = near;
+  const bool has_fnav = f.number() != 0, has_inav = f.number() != 0;
+  const unsigned e1b_health = f.byte() & 3u, e5a_health = f.byte() & 3u, e5b_health = f.byte() & 3u;
+  const unsigned e1b_invalid = f.byte() & 1u, e5a_invalid = f.byte() & 1u;
+  const unsigned e5b_invalid = f.byte() & 1u;
+  e.accuracy_m = galileo_sisa_m(f.byte());
+  f.skip(1);
+  e.issue = to_u2(f.number());
+  e.toe = instant(f.number(), near);
+  e.sqrt_a = f.real();
+  e.delta_n = f.real();
+  e.m0 = f.real();
+  e.eccentricity = f.real();
+  e.omega = f.real();
+  e.cuc = f.real();
+  e.cus = f.real();
+  e.crc = f.real();
+  e.crs = f.real();
+  e.cic = f.real();
+  e.cis = f.real();
+  e.i0 = f.real();
+  e.i_dot = f.real();
+  e.omega0 = f.real();
+  e.omega_dot = f.real();
+  const auto read_clock = [&f, near](Ephemeris* set) {
+    set->toc = instant(f.number(), near);
+    set->af0 = f.real();
+    set->af1 = f.real();
+    set->af2 = f.real();
+  };
+  Ephemeris fnav = e, inav = e;
+  read_clock(&fnav);
+  read_clock(&inav);
+  // The bits are packed as in RINEX: E1-B in bits 0-2, E5a in bits 3-5, E5b in bits 6-8.
+  fnav.message = NavigationMessage::kGalileoFnav;
+  fnav.health = static_cast<std::uint16_t>((e5a_invalid << 3) | (e5a_health << 4));
+  inav.message = NavigationMessage::kGalileoInav;
+  inav.health = static_cast<std::uint16_t>(e1b_invalid | (e1b_health << 1) | (e5b_invalid << 6) |
+                                           (e5b_health << 7));
+  fnav.group_delay_s[0] = inav.group_delay_s[0] = f.real();
+  inav.group_delay_s[1] = f.real();
+  if (!e.toe.is_set()) return EphemerisStatus::kBadTime;
+  for (const auto& [has, set, target] :
+       {std::tuple{has_inav, &inav, &sets->inav}, std::tuple{has_fnav, &fnav, &sets->fnav}}) {
+    if (!has) continue;
+    if (!set->toc.is_set()) return EphemerisStatus::kBadTime;
+    if (!is_sane(*set)) return EphemerisStatus::kNotSane;
+    *target = *set;
+  }
+  return EphemerisStatus::kOk;
+}
+
+std::optional<KlobucharModel> read_ionutc(std::span<const std::uint8_t> payload) {
+  constexpr std::size_t kCoefficients = 8;
+  if (payload.size() < kCoefficients * sizeof(double)) return std::nullopt;
+  Fields f(payload);
+  KlobucharModel model;
+  for (double& alpha : model.alpha) alpha = f.real();
+  for (double& beta : model.beta) beta = f.real();
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(model.alpha.begin(), model.alpha.end(), is_finite) ||
+      !std::all_of(model.beta.begin(), model.beta.end(), is_finite)) {
+    return std::nullopt;
+  }
+  model.valid = true;
+  return model;
+}
+
+}  // namespace leonav

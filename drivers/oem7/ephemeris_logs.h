@@ -1,0 +1,42 @@
+// This unit reads the logs with broadcast ephemerides, RAWEPHEM (41), GPSEPHEM (7), GALEPHEMERIS
+// (1122), BDSEPHEMERIS (1696), and IONUTC (8). Source: OEM7 manual, chapters of these names.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/gnss/orbits/ephemeris.h"
+
+namespace leonav {
+
+// Outcome of one log.
+enum class EphemerisStatus : std::uint8_t {
+  kOk = 0,
+  kBadLength,     // shorter than its fields
+  kBadSatellite,  // number outside its system's range
+  kBadTime,       // reference time beyond the end of the week
+  kBadWeek,       // its week contradicts the receiver's
+  kBadSubframes,  // not subframes 1 to 3 of one issue
+  kNotSane,       // elements outside physical bounds
+};
+
+// Each function reads the payload of one log. Times of week are completed to the instants nearest
+// to `near`, with which a week in the log must agree. Precondition: `near` is set.
+EphemerisStatus read_rawephem(std::span<const std::uint8_t> payload, GpsTime near,
+                              Ephemeris* ephemeris);
+EphemerisStatus read_gpsephem(std::span<const std::uint8_t> payload, GpsTime near,
+                              Ephemeris* ephemeris);
+EphemerisStatus read_bdsephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                  Ephemeris* ephemeris);
+
+// GALEPHEMERIS holds the set of I/NAV, that of F/NAV, or both, with the orbit in common.
+struct GalileoSets {
+  std::optional<Ephemeris> inav, fnav;
+};
+EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                  GalileoSets* sets);
+
+// nullopt: shorter than its fields, or coefficients that are not finite.
+std::optional<KlobucharModel> read_ionutc(std::span<const std::uint8_t> payload);
+
+}  // namespace leonav
