@@ -1,6 +1,7 @@
 # Outside packages, all from Debian. LCM ships no CMake config, so it is found by hand.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost REQUIRED)
+find_package(OpenSSL 3.0 REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(yaml-cpp REQUIRED)

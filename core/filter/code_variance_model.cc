@@ -88,7 +88,7 @@ double CodeVarianceModel::inflated(double variance, double lasting_variance, dou
 
 void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& code,
                               double inflation, double correlation_time_ratio,
-                              FilterMeasurement* entry) {
+                              double reflected_walk, FilterMeasurement* entry) {
   const SatelliteInView& satellite = epoch.satellites[code.satellite_index];
   const double correlated = code.own_correlated_variance();
   if (continuity_ == CarrierContinuity::kNone || !(correlated > 0.0) ||
@@ -104,7 +104,7 @@ void CodeVarianceModel::weigh(const MeasurementEpoch& epoch, const Measurement& 
     if (carrier.observable != Observable::kCarrier ||
         carrier.satellite_index != code.satellite_index)
       continue;
-    error_model.random_walk = carrier.random_walk;
+    error_model.random_walk = std::hypot(carrier.random_walk, reflected_walk);
     error_model.disturbance_m = carrier.disturbance_m;
   }
   const double noise = inflation * std::max(entry->variance - correlated, 0.0);

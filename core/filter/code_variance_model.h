@@ -34,9 +34,10 @@ class CodeVarianceModel {
                    GpsTime last_update);
   // Sets gain_variance, and code_weighting_entry for accept(), of `entry` from its variance.
   // `inflation`: variance_inflation() of its noise. `correlation_time_ratio`: of this satellite's
-  // correlation times to those of one in medium orbit.
+  // correlation times to those of one in medium orbit. `reflected_walk`: what a reflection adds to
+  // the random walk of the satellite's carrier, m/sqrt(s).
   void weigh(const MeasurementEpoch& epoch, const Measurement& code, double inflation,
-             double correlation_time_ratio, FilterMeasurement* entry);
+             double correlation_time_ratio, double reflected_walk, FilterMeasurement* entry);
 
   // Returns whether carriers keep the position from epoch to epoch.
   bool carriers_keep_position() const { return continuity_ != CarrierContinuity::kNone; }

@@ -101,26 +101,30 @@ void MeasurementAssembler::weigh(const MeasurementEpoch& epoch, const Measuremen
   entry->correlation_time_s = correlation.time_s;
   if (measurement.observable == Observable::kCode)
     code_model_.weigh(epoch, measurement, inflation, correlation_time_ratio(line_of_sight_rate),
-                      entry);
+                      reflected_walk(epoch, measurement, line_of_sight_rate), entry);
 }
 
 // A signal that has lost strength may be a reflection, with a way that is as much longer as codes
 // of its class are learned to be off; its carrier then drifts.
+double MeasurementAssembler::reflected_walk(const MeasurementEpoch& epoch, const Measurement& code,
+                                            double line_of_sight_rate) const {
+  const ErrorClass of = errors_.class_of(code, epoch.satellites[code.satellite_index], standing());
+  if (of.loss == 0) return 0.0;
+  const double scale = errors_.sigma_scale(of);
+  const double noise = std::max(code.own_variance() - code.own_correlated_variance(), 0.0);
+  return reflected_random_walk(std::sqrt((square(scale) - 1.0) * noise), line_of_sight_rate,
+                               errors_.correlation(of).time_s);
+}
+
 double MeasurementAssembler::random_walk(const MeasurementEpoch& epoch, const Measurement& carrier,
                                          double line_of_sight_rate) const {
-  for (const Measurement& code : epoch.measurements) {
-    if (code.observable != Observable::kCode || code.satellite_index != carrier.satellite_index)
-      continue;
-    const ErrorClass of =
-        errors_.class_of(code, epoch.satellites[code.satellite_index], standing());
-    if (of.loss == 0) break;
-    const double scale = errors_.sigma_scale(of);
-    const double noise = std::max(code.own_variance() - code.own_correlated_variance(), 0.0);
-    const double detour_m = std::sqrt((square(scale) - 1.0) * noise);
-    return std::hypot(carrier.random_walk, reflected_random_walk(detour_m, line_of_sight_rate,
-                                                                 errors_.correlation(of).time_s));
-  }
-  return carrier.random_walk;
+  const auto code = std::find_if(epoch.measurements.begin(), epoch.measurements.end(),
+                                 [&](const Measurement& measurement) {
+                                   return measurement.observable == Observable::kCode &&
+                                          measurement.satellite_index == carrier.satellite_index;
+                                 });
+  if (code == epoch.measurements.end()) return carrier.random_walk;
+  return std::hypot(carrier.random_walk, reflected_walk(epoch, *code, line_of_sight_rate));
 }
 
 template <typename Predicate>

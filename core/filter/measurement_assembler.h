@@ -76,8 +76,12 @@ class MeasurementAssembler {
 
  private:
   static constexpr double kStandingSpeed_m_s = 0.3;
-  // Returns the random walk of a carrier's ambiguity, m/sqrt(s): Measurement::random_walk, and what
-  // a reflection adds.
+  // Returns what a reflection may add to the random walk of a satellite's carrier, m/sqrt(s), from
+  // one of its codes.
+  double reflected_walk(const MeasurementEpoch& epoch, const Measurement& code,
+                        double line_of_sight_rate) const;
+  // Returns the random walk of a carrier's ambiguity, m/sqrt(s): Measurement::random_walk, and that
+  // of a reflection.
   double random_walk(const MeasurementEpoch& epoch, const Measurement& carrier,
                      double line_of_sight_rate) const;
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.

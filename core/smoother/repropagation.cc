@@ -54,11 +54,12 @@ void Repropagator::integrate(const Keyframe& before, Keyframe* keyframe) {
   process_factor.to = to;
 }
 
-void Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
-  if (!keyframe->has_attitude || !keyframe->block_complete) return;
-  if (!is_far(before.state, keyframe->process_factor.from)) return;
+bool Repropagator::operator()(const Keyframe& before, Keyframe* keyframe) {
+  if (!keyframe->has_attitude || !keyframe->block_complete) return false;
+  if (!is_far(before.state, keyframe->process_factor.from)) return false;
   integrate(before, keyframe);
   ++repropagations_;
+  return true;
 }
 
 }  // namespace leonav

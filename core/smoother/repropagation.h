@@ -19,8 +19,9 @@ class Repropagator {
   // linear anyway (clocks, delays, ambiguities) follows the F and N it has. Does nothing without an
   // attitude, or if samples are missing.
   void integrate(const Keyframe& before, Keyframe* keyframe);
-  // Integrates again where the keyframe before has moved away from where the factor begins.
-  void operator()(const Keyframe& before, Keyframe* keyframe);
+  // Integrates again where the keyframe before has moved away from where the factor begins, and
+  // returns whether it did.
+  bool operator()(const Keyframe& before, Keyframe* keyframe);
   // Returns the motion of the body at the end of the last factor that was integrated.
   const BodyMotion& body() const { return propagation_.body(); }
   std::uint64_t repropagations() const { return repropagations_; }

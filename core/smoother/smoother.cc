@@ -26,6 +26,9 @@ constexpr double kAttitudeContradiction = 5.0;
 // Weights stay unchanged if the position's sigma exceeds this: a reflected code does not stand out
 // then, and a few satellites would outvote the others.
 constexpr double kVague_m = 5.0;
+// Process factors that are repropagated after one solve: a new heading moves all attitudes of the
+// window at once.
+constexpr int kMostRepropagations = 2;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
@@ -66,7 +69,7 @@ Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
       robust_(robust),
       lever_arm_b_(lever_arm_b),
       window_(config.window),
-      weights_(robust, config.code_alike_s),
+      weights_(robust, config.reweigh_s, config.code_alike_s),
       rts_solver_(window_.capacity()),
       minimizer_(std::move(minimizer)),
       repropagator_(repropagation),
@@ -297,7 +300,14 @@ void Smoother::commit_or_roll_back(bool taken) {
                          (filter_is_younger() &&
                           seconds_between(window_.newest().time, restarted_) > kLongestYounger_s);
   if (caught_up) restarted_ = GpsTime();
-  for (int i = 1; i < window_.size(); ++i) repropagator_(window_.at(i - 1), &window_.at(i));
+  repropagate();
+}
+
+// The oldest factors come first: what leaves the window is linearized for good.
+void Smoother::repropagate() {
+  int left = kMostRepropagations;
+  for (int i = 1; i < window_.size() && left > 0; ++i)
+    left -= repropagator_(window_.at(i - 1), &window_.at(i)) ? 1 : 0;
 }
 
 void Smoother::save() {

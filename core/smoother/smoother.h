@@ -89,6 +89,7 @@ class Smoother {
   bool filter_is_younger() const { return restarted_.is_set(); }
   void save();
   void restore();
+  void repropagate();
   void marginalize_and_drop_oldest();
   bool iterate(int iteration, double* moved_sigmas);
   bool minimize(SolveBudget* budget, SmootherResult* result);

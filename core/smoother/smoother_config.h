@@ -24,8 +24,10 @@ struct SmootherConfig {
   double keyframe_interval_s = 0.95;  // an epoch closer to the last keyframe is not a keyframe
   int max_iterations = 2;             // linearizations of one solve; for Ceres, its iterations
   bool reweigh = true;  // decide weights anew at every iteration; false: the filter's weights
+  // So long after its epoch a measurement's weight may still change.
+  double reweigh_s = 5.0;
   // Errors of a satellite's code less than this apart count as one when the mean of its residuals
-  // over the window is tested; 0: each code is tested by itself only.
+  // over these epochs is tested; 0: each code is tested by itself only.
   double code_alike_s = 5.0;
   // Time within which a further iteration of a solve must end, at the pace of those before it; 0:
   // no limit but the deadline. It acts in the service only: the journal records the number of

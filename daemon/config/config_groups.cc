@@ -183,6 +183,7 @@ void read_smoother(ConfigReader& group, SmootherConfig* config) {
   group.number("keyframe_interval_s", {0.0, 10.0}, &config->keyframe_interval_s);
   group.integer("max_iterations", 1, 20, &config->max_iterations);
   group.boolean("reweigh", &config->reweigh);
+  group.number("reweigh_s", {0.0, 1e4}, &config->reweigh_s);
   group.number("code_alike_s", {0.0, 1e4}, &config->code_alike_s);
   group.number("time_limit_ms", {0.0, 1e4}, &config->time_limit_s, kMillisecond);
   group.number("converged_sigmas", {1e-9, 1.0}, &config->converged_sigmas);

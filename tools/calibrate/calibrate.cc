@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "drivers/lcm/channels.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr double kSettledSigmas = 0.5;  // a smaller change does not count, in sigmas
 // nor does a smaller one in units: 2 mm, 0.002 degrees, 2 us
 constexpr double kSettledUnits = 2e-3;
+constexpr double kFilterShare = 0.5;  // of a pass's time, roughly
 
 bool counts(const Finding& finding, std::size_t i) {
   const double unit = unit_of(static_cast<Quantity>(i));
@@ -67,19 +69,22 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
   calibration.configured = calibration.found = installation_of(navigator);
   calibration.wheeled = navigator.vehicle.motion.constraints.non_holonomic;
   while (!calibration.settled && calibration.passes < options.max_passes) {
-    install(calibration.found, &navigator);
-    CalibrationRun run(with_installation_states(navigator, options.prior), options.prior);
     const auto progress = [&](double share) {
       options.progress((calibration.passes + share) / (options.max_passes + 1));
     };
-    feed(log, config.lcm.prefix, {}, progress, &run);
-    if (!run.aligned())
+    install(calibration.found, &navigator);
+    CalibrationRun run(with_installation_states(navigator, options.prior), options.prior);
+    feed(
+        log, config.lcm.prefix, {}, [&](double share) { progress(kFilterShare * share); }, &run);
+    const std::optional<LogFinding> whole =
+        run.solve([&](double share) { progress(kFilterShare + (1.0 - kFilterShare) * share); });
+    if (!whole)
       throw std::runtime_error(log +
                                ": the filter has found no attitude; does it hold IMU and "
                                "GNSS, and does the vehicle drive?");
-    calibration.last = run.finding();
+    calibration.last = whole->finding;
     calibration.found = improved(calibration.found, calibration.last);
-    calibration.straight_s = run.straight_s();
+    calibration.straight_s = whole->straight_s;
     calibration.learned = run.learned();
     calibration.settled = is_settled(calibration.last);
     ++calibration.passes;
@@ -92,20 +97,24 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     const auto progress = [&](double share) {
       options.progress((options.max_passes + from + 0.5 * share) / (options.max_passes + 1));
     };
-    feed(log, config.lcm.prefix, {from, from + 0.5}, progress, &run);
-    halves[half] = run.finding();
+    feed(
+        log, config.lcm.prefix, {from, from + 0.5},
+        [&](double share) { progress(kFilterShare * share); }, &run);
+    const std::optional<LogFinding> part =
+        run.solve([&](double share) { progress(kFilterShare + (1.0 - kFilterShare) * share); });
+    if (part) halves[half] = part->finding;
   }
-  // The convergence test uses the filter's own sigmas: those of the halves would excuse changes.
-  // Quantities that are withdrawn take no part.
-  Finding by_filter = calibration.last;
+  // The convergence test uses the sigmas of the last pass: those of the halves would excuse
+  // changes. Quantities that are withdrawn take no part.
+  Finding of_pass = calibration.last;
   calibration.compared = compare_halves(halves[0], halves[1], &calibration.last);
   revert_unobserved(options.prior, calibration.configured, &calibration.last, &calibration.found);
   if (!observes_any(calibration.last))
     throw std::runtime_error(log +
                              ": tells nothing of how the IMU is built in; it takes turns and "
                              "changes of speed, with carriers or good Dopplers");
-  by_filter.observed = calibration.last.observed;
-  calibration.settled = is_settled(by_filter);
+  of_pass.observed = calibration.last.observed;
+  calibration.settled = is_settled(of_pass);
   return calibration;
 }
 

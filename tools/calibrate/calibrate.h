@@ -1,5 +1,5 @@
-// This unit finds the installation of the IMU from a log, by repeated runs of the filter. Every run
-// starts with the installation that the previous run has found, until nothing changes.
+// This unit finds the installation of the IMU from a log, by smoothing the whole. Every pass starts
+// with the installation that the previous one has found, until nothing changes.
 #pragma once
 #include <functional>
 #include <string>
@@ -12,11 +12,11 @@ namespace leonav {
 // Result of a calibration.
 struct Calibration {
   Installation configured, found;
-  // The change is that of the last pass. The sigma is the filter's, or that from the difference
-  // between the two halves of the log if that is larger.
+  // The change is that of the last pass. The sigma is that of the least squares, or that from the
+  // difference between the two halves of the log if that is larger.
   Finding last;
   int passes = 0;
-  bool settled = false;  // by the filter's sigmas the last pass has changed nothing that counts
+  bool settled = false;  // by these sigmas the last pass has changed nothing that counts
   std::array<bool, kQuantities> compared{};  // observed in both halves
   double straight_s = 0.0;
   bool wheeled = false;

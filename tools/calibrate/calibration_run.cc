@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
+#include "core/filter/update/motion_constraint.h"
+#include "core/smoother/batch/batch_smoother.h"
+#include "tools/smooth/trajectory.h"
 
 namespace leonav {
 namespace {
@@ -18,12 +22,14 @@ constexpr double kRestartShare = 0.6;
 // There are enough measurements.
 constexpr double kLeastSlide_m_s = 0.5;
 // Factor for the sigma of the arm's height, which only tilting shows: corrections of the attitude
-// resemble tilts. On simulated drives the height was wrong by this many of the filter's sigmas.
+// resemble tilts. On simulated drives the height was wrong by this many of its sigmas.
 constexpr double kHeightDoubt = 3.0;
 // Noise in (m/s)/sqrt(s) per unit of the scale factor's sigma. Scale factors act along the sensor's
 // axes, not along the filter's body axes, and axes are misaligned by as much. Without this noise,
 // errors would pass for millimetres of arm per m/s^2.
 constexpr double kNoisePerScale = 3.0;
+// Iterations of the least squares; measurements are linearized anew in each.
+constexpr int kIterations = 8;
 constexpr double kDriving_m_s = 3.0;
 constexpr double kStraight_rad_s = 0.01;
 constexpr double kShortest_s = 60.0;      // of driving straight ahead
@@ -43,6 +49,86 @@ void move_towards(const ObservableErrors& errors, double share, ObservableErrors
 }
 
 std::size_t place(int first, std::size_t i = 0) { return static_cast<std::size_t>(first) + i; }
+
+// Returns the index of the last keyframe that has the installation among its states; -1: none has.
+int last_with_constants(const LogGraph& graph) {
+  int k = graph.size() - 1;
+  while (k >= 0 && (!graph.at(k).has_attitude || graph.at(k).state.vehicle.size() < kMaxVehicle))
+    --k;
+  return k;
+}
+
+// The constants are the same at all keyframes; `covariance` is that of the core states at this one.
+void take_constants(const LogKeyframe& keyframe, const Eigen::MatrixXd& covariance,
+                    const InstallationPrior& prior, bool wheeled, Finding* finding) {
+  const auto take = [&](Quantity quantity, int state, double prior_sigma, double doubt = 1.0) {
+    const auto i = static_cast<std::size_t>(quantity);
+    const auto& core = keyframe.active.core;
+    const auto at = std::find(core.begin(), core.end(), kSize + state);
+    if (at == core.end()) return;
+    const Eigen::Index row = at - core.begin();
+    finding->change[i] = keyframe.state.vehicle[place(state)];
+    finding->sigma[i] = doubt * std::sqrt(std::max(0.0, covariance(row, row)));
+    finding->observed[i] = finding->sigma[i] < prior.observed_share * prior_sigma;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    take(static_cast<Quantity>(axis), kLeverArm + axis, prior.lever_arm_m,
+         axis == 2 ? kHeightDoubt : 1.0);
+  take(Quantity::kTimeOffset, kTimeOffset, prior.time_offset_s);
+  if (!wheeled) return;
+  take(Quantity::kYaw, kTravelYaw, prior.travel_rad);
+  take(Quantity::kPitch, kTravelPitch, prior.travel_rad);
+}
+
+// The vehicle's lean while it drives straight on.
+struct StraightDriving {
+  double seconds = 0.0;
+  std::vector<double> roll, sigma_roll;  // of the travel axes, rad
+};
+
+StraightDriving straight_driving(const LogGraph& graph, const BatchResult& result) {
+  StraightDriving straight;
+  const Trajectory trajectory(graph, result, Estimate::kSmoothed);
+  for (int k = 0; k < graph.size(); ++k) {
+    const LogKeyframe& keyframe = graph.at(k);
+    if (!keyframe.has_attitude || keyframe.state.vehicle.size() < kMaxVehicle) continue;
+    const Solution solution = trajectory.at(k);
+    const NavState& nav = keyframe.state.nav;
+    const double turning_rad_s = (keyframe.measured_rate_b - nav.errors.gyro_bias_b).z();
+    if (solution.v_n.head<2>().norm() < kDriving_m_s || std::abs(turning_rad_s) > kStraight_rad_s ||
+        solution.sigma_rpy.z() > kSettledHeading)
+      continue;
+    const double since_s = k > 0 ? seconds_between(keyframe.time, graph.at(k - 1).time) : 0.0;
+    straight.seconds += std::min(since_s, 1.0);
+    const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(nav.p_e));
+    const Eigen::Matrix3d C_bv = travel_axes(keyframe.state.vehicle).C_bv;
+    straight.roll.push_back(euler_from_rotation(C_ne * nav.q_eb.toRotationMatrix() * C_bv).roll);
+    straight.sigma_roll.push_back(solution.sigma_rpy.x());
+  }
+  return straight;
+}
+
+// A vehicle on wheels stands upright in the mean, so that the mean lean of its travel axes is that
+// of the mounting.
+void take_lean(const StraightDriving& straight, const InstallationPrior& prior, LogFinding* found) {
+  found->straight_s = straight.seconds;
+  if (straight.seconds < kShortest_s) return;
+  double sum = 0.0, squares = 0.0, sigma = 0.0;
+  for (std::size_t i = 0; i < straight.roll.size(); ++i) {
+    sum += straight.roll[i];
+    squares += square(straight.roll[i]);
+    sigma += straight.sigma_roll[i];
+  }
+  const auto count = static_cast<double>(straight.roll.size());
+  const double mean = sum / count;
+  const double scatter = std::max(0.0, squares / count - square(mean));
+  const double roads = std::max(1.0, straight.seconds / kAlike_s);
+  const auto roll = place(static_cast<int>(Quantity::kRoll));
+  Finding& finding = found->finding;
+  finding.change[roll] = -mean;
+  finding.sigma[roll] = std::sqrt(scatter / roads + square(sigma / count) + square(prior.lean_rad));
+  finding.observed[roll] = true;
+}
 
 }  // namespace
 
@@ -78,10 +164,11 @@ NavigatorConfig with_installation_states(NavigatorConfig config, const Installat
 }
 
 CalibrationRun::CalibrationRun(const NavigatorConfig& config, const InstallationPrior& prior)
-    : prior_(prior),
-      wheeled_(config.vehicle.motion.constraints.non_holonomic),
-      navigator_(config, this),
-      dispatch_(&navigator_.sequencer()) {}
+    : config_(config),
+      prior_(prior),
+      graph_(config.vehicle.lever_arm_b),
+      collector_(config_, &graph_,
+                 [this](const EpochReport& report) { add_learned(report.learned_errors); }) {}
 
 void CalibrationRun::add_learned(const LearnedSummary& errors) {
   if (!errors.learned) return;
@@ -91,68 +178,22 @@ void CalibrationRun::add_learned(const LearnedSummary& errors) {
   move_towards(errors.doppler, share, &learned_.doppler);
 }
 
-void CalibrationRun::on_epoch(const EpochReport& report) {
-  const Solution& now = report.solution;
-  const double since_s = last_epoch_.is_set() ? seconds_between(report.time, last_epoch_) : 0.0;
-  last_epoch_ = report.time;
-  add_learned(report.learned_errors);
-  if (!now.has_attitude) return;
-  aligned_ = true;
-  const Ekf& ekf = navigator_.gnss().ekf();
-  const Eigen::Vector3d rate_b = ekf.body().measured_rate_b - ekf.state().errors.gyro_bias_b;
-  const bool straight = now.v_n.head<2>().norm() > kDriving_m_s &&
-                        std::abs(rate_b.z()) < kStraight_rad_s &&
-                        now.sigma_rpy.z() < kSettledHeading;
-  if (!straight) return;
-  straight_s_ += std::min(since_s, 1.0);
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(ekf.state().p_e));
-  straight_.push_back({C_ne * ekf.state().q_eb.toRotationMatrix(), now.sigma_rpy.x()});
-}
-
-// A vehicle on wheels stands upright in the mean, so that the mean lean of its travel axes is that
-// of the mounting.
-void CalibrationRun::estimate_lean(Finding* finding) const {
-  if (!wheeled_ || straight_s_ < kShortest_s) return;
-  const Eigen::Matrix3d C_bv = travel_axes(navigator_.gnss().ekf().filter_state().vehicle).C_bv;
-  double sum = 0.0, squares = 0.0, sigma = 0.0;
-  for (const StraightEpoch& upright : straight_) {
-    const double roll = euler_from_rotation(upright.C_nb * C_bv).roll;
-    sum += roll;
-    squares += square(roll);
-    sigma += upright.sigma_roll;
-  }
-  const auto count = static_cast<double>(straight_.size());
-  const double mean = sum / count;
-  const double scatter = std::max(0.0, squares / count - square(mean));
-  const double roads = std::max(1.0, straight_s_ / kAlike_s);
-  const auto roll = place(static_cast<int>(Quantity::kRoll));
-  finding->change[roll] = -mean;
-  finding->sigma[roll] =
-      std::sqrt(scatter / roads + square(sigma / count) + square(prior_.lean_rad));
-  finding->observed[roll] = true;
-}
-
-Finding CalibrationRun::finding() const {
-  Finding finding;
-  const Ekf& ekf = navigator_.gnss().ekf();
-  const VehicleConstants& found = ekf.filter_state().vehicle;
-  if (!aligned_ || found.size() < kMaxVehicle) return finding;
-  const auto take = [&](Quantity quantity, int state, double prior, double doubt = 1.0) {
-    const auto i = static_cast<std::size_t>(quantity);
-    const Eigen::Index row = kSize + state;
-    finding.change[i] = found[place(state)];
-    finding.sigma[i] = doubt * std::sqrt(std::max(0.0, ekf.covariance()(row, row)));
-    finding.observed[i] = finding.sigma[i] < prior_.observed_share * prior;
+std::optional<LogFinding> CalibrationRun::solve(const std::function<void(double)>& progress) {
+  BatchConfig batch;
+  batch.robust.enabled = false;  // the weights are the filter's
+  batch.max_iterations = kIterations;
+  const auto iteration_done = [&](int iteration, double share) {
+    progress((iteration + share) / batch.max_iterations);
   };
-  for (int axis = 0; axis < 3; ++axis)
-    take(static_cast<Quantity>(axis), kLeverArm + axis, prior_.lever_arm_m,
-         axis == 2 ? kHeightDoubt : 1.0);
-  take(Quantity::kTimeOffset, kTimeOffset, prior_.time_offset_s);
-  if (!wheeled_) return finding;
-  take(Quantity::kYaw, kTravelYaw, prior_.travel_rad);
-  take(Quantity::kPitch, kTravelPitch, prior_.travel_rad);
-  estimate_lean(&finding);
-  return finding;
+  const BatchResult result = smooth(batch, nullptr, nullptr, iteration_done, &graph_);
+  const int last = last_with_constants(graph_);
+  if (!result.solved || last < 0) return std::nullopt;
+  const bool wheeled = config_.vehicle.motion.constraints.non_holonomic;
+  LogFinding found;
+  take_constants(graph_.at(last), result.last.covariance[static_cast<std::size_t>(last)], prior_,
+                 wheeled, &found.finding);
+  if (wheeled) take_lean(straight_driving(graph_, result), prior_, &found);
+  return found;
 }
 
 }  // namespace leonav

@@ -1,11 +1,11 @@
-// CalibrationRun runs the filter over a log with the installation among its states.
+// CalibrationRun smooths a log with the installation among its states.
 #pragma once
-#include <Eigen/Core>
-#include <vector>
+#include <functional>
+#include <optional>
 
-#include "core/navigator/navigator.h"
-#include "daemon/messages/input_dispatch.h"
+#include "core/smoother/batch/log_graph.h"
 #include "tools/calibrate/installation.h"
+#include "tools/smooth/keyframe_collector.h"
 
 namespace leonav {
 
@@ -22,47 +22,35 @@ struct InstallationPrior {
 // are states with the prior `prior`.
 NavigatorConfig with_installation_states(NavigatorConfig config, const InstallationPrior& prior);
 
-// CalibrationRun is fed with a log's messages and then gives the finding.
-class CalibrationRun final : private OutputSink {
+// What a log tells of an installation.
+struct LogFinding {
+  Finding finding;
+  double straight_s = 0.0;  // of straight driving, from which the lean is estimated
+};
+
+// CalibrationRun is fed with a log's messages. Then all epochs of the log are one least-squares
+// problem, in which the installation is constant.
+class CalibrationRun {
  public:
   // `config` comes from with_installation_states().
   CalibrationRun(const NavigatorConfig& config, const InstallationPrior& prior);
-  void dispatch(Channel channel, ByteSpan data) { dispatch_.dispatch(channel, data); }
+  void dispatch(Channel channel, ByteSpan data) { collector_.dispatch(channel, data); }
 
-  // Returns whether there was ever an attitude.
-  bool aligned() const { return aligned_; }
-  // Returns the seconds of straight driving from which the lean is estimated.
-  double straight_s() const { return straight_s_; }
+  // Solves after the end of the log; `progress` gets the share done. Returns nothing where the log
+  // gives no attitude.
+  std::optional<LogFinding> solve(const std::function<void(double)>& progress);
   // Returns the mean of what the filter has learned about the errors of codes and Dopplers.
   const LearnedSummary& learned() const { return learned_; }
-  // Returns the result after the end of the log.
-  Finding finding() const;
 
  private:
-  void on_solution(const Solution&) override {}
-  void on_epoch(const EpochReport& report) override;
-  void on_event(const Event&) override {}
-  void on_decision(const Decision&) override {}
-  void on_smoother(const SmootherReport&) override {}
-
   void add_learned(const LearnedSummary& errors);
-  void estimate_lean(Finding* finding) const;
 
-  // An epoch of straight driving.
-  struct StraightEpoch {
-    Eigen::Matrix3d C_nb;
-    double sigma_roll = 0.0;  // rad, 1 sigma of the filter
-  };
+  NavigatorConfig config_;
   InstallationPrior prior_;
-  bool wheeled_;
-  bool aligned_ = false;
-  double straight_s_ = 0.0;
-  GpsTime last_epoch_;
-  std::vector<StraightEpoch> straight_;
   LearnedSummary learned_;
   int learned_epochs_ = 0;
-  Navigator navigator_;
-  InputDispatch dispatch_;
+  LogGraph graph_;
+  KeyframeCollector collector_;
 };
 
 }  // namespace leonav

@@ -6,8 +6,8 @@ namespace leonav {
 
 // Raises the sigmas of `whole` to half of the difference between the halves where that is larger.
 //
-// A larger difference shows errors that the filter does not model. Returns which quantities both
-// halves have observed; the sigma of the others is the filter's alone.
+// A larger difference shows errors that are not modelled. Returns which quantities both
+// halves have observed; the sigma of the others is the whole log's alone.
 std::array<bool, kQuantities> compare_halves(const Finding& first, const Finding& second,
                                              Finding* whole);
 

@@ -26,7 +26,7 @@ std::string_view name_of(Quantity quantity);
 // Returns the SI value of one printed unit.
 double unit_of(Quantity quantity);
 
-// Result of one run of the filter over the log, relative to the installation it ran with.
+// Result of one pass over the log, relative to the installation it ran with.
 struct Finding {
   std::array<double, kQuantities> change{};  // m, rad, s
   std::array<double, kQuantities> sigma{};

@@ -20,9 +20,13 @@ Arguments declare() {
       "takes tilting), on wheels\n(vehicle.kind car, rail) the mounting (pitch and yaw by the "
       "direction of travel, roll as the vehicle's\nmean lean: half a degree), and how much later "
       "than stamped the IMU measures (it takes changes of\nspeed). What the log does not "
-      "show is named. Runs the filter over the log again and again, each time\nwith what it has "
-      "found, until nothing changes. Good for mounting errors of up to 10 degrees, time\noffsets "
-      "of up to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found no attitude, "
+      "show is named. Runs the filter over the log and smooths the whole, again and again, each "
+      "time\n"
+      "with what it has found, until nothing changes. Good for mounting errors of up to 10 "
+      "degrees, "
+      "time\noffsets of up to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found "
+      "no "
+      "attitude, "
       "nothing\n"
       "was observed, or the passes did not settle; 2 command line.");
   add_configuration_options(&arguments);

@@ -81,7 +81,7 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
     if (!calibration.compared[i]) alone += (alone.empty() ? "" : ", ") + name;
   }
   if (!alone.empty())
-    out << "\nThe log's halves could not be compared, the sigma is the filter's alone: " << alone
+    out << "\nThe log's halves could not be compared, the sigma is the whole log's alone: " << alone
         << "\n";
   if (!unknown.empty()) out << "\nWhat this log does not tell:\n" << unknown;
   if (calibration.learned.learned) {

@@ -14,7 +14,9 @@ namespace {
 constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
-bool is_inertial(FormatKind format) { return format != FormatKind::kUbx; }
+bool is_inertial(FormatKind format) {
+  return format == FormatKind::kVectornav || format == FormatKind::kImuLine;
+}
 
 // Two senders on one channel would be one stream with twice the messages.
 void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>& streams) {
@@ -40,17 +42,6 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
 }
 
 }  // namespace
-
-std::string text_of(const SourceOptions& source) {
-  if (const auto* serial = std::get_if<SerialOptions>(&source)) {
-    return serial->device + " at " + std::to_string(serial->baud) + " baud";
-  }
-  if (const auto* tcp = std::get_if<TcpOptions>(&source)) {
-    return tcp->host + ":" + std::to_string(tcp->port);
-  }
-  if (const auto* file = std::get_if<FileOptions>(&source)) return file->path;
-  return "standard input";
-}
 
 const char* name_of(FormatKind format) {
   switch (format) {

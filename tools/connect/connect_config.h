@@ -1,22 +1,15 @@
 // ConnectConfig is the configuration of leonav-connect.
 #pragma once
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "daemon/config/daemon_config.h"
 #include "drivers/imu_line/line_layout.h"
-#include "drivers/transport/live_sources.h"
+#include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
 #include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
-
-struct InputOptions {};  // standard input
-struct FileOptions {
-  std::string path;
-};
-using SourceOptions = std::variant<SerialOptions, TcpOptions, InputOptions, FileOptions>;
 
 enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kVectornav, kImuLine };
 
@@ -41,8 +34,6 @@ struct ConnectConfig {
   std::vector<StreamConfig> streams;
 };
 
-// Returns what the source is, for logs: "/dev/ttyACM0 at 115200 baud".
-std::string text_of(const SourceOptions& source);
 const char* name_of(FormatKind format);
 
 // Reads a configuration file with the overrides of a command line ("key=value"). Paths in it are

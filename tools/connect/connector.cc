@@ -11,6 +11,8 @@
 
 #include "daemon/link/lcm_publisher.h"
 #include "drivers/transport/file_source.h"
+#include "drivers/transport/live_sources.h"
+#include "drivers/transport/ntrip_source.h"
 #include "tools/connect/formats/imu_line_format.h"
 #include "tools/connect/formats/message_output.h"
 #include "tools/connect/formats/rtcm3_format.h"
@@ -69,6 +71,15 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
   }
   if (const auto* tcp = std::get_if<TcpOptions>(&stream.source)) {
     return make_tcp_source(&io, &clock, *tcp);
+  }
+  if (const auto* ntrip = std::get_if<NtripOptions>(&stream.source)) {
+    return make_ntrip_source(&io, &clock, *ntrip);
+  }
+  if (const auto* server = std::get_if<TcpServerOptions>(&stream.source)) {
+    return make_tcp_server_source(&io, &clock, server->listen);
+  }
+  if (const auto* udp = std::get_if<UdpOptions>(&stream.source)) {
+    return make_udp_source(&io, &clock, udp->listen);
   }
   if (const auto* file = std::get_if<FileOptions>(&stream.source)) {
     return make_file_source(&io, &clocks, file->path);

@@ -2,7 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
+
+#include "tools/common/format.h"
 
 namespace leonav {
 
@@ -13,7 +16,8 @@ Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
       clock_(clock),
       source_(std::move(source)),
       format_(std::move(format)),
-      watch_(WatchLimits{.silent_s = config.silent_s}) {
+      watch_(WatchLimits{.silent_s = config.silent_s}, silence_remedy(config.source)),
+      reconnect_after_s_(std::max(kReconnectAfter_s, config.silent_s)) {
   if (config.record.empty()) return;
   recording_.emplace(config.record);
   spdlog::info("{}: every byte goes to {}", name_, recording_->path());
@@ -40,11 +44,14 @@ void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_
 
 // The same failure is told once, however often it is tried.
 void Stream::on_failure(const std::string& why, double retry_s) {
-  watch_.on_failure(why);
+  watch_.on_failure(why, retry_s, clock_->now_ns());
   told_ = watch_.state();
   if (why == std::exchange(told_failure_, why)) return;
-  spdlog::warn("{}: {}; trying again in {} s, then ever more rarely, at least every {:.0f} s",
-               name_, why, retry_s, RetryWait::kLongest_s);
+  const bool waits_grow = retry_s >= RetryWait::kFirst_s && retry_s < RetryWait::kLongest_s;
+  spdlog::warn("{}: {}; trying again in {} s{}", name_, why, retry_s,
+               waits_grow ? leonav::format(", then ever more rarely, at least every %.0f s",
+                                           RetryWait::kLongest_s)
+                          : "");
 }
 
 void Stream::on_end(const std::string& why) {
@@ -72,8 +79,9 @@ void Stream::look() {
     spdlog::log(is_bad ? spdlog::level::warn : spdlog::level::info, "{}: {}{}{}", name_,
                 name_of(state), watch_.text().empty() ? "" : ": ", watch_.text());
   }
-  if (watch_.silence_s(now_ns) > kReconnectAfter_s) {
-    source_->reconnect("no byte for 10 s: the connection may be dead");
+  if (watch_.silence_s(now_ns) > reconnect_after_s_) {
+    source_->reconnect(
+        leonav::format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
   }
 }
 

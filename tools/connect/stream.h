@@ -14,8 +14,8 @@ namespace leonav {
 
 class Stream final : public ByteSink {
  public:
-  // A server that has sent nothing for so long is connected anew: the connection may be dead
-  // without either side knowing.
+  // A connection that has brought nothing for so long, or for `silent_s` where that is longer, is
+  // made anew: it may be dead without either side knowing.
   static constexpr double kReconnectAfter_s = 10.0;
 
   // `clock` must outlive this object. Throws FileError where the recording cannot be created.
@@ -47,6 +47,7 @@ class Stream final : public ByteSink {
   std::unique_ptr<ByteSource> source_;
   std::unique_ptr<StreamFormat> format_;
   StreamWatch watch_;
+  double reconnect_after_s_;
   std::optional<RecordingWriter> recording_;
   StreamState told_ = StreamState::kConnecting;
   std::string told_failure_;

@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "tools/common/day.h"
+#include "tools/connect/source_keys.h"
 
 namespace leonav {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0, kMillisecond = 1e-3;
 constexpr double kStandardGravity_m_s2 = 9.80665;
-
-enum class SourceKind : std::uint8_t { kSerial, kTcp, kInput, kFile };
 
 const std::vector<std::pair<std::string, LineColumn>> kColumns = {
     {"skip", LineColumn::kSkip},         {"gyro_x", LineColumn::kGyroX},
@@ -27,42 +26,6 @@ const std::vector<std::pair<std::string, LineColumn>> kColumns = {
 
 std::string in_folder(const std::string& folder, const std::string& path) {
   return path.empty() ? "" : (std::filesystem::path(folder) / path).string();
-}
-
-void read_source(ConfigReader& group, const std::string& folder, SourceOptions* source) {
-  SourceKind kind = SourceKind::kSerial;
-  group.choice<SourceKind>("source",
-                           {{"serial", SourceKind::kSerial},
-                            {"tcp", SourceKind::kTcp},
-                            {"stdin", SourceKind::kInput},
-                            {"file", SourceKind::kFile}},
-                           &kind);
-  if (kind == SourceKind::kSerial) {
-    SerialOptions options;
-    int baud = 115'200;
-    group.text("device", &options.device);
-    group.integer("baud", 300, 12'000'000, &baud);
-    if (options.device.empty()) group.fail("device", "must name a port, such as /dev/ttyACM0");
-    options.baud = static_cast<unsigned>(baud);
-    *source = options;
-  } else if (kind == SourceKind::kTcp) {
-    TcpOptions options;
-    int port = 0;
-    group.text("host", &options.host);
-    group.integer("port", 0, 65'535, &port);
-    if (options.host.empty()) group.fail("host", "must be the server's name or address");
-    if (port == 0) group.fail("port", "must be given, from 1 to 65535");
-    options.port = static_cast<std::uint16_t>(port);
-    *source = options;
-  } else if (kind == SourceKind::kFile) {
-    FileOptions options;
-    group.text("path", &options.path);
-    if (options.path.empty()) group.fail("path", "must name a recording or a file of bytes");
-    options.path = in_folder(folder, options.path);
-    *source = options;
-  } else {
-    *source = InputOptions();
-  }
 }
 
 std::vector<LineColumn> read_columns(ConfigReader& group) {

@@ -39,10 +39,19 @@ void StreamWatch::on_bytes(std::size_t count, std::int64_t now_ns) {
   last_byte_ns_ = now_ns;
 }
 
-void StreamWatch::on_failure(const std::string& why) {
+void StreamWatch::on_failure(const std::string& why, double retry_s, std::int64_t now_ns) {
   is_open_ = false;
   ++failures_;
-  set(StreamState::kWaiting, why);
+  failure_ = why;
+  retry_ns_ = now_ns + static_cast<std::int64_t>(retry_s * 1e9);
+  tell_waiting(now_ns);
+}
+
+void StreamWatch::tell_waiting(std::int64_t now_ns) {
+  const double left_s = static_cast<double>(retry_ns_ - now_ns) * 1e-9;
+  set(StreamState::kWaiting,
+      failure_ + (left_s < 1.0 ? "; being tried again"
+                               : leonav::format("; tried again in %.0f s", left_s)));
 }
 
 void StreamWatch::on_end(const std::string& why) {
@@ -64,6 +73,7 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   bytes_seen_ = bytes_;
   seen_ = counts;
   if (new_messages) last_message_ns_ = now_ns;
+  if (state_ == StreamState::kWaiting) tell_waiting(now_ns);
   if (!is_open_) return;
   // Each kind of fault is timed from where the step before it works.
   if (new_frames || (!new_bytes && !unreadable_since_ns_)) {
@@ -80,9 +90,7 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
     unreadable_since_ns_.reset();
     no_data_since_ns_.reset();
     set(StreamState::kSilent,
-        leonav::format("open, but no byte for %.0f s: is the sensor on, wired to this port, and "
-                       "told to send?",
-                       silence_s(now_ns)));
+        leonav::format("open, but no byte for %.0f s: ", silence_s(now_ns)) + silence_remedy_);
   } else if (age_s(unreadable_since_ns_, now_ns) > limits_.unreadable_s) {
     set(StreamState::kUnreadable, format.why_no_frames());
   } else if (age_s(no_data_since_ns_, now_ns) > limits_.no_data_s) {

@@ -31,11 +31,14 @@ struct WatchLimits {
 // Times are those of the ArrivalClock.
 class StreamWatch {
  public:
-  explicit StreamWatch(const WatchLimits& limits) : limits_(limits) {}
+  // `silence_remedy`: what to look at where no byte comes, a question.
+  StreamWatch(const WatchLimits& limits, const std::string& silence_remedy)
+      : limits_(limits), silence_remedy_(silence_remedy) {}
 
   void on_open(std::int64_t now_ns);
   void on_bytes(std::size_t count, std::int64_t now_ns);
-  void on_failure(const std::string& why);
+  // It is tried again `retry_s` later.
+  void on_failure(const std::string& why, double retry_s, std::int64_t now_ns);
   void on_end(const std::string& why);
 
   // Looks at the stream; to be called about once a second.
@@ -59,16 +62,20 @@ class StreamWatch {
     return since ? static_cast<double>(now_ns - *since) * 1e-9
                  : std::numeric_limits<double>::quiet_NaN();
   }
+  void tell_waiting(std::int64_t now_ns);
   void set(StreamState state, const std::string& text) {
     state_ = state;
     text_ = text;
   }
 
   WatchLimits limits_;
+  std::string silence_remedy_;
   StreamState state_ = StreamState::kConnecting;
   std::string text_;
   bool is_open_ = false;
   std::int64_t opened_ns_ = 0;
+  std::string failure_;        // the latest
+  std::int64_t retry_ns_ = 0;  // when it is tried again
   Instant last_byte_ns_, last_message_ns_;
   // Since when bytes come without a message, and messages without one published.
   Instant unreadable_since_ns_, no_data_since_ns_;

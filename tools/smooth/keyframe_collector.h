@@ -1,6 +1,8 @@
 // KeyframeCollector runs the filter over a log and keeps every keyframe in a LogGraph.
 #pragma once
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "core/navigator/interface/output_sink.h"
 #include "core/navigator/interface/timed_mailbox.h"
@@ -19,9 +21,12 @@ struct PassCounts {
 // KeyframeCollector is fed with a log's messages. Nothing is late: it works in the caller's thread.
 class KeyframeCollector final : private StageInputs, private KeyframeSink, private OutputSink {
  public:
-  // `graph` must outlive the collector.
-  KeyframeCollector(const NavigatorConfig& config, LogGraph* graph)
+  // `graph` must outlive the collector. `observe` gets the report of every epoch.
+  KeyframeCollector(
+      const NavigatorConfig& config, LogGraph* graph,
+      std::function<void(const EpochReport&)> observe = [](const EpochReport&) {})
       : graph_(graph),
+        observe_(std::move(observe)),
         keyframe_(std::make_unique<KeyframeInput>()),
         gnss_(config, &mailbox_, this, this),
         sequencer_(config, this),
@@ -40,7 +45,10 @@ class KeyframeCollector final : private StageInputs, private KeyframeSink, priva
   void no_keyframe(const Solution&, bool) override {}
   bool result_of(std::uint64_t, SmootherAnchor*) override { return false; }
   void on_solution(const Solution&) override {}
-  void on_epoch(const EpochReport&) override { ++counts_.epochs; }
+  void on_epoch(const EpochReport& report) override {
+    ++counts_.epochs;
+    observe_(report);
+  }
   void on_event(const Event& event) override {
     counts_.resets += event.kind == EventKind::kFilterReset ? 1 : 0;
   }
@@ -48,6 +56,7 @@ class KeyframeCollector final : private StageInputs, private KeyframeSink, priva
   void on_smoother(const SmootherReport&) override {}
 
   LogGraph* graph_;
+  std::function<void(const EpochReport&)> observe_;
   PassCounts counts_;
   TimedMailbox<Anchor> mailbox_;
   std::unique_ptr<KeyframeInput> keyframe_;

@@ -9,23 +9,35 @@
 namespace leonav {
 namespace {
 
+constexpr double kAlike_s = 1e-3;  // stamps are rounded
+
 SatelliteId satellite_of(const Keyframe& keyframe, const KeyframeMeasurement& measurement) {
   return keyframe.satellites[measurement.measurement.satellite_index].satellite;
+}
+
+// Returns the index of the oldest keyframe at most so long before the newest.
+int oldest_within(double horizon_s, const Window& window) {
+  int oldest = window.size() - 1;
+  while (oldest > 0 &&
+         seconds_between(window.newest().time, window.at(oldest - 1).time) < horizon_s + kAlike_s)
+    --oldest;
+  return oldest;
 }
 
 }  // namespace
 
 double WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_arm_b,
                                      Window* window) {
-  for (int i = 0; i < window->size(); ++i) {
+  const int oldest = oldest_within(horizon_s_, *window);
+  for (int i = oldest; i < window->size(); ++i) {
     Keyframe& keyframe = window->at(i);
     const AntennaMotion antenna = antenna_of(keyframe, lever_arm_b);
     for (KeyframeMeasurement& measurement : keyframe.measurements)
       measurement.residual = linearize(measurement, keyframe, antenna).residual;
   }
-  gather_means(*window);
+  gather_means(*window, oldest);
   double change = 0.0;
-  for (int i = 0; i < window->size(); ++i) {
+  for (int i = oldest; i < window->size(); ++i) {
     Keyframe& keyframe = window->at(i);
     const bool keep = first && !keyframe.weights_decided;
     change = std::max(change, keep ? 1.0 : reweigh(&keyframe));
@@ -36,10 +48,11 @@ double WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_ar
 
 // The errors of the white part are independent after `correlation_time_s`. Over n such intervals
 // their mean has 1/n of the variance.
-void WindowWeights::gather_means(const Window& window) {
+void WindowWeights::gather_means(const Window& window, int oldest) {
   means_.clear();
-  if (!(correlation_time_s_ > 0.0) || window.size() < 2) return;
-  for (int i = 0; i < window.size(); ++i) {
+  const int keyframes = window.size() - oldest;
+  if (!(correlation_time_s_ > 0.0) || keyframes < 2) return;
+  for (int i = oldest; i < window.size(); ++i) {
     const Keyframe& keyframe = window.at(i);
     for (const KeyframeMeasurement& measurement : keyframe.measurements) {
       if (measurement.measurement.observable != Observable::kCode) continue;
@@ -60,7 +73,7 @@ void WindowWeights::gather_means(const Window& window) {
     }
   }
   const double interval_s =
-      seconds_between(window.newest().time, window.at(0).time) / (window.size() - 1);
+      seconds_between(window.newest().time, window.at(oldest).time) / (keyframes - 1);
   for (CodeMean& mean : means_) {
     const double errors = std::max(1.0, mean.count * interval_s / correlation_time_s_);
     const double n = std::min<double>(errors, mean.count);

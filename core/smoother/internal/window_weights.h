@@ -1,4 +1,4 @@
-// WindowWeights decides the robust weights of all measurements of the window together.
+// WindowWeights decides the robust weights of the window's newest measurements together.
 #pragma once
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -14,16 +14,17 @@ namespace leonav {
 // and iterated, that test would let four or five satellites outvote each other in turn, so that the
 // residuals of the estimate itself are used here.
 //
-// For codes the factor is at most IGG-III of the mean residual of one satellite's codes over the
-// window: a signal that is reflected for many seconds gives errors that are small one by one but of
+// For codes the factor is at most IGG-III of the mean residual of one satellite's codes over these
+// epochs: a signal that is reflected for many seconds gives errors that are small one by one but of
 // one sign. With n codes over times n dt, `T` the correlation time, v the variance of the errors
 // that change and c of those that last, the variance of the mean is taken as
 //   c + v / min(n, max(1, n dt / T))
 class WindowWeights {
  public:
-  // Errors of a code less than `correlation_time_s` apart count as one; 0: means are not tested.
-  WindowWeights(const RobustConfig& robust, double correlation_time_s)
-      : robust_(robust), correlation_time_s_(correlation_time_s) {}
+  // Weights of epochs older than `horizon_s` stay as they are. Errors of a code less than
+  // `correlation_time_s` apart count as one; 0: means are not tested.
+  WindowWeights(const RobustConfig& robust, double horizon_s, double correlation_time_s)
+      : robust_(robust), horizon_s_(horizon_s), correlation_time_s_(correlation_time_s) {}
 
   // Decides the factors at the keyframes' estimates and returns the largest change of one.
   //
@@ -42,12 +43,12 @@ class WindowWeights {
     double correlated_variance = 0.0;
     double ratio = 0.0;  // the mean over its sigma
   };
-  void gather_means(const Window& window);
+  void gather_means(const Window& window, int oldest);
   CodeMean* find_mean(SatelliteId satellite, SignalCode code);
   double reweigh(Keyframe* keyframe);
 
   RobustConfig robust_;
-  double correlation_time_s_;
+  double horizon_s_, correlation_time_s_;
   // Codes beyond the capacity are tested singly only.
   boost::container::static_vector<CodeMean, kMaxMeasurements> means_;
 };

@@ -37,6 +37,7 @@ void Connection::on_opened(const error_code& error) {
   if (error) return fail(endpoint_->text_of(error));
   timer_.cancel();
   is_open_ = true;
+  opened_ = ArrivalClock::Steady::now();
   sink_->on_open();
   read();
 }
@@ -50,7 +51,7 @@ void Connection::read() {
 
 void Connection::on_read(const error_code& error, std::size_t count) {
   if (count > 0) {
-    wait_.reset();
+    if (ArrivalClock::Steady::now() - opened_ > kWorksAfter) wait_.reset();
     const std::uint64_t attempt = attempt_;
     sink_->on_bytes({buffer_.data(), count}, clock_->now_ns());
     if (attempt != attempt_) return;  // the sink has asked for another connection
@@ -74,7 +75,7 @@ void Connection::fail(const std::string& why) {
     has_ended_ = true;
     return sink_->on_end(why);
   }
-  const double wait_s = wait_.next_s();
+  const double wait_s = wait_.next_s(endpoint_->retry_bounds());
   sink_->on_failure(why, wait_s);
   timer_.expires_after(std::chrono::milliseconds(static_cast<long>(wait_s * 1e3)));
   timer_.async_wait([this, attempt](const error_code& cancelled) {

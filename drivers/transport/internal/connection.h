@@ -18,6 +18,9 @@ class Connection final : public ByteSource {
  public:
   // An attempt to open that takes longer has failed.
   static constexpr std::chrono::seconds kOpenTimeout{10};
+  // A connection that has brought bytes for so long works: the waits begin anew. One that always
+  // breaks off at once is tried ever more rarely.
+  static constexpr std::chrono::seconds kWorksAfter{5};
 
   Connection(boost::asio::io_context* io, const ArrivalClock* clock,
              std::unique_ptr<Endpoint> endpoint);
@@ -37,10 +40,12 @@ class Connection final : public ByteSource {
   ByteSink* sink_ = nullptr;
   RetryWait wait_;
   bool is_open_ = false;
+  ArrivalClock::Steady::time_point opened_;
   bool has_ended_ = false;
   // Counts attempts, so that what an earlier one still calls back is ignored.
   std::uint64_t attempt_ = 0;
-  std::array<std::uint8_t, 4096> buffer_;
+  // Holds the longest datagram of UDP.
+  std::array<std::uint8_t, 65536> buffer_;
 };
 
 }  // namespace leonav

@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "drivers/transport/retry_wait.h"
+
 namespace leonav {
 
 class Endpoint {
@@ -23,6 +25,8 @@ class Endpoint {
   virtual bool can_reopen() const { return true; }
   // Whether it can be dead while it looks open, as a connection over a network can.
   virtual bool can_be_half_open() const { return false; }
+  // How long to wait, after what has just failed, until it is opened again.
+  virtual RetryBounds retry_bounds() const { return {}; }
   // What it is and what failed, with a remedy: a sentence without a full stop.
   virtual std::string text_of(const boost::system::error_code& error) const = 0;
 };

@@ -3,6 +3,8 @@
 #include <boost/asio/connect.hpp>
 #include <utility>
 
+#include "drivers/transport/internal/network_text.h"
+
 namespace leonav {
 
 namespace asio = boost::asio;
@@ -38,18 +40,7 @@ void TcpEndpoint::close() {
 }
 
 std::string TcpEndpoint::text_of(const error_code& error) const {
-  const std::string what = options_.host + ":" + std::to_string(options_.port) + ": ";
-  if (error == asio::error::host_not_found || error == asio::error::host_not_found_try_again) {
-    return what + "the name is not known; check 'host' and the name server";
-  }
-  if (error == asio::error::connection_refused) {
-    return what + "nothing listens there; is the server running, and is 'port' right?";
-  }
-  if (error == asio::error::timed_out) {
-    return what + "does not answer; check the cable, 'host' and the firewall";
-  }
-  if (error == asio::error::eof) return what + "the server closed the connection";
-  return what + error.message();
+  return options_.host + ":" + std::to_string(options_.port) + ": " + network_text(error);
 }
 
 }  // namespace leonav

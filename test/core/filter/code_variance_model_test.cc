@@ -43,12 +43,14 @@ class Receiver {
     step();
   }
   double gain_variance(double lasting_s = kLasting_s, double ratio = 1.0) {
-    Measurement code = epoch_.measurements.front();
-    code.correlation_time_s = lasting_s;
-    FilterMeasurement entry;
-    entry.variance = kSigma * kSigma;
-    model_.weigh(epoch_, code, kInflation, ratio, &entry);
-    return entry.gain_variance;
+    return weigh(lasting_s, ratio, 0.0).gain_variance;
+  }
+  // Returns the variance with which the filter uses a code.
+  double use_code(double reflected_walk) {
+    FilterMeasurements used;
+    used.push_back(weigh(kLasting_s, 1.0, reflected_walk));
+    model_.accept(used);
+    return used.front().gain_variance;
   }
   const CodeVarianceModel& model() const { return model_; }
   void step() {
@@ -71,6 +73,15 @@ class Receiver {
   }
 
  private:
+  FilterMeasurement weigh(double lasting_s, double ratio, double reflected_walk) {
+    Measurement code = epoch_.measurements.front();
+    code.correlation_time_s = lasting_s;
+    FilterMeasurement entry;
+    entry.variance = kSigma * kSigma;
+    model_.weigh(epoch_, code, kInflation, ratio, reflected_walk, &entry);
+    return entry;
+  }
+
   std::size_t arcs_;
   double interval_s_, seconds_ = 0.0;
   EkfConfig config_;
@@ -154,6 +165,22 @@ TEST_CASE("without carriers that keep the position no code is scheduled, and wit
   for (int i = 0; i < 10; ++i) few.step(), many.step();
   CHECK(few.gain_variance() == Approx(expected(20.0)));
   CHECK(many.gain_variance() != Approx(expected(20.0)));
+}
+
+TEST_CASE("codes of a satellite whose carrier drifts by a reflection keep more of their weight") {
+  // The variance of a code after a minute of them.
+  const auto after_minute = [](double reflected_walk) {
+    Receiver receiver(8);
+    double variance = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      receiver.step();
+      variance = receiver.use_code(reflected_walk);
+    }
+    return variance;
+  };
+  const double still = after_minute(0.0), little = after_minute(0.1), much = after_minute(1.0);
+  CHECK(little < 0.9 * still);
+  CHECK(much < 0.9 * little);
 }
 
 TEST_CASE("updates of no interval or of no variance leave the memory as it is") {

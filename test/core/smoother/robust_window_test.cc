@@ -1,4 +1,7 @@
 // Weights that later keyframes change: what one epoch cannot tell, a window can.
+#include <map>
+#include <vector>
+
 #include "smoother_rig.h"
 #include "support/catch.h"
 
@@ -89,6 +92,7 @@ TEST_CASE("a code that is a little too long for many seconds weighs less") {
     };
     Drive drive(options);
     SmootherConfig config;
+    config.reweigh_s = 20.0;
     config.code_alike_s = alike_s;
     config.max_iterations = 4;  // the newest keyframe's weights are the window's from the second on
     config.converged_sigmas = 0.01;
@@ -111,6 +115,40 @@ TEST_CASE("a code that is a little too long for many seconds weighs less") {
   CHECK(alone > 0.7);
   CHECK(judged < 0.5 * alone);
   CHECK(lasting > 0.7);
+}
+
+TEST_CASE("a weight changes for as long after its epoch as configured, and then stays") {
+  DriveOptions options;
+  options.robust = true;
+  options.carriers = false;
+  Drive drive(options);
+  SmootherConfig config;
+  config.reweigh_s = 3.0;
+  const auto smoother = smoother_of(drive, config);
+  const auto factors_of = [](const Keyframe& keyframe) {
+    std::vector<double> factors;
+    for (const KeyframeMeasurement& m : keyframe.measurements) factors.push_back(m.factor);
+    return factors;
+  };
+  std::map<std::uint64_t, std::vector<double>> before;  // by keyframe
+  int changed = 0;
+  for (int epoch = 1; epoch <= 40; ++epoch) {
+    solve(drive.step(), smoother.get());
+    const Window& window = smoother->window();
+    for (int k = 0; k < window.size(); ++k) {
+      const Keyframe& keyframe = window.at(k);
+      const std::vector<double> now = factors_of(keyframe);
+      const bool same = before.contains(keyframe.index) && before[keyframe.index] == now;
+      const double age_s = seconds_between(window.newest().time, keyframe.time);
+      CAPTURE(epoch, age_s);
+      if (age_s > 3.5)
+        CHECK(same);
+      else if (age_s > 0.5 && !same)
+        ++changed;
+      before[keyframe.index] = now;
+    }
+  }
+  CHECK(changed > 50);
 }
 
 TEST_CASE("where the position is vague the filter's weights stay") {

@@ -104,7 +104,7 @@ TEST_CASE("what only one half has observed is not compared, and the table says s
   std::ostringstream out;
   print_calibration(calibration, out);
   CAPTURE(out.str());
-  CHECK(out.str().find("could not be compared, the sigma is the filter's alone: "
+  CHECK(out.str().find("could not be compared, the sigma is the whole log's alone: "
                        "lever_arm_forward_m\n") != std::string::npos);
 }
 

@@ -1,6 +1,10 @@
 // The configuration of leonav-connect: what is read, and what a mistake is told as.
 #include "tools/connect/connect_config.h"
 
+#include <sys/stat.h>
+
+#include <variant>
+
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
@@ -54,6 +58,62 @@ TEST_CASE("A sensor that writes text is described by columns, units and axes", "
   CHECK(imu.line.accel_unit == Approx(0.5 * 9.80665));
   CHECK(imu.line.axes == std::array{2, 1, -3});
   CHECK(imu.stamps.latency_s == 0.002);
+}
+
+TEST_CASE("A stream of a caster, of a client and of datagrams is described", "[connect]") {
+  const test::TemporaryFile credentials("caster", "me\nsecret-word\n");
+  chmod(credentials.path().c_str(), 0600);
+  const std::string caster =
+      "name: base, source: ntrip, host: caster, mountpoint: BASE, format: "
+      "rtcm3, credentials_file: " +
+      credentials.path();
+  const ConnectConfig config =
+      load(stream(caster + ", version: 2, tls: true, position: [52.5, 13.4, 80], "
+                           "position_interval_s: 5"));
+  const auto& ntrip = std::get<NtripOptions>(config.streams.at(0).source);
+  CHECK(ntrip.port == 2101);
+  CHECK(ntrip.version == NtripVersion::k2);
+  CHECK(ntrip.tls);
+  CHECK(ntrip.position_line().starts_with("$GPGGA,"));
+  CHECK(ntrip.position_interval_s == 5.0);
+  CHECK(text_of(config.streams.at(0).source) == "NTRIP caster:2101/BASE over TLS");
+  CHECK_FALSE(std::get<NtripOptions>(load(stream(caster)).streams.at(0).source).position_line);
+  const auto problem = [&](const std::string& keys) -> std::string {
+    try {
+      load(stream(keys));
+      return "none";
+    } catch (const ConfigError& error) {
+      CHECK_THAT(error.what(), !Catch::Contains("secret-word"));
+      return error.what();
+    }
+  };
+  CHECK_THAT(problem(caster + ", position: [91, 0, 0]"), Catch::Contains("latitude"));
+  CHECK_THAT(problem(caster + ", position: [1, 2]"), Catch::Contains("latitude"));
+  CHECK_THAT(problem(caster + ", ca_file: a.pem"), Catch::Contains("ca_file"));
+  CHECK_THAT(problem(caster + ", tls: true, ca_file: none.pem"), Catch::Contains("PEM"));
+  CHECK_THAT(problem("name: a, source: ntrip, host: b, mountpoint: \"B C\", format: rtcm3"),
+             Catch::Contains("mountpoint"));
+  CHECK_THAT(problem("name: a, source: ntrip, host: \"b\\r\\nX: y\", mountpoint: B, format: rtcm3"),
+             Catch::Contains("host"));
+  chmod(credentials.path().c_str(), 0644);
+  CHECK_THAT(problem(caster), Catch::Contains("chmod 600"));
+
+  const ConnectConfig server = load(stream("name: a, source: tcp_server, port: 5000, format: ubx"));
+  CHECK(text_of(server.streams.at(0).source) == "a client at 127.0.0.1:5000");
+  const ConnectConfig udp =
+      load(stream("name: a, source: udp, address: 0.0.0.0, port: 5000, format: ubx"));
+  CHECK(text_of(udp.streams.at(0).source) == "UDP at 0.0.0.0:5000");
+  CHECK_THAT(problem("name: a, source: udp, format: ubx"), Catch::Contains("port"));
+  CHECK_THAT(problem("name: a, source: udp, address: here, port: 5000, format: ubx"),
+             Catch::Contains("address"));
+}
+
+TEST_CASE("A receiver of RTCM 3 and an inertial sensor have room beside each other", "[connect]") {
+  const std::string base = "name: base, source: tcp, host: b, port: 1, format: rtcm3";
+  const std::string imu = "name: imu, source: serial, device: /dev/x, format: vectornav";
+  CHECK(load(stream(base) + "  - {" + imu + "}\n").streams.size() == 2);
+  CHECK_THROWS_WITH(load(stream(base) + "  - {name: a, source: stdin, format: ubx}\n"),
+                    Catch::Contains("two receivers"));
 }
 
 TEST_CASE("A mistake is told with its line and the remedy", "[connect]") {

@@ -30,7 +30,7 @@ struct Rig {
       watch.look(now_ns, format);
     }
   }
-  StreamWatch watch{WatchLimits{}};
+  StreamWatch watch{WatchLimits{}, "is the sensor on?"};
   FakeFormat format;
   std::int64_t now_ns = 1'000'000'000'000;
 };
@@ -91,10 +91,11 @@ TEST_CASE("Whole messages with nothing to publish are told, with the remedy", "[
 
 TEST_CASE("Failures and the end keep their reason", "[connect]") {
   Rig rig;
-  rig.watch.on_failure("there is no such device");
+  rig.watch.on_failure("there is no such device", 4.0, rig.now_ns);
+  CHECK(rig.watch.text() == "there is no such device; tried again in 4 s");
   rig.seconds(20, 0, 0, 0);
   CHECK(rig.watch.state() == StreamState::kWaiting);
-  CHECK(rig.watch.text() == "there is no such device");
+  CHECK(rig.watch.text() == "there is no such device; being tried again");
   CHECK(rig.watch.failures() == 1);
   CHECK(rig.watch.silence_s(rig.now_ns) == 0.0);
   rig.watch.on_open(rig.now_ns);

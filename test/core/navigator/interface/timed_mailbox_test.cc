@@ -119,16 +119,20 @@ TEST_CASE("who feeds the worker and reads its results sees what the navigator ta
   constexpr std::uint64_t kRounds = 30'000;
   using Value = std::array<std::uint64_t, 16>;
   TimedMailbox<Value> mailbox;
-  std::atomic<std::uint64_t> opened{0}, fed{0}, taken_rounds{0};
+  std::atomic<std::uint64_t> opened{0}, fed{0}, delivered_rounds{0}, taken_rounds{0};
   std::vector<char> taken(kRounds + 1), read(kRounds + 1);
   std::uint64_t torn = 0;
   std::thread worker([&] {
     for (std::uint64_t k = 1; k <= kRounds; ++k) {
       while (fed.load(std::memory_order_acquire) < k) std::this_thread::yield();
       for (std::uint64_t spin = 0; spin < k % 5 * 40; ++spin) fed.load();
+      // One in ten comes too late whatever the machine does, and one is waited for.
+      while (k % 10 == 5 && taken_rounds.load(std::memory_order_acquire) < k)
+        std::this_thread::yield();
       Value value;
       value.fill(k);
       mailbox.deliver(k, value);
+      delivered_rounds.store(k, std::memory_order_release);
     }
   });
   std::thread feeder([&] {  // it reads the epoch before whenever it begins one
@@ -147,6 +151,8 @@ TEST_CASE("who feeds the worker and reads its results sees what the navigator ta
     for (std::uint64_t k = 1; k <= kRounds; ++k) {
       while (opened.load(std::memory_order_acquire) < k) std::this_thread::yield();
       for (std::uint64_t spin = 0; spin < k % 7 * 40; ++spin) opened.load();
+      while (k % 10 == 0 && delivered_rounds.load(std::memory_order_acquire) < k)
+        std::this_thread::yield();
       Value value;
       taken[k] = mailbox.take(k, &value) ? 1 : 0;
       taken_rounds.store(k, std::memory_order_release);
@@ -168,8 +174,8 @@ TEST_CASE("who feeds the worker and reads its results sees what the navigator ta
   CHECK(read == taken);
   CHECK(torn == 0);
   const auto of_all = std::count(taken.begin(), taken.end(), 1);
-  CHECK(of_all > 0);
-  CHECK(of_all < static_cast<std::ptrdiff_t>(kRounds) - 1);
+  CHECK(of_all >= static_cast<std::ptrdiff_t>(kRounds) / 10 - 1);
+  CHECK(of_all <= static_cast<std::ptrdiff_t>(kRounds) - static_cast<std::ptrdiff_t>(kRounds) / 10);
 }
 
 }  // namespace

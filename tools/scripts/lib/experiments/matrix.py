@@ -170,6 +170,8 @@ def smoother_rows(rows):
 STUDIES = [(f"w{w}", f"W = {w}", [f"smoother.window={w}"], []) for w in (1, 2, 5, 10, 40, 60)] + [
     ("once", "one iteration", ["smoother.max_iterations=1"], []),
     ("filter-weights", "weights as the filter has them", ["smoother.reweigh=false"], []),
+    ("reweigh-10", "weights decided for 10 s", ["smoother.reweigh_s=10"], []),
+    ("reweigh-20", "weights decided over the whole window", ["smoother.reweigh_s=20"], []),
     ("no-means", "each code judged by itself", ["smoother.code_alike_s=0"], []),
     ("no-slips", "a receiver that never slips", [], ["receiver.tracking.slips_per_hour=0"])]
 

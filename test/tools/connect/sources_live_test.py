@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""sources_live_test.py BIN_DIR WORK_DIR: leonav-connect with an NTRIP caster, a client that connects, and datagrams.
+
+Every byte must be in the recording as it was sent; no password may be in any text of the program or in the recording. Runs
+in a network namespace of its own; exit 77: none can be made here.
+"""
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path += [str(HERE.parent), str(ROOT / "test/drivers/transport")]
+import caster  # noqa: E402
+from live_program import enter_namespace, fail  # noqa: E402
+
+
+def wait_for(what, done):
+    for _ in range(300):
+        if done():
+            return
+        time.sleep(0.1)
+    fail(f"30 s passed without {what}")
+
+
+def recorded(path):
+    """The bytes of a recording, as far as it has been written out."""
+    data, found = path.read_bytes(), b""
+    at = len("leonav recording 1\n")
+    while at + 12 <= len(data):
+        length = struct.unpack_from("<qI", data, at)[1]
+        found += data[at + 12:at + 12 + length]
+        at += 12 + length
+    return found
+
+
+class Run:
+    """leonav-connect with one stream that is recorded."""
+
+    def __init__(self, work, name, keys):
+        self.record, self.text = work / f"{name}.leoraw", work / f"{name}.txt"
+        config = work / f"{name}.yaml"
+        config.write_text(f"streams:\n  - {{name: {name}, {keys}, format: rtcm3, record: {name}.leoraw}}\n")
+        self.check = subprocess.run([BIN / "leonav-connect", "--check", config], stderr=subprocess.PIPE, check=False)
+        with open(self.text, "wb") as text:
+            self.process = subprocess.Popen([BIN / "leonav-connect", config], stderr=text)
+
+    def says(self, words):
+        wait_for(f"'{words}'", lambda: words in self.text.read_text(encoding="utf-8"))
+
+    def finish(self):
+        self.process.send_signal(signal.SIGTERM)
+        if self.process.wait(timeout=20) != 0:
+            fail("leonav-connect did not end cleanly")
+        text = self.text.read_text(encoding="utf-8")
+        print(text)
+        for secret in ("sesame", caster.AUTHORIZATION.split()[-1]):
+            if secret in text or secret.encode() in self.check.stderr + self.record.read_bytes():
+                fail("the password is in what the program says or records")
+        return recorded(self.record)
+
+
+def free_port(kind):
+    with socket.socket(socket.AF_INET, kind) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def ntrip(work):
+    with open(work / "said.txt", "w", encoding="utf-8") as said:
+        server = subprocess.Popen([sys.executable, caster.__file__, work / "caster"], stdin=subprocess.PIPE, stdout=said)
+    said = lambda: (work / "said.txt").read_text(encoding="utf-8")
+    wait_for("a caster", lambda: "tls " in said())
+    port = dict(line.split()[:2] for line in said().splitlines())["tls"]
+    (work / "credentials").write_text("me\nopen:sesame\n")
+    os.chmod(work / "credentials", 0o600)
+    keys = f"source: ntrip, host: localhost, port: {port}, tls: true, ca_file: caster/ca.pem, credentials_file: credentials"
+    run = Run(work, "base", f"{keys}, mountpoint: POSITION, position: [52.5, 13.4, 80], position_interval_s: 0.1")
+    run.says("is open")
+    wait_for("two positions", lambda: said().count("position $GPGGA,") >= 2)
+    data = run.finish()
+    sent = b"".join(map(caster.message, range(100)))
+    if len(data) < 18 or not sent.startswith(data):
+        fail(f"NTRIP: the recording is not what was sent: {data[:40].hex()}")
+    wrong = Run(work, "absent", f"{keys}, mountpoint: ABSENT")
+    wrong.says("no mountpoint ABSENT")
+    wrong.finish()
+    os.chmod(work / "credentials", 0o644)
+    check = subprocess.run([BIN / "leonav-connect", "--check", work / "base.yaml"], stderr=subprocess.PIPE, check=False)
+    if check.returncode != 3 or b"chmod 600" not in check.stderr:
+        fail(f"a credentials file that others may read is taken: {check.stderr}")
+    server.stdin.close()
+    server.wait(timeout=20)
+    print(f"NTRIP: {len(data)} bytes through TLS, as they were sent")
+
+
+def tcp_server(work):
+    port = free_port(socket.SOCK_STREAM)
+    run = Run(work, "server", f"source: tcp_server, port: {port}")
+    wait_for("a server", lambda: "running" in run.text.read_text(encoding="utf-8"))
+    sent = b""
+    for client in range(3):
+        data = b"".join(caster.message(100 * client + i) for i in range(50))
+        with socket.create_connection(("127.0.0.1", port), timeout=10) as one:
+            one.sendall(data)
+        sent += data
+    wait_for("all bytes", lambda: len(recorded(run.record)) == len(sent))
+    run.says("the client closed the connection")
+    if run.finish() != sent:
+        fail("tcp_server: the recording is not what was sent")
+    print(f"tcp_server: {len(sent)} bytes of three clients, as they were sent")
+
+
+def udp(work):
+    port = free_port(socket.SOCK_DGRAM)
+    run = Run(work, "datagrams", f"source: udp, port: {port}, silent_s: 1")
+    run.says("is open")
+    run.says("does the sender run")
+    sent = b""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        for number in range(50):
+            data = caster.message(number) * (number % 7 + 1)
+            one.sendto(data, ("127.0.0.1", port))
+            sent += data
+    wait_for("all bytes", lambda: len(recorded(run.record)) == len(sent))
+    if run.finish() != sent:
+        fail("udp: the recording is not what was sent")
+    print(f"udp: {len(sent)} bytes of 50 datagrams, as they were sent")
+
+
+def main():
+    global BIN
+    if shutil.which("openssl") is None:
+        print("SKIPPED: no openssl")
+        sys.exit(77)
+    enter_namespace()
+    BIN, work = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    work.mkdir(parents=True, exist_ok=True)
+    ntrip(work)
+    tcp_server(work)
+    udp(work)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+#include "tools/connect/position_line.h"
+
+#include "drivers/nmea/fields.h"
+#include "drivers/nmea/sentence.h"
+#include "drivers/transport/arrival_clock.h"
+#include "tools/connect/stamps/gps_clock.h"
+
+namespace leonav {
+
+std::string position_line(const ReportedPosition& position, GpsTime time) {
+  const PlaceFields latitude = latitude_fields(position.latitude);
+  const PlaceFields longitude = longitude_fields(position.longitude);
+  return Sentence("GPGGA")
+      .field(utc_fields(time).time)
+      .field(latitude.angle)
+      .field(latitude.hemisphere)
+      .field(longitude.angle)
+      .field(longitude.hemisphere)
+      .field("1")
+      .field("12")
+      .field("1.0")
+      .field(number_field(position.height_m, 3))
+      .field("M")
+      .field("0.0")
+      .field("M")
+      .field("")
+      .field("")
+      .line();
+}
+
+std::string position_line_now(const ReportedPosition& position) {
+  const GpsClock host(TimeReference::kHost, 0.0);
+  return position_line(position, host.at(ArrivalClock().now_ns()).value_or(GpsTime()));
+}
+
+}  // namespace leonav

@@ -1,0 +1,155 @@
+#include "tools/connect/source_keys.h"
+
+#include <algorithm>
+#include <boost/asio/ip/address.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include "tools/connect/position_line.h"
+
+namespace leonav {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+enum class SourceKind : std::uint8_t { kSerial, kTcp, kNtrip, kTcpServer, kUdp, kInput, kFile };
+
+std::string in_folder(const std::string& folder, const std::string& path) {
+  return path.empty() ? "" : (std::filesystem::path(folder) / path).string();
+}
+
+std::uint16_t read_port(ConfigReader& group, int port) {
+  group.integer("port", 0, 65'535, &port);
+  if (port == 0) group.fail("port", "must be given, from 1 to 65535");
+  return static_cast<std::uint16_t>(port);
+}
+
+// Names go into requests and messages, where blanks and control characters have a meaning.
+bool is_one_word(const std::string& text) {
+  return !text.empty() &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < '\x7F'; });
+}
+
+SerialOptions read_serial(ConfigReader& group) {
+  SerialOptions options;
+  int baud = 115'200;
+  group.text("device", &options.device);
+  group.integer("baud", 300, 12'000'000, &baud);
+  if (options.device.empty()) group.fail("device", "must name a port, such as /dev/ttyACM0");
+  options.baud = static_cast<unsigned>(baud);
+  return options;
+}
+
+TcpOptions read_tcp(ConfigReader& group) {
+  TcpOptions options;
+  group.text("host", &options.host);
+  if (options.host.empty()) group.fail("host", "must be the server's name or address");
+  options.port = read_port(group, 0);
+  return options;
+}
+
+ListenOptions read_listen(ConfigReader& group) {
+  ListenOptions options;
+  group.text("address", &options.address);
+  boost::system::error_code wrong;
+  boost::asio::ip::make_address(options.address, wrong);
+  if (wrong) {
+    group.fail("address",
+               "must be an address of this machine: 127.0.0.1 for programs on it, "
+               "0.0.0.0 for all of its networks");
+  }
+  options.port = read_port(group, 0);
+  return options;
+}
+
+void read_position(ConfigReader& group, NtripOptions* options) {
+  std::vector<double> values;
+  group.numbers("position", {-10'000.0, 10'000.0}, &values);
+  if (values.empty()) return;
+  if (values.size() != 3 || std::abs(values[0]) > 90.0 || std::abs(values[1]) > 180.0) {
+    group.fail("position",
+               "must be [latitude, longitude, height]: degrees from -90 to 90, degrees "
+               "from -180 to 180, metres above the ellipsoid");
+  }
+  const ReportedPosition position{values[0] * kDegree, values[1] * kDegree, values[2]};
+  options->position_line = [position] { return position_line_now(position); };
+  group.number("position_interval_s", {0.0, 3600.0}, &options->position_interval_s);
+}
+
+NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
+  NtripOptions options;
+  group.text("host", &options.host);
+  if (!is_one_word(options.host)) group.fail("host", "must be the caster's name or address");
+  options.port = read_port(group, options.port);
+  group.text("mountpoint", &options.mountpoint);
+  if (!is_one_word(options.mountpoint) || options.mountpoint.find('/') != std::string::npos) {
+    group.fail("mountpoint", "must name a stream of the caster's source table, without a slash");
+  }
+  group.choice<NtripVersion>(
+      "version", {{"auto", NtripVersion::kAuto}, {"1", NtripVersion::k1}, {"2", NtripVersion::k2}},
+      &options.version);
+  group.boolean("tls", &options.tls);
+  if (options.tls) group.text("ca_file", &options.ca_file);
+  options.ca_file = in_folder(folder, options.ca_file);
+  group.text("credentials_file", &options.credentials_file);
+  options.credentials_file = in_folder(folder, options.credentials_file);
+  read_position(group, &options);
+  if (const std::string problem = problem_of(options); !problem.empty()) {
+    group.fail(options.credentials_file.empty() ? "ca_file" : "credentials_file", problem);
+  }
+  return options;
+}
+
+FileOptions read_file(ConfigReader& group, const std::string& folder) {
+  FileOptions options;
+  group.text("path", &options.path);
+  if (options.path.empty()) group.fail("path", "must name a recording or a file of bytes");
+  options.path = in_folder(folder, options.path);
+  return options;
+}
+
+SourceKind read_kind(ConfigReader& group) {
+  SourceKind kind = SourceKind::kSerial;
+  group.choice<SourceKind>("source",
+                           {{"serial", SourceKind::kSerial},
+                            {"tcp", SourceKind::kTcp},
+                            {"ntrip", SourceKind::kNtrip},
+                            {"tcp_server", SourceKind::kTcpServer},
+                            {"udp", SourceKind::kUdp},
+                            {"stdin", SourceKind::kInput},
+                            {"file", SourceKind::kFile}},
+                           &kind);
+  return kind;
+}
+
+}  // namespace
+
+void read_source(ConfigReader& group, const std::string& folder, SourceOptions* source) {
+  switch (read_kind(group)) {
+    case SourceKind::kSerial:
+      *source = read_serial(group);
+      break;
+    case SourceKind::kTcp:
+      *source = read_tcp(group);
+      break;
+    case SourceKind::kNtrip:
+      *source = read_ntrip(group, folder);
+      break;
+    case SourceKind::kTcpServer:
+      *source = TcpServerOptions{read_listen(group)};
+      break;
+    case SourceKind::kUdp:
+      *source = UdpOptions{read_listen(group)};
+      break;
+    case SourceKind::kInput:
+      *source = InputOptions();
+      break;
+    case SourceKind::kFile:
+      *source = read_file(group, folder);
+      break;
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,110 @@
+"""Reads LCM event logs, to which journals belong, event by event.
+
+Format (LCM documentation, "Log file format"), big endian: sync word 0xEDA1DA01, event number (8 bytes), timestamp in
+microseconds (8), length of the channel's name (4), length of the data (4), name, data.
+"""
+import os
+import struct
+import warnings
+from typing import Iterator, NamedTuple
+
+from .errors import LeonavError, LeonavWarning
+
+SYNC = b"\xed\xa1\xda\x01"
+HEADER = struct.Struct(">4sqqII")
+MOST_CHANNEL_BYTES = 999  # as liblcm and leonav's own reader
+MOST_DATA_BYTES = 64 << 20
+SEARCH_BYTES = 1 << 20
+
+
+class Event(NamedTuple):
+    """One message of a log."""
+
+    offset: int  # byte of the file at which the event begins
+    timestamp_us: int  # when it was logged, of a journal data time or wall clock, microseconds
+    channel: str
+    data: bytes
+
+
+def events(path, damaged="raise") -> Iterator[Event]:
+    """Yields the events of a log in the file's order.
+
+    A log whose last event is cut short, as by a power failure, yields what is there, then warns with LeonavWarning. Where a
+    log is damaged in between, LeonavError names the byte; with damaged="skip" reading goes on at the next event that is
+    whole, and one LeonavWarning at the end says how many bytes were left out.
+    """
+    if damaged not in ("raise", "skip"):
+        raise ValueError("damaged must be 'raise' or 'skip'")
+    try:
+        with open(path, "rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            if size == 0:
+                raise LeonavError(f"{path}: byte 0: the file is empty; give a log of leonav-import, leonavd or lcm-logger")
+            yield from _events(path, file, size, damaged == "skip")
+    except OSError as error:
+        raise LeonavError(f"{path}: {error.strerror}; check the path") from error
+
+
+def _events(path, file, size, skip):
+    position, left_out, first_damage = 0, 0, None
+    while position < size:
+        header = file.read(HEADER.size)
+        what = _why_bad(header, position, size)
+        if what is None:
+            _, _, stamp, channel_bytes, data_bytes = HEADER.unpack(header)
+            end = position + HEADER.size + channel_bytes + data_bytes
+            channel = file.read(channel_bytes).decode(errors="replace")
+            data = file.read(data_bytes)
+            if len(data) == data_bytes:
+                yield Event(position, stamp, channel, data)
+                position = end
+                continue
+            what = "cut"
+        following = _next_event(file, position + 1, size) if skip else None
+        if following is None and what == "cut":
+            warnings.warn(f"{path}: byte {position}: the last event is cut short, {size - position} bytes are left out; all before "
+                          "it was read. The log was not closed: stop the program that writes it, or keep what is there", LeonavWarning,
+                          stacklevel=4)
+            break
+        if not skip:
+            what = "an event begins here that is longer than the file" if what == "cut" else what
+            raise LeonavError(f"{path}: byte {position}: {what}; read what is good with damaged='skip'" if position else
+                              f"{path}: byte 0: {what}; give a log of leonav-import, leonavd or lcm-logger")
+        first_damage = position if first_damage is None else first_damage
+        following = size if following is None else following
+        left_out += following - position
+        position = following
+        file.seek(position)
+    if left_out:
+        warnings.warn(f"{path}: byte {first_damage}: the log is damaged; {left_out} bytes are left out in all", LeonavWarning, stacklevel=4)
+
+
+def _why_bad(header, position, size):
+    """Returns what is wrong with the header of an event: "cut" where the file ends before the event does, None if nothing."""
+    if not SYNC.startswith(header[:4]) and not header.startswith(SYNC):
+        return "no event starts here; the log is damaged" if position else "this is not an LCM log (no sync word at its start)"
+    if len(header) < HEADER.size:
+        return "cut"
+    _, _, _, channel_bytes, data_bytes = HEADER.unpack(header)
+    if not 0 < channel_bytes <= MOST_CHANNEL_BYTES:
+        return f"an event with a channel name of {channel_bytes} bytes; the log is damaged"
+    if data_bytes > MOST_DATA_BYTES:
+        return f"an event with {data_bytes} bytes of data; the log is damaged"
+    return "cut" if position + HEADER.size + channel_bytes + data_bytes > size else None
+
+
+def _next_event(file, start, size):
+    """Returns where the next whole event begins, at `start` or behind it; None if there is none."""
+    while start < size:
+        file.seek(start)
+        block = file.read(SEARCH_BYTES + len(SYNC) - 1)
+        found = block.find(SYNC)
+        if found < 0:
+            start += SEARCH_BYTES
+            continue
+        start += found
+        file.seek(start)
+        if _why_bad(file.read(HEADER.size), start, size) is None:
+            return start
+        start += 1
+    return None

@@ -1,0 +1,25 @@
+"""Puts the message types of lcmtypes/ into the package that is built; the rest is in pyproject.toml."""
+import pathlib
+import shutil
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+
+TYPES = pathlib.Path(__file__).resolve().parents[2] / "lcmtypes"
+
+
+class BuildWithTypes(build_py):
+    def run(self):
+        super().run()
+        if self.editable_mode:  # the package then reads the tree's own
+            return
+        definitions = sorted(TYPES.glob("*.lcm"))
+        if not definitions:
+            raise SystemExit(f"{TYPES}: no message types; build the package within the tree of leonav")
+        target = pathlib.Path(self.build_lib) / "leonav" / "lcmtypes"
+        target.mkdir(parents=True, exist_ok=True)
+        for definition in definitions:
+            shutil.copy(definition, target)
+
+
+setup(cmdclass={"build_py": BuildWithTypes})

@@ -1,0 +1,1 @@
+"""leonav-top: health, solution, satellites and streams in a terminal."""
