@@ -34,11 +34,16 @@ void CorrectionStore::add(const SsrMessage& message) {
     counters_.in_regional_frame += message.satellites.size();
     return;
   }
-  const Correction correction{reference_time(message), source_of(message), message.is_igs};
+  const Correction correction{message.time, reference_time(message), source_of(message),
+                              message.is_igs};
   for (const SsrSatellite& from : message.satellites) {
     if (!is_valid(from.satellite)) continue;
     Satellite& to = satellites_[from.satellite];
     if (from.orbit) {
+      // A clock's correction belongs to the elements that the orbit of its time corrects.
+      const bool is_other_issue =
+          from.orbit->issue != to.orbit.issue || from.orbit->beidou_toe != to.orbit.beidou_toe;
+      if (is_other_issue && to.clock_is.sent < message.time) to.clock_is = {};
       to.orbit = *from.orbit;
       to.orbit_is = correction;
     }
@@ -110,9 +115,9 @@ CorrectionSource source_of(const SsrMessage& message) {
   return {message.provider, message.solution, message.issue};
 }
 
-bool has_orbits_or_clocks(const SsrMessage& message) {
-  return message.kind == SsrKind::kOrbit || message.kind == SsrKind::kClock ||
-         message.kind == SsrKind::kOrbitAndClock || message.kind == SsrKind::kHighRateClock;
+bool has_clocks(const SsrMessage& message) {
+  return message.kind == SsrKind::kClock || message.kind == SsrKind::kOrbitAndClock ||
+         message.kind == SsrKind::kHighRateClock;
 }
 
 std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time) {

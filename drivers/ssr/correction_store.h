@@ -50,7 +50,8 @@ class CorrectionStore {
   // Keeps the last kIssuesKept of each satellite by arrival. Elements that are not sane, or of a
   // Galileo message that the stream does not refer to, are left out.
   void add(const Ephemeris& ephemeris);
-  // The newest correction of its kind replaces that of the same satellite, whatever its time.
+  // The newest correction of its kind replaces that of the same satellite, whatever its time. An
+  // orbit that refers to another issue than the one before ends a clock that was sent earlier.
   void add(const SsrMessage& message);
 
   // Makes the states at `time` of the satellites of a message that was added. A satellite without
@@ -62,7 +63,8 @@ class CorrectionStore {
 
  private:
   struct Correction {
-    GpsTime reference;
+    GpsTime sent,
+        reference;  // the message's time, and the instant its polynomials are counted from
     CorrectionSource source;
     bool is_igs = false;
   };
@@ -85,8 +87,9 @@ class CorrectionStore {
 
 // Returns who made a message.
 CorrectionSource source_of(const SsrMessage& message);
-// Returns whether a message changes states: it has orbits or clocks.
-bool has_orbits_or_clocks(const SsrMessage& message);
+// Returns whether states are to be made after a message: it has clocks. Orbits come before the
+// clocks of the same time, and only with them are they of one issue.
+bool has_clocks(const SsrMessage& message);
 // Returns the biases of a message as delays to be subtracted, received at `time`.
 std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time);
 

@@ -131,7 +131,10 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
       group.fail("rate_hz", "is for lines without a column of time; leave it out");
     }
   }
-  if (stream->format == FormatKind::kRtcm3) read_day(group, stream);
+  if (stream->format == FormatKind::kRtcm3) {
+    read_day(group, stream);
+    group.boolean("corrections", &stream->is_service);
+  }
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
   } else {
