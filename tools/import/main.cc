@@ -12,8 +12,11 @@ int body(int argc, char** argv) {
       "Turns a recording in files into an LCM event log, in the order and at the times a live\n"
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
       "relative to the file: observations (RINEX 2 or 3, .ubx, .rtcm3, .rtcm),\n"
-      "navigation (RINEX 2 or 3, .rtcm3, .rtcm), orbits (SP3), clocks, antenna_models (ANTEX),\n"
-      "imu (imu.csv), truth; and as text name, receiver_antenna (type and radome, where the\n"
+      "navigation (RINEX 2 or 3, .rtcm3, .rtcm), orbits (SP3), clocks, corrections (SSR in\n"
+      ".rtcm3, .rtcm), antenna_models (ANTEX), imu (imu.csv), truth; corrections_latency_s\n"
+      "(from a correction's time to its arrival; 10 where it is not given), corrections_point\n"
+      "(antenna or mass_centre, the point of a satellite that corrected orbits are of;\n"
+      "antenna); and as text name, receiver_antenna (type and radome, where the\n"
       "observations' header is wrong), and date (YYYY-MM-DD, of the recording: RTCM 3 messages do\n"
       "not say the week; up to three days off will do).");
   arguments.option("--out", "FILE", "the log to write; -o for short")
