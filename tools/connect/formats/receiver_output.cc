@@ -12,13 +12,18 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
-  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
+  repeat_ephemerides(epoch.time);
+}
+
+void ReceiverOutput::repeat_ephemerides(GpsTime now) {
+  messages_ += static_cast<std::uint64_t>(repeater_.repeat(now));
 }
 
 void ReceiverOutput::send(const Ephemeris& ephemeris) {
   Ephemeris sent = ephemeris;
   sent.transmission_time = transmission_time(ephemeris);
   output_->send(sent);
+  if (corrections_ != nullptr) corrections_->add(sent);
   repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
   ++messages_;
   ++ephemerides_;
