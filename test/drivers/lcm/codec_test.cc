@@ -341,7 +341,7 @@ TEST_CASE("damaged corrected states and biases never crash and are refused or sa
   for (std::size_t i = 0; i < states.size(); ++i) {
     const SatelliteId id{System::kGps, static_cast<std::uint16_t>(i + 1)};
     const GpsTime time = GpsTime::from_week_and_tow(2300, 900.0);
-    states[i] = {id, time, time, time, true, 5, {2e7, 1e7, 1e6}, {1e3, 2e3, 3e3}, 1e-4, 1e-11, 0.1};
+    states[i] = {id, time, time, time, 5, true, {2e7, 1e7, 1e6}, {1e3, 2e3, 3e3}, 1e-4, 1e-11, 0.1};
     biases[i] = {id, {'1', 'C'}, BiasKind::kCode, time, 0.5};
   }
   const std::array<Bytes, 2> messages = {copy(encoder.encode(states, {1, 2, 3}, 1)),
