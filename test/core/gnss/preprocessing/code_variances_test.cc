@@ -44,6 +44,7 @@ struct Codes {
     config.weight_model = of.weights;
     view.satellite = {of.system, 7};
     view.source = OrbitSource::kBroadcast;
+    view.at_antenna = true;
     view.elevation = of.elevation;
     view.azimuth = 2.0;
     view.p_e = 1.2 * p_e + Eigen::Vector3d(0.0, 2e7, 0.0);
