@@ -16,8 +16,11 @@ inline constexpr std::size_t kMaxEphemerisSatellites = 575;  // every satellite 
 // ahead: Galileo has a set of each of its two messages every ten minutes, and the set in force must
 // stay.
 inline constexpr std::size_t kMaxEphemeridesPerSatellite = 16;
-inline constexpr std::size_t kMaxOrbitNodes = 32;    // precise states kept per satellite
-inline constexpr std::size_t kMaxClockNodes = 64;    // precise clocks kept per satellite
+inline constexpr std::size_t kMaxOrbitNodes = 32;        // precise states kept per satellite
+inline constexpr std::size_t kMaxClockNodes = 64;        // precise clocks kept per satellite
+inline constexpr std::size_t kMaxCorrectedStates = 128;  // corrected states of one message
+inline constexpr std::size_t kMaxBiases = 2048;          // signal biases of one message
+inline constexpr std::size_t kMaxSignalBiases = 24;      // signal biases kept per satellite
 inline constexpr std::size_t kMaxImuBlock = 1536;    // IMU samples between two epochs: 500 Hz, 3 s
 inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-propagation
 // Raw epochs that wait for an IMU which is late: 2 s at 20 Hz.

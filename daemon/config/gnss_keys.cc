@@ -54,6 +54,7 @@ void read_catalog(ConfigReader& group, EphemerisConfig* config) {
   group.number("max_age_galileo_s", kAge, &config->max_age_galileo_s);
   group.number("max_age_beidou_s", kAge, &config->max_age_beidou_s);
   group.number("max_age_leo_s", kAge, &config->max_age_leo_s);
+  group.number("max_age_corrections_s", {1.0, 3600.0}, &config->max_age_corrections_s);
   group.number("max_orbit_gap_s", kAge, &config->max_orbit_gap_s);
   group.number("max_clock_gap_s", kAge, &config->max_clock_gap_s);
   group.boolean("galileo_prefers_fnav", &config->galileo_prefers_fnav);

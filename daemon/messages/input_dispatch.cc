@@ -20,6 +20,8 @@ InputDispatch::InputDispatch(Sequencer* sequencer)
     : sequencer_(sequencer),
       epoch_(std::make_unique<RawEpoch>()),
       states_(std::make_unique<PreciseStates>()),
+      corrected_(std::make_unique<CorrectedStates>()),
+      biases_(std::make_unique<SignalBiases>()),
       antenna_(std::make_unique<AntennaPattern>()) {}
 
 void InputDispatch::dispatch(Channel channel, ByteSpan bytes) {
@@ -66,6 +68,14 @@ void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result
     case Channel::kOrbitClock:
       *result = decoder_.decode(bytes, states_.get());
       if (good()) sequencer_->on_precise_states(*states_);
+      break;
+    case Channel::kCorrectedStates:
+      *result = decoder_.decode(bytes, corrected_.get());
+      if (good()) sequencer_->on_corrected_states(*corrected_);
+      break;
+    case Channel::kBiases:
+      *result = decoder_.decode(bytes, biases_.get());
+      if (good()) sequencer_->on_signal_biases(*biases_);
       break;
     case Channel::kIonosphere: {
       KlobucharModel model;

@@ -33,6 +33,8 @@ class InputDispatch {
   Decoder decoder_;
   std::unique_ptr<RawEpoch> epoch_;        // too large for a stack
   std::unique_ptr<PreciseStates> states_;  // too large as well
+  std::unique_ptr<CorrectedStates> corrected_;
+  std::unique_ptr<SignalBiases> biases_;
   std::unique_ptr<AntennaPattern> antenna_;
   Counters counters_;
   std::array<std::uint64_t, kInputChannels.size()> last_sequence_{};

@@ -4,9 +4,9 @@ namespace leonav {
 namespace {
 
 constexpr std::array<std::string_view, kChannelCount> kNames = {
-    "IMU",      "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE",  "ANTENNA", "COMMAND",
-    "ODOMETER", "CHECKPOINT", "SOLUTION",  "EPOCH",       "CONSTRAINTS", "EVENT",   "DECISION",
-    "SMOOTHER", "SMOOTHED",   "HEALTH",    "CONFIG",      "END"};
+    "IMU",    "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE", "ANTENNA", "CORRECTED_STATES",
+    "BIASES", "COMMAND",    "ODOMETER",  "CHECKPOINT",  "SOLUTION",   "EPOCH",   "CONSTRAINTS",
+    "EVENT",  "DECISION",   "SMOOTHER",  "SMOOTHED",    "HEALTH",     "CONFIG",  "END"};
 
 }  // namespace
 

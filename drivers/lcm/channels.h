@@ -19,6 +19,8 @@ enum class Channel : std::uint8_t {
   kOrbitClock,
   kIonosphere,
   kAntenna,
+  kCorrectedStates,
+  kBiases,
   kCommand,
   kOdometer,
   kCheckpoint,
@@ -34,19 +36,19 @@ enum class Channel : std::uint8_t {
   kConfig,  // in journals only: the first message
   kEnd,     // in journals only: the last message
 };
-inline constexpr std::size_t kChannelCount = 19;
-inline constexpr std::array<Channel, 9> kInputChannels = {
-    Channel::kImu,        Channel::kGnssEpoch,  Channel::kEphemeris,
-    Channel::kOrbitClock, Channel::kIonosphere, Channel::kAntenna,
-    Channel::kCommand,    Channel::kOdometer,   Channel::kCheckpoint};
+inline constexpr std::size_t kChannelCount = 21;
+inline constexpr std::array<Channel, 11> kInputChannels = {
+    Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris,       Channel::kOrbitClock,
+    Channel::kIonosphere, Channel::kAntenna,   Channel::kCorrectedStates, Channel::kBiases,
+    Channel::kCommand,    Channel::kOdometer,  Channel::kCheckpoint};
 
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 // Returns whether leonav receives the channel.
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCheckpoint; }
-// Returns whether the channel carries products: orbits, clocks, ionosphere, antennas. Their senders
-// repeat them regardless of the vehicle.
+// Returns whether the channel carries products: orbits, clocks, ionosphere, antennas, biases. Their
+// senders repeat them regardless of the vehicle.
 constexpr bool is_product(Channel channel) {
-  return channel >= Channel::kEphemeris && channel <= Channel::kAntenna;
+  return channel >= Channel::kEphemeris && channel <= Channel::kBiases;
 }
 
 // Returns the name without prefix, for instance "GNSS_EPOCH".

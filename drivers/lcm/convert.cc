@@ -31,6 +31,9 @@ bool message_fits_system(System system, std::int8_t message) {
   return false;
 }
 
+// Beyond it a correction is worthless, and a time could overflow.
+constexpr float kLongestAge_s = 86400.0F;
+
 bool is_uint16(std::int32_t value) { return value >= 0 && value <= 0xffff; }
 
 }  // namespace
@@ -74,6 +77,40 @@ InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to) 
     return InputFault::kNotFinite;
   }
   return InputFault::kNone;
+}
+
+InputFault convert(const corrected_state_t& from, GpsTime time, CorrectedState* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite || (from.flags & ~int{kFlagAtAntenna}) != 0) return InputFault::kOutOfRange;
+  for (const float age_s : {from.orbit_age_s, from.clock_age_s}) {
+    if (!std::isfinite(age_s)) return InputFault::kNotFinite;
+    if (std::abs(age_s) > kLongestAge_s) return InputFault::kOutOfRange;
+  }
+  if (!is_uint16(from.issue)) return InputFault::kOutOfRange;
+  to->satellite = *satellite;
+  to->time = time;
+  to->issue = static_cast<std::uint16_t>(from.issue);
+  to->orbit_corrected_at = time.plus_seconds(-double{from.orbit_age_s});
+  to->corrected_at = time.plus_seconds(-double{from.clock_age_s});
+  to->at_antenna = (from.flags & kFlagAtAntenna) != 0;
+  for (int i = 0; i < 3; ++i) to->p_e[i] = from.p_e[i];
+  for (int i = 0; i < 3; ++i) to->v_e[i] = from.v_e[i];
+  to->clock_s = from.clock_s;
+  to->clock_drift = from.clock_drift;
+  to->sigma_m = from.sigma_m;
+  return check(*to);
+}
+
+InputFault convert(const bias_t& from, GpsTime time, SignalBias* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite || from.kind < 0 || from.kind > static_cast<int>(BiasKind::kPhase))
+    return InputFault::kOutOfRange;
+  to->satellite = *satellite;
+  to->code = {static_cast<char>(from.band), static_cast<char>(from.attribute)};
+  to->kind = static_cast<BiasKind>(from.kind);
+  to->time = time;
+  to->bias_m = from.bias_m;
+  return check(*to);
 }
 
 InputFault convert(const ephemeris_t& from, Ephemeris* to) {

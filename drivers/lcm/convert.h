@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <leonav/antenna_t.hpp>
+#include <leonav/bias_t.hpp>
 #include <leonav/checkpoint_t.hpp>
 #include <leonav/checkpoint_v1_t.hpp>
+#include <leonav/corrected_state_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
 #include <leonav/precise_state_t.hpp>
@@ -13,6 +15,7 @@
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/propagation/antenna_model.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 #include "core/navigator/interface/checkpoint.h"
 #include "core/navigator/interface/input_fault.h"
@@ -33,6 +36,8 @@ bool all_finite(const double (&values)[N]) {
 // filled; otherwise the content of `to` is undefined.
 InputFault convert(const gnss_observation_t& from, SignalObservation* to);
 InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
+InputFault convert(const corrected_state_t& from, GpsTime time, CorrectedState* to);
+InputFault convert(const bias_t& from, GpsTime time, SignalBias* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);
 InputFault convert(const antenna_t& from, AntennaPattern* to);
 InputFault convert(const checkpoint_t& from, Checkpoint* to);

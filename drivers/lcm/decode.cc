@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <leonav/antenna_t.hpp>
+#include <leonav/biases_t.hpp>
 #include <leonav/checkpoint_t.hpp>
 #include <leonav/checkpoint_v1_t.hpp>
 #include <leonav/command_t.hpp>
+#include <leonav/corrected_states_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
@@ -94,6 +96,30 @@ bool sort_and_drop_copies(RawEpoch* epoch) {
   return had_copies;
 }
 
+// Reads a message of at most `capacity` elements that hold at its time. Elements with a fault are
+// left out.
+template <typename Message, typename Element, typename Values>
+DecodeResult decode_elements(ByteSpan bytes, std::size_t capacity, Message* message,
+                             const std::vector<Element>& elements, Values* values) {
+  message->sequence = 0;
+  InputFault fault = read_array(bytes, capacity, message);
+  if (fault == InputFault::kNone && !is_time(message->time_ns)) fault = InputFault::kOutOfRange;
+  DecodeResult result = result_of(*message, fault);
+  if (fault != InputFault::kNone) return result;
+  const GpsTime time = GpsTime::from_nanoseconds(message->time_ns);
+  values->clear();
+  for (const Element& from : elements) {
+    typename Values::value_type value;
+    const InputFault element = convert(from, time, &value);
+    if (element == InputFault::kNone) {
+      values->push_back(value);
+    } else {
+      result.element_faults |= bit(element);
+    }
+  }
+  return result;
+}
+
 // Reads a checkpoint in one of its versions.
 template <typename T>
 DecodeResult decode_checkpoint(ByteSpan bytes, Checkpoint* checkpoint) {
@@ -125,12 +151,16 @@ struct Decoder::Storage {
   // Messages are kept between calls, so that their vectors keep their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
+  corrected_states_t corrected_states;
+  biases_t biases;
   antenna_t antenna;
 };
 
 Decoder::Decoder() : storage_(std::make_unique<Storage>()) {
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
+  storage_->corrected_states.states.reserve(kMaxCorrectedStates);
+  storage_->biases.biases.reserve(kMaxBiases);
   storage_->antenna.values_m.reserve(kMaxAntennaValues);
 }
 Decoder::~Decoder() = default;
@@ -224,23 +254,17 @@ DecodeResult Decoder::decode(ByteSpan bytes, KlobucharModel* model) {
 
 DecodeResult Decoder::decode(ByteSpan bytes, PreciseStates* states) {
   orbit_clock_t& message = storage_->orbit_clock;
-  message.sequence = 0;
-  InputFault fault = read_array(bytes, kMaxEphemerisSatellites, &message);
-  if (fault == InputFault::kNone && !is_time(message.time_ns)) fault = InputFault::kOutOfRange;
-  DecodeResult result = result_of(message, fault);
-  if (fault != InputFault::kNone) return result;
-  const GpsTime time = GpsTime::from_nanoseconds(message.time_ns);
-  states->clear();
-  for (const precise_state_t& from : message.states) {
-    PreciseState state;
-    const InputFault element = convert(from, time, &state);
-    if (element == InputFault::kNone) {
-      states->push_back(state);
-    } else {
-      result.element_faults |= bit(element);
-    }
-  }
-  return result;
+  return decode_elements(bytes, kMaxEphemerisSatellites, &message, message.states, states);
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, CorrectedStates* states) {
+  corrected_states_t& message = storage_->corrected_states;
+  return decode_elements(bytes, kMaxCorrectedStates, &message, message.states, states);
+}
+
+DecodeResult Decoder::decode(ByteSpan bytes, SignalBiases* biases) {
+  biases_t& message = storage_->biases;
+  return decode_elements(bytes, kMaxBiases, &message, message.biases, biases);
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, AntennaPattern* pattern) {

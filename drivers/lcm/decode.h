@@ -44,6 +44,8 @@ class Decoder {
   DecodeResult decode(ByteSpan bytes, Ephemeris* ephemeris);
   DecodeResult decode(ByteSpan bytes, KlobucharModel* model);
   DecodeResult decode(ByteSpan bytes, PreciseStates* states);
+  DecodeResult decode(ByteSpan bytes, CorrectedStates* states);
+  DecodeResult decode(ByteSpan bytes, SignalBiases* biases);
   DecodeResult decode(ByteSpan bytes, AntennaPattern* pattern);
   DecodeResult decode(ByteSpan bytes, Command* command);
   DecodeResult decode(ByteSpan bytes, Checkpoint* checkpoint);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <leonav/antenna_t.hpp>
+#include <leonav/biases_t.hpp>
 #include <leonav/checkpoint_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/constraints_t.hpp>
+#include <leonav/corrected_states_t.hpp>
 #include <leonav/decision_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/epoch_t.hpp>
@@ -104,6 +106,19 @@ std::int8_t flags_of(const PreciseState& state) {
                                   (state.orbit_predicted ? wire::kFlagOrbitPredicted : 0));
 }
 
+void fill(const CorrectedState& from, corrected_state_t* to) {
+  set_satellite(from.satellite, to);
+  to->flags = static_cast<std::int8_t>(from.at_antenna ? wire::kFlagAtAntenna : 0);
+  to->issue = from.issue;
+  copy(from.p_e, to->p_e);
+  copy(from.v_e, to->v_e);
+  to->clock_s = from.clock_s;
+  to->clock_drift = from.clock_drift;
+  to->sigma_m = static_cast<float>(from.sigma_m);
+  to->orbit_age_s = static_cast<float>(seconds_between(from.time, from.orbit_corrected_at));
+  to->clock_age_s = static_cast<float>(seconds_between(from.time, from.corrected_at));
+}
+
 void fill(const SatelliteReport& from, satellite_report_t* to) {
   set_satellite(from.satellite, to);
   to->reason = static_cast<std::int8_t>(from.reason);
@@ -199,6 +214,8 @@ struct Encoder::Storage {
   // Messages are kept between calls, so that their vectors keep their memory.
   gnss_epoch_t gnss_epoch;
   orbit_clock_t orbit_clock;
+  corrected_states_t corrected_states;
+  biases_t biases;
   antenna_t antenna;
   epoch_t epoch;
   epoch_v1_t epoch_v1;
@@ -218,6 +235,8 @@ Encoder::Encoder(OutputSchema schema) : storage_(std::make_unique<Storage>()) {
   storage_->schema = schema;
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
+  storage_->corrected_states.states.reserve(kMaxCorrectedStates);
+  storage_->biases.biases.reserve(kMaxBiases);
   storage_->antenna.values_m.reserve(kMaxAntennaValues);
   storage_->epoch.satellites.reserve(kMaxSatellites);
   storage_->epoch.aiding.reserve(kMaxMeasurements);
@@ -304,6 +323,36 @@ ByteSpan Encoder::encode(std::span<const PreciseState> states, std::uint64_t seq
     message.states[i].flags = flags_of(states[i]);
     copy(states[i].p_e, message.states[i].p_e);
     message.states[i].clock_s = states[i].clock_s;
+  }
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(std::span<const CorrectedState> states, const CorrectionSource& source,
+                         std::uint64_t sequence) {
+  corrected_states_t& message = storage_->corrected_states;
+  const std::size_t n = std::min(states.size(), kMaxCorrectedStates);
+  set_header(n == 0 ? GpsTime() : states.front().time, sequence, &message);
+  message.n = static_cast<std::int32_t>(n);
+  message.provider = source.provider;
+  message.solution = source.solution;
+  message.ssr_issue = source.issue;
+  message.states.resize(n);
+  for (std::size_t i = 0; i < n; ++i) fill(states[i], &message.states[i]);
+  return storage_->write(message);
+}
+
+ByteSpan Encoder::encode(std::span<const SignalBias> biases, std::uint64_t sequence) {
+  biases_t& message = storage_->biases;
+  const std::size_t n = std::min(biases.size(), kMaxBiases);
+  set_header(n == 0 ? GpsTime() : biases.front().time, sequence, &message);
+  message.n = static_cast<std::int32_t>(n);
+  message.biases.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    set_satellite(biases[i].satellite, &message.biases[i]);
+    message.biases[i].band = static_cast<std::int8_t>(biases[i].code.band);
+    message.biases[i].attribute = static_cast<std::int8_t>(biases[i].code.attribute);
+    message.biases[i].kind = static_cast<std::int8_t>(biases[i].kind);
+    message.biases[i].bias_m = biases[i].bias_m;
   }
   return storage_->write(message);
 }

@@ -39,6 +39,10 @@ class Encoder {
   // Precondition: all states have the same time, and there are at most kMaxEphemerisSatellites. The
   // time of the first is written.
   ByteSpan encode(std::span<const PreciseState> states, std::uint64_t sequence);
+  // Precondition: the same, with kMaxCorrectedStates and kMaxBiases.
+  ByteSpan encode(std::span<const CorrectedState> states, const CorrectionSource& source,
+                  std::uint64_t sequence);
+  ByteSpan encode(std::span<const SignalBias> biases, std::uint64_t sequence);
   ByteSpan encode(const KlobucharModel& model, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const AntennaPattern& pattern, GpsTime time, std::uint64_t sequence);
   ByteSpan encode(const Command& command, GpsTime time, std::uint64_t sequence);

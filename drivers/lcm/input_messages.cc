@@ -30,4 +30,14 @@ InputMessage InputMessages::encode(std::span<const PreciseState> states) {
   return {Channel::kOrbitClock, encoder_.encode(states, next_sequence(Channel::kOrbitClock))};
 }
 
+InputMessage InputMessages::encode(std::span<const CorrectedState> states,
+                                   const CorrectionSource& source) {
+  return {Channel::kCorrectedStates,
+          encoder_.encode(states, source, next_sequence(Channel::kCorrectedStates))};
+}
+
+InputMessage InputMessages::encode(std::span<const SignalBias> biases) {
+  return {Channel::kBiases, encoder_.encode(biases, next_sequence(Channel::kBiases))};
+}
+
 }  // namespace leonav

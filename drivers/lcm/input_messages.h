@@ -28,6 +28,8 @@ class InputMessages {
   InputMessage encode(const AntennaPattern& pattern, GpsTime time);
   // Precondition: as of Encoder::encode().
   InputMessage encode(std::span<const PreciseState> states);
+  InputMessage encode(std::span<const CorrectedState> states, const CorrectionSource& source);
+  InputMessage encode(std::span<const SignalBias> biases);
 
  private:
   std::uint64_t next_sequence(Channel channel) { return ++sequences_[index_of(channel)]; }

@@ -41,6 +41,9 @@ inline constexpr std::uint8_t kFlagManeuver = 2;
 inline constexpr std::uint8_t kFlagClockPredicted = 4;
 inline constexpr std::uint8_t kFlagOrbitPredicted = 8;
 
+// Flags of corrected_state_t.
+inline constexpr std::uint8_t kFlagAtAntenna = 1;
+
 // Reads a big-endian number. Precondition: `bytes` holds at least offset + 4 bytes.
 inline std::uint32_t read_uint32(std::span<const std::uint8_t> bytes, std::size_t offset) {
   std::uint32_t value = 0;

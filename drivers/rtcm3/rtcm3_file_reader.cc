@@ -56,6 +56,7 @@ struct Rtcm3FileReader::State : Rtcm3Handler {
   void on_station_equipment(const StationEquipment& equipment) override {
     outputs.emplace_back(equipment);
   }
+  void on_ssr(const SsrMessage& message) override { outputs.emplace_back(message); }
 
   ByteFile file;
   Rtcm3Decoder decoder;

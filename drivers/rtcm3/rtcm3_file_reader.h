@@ -8,7 +8,8 @@
 
 namespace leonav {
 
-using Rtcm3Output = std::variant<RawEpoch, Ephemeris, StationPosition, StationEquipment>;
+using Rtcm3Output =
+    std::variant<RawEpoch, Ephemeris, StationPosition, StationEquipment, SsrMessage>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

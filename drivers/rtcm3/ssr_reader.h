@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "drivers/rtcm3/ssr_correction.h"
+#include "drivers/ssr/ssr_correction.h"
 
 namespace leonav {
 

@@ -31,8 +31,10 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
     if (!names.insert(stream.name).second) {
       root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
     }
-    receivers += is_receiver(stream);
-    inertial += is_inertial(stream);
+    if (!stream.is_service) {
+      receivers += is_receiver(stream);
+      inertial += is_inertial(stream);
+    }
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {
@@ -44,6 +46,19 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
                                "out 'inertial: true' of a stream of format oem7");
   }
   if (inputs > 1) root.fail("streams", "only one can be read from standard input");
+}
+
+void read_corrections(ConfigReader& group, CorrectionOptions* options) {
+  constexpr Bounds kAge = {1.0, 3600.0};
+  group.choice<bool>("point", {{"antenna", true}, {"mass_centre", false}}, &options->at_antenna);
+  group.choice<NavigationMessage>(
+      "galileo_message",
+      {{"inav", NavigationMessage::kGalileoInav}, {"fnav", NavigationMessage::kGalileoFnav}},
+      &options->galileo_message);
+  group.number("max_orbit_age_s", kAge, &options->max_orbit_age_s);
+  group.number("max_clock_age_s", kAge, &options->max_clock_age_s);
+  group.number("max_high_rate_age_s", kAge, &options->max_high_rate_age_s);
+  group.number("sigma_m", {0.001, 100.0}, &options->default_sigma_m);
 }
 
 }  // namespace
@@ -77,6 +92,8 @@ ConnectConfig load_connect_config(const std::string& path,
                                   &config.reference);
       group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kMillisecond);
     });
+    root.group("corrections",
+               [&](ConfigReader& group) { read_corrections(group, &config.corrections); });
     root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
     root.groups("streams", [&](ConfigReader& group) {

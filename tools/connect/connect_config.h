@@ -5,6 +5,7 @@
 
 #include "daemon/config/daemon_config.h"
 #include "drivers/imu_line/line_layout.h"
+#include "drivers/ssr/correction_store.h"
 #include "tools/connect/formats/oem7_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
@@ -18,13 +19,14 @@ struct StreamConfig {
   std::string name;
   SourceOptions source;
   FormatKind format = FormatKind::kUbx;
-  LineLayout line;         // of kImuLine
-  Oem7StreamOptions oem7;  // of kOem7
-  ImuStampOptions stamps;  // of inertial sensors
-  double repeat_s = 30.0;  // of a receiver: an ephemeris is sent again after so long; 0: never
-  GpsTime day;             // of kRtcm3 from a file: noon of the day it was recorded
-  std::string record;      // file for every byte; empty: none
-  double silent_s = 3.0;   // a stream without bytes for so long is told
+  LineLayout line;          // of kImuLine
+  Oem7StreamOptions oem7;   // of kOem7
+  ImuStampOptions stamps;   // of inertial sensors
+  double repeat_s = 30.0;   // of a receiver: an ephemeris is sent again after so long; 0: never
+  GpsTime day;              // of kRtcm3 from a file: noon of the day it was recorded
+  bool is_service = false;  // of kRtcm3: corrections, no receiver
+  std::string record;       // file for every byte; empty: none
+  double silent_s = 3.0;    // a stream without bytes for so long is told
 };
 
 struct ConnectConfig {
@@ -32,6 +34,7 @@ struct ConnectConfig {
   TimeReference reference = TimeReference::kGnss;
   double gnss_latency_s = 0.05;
   double playback_speed = 1.0;
+  CorrectionOptions corrections;
   double status_interval_s = 10.0;  // of the text for each stream; 0: only changes
   std::vector<StreamConfig> streams;
 };

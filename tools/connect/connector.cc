@@ -31,6 +31,7 @@ struct Connector::State {
       : config(configuration),
         publisher(config.lcm),
         output(&publisher),
+        corrections(config.corrections, &output),
         gps(config.reference, config.gnss_latency_s),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
@@ -55,6 +56,7 @@ struct Connector::State {
   ConnectConfig config;
   LcmPublisher publisher;
   MessageOutput output;
+  CorrectionOutput corrections;
   GpsClock gps;
   ArrivalClock clock;
   PlaybackClocks clocks;
@@ -91,9 +93,11 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
 std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& stream) {
   switch (stream.format) {
     case FormatKind::kUbx:
-      return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output);
+      return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
+                                         &corrections);
     case FormatKind::kRtcm3:
-      return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output);
+      return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output,
+                                           stream.is_service, &corrections);
     case FormatKind::kOem7:
       return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
                                           &output);

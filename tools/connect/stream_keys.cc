@@ -144,7 +144,10 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
       group.fail("rate_hz", "is for lines without a column of time; leave it out");
     }
   }
-  if (stream->format == FormatKind::kRtcm3) read_day(group, stream);
+  if (stream->format == FormatKind::kRtcm3) {
+    read_day(group, stream);
+    group.boolean("corrections", &stream->is_service);
+  }
   if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
       stream->format == FormatKind::kOem7) {

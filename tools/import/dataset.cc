@@ -19,6 +19,8 @@ long line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1
 
 constexpr const char* kDateKey = "date";
 constexpr const char* kScaleKey = "imu_scale";
+constexpr const char* kLatencyKey = "corrections_latency_s";
+constexpr const char* kPointKey = "corrections_point";
 
 class DatasetParser {
  public:
@@ -45,6 +47,14 @@ class DatasetParser {
     }
     if (key == kScaleKey) {
       dataset_.imu_scale = read_scale(value);
+      return;
+    }
+    if (key == kLatencyKey) {
+      dataset_.corrections_latency_s = read_latency(value);
+      return;
+    }
+    if (key == kPointKey) {
+      dataset_.corrections_at_antenna = read_is_antenna(value);
       return;
     }
     for (const auto& [name, text] : texts_) {
@@ -98,6 +108,26 @@ class DatasetParser {
     return {numbers[0], numbers[1]};
   }
 
+  double read_latency(const YAML::Node& value) const {
+    constexpr double kLongest_s = 600.0;
+    double seconds = -1.0;
+    const bool is_number = value.IsScalar() && YAML::convert<double>::decode(value, seconds);
+    if (!is_number || !(seconds >= 0.0 && seconds <= kLongest_s)) {
+      fail(value, "'corrections_latency_s' must be a number of seconds from 0 to 600");
+    }
+    return seconds;
+  }
+
+  bool read_is_antenna(const YAML::Node& value) const {
+    const std::string word = value.IsScalar() ? value.Scalar() : "";
+    if (word != "antenna" && word != "mass_centre") {
+      fail(value,
+           "'corrections_point' must be 'antenna' or 'mass_centre': which point of a satellite "
+           "the corrected orbits are of");
+    }
+    return word == "antenna";
+  }
+
   void add(const std::string& text, std::vector<std::string>* paths) const {
     if (text.empty()) return;
     const auto folder = std::filesystem::path(dataset_.path).parent_path();
@@ -105,7 +135,7 @@ class DatasetParser {
   }
 
   [[noreturn]] void fail_unknown(const YAML::Node& node, const std::string& key) const {
-    std::vector<std::string> known = {kDateKey, kScaleKey};
+    std::vector<std::string> known = {kDateKey, kScaleKey, kLatencyKey, kPointKey};
     for (const auto& [name, text] : texts_) known.push_back(name);
     for (const auto& [name, paths] : lists_) known.push_back(name);
     std::string message = "unknown key '" + key + "'";
@@ -127,6 +157,7 @@ class DatasetParser {
       {"navigation", &dataset_.navigation},
       {"orbits", &dataset_.orbits},
       {"clocks", &dataset_.clocks},
+      {"corrections", &dataset_.corrections},
       {"antenna_models", &dataset_.antenna_models},
       {"imu", &dataset_.imu},
       {"truth", &dataset_.truth}};
@@ -136,8 +167,8 @@ class DatasetParser {
 
 std::vector<std::string> Dataset::files() const {
   std::vector<std::string> all = {path};
-  for (const auto* paths :
-       {&observations, &navigation, &orbits, &clocks, &antenna_models, &imu, &truth}) {
+  for (const auto* paths : {&observations, &navigation, &orbits, &clocks, &corrections,
+                            &antenna_models, &imu, &truth}) {
     all.insert(all.end(), paths->begin(), paths->end());
   }
   return all;

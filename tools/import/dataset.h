@@ -21,6 +21,9 @@ struct Dataset {
   std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
   std::vector<std::string> orbits;      // SP3
   std::vector<std::string> clocks;      // RINEX clock
+  std::vector<std::string> corrections;     // RTCM 3 with SSR, .rtcm3 or .rtcm, in order of time
+  double corrections_latency_s = 10.0;      // from a correction's time to its arrival
+  bool corrections_at_antenna = true;       // CorrectionOptions::at_antenna
   std::vector<std::string> antenna_models;  // ANTEX
   std::string receiver_antenna;       // type and radome; empty: as in the observations' header
   std::vector<std::string> imu;       // imu.csv, .oem7 or .gps
@@ -33,8 +36,10 @@ struct Dataset {
 // Reads dataset.yaml.
 //
 // Each key holds a path or a list of paths; "" and [] stand for none. `date` is a day as
-// 2024-03-20, `imu_scale` a list of two numbers. Throws FileError with file and line for unreadable
-// YAML, a second document in it, an unknown key (with the nearest known one) and a key given twice.
+// 2024-03-20, `imu_scale` a list of two numbers, `corrections_latency_s` a number up to 600,
+// `corrections_point` is `antenna` or `mass_centre`. Throws FileError with file and line for
+// unreadable YAML, a second document in it, an unknown key (with the nearest known one) and a key
+// given twice.
 Dataset load_dataset(const std::string& path);
 
 }  // namespace leonav

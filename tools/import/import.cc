@@ -18,6 +18,7 @@
 #include "drivers/text/parse.h"
 #include "drivers/text/stamp_order.h"
 #include "tools/import/internal/antenna_source.h"
+#include "tools/import/internal/corrections.h"
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
@@ -35,6 +36,7 @@ class Import {
       : dataset_(dataset),
         options_(options),
         progress_(progress),
+        corrections_({.at_antenna = dataset.corrections_at_antenna}),
         observations_(dataset.observations, dataset.date, &report_) {}
 
   ImportReport run(const std::string& output) {
@@ -42,6 +44,7 @@ class Import {
     warn_of_missing();
     load_navigation();
     load_orbits();
+    load_corrections();
     load_imu();
     fetch_observation();
     const GpsTime start = std::min(imu_arrival(), observation_arrival());
@@ -57,6 +60,7 @@ class Import {
     send_first(start, &log);
     while (send_next(&log)) show_progress();
     observations_.finish();
+    corrections_.report(dataset_.path, &report_);
     report_.skip(dataset_.path, "ephemeris sent after the end",
                  static_cast<long>(ephemerides_.size() - next_ephemeris_));
     log.commit();
@@ -72,6 +76,7 @@ class Import {
   void load_orbits();
   void load_clocks(GpsTime start);
   std::vector<ImuSample> read_imu(const std::string& path);
+  void load_corrections();
   void load_imu();
   void schedule(GpsTime start);
   void send_first(GpsTime start, LogOutput* log);
@@ -89,10 +94,18 @@ class Import {
     return next_orbit_ < orbits_.size() ? orbits_[next_orbit_].arrival : kNever;
   }
 
+  GpsTime correction_arrival() const {
+    return next_correction_ < arriving_corrections_.size()
+               ? arriving_corrections_[next_correction_].arrival
+               : kNever;
+  }
+
   const Dataset& dataset_;
   const ImportOptions& options_;
   std::ostream* progress_;
   ImportReport report_;
+  Corrections corrections_;
+  std::vector<ScheduledCorrection> arriving_corrections_;
   ObservationSource observations_;
   std::optional<ObservationItem> observation_;  // the next one; empty at the end
   GpsTime observation_arrival_;
@@ -105,7 +118,7 @@ class Import {
   std::vector<ScheduledOrbitEpoch> orbits_;
   KlobucharModel klobuchar_;
   std::vector<AntennaPattern> antennas_;
-  std::size_t next_imu_ = 0, next_ephemeris_ = 0, next_orbit_ = 0;
+  std::size_t next_imu_ = 0, next_ephemeris_ = 0, next_orbit_ = 0, next_correction_ = 0;
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
 
@@ -124,7 +137,7 @@ void Import::warn_of_missing() {
         "no navigation: no group delays and no ionosphere model, so single-frequency positions "
         "are off by metres, and satellites the orbits lack are not used");
   }
-  if (dataset_.orbits.empty()) {
+  if (dataset_.orbits.empty() && dataset_.corrections.empty()) {
     warn(
         "no orbits: broadcast orbits and clocks are used, which are off by 0.5 to 2 m; there is "
         "no centimetre solution");
@@ -222,6 +235,15 @@ std::vector<ImuSample> Import::read_imu(const std::string& path) {
   return std::move(csv.samples);
 }
 
+void Import::load_corrections() {
+  for (const std::string& path : dataset_.corrections) {
+    auto of_file = read_corrections(path, dataset_.date, dataset_.corrections_latency_s, &report_);
+    std::move(of_file.begin(), of_file.end(), std::back_inserter(arriving_corrections_));
+  }
+  std::stable_sort(arriving_corrections_.begin(), arriving_corrections_.end(),
+                   [](const auto& a, const auto& b) { return a.arrival < b.arrival; });
+}
+
 void Import::load_imu() {
   std::vector<ImuSample> all;
   std::vector<GpsTime> stamps;
@@ -273,8 +295,15 @@ void Import::schedule(GpsTime start) {
 void Import::send_first(GpsTime start, LogOutput* log) {
   for (const AntennaPattern& pattern : antennas_) log->write(start, pattern);
   if (klobuchar_.valid) log->write(start, klobuchar_);
+  // Of what arrived before, the newest is known.
+  for (; correction_arrival() < start; ++next_correction_) {
+    corrections_.take(arriving_corrections_[next_correction_], nullptr);
+  }
   for (ObservationItem& item : before_start_) {
-    if (auto* ephemeris = std::get_if<Ephemeris>(&item)) log->write(start, *ephemeris);
+    if (auto* ephemeris = std::get_if<Ephemeris>(&item)) {
+      log->write(start, *ephemeris);
+      corrections_.add(*ephemeris);
+    }
     if (auto* model = std::get_if<KlobucharModel>(&item)) log->write(start, *model);
   }
 }
@@ -302,6 +331,7 @@ void Import::fetch_observation() {
 
 void Import::send_observation(LogOutput* log) {
   std::visit([&](const auto& item) { log->write(observation_arrival_, item); }, *observation_);
+  if (const auto* ephemeris = std::get_if<Ephemeris>(&*observation_)) corrections_.add(*ephemeris);
   fetch_observation();
 }
 
@@ -310,9 +340,12 @@ void Import::send_observation(LogOutput* log) {
 bool Import::send_next(LogOutput* log) {
   const GpsTime data = std::min(imu_arrival(), observation_arrival());
   if (data == kNever) return false;
-  if (ephemeris_arrival() <= data) {
+  if (ephemeris_arrival() <= std::min(data, correction_arrival())) {
     const ScheduledEphemeris& item = ephemerides_[next_ephemeris_++];
     log->write(item.arrival, item.ephemeris);
+    corrections_.add(item.ephemeris);
+  } else if (correction_arrival() <= data) {
+    corrections_.take(arriving_corrections_[next_correction_++], log);
   } else if (orbit_arrival() <= data) {
     const ScheduledOrbitEpoch& item = orbits_[next_orbit_++];
     log->write(item.arrival, std::span<const PreciseState>(item.epoch.states));

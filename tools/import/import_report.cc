@@ -44,6 +44,10 @@ std::string to_string(const ImportReport& report) {
   out << report.ephemerides << " ephemerides, " << report.ionosphere_models
       << " ionosphere models, " << report.orbit_epochs << " precise orbit epochs, "
       << report.clock_epochs << " precise clock epochs\n";
+  if (report.corrected_states > 0 || report.signal_biases > 0) {
+    out << report.corrected_states << " corrected states, " << report.signal_biases
+        << " signal biases\n";
+  }
   if (report.satellite_antennas > 0 || !report.receiver_antenna.empty()) {
     out << "antenna models of " << report.satellite_antennas << " satellites, receiver antenna "
         << (report.receiver_antenna.empty() ? "unknown" : report.receiver_antenna) << "\n";

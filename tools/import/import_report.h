@@ -21,6 +21,8 @@ struct ImportReport {
   long epochs = 0, imu_samples = 0, ephemerides = 0, orbit_epochs = 0, clock_epochs = 0,
        ionosphere_models = 0;
   long odometer_increments = 0;
+  long corrected_states = 0;  // satellites in messages of corrected states
+  long signal_biases = 0;     // signals in messages of biases
   long satellite_antennas = 0;
   std::string receiver_antenna;       // name of the antenna whose model is used; empty: none
   std::map<System, long> satellites;  // different ones observed

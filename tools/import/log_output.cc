@@ -97,6 +97,19 @@ void LogOutput::write(GpsTime arrival, std::span<const PreciseState> states) {
   ++(clocks ? report_->clock_epochs : report_->orbit_epochs);
 }
 
+void LogOutput::write(GpsTime arrival, std::span<const CorrectedState> states,
+                      const CorrectionSource& source) {
+  if (states.empty()) return;
+  put(arrival, messages_.encode(states, source));
+  report_->corrected_states += static_cast<long>(states.size());
+}
+
+void LogOutput::write(GpsTime arrival, std::span<const SignalBias> biases) {
+  if (biases.empty()) return;
+  put(arrival, messages_.encode(biases));
+  report_->signal_biases += static_cast<long>(biases.size());
+}
+
 void LogOutput::write(GpsTime arrival, const AntennaPattern& pattern) {
   put(arrival, messages_.encode(pattern, arrival));
 }

@@ -32,6 +32,10 @@ class LogOutput {
   void write(GpsTime arrival, const Ephemeris& ephemeris);
   void write(GpsTime arrival, const KlobucharModel& model);
   void write(GpsTime arrival, std::span<const PreciseState> states);
+  // Writes nothing where there are none.
+  void write(GpsTime arrival, std::span<const CorrectedState> states,
+             const CorrectionSource& source);
+  void write(GpsTime arrival, std::span<const SignalBias> biases);
   void write(GpsTime arrival, const AntennaPattern& pattern);
 
   // Renames the complete file to its final name. If that fails, no file is left.

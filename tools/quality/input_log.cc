@@ -20,7 +20,7 @@ class Reading {
     ++counts.messages[index_of(channel)];
     if (channel == Channel::kGnssEpoch) return take_epoch(data);
     if (handlers_.ephemeris_store == nullptr) return;
-    if (channel == Channel::kAntenna || !is_product(channel)) return;
+    if (channel == Channel::kAntenna || channel == Channel::kBiases || !is_product(channel)) return;
     if (!take_product(channel, data)) ++counts.refused_products;
   }
 
@@ -72,9 +72,18 @@ class Reading {
       ephemeris_store.set_klobuchar(model);
       return true;
     }
+    if (channel == Channel::kCorrectedStates) {
+      if (decoder_.decode(data, corrected_.get()).fault != InputFault::kNone) return false;
+      return add_all(*corrected_);
+    }
     if (decoder_.decode(data, states_.get()).fault != InputFault::kNone) return false;
+    return add_all(*states_);
+  }
+
+  template <typename States>
+  bool add_all(const States& states) {
     bool all = true;
-    for (const PreciseState& state : *states_) all = ephemeris_store.add(state) && all;
+    for (const auto& state : states) all = handlers_.ephemeris_store->add(state) && all;
     return all;
   }
 
@@ -85,6 +94,7 @@ class Reading {
   bool waits_ = false;
   GpsTime last_;  // the last one handed on
   std::unique_ptr<PreciseStates> states_ = std::make_unique<PreciseStates>();
+  std::unique_ptr<CorrectedStates> corrected_ = std::make_unique<CorrectedStates>();
 };
 
 void report_progress(const EventLogReader& log, std::int64_t* next, const std::string& what,

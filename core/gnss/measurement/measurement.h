@@ -65,6 +65,7 @@ struct SatelliteInView {
   double orbit_step_m = 0.0;
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;
+  bool at_antenna = false;       // as in SatelliteState
   bool clock_from_file = false;  // as in SatelliteState
   double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
   double azimuth = 0.0;          // rad

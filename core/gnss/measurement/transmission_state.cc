@@ -55,6 +55,7 @@ LookupStatus satellite_at_transmission(const EphemerisStore& ephemeris_store, Gp
   satellite->orbit_issue = state.issue;
   satellite->ephemeris_age_s = state.age_s;
   satellite->source = state.source;
+  satellite->at_antenna = state.at_antenna;
   satellite->clock_from_file = state.clock_from_file;
   *broadcast = ephemeris;
   return LookupStatus::kOk;

@@ -21,6 +21,7 @@ struct SatelliteProducts {
   boost::container::static_vector<StoredEphemeris, kMaxEphemeridesPerSatellite> ephemerides;
   InterpolationTable<OrbitNode, kMaxOrbitNodes> orbit;
   InterpolationTable<ClockNode, kMaxClockNodes> clock;  // from clock files
+  CorrectedState corrected;                             // time unset: none
 };
 
 bool is_same_issue(const Ephemeris& a, const Ephemeris& b) {
@@ -108,6 +109,14 @@ bool is_sane_node(const PreciseState& state) {
   return has_clock || std::isnan(state.clock_s);
 }
 
+bool is_sane_state(const CorrectedState& state) {
+  if (!is_valid(state.satellite) || state.time.nanoseconds() <= 0) return false;
+  if (state.corrected_at.nanoseconds() <= 0) return false;
+  const double radius = state.p_e.norm(), speed = state.v_e.norm();
+  return radius > 6.4e6 && radius < 1e8 && speed < 1e4 && std::abs(state.clock_s) < 0.1 &&
+         std::abs(state.clock_drift) < 1e-6 && state.sigma_m > 0.0 && state.sigma_m < 1e3;
+}
+
 // SatelliteState::issue has the kind of product in its two highest bits. For broadcast elements the
 // others are the message, the time of ephemeris (it repeats after 4.5 h, twice the longest life of
 // a set) and the issue.
@@ -120,6 +129,21 @@ std::uint32_t issue_of(const Ephemeris& e) {
   const auto toe = static_cast<std::uint32_t>(e.toe.nanoseconds() / kToeUnit % 2048);
   return issue_of(IssueKind::kBroadcast) | static_cast<std::uint32_t>(e.message) << 27 | toe << 16 |
          e.issue;
+}
+
+// A correction changes by centimetres from one to the next, also where it refers to new broadcast
+// elements: all corrected states have one issue.
+bool find_corrected(const SatelliteProducts& products, GpsTime time, const EphemerisConfig& options,
+                    SatelliteState* state) {
+  const CorrectedState& corrected = products.corrected;
+  if (!corrected.time.is_set()) return false;
+  if (std::abs(seconds_between(time, corrected.time)) > kLongestCarry_s) return false;
+  if (std::abs(seconds_between(time, corrected.corrected_at)) > options.max_age_corrections_s) {
+    return false;
+  }
+  *state = carried_state(corrected, time);
+  state->issue = issue_of(IssueKind::kPrecise) | 1U;
+  return true;
 }
 
 // The orbit comes from the orbit's nodes, the clock from the finer clock files where they exist.
@@ -189,6 +213,12 @@ bool EphemerisStore::add(const PreciseState& state) {
   return true;
 }
 
+bool EphemerisStore::add(const CorrectedState& state) {
+  if (!is_sane_state(state)) return false;
+  storage_->products_of[table_index_of(state.satellite)].corrected = state;
+  return true;
+}
+
 void EphemerisStore::set_klobuchar(const KlobucharModel& model) {
   if (model != storage_->klobuchar) ++storage_->klobuchar_issue;
   storage_->klobuchar = model;
@@ -202,11 +232,16 @@ LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, Satel
   if (!is_valid(satellite) || time.nanoseconds() <= 0) return LookupStatus::kNoEphemeris;
   const EphemerisConfig& options = storage_->options;
   const SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
-  if (products.ephemerides.empty() && products.orbit.empty()) return LookupStatus::kNoEphemeris;
+  if (products.ephemerides.empty() && products.orbit.empty() && !products.corrected.time.is_set()) {
+    return LookupStatus::kNoEphemeris;
+  }
 
   const Ephemeris* best = best_ephemeris(products, time, options);
   if (best != nullptr && (!is_healthy(*best) || newest_is_unhealthy(products, time, options))) {
     return LookupStatus::kUnhealthy;
+  }
+  if (options.use_precise && find_corrected(products, time, options, state)) {
+    return LookupStatus::kOk;
   }
   if (options.use_precise && find_precise(products, satellite.system, time, options, state)) {
     return LookupStatus::kOk;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/gnss/orbits/corrected_state.h"
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/orbits/satellite_state.h"
 
@@ -32,7 +33,10 @@ enum class LookupStatus : std::uint8_t {
 
 // Choice and limits of the products that are used at a time.
 struct EphemerisConfig {
-  bool use_precise = true;  // precise states take precedence over broadcast ones where both exist
+  // Corrected and precise states take precedence over broadcast ones where they exist.
+  bool use_precise = true;
+  // Corrected states whose clock was corrected longer ago are not used.
+  double max_age_corrections_s = 60.0;
   double max_age_gps_s = 7200.0;  // |t - toe|
   double max_age_galileo_s = 14400.0;
   double max_age_beidou_s = 21600.0;
@@ -59,16 +63,19 @@ class EphemerisStore {
   // wrong times in the input cannot block a slot permanently.
   bool add(const Ephemeris& ephemeris);
   bool add(const PreciseState& state);
+  // The newest corrected state of a satellite replaces the one before, whatever its time.
+  bool add(const CorrectedState& state);
   void set_klobuchar(const KlobucharModel& model);
   const KlobucharModel& klobuchar() const;
   // Returns a number that changes with the coefficients.
   std::uint32_t klobuchar_issue() const;
 
   // Finds the state at `time`; `*ephemeris` (if given) points to the elements used, or to nullptr
-  // for precise states. Broadcast: the elements with the nearest toe serve. Precise: clocks of
-  // clock files serve where they enclose `time`, else those that came with the orbits. A satellite
-  // whose newest message marks it unhealthy is unhealthy with precise states too. `*state` changes
-  // only with kOk.
+  // for others. A corrected state serves first, where it is
+  // young enough, then precise ones, then broadcast elements. Broadcast: the elements with the
+  // nearest toe serve. Precise: clocks of clock files serve where they enclose `time`, else those
+  // that came with the orbits. A satellite whose newest message marks it unhealthy is unhealthy
+  // with precise states too. `*state` changes only with kOk.
   LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                         const Ephemeris** ephemeris = nullptr) const;
 

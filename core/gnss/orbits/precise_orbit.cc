@@ -159,6 +159,7 @@ bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, doub
                              clock->constant_m2 + change_m2);
   state->age_s = std::min(std::abs(since_a), std::abs(interval - since_a));
   state->source = OrbitSource::kPrecise;
+  state->at_antenna = false;
   return true;
 }
 

@@ -29,7 +29,8 @@ struct OrbitNode {
 // Returns false (and leaves `*state` unchanged) where the nodes around `time` are farther apart
 // than `max_gap_s`, too few for a good polynomial or without clocks; where the orbit (or the nodes'
 // clock, if that is used) was changed between them; or where `time` lies before the first node or
-// more than kOrbitExtrapolation after the last. It sets every member but `issue`.
+// more than kOrbitExtrapolation after the last. It sets every member but `issue`; the
+// position is the centre of mass.
 bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, double max_gap_s,
                    System system, const PreciseClock* clock, SatelliteState* state);
 

@@ -201,6 +201,7 @@ SatelliteState broadcast_state(const Ephemeris& ephemeris, GpsTime time) {
                              : std::max(ephemeris.accuracy_m, kBestBroadcastSigma);
   state.sigma_m = std::hypot(claimed, kSigmaGrowth * state.age_s);
   state.source = OrbitSource::kBroadcast;
+  state.at_antenna = true;
   return state;
 }
 

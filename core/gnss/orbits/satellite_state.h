@@ -13,7 +13,7 @@ enum class OrbitSource : std::uint8_t { kNone = 0, kBroadcast = 1, kPrecise = 2 
 
 // State of one satellite at one instant, from any product.
 struct SatelliteState {
-  // m, ECEF at `time`: antenna phase centre (broadcast) or centre of mass (precise)
+  // m, ECEF at `time`; which point of the satellite: `at_antenna`
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_e = Eigen::Vector3d::Zero();  // m/s, relative to the rotating Earth
   double clock_s =
@@ -26,6 +26,7 @@ struct SatelliteState {
   double age_s = 0.0;       // |instant - reference time of the product|
   std::uint32_t issue = 0;  // a new value means other elements and a step of their error; 0: none
   OrbitSource source = OrbitSource::kNone;
+  bool at_antenna = false;       // p_e: antenna phase centre (broadcast), or centre of mass
   bool clock_from_file = false;  // precise: from a clock file, finer than the clocks of the orbits
 };
 

@@ -258,6 +258,7 @@ void preprocess(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
       delay_context(config, ephemeris_store.klobuchar(), raw.time, approximate_p_e);
   context.klobuchar_issue = ephemeris_store.klobuchar_issue();
   context.antennas = aids.antennas;
+  context.signal_biases = aids.signal_biases;
   if (aids.C_er != nullptr) context.C_er = *aids.C_er;
 
   Candidates candidates;

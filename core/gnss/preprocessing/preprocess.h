@@ -10,6 +10,7 @@
 #include "core/gnss/preprocessing/carrier_preprocessor.h"
 #include "core/gnss/preprocessing/receiver_code_bias.h"
 #include "core/gnss/propagation/antenna_pattern_store.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 
 namespace leonav {
@@ -20,6 +21,7 @@ struct PreprocessAids {
       nullptr;  // the receiver's delays between bands, updated by this epoch
   CarrierPreprocessor* carriers = nullptr;  // nullptr: no carriers
   const AntennaPatternStore* antennas = nullptr;
+  const SignalBiasStore* signal_biases = nullptr;  // of satellites, beside precise clocks
   // Axes of the receiver antenna, forward, right, down, in ECEF; nullptr: north, east, down.
   const Eigen::Matrix3d* C_er = nullptr;
   // Applies SystemConfig::max_satellites; false where a position is sought without a previous one.

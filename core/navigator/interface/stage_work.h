@@ -11,6 +11,7 @@
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/propagation/antenna_model.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 #include "core/inertial/strapdown/imu.h"
 #include "core/inertial/strapdown/odometer.h"
@@ -65,10 +66,14 @@ struct Command {
 // The precise states of one message, with room for one of each satellite that has a name.
 using PreciseStates = boost::container::static_vector<PreciseState, kMaxEphemerisSatellites>;
 
+// The corrected states of one message, and the signal biases of one message.
+using CorrectedStates = boost::container::static_vector<CorrectedState, kMaxCorrectedStates>;
+using SignalBiases = boost::container::static_vector<SignalBias, kMaxBiases>;
+
 // Work from the Sequencer to the GnssStage, in order. A message is one piece of work whatever its
 // length, so that a stage that is an epoch behind needs few slots in its ring.
-using GnssWork = std::variant<Ephemeris, PreciseStates, KlobucharModel, AntennaPattern, Command,
-                              Checkpoint, EpochWork>;
+using GnssWork = std::variant<Ephemeris, PreciseStates, CorrectedStates, SignalBiases,
+                              KlobucharModel, AntennaPattern, Command, Checkpoint, EpochWork>;
 
 // The state and covariance at an epoch from which the inertial stage propagates the solution. The
 // GnssStage delivers it through a mailbox.

@@ -52,6 +52,26 @@ InputFault check(const PreciseState& state) {
   return in_range ? InputFault::kNone : InputFault::kOutOfRange;
 }
 
+InputFault check(const CorrectedState& state) {
+  const bool is_finite = state.p_e.allFinite() && state.v_e.allFinite() &&
+                         std::isfinite(state.clock_s) && std::isfinite(state.clock_drift) &&
+                         std::isfinite(state.sigma_m);
+  if (!is_finite) return InputFault::kNotFinite;
+  if (!is_valid(state.satellite) || !is_plausible(state.time) || !is_plausible(state.corrected_at))
+    return InputFault::kOutOfRange;
+  const double radius = state.p_e.norm();
+  const bool in_range = radius > 6.3e6 && radius < 1e8 && state.v_e.norm() < 1e4 &&
+                        std::abs(state.clock_s) < 1.0 && std::abs(state.clock_drift) < 1e-6 &&
+                        state.sigma_m > 0.0 && state.sigma_m < 1e3;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
+InputFault check(const SignalBias& bias) {
+  if (!std::isfinite(bias.bias_m)) return InputFault::kNotFinite;
+  if (!is_plausible(bias.time) || !is_sane(bias)) return InputFault::kOutOfRange;
+  return InputFault::kNone;
+}
+
 InputFault check(const SignalObservation& observation) {
   // The limits are wide: a receiver's clock may be off by a second, a carrier count may start at
   // any number, and the Doppler of a low orbit in the Ku band is 0.3 MHz. NaN means "not measured"

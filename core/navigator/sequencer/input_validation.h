@@ -22,6 +22,8 @@ InputFault check(const ImuSample& sample, const ImuLimits& limits);
 // `speed` is the largest wheel speed, m/s; `interval_ns` the longest interval.
 InputFault check(const OdometerIncrement& increment, double speed, std::int64_t interval_ns);
 InputFault check(const PreciseState& state);
+InputFault check(const CorrectedState& state);
+InputFault check(const SignalBias& bias);
 // Checks measured values. Returns kNotFinite for infinity, and kNotSane for values that no
 // satellite signal can give: a code of 1e9 m, a carrier of 1e11 cycles, a Doppler of 1e6 Hz, a C/N0
 // outside 0 to 100 dB-Hz. NaN passes, because it means "not measured".

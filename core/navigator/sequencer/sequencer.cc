@@ -230,17 +230,23 @@ void Sequencer::on_ephemeris(const Ephemeris& ephemeris) {
   stages_->push_gnss(*work_);
 }
 
-void Sequencer::on_precise_states(const PreciseStates& states) {
-  auto& good = work_->emplace<PreciseStates>();
-  for (const PreciseState& state : states) {
-    if (const InputFault fault = check(state); fault != InputFault::kNone) {
+// Pushes the elements of a message that are without a fault.
+template <typename Inputs>
+void Sequencer::push_good_ones(const Inputs& inputs) {
+  auto& good = work_->emplace<Inputs>();
+  for (const auto& input : inputs) {
+    if (const InputFault fault = check(input); fault != InputFault::kNone) {
       reject(fault);
     } else {
-      good.push_back(state);
+      good.push_back(input);
     }
   }
   if (!good.empty()) stages_->push_gnss(*work_);
 }
+
+void Sequencer::on_precise_states(const PreciseStates& states) { push_good_ones(states); }
+void Sequencer::on_corrected_states(const CorrectedStates& states) { push_good_ones(states); }
+void Sequencer::on_signal_biases(const SignalBiases& biases) { push_good_ones(biases); }
 
 void Sequencer::on_command(const Command& command) {
   if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);

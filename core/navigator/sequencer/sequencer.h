@@ -76,7 +76,9 @@ class Sequencer {
   void on_raw_epoch(const RawEpoch& epoch);
   void on_odometer(const OdometerIncrement& increment);
   void on_ephemeris(const Ephemeris& ephemeris);
-  void on_precise_states(const PreciseStates& states);  // passes on those without a fault
+  void on_precise_states(const PreciseStates& states);      // passes on those without a fault
+  void on_corrected_states(const CorrectedStates& states);  // the same
+  void on_signal_biases(const SignalBiases& biases);        // the same
   void on_klobuchar(const KlobucharModel& model);
   void on_antenna(const AntennaPattern& pattern);
   void on_command(const Command& command);
@@ -119,6 +121,8 @@ class Sequencer {
   // All inputs.
   template <typename Input>
   void check_and_push(const Input& input);
+  template <typename Inputs>
+  void push_good_ones(const Inputs& inputs);
   void start_new_time(double jump_s);
   void push_command(const Command& command);
   void reject(InputFault fault);

@@ -19,6 +19,7 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
   Ephemeris sent = ephemeris;
   sent.transmission_time = transmission_time(ephemeris);
   output_->send(sent);
+  if (corrections_ != nullptr) corrections_->add(sent);
   repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
   ++messages_;
   ++ephemerides_;

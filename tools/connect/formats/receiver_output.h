@@ -5,6 +5,7 @@
 #include <string>
 
 #include "drivers/transport/byte_source.h"
+#include "tools/connect/formats/correction_output.h"
 #include "tools/connect/formats/ephemeris_repeater.h"
 #include "tools/connect/formats/message_output.h"
 #include "tools/connect/stamps/gps_clock.h"
@@ -15,10 +16,11 @@ namespace leonav {
 // leonav-import writes. Besides, ephemerides are repeated.
 class ReceiverOutput {
  public:
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. Both pointers must
-  // outlive this object.
-  ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output)
-      : clock_(clock), output_(output), repeater_(repeat_s, output) {}
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if given,
+  // gets the ephemerides too. The pointers must outlive this object.
+  ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output,
+                 CorrectionOutput* corrections = nullptr)
+      : clock_(clock), output_(output), corrections_(corrections), repeater_(repeat_s, output) {}
 
   // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock.
   void send(const RawEpoch& epoch, std::int64_t arrival_ns);
@@ -36,6 +38,7 @@ class ReceiverOutput {
  private:
   GpsClock* clock_;
   MessageOutput* output_;
+  CorrectionOutput* corrections_;
   EphemerisRepeater repeater_;
   GpsTime last_epoch_;
   std::size_t last_signals_ = 0;

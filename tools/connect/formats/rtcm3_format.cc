@@ -10,21 +10,56 @@ void Rtcm3Format::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival
   decoder_.feed(bytes, this);
 }
 
-void Rtcm3Format::on_epoch(const RawEpoch& epoch) { receiver_.send(epoch, arrival_ns_); }
+void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
+  if (is_service_) {
+    ++station_epochs_;
+  } else {
+    receiver_.send(epoch, arrival_ns_);
+  }
+}
 void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
+
+void Rtcm3Format::on_ssr(const SsrMessage& message) {
+  if (corrections_ == nullptr) return;
+  if (message.time > last_ssr_) last_ssr_ = message.time;
+  const int published = corrections_->take(message, time_of_arrival(message.time));
+  ssr_messages_ += static_cast<std::uint64_t>(published);
+}
+
+// A receiver's epochs know it best, then the host; of a file the messages' own times are all.
+GpsTime Rtcm3Format::time_of_arrival(GpsTime of_message) const {
+  if (!is_live_) return of_message;
+  if (const auto time = clock_->at(arrival_ns_)) return *time;
+  return host_.at(arrival_ns_).value_or(of_message);
+}
+
+std::optional<DataTime> Rtcm3Format::data_time() const {
+  if (const auto of_epochs = receiver_.data_time()) return of_epochs;
+  if (!last_ssr_.is_set()) return std::nullopt;
+  return DataTime{true, last_ssr_.nanoseconds()};
+}
+
+std::string Rtcm3Format::detail() const {
+  std::string text = receiver_.detail();
+  if (!last_ssr_.is_set()) return text;
+  const std::string of_corrections = corrections_->detail();
+  if (!text.empty() && !of_corrections.empty()) text += "; ";
+  return text + of_corrections;
+}
 
 FormatCounts Rtcm3Format::counts() const {
   const Rtcm3Counters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.frames;
-  counts.messages = receiver_.messages();
+  counts.messages = receiver_.messages() + ssr_messages_;
   counts.damaged = c.framer.bad_checksums + c.framer.incomplete + c.framer.too_short;
   counts.refused = c.epochs.bad_length + c.epochs.bad_mask + c.epochs.bad_time + c.epochs.late +
                    c.epochs.other_station + c.epochs.without_reference +
                    c.epochs.without_full_range + c.measurements.bad_value +
                    c.measurements.bad_satellite + c.ephemerides.bad_length +
                    c.ephemerides.bad_satellite + c.ephemerides.bad_time + c.ephemerides.bad_week +
-                   c.ephemerides.not_sane + c.ephemerides.without_reference;
+                   c.ephemerides.not_sane + c.ephemerides.without_reference + c.ssr.bad_length +
+                   c.ssr.bad_time + c.ssr.without_reference;
   return counts;
 }
 
@@ -38,6 +73,15 @@ std::string Rtcm3Format::why_no_messages() const {
   if (c.epochs.without_full_range > 0) {
     return "MSM1 to MSM3 arrive, whose ranges lack the milliseconds: let the sender send MSM4 to "
            "MSM7";
+  }
+  if (last_ssr_.is_set()) {
+    return "SSR messages arrive, but none can be used (" + corrections_->detail() +
+           "): ephemerides must come too, 1019, 1042, 1045 or 1046 in this stream or from a "
+           "receiver";
+  }
+  if (station_epochs_ > 0) {
+    return "observations arrive, but no SSR messages, in a stream of 'corrections: true'; leave "
+           "that key out for a receiver";
   }
   std::string others;
   for (const auto& [number, count] : c.unused) {

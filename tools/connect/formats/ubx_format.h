@@ -12,9 +12,11 @@ namespace leonav {
 class UbxFormat final : public StreamFormat, private UbxHandler {
  public:
   // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
-  // epochs' arrivals set `clock`. Both pointers must outlive this object.
-  UbxFormat(double latency_s, double repeat_s, GpsClock* clock, MessageOutput* output)
-      : latency_s_(latency_s), receiver_(repeat_s, clock, output) {}
+  // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput. The pointers must outlive
+  // this object.
+  UbxFormat(double latency_s, double repeat_s, GpsClock* clock, MessageOutput* output,
+            CorrectionOutput* corrections = nullptr)
+      : latency_s_(latency_s), receiver_(repeat_s, clock, output, corrections) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   void finish() override { decoder_.finish(this); }

@@ -18,7 +18,19 @@ Rtcm3Options options_for(const std::string& path, GpsTime date) {
   return {date};
 }
 
-void report_stream(const std::string& path, const Rtcm3Counters& counters, ImportReport* report) {
+void report_corrections(const std::string& path, const Rtcm3Counters& counters,
+                        ImportReport* report) {
+  report->skip(path, "SSR message (list the file under corrections too)",
+               static_cast<long>(counters.ssr.messages));
+}
+
+}  // namespace
+
+Rtcm3FileReader open_rtcm3(const std::string& path, GpsTime date) {
+  return Rtcm3FileReader(path, options_for(path, date));
+}
+
+void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, ImportReport* report) {
   const auto& [framer, epochs, measurements, ephemerides, ssr, station, damaged_station, unused] =
       counters;
   const std::pair<const char*, std::uint64_t> reasons[] = {
@@ -46,7 +58,6 @@ void report_stream(const std::string& path, const Rtcm3Counters& counters, Impor
       {"ephemeris with an impossible time", ephemerides.bad_time},
       {"ephemeris of another week (old, or the dataset's date is wrong)", ephemerides.bad_week},
       {"ephemeris that no satellite can have sent", ephemerides.not_sane},
-      {"SSR corrections (decoded; the estimator does not use them yet)", ssr.messages},
       {"SSR message that is damaged", ssr.bad_length + ssr.bad_time},
       {"station message that is shorter than its fields", damaged_station}};
   for (const auto& [reason, count] : reasons) {
@@ -68,14 +79,12 @@ void report_stream(const std::string& path, const Rtcm3Counters& counters, Impor
   }
 }
 
-}  // namespace
-
 bool has_rtcm3_name(const std::string& path) {
   return has_ending(path, ".rtcm3") || has_ending(path, ".rtcm");
 }
 
 Rtcm3File::Rtcm3File(const std::string& path, GpsTime date)
-    : reader_(path, options_for(path, date)), antenna_(first_antenna(path)) {}
+    : reader_(open_rtcm3(path, date)), antenna_(first_antenna(path)) {}
 
 bool Rtcm3File::next(ObservationItem* item) {
   for (Rtcm3Output output; reader_.next(&output);) {
@@ -96,19 +105,21 @@ long Rtcm3File::lost_epochs() const {
 }
 
 void Rtcm3File::report(const std::string& path, ImportReport* report) const {
-  report_stream(path, reader_.counters(), report);
+  report_rtcm3(path, reader_.counters(), report);
+  report_corrections(path, reader_.counters(), report);
 }
 
 std::vector<Ephemeris> read_rtcm3_ephemerides(const std::string& path, GpsTime date,
                                               ImportReport* report) {
-  Rtcm3FileReader reader(path, options_for(path, date));
+  Rtcm3FileReader reader = open_rtcm3(path, date);
   std::vector<Ephemeris> ephemerides;
   long epochs = 0;
   for (Rtcm3Output output; reader.next(&output);) {
     if (const auto* ephemeris = std::get_if<Ephemeris>(&output)) ephemerides.push_back(*ephemeris);
     epochs += std::holds_alternative<RawEpoch>(output);
   }
-  report_stream(path, reader.counters(), report);
+  report_rtcm3(path, reader.counters(), report);
+  report_corrections(path, reader.counters(), report);
   report->skip(path, "epoch in a file of ephemerides (list it under observations)", epochs);
   if (ephemerides.empty()) {
     std::string why = "holds no usable ephemeris";

@@ -12,6 +12,13 @@ namespace leonav {
 // Returns whether the name ends in .rtcm3 or .rtcm.
 bool has_rtcm3_name(const std::string& path);
 
+// Opens a file whose messages lack the week. Throws FileError if it cannot be opened, or `date` is
+// unset.
+Rtcm3FileReader open_rtcm3(const std::string& path, GpsTime date);
+
+// Reports what a file held that was not used.
+void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, ImportReport* report);
+
 // A recorded stream as a source of epochs and ephemerides.
 class Rtcm3File final : public ObservationFile {
  public:

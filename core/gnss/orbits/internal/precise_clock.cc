@@ -9,10 +9,19 @@
 namespace leonav {
 namespace {
 
-// Returns the random walk (white frequency noise) of a satellite clock between nodes, in m/sqrt(s).
-// It was measured on 30 s clocks of 2020-06-25 against each other (docs/validation/orbits.md):
-// GPS 3.5 (7 at worst, a caesium clock), Galileo's masers 0.34, in mm/sqrt(s). BeiDou is taken in
-// between and LEO like GPS, because no such file was at hand.
+// 1 sigma of a predicted clock: 1.5 ns after removing what all clocks have in common (IGS products,
+// ultra-rapid, predicted half: standard deviation).
+constexpr double kPredictedSigma = 0.45;  // m
+
+double rate(const ClockNode& a, const ClockNode& b) {
+  return (b.clock_s - a.clock_s) / seconds_between(b.time, a.time);
+}
+
+}  // namespace
+
+// The random walk was measured on 30 s clocks of 2020-06-25 against each other
+// (docs/validation/orbits.md): GPS 3.5 (7 at worst, a caesium clock), Galileo's masers 0.34, in
+// mm/sqrt(s). BeiDou is taken in between and LEO like GPS, because no such file was at hand.
 double clock_walk(System system) {
   switch (system) {
     case System::kGps:
@@ -26,16 +35,6 @@ double clock_walk(System system) {
   }
   return 3.6e-3;
 }
-
-// 1 sigma of a predicted clock: 1.5 ns after removing what all clocks have in common (IGS products,
-// ultra-rapid, predicted half: standard deviation).
-constexpr double kPredictedSigma = 0.45;  // m
-
-double rate(const ClockNode& a, const ClockNode& b) {
-  return (b.clock_s - a.clock_s) / seconds_between(b.time, a.time);
-}
-
-}  // namespace
 
 bool interpolate_between(const ClockNode& a, const ClockNode& b, GpsTime time, System system,
                          PreciseClock* clock) {

@@ -15,6 +15,9 @@ struct ClockNode {
   bool predicted = false;  // not from observations
 };
 
+// Returns the random walk (white frequency noise) of a satellite's clock, m/sqrt(s).
+double clock_walk(System system);
+
 // An interpolated clock with its variances.
 struct PreciseClock {
   double clock_s = 0.0;

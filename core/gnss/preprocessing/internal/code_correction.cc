@@ -60,9 +60,14 @@ double frequency_of(const SignalObservation& signal) {
   return frequency_hz(signal.satellite.system, signal.code.band);
 }
 
-GroupDelay delay_of(const SatelliteInView& satellite, const Ephemeris* broadcast, SignalCode first,
-                    SignalCode second) {
+GroupDelay delay_of(const DelayContext& context, const SatelliteInView& satellite,
+                    const Ephemeris* broadcast, SignalCode first, SignalCode second) {
   if (satellite.source == OrbitSource::kPrecise || broadcast == nullptr) {
+    if (context.signal_biases != nullptr) {
+      const auto delay =
+          context.signal_biases->code_delay(satellite.satellite, context.time, first, second);
+      if (delay) return *delay;
+    }
     return precise_group_delay(satellite.satellite.system, broadcast, first, second);
   }
   return group_delay(*broadcast, first, second);
@@ -103,8 +108,7 @@ double troposphere_rate(const DelayContext& context, const SatelliteInView& sate
 // decimetres of its centre of mass.
 double antenna_variance(const SatelliteInView& satellite, bool antenna_known) {
   constexpr double kAntennaOffsetSigma = 0.7;  // m
-  const bool is_offset =
-      satellite.source == OrbitSource::kPrecise && satellite.satellite.system != System::kLeo;
+  const bool is_offset = !satellite.at_antenna && satellite.satellite.system != System::kLeo;
   return is_offset && !antenna_known ? square(kAntennaOffsetSigma) : 0.0;
 }
 
@@ -243,7 +247,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
     code.ionosphere =
         common_ionosphere_error(context, first, satellite->elevation, sigma, ionosphere);
   }
-  const GroupDelay group = delay_of(*satellite, broadcast, code.code, code.second_code);
+  const GroupDelay group = delay_of(context, *satellite, broadcast, code.code, code.second_code);
   const AntennaCorrection antenna = antenna_range(context, *satellite, code.code, code.second_code);
   code.value = range + satellite->clock_m - group.delay_m - satellite->troposphere_m -
                satellite->path_m - antenna.range_m;

@@ -9,6 +9,7 @@
 #include "core/gnss/measurement/measurement.h"
 #include "core/gnss/preprocessing/receiver_code_bias.h"
 #include "core/gnss/propagation/antenna_pattern_store.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 
 namespace leonav {
@@ -23,6 +24,7 @@ struct DelayContext {
   Geodetic antenna;
   const ReceiverCodeBiases* biases = nullptr;  // of the receiver; may be nullptr
   const AntennaPatternStore* antennas = nullptr;
+  const SignalBiasStore* signal_biases = nullptr;  // of satellites; may be nullptr
   Eigen::Matrix3d C_er =
       Eigen::Matrix3d::Identity();  // receiver antenna's axes, forward-right-down
   Eigen::Vector3d p_sun_e = Eigen::Vector3d::Zero();

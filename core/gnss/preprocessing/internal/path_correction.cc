@@ -35,10 +35,10 @@ double wind_up_cycles(const DelayContext& context, const SatelliteInView& satell
 
 AntennaCorrection antenna_range(const DelayContext& context, const SatelliteInView& satellite,
                                 SignalCode first, SignalCode second) {
-  const bool precise = satellite.source == OrbitSource::kPrecise;
+  const bool is_mass_centre = !satellite.at_antenna;
   AntennaCorrection correction;
   if (context.antennas == nullptr || !context.has_position) {
-    correction.known = !precise;
+    correction.known = !is_mass_centre;
     return correction;
   }
   const System system = satellite.satellite.system;
@@ -49,7 +49,7 @@ AntennaCorrection antenna_range(const DelayContext& context, const SatelliteInVi
     const AntennaRange receiver = context.antennas->receiver_range(system, band, u_r);
     correction.range_m += gamma * receiver.range_m;
     correction.issue = mixed(correction.issue, receiver.revision);
-    if (!precise) return;
+    if (!is_mass_centre) return;
     const AntennaRange range = context.antennas->satellite_range(
         satellite.satellite, band, context.time, satellite.p_e, C_es, p_a_e);
     correction.range_m += gamma * range.range_m;

@@ -84,6 +84,14 @@ void MeasurementFrontEnd::add(const PreciseStates& states) {
   for (const PreciseState& state : states) ephemeris_store_.add(state);
 }
 
+void MeasurementFrontEnd::add(const CorrectedStates& states) {
+  for (const CorrectedState& state : states) ephemeris_store_.add(state);
+}
+
+void MeasurementFrontEnd::add(const SignalBiases& biases) {
+  for (const SignalBias& bias : biases) signal_biases_.add(bias);
+}
+
 // What is estimated beyond the model, or contains an error of it, follows the model.
 void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
   const KlobucharModel before = ephemeris_store_.klobuchar();
@@ -127,6 +135,7 @@ PreprocessAids MeasurementFrontEnd::aids(const Ekf& filter) {
   aids.biases = &code_biases_;
   aids.faulty = {excluded_.data(), excluded_.size()};
   aids.antennas = &antennas_;
+  aids.signal_biases = &signal_biases_;
   if (use_carrier_) aids.carriers = &carriers_;
   // Satellite caps do not apply before the alignment: one to three satellites suffice for neither a
   // start nor an alignment.

@@ -12,6 +12,7 @@
 #include "core/gnss/preprocessing/preprocess.h"
 #include "core/gnss/preprocessing/receiver_code_bias.h"
 #include "core/gnss/propagation/antenna_pattern_store.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/navigator/interface/navigator_config.h"
 #include "core/navigator/interface/stage_work.h"
 #include "core/navigator/monitors/independent_solution.h"
@@ -30,6 +31,8 @@ class MeasurementFrontEnd {
 
   void add(const Ephemeris& ephemeris) { ephemeris_store_.add(ephemeris); }
   void add(const PreciseStates& states);
+  void add(const CorrectedStates& states);
+  void add(const SignalBiases& biases);
   void add(const KlobucharModel& klobuchar);
   void add(const AntennaPattern& antenna) { antennas_.add(antenna); }
   // Sets the satellites that neither measure() nor solve() uses from now on.
@@ -82,6 +85,7 @@ class MeasurementFrontEnd {
   ExcludedSatellites excluded_;
   EphemerisStore ephemeris_store_;
   AntennaPatternStore antennas_;
+  SignalBiasStore signal_biases_;
   ReceiverCodeBiases code_biases_;
   CarrierPreprocessor carriers_;
   CarrierSpeed carrier_speed_;

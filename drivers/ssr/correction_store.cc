@@ -1,0 +1,137 @@
+#include "drivers/ssr/correction_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/ssr/accuracy.h"
+
+namespace leonav {
+namespace {
+
+// An issue's number returns after this at the earliest (GPS: IODE differs from those of six hours).
+constexpr double kLongestLife_s = 4 * 3600.0;
+
+bool is_within(GpsTime time, GpsTime reference, double limit_s) {
+  return std::abs(seconds_between(time, reference)) <= limit_s;
+}
+
+}  // namespace
+
+void CorrectionStore::add(const Ephemeris& ephemeris) {
+  if (!is_valid(ephemeris.satellite) || !is_sane(ephemeris)) return;
+  const bool is_galileo = ephemeris.satellite.system == System::kGalileo;
+  if (is_galileo && ephemeris.message != options_.galileo_message) return;
+  std::vector<Ephemeris>& kept = satellites_[ephemeris.satellite].ephemerides;
+  std::erase_if(kept, [&](const Ephemeris& old) {
+    return old.issue == ephemeris.issue && old.toe == ephemeris.toe;
+  });
+  if (kept.size() == kIssuesKept) kept.erase(kept.begin());
+  kept.push_back(ephemeris);
+}
+
+void CorrectionStore::add(const SsrMessage& message) {
+  if (message.is_regional_frame) {
+    counters_.in_regional_frame += message.satellites.size();
+    return;
+  }
+  const Correction correction{message.time, reference_time(message), source_of(message),
+                              message.is_igs};
+  for (const SsrSatellite& from : message.satellites) {
+    if (!is_valid(from.satellite)) continue;
+    Satellite& to = satellites_[from.satellite];
+    if (from.orbit) {
+      // A clock's correction belongs to the elements that the orbit of its time corrects.
+      const bool is_other_issue =
+          from.orbit->issue != to.orbit.issue || from.orbit->beidou_toe != to.orbit.beidou_toe;
+      if (is_other_issue && to.clock_is.sent < message.time) to.clock_is = {};
+      to.orbit = *from.orbit;
+      to.orbit_is = correction;
+    }
+    if (from.clock) {
+      to.clock = *from.clock;
+      to.clock_is = correction;
+    }
+    if (from.high_rate_clock_m) {
+      to.high_rate_m = *from.high_rate_clock_m;
+      to.high_rate_is = correction;
+    }
+    if (from.accuracy_index) to.accuracy_m = ssr_accuracy_m(*from.accuracy_index);
+  }
+}
+
+std::vector<CorrectedState> CorrectionStore::states(const SsrMessage& message, GpsTime time) {
+  std::vector<CorrectedState> states;
+  if (message.is_regional_frame) return states;
+  for (const SsrSatellite& from : message.satellites) {
+    const auto satellite = satellites_.find(from.satellite);
+    if (satellite == satellites_.end()) continue;
+    if (const auto one = state(satellite->second, time)) states.push_back(*one);
+  }
+  counters_.states += states.size();
+  return states;
+}
+
+std::optional<CorrectedState> CorrectionStore::state(const Satellite& s, GpsTime time) {
+  const auto none = [](std::uint64_t* counter) {
+    ++*counter;
+    return std::nullopt;
+  };
+  if (!s.orbit_is.reference.is_set()) return none(&counters_.without_orbit);
+  if (!s.clock_is.reference.is_set()) return none(&counters_.without_clock);
+  if (s.orbit_is.source != s.clock_is.source) return none(&counters_.of_other_issue);
+  if (!is_within(time, s.orbit_is.reference, options_.max_orbit_age_s) ||
+      !is_within(time, s.clock_is.reference, options_.max_clock_age_s)) {
+    return none(&counters_.too_old);
+  }
+  const Ephemeris* broadcast = corrected_ephemeris(s, time);
+  if (broadcast == nullptr) return none(&counters_.without_ephemeris);
+
+  OrbitAndClock corrections{s.orbit, s.orbit_is.reference, s.clock, s.clock_is.reference, 0.0};
+  const bool has_high_rate =
+      s.high_rate_is.reference.is_set() && s.high_rate_is.source == s.clock_is.source &&
+      s.high_rate_is.reference >= s.clock_is.reference &&
+      is_within(time, s.high_rate_is.reference, options_.max_high_rate_age_s);
+  if (has_high_rate) corrections.high_rate_clock_m = s.high_rate_m;
+  CorrectedState state = apply(corrections, *broadcast, time);
+  if (has_high_rate) state.corrected_at = s.high_rate_is.reference;
+  state.at_antenna = options_.at_antenna;
+  state.sigma_m = s.accuracy_m.value_or(options_.default_sigma_m);
+  return state;
+}
+
+const Ephemeris* CorrectionStore::corrected_ephemeris(const Satellite& s, GpsTime time) const {
+  const Ephemeris* nearest = nullptr;
+  double nearest_s = kLongestLife_s;
+  for (const Ephemeris& e : s.ephemerides) {
+    const double age_s = std::abs(seconds_between(time, e.toe));
+    if (age_s > nearest_s || !is_corrected_by(e, s.orbit, s.orbit_is.is_igs)) continue;
+    nearest = &e;
+    nearest_s = age_s;
+  }
+  return nearest;
+}
+
+CorrectionSource source_of(const SsrMessage& message) {
+  return {message.provider, message.solution, message.issue};
+}
+
+bool has_clocks(const SsrMessage& message) {
+  return message.kind == SsrKind::kClock || message.kind == SsrKind::kOrbitAndClock ||
+         message.kind == SsrKind::kHighRateClock;
+}
+
+std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time) {
+  std::vector<SignalBias> biases;
+  for (const SsrSatellite& satellite : message.satellites) {
+    for (const SsrBias& bias : satellite.code_biases) {
+      biases.push_back({satellite.satellite, bias.code, BiasKind::kCode, time, -bias.bias_m});
+    }
+    for (const SsrBias& bias : satellite.phase_biases) {
+      biases.push_back({satellite.satellite, bias.code, BiasKind::kPhase, time, -bias.bias_m});
+    }
+  }
+  std::erase_if(biases, [](const SignalBias& bias) { return !is_sane(bias); });
+  return biases;
+}
+
+}  // namespace leonav
