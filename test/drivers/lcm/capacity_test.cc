@@ -2,6 +2,7 @@
 #include <leonav/constraints_t.hpp>
 #include <leonav/epoch_t.hpp>
 #include <memory>
+#include <vector>
 
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
@@ -74,4 +75,23 @@ TEST_CASE("precise states of every satellite that has a name come back") {
   PreciseStates back;
   CHECK(decoder.decode(encoder.encode(states, 1), &back).fault == InputFault::kNone);
   CHECK(back.size() == kMaxEphemerisSatellites);
+}
+TEST_CASE("corrected states and biases at full capacity come back") {
+  CorrectedState state;
+  state.satellite = {System::kGps, 5};
+  state.time = state.corrected_at = state.orbit_corrected_at =
+      GpsTime::from_week_and_tow(2300, 1000.0);
+  state.p_e = {2e7, 1e7, 1e6};
+  state.sigma_m = 0.1;
+  const std::vector<CorrectedState> states(kMaxCorrectedStates, state);
+  const std::vector<SignalBias> biases(
+      kMaxBiases, SignalBias{state.satellite, {'1', 'C'}, BiasKind::kCode, state.time, 1.0});
+  Encoder encoder;
+  Decoder decoder;
+  CorrectedStates states_back;
+  SignalBiases biases_back;
+  CHECK(decoder.decode(encoder.encode(states, {}, 1), &states_back).fault == InputFault::kNone);
+  CHECK(states_back.size() == kMaxCorrectedStates);
+  CHECK(decoder.decode(encoder.encode(biases, 1), &biases_back).fault == InputFault::kNone);
+  CHECK(biases_back.size() == kMaxBiases);
 }

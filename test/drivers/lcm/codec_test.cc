@@ -1,4 +1,5 @@
 // What is encoded comes back; what is damaged is refused, without allocating by its claims.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -271,4 +272,98 @@ TEST_CASE("event logs agree with liblcm's, both ways; damage is reported") {
   CHECK_THROWS_AS(damaged.next(&event), EventLogError);
   std::filesystem::remove(path);
   CHECK_THROWS_AS(EventLogReader(path), EventLogError);
+}
+TEST_CASE("corrected states and biases come back, and wrong ones alone are left out") {
+  std::vector<CorrectedState> states(3);
+  const GpsTime time = GpsTime::from_week_and_tow(2300, 900.0);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].satellite = {System::kGalileo, static_cast<std::uint16_t>(i + 1)};
+    states[i].time = time;
+    states[i].corrected_at = time.plus_seconds(-7.5);
+    states[i].orbit_corrected_at = time.plus_seconds(-30.0);
+    states[i].at_antenna = i == 1;
+    states[i].issue = 74;
+    states[i].p_e = {2.9e7, -1e6, 2e6};
+    states[i].v_e = {1e3, 2e3, -3e3};
+    states[i].clock_s = -1e-4;
+    states[i].clock_drift = 1e-11;
+    states[i].sigma_m = 0.25;
+  }
+  Encoder encoder;
+  Decoder decoder;
+  CorrectedStates back;
+  const CorrectionSource source{270, 1, 3};
+  REQUIRE(decoder.decode(copy(encoder.encode(states, source, 5)), &back).element_faults == 0);
+  REQUIRE(back.size() == 3);
+  CHECK(back[1].satellite == states[1].satellite);
+  CHECK(back[1].time == time);
+  CHECK(back[1].corrected_at == states[1].corrected_at);
+  CHECK(back[1].orbit_corrected_at == states[1].orbit_corrected_at);
+  CHECK((back[1].at_antenna && !back[0].at_antenna));
+  CHECK(back[1].issue == 74);
+  CHECK(back[1].p_e == states[1].p_e);
+  CHECK(back[1].v_e == states[1].v_e);
+  CHECK(back[1].clock_s == states[1].clock_s);
+  CHECK(back[1].clock_drift == states[1].clock_drift);
+  CHECK(back[1].sigma_m == 0.25);
+  states[0].clock_s = std::numeric_limits<double>::quiet_NaN();
+  states[2].p_e *= 10.0;
+  CHECK(decoder.decode(copy(encoder.encode(states, source, 6)), &back).element_faults != 0);
+  REQUIRE(back.size() == 1);
+  CHECK(back[0].satellite == states[1].satellite);
+
+  std::vector<SignalBias> biases(3);
+  for (std::size_t i = 0; i < biases.size(); ++i) {
+    biases[i] = {{System::kGps, static_cast<std::uint16_t>(i + 1)},
+                 {'2', 'W'},
+                 i == 1 ? BiasKind::kPhase : BiasKind::kCode,
+                 time,
+                 -1.25};
+  }
+  SignalBiases biases_back;
+  REQUIRE(decoder.decode(copy(encoder.encode(biases, 7)), &biases_back).element_faults == 0);
+  REQUIRE(biases_back.size() == 3);
+  CHECK(biases_back[1].kind == BiasKind::kPhase);
+  CHECK(biases_back[1].code == SignalCode{'2', 'W'});
+  CHECK(biases_back[1].bias_m == -1.25);
+  CHECK(biases_back[1].time == time);
+  biases[0].bias_m = 1e6;
+  CHECK(decoder.decode(copy(encoder.encode(biases, 8)), &biases_back).element_faults != 0);
+  CHECK(biases_back.size() == 2);
+}
+
+TEST_CASE("damaged corrected states and biases never crash and are refused or sane") {
+  Encoder encoder;
+  Decoder decoder;
+  std::mt19937 random(2);
+  std::vector<CorrectedState> states(5);
+  std::vector<SignalBias> biases(5);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SatelliteId id{System::kGps, static_cast<std::uint16_t>(i + 1)};
+    const GpsTime time = GpsTime::from_week_and_tow(2300, 900.0);
+    states[i] = {id, time, time, time, true, 5, {2e7, 1e7, 1e6}, {1e3, 2e3, 3e3}, 1e-4, 1e-11, 0.1};
+    biases[i] = {id, {'1', 'C'}, BiasKind::kCode, time, 0.5};
+  }
+  const std::array<Bytes, 2> messages = {copy(encoder.encode(states, {1, 2, 3}, 1)),
+                                         copy(encoder.encode(biases, 1))};
+  CorrectedStates states_back;
+  SignalBiases biases_back;
+  for (const Bytes& good : messages) {
+    for (std::size_t size = 0; size < good.size(); ++size) {
+      const Bytes cut(good.begin(), good.begin() + static_cast<long>(size));
+      CHECK(decoder.decode(cut, &states_back).fault != InputFault::kNone);
+      CHECK(decoder.decode(cut, &biases_back).fault != InputFault::kNone);
+    }
+    for (int i = 0; i < 10'000; ++i) {
+      Bytes bytes = good;
+      for (int flips = 0; flips < 1 + i % 4; ++flips)
+        bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1U << random() % 8);
+      if (decoder.decode(bytes, &states_back).fault == InputFault::kNone) {
+        for (const CorrectedState& state : states_back) REQUIRE(state.p_e.norm() < 1e8);
+      }
+      if (decoder.decode(bytes, &biases_back).fault == InputFault::kNone) {
+        for (const SignalBias& bias : biases_back) REQUIRE(is_sane(bias));
+      }
+    }
+  }
 }

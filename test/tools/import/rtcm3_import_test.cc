@@ -97,8 +97,39 @@ TEST_CASE("ephemerides of a stream of corrections serve as navigation", "[import
   const ImportReport with =
       import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
   CHECK(with.ephemerides > 50);
-  CHECK(left_out(with, "SSR corrections") > 1000);
+  CHECK(left_out(with, "SSR message (list the file under corrections too)") > 1000);
   CHECK(left_out(with, "ephemeris that repeats the one before") > 5000);
+}
+
+TEST_CASE("corrections arrive late and make states and biases", "[import]") {
+  if (!test::have_shared_data(kSsrHour)) return;
+  // The stream begins at 352752 s of week 2275, 02:00 of a Thursday less 18 s.
+  const auto import = [](const std::string& keys) {
+    const test::TemporaryFile yaml("set.yaml", "date: 2023-08-17\nobservations: a.obs\n" + keys);
+    std::filesystem::copy_file(test::shared_data(kSsrHour), yaml.beside("ssr.rtcm3"));
+    std::ofstream(yaml.beside("a.obs"))
+        << "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
+           "G    1 C1C                                                  SYS / # / OBS TYPES\n"
+           "                                                            END OF HEADER\n"
+           "> 2023 08 17 02 00  0.0000000  0  1\nG01  20000000.000\n"
+           "> 2023 08 17 02 10  0.0000000  0  1\nG01  20000000.000\n";
+    return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  };
+  const ImportReport report = import("corrections: ssr.rtcm3\n");
+  CHECK(report.corrected_states > 2000);
+  CHECK(report.signal_biases > 5000);
+  CHECK(report.ephemerides > 40);
+  const ImportReport late = import("corrections: ssr.rtcm3\ncorrections_latency_s: 300\n");
+  CHECK(late.corrected_states == 0);
+  CHECK(left_out(late, "correction that is too old") > 1000);
+  const ImportReport empty = import("corrections: []\n");
+  CHECK(empty.corrected_states == 0);
+  for (const char* wrong : {"corrections_latency_s: -1", "corrections_latency_s: soon",
+                            "corrections_latency_s: .nan", "corrections_point: top"}) {
+    CHECK_THROWS_WITH(import(std::string("corrections: ssr.rtcm3\n") + wrong + "\n"),
+                      Contains("set.yaml:4"));
+  }
+  CHECK_THROWS_WITH(import("corrections: a.obs\n"), Contains("no usable SSR message"));
 }
 
 }  // namespace leonav

@@ -12,7 +12,11 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
-  messages_ += static_cast<std::uint64_t>(repeater_.repeat(epoch.time));
+  repeat_ephemerides(epoch.time);
+}
+
+void ReceiverOutput::repeat_ephemerides(GpsTime now) {
+  messages_ += static_cast<std::uint64_t>(repeater_.repeat(now));
 }
 
 void ReceiverOutput::send(const Ephemeris& ephemeris) {

@@ -28,6 +28,9 @@ class ReceiverOutput {
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);
 
+  // Sends ephemerides again that are due, as every epoch does; for a stream without epochs.
+  void repeat_ephemerides(GpsTime now);
+
   GpsTime last_epoch() const { return last_epoch_; }
   std::uint64_t messages() const { return messages_; }  // published
   // The time of the last epoch, by which a file without recorded arrivals is played.

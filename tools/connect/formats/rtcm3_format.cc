@@ -22,8 +22,9 @@ void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephe
 void Rtcm3Format::on_ssr(const SsrMessage& message) {
   if (corrections_ == nullptr) return;
   if (message.time > last_ssr_) last_ssr_ = message.time;
-  const int published = corrections_->take(message, time_of_arrival(message.time));
-  ssr_messages_ += static_cast<std::uint64_t>(published);
+  const GpsTime now = time_of_arrival(message.time);
+  ssr_messages_ += static_cast<std::uint64_t>(corrections_->take(message, now));
+  if (is_service_) receiver_.repeat_ephemerides(now);
 }
 
 // A receiver's epochs know it best, then the host; of a file the messages' own times are all.

@@ -240,6 +240,23 @@ def orbit_clock(messages):
     return {"": _table(_gather(messages, "time_ns")[owner], columns)}
 
 
+def corrected_states(messages):
+    rows, owner = _rows(messages, "states")
+    columns = {"satellite": names.satellite_names(rows["system"], rows["number"])}
+    _spread(columns, "ecef_{}_m", rows["p_e"], AXES_BODY)
+    _spread(columns, "ecef_velocity_{}_m_s", rows["v_e"], AXES_BODY)
+    columns.update({name: _native(rows[name]) for name in ("clock_s", "clock_drift", "sigma_m", "orbit_age_s", "clock_age_s", "issue", "flags")})
+    columns.update({name: _gather(messages, name)[owner] for name in ("provider", "solution", "ssr_issue")})
+    return {"": _table(_gather(messages, "time_ns")[owner], columns)}
+
+
+def biases(messages):
+    rows, owner = _rows(messages, "biases")
+    columns = {"satellite": names.satellite_names(rows["system"], rows["number"]), "signal": names.signal_names(rows["band"], rows["attribute"]),
+               "is_phase": np.asarray(rows["kind"]) == 1, "bias_m": _native(rows["bias_m"])}
+    return {"": _table(_gather(messages, "time_ns")[owner], columns)}
+
+
 def ionosphere(m):
     columns = {}
     _spread(columns, "alpha_{}_s_semicircle", m["alpha"], range(4))
@@ -289,6 +306,7 @@ def end(m):
 CHANNELS = {
     "IMU": (("imu_t",), imu), "GNSS_EPOCH": (("gnss_epoch_t",), gnss_epoch), "EPHEMERIS": (("ephemeris_t",), ephemeris),
     "ORBIT_CLOCK": (("orbit_clock_t",), orbit_clock), "IONOSPHERE": (("ionosphere_t",), ionosphere), "ANTENNA": (("antenna_t",), antenna),
+    "CORRECTED_STATES": (("corrected_states_t",), corrected_states), "BIASES": (("biases_t",), biases),
     "COMMAND": (("command_t",), command), "ODOMETER": (("odometer_t",), odometer),
     "CHECKPOINT": (("checkpoint_t", "checkpoint_v1_t"), checkpoint), "SOLUTION": (("solution_t", "solution_v1_t"), solution),
     "EPOCH": (("epoch_t", "epoch_v1_t"), epoch), "CONSTRAINTS": (("constraints_t",), constraints), "EVENT": (("event_t",), event),

@@ -3,9 +3,13 @@
 #include "tools/connect/formats/rtcm3_format.h"
 
 #include <cmath>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "core/base/calendar.h"
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/gnss/signals/signal.h"
 #include "drivers/binary/crc24q.h"
 #include "drivers/lcm/decode.h"
 #include "support/catch.h"
@@ -112,6 +116,86 @@ TEST_CASE("A stream without what is needed is told with what it has", "[connect]
   CHECK(format.counts().frames == 1);
   CHECK(format.why_no_messages().find("1084") != std::string::npos);
   CHECK(format.why_no_messages().find("MSM4 to MSM7") != std::string::npos);
+}
+
+namespace {
+
+struct Messages : MessageTarget {
+  void take(Channel channel, ByteSpan bytes) override {
+    ++counts[channel];
+    if (channel != Channel::kCorrectedStates) return;
+    CorrectedStates received;
+    REQUIRE(Decoder().decode(bytes, &received).element_faults == 0);
+    states.insert(states.end(), received.begin(), received.end());
+  }
+  std::map<Channel, int> counts;
+  std::vector<CorrectedState> states;
+};
+
+// 1060 of GPS 7 with issue 77: 1 m along the radius, a clock of half a metre.
+std::vector<std::uint8_t> orbit_and_clock(std::uint64_t of_week_s) {
+  Bits bits;
+  bits.add(1060, 12).add(of_week_s, 20).add(0, 4).add(0, 1).add(0, 1).add(3, 4).add(270, 16);
+  bits.add(1, 4).add(1, 6);
+  bits.add(7, 6).add(77, 8).add(10'000, 22).add(0, 20).add(0, 20).add(0, 21).add(0, 19).add(0, 19);
+  bits.add(5'000, 22).add(0, 21).add(0, 27);
+  return bits.frame();
+}
+
+// 1059 of GPS 7: L1 C/A 0.25 m.
+std::vector<std::uint8_t> code_bias(std::uint64_t of_week_s) {
+  Bits bits;
+  bits.add(1059, 12).add(of_week_s, 20).add(0, 4).add(0, 1).add(3, 4).add(270, 16).add(1, 4);
+  bits.add(1, 6).add(7, 6).add(1, 5).add(0, 5).add(25, 14);
+  return bits.frame();
+}
+
+Ephemeris elements(std::uint16_t issue) {
+  Ephemeris e;
+  e.satellite = {System::kGps, 7};
+  e.toe = e.toc = kTime;
+  e.issue = issue;
+  e.sqrt_a = 5153.7;
+  e.i0 = 0.96;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
+  Messages messages;
+  MessageOutput output(&messages);
+  CorrectionOutput corrections({}, &output);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  ReceiverOutput receiver(30.0, &clock, &output, &corrections);
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
+  const std::uint64_t of_week_s = kOfWeek_ms / 1000;
+  const GpsTime arrival = kTime.plus_seconds(6.0);
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  CHECK(messages.counts.empty());
+  CHECK(service.why_no_messages().find("1 without their ephemeris") != std::string::npos);
+  receiver.send(elements(76));
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  CHECK(messages.states.empty());
+  receiver.send(elements(77));
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  service.feed(code_bias(of_week_s), host_ns(arrival));
+  // Observations in a service's stream are not the vehicle's.
+  service.feed(msm4(1074, kOfWeek_ms), host_ns(arrival));
+  service.finish();
+  CHECK(messages.counts[Channel::kGnssEpoch] == 0);
+  CHECK(messages.counts[Channel::kEphemeris] == 2);
+  CHECK(messages.counts[Channel::kBiases] == 1);
+  REQUIRE(messages.states.size() == 1);
+  const CorrectedState& state = messages.states.front();
+  CHECK(seconds_between(state.time, arrival) == Approx(0.0).margin(1e-6));
+  CHECK(state.corrected_at == kTime);
+  CHECK(state.issue == 77);
+  const SatelliteState broadcast = broadcast_state(elements(77), state.time);
+  CHECK((broadcast.p_e - state.p_e).norm() == Approx(1.0));
+  CHECK(kSpeedOfLight * (state.clock_s - broadcast.clock_s) == Approx(0.5).margin(1e-6));
+  CHECK(service.counts().messages == 2);
+  CHECK(service.data_time()->nanoseconds == kTime.nanoseconds());
 }
 
 }  // namespace leonav
