@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include "drivers/lcm/channels.h"
@@ -54,6 +53,17 @@ void feed(const std::string& path, const std::string& prefix, const Part& part,
   }
 }
 
+[[noreturn]] void fail(const std::string& log, LogFault fault) {
+  if (fault == LogFault::kNoAttitude)
+    throw std::runtime_error(log +
+                             ": the filter has found no attitude; does it hold IMU and "
+                             "GNSS, and does the vehicle drive?");
+  throw std::runtime_error(log +
+                           ": the least squares of the whole log have no solution in numbers; "
+                           "leonav-replay shows where its data are gross, and a part of the log "
+                           "may do");
+}
+
 bool observes_any(const Finding& finding) {
   return std::ranges::any_of(finding.observed, [](bool observed) { return observed; });
 }
@@ -76,17 +86,17 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     CalibrationRun run(with_installation_states(navigator, options.prior), options.prior);
     feed(
         log, config.lcm.prefix, {}, [&](double share) { progress(kFilterShare * share); }, &run);
-    const std::optional<LogFinding> whole =
+    const LogFinding whole =
         run.solve([&](double share) { progress(kFilterShare + (1.0 - kFilterShare) * share); });
-    if (!whole)
-      throw std::runtime_error(log +
-                               ": the filter has found no attitude; does it hold IMU and "
-                               "GNSS, and does the vehicle drive?");
-    calibration.last = whole->finding;
+    if (whole.fault != LogFault::kNone) fail(log, whole.fault);
+    calibration.last = whole.finding;
     calibration.found = improved(calibration.found, calibration.last);
-    calibration.straight_s = whole->straight_s;
+    calibration.straight_s = whole.straight_s;
+    calibration.used_s = whole.used_s;
+    calibration.length_s = whole.length_s;
     calibration.learned = run.learned();
-    calibration.settled = is_settled(calibration.last);
+    calibration.converged = whole.converged;
+    calibration.settled = whole.converged && is_settled(calibration.last);
     ++calibration.passes;
   }
   install(calibration.found, &navigator);
@@ -100,9 +110,9 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
     feed(
         log, config.lcm.prefix, {from, from + 0.5},
         [&](double share) { progress(kFilterShare * share); }, &run);
-    const std::optional<LogFinding> part =
+    const LogFinding part =
         run.solve([&](double share) { progress(kFilterShare + (1.0 - kFilterShare) * share); });
-    if (part) halves[half] = part->finding;
+    if (part.fault == LogFault::kNone && part.converged) halves[half] = part.finding;
   }
   // The convergence test uses the sigmas of the last pass: those of the halves would excuse
   // changes. Quantities that are withdrawn take no part.
@@ -114,7 +124,7 @@ Calibration calibrate(const DaemonConfig& config, const std::string& log,
                              ": tells nothing of how the IMU is built in; it takes turns and "
                              "changes of speed, with carriers or good Dopplers");
   of_pass.observed = calibration.last.observed;
-  calibration.settled = is_settled(of_pass);
+  calibration.settled = calibration.converged && is_settled(of_pass);
   return calibration;
 }
 

@@ -16,9 +16,11 @@ struct Calibration {
   // difference between the two halves of the log if that is larger.
   Finding last;
   int passes = 0;
-  bool settled = false;  // by these sigmas the last pass has changed nothing that counts
+  bool converged = false;  // the least squares of the last pass
+  bool settled = false;    // they have, and by these sigmas changed nothing that counts
   std::array<bool, kQuantities> compared{};  // observed in both halves
   double straight_s = 0.0;
+  double used_s = 0.0, length_s = 0.0;  // as LogFinding, of the last pass
   bool wheeled = false;
   LearnedSummary learned;  // of the last pass
 };

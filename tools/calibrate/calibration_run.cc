@@ -58,6 +58,26 @@ int last_with_constants(const LogGraph& graph) {
   return k;
 }
 
+bool has(const ActiveStates& states, int state) {
+  return std::ranges::find(states.core, state) != states.core.end();
+}
+
+// Whether the installation at this keyframe is that of the keyframe before.
+bool carries_constants(const LogKeyframe& keyframe) {
+  return keyframe.process.exists && has(keyframe.process.rows, kSize + kLeverArm) &&
+         has(keyframe.process.columns, kSize + kLeverArm);
+}
+
+// Says which part of the log the constants at `last` are of.
+void take_length(const LogGraph& graph, int last, LogFinding* found) {
+  int begin = last, first = last;
+  while (begin > 0 && carries_constants(graph.at(begin))) --begin;
+  for (int k = 0; k < last; ++k)
+    if (graph.at(k).has_attitude) first = std::min(first, k);
+  found->used_s = seconds_between(graph.at(last).time, graph.at(begin).time);
+  found->length_s = seconds_between(graph.at(last).time, graph.at(first).time);
+}
+
 // The constants are the same at all keyframes; `covariance` is that of the core states at this one.
 void take_constants(const LogKeyframe& keyframe, const Eigen::MatrixXd& covariance,
                     const InstallationPrior& prior, bool wheeled, Finding* finding) {
@@ -178,18 +198,27 @@ void CalibrationRun::add_learned(const LearnedSummary& errors) {
   move_towards(errors.doppler, share, &learned_.doppler);
 }
 
-std::optional<LogFinding> CalibrationRun::solve(const std::function<void(double)>& progress) {
+LogFinding CalibrationRun::solve(const std::function<void(double)>& progress) {
   BatchConfig batch;
   batch.robust.enabled = false;  // the weights are the filter's
   batch.max_iterations = kIterations;
   const auto iteration_done = [&](int iteration, double share) {
     progress((iteration + share) / batch.max_iterations);
   };
-  const BatchResult result = smooth(batch, nullptr, nullptr, iteration_done, &graph_);
-  const int last = last_with_constants(graph_);
-  if (!result.solved || last < 0) return std::nullopt;
-  const bool wheeled = config_.vehicle.motion.constraints.non_holonomic;
   LogFinding found;
+  const int last = last_with_constants(graph_);
+  if (last < 0) {
+    found.fault = LogFault::kNoAttitude;
+    return found;
+  }
+  const BatchResult result = smooth(batch, nullptr, nullptr, iteration_done, &graph_);
+  if (!result.solved) {
+    found.fault = LogFault::kNoSolution;
+    return found;
+  }
+  const bool wheeled = config_.vehicle.motion.constraints.non_holonomic;
+  found.converged = result.converged;
+  take_length(graph_, last, &found);
   take_constants(graph_.at(last), result.last.covariance[static_cast<std::size_t>(last)], prior_,
                  wheeled, &found.finding);
   if (wheeled) take_lean(straight_driving(graph_, result), prior_, &found);

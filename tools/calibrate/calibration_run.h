@@ -1,7 +1,7 @@
 // CalibrationRun smooths a log with the installation among its states.
 #pragma once
+#include <cstdint>
 #include <functional>
-#include <optional>
 
 #include "core/smoother/batch/log_graph.h"
 #include "tools/calibrate/installation.h"
@@ -22,10 +22,22 @@ struct InstallationPrior {
 // are states with the prior `prior`.
 NavigatorConfig with_installation_states(NavigatorConfig config, const InstallationPrior& prior);
 
+// Why a log tells nothing of an installation.
+enum class LogFault : std::uint8_t {
+  kNone = 0,
+  kNoAttitude,  // the filter has found none
+  kNoSolution,  // the least squares have no solution in numbers
+};
+
 // What a log tells of an installation.
 struct LogFinding {
+  LogFault fault = LogFault::kNone;  // otherwise nothing else is set
   Finding finding;
+  bool converged = false;   // the last iteration of the least squares hardly moved anything
   double straight_s = 0.0;  // of straight driving, from which the lean is estimated
+  // Where the filter starts over the constants begin anew: those found are of the last used_s
+  // seconds of length_s with an attitude.
+  double used_s = 0.0, length_s = 0.0;
 };
 
 // CalibrationRun is fed with a log's messages. Then all epochs of the log are one least-squares
@@ -36,9 +48,8 @@ class CalibrationRun {
   CalibrationRun(const NavigatorConfig& config, const InstallationPrior& prior);
   void dispatch(Channel channel, ByteSpan data) { collector_.dispatch(channel, data); }
 
-  // Solves after the end of the log; `progress` gets the share done. Returns nothing where the log
-  // gives no attitude.
-  std::optional<LogFinding> solve(const std::function<void(double)>& progress);
+  // Solves after the end of the log; `progress` gets the share done.
+  LogFinding solve(const std::function<void(double)>& progress);
   // Returns the mean of what the filter has learned about the errors of codes and Dopplers.
   const LearnedSummary& learned() const { return learned_; }
 

@@ -15,20 +15,15 @@ using namespace leonav;
 Arguments declare() {
   Arguments arguments(
       "leonav-calibrate", "--config FILE [options] run.lcmlog",
-      "Finds from a recorded drive how the IMU is built in, and prints the lines for the "
-      "configuration, each\nwith its sigma: the antenna's lever arm (it takes turns; its height "
-      "takes tilting), on wheels\n(vehicle.kind car, rail) the mounting (pitch and yaw by the "
-      "direction of travel, roll as the vehicle's\nmean lean: half a degree), and how much later "
-      "than stamped the IMU measures (it takes changes of\nspeed). What the log does not "
-      "show is named. Runs the filter over the log and smooths the whole, again and again, each "
-      "time\n"
-      "with what it has found, until nothing changes. Good for mounting errors of up to 10 "
-      "degrees, "
-      "time\noffsets of up to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found "
-      "no "
-      "attitude, "
-      "nothing\n"
-      "was observed, or the passes did not settle; 2 command line.");
+      "Finds from a recorded drive how the IMU is built in, and prints the lines for the\n"
+      "configuration, each with its sigma: the antenna's lever arm (it takes turns; its height\n"
+      "takes tilting), on wheels (vehicle.kind car, rail) the mounting (pitch and yaw by the\n"
+      "direction of travel, roll as the vehicle's mean lean: half a degree), and how much later\n"
+      "than stamped the IMU measures (it takes changes of speed). What the log does not show is\n"
+      "named. Runs the filter over the log and smooths the whole, again and again, each time with\n"
+      "what it has found, until nothing changes. Good for mounting errors of up to 10 degrees and\n"
+      "time offsets of up to 0.1 s. Exit codes: 0 done; 1 a file cannot be used, the filter found\n"
+      "no attitude, nothing was observed, or the passes did not settle; 2 command line.");
   add_configuration_options(&arguments);
   arguments.option("--passes", "N", "over the log, at most", "6")
       .option("--json", "FILE", "what was found, for programs");

@@ -9,6 +9,8 @@
 namespace leonav {
 namespace {
 
+constexpr double kWhole = 0.95;  // a log of which so large a share was used counts as whole
+
 struct Row {
   Quantity quantity;
   double configured = 0.0, found = 0.0, sigma = 0.0;  // in the quantity's printed unit
@@ -89,6 +91,11 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
         << learned_errors_text("codes", calibration.learned.code)
         << learned_errors_text("Dopplers", calibration.learned.doppler);
   }
+  if (calibration.used_s < kWhole * calibration.length_s)
+    out << format(
+        "\nThe filter has started over in this log: what was found is of the last %.0f of %.0f s\n"
+        "with an attitude. leonav-replay shows when and why (events).\n",
+        calibration.used_s, calibration.length_s);
   const Installation& found = calibration.found;
   const double degree = unit_of(Quantity::kRoll);
   out << "\nvehicle:\n  lever_arm_b_m: " << vector_text(found.lever_arm_b, 1.0, 3) << "  "
@@ -100,8 +107,10 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
 }
 
 std::string json_of(const Calibration& calibration) {
-  std::string text = format("{\"passes\": %d, \"settled\": %s", calibration.passes,
-                            calibration.settled ? "true" : "false");
+  std::string text = format("{\"passes\": %d, \"settled\": %s,\n \"used s\": ", calibration.passes,
+                            calibration.settled ? "true" : "false") +
+                     json_number(calibration.used_s, 1) +
+                     ", \"with an attitude s\": " + json_number(calibration.length_s, 1);
   const auto add_learned = [&](const char* of, const ObservableErrors& errors) {
     const auto numbers = [](const LearnedError& error) {
       return "{\"sigma_factor\": " + json_number(error.sigma_factor, 3) +
