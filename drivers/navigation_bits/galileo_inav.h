@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "drivers/ubx/navigation_frame.h"
+#include "drivers/navigation_bits/navigation_frame.h"
 
 namespace leonav {
 

@@ -1,4 +1,4 @@
-#include "drivers/ubx/beidou_subframe.h"
+#include "drivers/navigation_bits/beidou_subframe.h"
 
 #include "core/base/gps_time.h"
 #include "drivers/binary/bit_field.h"

@@ -1,4 +1,4 @@
-// This unit makes a RawEpoch of the measurements of a range log.
+// This unit makes a RawEpoch of the measurements of one message.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "core/gnss/signals/observation.h"
-#include "drivers/oem7/range_measurement.h"
+#include "drivers/binary/range_measurement.h"
 
 namespace leonav {
 
 // Counts of epochs and measurements.
 struct RangeEpochCounters {
   std::uint64_t epochs = 0;
-  std::uint64_t repeated = 0;         // logs with the time of the epoch before
+  std::uint64_t repeated = 0;         // messages with the time of the epoch before
   std::uint64_t measurements = 0;     // put into epochs
   std::uint64_t other_system = 0;     // GLONASS, SBAS, QZSS, NavIC, L-band
   std::uint64_t unknown_signal = 0;   // signal without a RINEX code
@@ -28,8 +28,8 @@ struct RangeEpochCounters {
 // begun anew gets loss_of_lock.
 class RangeEpochs {
  public:
-  // Fills `epoch`, sorted; returns false for a log of the time of the epoch before, as where RANGE
-  // and RANGECMP are both logged.
+  // Fills `epoch`, sorted; returns false for a message of the time of the epoch before, as where
+  // NovAtel's RANGE and RANGECMP are both logged.
   bool assemble(GpsTime time, std::span<const RangeMeasurement> measurements, RawEpoch* epoch);
   const RangeEpochCounters& counters() const { return counters_; }
 

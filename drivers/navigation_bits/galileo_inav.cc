@@ -1,4 +1,4 @@
-#include "drivers/ubx/galileo_inav.h"
+#include "drivers/navigation_bits/galileo_inav.h"
 
 #include <numbers>
 

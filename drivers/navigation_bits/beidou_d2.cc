@@ -1,4 +1,4 @@
-#include "drivers/ubx/beidou_d2.h"
+#include "drivers/navigation_bits/beidou_d2.h"
 
 #include <numbers>
 

@@ -24,7 +24,7 @@ enum class SubframeStatus : std::uint8_t {
   kWrongSatellite,  // it names another satellite than the receiver does
 };
 
-// Source of one subframe. `now` is the time of the last RAWX.
+// Source of one subframe. `now` is the receiver's time, or that of its last epoch.
 struct SubframeOrigin {
   SatelliteId satellite;
   GpsTime now;

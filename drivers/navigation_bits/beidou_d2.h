@@ -3,8 +3,8 @@
 #pragma once
 #include <array>
 
-#include "drivers/ubx/beidou_subframe.h"
-#include "drivers/ubx/navigation_frame.h"
+#include "drivers/navigation_bits/beidou_subframe.h"
+#include "drivers/navigation_bits/navigation_frame.h"
 
 namespace leonav {
 

@@ -1,4 +1,4 @@
-#include "drivers/oem7/range_epoch.h"
+#include "drivers/binary/range_epoch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,9 +97,12 @@ bool RangeEpochs::lock_was_lost(GpsTime time, const RangeMeasurement& now, const
   if (now.lock_is_least || now.lock_time_s >= now.lock_ceiling_s) {
     return now.lock_time_s < elapsed_s;
   }
+  // Of a count that is cut off, a lock that began after the last epoch may look as old as one that
+  // began with it.
+  if (now.lock_unit_s > 0.0 && now.lock_time_s < elapsed_s) return true;
   // The count is in single precision or in steps of 1/32 s, and taken a little before or after the
   // epoch.
-  const double step_s = 0.05 + now.lock_time_s * 0x1p-22;
+  const double step_s = 0.05 + now.lock_time_s * 0x1p-22 + now.lock_unit_s;
   return now.lock_time_s - last.lock_time_s + step_s < elapsed_s;
 }
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "drivers/binary/gps_lnav_data.h"
-#include "drivers/ubx/navigation_frame.h"
+#include "drivers/navigation_bits/navigation_frame.h"
 
 namespace leonav {
 

@@ -1,4 +1,4 @@
-#include "drivers/ubx/gps_lnav.h"
+#include "drivers/navigation_bits/gps_lnav.h"
 
 #include <algorithm>
 #include <bit>

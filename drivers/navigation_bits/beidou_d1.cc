@@ -1,4 +1,4 @@
-#include "drivers/ubx/beidou_d1.h"
+#include "drivers/navigation_bits/beidou_d1.h"
 
 #include <numbers>
 

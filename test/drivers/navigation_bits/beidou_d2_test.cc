@@ -1,7 +1,7 @@
 // No geostationary satellite is in the recordings, so D2 is tested with pages encoded here. The
 // encoder places each field by the bit numbers of the interface document's figures 5-14-1 to
 // 5-14-10 (counted from 0 in the 300 bits of a subframe); the decoder reads runs instead.
-#include "drivers/ubx/beidou_d2.h"
+#include "drivers/navigation_bits/beidou_d2.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drivers/ubx/galileo_fnav.h"
+#include "drivers/navigation_bits/galileo_fnav.h"
 
 #include <algorithm>
 #include <numbers>
