@@ -21,20 +21,28 @@ std::vector<std::uint8_t> random_bytes(std::mt19937* random, std::size_t size) {
   return bytes;
 }
 
-// Blocks of every used kind with random contents, of which some have counts and lengths in front
-// that can be right.
+// A MeasEpoch whose lengths and counts are right and whose values are not.
+std::vector<std::uint8_t> random_epoch(std::mt19937* random) {
+  const std::size_t masters = (*random)() % 5;
+  std::vector<std::uint8_t> payload = {static_cast<std::uint8_t>(masters), 20, 12, 0, 0, 0};
+  for (std::size_t i = 0; i < masters; ++i) {
+    auto master = random_bytes(random, 20);
+    master[19] %= 4;
+    const auto slaves = random_bytes(random, 12u * master[19]);
+    payload.insert(payload.end(), master.begin(), master.end());
+    payload.insert(payload.end(), slaves.begin(), slaves.end());
+  }
+  return payload;
+}
+
+// Blocks of every used kind with random contents.
 std::vector<std::uint8_t> random_stream(int count) {
   std::mt19937 random(4711);
   std::vector<std::uint8_t> stream;
   for (int i = 0; i < count; ++i) {
-    auto payload = random_bytes(&random, random() % 300);
-    if (payload.size() > 6 && random() % 2 == 0) {
-      payload[0] = static_cast<std::uint8_t>(random() % 10);
-      payload[1] = static_cast<std::uint8_t>(20 + random() % 12);
-      payload[2] = static_cast<std::uint8_t>(12 + random() % 4);
-      payload[3] &= 0x7F;
-    }
     const std::uint16_t number = kUsed[random() % std::size(kUsed)];
+    const bool is_epoch = number == 4027 && random() % 2 == 0;
+    const auto payload = is_epoch ? random_epoch(&random) : random_bytes(&random, random() % 300);
     const auto time = static_cast<std::uint32_t>(test::kTime_ms + 250 * i);
     const auto block = test::block_of({number, time}, payload);
     stream.insert(stream.end(), block.begin(), block.end());
