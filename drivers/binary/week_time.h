@@ -1,5 +1,6 @@
 // This header finds full instants from times of week and truncated week numbers.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/gps_time.h"
@@ -29,6 +30,12 @@ constexpr GpsTime nearest_instant_ns(std::int64_t tow_ns, GpsTime near) {
 // Returns the same of a time of week in seconds.
 constexpr GpsTime nearest_instant(std::int64_t tow_s, GpsTime near) {
   return nearest_instant_ns(tow_s * kNanosecondsPerSecond, near);
+}
+
+// Returns the same of a time of week that may be anything; unset if there is no such time.
+inline GpsTime nearest_instant_of(double tow_s, GpsTime near) {
+  if (!(tow_s >= 0.0 && tow_s < static_cast<double>(kSecondsPerWeek))) return {};
+  return nearest_instant_ns(std::llround(tow_s * 1e9), near);
 }
 
 // Returns whether a broadcast week number can be that of `time`: the week itself or, since receiver

@@ -6,31 +6,12 @@
 #include "core/gnss/orbits/satellite_state.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/beidou_time.h"
+#include "drivers/binary/field_reader.h"
 #include "drivers/binary/gps_lnav_data.h"
-#include "drivers/binary/little_endian.h"
 #include "drivers/binary/week_time.h"
 
 namespace leonav {
 namespace {
-
-// Takes the fields of a log one after the other; the caller has checked the length.
-class Fields {
- public:
-  explicit Fields(std::span<const std::uint8_t> payload) : next_(payload.data()) {}
-
-  std::uint8_t byte() { return *next_++; }
-  std::uint32_t number() { return read_u4(step(4)); }
-  double real() { return read_r8(step(8)); }
-  void skip(std::size_t count) { next_ += count; }
-
- private:
-  const std::uint8_t* step(std::size_t count) {
-    const std::uint8_t* here = next_;
-    next_ += count;
-    return here;
-  }
-  const std::uint8_t* next_;
-};
 
 bool set_satellite(System system, std::uint32_t number, Ephemeris* e) {
   if (number > kHighestNumber[index_of(system)]) return false;
@@ -40,13 +21,6 @@ bool set_satellite(System system, std::uint32_t number, Ephemeris* e) {
 
 std::uint16_t to_u2(std::uint32_t value) {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(value, 0xFFFF));
-}
-
-// Returns the instant with a time of week in seconds that is nearest to `near`; unset if there is
-// no such time.
-GpsTime instant(double tow_s, GpsTime near) {
-  if (!(tow_s >= 0.0 && tow_s < static_cast<double>(kSecondsPerWeek))) return {};
-  return nearest_instant_ns(std::llround(tow_s * 1e9), near);
 }
 
 // Returns whether a full week is that of `time`, or a neighbour of it.
@@ -95,15 +69,15 @@ EphemerisStatus read_gpsephem(std::span<const std::uint8_t> payload, GpsTime nea
   if (payload.size() < kSize) return EphemerisStatus::kBadLength;
   Ephemeris& e = *ephemeris;
   e = {};
-  Fields f(payload);
+  FieldReader f(payload);
   if (!set_satellite(System::kGps, f.number(), &e)) return EphemerisStatus::kBadSatellite;
   e.message = NavigationMessage::kGpsLnav;
-  e.transmission_time = instant(f.real(), near);
+  e.transmission_time = nearest_instant_of(f.real(), near);
   e.health = to_u2(f.number());
   const std::uint32_t issue2 = f.number(), issue3 = f.number();
   const std::uint32_t week = f.number();
   f.skip(4);  // the week of the time of transmission
-  e.toe = instant(f.real(), near);
+  e.toe = nearest_instant_of(f.real(), near);
   e.sqrt_a = std::sqrt(f.real());
   e.delta_n = f.real();
   e.m0 = f.real();
@@ -120,7 +94,7 @@ EphemerisStatus read_gpsephem(std::span<const std::uint8_t> payload, GpsTime nea
   e.omega0 = f.real();
   e.omega_dot = f.real();
   const std::uint32_t issue_clock = f.number();
-  e.toc = instant(f.real(), near);
+  e.toc = nearest_instant_of(f.real(), near);
   e.group_delay_s[0] = f.real();
   e.af0 = f.real();
   e.af1 = f.real();
@@ -144,7 +118,7 @@ EphemerisStatus read_bdsephemeris(std::span<const std::uint8_t> payload, GpsTime
   if (payload.size() < kSize) return EphemerisStatus::kBadLength;
   Ephemeris& e = *ephemeris;
   e = {};
-  Fields f(payload);
+  FieldReader f(payload);
   if (!set_satellite(System::kBeidou, f.number(), &e)) return EphemerisStatus::kBadSatellite;
   e.message = is_beidou_geostationary(e.satellite) ? NavigationMessage::kBeidouD2
                                                    : NavigationMessage::kBeidouD1;
@@ -191,7 +165,7 @@ EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime
   constexpr std::size_t kSize = 220;
   if (payload.size() < kSize) return EphemerisStatus::kBadLength;
   Ephemeris e;
-  Fields f(payload);
+  FieldReader f(payload);
   if (!set_satellite(System::kGalileo, f.number(), &e)) return EphemerisStatus::kBadSatellite;
   e.transmission_time = near;
   const bool has_fnav = f.number() != 0, has_inav = f.number() != 0;
@@ -201,7 +175,7 @@ EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime
   e.accuracy_m = galileo_sisa_m(f.byte());
   f.skip(1);
   e.issue = to_u2(f.number());
-  e.toe = instant(f.number(), near);
+  e.toe = nearest_instant_of(f.number(), near);
   e.sqrt_a = f.real();
   e.delta_n = f.real();
   e.m0 = f.real();
@@ -218,7 +192,7 @@ EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime
   e.omega0 = f.real();
   e.omega_dot = f.real();
   const auto read_clock = [&f, near](Ephemeris* set) {
-    set->toc = instant(f.number(), near);
+    set->toc = nearest_instant_of(f.number(), near);
     set->af0 = f.real();
     set->af1 = f.real();
     set->af2 = f.real();
@@ -248,7 +222,7 @@ EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime
 std::optional<KlobucharModel> read_ionutc(std::span<const std::uint8_t> payload) {
   constexpr std::size_t kCoefficients = 8;
   if (payload.size() < kCoefficients * sizeof(double)) return std::nullopt;
-  Fields f(payload);
+  FieldReader f(payload);
   KlobucharModel model;
   for (double& alpha : model.alpha) alpha = f.real();
   for (double& beta : model.beta) beta = f.real();

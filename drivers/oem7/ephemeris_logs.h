@@ -6,19 +6,9 @@
 #include <span>
 
 #include "core/gnss/orbits/ephemeris.h"
+#include "drivers/binary/ephemeris_status.h"
 
 namespace leonav {
-
-// Outcome of one log.
-enum class EphemerisStatus : std::uint8_t {
-  kOk = 0,
-  kBadLength,     // shorter than its fields
-  kBadSatellite,  // number outside its system's range
-  kBadTime,       // reference time beyond the end of the week
-  kBadWeek,       // its week contradicts the receiver's
-  kBadSubframes,  // not subframes 1 to 3 of one issue
-  kNotSane,       // elements outside physical bounds
-};
 
 // Each function reads the payload of one log. Times of week are completed to the instants nearest
 // to `near`, with which a week in the log must agree. Precondition: `near` is set.

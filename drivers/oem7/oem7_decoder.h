@@ -10,8 +10,8 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/range_epoch.h"
 #include "drivers/oem7/oem7_framer.h"
-#include "drivers/oem7/range_epoch.h"
 #include "drivers/oem7/raw_imu.h"
 
 namespace leonav {

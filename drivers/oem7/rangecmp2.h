@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/oem7/range_measurement.h"
+#include "drivers/binary/range_measurement.h"
 
 namespace leonav {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/gps_time.h"
+#include "drivers/binary/range_measurement.h"
 #include "drivers/oem7/low_bit_reader.h"
-#include "drivers/oem7/range_measurement.h"
 
 namespace leonav {
 

@@ -2,14 +2,7 @@
 
 #include <array>
 
-#include "core/gnss/orbits/satellite_state.h"
 #include "drivers/binary/little_endian.h"
-#include "drivers/binary/reported_ephemerides.h"
-#include "drivers/ubx/beidou_d1.h"
-#include "drivers/ubx/beidou_d2.h"
-#include "drivers/ubx/galileo_fnav.h"
-#include "drivers/ubx/galileo_inav.h"
-#include "drivers/ubx/gps_lnav.h"
 #include "drivers/ubx/ubx_signal.h"
 
 namespace leonav {
@@ -18,143 +11,76 @@ namespace {
 constexpr std::size_t kHeaderSize = 8;
 constexpr std::uint8_t kVersion = 2;
 constexpr std::size_t kMaxWords = 19;  // BeiDou B-CNAV1, the longest there is
-constexpr std::size_t kSatellites = 64;
 
 using Words = std::span<const std::uint32_t>;
 
 }  // namespace
 
-// There is one collector per satellite and message; a satellite number is below kSatellites.
-struct RxmSfrbxDecoder::State {
-  std::array<GpsLnav, kSatellites> gps_lnav;
-  std::array<GalileoInav, kSatellites> galileo_inav;
-  std::array<GalileoFnav, kSatellites> galileo_fnav;
-  std::array<BeidouD1, kSatellites> beidou_d1;
-  std::array<BeidouD2, kSatellites> beidou_d2;
-  ReportedEphemerides reported;
-
-  SubframeStatus add_gps(std::uint8_t signal_id, Words words, const SubframeOrigin& origin,
-                         NavigationUpdate* update);
-  SubframeStatus add_galileo(std::uint8_t signal_id, Words words, const SubframeOrigin& origin,
-                             NavigationUpdate* update);
-  SubframeStatus add_beidou(std::uint8_t signal_id, Words words, const SubframeOrigin& origin,
-                            NavigationUpdate* update);
-};
-
-SubframeStatus RxmSfrbxDecoder::State::add_gps(std::uint8_t signal_id, Words words,
-                                               const SubframeOrigin& origin,
-                                               NavigationUpdate* update) {
-  // L2C and L5 carry CNAV.
-  if (signal_id != 0 || words.size() != GpsLnav::kWords) return SubframeStatus::kOtherMessage;
-  return gps_lnav[origin.satellite.number].add(words.first<GpsLnav::kWords>(), origin, update);
-}
-
-SubframeStatus RxmSfrbxDecoder::State::add_galileo(std::uint8_t signal_id, Words words,
-                                                   const SubframeOrigin& origin,
-                                                   NavigationUpdate* update) {
-  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5;
-  const std::size_t number = origin.satellite.number;
-  if ((signal_id == kE1B || signal_id == kE5bI) && words.size() == GalileoInav::kWords) {
-    return galileo_inav[number].add(words.first<GalileoInav::kWords>(), origin, update);
-  }
-  if (signal_id == kE5aI && words.size() == GalileoFnav::kWords) {
-    return galileo_fnav[number].add(words.first<GalileoFnav::kWords>(), origin, update);
-  }
-  return SubframeStatus::kOtherMessage;  // E6-B: the high accuracy service
-}
-
-SubframeStatus RxmSfrbxDecoder::State::add_beidou(std::uint8_t signal_id, Words words,
-                                                  const SubframeOrigin& origin,
-                                                  NavigationUpdate* update) {
-  // B1C and B2a (5 to 8) carry B-CNAV. B1I, B2I and B3I carry D1 or D2, by the satellite's orbit.
-  const bool is_d1_or_d2 = signal_id <= 4 || signal_id == 10;
-  if (!is_d1_or_d2 || words.size() != kBeidouWords) return SubframeStatus::kOtherMessage;
-  const std::size_t number = origin.satellite.number;
-  const auto ten = words.first<kBeidouWords>();
-  return is_beidou_geostationary(origin.satellite) ? beidou_d2[number].add(ten, origin, update)
-                                                   : beidou_d1[number].add(ten, origin, update);
-}
-
-RxmSfrbxDecoder::RxmSfrbxDecoder() : state_(std::make_unique<State>()) {}
+RxmSfrbxDecoder::RxmSfrbxDecoder() : collector_(std::make_unique<NavigationCollector>()) {}
 RxmSfrbxDecoder::~RxmSfrbxDecoder() = default;
 
 NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, GpsTime now) {
-  NavigationUpdate update;
   if (payload.size() < kHeaderSize || payload[4] > kMaxWords ||
       payload.size() != kHeaderSize + payload[4] * sizeof(std::uint32_t)) {
     ++counters_.bad_length;
-    return update;
+    return {};
   }
   if (payload[6] != kVersion) {
     ++counters_.bad_version;
-    return update;
+    return {};
   }
   const std::optional<System> system = system_from_ubx(payload[0]);
   if (!system) {
     ++counters_.other_system;
-    return update;
+    return {};
   }
   const SubframeOrigin origin{{*system, payload[1]}, now};
-  if (!is_valid(origin.satellite) || origin.satellite.number >= kSatellites) {
+  if (!is_valid(origin.satellite) || origin.satellite.number >= NavigationCollector::kSatellites) {
     ++counters_.bad_satellite;
-    return update;
+    return {};
   }
   if (!now.is_set()) {
     ++counters_.without_time;
-    return update;
+    return {};
   }
   std::array<std::uint32_t, kMaxWords> buffer{};
   for (std::size_t i = 0; i < payload[4]; ++i) {
     buffer[i] = read_u4(payload.data() + kHeaderSize + i * sizeof(std::uint32_t));
   }
-  count(add(payload[2], Words(buffer).first(payload[4]), origin, &update));
-  if (update.ephemeris && !is_new_issue(*update.ephemeris)) update.ephemeris.reset();
-  return update;
+  return add(payload[2], Words(buffer).first(payload[4]), origin);
 }
 
-SubframeStatus RxmSfrbxDecoder::add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
-                                    const SubframeOrigin& origin, NavigationUpdate* update) {
+NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
+                                      const SubframeOrigin& origin) {
+  constexpr std::uint8_t kL1Ca = 0;                       // L2C and L5 carry CNAV
+  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5;  // E6-B: the high accuracy service
   switch (origin.satellite.system) {
     case System::kGps:
-      return state_->add_gps(signal_id, words, origin, update);
+      if (signal_id != kL1Ca || words.size() != GpsLnav::kWords) break;
+      return collector_->add_gps_lnav(words.first<GpsLnav::kWords>(), origin);
     case System::kGalileo:
-      return state_->add_galileo(signal_id, words, origin, update);
-    case System::kBeidou:
-      return state_->add_beidou(signal_id, words, origin, update);
+      if ((signal_id == kE1B || signal_id == kE5bI) && words.size() == GalileoInav::kWords) {
+        return collector_->add_galileo_inav(words.first<GalileoInav::kWords>(), origin);
+      }
+      if (signal_id != kE5aI || words.size() != GalileoFnav::kWords) break;
+      return collector_->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
+    case System::kBeidou: {
+      // B1C and B2a (5 to 8) carry B-CNAV. B1I, B2I and B3I carry D1 or D2.
+      const bool is_d1_or_d2 = signal_id <= 4 || signal_id == 10;
+      if (!is_d1_or_d2 || words.size() != kBeidouWords) break;
+      return collector_->add_beidou(words.first<kBeidouWords>(), origin);
+    }
     case System::kLeo:
       break;
   }
-  return SubframeStatus::kOtherMessage;
+  collector_->count_other_message();
+  return {};
 }
 
-void RxmSfrbxDecoder::count(SubframeStatus status) {
-  switch (status) {
-    case SubframeStatus::kUsed:
-      ++counters_.subframes;
-      break;
-    case SubframeStatus::kOtherMessage:
-      ++counters_.other_message;
-      break;
-    case SubframeStatus::kBadParity:
-      ++counters_.bad_parity;
-      break;
-    case SubframeStatus::kBadWeek:
-      ++counters_.bad_week;
-      break;
-    case SubframeStatus::kWrongSatellite:
-      ++counters_.wrong_satellite;
-      break;
-  }
-}
-
-bool RxmSfrbxDecoder::is_new_issue(const Ephemeris& ephemeris) {
-  if (!is_sane(ephemeris)) {
-    ++counters_.not_sane;
-    return false;
-  }
-  if (!state_->reported.is_new(ephemeris)) return false;
-  ++counters_.ephemerides;
-  return true;
+RxmSfrbxCounters RxmSfrbxDecoder::counters() const {
+  RxmSfrbxCounters counters = counters_;
+  static_cast<NavigationCounters&>(counters) = collector_->counters();
+  return counters;
 }
 
 }  // namespace leonav

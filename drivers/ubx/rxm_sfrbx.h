@@ -5,24 +5,17 @@
 #include <memory>
 #include <span>
 
-#include "drivers/ubx/navigation_frame.h"
+#include "drivers/navigation_bits/navigation_collector.h"
 
 namespace leonav {
 
 // Counts of subframes and ephemerides.
-struct RxmSfrbxCounters {
-  std::uint64_t subframes = 0;  // understood and used
+struct RxmSfrbxCounters : NavigationCounters {
   std::uint64_t bad_length = 0;
   std::uint64_t bad_version = 0;
   std::uint64_t bad_satellite = 0;
-  std::uint64_t other_system = 0;   // SBAS, QZSS, GLONASS, IMES, NavIC
-  std::uint64_t other_message = 0;  // a navigation message leonav does not read (CNAV, B-CNAV, ...)
-  std::uint64_t bad_parity = 0;     // parity or CRC wrong, or the fixed bits are not there
-  std::uint64_t bad_week = 0;       // its week number contradicts the receiver's
-  std::uint64_t wrong_satellite = 0;  // it names another satellite than the receiver does
-  std::uint64_t without_time = 0;     // received before a RAWX had given the week
-  std::uint64_t not_sane = 0;         // decoded elements outside physical bounds
-  std::uint64_t ephemerides = 0;
+  std::uint64_t other_system = 0;  // SBAS, QZSS, GLONASS, IMES, NavIC
+  std::uint64_t without_time = 0;  // received before a RAWX had given the week
 };
 
 // The decoder collects the subframes of every satellite. It reports an ephemeris when it is
@@ -34,17 +27,14 @@ class RxmSfrbxDecoder {
   // Takes one message. `now` is the time of the last RAWX, which completes truncated week numbers;
   // unset if there was none.
   NavigationUpdate decode(std::span<const std::uint8_t> payload, GpsTime now);
-  const RxmSfrbxCounters& counters() const { return counters_; }
+  RxmSfrbxCounters counters() const;
 
  private:
-  SubframeStatus add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
-                     const SubframeOrigin& origin, NavigationUpdate* update);
-  void count(SubframeStatus status);
-  bool is_new_issue(const Ephemeris& ephemeris);
+  NavigationUpdate add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
+                       const SubframeOrigin& origin);
 
-  struct State;
-  RxmSfrbxCounters counters_;
-  std::unique_ptr<State> state_;
+  RxmSfrbxCounters counters_;  // without the collector's part
+  std::unique_ptr<NavigationCollector> collector_;
 };
 
 }  // namespace leonav

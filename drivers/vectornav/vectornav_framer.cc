@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "drivers/vectornav/crc16.h"
+#include "drivers/binary/crc16.h"
 
 namespace leonav {
 namespace {

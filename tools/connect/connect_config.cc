@@ -18,7 +18,7 @@ bool is_receiver(const StreamConfig& stream) {
   return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kImuLine;
 }
 bool is_inertial(const StreamConfig& stream) {
-  return !is_receiver(stream) || stream.oem7.is_inertial;
+  return !is_receiver(stream) || stream.oem7.is_inertial || stream.is_sbf_inertial;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -43,7 +43,7 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
                                "leonav-connect once for each, with another lcm.prefix"
                              : "two inertial sensors would publish on one channel, IMU; run "
                                "leonav-connect once for each, with another lcm.prefix, or leave "
-                               "out 'inertial: true' of a stream of format oem7");
+                               "out 'inertial: true' of a receiver's stream");
   }
   if (inputs > 1) root.fail("streams", "only one can be read from standard input");
 }
@@ -71,6 +71,8 @@ const char* name_of(FormatKind format) {
       return "rtcm3";
     case FormatKind::kOem7:
       return "oem7";
+    case FormatKind::kSbf:
+      return "sbf";
     case FormatKind::kVectornav:
       return "vectornav";
     case FormatKind::kImuLine:

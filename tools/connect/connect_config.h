@@ -13,15 +13,16 @@
 
 namespace leonav {
 
-enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kVectornav, kImuLine };
+enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kSbf, kVectornav, kImuLine };
 
 struct StreamConfig {
   std::string name;
   SourceOptions source;
   FormatKind format = FormatKind::kUbx;
-  LineLayout line;          // of kImuLine
-  Oem7StreamOptions oem7;   // of kOem7
-  ImuStampOptions stamps;   // of inertial sensors
+  LineLayout line;               // of kImuLine
+  Oem7StreamOptions oem7;        // of kOem7
+  bool is_sbf_inertial = false;  // of kSbf: samples of its inertial sensor are published
+  ImuStampOptions stamps;        // of inertial sensors
   double repeat_s = 30.0;   // of a receiver: an ephemeris is sent again after so long; 0: never
   GpsTime day;              // of kRtcm3 from a file: noon of the day it was recorded
   bool is_service = false;  // of kRtcm3: corrections, no receiver

@@ -17,6 +17,7 @@
 #include "tools/connect/formats/message_output.h"
 #include "tools/connect/formats/oem7_format.h"
 #include "tools/connect/formats/rtcm3_format.h"
+#include "tools/connect/formats/sbf_format.h"
 #include "tools/connect/formats/ubx_format.h"
 #include "tools/connect/formats/vectornav_format.h"
 #include "tools/connect/stream.h"
@@ -101,6 +102,9 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
     case FormatKind::kOem7:
       return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
                                           &output);
+    case FormatKind::kSbf:
+      return std::make_unique<SbfFormat>(stream.is_sbf_inertial, config.gnss_latency_s,
+                                         stream.repeat_s, &gps, &output, &corrections);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
     case FormatKind::kImuLine:

@@ -130,6 +130,7 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
                            {{"ubx", FormatKind::kUbx},
                             {"rtcm3", FormatKind::kRtcm3},
                             {"oem7", FormatKind::kOem7},
+                            {"sbf", FormatKind::kSbf},
                             {"vectornav", FormatKind::kVectornav},
                             {"imu_line", FormatKind::kImuLine}},
                            &stream->format);
@@ -149,8 +150,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
     group.boolean("corrections", &stream->is_service);
   }
   if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
+  if (stream->format == FormatKind::kSbf) group.boolean("inertial", &stream->is_sbf_inertial);
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
-      stream->format == FormatKind::kOem7) {
+      stream->format == FormatKind::kOem7 || stream->format == FormatKind::kSbf) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
   } else {
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);

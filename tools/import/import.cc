@@ -22,6 +22,7 @@
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
+#include "tools/import/internal/sbf_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
 
@@ -130,7 +131,7 @@ void Import::warn_of_missing() {
   if (dataset_.navigation.empty() && dataset_.orbits.empty()) {
     warn(
         "no navigation and no orbits: unless the observations bring ephemerides (.ubx, .oem7, "
-        ".rtcm3), "
+        ".sbf, .rtcm3), "
         "no satellite has a position and there will be no solution");
   } else if (dataset_.navigation.empty()) {
     warn(
@@ -221,9 +222,10 @@ void Import::load_clocks(GpsTime start) {
   }
 }
 
-// Returns the samples of an imu.csv or of a NovAtel file.
+// Returns the samples of an imu.csv, or of a file of a NovAtel or Septentrio receiver.
 std::vector<ImuSample> Import::read_imu(const std::string& path) {
   if (has_oem7_name(path)) return read_oem7_imu(path, dataset_.imu_scale, &report_);
+  if (has_sbf_name(path)) return read_sbf_imu(path, &report_);
   ImuCsv csv = read_imu_csv(path);
   const bool located = !csv.report.problems.empty();
   report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "drivers/vectornav/crc16.h"
+#include "drivers/binary/crc16.h"
 #include "support/catch.h"
 
 namespace leonav {

@@ -66,6 +66,22 @@ TEST_CASE("A NovAtel stream is a receiver, and an inertial sensor where that is 
   CHECK_THROWS_AS(load(stream(receiver + ", inertial: true") + other), ConfigError);
 }
 
+TEST_CASE("A Septentrio stream is a receiver, and an inertial sensor where that is asked for",
+          "[connect]") {
+  const std::string receiver = "name: x5, source: tcp, host: x5, port: 28785, format: sbf";
+  const StreamConfig plain = load(stream(receiver)).streams.at(0);
+  CHECK(plain.format == FormatKind::kSbf);
+  CHECK(std::string(name_of(plain.format)) == "sbf");
+  CHECK_FALSE(plain.is_sbf_inertial);
+  CHECK(load(stream(receiver + ", inertial: true")).streams.at(0).is_sbf_inertial);
+  CHECK(load(stream(receiver + ", repeat_ephemerides_s: 5")).streams.at(0).repeat_s == 5.0);
+  CHECK_THROWS_AS(load(stream(receiver + ", latency_ms: 5")), ConfigError);
+  CHECK_THROWS_AS(load(stream(receiver + ", imu_scale: [1e-9, 2e-8]")), ConfigError);
+  const std::string other = "  - {name: imu, source: stdin, format: vectornav}\n";
+  CHECK(load(stream(receiver) + other).streams.size() == 2);
+  CHECK_THROWS_AS(load(stream(receiver + ", inertial: true") + other), ConfigError);
+}
+
 TEST_CASE("A sensor that writes text is described by columns, units and axes", "[connect]") {
   const ConnectConfig config = load(
       stream("name: imu, source: tcp, host: sensor, port: 4001, format: imu_line, latency_ms: 2,"

@@ -8,6 +8,7 @@
 #include "drivers/ubx/ubx_file_reader.h"
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
+#include "tools/import/internal/sbf_file.h"
 
 namespace leonav {
 namespace {
@@ -99,6 +100,7 @@ bool has_ending(const std::string& path, std::string_view lower_case_ending) {
 std::unique_ptr<ObservationFile> open_observation_file(const std::string& path, GpsTime date) {
   if (has_ending(path, ".ubx")) return std::make_unique<UbxFile>(path);
   if (has_oem7_name(path)) return std::make_unique<Oem7File>(path);
+  if (has_sbf_name(path)) return std::make_unique<SbfFile>(path);
   if (has_rtcm3_name(path)) return std::make_unique<Rtcm3File>(path, date);
   return std::make_unique<RinexFile>(path);
 }

@@ -24,10 +24,10 @@ class ObservationFile {
   virtual void report(const std::string& path, ImportReport* report) const = 0;
 };
 
-// Opens a file in the format that the end of its name tells: .ubx, .oem7 or .gps (NovAtel),
-// .rtcm3 or .rtcm, otherwise RINEX. `date` is that of the dataset; unset: not given. Throws
-// FileError for a file that cannot be opened, and for one whose messages lack the week where no
-// date is given.
+// Opens a file in the format that the end of its name tells: .ubx, .oem7 or .gps (NovAtel), .sbf
+// (Septentrio), .rtcm3 or .rtcm, otherwise RINEX. `date` is that of the dataset; unset: not given.
+// Throws FileError for a file that cannot be opened, and for one whose messages lack the week where
+// no date is given.
 std::unique_ptr<ObservationFile> open_observation_file(const std::string& path, GpsTime date);
 
 // Returns whether a file name ends so, in upper or lower case.

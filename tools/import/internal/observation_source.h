@@ -9,12 +9,12 @@
 
 namespace leonav {
 
-// RINEX, .ubx, .oem7, .gps (NovAtel), .rtcm3 and .rtcm files are read one after the other, and
-// epochs come in strictly increasing time.
+// RINEX, .ubx, .oem7, .gps (NovAtel), .sbf (Septentrio), .rtcm3 and .rtcm files are read one after
+// the other, and epochs come in strictly increasing time.
 //
 // An epoch whose time contradicts those around it, in its file or the next, is counted and left
-// out, and its losses of lock are passed on. UBX, NovAtel and RTCM 3 files also give the navigation
-// data they hold, in the order of the file.
+// out, and its losses of lock are passed on. UBX, NovAtel, Septentrio and RTCM 3 files also give
+// the navigation data they hold, in the order of the file.
 class ObservationSource {
  public:
   // `report` gets what the files leave out, file by file, and must outlive this object.

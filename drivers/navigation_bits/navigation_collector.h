@@ -1,0 +1,66 @@
+// The NavigationCollector makes ephemerides of the subframes of all satellites, whatever format a
+// receiver hands them out in.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "drivers/binary/reported_ephemerides.h"
+#include "drivers/navigation_bits/beidou_d1.h"
+#include "drivers/navigation_bits/beidou_d2.h"
+#include "drivers/navigation_bits/galileo_fnav.h"
+#include "drivers/navigation_bits/galileo_inav.h"
+#include "drivers/navigation_bits/gps_lnav.h"
+#include "drivers/navigation_bits/navigation_frame.h"
+
+namespace leonav {
+
+// Counts of subframes and ephemerides.
+struct NavigationCounters {
+  std::uint64_t subframes = 0;      // understood and used
+  std::uint64_t other_message = 0;  // a navigation message leonav does not read (CNAV, B-CNAV, ...)
+  std::uint64_t bad_parity = 0;     // parity or CRC wrong, or the fixed bits are not there
+  std::uint64_t bad_week = 0;       // its week number contradicts the receiver's
+  std::uint64_t wrong_satellite = 0;  // it names another satellite than the receiver does
+  std::uint64_t not_sane = 0;         // decoded elements outside physical bounds
+  std::uint64_t ephemerides = 0;
+};
+
+// There is one collector per satellite and message. An ephemeris is given when it is complete and
+// differs from the last one given for its satellite and message. Precondition of every function:
+// the satellite's number is below kSatellites.
+class NavigationCollector {
+ public:
+  static constexpr std::size_t kSatellites = 64;
+
+  NavigationUpdate add_gps_lnav(std::span<const std::uint32_t, GpsLnav::kWords> words,
+                                const SubframeOrigin& origin);
+  NavigationUpdate add_galileo_inav(std::span<const std::uint32_t, GalileoInav::kWords> words,
+                                    const SubframeOrigin& origin);
+  NavigationUpdate add_galileo_fnav(std::span<const std::uint32_t, GalileoFnav::kWords> words,
+                                    const SubframeOrigin& origin);
+  // D1 or D2, by the satellite's orbit.
+  NavigationUpdate add_beidou(std::span<const std::uint32_t, kBeidouWords> words,
+                              const SubframeOrigin& origin);
+  void count_other_message() { ++counters_.other_message; }
+  // Returns whether a set that the receiver itself has decoded is sane and a new one; counts it.
+  bool take_decoded(const Ephemeris& ephemeris) { return is_new_issue(ephemeris); }
+
+  const NavigationCounters& counters() const { return counters_; }
+
+ private:
+  NavigationUpdate finish(SubframeStatus status, NavigationUpdate update);
+  void count(SubframeStatus status);
+  bool is_new_issue(const Ephemeris& ephemeris);
+
+  NavigationCounters counters_;
+  std::array<GpsLnav, kSatellites> gps_lnav_;
+  std::array<GalileoInav, kSatellites> galileo_inav_;
+  std::array<GalileoFnav, kSatellites> galileo_fnav_;
+  std::array<BeidouD1, kSatellites> beidou_d1_;
+  std::array<BeidouD2, kSatellites> beidou_d2_;
+  ReportedEphemerides reported_;
+};
+
+}  // namespace leonav

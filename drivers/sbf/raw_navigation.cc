@@ -1,0 +1,131 @@
+#include "drivers/sbf/raw_navigation.h"
+
+#include "drivers/binary/bit_field.h"
+#include "drivers/binary/little_endian.h"
+#include "drivers/sbf/sbf_signal.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023, kBdsRaw = 4047;
+// Satellite, result of the receiver's check, errors, signal, frequency, channel.
+constexpr std::size_t kHeadSize = 6;
+constexpr std::size_t kMaxWords = 10;
+
+System system_of(std::uint16_t number) {
+  if (number == kGpsRawCa) return System::kGps;
+  return number == kBdsRaw ? System::kBeidou : System::kGalileo;
+}
+
+std::size_t words_of(std::uint16_t number) {
+  return system_of(number) == System::kGalileo ? GalileoInav::kWords : kMaxWords;
+}
+
+template <std::size_t kCount>
+std::array<std::uint8_t, 4 * kCount> bytes_of(std::span<const std::uint32_t, kCount> words) {
+  BitWriter<4 * kCount> writer;
+  for (const std::uint32_t word : words) writer.put(word, 32);
+  return writer.bytes();
+}
+
+void copy_bits(BitReader* from, int count, auto* to) {
+  for (int i = 0; i < count; ++i) to->put(from->take(1), 1);
+}
+
+}  // namespace
+
+std::array<std::uint32_t, GpsLnav::kWords> gps_words(
+    std::span<const std::uint32_t, GpsLnav::kWords> words) {
+  constexpr std::uint32_t kThirtyBits = 0x3FFFFFFF;
+  std::array<std::uint32_t, GpsLnav::kWords> result{};
+  std::uint32_t before = 0;  // the last word of a subframe ends in two zeros
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::uint32_t d29_and_d30 = ((before >> 1) ^ before) & 1u;
+    result[i] = (d29_and_d30 << 31) | (words[i] & kThirtyBits);
+    before = words[i];
+  }
+  return result;
+}
+
+std::array<std::uint32_t, GalileoInav::kWords> galileo_inav_words(
+    std::span<const std::uint32_t, GalileoInav::kWords> words) {
+  constexpr int kEvenBits = 114, kOddBits = 120, kHalf = 128;
+  const auto bytes = bytes_of(words);
+  BitReader reader(bytes);
+  BitWriter<32> writer;
+  copy_bits(&reader, kEvenBits, &writer);
+  for (int i = kEvenBits; i < kHalf; ++i) writer.put(0, 1);
+  copy_bits(&reader, kOddBits, &writer);
+  BitReader page(writer.bytes());
+  std::array<std::uint32_t, GalileoInav::kWords> result{};
+  for (std::uint32_t& word : result) word = page.take(32);
+  return result;
+}
+
+std::array<std::uint32_t, kBeidouWords> beidou_words(
+    std::span<const std::uint32_t, kBeidouWords> words) {
+  const auto bytes = bytes_of(words);
+  BitReader reader(bytes);
+  std::array<std::uint32_t, kBeidouWords> result{};
+  for (std::uint32_t& word : result) word = reader.take(30);
+  return result;
+}
+
+bool RawNavigationReader::is_raw_navigation(std::uint16_t number) {
+  return number == kGpsRawCa || number == kGalRawFnav || number == kGalRawInav || number == kBdsRaw;
+}
+
+bool RawNavigationReader::has(const Ephemeris& ephemeris) const {
+  return has_[static_cast<std::size_t>(ephemeris.message)][ephemeris.satellite.number];
+}
+
+NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
+                                           std::span<const std::uint8_t> payload,
+                                           NavigationCollector* collector) {
+  if (payload.size() < kHeadSize + words_of(number) * sizeof(std::uint32_t)) {
+    ++counters_.bad_length;
+    return {};
+  }
+  const std::optional<SatelliteId> satellite = satellite_from_sbf(payload[0]);
+  if (!satellite || satellite->system != system_of(number) || !is_valid(*satellite)) {
+    ++counters_.bad_satellite;
+    return {};
+  }
+  if (!time.is_set()) {
+    ++counters_.without_time;
+    return {};
+  }
+  if (payload[1] == 0) {
+    ++counters_.crc_failed;
+    return {};
+  }
+  const NavigationUpdate update =
+      add(number, payload.subspan(kHeadSize), {*satellite, time}, collector);
+  if (update.ephemeris) {
+    has_[static_cast<std::size_t>(update.ephemeris->message)].set(satellite->number);
+  }
+  return update;
+}
+
+NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const std::uint8_t> bits,
+                                          const SubframeOrigin& origin,
+                                          NavigationCollector* collector) const {
+  std::array<std::uint32_t, kMaxWords> buffer{};
+  for (std::size_t i = 0; i < words_of(number); ++i) {
+    buffer[i] = read_u4(bits.data() + i * sizeof(std::uint32_t));
+  }
+  const std::span<const std::uint32_t, kMaxWords> words(buffer);
+  switch (number) {
+    case kGpsRawCa:
+      return collector->add_gps_lnav(gps_words(words), origin);
+    case kGalRawInav:
+      return collector->add_galileo_inav(galileo_inav_words(words.first<GalileoInav::kWords>()),
+                                         origin);
+    case kGalRawFnav:
+      return collector->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
+    default:
+      return collector->add_beidou(beidou_words(words), origin);
+  }
+}
+
+}  // namespace leonav

@@ -1,0 +1,59 @@
+// This unit reads the blocks with raw navigation bits: GPSRawCA (4017), GALRawFNAV (4022),
+// GALRawINAV (4023) and BDSRaw (4047). Source: mosaic-X5 Reference Guide, chapters of these names.
+#pragma once
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/gps_time.h"
+#include "drivers/navigation_bits/navigation_collector.h"
+
+namespace leonav {
+
+// Counts of blocks that gave no subframe.
+struct RawNavigationCounters {
+  std::uint64_t bad_length = 0;
+  std::uint64_t bad_satellite = 0;
+  std::uint64_t without_time = 0;  // the receiver did not know the time
+  std::uint64_t crc_failed = 0;    // by the receiver's own check
+};
+
+// The reader turns the bits of a block into the words that the collector takes.
+class RawNavigationReader {
+ public:
+  static bool is_raw_navigation(std::uint16_t number);
+  // Precondition: is_raw_navigation(number).
+  NavigationUpdate read(std::uint16_t number, GpsTime time, std::span<const std::uint8_t> payload,
+                        NavigationCollector* collector);
+  // Returns whether a set of this satellite and message was made of bits, so that what the receiver
+  // itself has decoded of it is not needed.
+  bool has(const Ephemeris& ephemeris) const;
+  const RawNavigationCounters& counters() const { return counters_; }
+
+ private:
+  static constexpr std::size_t kMessages = 5;  // values of NavigationMessage
+
+  NavigationUpdate add(std::uint16_t number, std::span<const std::uint8_t> bits,
+                       const SubframeOrigin& origin, NavigationCollector* collector) const;
+
+  std::array<std::bitset<NavigationCollector::kSatellites>, kMessages> has_;
+  RawNavigationCounters counters_;
+};
+
+// Return the collector's words of the words of a block. They share no sequence of their own: each
+// has 30 bits of GPS and BeiDou, right-aligned, or is a page of Galileo, left-aligned.
+//
+// GPS: the receiver gives data bits upright and each parity bit with D30* of the word before, so
+// that D29 xor D30 of that word, D29* xor D30*, is what a parity bit may still depend on.
+std::array<std::uint32_t, GpsLnav::kWords> gps_words(
+    std::span<const std::uint32_t, GpsLnav::kWords> words);
+// Galileo I/NAV: 114 bits of the even part, without its tail, and 120 of the odd one.
+std::array<std::uint32_t, GalileoInav::kWords> galileo_inav_words(
+    std::span<const std::uint32_t, GalileoInav::kWords> words);
+// BeiDou: 300 bits in a row.
+std::array<std::uint32_t, kBeidouWords> beidou_words(
+    std::span<const std::uint32_t, kBeidouWords> words);
+
+}  // namespace leonav

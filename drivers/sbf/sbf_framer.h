@@ -1,0 +1,69 @@
+// This unit finds SBF blocks in a stream of bytes by sync bytes, length and CRC-16. Source:
+// mosaic-X5 Reference Guide, "SBF Outline".
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/gps_time.h"
+
+namespace leonav {
+
+// A framed block with a good checksum; `payload` is valid until the framer is used again.
+struct SbfBlock {
+  std::uint16_t number = 0;  // 13 bits, without the revision
+  GpsTime time;              // its time stamp; unset while the receiver does not know it
+  std::span<const std::uint8_t> payload;  // behind the time stamp, with the padding at its end
+};
+
+// Counts of blocks and of bytes between them.
+struct SbfFramerCounters {
+  std::uint64_t blocks = 0;         // framed, checksum good
+  std::uint64_t bytes_skipped = 0;  // outside any block (NMEA, command replies, damage)
+  std::uint64_t text_bytes = 0;     // the part of bytes_skipped that is printable
+  std::uint64_t bad_checksums = 0;
+  std::uint64_t bad_lengths = 0;  // sync, but a length that no block has
+  std::uint64_t incomplete = 0;   // cut off by the end of the stream
+};
+
+// The caller appends bytes and takes blocks until none is left. A false sync or a damaged block
+// costs only its own bytes: the search resumes one byte after its first. Every byte costs the same,
+// whatever lengths the stream claims.
+class SbfFramer {
+ public:
+  // A MeasEpoch with 100 satellites of five signals each has 6,820 bytes. The length field can
+  // claim 65,532; a longer block than this one is no block of interest.
+  static constexpr std::size_t kMaxSize = 16384;
+
+  // Copies as many of `bytes` as fit and returns their number. It is never zero unless `bytes` is
+  // empty or a block has not been taken yet.
+  std::size_t append(std::span<const std::uint8_t> bytes);
+  // Takes the next block; returns false if more bytes are needed.
+  bool next(SbfBlock* block);
+  // Ends the stream: what is left counts as skipped after a search for blocks inside it. After it,
+  // call next() until it returns false.
+  void finish() { finished_ = true; }
+
+  const SbfFramerCounters& counters() const { return counters_; }
+
+ private:
+  static constexpr std::size_t kCapacity = 2 * kMaxSize;
+
+  std::size_t available() const { return end_ - begin_; }
+  bool is_sync() const;
+  bool checksum_is_good(std::size_t size) const;
+  void describe(std::size_t size, SbfBlock* block) const;
+  void skip(std::size_t count);
+  void skip_to_sync();
+
+  std::array<std::uint8_t, kCapacity> buffer_;
+  // Checksum of all bytes of the stream before this one; one entry more, for the end.
+  std::array<std::uint16_t, kCapacity + 1> crc_before_{};
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  bool finished_ = false;
+  SbfFramerCounters counters_;
+};
+
+}  // namespace leonav
