@@ -22,6 +22,7 @@
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
+#include "tools/import/internal/ubx_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
 
@@ -221,9 +222,10 @@ void Import::load_clocks(GpsTime start) {
   }
 }
 
-// Returns the samples of an imu.csv or of a NovAtel file.
+// Returns the samples of an imu.csv, of a NovAtel or of a u-blox file.
 std::vector<ImuSample> Import::read_imu(const std::string& path) {
   if (has_oem7_name(path)) return read_oem7_imu(path, dataset_.imu_scale, &report_);
+  if (has_ubx_name(path)) return read_ubx_imu(path, options_.gnss_latency_s, &report_);
   ImuCsv csv = read_imu_csv(path);
   const bool located = !csv.report.problems.empty();
   report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);
