@@ -1,5 +1,6 @@
-// This unit decodes a u-blox byte stream to observations, ephemerides and ionosphere coefficients.
-// Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2.
+// This unit decodes a u-blox byte stream to observations, ephemerides, ionosphere coefficients,
+// inertial readings and time marks. Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX
+// version 1, UBX-RXM-SFRBX version 2, UBX-ESF-MEAS, UBX-ESF-RAW, UBX-TIM-TM2.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -7,8 +8,10 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/ubx/esf_decoder.h"
 #include "drivers/ubx/rxm_rawx.h"
 #include "drivers/ubx/rxm_sfrbx.h"
+#include "drivers/ubx/tim_tm2.h"
 #include "drivers/ubx/ubx_framer.h"
 
 namespace leonav {
@@ -20,6 +23,10 @@ class UbxHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
+  // Of receivers with an inertial sensor, and of pulses at their inputs: who needs neither leaves
+  // these as they are.
+  virtual void on_inertial(const EsfReading& /*reading*/) {}
+  virtual void on_time_mark(const TimeMark& /*mark*/) {}
 };
 
 // Counts of all parts of the decoder.
@@ -27,6 +34,8 @@ struct UbxCounters {
   UbxFramerCounters framer;
   RxmRawxCounters rawx;
   RxmSfrbxCounters sfrbx;
+  EsfCounters esf;
+  TimTm2Counters time_marks;
   std::uint64_t other_messages = 0;  // framed, but not one that leonav reads
 };
 

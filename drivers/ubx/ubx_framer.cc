@@ -11,23 +11,24 @@ constexpr std::uint8_t kSync2 = 0x62;
 }  // namespace
 
 std::size_t UbxFramer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
+  if (begin_ > base_ && end_ - base_ + bytes.size() > kCapacity) {
     const auto move_down = [this](auto& array) {
-      std::copy(array.begin() + begin_, array.begin() + end_, array.begin());
+      std::copy(array.begin() + static_cast<std::ptrdiff_t>(begin_ - base_),
+                array.begin() + static_cast<std::ptrdiff_t>(end_ - base_), array.begin());
     };
     move_down(buffer_);
     move_down(sum_);
     move_down(sum_of_sums_);
-    end_ -= begin_;
-    begin_ = 0;
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min<std::size_t>(bytes.size(), kCapacity - (end_ - base_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
+    const std::size_t index = end_ - base_;
+    buffer_[index] = bytes[i];
     last_sum_ = static_cast<std::uint8_t>(last_sum_ + bytes[i]);
     last_sum_of_sums_ = static_cast<std::uint8_t>(last_sum_of_sums_ + last_sum_);
-    sum_[end_] = last_sum_;
-    sum_of_sums_[end_] = last_sum_of_sums_;
+    sum_[index] = last_sum_;
+    sum_of_sums_[index] = last_sum_of_sums_;
     ++end_;
   }
   return count;
@@ -37,7 +38,8 @@ std::size_t UbxFramer::append(std::span<const std::uint8_t> bytes) {
 // sums up to and including a byte, A = S(last) - S(first-1), B = T(last) - T(first-1) - n
 // S(first-1). A candidate therefore costs the same whatever its length field is, and a stream full
 // of false syncs cannot make the search slow.
-bool UbxFramer::checksum_is_good(std::size_t first, std::size_t last) const {
+bool UbxFramer::checksum_is_good(Position start, Position end) const {
+  const std::size_t first = start + 2 - base_, last = end - 3 - base_;
   const auto n = static_cast<std::uint8_t>(last - first + 1);
   const std::uint8_t before = sum_[first - 1];
   const auto a = static_cast<std::uint8_t>(sum_[last] - before);
@@ -46,57 +48,88 @@ bool UbxFramer::checksum_is_good(std::size_t first, std::size_t last) const {
   return a == buffer_[last + 1] && b == buffer_[last + 2];
 }
 
-bool UbxFramer::next(UbxMessage* message) {
-  while (end_ - begin_ >= kOverhead) {
-    if (buffer_[begin_] != kSync1 || buffer_[begin_ + 1] != kSync2) {
-      skip_to_sync();
-      continue;
-    }
-    const std::size_t length = buffer_[begin_ + 4] | (buffer_[begin_ + 5] << 8);
+// Every start is found once, and waits in two orders: by its place, and by the end of its message.
+void UbxFramer::find_starts() {
+  for (; searched_ + kHeader <= end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(searched_ - base_);
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(end_ - base_ - kHeader + 1);
+    searched_ += static_cast<Position>(std::find(from, to, kSync1) - from);
+    if (searched_ + kHeader > end_) return;
+    if (at(searched_ + 1) != kSync2) continue;
+    const std::size_t length = at(searched_ + 4) | (at(searched_ + 5) << 8);
     if (length > kMaxPayload) {
-      ++counters_.oversize;
-      skip(1);
+      starts_[searched_] = Start::kOversize;
       continue;
     }
-    if (end_ - begin_ < length + kOverhead) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(begin_ + 2, begin_ + 5 + length)) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    message->message_class = buffer_[begin_ + 2];
-    message->id = buffer_[begin_ + 3];
-    message->payload = std::span(buffer_).subspan(begin_ + 6, length);
-    begin_ += length + kOverhead;
-    ++counters_.messages;
-    foreign_.interrupt();
-    return true;
+    starts_[searched_] = Start::kWaiting;
+    waiting_.emplace(searched_ + length + kOverhead, searched_);
   }
-  if (finished_) skip(end_ - begin_);
+}
+
+bool UbxFramer::next(UbxMessage* message) {
+  find_starts();
+  while (!waiting_.empty() && waiting_.top().first <= end_) {
+    const auto [end, start] = waiting_.top();
+    waiting_.pop();
+    const auto found = starts_.find(start);
+    if (found == starts_.end()) continue;  // within a message that was taken
+    if (checksum_is_good(start, end)) {
+      take(start, end, message);
+      return true;
+    }
+    found->second = Start::kBadChecksum;
+  }
+  skip_what_is_none();
   return false;
+}
+
+void UbxFramer::take(Position start, Position end, UbxMessage* message) {
+  skip_to(start);
+  message->message_class = at(start + 2);
+  message->id = at(start + 3);
+  message->payload = std::span<const std::uint8_t>(buffer_).subspan(start + kHeader - base_,
+                                                                    end - start - kOverhead);
+  begin_ = end;
+  starts_.erase(starts_.begin(), starts_.lower_bound(end));
+  ++counters_.messages;
+  foreign_.interrupt();
+}
+
+// Bytes before the first start that still waits belong to no message.
+void UbxFramer::skip_what_is_none() {
+  if (finished_) return skip_to(end_);
+  const auto waits = std::find_if(starts_.begin(), starts_.end(), [](const auto& start) {
+    return start.second == Start::kWaiting;
+  });
+  skip_to(waits != starts_.end() ? waits->first : std::max(searched_, begin_));
+}
+
+void UbxFramer::skip_to(Position position) {
+  while (!starts_.empty() && starts_.begin()->first < position) {
+    switch (starts_.begin()->second) {
+      case Start::kWaiting:
+        ++(finished_ ? counters_.incomplete : counters_.bad_checksums);
+        break;
+      case Start::kBadChecksum:
+        ++counters_.bad_checksums;
+        break;
+      case Start::kOversize:
+        ++counters_.oversize;
+        break;
+    }
+    starts_.erase(starts_.begin());
+  }
+  for (; begin_ < position; ++begin_) {
+    foreign_.take(at(begin_));
+    ++counters_.bytes_skipped;
+  }
+  searched_ = std::max(searched_, begin_);
 }
 
 UbxFramerCounters UbxFramer::counters() const {
   UbxFramerCounters counters = counters_;
   counters.foreign = foreign_.counters();
   return counters;
-}
-
-void UbxFramer::skip(std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) foreign_.take(buffer_[begin_ + i]);
-  begin_ += count;
-  counters_.bytes_skipped += count;
-}
-
-void UbxFramer::skip_to_sync() {
-  const auto from = buffer_.begin() + begin_ + 1;
-  const auto found = std::find(from, buffer_.begin() + end_, kSync1);
-  skip(static_cast<std::size_t>(found - from) + 1);
 }
 
 }  // namespace leonav

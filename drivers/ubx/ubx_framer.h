@@ -4,7 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <queue>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "drivers/ubx/foreign_messages.h"
 
@@ -22,13 +27,15 @@ struct UbxFramerCounters {
   std::uint64_t messages = 0;       // framed, checksum good
   std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
   ForeignMessageCounters foreign;   // the part of bytes_skipped that belongs to other protocols
-  std::uint64_t bad_checksums = 0;
-  std::uint64_t oversize = 0;    // claimed length above kMaxPayload: taken for a false sync
-  std::uint64_t incomplete = 0;  // cut off by the end of the stream
+  std::uint64_t bad_checksums = 0;  // a start that no good message follows
+  std::uint64_t oversize = 0;       // claimed length above kMaxPayload: taken for a false sync
+  std::uint64_t incomplete = 0;     // cut off by the end of the stream
 };
 
 // The caller appends bytes and takes messages until none is left. A false sync or a damaged message
-// costs only its own bytes: the search resumes one byte after its first.
+// costs only its own bytes, and no time: of all starts in the stream the one whose message is whole
+// first, with a good checksum, counts, so that a false start with a great length holds nothing back
+// that comes behind it. Starts within a message that counts, or before it, are none.
 class UbxFramer {
  public:
   // RXM-RAWX with 255 measurements has 16 + 255 * 32 bytes of payload; nothing else is longer.
@@ -46,20 +53,32 @@ class UbxFramer {
   UbxFramerCounters counters() const;
 
  private:
-  static constexpr std::size_t kOverhead = 8;  // sync 2, class, id, length 2, checksum 2
+  static constexpr std::size_t kHeader = 6;    // sync 2, class, id, length 2
+  static constexpr std::size_t kOverhead = 8;  // header, checksum 2
   static constexpr std::size_t kCapacity = 2 * (kMaxPayload + kOverhead);
 
-  void skip(std::size_t count);
-  void skip_to_sync();
-  bool checksum_is_good(std::size_t first, std::size_t last) const;
+  // What a start in the stream has turned out to be.
+  enum class Start : std::uint8_t { kWaiting, kBadChecksum, kOversize };
+  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
+  using Position = std::uint64_t;
+  using EndAndStart = std::pair<Position, Position>;
+
+  void find_starts();
+  void skip_to(Position position);
+  void skip_what_is_none();
+  void take(Position start, Position end, UbxMessage* message);
+  bool checksum_is_good(Position start, Position end) const;
+  std::uint8_t at(Position position) const { return buffer_[position - base_]; }
 
   std::array<std::uint8_t, kCapacity> buffer_;
   std::array<std::uint8_t, kCapacity> sum_;          // of all bytes up to and including this one
   std::array<std::uint8_t, kCapacity> sum_of_sums_;  // modulo 256, both
   std::uint8_t last_sum_ = 0;
   std::uint8_t last_sum_of_sums_ = 0;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
+  Position searched_ = 0;                    // starts before it are known
+  std::map<Position, Start> starts_;         // at begin_ and behind it
+  std::priority_queue<EndAndStart, std::vector<EndAndStart>, std::greater<>> waiting_;
   bool finished_ = false;
   UbxFramerCounters counters_;
   ForeignMessages foreign_;

@@ -1,5 +1,6 @@
 #include "tools/connect/connect_config.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -15,10 +16,12 @@ constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
 bool is_receiver(const StreamConfig& stream) {
-  return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kImuLine;
+  return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kXsens &&
+         stream.format != FormatKind::kImuLine;
 }
 bool is_inertial(const StreamConfig& stream) {
-  return !is_receiver(stream) || stream.oem7.is_inertial || stream.is_sbf_inertial;
+  return !is_receiver(stream) || stream.oem7.is_inertial || stream.is_sbf_inertial ||
+         stream.has_ubx_imu;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -48,6 +51,32 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
   if (inputs > 1) root.fail("streams", "only one can be read from standard input");
 }
 
+void read_pulse(ConfigReader& group, PulseConfig* pulse) {
+  group.text("stream", &pulse->stream);
+  group.integer("input", 0, 1, &pulse->input.input);
+  group.choice<bool>("edge", {{"rising", false}, {"falling", true}}, &pulse->input.is_falling);
+  group.number("delay_ms", {-1000.0, 1000.0}, &pulse->input.delay_s, kMillisecond);
+}
+
+// A pulse needs who sends it and who sees it.
+void refuse_lonely_pulse(const ConfigReader& root, const ConnectConfig& config) {
+  if (config.pulse.stream.empty()) return;
+  const bool has_sensor =
+      std::any_of(config.streams.begin(), config.streams.end(), [&](const StreamConfig& stream) {
+        return stream.name == config.pulse.stream && !is_receiver(stream);
+      });
+  if (!has_sensor) {
+    root.fail("time", "pulse.stream is '" + config.pulse.stream +
+                          "', but no stream of an inertial sensor has this name");
+  }
+  const bool has_receiver =
+      std::any_of(config.streams.begin(), config.streams.end(),
+                  [](const StreamConfig& stream) { return stream.format == FormatKind::kUbx; });
+  if (!has_receiver) {
+    root.fail("time", "pulse needs a stream of the format ubx, whose receiver sees the pulses");
+  }
+}
+
 void read_corrections(ConfigReader& group, CorrectionOptions* options) {
   constexpr Bounds kAge = {1.0, 3600.0};
   group.choice<bool>("point", {{"antenna", true}, {"mass_centre", false}}, &options->at_antenna);
@@ -75,6 +104,8 @@ const char* name_of(FormatKind format) {
       return "sbf";
     case FormatKind::kVectornav:
       return "vectornav";
+    case FormatKind::kXsens:
+      return "xsens";
     case FormatKind::kImuLine:
       break;
   }
@@ -93,6 +124,7 @@ ConnectConfig load_connect_config(const std::string& path,
                                   {{"gnss", TimeReference::kGnss}, {"host", TimeReference::kHost}},
                                   &config.reference);
       group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kMillisecond);
+      group.group("pulse", [&](ConfigReader& pulse) { read_pulse(pulse, &config.pulse); });
     });
     root.group("corrections",
                [&](ConfigReader& group) { read_corrections(group, &config.corrections); });
@@ -102,6 +134,7 @@ ConnectConfig load_connect_config(const std::string& path,
       read_stream(group, folder, &config.streams.emplace_back());
     });
     refuse_conflicts(root, config.streams);
+    refuse_lonely_pulse(root, config);
   });
   return config;
 }

@@ -7,13 +7,14 @@
 #include "drivers/imu_line/line_layout.h"
 #include "drivers/ssr/correction_store.h"
 #include "tools/connect/formats/oem7_options.h"
+#include "tools/connect/formats/ubx_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
 #include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 
-enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kSbf, kVectornav, kImuLine };
+enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kSbf, kVectornav, kXsens, kImuLine };
 
 struct StreamConfig {
   std::string name;
@@ -22,6 +23,7 @@ struct StreamConfig {
   LineLayout line;               // of kImuLine
   Oem7StreamOptions oem7;        // of kOem7
   bool is_sbf_inertial = false;  // of kSbf: samples of its inertial sensor are published
+  bool has_ubx_imu = false;      // of kUbx: the receiver's own inertial sensor is published
   ImuStampOptions stamps;        // of inertial sensors
   double repeat_s = 30.0;   // of a receiver: an ephemeris is sent again after so long; 0: never
   GpsTime day;              // of kRtcm3 from a file: noon of the day it was recorded
@@ -30,10 +32,17 @@ struct StreamConfig {
   double silent_s = 3.0;    // a stream without bytes for so long is told
 };
 
+// Pulses of an inertial sensor at an input of the receiver.
+struct PulseConfig {
+  std::string stream;  // name of the sensor's; empty: none are connected
+  PulseInput input;
+};
+
 struct ConnectConfig {
   LcmConfig lcm;
   TimeReference reference = TimeReference::kGnss;
   double gnss_latency_s = 0.05;
+  PulseConfig pulse;
   double playback_speed = 1.0;
   CorrectionOptions corrections;
   double status_interval_s = 10.0;  // of the text for each stream; 0: only changes

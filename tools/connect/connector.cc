@@ -20,6 +20,7 @@
 #include "tools/connect/formats/sbf_format.h"
 #include "tools/connect/formats/ubx_format.h"
 #include "tools/connect/formats/vectornav_format.h"
+#include "tools/connect/formats/xsens_format.h"
 #include "tools/connect/stream.h"
 #include "tools/connect/stream_status.h"
 
@@ -45,6 +46,7 @@ struct Connector::State {
 
   std::unique_ptr<ByteSource> make_source(const StreamConfig& stream);
   std::unique_ptr<StreamFormat> make_format(const StreamConfig& stream);
+  std::unique_ptr<StreamFormat> make_ubx_format(const StreamConfig& stream);
   void wait_for_signal();
   void wait_a_second();
   void each_second();
@@ -59,6 +61,7 @@ struct Connector::State {
   MessageOutput output;
   CorrectionOutput corrections;
   GpsClock gps;
+  PulseQueue pulses;
   ArrivalClock clock;
   PlaybackClocks clocks;
   asio::io_context io;  // before all that uses it
@@ -91,11 +94,18 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
   return make_input_source(&io, &clock);
 }
 
+std::unique_ptr<StreamFormat> Connector::State::make_ubx_format(const StreamConfig& stream) {
+  const UbxStreamOptions options{stream.has_ubx_imu, stream.stamps, config.pulse.input};
+  return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
+                                     &corrections, options,
+                                     config.pulse.stream.empty() ? nullptr : &pulses);
+}
+
 std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& stream) {
+  PulseQueue* own_pulses = stream.name == config.pulse.stream ? &pulses : nullptr;
   switch (stream.format) {
     case FormatKind::kUbx:
-      return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
-                                         &corrections);
+      return make_ubx_format(stream);
     case FormatKind::kRtcm3:
       return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output,
                                            stream.is_service, &corrections);
@@ -106,11 +116,13 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return std::make_unique<SbfFormat>(stream.is_sbf_inertial, config.gnss_latency_s,
                                          stream.repeat_s, &gps, &output, &corrections);
     case FormatKind::kVectornav:
-      return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
+      return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output, own_pulses);
+    case FormatKind::kXsens:
+      return std::make_unique<XsensFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kImuLine:
       break;
   }
-  return std::make_unique<ImuLineFormat>(stream.line, &gps, stream.stamps, &output);
+  return std::make_unique<ImuLineFormat>(stream.line, &gps, stream.stamps, &output, own_pulses);
 }
 
 // The second signal ends the process at once.

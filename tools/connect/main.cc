@@ -23,7 +23,7 @@ int connect_main(int argc, char** argv) {
       "                                # tcp_server, udp: address, port; ntrip: host, port,\n"
       "                                # mountpoint, tls, credentials_file, position and others\n"
       "      baud: 460800\n"
-      "      format: ubx               # ubx, rtcm3, vectornav or imu_line\n"
+      "      format: ubx               # ubx, oem7, rtcm3, vectornav, xsens or imu_line\n"
       "      record: receiver.leoraw   # optional: every byte, for a file source later\n"
       "    - {name: imu, source: serial, device: /dev/ttyUSB0, baud: 921600, format: vectornav}\n"
       "\n"

@@ -132,6 +132,7 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
                             {"oem7", FormatKind::kOem7},
                             {"sbf", FormatKind::kSbf},
                             {"vectornav", FormatKind::kVectornav},
+                            {"xsens", FormatKind::kXsens},
                             {"imu_line", FormatKind::kImuLine}},
                            &stream->format);
   if (stream->format == FormatKind::kImuLine) {
@@ -151,6 +152,12 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   }
   if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
   if (stream->format == FormatKind::kSbf) group.boolean("inertial", &stream->is_sbf_inertial);
+  if (stream->format == FormatKind::kUbx) {
+    group.boolean("inertial", &stream->has_ubx_imu);
+    if (stream->has_ubx_imu) {
+      group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
+    }
+  }
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
       stream->format == FormatKind::kOem7 || stream->format == FormatKind::kSbf) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);

@@ -26,7 +26,7 @@ struct Dataset {
   bool corrections_at_antenna = true;       // CorrectionOptions::at_antenna
   std::vector<std::string> antenna_models;  // ANTEX
   std::string receiver_antenna;       // type and radome; empty: as in the observations' header
-  std::vector<std::string> imu;       // imu.csv, .oem7, .gps or .sbf
+  std::vector<std::string> imu;       // imu.csv, .oem7, .gps, .sbf or .ubx
   std::optional<ImuScale> imu_scale;  // of a count, where an IMU of .oem7 has no documented one
   std::vector<std::string> truth;     // truth.csv
 

@@ -23,6 +23,7 @@
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/internal/sbf_file.h"
+#include "tools/import/internal/ubx_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
 
@@ -222,10 +223,11 @@ void Import::load_clocks(GpsTime start) {
   }
 }
 
-// Returns the samples of an imu.csv, or of a file of a NovAtel or Septentrio receiver.
+// Returns the samples of an imu.csv, or of a file of a receiver that has an inertial sensor.
 std::vector<ImuSample> Import::read_imu(const std::string& path) {
   if (has_oem7_name(path)) return read_oem7_imu(path, dataset_.imu_scale, &report_);
   if (has_sbf_name(path)) return read_sbf_imu(path, &report_);
+  if (has_ubx_name(path)) return read_ubx_imu(path, options_.gnss_latency_s, &report_);
   ImuCsv csv = read_imu_csv(path);
   const bool located = !csv.report.problems.empty();
   report_.skip(located ? csv.report.problems.front() : path, "unusable row", csv.report.skipped);

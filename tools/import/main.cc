@@ -15,7 +15,7 @@ int body(int argc, char** argv) {
       "NovAtel's .oem7 or .gps, Septentrio's .sbf), navigation (RINEX 2 or 3, .rtcm3, .rtcm), "
       "orbits (SP3), clocks,\n"
       "corrections (SSR in .rtcm3, .rtcm), antenna_models (ANTEX), imu (imu.csv; .oem7 or .gps\n"
-      "with RAWIMUSX or its relatives; .sbf with ExtSensorMeas), truth;\n"
+      "with RAWIMUSX or its relatives; .sbf with ExtSensorMeas; .ubx with UBX-ESF-RAW), truth;\n"
       "imu_scale ([rad, m/s] of a count, for a NovAtel IMU whose type has no documented scale);\n"
       "corrections_latency_s (from a correction's time to its arrival; 10 where it is not given);\n"
       "corrections_point (antenna or mass_centre, the point of a satellite that corrected orbits\n"

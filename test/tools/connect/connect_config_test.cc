@@ -152,6 +152,37 @@ TEST_CASE("A receiver of RTCM 3 and an inertial sensor have room beside each oth
                     Catch::Contains("two receivers"));
 }
 
+TEST_CASE("A receiver with an inertial sensor is both, and pulses need who sends and who sees them",
+          "[connect]") {
+  const std::string receiver = "name: r, source: serial, device: /dev/x, format: ubx";
+  const std::string imu = "  - {name: imu, source: serial, device: /dev/y, format: xsens}\n";
+  CHECK_FALSE(load(stream(receiver)).streams.at(0).has_ubx_imu);
+  const StreamConfig own =
+      load(stream(receiver + ", inertial: true, latency_ms: 10")).streams.at(0);
+  CHECK(own.has_ubx_imu);
+  CHECK(own.stamps.latency_s == Approx(0.01));
+  CHECK_THROWS_AS(load(stream(receiver + ", latency_ms: 10")), ConfigError);
+  CHECK(load(stream(receiver) + imu).streams.at(1).format == FormatKind::kXsens);
+  CHECK_THROWS_WITH(load(stream(receiver + ", inertial: true") + imu),
+                    Catch::Contains("two inertial sensors"));
+
+  const auto with = [&](const std::string& pulse, const std::string& streams) {
+    return load("time: {pulse: {" + pulse + "}}\n" + streams);
+  };
+  const PulseConfig pulse =
+      with("stream: imu, input: 1, edge: falling, delay_ms: -2", stream(receiver) + imu).pulse;
+  CHECK(pulse.stream == "imu");
+  CHECK(pulse.input.input == 1);
+  CHECK(pulse.input.is_falling);
+  CHECK(pulse.input.delay_s == Approx(-0.002));
+  CHECK_THROWS_WITH(with("stream: imu", stream(receiver)),
+                    Catch::Contains("no stream of an inertial sensor has this name"));
+  CHECK_THROWS_WITH(with("stream: r", stream(receiver + ", inertial: true")),
+                    Catch::Contains("no stream of an inertial sensor has this name"));
+  CHECK_THROWS_WITH(with("stream: imu", "streams:\n" + imu), Catch::Contains("format ubx"));
+  CHECK_THROWS_AS(with("stream: imu, input: 2", stream(receiver) + imu), ConfigError);
+}
+
 TEST_CASE("A mistake is told with its line and the remedy", "[connect]") {
   const auto problem = [](const std::string& text) -> std::string {
     try {

@@ -5,9 +5,11 @@ A simulated drive leaves as UBX on one pseudo-terminal and as VectorNav binary o
 What leonav-connect publishes must be what leonav-import writes: GNSS messages to the last bit, IMU samples within the
 sensor's 32-bit numbers. LCM is UDP, and the logger loses messages where the machine is busy: how many were published is
 what the program says, and messages are compared by their sequence. Its recordings, played as files, must give the same once more. Then a sensor without GPS time,
-with a clock that drifts, must be stamped by arrivals within what its sigma says. Runs in a network namespace of its own;
+with a clock that drifts, must be stamped by arrivals within what its sigma says, and an Xsens sensor whose pulses the receiver
+sees within what its clock shows. Runs in a network namespace of its own;
 exit 77: none can be made here.
 """
+import bisect
 import os
 import pathlib
 import random
@@ -22,10 +24,11 @@ import tty
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-sys.path += [str(HERE), str(HERE.parent), str(ROOT / "tools/scripts/lib")]
+sys.path += [str(HERE), str(HERE.parent), str(ROOT / "test/oracle"), str(ROOT / "tools/scripts/lib")]
 import lcm_log  # noqa: E402
 import ubx_bytes  # noqa: E402
 import vectornav_bytes  # noqa: E402
+import xsens  # noqa: E402
 from live_program import enter_namespace, fail  # noqa: E402
 
 SPEED = 4.0
@@ -228,6 +231,55 @@ streams:
         fail("the sensor's clock is not tied to GPS time")
 
 
+def time_mark(time_ns):
+    """UBX-TIM-TM2 of a rising edge at EXTINT0, in GNSS time."""
+    week, tow_ns = divmod(time_ns, 604800 * 10**9)
+    return ubx_bytes.frame(0x0D, 0x03, struct.pack("<BBHHHIIIII", 0, 0xC8, 1, week, 0, tow_ns // 10**6, tow_ns % 10**6, 0, 0, 30))
+
+
+def own_pulses(work, receiver, expected):
+    """An Xsens sensor, 100 ppm fast, whose clock shows 0.1 ms and wraps on the way; a pulse at each 200th sample. Its latency is
+    configured wrong by 1 ms."""
+    dice = random.Random(3)
+    sensor = list(xsens.drive(work / "export/imu.csv", 100.0))
+    pulses = [time_ns for time_ns, _ in sensor][::200]
+    marked, last = [], 0
+    for time_ns, data in receiver:
+        marked.append((time_ns, b"".join(time_mark(pulse) for pulse in pulses if last < pulse <= time_ns) + data))
+        last = time_ns
+    recording(work / "gnss_marks.leoraw", marked, lambda: 0.05 + dice.expovariate(1 / 0.003))
+    recording(work / "xsens_late.leoraw", sensor, lambda: 0.004 + dice.expovariate(1 / 0.0005))
+    run = Run(work, "pulses", """
+playback_speed: 5
+time:
+  pulse: {stream: imu}
+streams:
+  - {name: receiver, source: file, path: gnss_marks.leoraw, format: ubx, repeat_ephemerides_s: 0}
+  - {name: imu, source: file, path: xsens_late.leoraw, format: xsens, latency_ms: 3}
+""")
+    found = run.finish(stop=False)
+    same_gnss(expected, run, found, "pulses")
+    wanted = [IMU.unpack(payload) for sequence, payload in sorted(expected["LEONAV_IMU"].items()) if sequence > 1]
+    # Those at the start are missing, until both clocks are tied. Each is compared with the sample of the nearest time.
+    times = [one[1] for one in wanted]
+    errors, worst = [], 0.0
+    for _, payload in sorted(found["LEONAV_IMU"].items()):
+        got = IMU.unpack(payload)
+        index = bisect.bisect_left(times, got[1])
+        truth = min(wanted[max(index - 1, 0):index + 1], key=lambda one: abs(one[1] - got[1]))
+        errors.append((got[1] - truth[1]) * 1e-6)
+        worst = max(worst, *(abs(x - y) for x, y in zip(truth[5:], got[5:])))
+    late = errors[len(errors) // 2:]
+    print(f"pulses: {run.published['imu']} of {len(wanted)} samples; increments within {worst:.1e}; "
+          f"stamps in the second half off by {min(late):.3f} to {max(late):.3f} ms")
+    if worst > 1e-9 or run.published["imu"] < 0.7 * len(wanted):
+        fail("samples of the Xsens sensor are missing or wrong")
+    if max(map(abs, late)) > 0.2:
+        fail("the sensor's clock is not tied to GPS time by its pulses")
+    if "pulses at the receiver" not in run.text.read_text(encoding="utf-8"):
+        fail("leonav-connect does not say that it uses pulses")
+
+
 def main():
     global BIN
     enter_namespace()
@@ -238,6 +290,7 @@ def main():
     live(work, receiver, sensor, expected)
     played_again(work, expected)
     own_clock(work, receiver, expected)
+    own_pulses(work, receiver, expected)
 
 
 if __name__ == "__main__":

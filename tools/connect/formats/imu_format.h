@@ -1,35 +1,33 @@
 // The ImuFormat is what all formats of inertial sensors share: stamp, sample, publish, report.
 #pragma once
-#include "tools/connect/formats/message_output.h"
+#include "tools/connect/formats/imu_output.h"
 #include "tools/connect/formats/stream_format.h"
-#include "tools/connect/stamps/imu_sampler.h"
-#include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 
 class ImuFormat : public StreamFormat {
  public:
-  // `gps` and `output` must outlive this object.
-  ImuFormat(const GpsClock* gps, const ImuStampOptions& options, MessageOutput* output)
-      : stamper_(gps, options), output_(output) {}
+  // As of ImuOutput.
+  ImuFormat(const GpsClock* gps, const ImuStampOptions& options, MessageOutput* output,
+            PulseQueue* pulses = nullptr)
+      : output_(gps, options, output, pulses) {}
 
-  std::optional<DataTime> data_time() const override { return data_time_; }
-  std::string detail() const override { return stamper_.text(); }
-  std::string why_no_messages() const override { return stamper_.text(); }
-  double stamp_sigma_s() const override { return stamper_.sigma_s(); }
+  std::optional<DataTime> data_time() const override { return output_.data_time(); }
+  std::string detail() const override { return output_.text(); }
+  std::string why_no_messages() const override { return output_.text(); }
+  double stamp_sigma_s() const override { return output_.sigma_s(); }
 
  protected:
   // Publishes the reading as a sample, or counts why not.
-  void take(const ImuReading& reading);
+  void take(const ImuReading& reading) { output_.take(reading); }
   // Adds what was published, and what was refused behind the decoder.
-  void add_to(FormatCounts* counts) const;
+  void add_to(FormatCounts* counts) const {
+    counts->messages += output_.messages();
+    counts->refused += output_.refused();
+  }
 
  private:
-  ImuStamper stamper_;
-  ImuSampler sampler_;
-  MessageOutput* output_;
-  std::optional<DataTime> data_time_;
-  std::uint64_t messages_ = 0;
+  ImuOutput output_;
 };
 
 }  // namespace leonav

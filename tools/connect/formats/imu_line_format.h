@@ -10,8 +10,8 @@ namespace leonav {
 class ImuLineFormat final : public ImuFormat, private ImuLineHandler {
  public:
   ImuLineFormat(LineLayout layout, const GpsClock* gps, const ImuStampOptions& options,
-                MessageOutput* output)
-      : ImuFormat(gps, options, output),
+                MessageOutput* output, PulseQueue* pulses = nullptr)
+      : ImuFormat(gps, options, output, pulses),
         are_increments_(layout.are_increments),
         decoder_(std::move(layout)) {}
 

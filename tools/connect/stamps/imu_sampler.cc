@@ -29,7 +29,8 @@ std::optional<ImuSample> ImuSampler::sample(GpsTime time, const ImuReading& read
   }
   ImuSample sample;
   sample.time = time;
-  const std::optional<std::int64_t> interval_ns = interval_to(time);
+  const std::optional<std::int64_t> interval_ns =
+      interval_to(time, reading.are_increments ? kGapIntervalsOfIncrements : kGapIntervals);
   last_ = time;
   if (reading.interval_s) {
     if (!(*reading.interval_s > 0.0 && *reading.interval_s < 1.0)) {
@@ -54,7 +55,7 @@ std::optional<ImuSample> ImuSampler::sample(GpsTime time, const ImuReading& read
 }
 
 // The time since the last reading, or the usual interval after a gap.
-std::optional<std::int64_t> ImuSampler::interval_to(GpsTime time) {
+std::optional<std::int64_t> ImuSampler::interval_to(GpsTime time, double gap_intervals) {
   if (!last_.is_set()) return std::nullopt;
   const std::int64_t interval_ns = nanoseconds_between(time, last_);
   const bool has_usual = intervals_ > 0;
@@ -64,7 +65,7 @@ std::optional<std::int64_t> ImuSampler::interval_to(GpsTime time) {
   }
   const std::int64_t usual_ns = has_usual ? usual_interval_ns() : interval_ns;
   intervals_ns_[intervals_++ % kKept] = interval_ns;
-  if (static_cast<double>(interval_ns) <= kGapIntervals * static_cast<double>(usual_ns)) {
+  if (static_cast<double>(interval_ns) <= gap_intervals * static_cast<double>(usual_ns)) {
     return interval_ns;
   }
   ++counters_.gaps;

@@ -20,7 +20,9 @@ struct ImuSamplerCounters {
 
 // Increments keep their own interval where the sensor gives one. Rates count as the mean over the
 // time since the reading before. After a gap of more than 2.5 usual intervals a reading covers the
-// usual one, the median of the last 31: what happened in the gap is not known.
+// usual one, the median of the last 31: what happened in the gap is not known. Increments without
+// an interval of their own do so after 1.5 usual intervals: they never hold what a lost message
+// held.
 class ImuSampler {
  public:
   std::optional<ImuSample> sample(GpsTime time, const ImuReading& reading);
@@ -28,9 +30,9 @@ class ImuSampler {
 
  private:
   static constexpr std::size_t kKept = 31;
-  static constexpr double kGapIntervals = 2.5;
+  static constexpr double kGapIntervals = 2.5, kGapIntervalsOfIncrements = 1.5;
 
-  std::optional<std::int64_t> interval_to(GpsTime time);
+  std::optional<std::int64_t> interval_to(GpsTime time, double gap_intervals);
   std::int64_t usual_interval_ns() const;
 
   GpsTime last_;

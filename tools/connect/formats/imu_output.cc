@@ -1,8 +1,8 @@
-#include "tools/connect/formats/imu_format.h"
+#include "tools/connect/formats/imu_output.h"
 
 namespace leonav {
 
-void ImuFormat::take(const ImuReading& reading) {
+void ImuOutput::take(const ImuReading& reading) {
   if (reading.gps_time) {
     data_time_ = {true, reading.gps_time->nanoseconds()};
   } else if (reading.clock_ns) {
@@ -17,10 +17,9 @@ void ImuFormat::take(const ImuReading& reading) {
   ++messages_;
 }
 
-void ImuFormat::add_to(FormatCounts* counts) const {
+std::uint64_t ImuOutput::refused() const {
   const ImuSamplerCounters& c = sampler_.counters();
-  counts->messages += messages_;
-  counts->refused += stamper_.contradictions() + c.out_of_order + c.impossible;
+  return stamper_.contradictions() + c.out_of_order + c.impossible;
 }
 
 }  // namespace leonav

@@ -1,0 +1,35 @@
+// The WrappedCounter continues a counter that begins again at zero after its last value.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+namespace leonav {
+
+// Of all numbers that leave the same rest modulo 2^bits, the one nearest to the number before is
+// meant. A counter that stands still, or goes back by less than half of its range, is followed so;
+// a pause of more than half of the range cannot be told from a shorter one.
+class WrappedCounter {
+ public:
+  // Precondition: 1 <= bits <= 32.
+  explicit WrappedCounter(int bits) : range_(std::int64_t{1} << bits) {}
+
+  // Returns the continued number of `value`, of which the bits above the counter's are ignored. The
+  // first one is itself.
+  std::int64_t extend(std::uint32_t value) {
+    const std::int64_t rest = value & (range_ - 1);
+    if (!last_) {
+      last_ = rest;
+      return rest;
+    }
+    std::int64_t step = (rest - *last_) & (range_ - 1);  // 0 to range - 1, also of negative ones
+    if (step >= range_ / 2) step -= range_;
+    last_ = *last_ + step;
+    return *last_;
+  }
+
+ private:
+  std::int64_t range_;
+  std::optional<std::int64_t> last_;
+};
+
+}  // namespace leonav
