@@ -1,8 +1,10 @@
 """What must hold of a live drive: each function prints its numbers and gives the faults that it has found."""
 import collections
 import datetime
+import functools
 import json
 import math
+import operator
 import re
 import subprocess
 
@@ -104,14 +106,14 @@ def milliseconds(text):
     return round((datetime.datetime.strptime(text, "%Y-%m-%dT%H:%M:%S.%fZ") - GPS_EPOCH).total_seconds() * 1e3) + LEAP_S * 1000
 
 
-def gpsd_against(solutions, name, reports):
+def gpsd_against(of_journal, name, reports):
     """Every TPV with a fix against the SOLUTION of its time, and satellites in SKY."""
     positions = [one for one in reports if one.get("class") == "TPV" and one.get("mode", 0) >= 2 and "time" in one]
     skies = [one for one in reports if one.get("class") == "SKY" and one.get("satellites")]
     worst, missing, times = {"place": 0.0, "height": 0.0, "speed": 0.0}, 0, set()
     for one in positions:
         at = milliseconds(one["time"])
-        row = solutions.get(at)
+        row = of_journal.get(at)
         if row is None:
             missing += 1
             continue
@@ -135,20 +137,50 @@ def gpsd_against(solutions, name, reports):
     return faults, len(times)
 
 
-def gpsd(out, readers, duration_s):
-    """The reports of every gpsd against the journal's SOLUTION."""
+def solutions(out):
+    """{GPS time in ms: SOLUTION} of the journal, from the first position on."""
     table = leonav.read_log(out / "run.journal", ["SOLUTION"])["SOLUTION"]
     table = table[table["source"] != "none"]
     at = (table["gps_week"] * 604800000 + (table["gps_tow_s"] * 1e3).round()).astype(np.int64)
     columns = ["latitude_deg", "longitude_deg", "height_m", "v_north_m_s", "v_east_m_s"]
-    solutions = dict(zip(at, table[columns].to_dict("records")))
+    return dict(zip(at, table[columns].to_dict("records")))
+
+
+def gpsd(of_journal, readers, duration_s):
+    """The reports of every gpsd against the journal's SOLUTION."""
     faults = []
     for name, reader in readers.items():
-        found, instants = gpsd_against(solutions, name, reader.read())
+        found, instants = gpsd_against(of_journal, name, reader.read())
         faults += found
-        if instants < 0.7 * duration_s:
+        if instants < 0.6 * duration_s:
             faults.append(f"gpsd ({name}) reported only {instants} instants of {duration_s} s")
     return faults
+
+
+def degrees(text, letter):
+    point = text.index(".")
+    return (int(text[:point - 2]) + float(text[point - 2:]) / 60) * (-1 if letter in "SW" else 1)
+
+
+def nmea(of_journal, data, duration_s):
+    """What came out of the serial port: checksums, and each GGA against the SOLUTION of its time of day."""
+    by_day = {(at - LEAP_S * 1000) % 86400000: row for at, row in of_journal.items()}
+    worst, instants, sentences = 0.0, 0, 0
+    for line in data.decode("ascii", "replace").split("\r\n")[:-1]:
+        body, _, checksum = line[1:].partition("*")
+        if line[:1] != "$" or f"{functools.reduce(operator.xor, body.encode()):02X}" != checksum:
+            return [f"the serial port has a bad sentence: {line}"]
+        sentences += 1
+        fields = body.split(",")
+        if fields[0] != "GNGGA" or fields[6] == "0":
+            continue
+        row = by_day.get(round((int(fields[1][:2]) * 3600 + int(fields[1][2:4]) * 60 + float(fields[1][4:])) * 1000))
+        if row is None:
+            return [f"the serial port has a time without SOLUTION: {line}"]
+        instants += 1
+        worst = max(worst, abs(degrees(*fields[2:4]) - row["latitude_deg"]), abs(degrees(*fields[4:6]) - row["longitude_deg"]))
+    print(f"serial port: {sentences} sentences, their checksums right; {instants} positions within {worst:.2e} degrees")
+    return [] if instants > 0.6 * duration_s and worst <= PLACE_DEG else ["the serial port does not carry the solution"]
 
 
 def corrections(out):

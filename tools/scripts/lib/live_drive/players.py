@@ -1,4 +1,4 @@
-"""Sends the bytes of a drive at their times: on pseudo-terminals, and as a caster of corrections."""
+"""Sends the bytes of a drive at their times on pseudo-terminals, and hears what is written to one."""
 import os
 import threading
 import time
@@ -18,12 +18,12 @@ class Pace:
 
 
 class Terminal:
-    """A pseudo-terminal on whose other side a sensor is."""
+    """A pseudo-terminal on whose other side a sensor, or a chart program, is."""
 
     def __init__(self):
         self.sensor, self.port = os.openpty()
         tty.setraw(self.port)
-        self.name = os.ttyname(self.port)
+        self.name, self.heard = os.ttyname(self.port), b""
 
     def play(self, messages, pace, latency_s):
         """Starts to send (GPS time in ns, bytes), each `latency_s` after its time; gives the thread."""
@@ -35,3 +35,10 @@ class Terminal:
         thread = threading.Thread(target=run, daemon=True)
         thread.start()
         return thread
+
+    def listen(self):
+        """Keeps in `heard` what the program on the other side writes."""
+        def run():
+            while True:
+                self.heard += os.read(self.sensor, 4096)
+        threading.Thread(target=run, daemon=True).start()
