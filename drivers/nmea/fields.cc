@@ -35,7 +35,7 @@ PlaceFields place_fields(double radians, int digits, const char* positive, const
 }  // namespace
 
 UtcFields utc_fields(GpsTime time) {
-  constexpr std::int64_t kStep_ns = 10'000'000;
+  constexpr std::int64_t kStep_ns = 1'000'000;
   const std::int64_t whole = time.nanoseconds() / kStep_ns;
   const std::int64_t up = time.nanoseconds() % kStep_ns >= kStep_ns / 2 ? 1 : 0;
   const GpsTime rounded = GpsTime::from_nanoseconds((whole + up) * kStep_ns);
@@ -46,10 +46,14 @@ UtcFields utc_fields(GpsTime time) {
   const bool is_inserted = leap_seconds(later) > ahead;
   const int back = ahead + (is_inserted ? 1 : 0);
   const CalendarTime utc = to_calendar(rounded.plus_nanoseconds(-back * kNanosecondsPerSecond));
-  const int hundredths =
-      static_cast<int>(std::lround(utc.second * 100.0)) + (is_inserted ? 100 : 0);
-  return {print("%02d%02d%02d.%02d", utc.hour, utc.minute, hundredths / 100, hundredths % 100),
-          print("%02d", utc.day), print("%02d", utc.month), print("%04d", utc.year)};
+  const int milliseconds =
+      static_cast<int>(std::lround(utc.second * 1000.0)) + (is_inserted ? 1000 : 0);
+  // Two decimals, as most receivers write them, wherever they say it all.
+  const int second = milliseconds / 1000, fraction = milliseconds % 1000;
+  const std::string decimals =
+      fraction % 10 == 0 ? print("%02d", fraction / 10) : print("%03d", fraction);
+  return {print("%02d%02d%02d.", utc.hour, utc.minute, second) + decimals, print("%02d", utc.day),
+          print("%02d", utc.month), print("%04d", utc.year)};
 }
 
 std::string number_field(double value, int decimals) {

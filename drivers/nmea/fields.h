@@ -12,13 +12,14 @@ namespace leonav {
 
 // UTC as the fields of sentences have it.
 struct UtcFields {
-  std::string time;              // hhmmss.ss; 235960.ss within an inserted leap second
-  std::string day, month, year;  // dd, mm, yyyy
+  std::string time;  // hhmmss.ss or hhmmss.sss; 235960.ss within an inserted leap second
+  std::string day, month, year;                                      // dd, mm, yyyy
   std::string date() const { return day + month + year.substr(2); }  // ddmmyy
 };
 
-// Returns UTC of a GPS time, rounded to hundredths of a second, with the leap seconds of
-// leap_seconds() (IERS Bulletin C).
+// Returns UTC of a GPS time, rounded to milliseconds, with the leap seconds of leap_seconds() (IERS
+// Bulletin C). Hundredths of a second would be 10 cm of way at 20 m/s; they are written where the
+// third decimal is zero.
 UtcFields utc_fields(GpsTime time);
 
 // Returns a number with so many decimals; never "-0".

@@ -14,10 +14,14 @@ namespace {
 constexpr double kKnot_m_s = 1852.0 / 3600.0, kKilometresPerHour = 3.6;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// A height of at most eight characters, so that GGA stays within the 82 of the standard.
+// A height of at most seven characters, so that GGA stays within the 82 of the standard; a sign
+// takes the place of a digit.
 std::string height_field(double metres) {
-  const double size = std::abs(metres);
-  return number_field(metres, size < 1000.0 ? 3 : size < 10'000.0 ? 2 : 1);
+  const double size = metres < 0.0 ? -10.0 * metres : metres;
+  return number_field(metres, size < 999.9995    ? 3
+                              : size < 9'999.995 ? 2
+                              : size < 99'999.95 ? 1
+                                                 : 0);
 }
 
 double speed_of(const Solution& solution) { return std::hypot(solution.v_n[0], solution.v_n[1]); }

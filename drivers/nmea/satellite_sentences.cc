@@ -20,12 +20,12 @@ constexpr std::size_t kMostInView = 36;  // nine sentences: their number has one
 struct NmeaSystem {
   System system;
   const char* identifier;
-  const char* gsv;
+  const char* talker;
   std::uint16_t highest;
 };
-constexpr std::array<NmeaSystem, 3> kNmeaSystems = {{{System::kGps, "1", "GPGSV", 32},
-                                                     {System::kGalileo, "3", "GAGSV", 36},
-                                                     {System::kBeidou, "4", "GBGSV", 63}}};
+constexpr std::array<NmeaSystem, 3> kNmeaSystems = {{{System::kGps, "1", "GP", 32},
+                                                     {System::kGalileo, "3", "GA", 36},
+                                                     {System::kBeidou, "4", "GB", 63}}};
 
 std::string two_digits(int value) { return (value < 10 ? "0" : "") + std::to_string(value); }
 
@@ -46,8 +46,8 @@ std::string dop_field(double dop) {
 }
 
 std::string gsa_sentence(char mode, const std::vector<SatelliteView>& used, const SkyView* sky,
-                         const char* identifier) {
-  Sentence sentence("GNGSA");
+                         const NmeaSystem& system) {
+  Sentence sentence(std::string(system.talker) + "GSA");
   sentence.field("A").field(std::string(1, mode));
   for (std::size_t i = 0; i < kPerGsa; ++i) {
     sentence.field(i < used.size() ? two_digits(used[i].satellite.number) : "");
@@ -55,7 +55,7 @@ std::string gsa_sentence(char mode, const std::vector<SatelliteView>& used, cons
   for (const double dop : {sky ? sky->pdop : 0.0, sky ? sky->hdop : 0.0, sky ? sky->vdop : 0.0}) {
     sentence.field(dop_field(dop));
   }
-  return sentence.field(identifier).line();
+  return sentence.field(system.identifier).line();
 }
 
 void add_view(const SatelliteView& view, Sentence* sentence) {
@@ -86,9 +86,9 @@ std::string gsa_sentences(const Solution& solution, const SkyView* sky) {
   for (const NmeaSystem& system : kNmeaSystems) {
     if (!has_satellites) break;
     const std::vector<SatelliteView> used = of_system(*sky, system, true);
-    if (!used.empty()) lines += gsa_sentence(mode, used, sky, system.identifier);
+    if (!used.empty()) lines += gsa_sentence(mode, used, sky, system);
   }
-  return lines.empty() ? gsa_sentence(mode, {}, nullptr, "1") : lines;
+  return lines.empty() ? gsa_sentence(mode, {}, nullptr, kNmeaSystems[0]) : lines;
 }
 
 std::string gsv_sentences(const SkyView* sky) {
@@ -99,7 +99,7 @@ std::string gsv_sentences(const SkyView* sky) {
     const std::size_t shown = std::min(all.size(), kMostInView);
     const std::size_t total = (shown + kPerGsv - 1) / kPerGsv;
     for (std::size_t number = 0; number < total; ++number) {
-      Sentence sentence(system.gsv);
+      Sentence sentence(std::string(system.talker) + "GSV");
       sentence.field(std::to_string(total)).field(std::to_string(number + 1));
       sentence.field(two_digits(static_cast<int>(shown)));
       for (std::size_t i = kPerGsv * number; i < std::min(shown, kPerGsv * (number + 1)); ++i) {

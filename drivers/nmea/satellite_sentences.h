@@ -1,6 +1,7 @@
 // These functions write the sentences of satellites: GSA, those in use, and GSV, those in view.
 //
-// GPS, Galileo and BeiDou have system identifiers 1, 3 and 4 and talkers GP, GA and GB. Satellites
+// GPS, Galileo and BeiDou have system identifiers 1, 3 and 4 and talkers GP, GA and GB, in GSA too:
+// readers that do not know the identifier, as gpsd 3.22, take satellites of GN for GPS. Satellites
 // that the standard has no number for are left out: those in low orbit, and GPS above 32. Source:
 // NMEA 0183 v4.10, GSA and GSV; BeiDou's identifiers are those of v4.11.
 #pragma once

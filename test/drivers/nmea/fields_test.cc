@@ -32,16 +32,20 @@ TEST_CASE("UTC is GPS time less the leap seconds of that day", "[nmea]") {
   CHECK(fields.time == "123519.25");
   CHECK(fields.date() == "250620");
   CHECK(fields.year == "2020");
+  // A third decimal only where it says something.
+  CHECK(utc(2020, 6, 25, 12, 35, 37.255).time == "123519.255");
+  CHECK(utc(2020, 6, 25, 12, 35, 37.2504).time == "123519.25");
+  CHECK(utc(2020, 6, 25, 12, 35, 37.001).time == "123519.001");
   // 13 seconds until the end of 2005, 14 afterwards.
   CHECK(utc(2005, 6, 1, 0, 0, 13.0).time == "000000.00");
   CHECK(utc(2006, 6, 1, 0, 0, 14.0).time == "000000.00");
 }
 
 TEST_CASE("Rounding carries into minutes, days and years", "[nmea]") {
-  const UtcFields before = utc(2020, 1, 1, 0, 0, 17.994);
-  CHECK(before.time == "235959.99");
+  const UtcFields before = utc(2020, 1, 1, 0, 0, 17.9994);
+  CHECK(before.time == "235959.999");
   CHECK(before.date() == "311219");
-  const UtcFields after = utc(2020, 1, 1, 0, 0, 17.996);
+  const UtcFields after = utc(2020, 1, 1, 0, 0, 17.9996);
   CHECK(after.time == "000000.00");
   CHECK(after.date() == "010120");
   CHECK(utc(2020, 2, 29, 0, 0, 17.0).date() == "280220");
@@ -54,7 +58,8 @@ TEST_CASE("The leap second of 2016 is second 60 of its day", "[nmea]") {
   const UtcFields inserted = utc(2017, 1, 1, 0, 0, 17.25);
   CHECK(inserted.time == "235960.25");
   CHECK(inserted.date() == "311216");
-  CHECK(utc(2017, 1, 1, 0, 0, 17.996).time == "000000.00");
+  CHECK(utc(2017, 1, 1, 0, 0, 17.9994).time == "235960.999");
+  CHECK(utc(2017, 1, 1, 0, 0, 17.9996).time == "000000.00");
   const UtcFields next = utc(2017, 1, 1, 0, 0, 18.0);
   CHECK(next.time == "000000.00");
   CHECK(next.date() == "010117");

@@ -43,9 +43,9 @@ TEST_CASE("Each system has sentences of its own", "[nmea]") {
   sky.satellites.push_back(view(System::kGps, 40, true));  // would be read as SBAS
   const auto used = bodies(gsa_sentences(test::munich(), &sky));
   REQUIRE(used.size() == 3);
-  CHECK(used[0] == "GNGSA,A,3,01,02,04,05,,,,,,,,,1.50,0.90,1.20,1");
-  CHECK(used[1] == "GNGSA,A,3,36,,,,,,,,,,,,1.50,0.90,1.20,3");
-  CHECK(used[2] == "GNGSA,A,3,60,,,,,,,,,,,,1.50,0.90,1.20,4");
+  CHECK(used[0] == "GPGSA,A,3,01,02,04,05,,,,,,,,,1.50,0.90,1.20,1");
+  CHECK(used[1] == "GAGSA,A,3,36,,,,,,,,,,,,1.50,0.90,1.20,3");
+  CHECK(used[2] == "GBGSA,A,3,60,,,,,,,,,,,,1.50,0.90,1.20,4");
   const auto seen = bodies(gsv_sentences(&sky));
   REQUIRE(seen.size() == 4);
   CHECK(seen[0] == "GPGSV,2,1,05,01,40,084,46,02,40,084,46,03,40,084,46,04,40,084,46,0");
@@ -61,7 +61,7 @@ TEST_CASE("No more than the sentences have room for", "[nmea]") {
   }
   const auto used = bodies(gsa_sentences(test::munich(), &sky));
   REQUIRE(used.size() == 1);
-  CHECK(used[0] == "GNGSA,A,3,01,02,03,04,05,06,07,08,09,10,11,12,,,,4");
+  CHECK(used[0] == "GBGSA,A,3,01,02,03,04,05,06,07,08,09,10,11,12,,,,4");
   const auto seen = bodies(gsv_sentences(&sky));
   REQUIRE(seen.size() == 9);
   CHECK(seen[8].starts_with("GBGSV,9,9,36,33,"));
@@ -73,11 +73,11 @@ TEST_CASE("What is not known is empty", "[nmea]") {
   sky.satellites.push_back({{System::kGps, 7}, nan, nan, 0.0, false});
   sky.satellites.push_back({{System::kGps, 8}, -2.0 * kDegree, 359.7 * kDegree, 250.0, false});
   CHECK(bodies(gsv_sentences(&sky)).at(0) == "GPGSV,1,1,02,07,,,,08,-2,000,99,0");
-  CHECK(bodies(gsa_sentences(test::munich(), &sky)).at(0) == "GNGSA,A,3,,,,,,,,,,,,,,,,1");
+  CHECK(bodies(gsa_sentences(test::munich(), &sky)).at(0) == "GPGSA,A,3,,,,,,,,,,,,,,,,1");
   CHECK(gsv_sentences(nullptr).empty());
   Solution none = test::munich();
   none.source = Source::kNone;
-  CHECK(bodies(gsa_sentences(none, &sky)).at(0) == "GNGSA,A,1,,,,,,,,,,,,,,,,1");
+  CHECK(bodies(gsa_sentences(none, &sky)).at(0) == "GPGSA,A,1,,,,,,,,,,,,,,,,1");
 }
 
 }  // namespace leonav

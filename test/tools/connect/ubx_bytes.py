@@ -145,8 +145,9 @@ def ionosphere_page(sent):
 
 
 def with_parity(words):
-    """Ten words of 30 bits in 32, as the receiver gives them. Words two and ten end in two bits that make their own parity
-    end in zeros; they are searched for here."""
+    """Ten words of 30 bits in 32, as the receiver gives them, below the last two bits of the word before. A word that follows
+    a last bit 1 has its data inverted on air: the receiver turns all 32 bits back. Words two and ten end in two bits that make
+    their own parity end in zeros; they are searched for here."""
     out, d29, d30 = [], 0, 0
     for index, word in enumerate(words):
         for tail in ("",) if index not in (1, 9) else ("00", "01", "10", "11"):
@@ -157,7 +158,7 @@ def with_parity(words):
         value = d29 << 31 | d30 << 30
         for place, bit in enumerate(data + parity):
             value |= bit << (29 - place)
-        out.append(value)
+        out.append(value ^ (0xC000003F if d30 else 0))
         d29, d30 = parity[4], parity[5]
     return out
 

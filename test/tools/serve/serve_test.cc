@@ -76,7 +76,7 @@ TEST_CASE("Messages become sentences, damaged ones are counted", "[serve]") {
   REQUIRE(batch);
   CHECK(batch->sentences == 2);
   CHECK(batch->text.find(",1,01,1.50,") != std::string::npos);
-  CHECK(batch->text.find("$GNGSA,A,3,07,") != std::string::npos);
+  CHECK(batch->text.find("$GAGSA,A,3,07,") != std::string::npos);
   CHECK_FALSE(feed.on_solution(encoder.encode(solution)));  // the same instant
   solution.time = kStart.plus_seconds(1.0);
   solution.latitude = 2.0;

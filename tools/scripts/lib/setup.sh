@@ -30,6 +30,7 @@ install_packages() {
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
                        libyaml-cpp-dev libspdlog-dev libceres-dev libssl-dev)
 leonav_test_packages=(catch2)
+leonav_live_packages=(gpsd gpsd-clients openssl)
 leonav_fleet_packages=(python3-distributed python3-dask python3-cryptography python3-numpy python3-yaml)
 
 # build PRESET [CMAKE_ARGUMENT...]
