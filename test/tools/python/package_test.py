@@ -134,7 +134,7 @@ class Types(unittest.TestCase):
         from top.picture import State, picture
         dice, state = random.Random(8), State()
         for channel, name in (("HEALTH", "health_t"), ("SOLUTION", "solution_t"), ("EPOCH", "epoch_t"), ("EVENT", "event_t"),
-                              ("STREAMS", "streams_t")) * 60:
+                              ("STREAMS", "streams_t"), ("CORRECTED_STATES", "corrected_states_t")) * 60:
             data = bytearray(filled(self.generated, lcm_types.TYPES[name], dice).encode())
             for _ in range(3):
                 data[dice.randrange(8, len(data))] = dice.choice((0, 0x7F, 0xFF, dice.randrange(256)))

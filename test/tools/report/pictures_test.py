@@ -224,7 +224,7 @@ class Sky(unittest.TestCase):
         inside = share[np.ix_(behind, low)]
         self.assertTrue(0.6 < np.nanmedian(inside) < 0.8)  # seven of ten epochs
 
-    def test_epochs_without_any_satellite_and_those_that_were_left_out_are_not_counted_as_lost(self):
+    def test_epochs_without_any_satellite_and_satellites_that_were_left_out_are_not_lost(self):
         time = np.concatenate([np.arange(10.0), np.arange(40.0, 50.0)])
         made = table(gps_tow_s=np.repeat(time, 2), satellite=np.array(["G01", "G02"] * 20, dtype=object), azimuth_deg=np.full(40, 359.0),
                      elevation_deg=np.full(40, 30.0), reason=np.array(["used", "unhealthy"] * 20, dtype=object))

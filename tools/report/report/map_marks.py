@@ -12,6 +12,8 @@ from .style import distance
 STEPS = tuple(step * unit for unit, steps in ((1e-4, (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)), (1, (1, 2, 5, 10, 15, 30)),
                                               (60, (1, 2, 5, 10, 15, 30)), (3600, (1, 2, 5, 10, 15, 30))) for step in steps)
 
+EDGE = 0.045  # of the map: a line that close to a corner has no label, which would stick out
+
 
 def round_length(most):
     """The longest of 1, 2, 5 times a power of ten that is not longer than `most`."""
@@ -55,7 +57,7 @@ def draw_graticule(axis, frame, extent, lines):
         n, e, _ = frame.north_east_up(latitude, np.full(20, longitude), frame.height)
         axis.plot(e, n, **style)
         at = np.interp(north, n, e)
-        if west < at < east:
+        if west + EDGE * (east - west) < at < east - EDGE * (east - west):
             axis.annotate(arc_text((longitude + 180.0) % 360.0 - 180.0, step, "EW"), (at, north), xytext=(0, 4), textcoords="offset points",
                           ha="center", va="bottom", fontsize=8, color="#4a6a86")
     step = arc_step(np.ptp(corner_lat), lines[1])
@@ -64,7 +66,7 @@ def draw_graticule(axis, frame, extent, lines):
         n, e, _ = frame.north_east_up(np.full(20, latitude), longitude, frame.height)
         axis.plot(e, n, **style)
         at = np.interp(east, e, n)
-        if south < at < north:
+        if south + EDGE * (north - south) < at < north - EDGE * (north - south):
             axis.annotate(arc_text(latitude, step, "NS"), (east, at), xytext=(4, 0), textcoords="offset points", ha="left", va="center",
                           fontsize=8, color="#4a6a86", rotation=90)
 

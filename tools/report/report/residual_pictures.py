@@ -1,4 +1,4 @@
-"""Residuals over time: by kind in their units with three sigma, and by satellite in sigma, with counts of rejected ones."""
+"""Residuals over time: by kind in their units with three sigma, and by satellite over the RMS of its kind, with counts of rejected ones."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
@@ -9,7 +9,7 @@ from .residuals import KINDS, REJECTED, counts, kinds_of, largest, over_time, tr
 MOST_DOTS = 40000  # of a kind; more are thinned evenly
 BAND_BINS = 300
 MAP_BINS = 240
-WORST_SIGMA = 4.0
+WORST = 4.0  # RMS
 
 
 def draw_residuals(run, start):
@@ -44,8 +44,10 @@ def _draw_kind(axis, run, mine, kind, systems, start, length):
     used = mine & ~rejected
     edges = np.linspace(t[mine].min() - 1e-3, t[mine].max() + 1e-3, min(BAND_BINS, max(2, len(np.unique(t[mine])))) + 1)
     band = 3.0 * over_time(t[mine], sigma[mine], edges, np.median)
-    limit = 1.35 * max(np.nanmax([np.nanmedian(band), 0.0]) if np.isfinite(band).any() else 0.0,
-                       np.percentile(np.abs(residual[used]), 99) if used.any() else 0.0, 1e-3)
+    usual = np.percentile(np.abs(residual[used]), 99) if used.any() else 0.0
+    three_sigma = np.nanmedian(band) if np.isfinite(band).any() else np.nan
+    # Three sigma of an innovation may be far beyond what is left of it: of carriers, whose ambiguity is not known at first.
+    limit = 1.35 * max(usual, min(np.nan_to_num(three_sigma), 4.0 * usual) if usual > 0 else np.nan_to_num(three_sigma), 1e-3)
     for system, color in style.SYSTEM_COLORS.items():
         rows = np.flatnonzero(used & (systems == system))
         rows = rows[::max(1, len(rows) * 4 // MOST_DOTS)]
@@ -70,12 +72,12 @@ def _draw_kind(axis, run, mine, kind, systems, start, length):
     axis.set_ylabel(f"{name} ({unit})")
     one = counts(table["reason"][mine])
     rms = np.sqrt(np.mean(residual[used] ** 2)) if used.any() else np.nan
-    axis.set_title(f"{one.used} used, RMS {rms:.3g} {unit}; {one.weakened} of them down-weighted; {one.rejected} rejected "
+    axis.set_title(f"3 sigma {three_sigma:.3g} {unit};  {one.used} used, RMS {rms:.3g} {unit}; {one.weakened} of them down-weighted;  {one.rejected} rejected "
                    f"({100.0 * one.rejected / max(one.total, 1):.1f} %)", loc="right", fontsize=8.5, fontweight="normal", color="#333333")
 
 
 def draw_residuals_by_satellite(run, start):
-    """Returns the figure: a row for each satellite, its largest residual in sigma over time, and its counts; None without residuals."""
+    """Returns the figure: a row for each satellite, its largest residual over time, and its counts; None without residuals."""
     table = run.measurements
     good = tried(table)
     kinds = [kind for kind in kinds_of(table) if (good & (table["observable"] == kind)).any()]
@@ -94,17 +96,17 @@ def draw_residuals_by_satellite(run, start):
     bottom=0.55 / height,
      top=1.0 - 0.6 / height)
     t = table.time - start
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = table["residual"] / table["innovation_sigma"]
-    rejected = np.isin(table["reason"], REJECTED)
+    ratio, rejected = table["residual"].copy(), np.isin(table["reason"], REJECTED)
+    for kind in kinds:
+        ratio[table["observable"] == kind] /= max(np.sqrt(np.mean(ratio[good & ~rejected & (table["observable"] == kind)] ** 2)), 1e-9)
     of = {name: table["satellite"] == name for name in satellites}
     image = None
     for axis, kind in zip(axes, kinds):
         mine = good & (table["observable"] == kind)
         values = np.array([over_time(t[mine & of[name] & ~rejected], ratio[mine & of[name] & ~rejected], edges, largest)
                           for name in satellites])
-        image = axis.pcolormesh(edges, np.arange(len(satellites) + 1) - 0.5, np.ma.masked_invalid(values), cmap="PuOr", vmin=-WORST_SIGMA,
-                                vmax=WORST_SIGMA, rasterized=True)
+        image = axis.pcolormesh(edges, np.arange(len(satellites) + 1) - 0.5, np.ma.masked_invalid(values), cmap="PuOr", vmin=-WORST,
+                                vmax=WORST, rasterized=True)
         for row, name in enumerate(satellites):
             some = t[mine & of[name] & rejected]
             axis.plot(some, np.full(len(some), row), "|", color="black", markersize=5.5, markeredgewidth=0.6)
@@ -119,7 +121,7 @@ def draw_residuals_by_satellite(run, start):
     _draw_counts(axes[-1], [counts(table["reason"][good & of[name]]) for name in satellites])
     bar = figure.colorbar(image, cax=figure.add_axes([1.0 - 0.62 / figure.get_figwidth(), 0.55 / height, 0.14 / figure.get_figwidth(),
                                                       1.0 - 1.15 / height]), extend="both")
-    bar.set_label("residual / sigma")
+    bar.set_label("residual / RMS of its kind")
     figure.text(
     0.1 / figure.get_figwidth(),
     1.0 - 0.14 / height,

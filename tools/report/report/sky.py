@@ -34,20 +34,21 @@ def kind_of(reasons):
 
 
 def sky_tracks(satellites):
-    """The tracks of all satellites of a table, by name. Epochs without a direction are left out."""
+    """The tracks of all satellites of a table, by name. A direction that is not known, or 0 and 0, lies between its neighbours in time."""
     epochs = np.unique(satellites.time)
+    azimuth, elevation = satellites["azimuth_deg"], satellites["elevation_deg"]
+    known = np.isfinite(azimuth + elevation) & ((azimuth != 0.0) | (elevation != 0.0))
     tracks = []
-    known = np.isfinite(satellites["azimuth_deg"] + satellites["elevation_deg"])
     for name in sorted(set(satellites["satellite"][known])):
-        rows = np.flatnonzero(known & (satellites["satellite"] == name))
-        time, first = np.unique(satellites.time[rows], return_index=True)
-        rows = rows[first]
-        azimuth = np.degrees(np.unwrap(np.radians(satellites["azimuth_deg"][rows])))
-        elevation, kinds = satellites["elevation_deg"][rows], kind_of(satellites["reason"][rows])
+        mine = satellites["satellite"] == name
+        time, first = np.unique(satellites.time[mine & known], return_index=True)
+        rows = np.flatnonzero(mine & known)[first]
         every = epochs[(epochs >= time[0]) & (epochs <= time[-1])]
-        all_kinds = np.full(len(every), "lost", dtype=object)
-        all_kinds[np.searchsorted(every, time)] = kinds
-        tracks.append(SkyTrack(name, every, np.interp(every, time, azimuth), np.interp(every, time, elevation), all_kinds))
+        kinds = np.full(len(every), "lost", dtype=object)
+        told = np.flatnonzero(mine & (satellites.time >= time[0]) & (satellites.time <= time[-1]))
+        kinds[np.searchsorted(every, satellites.time[told])] = kind_of(satellites["reason"][told])
+        turned = np.degrees(np.unwrap(np.radians(azimuth[rows])))
+        tracks.append(SkyTrack(name, every, np.interp(every, time, turned), np.interp(every, time, elevation[rows]), kinds))
     return tracks
 
 
@@ -57,8 +58,7 @@ def lost_share(tracks):
     elevation_edges = np.arange(0.0, 90.0 + ELEVATION_STEP, ELEVATION_STEP)
     counted, lost = (np.zeros((len(azimuth_edges) - 1, len(elevation_edges) - 1)) for _ in range(2))
     for track in tracks:
-        told = track.kind != "left out"  # by the configuration, for want of an ephemeris: says nothing of the sky
-        for counts, mask in ((counted, told), (lost, track.kind == "lost")):
+        for counts, mask in ((counted, slice(None)), (lost, track.kind == "lost")):  # a signal that is left out has been received
             counts += np.histogram2d(track.azimuth[mask] % 360.0, track.elevation[mask], (azimuth_edges, elevation_edges))[0]
     share = np.where(counted >= FEWEST_EPOCHS, lost / np.maximum(counted, 1), np.nan)
     return azimuth_edges, elevation_edges, share

@@ -84,7 +84,7 @@ def _draw_track(axis, track):
     shown = np.flatnonzero(track.elevation >= 0.0)
     if len(shown):
         axis.plot(theta[shown[-1]], radius[shown[-1]], style.SYSTEM_MARKS[system],
-                  color=color, markeredgecolor="white", markersize=8, zorder=10)
+                  color=color, markeredgecolor="white", markersize=7, zorder=10)
 
 
 def _apart(axis, theta, radius, rows):
