@@ -194,11 +194,12 @@ def _marks(axis, tracks, labels):
         n, e = track.at(time)
         axis.plot(e, n, mark, color="white", markeredgecolor="black", markeredgewidth=1.4, markersize=7.5, zorder=30)
         labels.place(e, n, text, must=True, fontsize=9.5, weight="bold")
-    some = [(end - begin, begin, end, one) for index, one in enumerate(tracks) for begin, end in one.labelled_gaps(tracks[:index])]
+    some = [(end - begin, begin, end, one, index) for index, one in enumerate(tracks) for begin, end in one.labelled_gaps(tracks[:index])]
     some.sort(key=lambda gap: -gap[0])
-    for length, begin, end, one in some[:MOST_LABELS]:
+    for length, begin, end, one, index in some[:MOST_LABELS]:
         (n0, e0), (n1, e1) = one.at(begin), one.at(end)
-        labels.place(0.5 * (e0 + e1), 0.5 * (n0 + n1), style.duration(length), fontsize=8.5, color="#333333")
+        labels.place(0.5 * (e0 + e1), 0.5 * (n0 + n1), style.duration(length), fontsize=8.5,
+                     color=style.run_style(index)["color"] if index else "#333333")
     return [Line2D([], [], color="#444444", linewidth=1.1, linestyle=(0, (4, 3)), label="no solution, for how long")] if some else []
 
 
