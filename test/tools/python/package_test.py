@@ -28,6 +28,7 @@ except ImportError as missing:
     print(f"SKIPPED: {missing} for {sys.executable} (Debian packages python3-numpy, python3-pandas)")
     sys.exit(0)
 import lcm_log  # noqa: E402
+from generated_types import generated_types  # noqa: E402
 import leonav  # noqa: E402
 from leonav import gps_time, lcm_types, names  # noqa: E402
 from leonav.live import Assembler  # noqa: E402
@@ -49,18 +50,6 @@ finally:
 """
 # What a last digit of the tables is worth; other columns have 3 decimals or more.
 DIGIT = {"pdop": 0.01, "hdop": 0.01, "vdop": 0.01, "elevation_deg": 0.01, "azimuth_deg": 0.01, "cn0_dbhz": 0.1, "ephemeris_age_s": 0.1}
-
-
-def generated_types():
-    """The types that lcm-gen writes for Python, in a process of their own because their package has the same name."""
-    folder = WORK / "generated"
-    subprocess.run(["lcm-gen", "-p", "--ppath", folder, *sorted((ROOT / "lcmtypes").glob("*.lcm"))], check=True)
-    os.rename(folder / "leonav", folder / "generated_leonav")
-    for file in (folder / "generated_leonav").glob("*.py"):
-        file.write_text(re.sub(r"\bleonav\.", "generated_leonav.", file.read_text()))
-    sys.path.insert(0, str(folder))
-    import generated_leonav
-    return generated_leonav
 
 
 def filled(types, kind, dice, counts=None):
@@ -98,7 +87,7 @@ class Types(unittest.TestCase):
         if shutil.which("lcm-gen") is None:
             print("SKIPPED: no lcm-gen (package liblcm-bin)")
             raise unittest.SkipTest("no lcm-gen")
-        cls.generated = generated_types()
+        cls.generated = generated_types(ROOT, WORK / "generated")
 
     def same(self, ours, theirs, where):
         if isinstance(ours, dict) or (isinstance(ours, np.void) and ours.dtype.names):
@@ -145,7 +134,7 @@ class Types(unittest.TestCase):
         from top.picture import State, picture
         dice, state = random.Random(8), State()
         for channel, name in (("HEALTH", "health_t"), ("SOLUTION", "solution_t"), ("EPOCH", "epoch_t"), ("EVENT", "event_t"),
-                              ("STREAMS", "streams_t")) * 60:
+                              ("STREAMS", "streams_t"), ("CORRECTED_STATES", "corrected_states_t")) * 60:
             data = bytearray(filled(self.generated, lcm_types.TYPES[name], dice).encode())
             for _ in range(3):
                 data[dice.randrange(8, len(data))] = dice.choice((0, 0x7F, 0xFF, dice.randrange(256)))

@@ -22,6 +22,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path.append(str(HERE.parent))
+from generated_types import generated_types  # noqa: E402
 from live_program import enter_namespace, fail  # noqa: E402
 
 TIME_NS = ((2200 * 7 + 4) * 86400 + 61) * 10**9 + 500_000_000  # 2022-03-10 00:00:43.5 UTC
@@ -44,11 +45,12 @@ def messages(types):
     health.time_ns, health.schema, health.status, health.source = TIME_NS, 2, "DEGRADED", "ekf"
     health.why = "no heading \x1b[2Jyet"  # would clear the terminal
     health.smoother_misses, health.uptime_s, health.memory_mb = 17, 33.0, 81.5
-    for name, value in (("rejected not_sane", 4), ("IMU", 100)):
+    for name, value in (("rejected not_sane", 4), ("IMU", 100), ("smoother commits", 183)):
         count = types.count_t()
         count.name, count.value = name, value
         health.counts.append(count)
     health.n_counts = len(health.counts)
+    health.satellites_by_source, health.age_by_source_s = [3, 9], [1200.4, 14.6]
     solution = types.solution_t()
     solution.time_ns, solution.schema, solution.source, solution.has_attitude = TIME_NS, 2, 3, True
     solution.latitude_rad, solution.longitude_rad, solution.height_m = math.radians(45.5), math.radians(-7.25), 123.456
@@ -59,6 +61,7 @@ def messages(types):
     for number, reason in ((5, 0), (9, 7)):
         one = types.satellite_report_t()
         one.system, one.number, one.reason, one.elevation_rad, one.azimuth_rad, one.cn0_dbhz = 0, number, reason, 0.5, 1.0, 45.0
+        one.orbit_source, one.ephemeris_age_s = (2, 14.6) if reason == 0 else (0, math.nan)
         epoch.satellites.append(one)
     epoch.n_satellites = len(epoch.satellites)
     event = types.event_t()
@@ -66,8 +69,23 @@ def messages(types):
     streams, stream = types.streams_t(), types.stream_t()
     stream.name, stream.state, stream.messages, stream.damaged, stream.message_age_s = "receiver", "good", 321, 2, 0.5
     streams.time_ns, streams.schema, streams.n, streams.streams = TIME_NS, 1, 1, [stream]
-    return [("LEONAV_HEALTH", health.encode()), ("LEONAV_STREAMS", streams.encode()), ("LEONAV_EVENT", event.encode()),
+    corrected = [corrected_states(types, TIME_NS - 10 * 10**9, 0, ((5, 4.0, 20.0, 0.05), (7, 5.0, 20.0, 0.07))),
+                 corrected_states(types, TIME_NS - 2 * 10**9, 1, ((11, 6.0, 29.5, 0.06),))]
+    return [("LEONAV_CORRECTED_STATES", one.encode()) for one in corrected] + [
+            ("LEONAV_HEALTH", health.encode()), ("LEONAV_STREAMS", streams.encode()), ("LEONAV_EVENT", event.encode()),
             ("LEONAV_EPOCH", epoch.encode()), ("LEONAV_HEALTH", b"damaged"), ("LEONAV_SOLUTION", solution.encode())]
+
+
+def corrected_states(types, time_ns, system, satellites):
+    """A message with states of one system: numbers, ages of clock and orbit, sigmas."""
+    message = types.corrected_states_t()
+    message.time_ns, message.schema, message.provider, message.solution, message.ssr_issue = time_ns, 1, 258, 2, 5
+    for number, clock, orbit, sigma in satellites:
+        one = types.corrected_state_t()
+        one.system, one.number, one.clock_age_s, one.orbit_age_s, one.sigma_m = system, number, clock, orbit, sigma
+        message.states.append(one)
+    message.n = len(message.states)
+    return message
 
 
 class Sender(threading.Thread):
@@ -106,11 +124,13 @@ def check_once(program, some):
     sender.join()
     if shown.returncode != 0 or "\x1b" in shown.stdout:
         fail(f"--once: {shown}")
-    require(shown.stdout, "DEGRADED  no heading ?[2Jyet", "uptime 33 s", "misses filter 0, smoother 17", "counts: rejected not_sane 4\n",
+    require(shown.stdout, "DEGRADED  no heading ?[2Jyet", "uptime 33 s", "misses filter 0, smoother 17 of 200", "counts: rejected not_sane 4\n",
             "2022-03-10 00:00:43.5 UTC   source ekf", "latitude 45.50000000   longitude -7.25000000   height 123.46 m",
             "speed 5.00 m/s, up 1.00 m/s", "heading 270.00 degrees", "1 sigma north 0.50, east 0.25, down 1.50 m",
-            "horizontal 6.2 m, vertical -", "1 used of 2   PDOP 1.8", "G05      29  57 45.0 ###############      used",
-            "G09      29  57 45.0 ###############      low_elevation")
+            "horizontal 6.2 m, vertical -", "1 used of 2, gps 1   PDOP 1.8", "G05      29  57 45.0 ###############      used             precise, 15 s\n",
+            "G09      29  57 45.0 ###############      low_elevation\n",
+            "provider 258, solution 2, issue 5: 3 satellites (gps 2, galileo 1)   oldest: clock 15 s, orbit 32 s   1 sigma 0.06 m   last 0 s ago",
+            "satellites used: 3 by broadcast messages (oldest 1200 s), 9 by corrected or precise states (oldest 15 s)")
 
 
 def check_terminal(program, some):
@@ -144,6 +164,24 @@ def check_terminal(program, some):
             fail(f"a line is longer than the terminal: {plain}")
 
 
+def check_what_has_stopped(types, some):
+    """New misses, and corrections that do not come any more, by the picture itself."""
+    sys.path[:0] = [str(ROOT / "tools" / "top"), str(ROOT / "tools" / "python")]
+    import leonav
+    from top.picture import State, picture
+
+    state = State()
+    for channel, data in some:
+        if data != b"damaged":
+            state.take(leonav.Message(channel[len("LEONAV_"):], *leonav.decode(data)), 100.0)
+    again = types.health_t.decode(next(data for channel, data in some if channel == "LEONAV_HEALTH"))
+    again.smoother_misses += 1
+    state.take(leonav.Message("HEALTH", *leonav.decode(again.encode())), 110.0)
+    require("\n".join(picture(state, 115.0, 200, 100)), "smoother 18 of 201, last 5 s ago", "-- solution: SILENT for 15 s", "-- corrections\n")
+    require("\n".join(picture(state, 170.0, 200, 100)), "-- corrections: SILENT for 70 s", "3 satellites (gps 2, galileo 1)", "last 70 s ago")
+    require("\n".join(picture(state, 300.0, 200, 100)), "provider 258, solution 2, issue 5: none for 200 s")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -158,10 +196,9 @@ def main():
     enter_namespace()
     program = os.path.join(sys.argv[1], "leonav-top")
     with tempfile.TemporaryDirectory() as work:
-        subprocess.run(["lcm-gen", "-p", "--ppath", work, *sorted((ROOT / "lcmtypes").glob("*.lcm"))], check=True)
-        sys.path.insert(0, work)
-        import leonav
-        some = messages(leonav)
+        types = generated_types(ROOT, pathlib.Path(work))
+        some = messages(types)
+        check_what_has_stopped(types, some)
         check_once(program, some)
         check_terminal(program, some)
     if subprocess.run([sys.executable, program, "--help"], capture_output=True, check=False).returncode != 0:

@@ -9,23 +9,25 @@ import leonav
 
 from .picture import State, picture
 
-CHANNELS = ("HEALTH", "SOLUTION", "EPOCH", "EVENT", "STREAMS")
+CHANNELS = ("HEALTH", "SOLUTION", "EPOCH", "EVENT", "STREAMS", "CORRECTED_STATES")
 REDRAW_S = 0.25
 ENTER, LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 HOME, CLEAR_LINE, CLEAR_BELOW = "\x1b[H", "\x1b[K", "\x1b[J"
-# --once waits this long for the other channels once the first message is there.
-SETTLE_S = 3.0
+SETTLE_S = 3.0  # that --once listens for the other channels once the first message is there
+ALL = {"HEALTH", "SOLUTION", "EPOCH", "STREAMS", "CORRECTED_STATES"}
 
 
 def arguments(words):
     parser = argparse.ArgumentParser(
         prog="leonav-top", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Shows in a terminal what leonavd and leonav-connect publish: health with misses and refused inputs, the\n"
-                    "solution, streams, the last events, satellites. Ctrl-C ends it. It only listens. What the words mean stands\n"
-                    "in docs/operations/health.md, channels.md, connect.md and events.md.",
+                    "solution, streams, source and age of corrections, the last events, satellites with their orbits. Ctrl-C ends it.\n"
+                    "It only listens. What the words mean stands in docs/operations/health.md, channels.md, connect.md and events.md.",
         epilog="Exit codes: 0 ended; 1 no message came (--once), or LCM cannot be joined; 2 command line.")
     parser.add_argument("--once", action="store_true", help="print one picture and end")
     parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="with --once: for the first message, at most; 5 unless given")
+    parser.add_argument("--listen", type=float, default=SETTLE_S, metavar="S",
+                        help="with --once: for the other messages after the first; 3 unless given. Corrections come each 5 to 30 s")
     parser.add_argument("--prefix", default="LEONAV_", metavar="TEXT", help="lcm.prefix of the configuration; LEONAV_ unless given")
     parser.add_argument("--url", default="udpm://239.255.76.67:7667", metavar="URL", help="lcm.url of the configuration")
     return parser.parse_args(words)
@@ -37,8 +39,8 @@ def once(options):
     for message in leonav.subscribe(CHANNELS, options.prefix, options.url, timeout_s=max(options.wait, 0.0)):
         now = time.monotonic()
         state.take(message, now)
-        end = now + SETTLE_S if end is None else end
-        if now >= end or {"HEALTH", "SOLUTION", "EPOCH"} <= set(state.fields):
+        end = now + options.listen if end is None else end
+        if now >= end or ALL <= set(state.fields):
             break
     if not state.fields:
         print(f"leonav-top: no message on {options.prefix}* within {options.wait:g} s; does leonavd run on this LCM network, with this "

@@ -1,0 +1,1 @@
+"""Pictures and tables of navigation runs: the modules of leonav-report."""
