@@ -1,5 +1,6 @@
 """The command line and the screen of leonav-top."""
 import argparse
+import math
 import shutil
 import signal
 import sys
@@ -17,6 +18,13 @@ HOME, CLEAR_LINE, CLEAR_BELOW = "\x1b[H", "\x1b[K", "\x1b[J"
 SETTLE_S = 3.0
 
 
+def seconds(text):
+    value = float(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is no number of seconds from 0 on")
+    return value
+
+
 def arguments(words):
     parser = argparse.ArgumentParser(
         prog="leonav-top", formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -25,7 +33,7 @@ def arguments(words):
                     "in docs/operations/health.md, channels.md, connect.md and events.md.",
         epilog="Exit codes: 0 ended; 1 no message came (--once), or LCM cannot be joined; 2 command line.")
     parser.add_argument("--once", action="store_true", help="print one picture and end")
-    parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="with --once: for the first message, at most; 5 unless given")
+    parser.add_argument("--wait", type=seconds, default=5.0, metavar="S", help="with --once: for the first message, at most; 5 unless given")
     parser.add_argument("--prefix", default="LEONAV_", metavar="TEXT", help="lcm.prefix of the configuration; LEONAV_ unless given")
     parser.add_argument("--url", default="udpm://239.255.76.67:7667", metavar="URL", help="lcm.url of the configuration")
     return parser.parse_args(words)
@@ -34,7 +42,7 @@ def arguments(words):
 def once(options):
     """Prints one picture; returns the exit code."""
     state, end = State(), None
-    for message in leonav.subscribe(CHANNELS, options.prefix, options.url, timeout_s=max(options.wait, 0.0)):
+    for message in leonav.subscribe(CHANNELS, options.prefix, options.url, timeout_s=options.wait):
         now = time.monotonic()
         state.take(message, now)
         end = now + SETTLE_S if end is None else end
