@@ -194,11 +194,33 @@ def ephemeris(satellite, toc, clock, orbit):
     return frame(head + bits(health >> 4, 2) + bits(health >> 3, 1) + "0" * 7)
 
 
+GEOSTATIONARY = {f"C{number:02d}" for number in (*range(1, 6), *range(59, 64))}
+
+
+def at_whole_unit(toc, clock, orbit, unit):
+    """The same orbit and clock by a reference time that is a multiple of `unit`, s: BeiDou's messages have no other one."""
+    step = -(orbit[8] % unit)
+    n = (3.986004418e14 / orbit[7] ** 6) ** 0.5 + orbit[2]
+    moved = list(orbit)
+    moved[8] += step
+    moved[3] = (orbit[3] + n * step + SEMICIRCLE) % (2 * SEMICIRCLE) - SEMICIRCLE
+    moved[10] += orbit[15] * step
+    moved[12] += orbit[16] * step
+    return toc + round(step), [clock[0] + clock[1] * step + clock[2] * step ** 2, clock[1] + 2 * clock[2] * step, clock[2]], moved
+
+
 def ephemerides(path, now):
-    """{satellite: message} of the newest record of each that has been sent by `now`, s since the GPS epoch."""
+    """{satellite: message} of the newest record of each that has been sent by `now`, s since the GPS epoch.
+
+    Of BeiDou's geostationary satellites those are left out whose reference time no message can hold: their model turns with it.
+    """
     newest = {}
     for satellite, toc, clock, orbit in records(path):
         sent = toc + (orbit[24] - toc + 302400) % 604800 - 302400  # a time of the week, near the clock's
+        if satellite[0] == "C" and orbit[8] % 8:
+            if satellite in GEOSTATIONARY:
+                continue
+            toc, clock, orbit = at_whole_unit(toc, clock, orbit, 8)
         is_inav = int(orbit[17]) & 0b101 != 0  # Galileo sends two with one time
         if sent <= now and abs(now - toc) <= 7200 and (satellite not in newest or (toc, is_inav) > newest[satellite][0]):
             newest[satellite] = (toc, is_inav), toc, clock, orbit

@@ -155,7 +155,7 @@ def main():
     parser.add_argument("rows", nargs="*", metavar="ROW")
     parser.add_argument("--jobs", type=int, default=6)
     parser.add_argument("--one", help=argparse.SUPPRESS)
-    words = parser.parse_args()
+    words = parser.parse_intermixed_args()
     if words.one:
         return enter_namespace_and_run(words)
     unknown = [name for name in words.rows if name not in {row.name for row in all_rows()}]

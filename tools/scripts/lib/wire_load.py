@@ -12,7 +12,6 @@ import os
 import pathlib
 import socket
 import struct
-import subprocess
 import sys
 import time
 
@@ -100,10 +99,6 @@ def percentiles(values):
     return [ordered[min(int(share * len(ordered)), len(ordered) - 1)] for share in (0.5, 0.99, 0.999, 1.0)]
 
 
-def perf(process, path):
-    return subprocess.Popen(["perf", "record", "-q", "-g", "-o", path, "-p", str(process.pid)], stderr=subprocess.DEVNULL)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=lambda text: pathlib.Path(text).resolve())
@@ -118,7 +113,7 @@ def main():
         old.unlink()
     drive = Drive(words.bin, folder / "drive", words.duration, settings=(f"receiver.interval_s={1 / words.rate}", f"imu.rate_hz={words.imu_rate}", *SKY))
     satellites = sorted(len(of) for _, of in drive.epochs)
-    ubx = [(t, data, round((instant[0] + instant[1]) * 1e9)) for (instant, _), (t, data) in
+    ubx = [(t, data, instant[0] * 10**9 + round(instant[1] * 1e9)) for (instant, _), (t, data) in
            zip(drive.epochs, (item for item in drive.ubx() if item[1][2:4] == b"\x02\x15"))]
     imu = drive.vectornav()
     ports = {"receiver": live.Terminal(), "imu": live.Terminal(), "ephemerides": live.Terminal()}
