@@ -18,6 +18,9 @@ class ByteSink {
  public:
   virtual ~ByteSink() = default;
   virtual void on_open() = 0;
+  // Nothing is wrong, but the other side has not come yet: a server without a client. `what` is a
+  // sentence.
+  virtual void on_waiting(const std::string& what) { static_cast<void>(what); }
   // `arrival_ns`: time of the ArrivalClock, or as a recording has it.
   virtual void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) = 0;
   // The source could not be opened or broke off; `why` is a sentence with cause and remedy. It is

@@ -91,7 +91,9 @@ Credentials read_credentials(const std::string& path) {
   found.password = take_line(&rest);
   if (found.user.empty() || has_control(found.user) || has_control(found.password) ||
       rest.find_first_not_of("\r\n") != std::string_view::npos) {
-    throw FileError(path, 0, "must have two lines: the user's name, and the password");
+    throw FileError(path, 0,
+                    "must have the user's name in its first line, the password in the second, if "
+                    "there is one, and nothing else");
   }
   if (found.user.find(':') != std::string::npos) {
     throw FileError(path, 1, "the user's name must have no colon");

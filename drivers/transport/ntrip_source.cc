@@ -9,10 +9,20 @@
 
 namespace leonav {
 
-std::string problem_of(const NtripOptions& options) {
+std::string problem_of_credentials(const NtripOptions& options) {
+  if (options.credentials_file.empty()) return "";
   try {
-    if (!options.credentials_file.empty()) read_credentials(options.credentials_file);
-    if (options.tls) make_tls_context(options.ca_file);
+    read_credentials(options.credentials_file);
+    return "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+std::string problem_of_authority(const NtripOptions& options) {
+  if (!options.tls) return "";
+  try {
+    make_tls_context(options.ca_file);
     return "";
   } catch (const std::exception& error) {
     return error.what();

@@ -35,8 +35,9 @@ struct NtripOptions {
   double position_interval_s = 10.0;  // 0: once after each connection
 };
 
-// Returns what is wrong with the files that the options name, with the remedy; empty: nothing.
-std::string problem_of(const NtripOptions& options);
+// Return what is wrong with the files that the options name, with the remedy; empty: nothing.
+std::string problem_of_credentials(const NtripOptions& options);
+std::string problem_of_authority(const NtripOptions& options);
 
 // The source connects when it is started, and again after each failure, with waits that grow
 // (retry_wait.h); after the caster's refusal it waits half a minute. `io` and `clock` must outlive

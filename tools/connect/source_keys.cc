@@ -98,8 +98,11 @@ NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
   group.text("credentials_file", &options.credentials_file);
   options.credentials_file = in_folder(folder, options.credentials_file);
   read_position(group, &options);
-  if (const std::string problem = problem_of(options); !problem.empty()) {
-    group.fail(options.credentials_file.empty() ? "ca_file" : "credentials_file", problem);
+  if (const std::string problem = problem_of_credentials(options); !problem.empty()) {
+    group.fail("credentials_file", problem);
+  }
+  if (const std::string problem = problem_of_authority(options); !problem.empty()) {
+    group.fail("ca_file", problem);
   }
   return options;
 }

@@ -8,6 +8,17 @@
 #include "tools/common/format.h"
 
 namespace leonav {
+namespace {
+
+// A stream that may pause for long has also long pauses between messages that are published.
+WatchLimits limits_of(const StreamConfig& config) {
+  WatchLimits limits;
+  limits.silent_s = config.silent_s;
+  limits.no_data_s = std::max(limits.no_data_s, 2.0 * config.silent_s);
+  return limits;
+}
+
+}  // namespace
 
 Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
                std::unique_ptr<ByteSource> source, std::unique_ptr<StreamFormat> format)
@@ -16,7 +27,7 @@ Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
       clock_(clock),
       source_(std::move(source)),
       format_(std::move(format)),
-      watch_(WatchLimits{.silent_s = config.silent_s}, silence_remedy(config.source)),
+      watch_(limits_of(config), silence_remedy(config.source)),
       reconnect_after_s_(std::max(kReconnectAfter_s, config.silent_s)) {
   if (config.record.empty()) return;
   recording_.emplace(config.record);
@@ -40,6 +51,12 @@ void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_
   if (recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
   watch_.on_bytes(bytes.size(), clock_->now_ns());
   format_->feed(bytes, arrival_ns);
+}
+
+void Stream::on_waiting(const std::string& what) {
+  watch_.on_waiting(what);
+  told_ = watch_.state();
+  spdlog::info("{}: {}", name_, what);
 }
 
 // The same failure is told once, however often it is tried.
@@ -75,7 +92,7 @@ void Stream::look() {
   const StreamState state = watch_.state();
   if (state != std::exchange(told_, state)) {
     const bool is_bad = state == StreamState::kSilent || state == StreamState::kUnreadable ||
-                        state == StreamState::kNoData;
+                        state == StreamState::kNoData || state == StreamState::kDamaged;
     spdlog::log(is_bad ? spdlog::level::warn : spdlog::level::info, "{}: {}{}{}", name_,
                 name_of(state), watch_.text().empty() ? "" : ": ", watch_.text());
   }

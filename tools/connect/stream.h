@@ -36,6 +36,7 @@ class Stream final : public ByteSink {
 
  private:
   void on_open() override;
+  void on_waiting(const std::string& what) override;
   void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   void on_failure(const std::string& why, double retry_s) override;
   void on_end(const std::string& why) override;

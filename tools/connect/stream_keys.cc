@@ -166,6 +166,8 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   }
   group.text("record", &stream->record);
   stream->record = in_folder(folder, stream->record);
+  // A service sends clocks each five or ten seconds, and nothing in between.
+  if (stream->is_service) stream->silent_s = 15.0;
   group.number("silent_s", {1.0, 3600.0}, &stream->silent_s);
 }
 

@@ -5,6 +5,12 @@
 #include "tools/common/format.h"
 
 namespace leonav {
+namespace {
+
+constexpr std::size_t kRecentLooks = 11;  // ten seconds between the first and the last
+constexpr std::uint64_t kLeastDamaged = 3;
+
+}  // namespace
 
 const char* name_of(StreamState state) {
   switch (state) {
@@ -18,6 +24,8 @@ const char* name_of(StreamState state) {
       return "unreadable";
     case StreamState::kNoData:
       return "no data";
+    case StreamState::kDamaged:
+      return "damaged";
     case StreamState::kGood:
       return "good";
     case StreamState::kEnded:
@@ -31,6 +39,7 @@ void StreamWatch::on_open(std::int64_t now_ns) {
   opened_ns_ = now_ns;
   unreadable_since_ns_.reset();
   no_data_since_ns_.reset();
+  recent_.clear();
   set(StreamState::kConnecting, "open");
 }
 
@@ -66,12 +75,27 @@ double StreamWatch::silence_s(std::int64_t now_ns) const {
   return static_cast<double>(now_ns - since) * 1e-9;
 }
 
+std::string StreamWatch::damage(const FormatCounts& counts, double least_share) {
+  const std::uint64_t damaged = counts.damaged - recent_.front().damaged,
+                      all = damaged + counts.frames - recent_.front().frames;
+  if (damaged < kLeastDamaged ||
+      static_cast<double>(damaged) < least_share * static_cast<double>(all)) {
+    return "";
+  }
+  return leonav::format(
+      "%llu of the last %llu messages were damaged: is the cable good, is the baud rate right at "
+      "both ends, and does nothing else write to this stream?",
+      static_cast<unsigned long long>(damaged), static_cast<unsigned long long>(all));
+}
+
 void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   const FormatCounts counts = format.counts();
   const bool new_bytes = bytes_ > bytes_seen_, new_frames = counts.frames > seen_.frames,
              new_messages = counts.messages > seen_.messages;
   bytes_seen_ = bytes_;
   seen_ = counts;
+  recent_.push_back(counts);
+  if (recent_.size() > kRecentLooks) recent_.pop_front();
   if (new_messages) last_message_ns_ = now_ns;
   if (state_ == StreamState::kWaiting) tell_waiting(now_ns);
   if (!is_open_) return;
@@ -86,15 +110,22 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   } else if (new_frames && !no_data_since_ns_) {
     no_data_since_ns_ = now_ns;
   }
+  // Half the share ends it, so that the state does not change each second.
+  const double least_share = (state_ == StreamState::kDamaged ? 0.5 : 1.0) * limits_.damaged_share;
   if (silence_s(now_ns) > limits_.silent_s) {
     unreadable_since_ns_.reset();
     no_data_since_ns_.reset();
     set(StreamState::kSilent,
         leonav::format("open, but no byte for %.0f s: ", silence_s(now_ns)) + silence_remedy_);
   } else if (age_s(unreadable_since_ns_, now_ns) > limits_.unreadable_s) {
-    set(StreamState::kUnreadable, format.why_no_frames());
+    const std::string text = damage(counts, limits_.damaged_share);
+    set(StreamState::kUnreadable, format.why_no_frames() + (text.empty() ? "" : "; ") + text);
   } else if (age_s(no_data_since_ns_, now_ns) > limits_.no_data_s) {
-    set(StreamState::kNoData, format.why_no_messages());
+    // Damage may be why only messages of other kinds are whole.
+    const std::string text = damage(counts, 2.0 * limits_.damaged_share);
+    set(StreamState::kNoData, text.empty() ? format.why_no_messages() : text);
+  } else if (const std::string text = damage(counts, least_share); !text.empty()) {
+    set(StreamState::kDamaged, text);
   } else if (new_messages) {
     set(StreamState::kGood, format.detail());
   }

@@ -1,6 +1,7 @@
 // The StreamWatch decides in which state a stream is, and says so in a sentence.
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ enum class StreamState : std::uint8_t {
   kSilent,      // open, but no byte comes
   kUnreadable,  // bytes come, but no whole message
   kNoData,      // whole messages come, but nothing to publish
+  kDamaged,     // messages are published, but many arrive damaged
   kGood,        // messages are published
   kEnded,       // finished for good
 };
@@ -23,9 +25,10 @@ enum class StreamState : std::uint8_t {
 const char* name_of(StreamState state);
 
 struct WatchLimits {
-  double silent_s = 3.0;      // without a byte
-  double unreadable_s = 5.0;  // with bytes, but without a whole message
-  double no_data_s = 10.0;    // with whole messages, but without one published
+  double silent_s = 3.0;       // without a byte
+  double unreadable_s = 5.0;   // with bytes, but without a whole message
+  double no_data_s = 10.0;     // with whole messages, but without one published
+  double damaged_share = 0.1;  // of the messages of the last looks, and at least three of them
 };
 
 // Times are those of the ArrivalClock.
@@ -37,6 +40,8 @@ class StreamWatch {
 
   void on_open(std::int64_t now_ns);
   void on_bytes(std::size_t count, std::int64_t now_ns);
+  // The other side has not come yet, which is no failure.
+  void on_waiting(const std::string& what) { set(StreamState::kConnecting, what); }
   // It is tried again `retry_s` later.
   void on_failure(const std::string& why, double retry_s, std::int64_t now_ns);
   void on_end(const std::string& why);
@@ -63,6 +68,8 @@ class StreamWatch {
                  : std::numeric_limits<double>::quiet_NaN();
   }
   void tell_waiting(std::int64_t now_ns);
+  // Returns how many of the last messages were damaged, with the remedy; empty: few.
+  std::string damage(const FormatCounts& counts, double least_share);
   void set(StreamState state, const std::string& text) {
     state_ = state;
     text_ = text;
@@ -80,7 +87,8 @@ class StreamWatch {
   // Since when bytes come without a message, and messages without one published.
   Instant unreadable_since_ns_, no_data_since_ns_;
   std::uint64_t bytes_ = 0, bytes_seen_ = 0, failures_ = 0;
-  FormatCounts seen_;  // at the last look
+  FormatCounts seen_;                // at the last look
+  std::deque<FormatCounts> recent_;  // of the last looks, the oldest first
 };
 
 }  // namespace leonav

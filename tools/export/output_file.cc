@@ -1,18 +1,47 @@
 #include "tools/export/output_file.h"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "drivers/text/parse.h"
 
 namespace leonav {
 
-OutputFile::OutputFile(const std::string& path) : path_(path), part_path_(path + ".part") {
-  for (const std::string& one : {path_, part_path_}) {
-    std::error_code error;
-    if (std::filesystem::exists(one, error) && !std::filesystem::is_regular_file(one, error)) {
-      throw FileError(one, 0, "is no regular file; give another name with --out");
+namespace {
+
+constexpr int kMostNames = 1000;
+
+// Creates a file of this name, unless there is one.
+bool create(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "wbx");
+  if (file == nullptr) return false;
+  std::fclose(file);
+  return true;
+}
+
+// A file that is there may be the user's own, and is left alone.
+std::string new_part_file(const std::string& path) {
+  const std::string first = path + ".part";
+  std::string name = first;
+  std::error_code ignored;
+  for (int i = 1; !create(name); ++i) {
+    const auto status = std::filesystem::symlink_status(name, ignored);
+    if (!std::filesystem::exists(status) || i > kMostNames) {
+      throw FileError(name, 0, "cannot be created; check the folder");
     }
+    name = first + "." + std::to_string(i);
   }
+  return name;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  std::error_code error;
+  if (std::filesystem::exists(path_, error) && !std::filesystem::is_regular_file(path_, error)) {
+    throw FileError(path_, 0, "is no regular file; give another name with --out");
+  }
+  part_path_ = new_part_file(path_);
   stream_.open(part_path_, std::ios::binary | std::ios::trunc);
   if (!stream_) throw FileError(part_path_, 0, "cannot be created; check the folder");
 }

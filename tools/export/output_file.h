@@ -9,8 +9,9 @@ namespace leonav {
 
 class OutputFile {
  public:
-  // Writes to `path` with ".part" appended. Throws FileError if that file cannot be created, or if
-  // `path` is there and no regular file.
+  // Writes to `path` with ".part" appended, or ".part.1", ".part.2", ... where files have these
+  // names. Throws FileError if that file cannot be created, or if `path` is there and no regular
+  // file.
   explicit OutputFile(const std::string& path);
   ~OutputFile();  // removes the part file unless commit() was called
   OutputFile(const OutputFile&) = delete;

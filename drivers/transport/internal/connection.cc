@@ -26,9 +26,11 @@ void Connection::open() {
   endpoint_->open([this, attempt](const error_code& error) {
     if (attempt == attempt_) on_opened(error);
   });
-  timer_.expires_after(kOpenTimeout);
-  timer_.async_wait([this, attempt](const error_code& cancelled) {
+  const bool waits = endpoint_->waits_for_peer();
+  timer_.expires_after(waits ? kTellWaiting : kOpenTimeout);
+  timer_.async_wait([this, attempt, waits](const error_code& cancelled) {
     if (cancelled || attempt != attempt_ || is_open_) return;
+    if (waits) return sink_->on_waiting(endpoint_->text_of(asio::error::timed_out));
     fail(endpoint_->text_of(asio::error::timed_out));
   });
 }

@@ -18,6 +18,8 @@ class Connection final : public ByteSource {
  public:
   // An attempt to open that takes longer has failed.
   static constexpr std::chrono::seconds kOpenTimeout{10};
+  // What waits for the other side to connect says so after this.
+  static constexpr std::chrono::seconds kTellWaiting{1};
   // A connection that has brought bytes for so long works: the waits begin anew. One that always
   // breaks off at once is tried ever more rarely.
   static constexpr std::chrono::seconds kWorksAfter{5};

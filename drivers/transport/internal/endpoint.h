@@ -25,6 +25,8 @@ class Endpoint {
   virtual bool can_reopen() const { return true; }
   // Whether it can be dead while it looks open, as a connection over a network can.
   virtual bool can_be_half_open() const { return false; }
+  // Whether being opened takes as long as nobody connects to it, which is no failure.
+  virtual bool waits_for_peer() const { return false; }
   // How long to wait, after what has just failed, until it is opened again.
   virtual RetryBounds retry_bounds() const { return {}; }
   // What it is and what failed, with a remedy: a sentence without a full stop.

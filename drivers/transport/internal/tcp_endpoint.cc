@@ -1,6 +1,7 @@
 #include "drivers/transport/internal/tcp_endpoint.h"
 
 #include <boost/asio/connect.hpp>
+#include <boost/asio/error.hpp>
 #include <utility>
 
 #include "drivers/transport/internal/network_text.h"
@@ -12,20 +13,24 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 void TcpEndpoint::open(Opened opened) {
+  const std::uint64_t attempt = ++attempt_;
   resolver_.async_resolve(
       options_.host, std::to_string(options_.port),
-      [this, opened = std::move(opened)](const error_code& error,
-                                         const tcp::resolver::results_type& found) mutable {
+      [this, attempt, opened = std::move(opened)](
+          const error_code& error, const tcp::resolver::results_type& found) mutable {
+        if (attempt != attempt_) return opened(asio::error::operation_aborted);
         if (error) return opened(error);
-        asio::async_connect(
-            socket_, found,
-            [this, opened = std::move(opened)](const error_code& failed, const tcp::endpoint&) {
-              error_code ignored;
-              if (!failed) {
-                socket_.set_option(asio::socket_base::keep_alive(true), ignored);
-              }
-              opened(failed);
-            });
+        asio::async_connect(socket_, found,
+                            [this, attempt, opened = std::move(opened)](const error_code& failed,
+                                                                        const tcp::endpoint&) {
+                              if (attempt != attempt_)
+                                return opened(asio::error::operation_aborted);
+                              error_code ignored;
+                              if (!failed) {
+                                socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+                              }
+                              opened(failed);
+                            });
       });
 }
 
@@ -35,6 +40,7 @@ void TcpEndpoint::read(asio::mutable_buffer buffer, Read done) {
 
 void TcpEndpoint::close() {
   error_code ignored;
+  ++attempt_;
   resolver_.cancel();
   socket_.close(ignored);
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
 #include <string>
 
 #include "drivers/transport/internal/endpoint.h"
@@ -23,6 +24,9 @@ class TcpEndpoint final : public Endpoint {
   TcpOptions options_;
   boost::asio::ip::tcp::resolver resolver_;
   boost::asio::ip::tcp::socket socket_;
+  // Counts openings and closings: a name may be resolved just when the attempt was given up, and
+  // must then connect nothing.
+  std::uint64_t attempt_ = 0;
 };
 
 }  // namespace leonav

@@ -63,7 +63,8 @@ RetryBounds TcpServerEndpoint::retry_bounds() const {
 
 std::string TcpServerEndpoint::text_of(const error_code& error) const {
   const std::string what = options_.address + ":" + std::to_string(options_.port) + ": ";
-  if (error == asio::error::timed_out) return what + "no client is connected";
+  if (error == asio::error::timed_out)
+    return what + "no client is connected; the next one is awaited";
   if (error == asio::error::eof || error == asio::error::connection_reset) {
     return what + "the client closed the connection; the next one is awaited";
   }

@@ -20,6 +20,7 @@ class TcpServerEndpoint final : public Endpoint {
   // Goes on listening.
   void close() override;
   bool can_be_half_open() const override { return true; }
+  bool waits_for_peer() const override { return true; }
   RetryBounds retry_bounds() const override;
   std::string text_of(const boost::system::error_code& error) const override;
 

@@ -200,7 +200,7 @@ TEST_CASE("A certificate that cannot be trusted is told, and no user is sent", "
   CHECK_FALSE(until_failed(options).failures[0].empty());
   options = caster.options("CHUNKS", true);
   options.ca_file = options.credentials_file;
-  CHECK_THAT(problem_of(options), Catch::Contains("PEM"));
+  CHECK_THAT(problem_of_authority(options), Catch::Contains("PEM"));
 }
 
 TEST_CASE("A caster that drops out, sends nothing or never ends is told of", "[ntrip]") {

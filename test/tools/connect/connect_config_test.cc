@@ -126,13 +126,19 @@ TEST_CASE("A stream of a caster, of a client and of datagrams is described", "[c
   CHECK_THAT(problem(caster + ", position: [91, 0, 0]"), Catch::Contains("latitude"));
   CHECK_THAT(problem(caster + ", position: [1, 2]"), Catch::Contains("latitude"));
   CHECK_THAT(problem(caster + ", ca_file: a.pem"), Catch::Contains("ca_file"));
-  CHECK_THAT(problem(caster + ", tls: true, ca_file: none.pem"), Catch::Contains("PEM"));
+  CHECK_THAT(
+      problem(caster + ", tls: true, ca_file: none.pem"),
+      Catch::Contains("PEM") && Catch::Contains("ca_file") && !Catch::Contains("credentials_file"));
   CHECK_THAT(problem("name: a, source: ntrip, host: b, mountpoint: \"B C\", format: rtcm3"),
              Catch::Contains("mountpoint"));
   CHECK_THAT(problem("name: a, source: ntrip, host: \"b\\r\\nX: y\", mountpoint: B, format: rtcm3"),
              Catch::Contains("host"));
   chmod(credentials.path().c_str(), 0644);
   CHECK_THAT(problem(caster), Catch::Contains("chmod 600"));
+
+  const std::string service = "name: a, source: udp, port: 1, format: rtcm3, corrections: true";
+  CHECK(load(stream(service)).streams.at(0).silent_s == 15.0);
+  CHECK(load(stream(service + ", silent_s: 4")).streams.at(0).silent_s == 4.0);
 
   const ConnectConfig server = load(stream("name: a, source: tcp_server, port: 5000, format: ubx"));
   CHECK(text_of(server.streams.at(0).source) == "a client at 127.0.0.1:5000");

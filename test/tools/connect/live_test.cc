@@ -8,36 +8,55 @@
 
 #include "support/catch.h"
 #include "support/program_run.h"
+#include "support/shared_data.h"
 
 using namespace leonav::test;
 
 namespace {
 
-// Runs a script of this folder, which skips with 77.
-void run_script(const std::string& name) {
+// A script that skips ends with 77, and has said why.
+void require_success(const std::string& command) {
+  const int status = std::system(command.c_str());
+  REQUIRE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77) return;
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+// Runs a script with the programs' folder and one for what it writes.
+void run_script(const std::string& path, const std::string& words = "") {
   if (std::system("command -v lcm-logger >/dev/null && command -v python3 >/dev/null") != 0) {
     std::cout << "SKIPPED: no lcm-logger (package liblcm-bin) or no python3\n";
     return;
   }
   const TemporaryFile folder("unused", "");
-  const std::string command = "timeout 600 " LEONAV_SOURCE_DIR "/test/tools/connect/" + name +
-                              " '" LEONAV_BIN_DIR "' '" + folder.beside("out") + "'";
-  const int status = std::system(command.c_str());
-  REQUIRE(WIFEXITED(status));
-  if (WEXITSTATUS(status) == 77) return;  // the script has said that it skips
-  CHECK(WEXITSTATUS(status) == 0);
+  require_success("timeout 600 python3 -B " LEONAV_SOURCE_DIR "/" + path +
+                  " '" LEONAV_BIN_DIR "' '" + folder.beside("out") + "' " + words);
 }
 
 }  // namespace
 
 TEST_CASE("What arrives live is what the importer makes of the same bytes", "[connect]") {
   if (!have_programs("leonav-connect", "leonav-import", "leonav-sim")) return;
-  run_script("live_test.py");
+  run_script("test/tools/connect/live_test.py");
 }
 
 TEST_CASE("A caster, clients and datagrams are read and recorded to the last byte", "[connect]") {
   if (!have_programs("leonav-connect")) return;
-  run_script("sources_live_test.py");
+  run_script("test/tools/connect/sources_live_test.py");
+}
+
+TEST_CASE("Faults of the wire are told, bridged and replayed", "[connect]") {
+  if (!have_programs("leonav-connect", "leonavd", "leonav-replay", "leonav-sim")) return;
+  run_script("tools/scripts/lib/wire_faults.py",
+             "--jobs 6 short-flips short-baud short-restart short-mixed");
+}
+
+TEST_CASE("The encoder of RTCM 3 for tests writes what pyrtcm reads", "[connect]") {
+  if (!have_shared_data("station")) return;
+  const char* python = std::getenv("LEONAV_PYTHON");
+  require_success(std::string("'") + (python != nullptr ? python : "python3") +
+                  "' -B " LEONAV_SOURCE_DIR "/test/tools/connect/rtcm3_bytes_test.py '" +
+                  shared_data("station") + "'");
 }
 
 TEST_CASE("A wrong command line or configuration ends with its own code", "[connect]") {

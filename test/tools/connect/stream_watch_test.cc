@@ -104,4 +104,39 @@ TEST_CASE("Failures and the end keep their reason", "[connect]") {
   CHECK(rig.watch.failures() == 1);
 }
 
+TEST_CASE("Damage of more than a tenth of all messages is told until it is below half of that",
+          "[connect]") {
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  const auto seconds = [&](int count, std::uint64_t damaged, std::uint64_t messages) {
+    for (int i = 0; i < count; ++i) {
+      rig.format.now.damaged += damaged;
+      rig.seconds(1, 100, 10, messages);
+    }
+  };
+  seconds(20, 0, 1);
+  seconds(5, 2, 1);  // 10 of 110 messages
+  CHECK(rig.watch.state() == StreamState::kGood);
+  seconds(3, 2, 1);
+  CHECK(rig.watch.state() == StreamState::kDamaged);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("16 of the last 116 messages were damaged"));
+  seconds(15, 1, 1);  // 10 of 110
+  CHECK(rig.watch.state() == StreamState::kDamaged);
+  seconds(6, 0, 1);  // 4 of 104
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.format.now.damaged += 5;
+  rig.seconds(7, 100, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kUnreadable);
+  CHECK_THAT(rig.watch.text(),
+             Catch::Contains("baud rate right?; 5 of the last") && Catch::Contains("is the cable"));
+  seconds(11, 0, 1);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  // Where damage leaves only other messages whole, it is told and not a missing message.
+  seconds(12, 4, 0);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("were damaged"));
+  seconds(12, 0, 0);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("switch it on"));
+}
+
 }  // namespace leonav

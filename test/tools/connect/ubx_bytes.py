@@ -64,7 +64,7 @@ def epochs(path):
         yield current
 
 
-def rawx(time, satellites, locks):
+def rawx(time, satellites, locks, leap_seconds=18):
     """`locks`: since when (s) each signal's carrier is locked; kept from epoch to epoch."""
     whole, fraction = time
     week, tow = divmod(whole, 604800)
@@ -83,7 +83,7 @@ def rawx(time, satellites, locks):
             blocks.append(struct.pack("<ddfBBBBHBBBBBx", code[0] if code else 0.0, carrier[0] if carrier else 0.0,
                                       doppler[0] if doppler else 0.0, GNSS_IDS[name[0]], int(name[1:]), signal_id, 0,
                                       min(round((now - since) * 1e3), 64500), round(cn0[0]) if cn0 else 0, 5, 3, 8, status))
-    header = struct.pack("<dHbBBBxx", tow + fraction, week, 18, len(blocks), 1, 1)
+    header = struct.pack("<dHbBBBxx", tow + fraction, week, leap_seconds, len(blocks), 1, 1)
     return frame(0x02, 0x15, header + b"".join(blocks))
 
 
@@ -114,12 +114,12 @@ def bits(value, count, power=0, unit=1.0):
 def subframes(toc, clock, orbit, sent):
     """The data of subframes 1 to 3, 8 words of 24 bits each behind the two of TLM and HOW, as bit strings."""
     semicircle = 3.141592653589793
-    (iode, crs, delta_n, m0, cuc, ecc, cus, sqrt_a, toe, cic, omega0, cis, i0, crc, omega, omega_dot, i_dot, _, week, _,
+    (iode, crs, delta_n, m0, cuc, ecc, cus, sqrt_a, toe, cic, omega0, cis, i0, crc, omega, omega_dot, i_dot, _, _, _,
      accuracy, health, tgd, iodc) = orbit[:24]
     limits = [2.4, 3.4, 4.85, 6.85, 9.65, 13.65, 24, 48, 96, 192, 384, 768, 1536, 3072, 6144]
     ura = next((index for index, limit in enumerate(limits) if accuracy <= limit), 15)
     iodc, iode = int(iodc), int(iode)
-    first = (bits(int(week) % 1024, 10) + "01" + bits(ura, 4) + bits(int(health), 6) + bits(iodc >> 8, 2) + "0" * 24 * 3 + "0" * 16 +
+    first = (bits(sent // 604800 % 1024, 10) + "01" + bits(ura, 4) + bits(int(health), 6) + bits(iodc >> 8, 2) + "0" * 24 * 3 + "0" * 16 +
              bits(tgd, 8, -31) + bits(iodc & 255, 8) + bits(toc % 604800, 16, 4) + bits(clock[2], 8, -55) + bits(clock[1], 16, -43) +
              bits(clock[0], 22, -31))
     second = (bits(iode, 8) + bits(crs, 16, -5) + bits(delta_n, 16, -43, semicircle) + bits(m0, 32, -31, semicircle) + bits(cuc, 16, -29) +

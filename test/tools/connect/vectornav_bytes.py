@@ -32,12 +32,15 @@ def samples(path):
             yield time_ns, [float(row[f"{kind}_{axis}_{unit}"]) for kind, unit in (("gyro", "rad_s"), ("accel", "m_s2")) for axis in "xyz"]
 
 
-def messages(path, kind="gps", drift_ppm=0.0):
-    """(GPS time in ns, bytes) of each sample but the first, whose interval is not known."""
+def messages(path, kind="gps", drift_ppm=0.0, clock=None):
+    """(GPS time in ns, bytes) of each sample but the first, whose interval is not known.
+
+    `clock` gives what the sensor's clock shows of the s since the first sample; without it that drifts by `drift_ppm`."""
+    clock = clock or (lambda passed_s: passed_s * (1 + drift_ppm * 1e-6))
     last = first = None
     for time_ns, rates in samples(path):
         first = time_ns if first is None else first
-        startup_ns = 5 * 10**9 + round((time_ns - first) * (1 + drift_ppm * 1e-6))
+        startup_ns = 5 * 10**9 + round(clock((time_ns - first) * 1e-9) * 1e9)
         if last is not None and kind == "gps":
             interval = (time_ns - last) * 1e-9
             payload = struct.pack("<QQ7f", startup_ns, time_ns, interval, *(math.degrees(rate) * interval for rate in rates[:3]),

@@ -344,6 +344,14 @@ class Errors(Test):
         self.assertIn("cannot be created", export(csv, "--out", WORK / "no" / "a.gpx", expect=1).stderr)
         self.assertIn("no regular file", export(csv, "--out", "/dev/null", "--format", "gpx", expect=1).stderr)
 
+    def test_a_file_of_the_user_with_the_name_of_the_unfinished_one_is_kept(self):
+        csv, out = write_csv(drive()[0]), WORK / "kept.gpx"
+        mine = WORK / "kept.gpx.part"
+        mine.write_text("mine")
+        export(csv, "--out", out)
+        self.assertEqual(mine.read_text(), "mine")
+        self.assertEqual(sorted(path.name for path in WORK.glob("kept.gpx*")), ["kept.gpx", "kept.gpx.part"])
+
 
 class Ros(Test):
     def setUp(self):

@@ -5,6 +5,7 @@ A drive is played over LCM to leonavd in a network namespace of its own; its jou
 tables that leonav-replay writes of it, and live messages with the journal. Messages of every type are compared with the types
 that lcm-gen writes for Python. Damaged logs must give what is good and a warning, or an error that names the byte.
 """
+import io
 import os
 import pathlib
 import pickle
@@ -30,7 +31,7 @@ except ImportError as missing:
 import lcm_log  # noqa: E402
 from generated_types import generated_types  # noqa: E402
 import leonav  # noqa: E402
-from leonav import gps_time, lcm_types, names  # noqa: E402
+from leonav import event_log, gps_time, lcm_types, names  # noqa: E402
 from leonav.live import Assembler  # noqa: E402
 
 BIN = None
@@ -249,6 +250,27 @@ class Damage(unittest.TestCase):
         self.assertEqual(got, [0, 1, 3, 4])
         self.assertIn(f"byte {2 * self.each}: the log is damaged; {self.each} bytes are left out in all", told[0])
 
+    def test_false_beginnings_of_events_are_searched_once(self):
+        class Counting:
+            def __init__(self, data):
+                self.file, self.bytes = io.BytesIO(data), 0
+
+            def seek(self, place):
+                self.file.seek(place)
+
+            def read(self, count):
+                data = self.file.read(count)
+                self.bytes += len(data)
+                return data
+
+        junk = event_log.SYNC * 100_000
+        file = Counting(junk + self.data)
+        self.assertEqual(event_log._next_event(file, 1, len(junk + self.data)), len(junk))
+        self.assertLess(file.bytes, 3 * len(junk))
+        file = Counting(self.data * 10_000)
+        self.assertEqual(event_log._next_event(file, 1, 10_000 * len(self.data)), self.each)
+        self.assertLess(file.bytes, 5000)  # the next event is near: a large block would be read for every damaged one
+
     def test_what_is_no_log_is_an_error_with_a_remedy(self):
         for data, text in ((b"", "byte 0: the file is empty; give"), (b"gps_week,gps_tow_s\n" * 9, "byte 0: this is not an LCM log")):
             with self.assertRaisesRegex(leonav.LeonavError, text):
@@ -317,6 +339,12 @@ class Csv(unittest.TestCase):
         self.assertIn("bad.csv:3: 2 rows are left out", told[0])
         self.assertEqual(str(table["utc"][0]), "2022-03-06 00:16:22.500000+00:00")
         self.assertTrue(table["pdop"].isna().all())
+
+    def test_a_week_with_a_fraction_is_left_out_and_a_column_utc_is_made_anew(self):
+        table, told = self.read(self.HEADER.replace("pdop", "utc") + "2200,1000.5,45.0,7.0,100.0,ekf,noon\n2200.5,1001.5,45.0,7.0,100.0,ekf,noon\n")
+        self.assertEqual(len(table), 1)
+        self.assertIn("bad.csv:3: 1 rows are left out", told[0])
+        self.assertEqual([str(time) for time in table["utc"]], ["2022-03-06 00:16:22.500000+00:00"])
 
     def test_errors_name_the_line_and_the_remedy(self):
         for text, expected in (("", "bad.csv:1: no column 'gps_week'; give"), (self.HEADER, "no row with time and position"),

@@ -118,6 +118,10 @@ def check_once(program, some):
     silent = once(program, "--wait", "0.5")
     if silent.returncode != 1 or "no message on LEONAV_* within 0.5 s; does leonavd run" not in silent.stderr:
         fail(f"nothing published: {silent}")
+    for text in ("nan", "inf", "-1", "soon"):
+        wrong = once(program, "--wait", text)
+        if wrong.returncode != 2 or "--wait" not in wrong.stderr:
+            fail(f"--wait {text}: {wrong}")
     sender = Sender(some)
     shown = once(program, "--wait", "60")
     sender.running = False

@@ -4,9 +4,26 @@
 #include "tools/import/product_schedule.h"
 
 namespace leonav {
+namespace {
+
+// A receiver that is off for longer starts anew, and need not know the time at first.
+constexpr double kLongestGap_s = 86'400.0;
+
+}  // namespace
+
+// Epochs that go back, or forward by more than a day, are those of a receiver whose time was wrong
+// before or is wrong now, as after a start without a fix.
+void ReceiverOutput::note_step(GpsTime time) {
+  if (!last_epoch_.is_set()) return;
+  const double step_s = seconds_between(time, last_epoch_);
+  if (step_s >= 0.0 && step_s < kLongestGap_s) return;
+  ++time_steps_;
+  last_step_s_ = step_s;
+}
 
 void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
   clock_->on_epoch(epoch.time, arrival_ns);
+  note_step(epoch.time);
   last_epoch_ = epoch.time;
   last_signals_ = epoch.observations.size();
   output_->send(epoch);
@@ -41,8 +58,13 @@ std::optional<DataTime> ReceiverOutput::data_time() const {
 
 std::string ReceiverOutput::detail() const {
   if (!last_epoch_.is_set() && ephemerides_ == 0) return "";
-  return format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
-                static_cast<unsigned long long>(ephemerides_));
+  std::string text = format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
+                            static_cast<unsigned long long>(ephemerides_));
+  if (time_steps_ > 0) {
+    text += format("; its time has stepped %llu times, the last by %.0f s",
+                   static_cast<unsigned long long>(time_steps_), last_step_s_);
+  }
+  return text;
 }
 
 }  // namespace leonav

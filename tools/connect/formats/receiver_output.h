@@ -43,7 +43,11 @@ class ReceiverOutput {
   MessageOutput* output_;
   CorrectionOutput* corrections_;
   EphemerisRepeater repeater_;
+  void note_step(GpsTime time);
+
   GpsTime last_epoch_;
+  std::uint64_t time_steps_ = 0;
+  double last_step_s_ = 0.0;
   std::size_t last_signals_ = 0;
   std::uint64_t messages_ = 0, ephemerides_ = 0;
 };

@@ -11,7 +11,10 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kStepAfter = 5, kLargeStepAfter = 2;
 constexpr double kLargeStep_ns = 0.5e9;
 // Messages that were held up are late by less, and none is ever so early.
-bool is_surely_step(double off_ns) { return off_ns < -kLargeStep_ns || off_ns > 2e9; }
+bool is_surely_step(double off_ns) {
+  return off_ns < -static_cast<double>(EnvelopeLine::kEarly_ns) ||
+         off_ns > static_cast<double>(EnvelopeLine::kLate_ns);
+}
 // A second contradicts the line by more than this many sigmas, and more than this.
 constexpr double kOddSigmas = 5.0, kLeastOdd_ns = 2e6;
 

@@ -17,7 +17,7 @@ namespace leonav {
 // measurements, INFOCOM 1999.
 //
 // Only the earliest arrival of each second is kept, for a minute. Where five seconds in a row (two,
-// if they are earlier by half a second or later by two, which no queue does) contradict the line in
+// if they are earlier by 50 ms or later by two seconds, which no queue does) contradict the line in
 // the same sense, one of the two clocks has stepped: the line begins anew with them, and the step
 // is counted. So it does where the sender's clock leaps by years and stays there, as when a sensor
 // learns the date.

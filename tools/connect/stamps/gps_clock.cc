@@ -17,8 +17,10 @@ std::optional<GpsTime> GpsClock::at(std::int64_t arrival_ns) const {
   if (reference_ == TimeReference::kHost) {
     const GpsTime utc =
         GpsTime::from_nanoseconds(arrival_ns - kGpsEpochSince1970_s * kNanosecondsPerSecond);
-    const GpsTime first = utc.plus_seconds(leap_seconds(utc));
-    return utc.plus_seconds(leap_seconds(first));
+    if (!gps_minus_utc_s_) {
+      gps_minus_utc_s_ = leap_seconds(utc.plus_seconds(leap_seconds(utc)));
+    }
+    return utc.plus_seconds(*gps_minus_utc_s_);
   }
   if (!line_.is_ready()) return std::nullopt;
   return GpsTime::from_nanoseconds(line_.clock_ns(arrival_ns)).plus_seconds(latency_s_);

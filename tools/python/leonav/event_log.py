@@ -14,7 +14,7 @@ SYNC = b"\xed\xa1\xda\x01"
 HEADER = struct.Struct(">4sqqII")
 MOST_CHANNEL_BYTES = 999  # as liblcm and leonav's own reader
 MOST_DATA_BYTES = 64 << 20
-SEARCH_BYTES = 1 << 20
+FIRST_SEARCH_BYTES, MOST_SEARCH_BYTES = 1 << 10, 1 << 20
 
 
 class Event(NamedTuple):
@@ -94,17 +94,19 @@ def _why_bad(header, position, size):
 
 
 def _next_event(file, start, size):
-    """Returns where the next whole event begins, at `start` or behind it; None if there is none."""
+    """Returns where the next whole event begins, at `start` or behind it; None if there is none.
+
+    No byte is read twice but at the blocks' borders, whatever false sync words come; the first blocks are small, as most damage is.
+    """
+    length = FIRST_SEARCH_BYTES
     while start < size:
         file.seek(start)
-        block = file.read(SEARCH_BYTES + len(SYNC) - 1)
-        found = block.find(SYNC)
-        if found < 0:
-            start += SEARCH_BYTES
-            continue
-        start += found
-        file.seek(start)
-        if _why_bad(file.read(HEADER.size), start, size) is None:
-            return start
-        start += 1
+        block = file.read(length + HEADER.size - 1)
+        at = block.find(SYNC)
+        while 0 <= at < length:
+            if _why_bad(block[at:at + HEADER.size], start + at, size) is None:
+                return start + at
+            at = block.find(SYNC, at + 1)
+        start += length
+        length = min(2 * length, MOST_SEARCH_BYTES)
     return None

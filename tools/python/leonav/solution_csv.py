@@ -14,7 +14,7 @@ def read_solution(path):
     """Returns the rows of a solution.csv as a DataFrame with its columns and `utc`.
 
     Also reads truth.csv, smoothed.csv, filter.csv and forward.csv, which have the same columns. Fields that are empty are NaN.
-    Columns are found by name; those that are not known stay. Rows with another number of fields, or without time or position, are left
+    Columns are found by name; those that are not known stay, but for one with the name `utc`, which is made anew. Rows with another number of fields, or without time or position, are left
     out with a LeonavWarning that names the first line. LeonavError says which column is missing or that no row can be used.
     """
     try:
@@ -34,6 +34,7 @@ def read_solution(path):
                           for i, name in enumerate(names)}, index=[number for number, _ in whole])
     good = frame[list(REQUIRED)].notna().all(axis=1) if len(frame) else pd.Series([], dtype=bool)
     good &= frame["gps_week"].between(0, 9999) & frame["gps_tow_s"].between(0, 604_800)
+    good &= frame["gps_week"] % 1 == 0
     left_out = len(rows) - int(good.sum())
     if not good.any():
         raise LeonavError(f"{path}: no row with time and position below the header; did the run find a position?")
@@ -42,7 +43,7 @@ def read_solution(path):
         first = next(number for number, _ in rows if number not in kept)
         warnings.warn(f"{path}:{first}: {left_out} rows are left out, this is the first: fields are missing or out of range", LeonavWarning,
                       stacklevel=2)
-    frame = frame[good].reset_index(drop=True)
+    frame = frame[good].reset_index(drop=True).drop(columns="utc", errors="ignore")
     frame["gps_week"] = frame["gps_week"].astype(np.int64)
     ns = gps_time.gps_ns(frame["gps_week"].to_numpy(), frame["gps_tow_s"].to_numpy())
     frame.insert(2, "utc", pd.to_datetime(gps_time.unix_ns(ns), utc=True))

@@ -248,17 +248,22 @@ def chosen_set(sets, t):
     return max(usable, key=lambda s: (s["toe"], s["sent"]), default=None)
 
 
-def orbit_message(system, t, orbits, in_force):
-    middle = t + ORBIT_INTERVAL / 2
+def orbit_rows(system, t, orbits, in_force, interval=ORBIT_INTERVAL):
+    """(satellite, broadcast set, delta in the middle of the interval that begins at t, its rate) of each satellite."""
+    middle = t + interval / 2
     rows = []
     for sat, s in in_force.items():
         if sat[0] != system:
             continue
-        now, before, after = (delta(s, orbits[sat], u) for u in (middle, t, t + ORBIT_INTERVAL))
+        now, before, after = (delta(s, orbits[sat], u) for u in (middle, t, t + interval))
         if None in (now, before, after):
             continue
-        rows.append((sat, s, now, tuple((b - a) / ORBIT_INTERVAL for a, b in zip(before, after))))
-    bits = header({"G": 1057, "E": 1240}[system], t, 6, len(rows), True)
+        rows.append((sat, s, now, tuple((b - a) / interval for a, b in zip(before, after))))
+    return rows
+
+
+def encode_orbits(system, t, rows, interval=ORBIT_INTERVAL):
+    bits = header({"G": 1057, "E": 1240}[system], t, {30: 5, 60: 6}[interval], len(rows), True)
     for sat, s, d, d_rate in rows:
         bits.put(int(sat[1:]), 6)
         bits.put(int(s["iode"]) & (0xFF if system == "G" else 0x3FF), 8 if system == "G" else 10)
@@ -268,10 +273,11 @@ def orbit_message(system, t, orbits, in_force):
         bits.put(d_rate[0], 21, 1e-6)
         bits.put(d_rate[1], 19, 4e-6)
         bits.put(d_rate[2], 19, 4e-6)
-    return frame(bits.bytes()), len(rows)
+    return frame(bits.bytes())
 
 
-def clock_message(system, t, orbits, clocks, in_force):
+def clock_rows(system, t, orbits, clocks, in_force):
+    """(satellite, precise minus broadcast clock in m) of each satellite."""
     rows = []
     for sat, s in in_force.items():
         clock = clocks[sat].get(round(t))
@@ -283,13 +289,27 @@ def clock_message(system, t, orbits, clocks, in_force):
         c0 = C * (precise - broadcast(s, t)[1])
         if math.isfinite(c0):
             rows.append((sat, c0))
+    return rows
+
+
+def encode_clocks(system, t, rows):
     bits = header({"G": 1058, "E": 1241}[system], t, 0, len(rows), False)
     for sat, c0 in rows:
         bits.put(int(sat[1:]), 6)
         bits.put(c0, 22, 1e-4)
         bits.put(0, 21)
         bits.put(0, 27)
-    return frame(bits.bytes()), len(rows)
+    return frame(bits.bytes())
+
+
+def orbit_message(system, t, orbits, in_force):
+    rows = orbit_rows(system, t, orbits, in_force)
+    return encode_orbits(system, t, rows), len(rows)
+
+
+def clock_message(system, t, orbits, clocks, in_force):
+    rows = clock_rows(system, t, orbits, clocks, in_force)
+    return encode_clocks(system, t, rows), len(rows)
 
 
 def main():

@@ -1,5 +1,6 @@
 """The command line and the screen of leonav-top."""
 import argparse
+import math
 import shutil
 import signal
 import sys
@@ -17,6 +18,13 @@ SETTLE_S = 3.0  # that --once listens for the other channels once the first mess
 ALL = {"HEALTH", "SOLUTION", "EPOCH", "STREAMS", "CORRECTED_STATES"}
 
 
+def seconds(text):
+    value = float(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is no number of seconds from 0 on")
+    return value
+
+
 def arguments(words):
     parser = argparse.ArgumentParser(
         prog="leonav-top", formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -25,8 +33,8 @@ def arguments(words):
                     "It only listens. What the words mean stands in docs/operations/health.md, channels.md, connect.md and events.md.",
         epilog="Exit codes: 0 ended; 1 no message came (--once), or LCM cannot be joined; 2 command line.")
     parser.add_argument("--once", action="store_true", help="print one picture and end")
-    parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="with --once: for the first message, at most; 5 unless given")
-    parser.add_argument("--listen", type=float, default=SETTLE_S, metavar="S",
+    parser.add_argument("--wait", type=seconds, default=5.0, metavar="S", help="with --once: for the first message, at most; 5 unless given")
+    parser.add_argument("--listen", type=seconds, default=SETTLE_S, metavar="S",
                         help="with --once: for the other messages after the first; 3 unless given. Corrections come each 5 to 30 s")
     parser.add_argument("--prefix", default="LEONAV_", metavar="TEXT", help="lcm.prefix of the configuration; LEONAV_ unless given")
     parser.add_argument("--url", default="udpm://239.255.76.67:7667", metavar="URL", help="lcm.url of the configuration")
@@ -36,7 +44,7 @@ def arguments(words):
 def once(options):
     """Prints one picture; returns the exit code."""
     state, end = State(), None
-    for message in leonav.subscribe(CHANNELS, options.prefix, options.url, timeout_s=max(options.wait, 0.0)):
+    for message in leonav.subscribe(CHANNELS, options.prefix, options.url, timeout_s=options.wait):
         now = time.monotonic()
         state.take(message, now)
         end = now + options.listen if end is None else end

@@ -76,6 +76,22 @@ TEST_CASE("A host that keeps UTC needs no receiver", "[connect]") {
   CHECK(clock.at(1'608'163'200 * kSecond) == kStart.plus_seconds(18.0));
 }
 
+TEST_CASE("A leap second while the program runs moves no stamp", "[connect]") {
+  const GpsClock clock(TimeReference::kHost, 0.05);
+  // 2016-12-31 23:59:50 UTC is 1483228790 s since 1970, and 17 s later in GPS time. The clock of
+  // arrivals counts 20 s on, one of which is the leap second.
+  const std::int64_t before_ns = 1'483'228'790 * kSecond;
+  const std::optional<GpsTime> before = clock.at(before_ns);
+  const std::optional<GpsTime> after = clock.at(before_ns + 20 * kSecond);
+  REQUIRE(before);
+  REQUIRE(after);
+  CHECK(nanoseconds_between(*before, kStart) == (1'483'228'790 - 1'608'163'200 + 17) * kSecond);
+  CHECK(nanoseconds_between(*after, *before) == 20 * kSecond);
+  // A program that starts afterwards sees a clock that was set: 2017-01-01 00:00:10 UTC.
+  const GpsClock later(TimeReference::kHost, 0.05);
+  CHECK(later.at(before_ns + 20 * kSecond) == after->plus_seconds(1.0));
+}
+
 TEST_CASE("Rates become increments over the time since the reading before", "[connect]") {
   ImuSampler sampler;
   ImuReading reading;
