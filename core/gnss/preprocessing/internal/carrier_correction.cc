@@ -53,7 +53,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   const SatelliteInView& satellite = *in_view;
   const System system = satellite.satellite.system;
   const double sigma0 = context.config->systems[index_of(system)].sigma.carrier_m;
-  const double f1 = frequency_hz(system, first.code.band);
+  const double f1 = context.config->bands.frequency_hz(system, first.code.band);
   const double noise1 = sigma0 * noise_factor(*context.config, satellite.elevation, first.cn0_dbhz);
 
   Measurement carrier;
@@ -64,7 +64,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   double noise = noise1;
   double random_walk = square(orbit_random_walk(satellite, context));
   if (second != nullptr) {
-    const double f2 = frequency_hz(system, second->code.band);
+    const double f2 = context.config->bands.frequency_hz(system, second->code.band);
     const IonosphereFree pair = ionosphere_free(f1, f2);
     carrier.second_code = second->code;
     range = pair.gamma1 * range +
@@ -105,8 +105,8 @@ double orbit_step_m(const Ephemeris& from, const Ephemeris& to, GpsTime time,
   return kSpeedOfLight * (now.clock_s - before.clock_s) - line_of_sight.dot(now.p_e - before.p_e);
 }
 
-double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& satellite,
-                      const Measurement& carrier, double dt) {
+double change_sigma_m(const CycleSlipConfig& config, const BandPlan& bands,
+                      const SatelliteInView& satellite, const Measurement& carrier, double dt) {
   const System system = satellite.satellite.system;
   const bool leo = system == System::kLeo;
   const bool broadcast = satellite.source == OrbitSource::kBroadcast;
@@ -115,7 +115,7 @@ double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& sate
   if (carrier.second_code.band != 0) return clock * std::sqrt(dt);
   const double rate = leo ? config.ionosphere_rate_leo_m_s : config.ionosphere_rate_m_s;
   const double to_frequency =
-      square(frequency_hz(System::kGps, '1') / frequency_hz(system, carrier.code.band));
+      square(frequency_hz(System::kGps, '1') / bands.frequency_hz(system, carrier.code.band));
   return std::hypot(clock * std::sqrt(dt),
                     rate * to_frequency * elevation_factor(satellite.elevation) * dt);
 }

@@ -20,7 +20,7 @@ double orbit_step_m(const Ephemeris& from, const Ephemeris& to, GpsTime time,
 
 // Returns 1 sigma (m) of a carrier's change over `dt` seconds beside noise and motion: the
 // satellite's clock and, on one frequency, the ionosphere.
-double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& satellite,
-                      const Measurement& carrier, double dt);
+double change_sigma_m(const CycleSlipConfig& config, const BandPlan& bands,
+                      const SatelliteInView& satellite, const Measurement& carrier, double dt);
 
 }  // namespace leonav
