@@ -93,8 +93,9 @@ RangeChangeRow CarrierPreprocessor::row_of(const SatelliteInView& satellite,
   if (before.issue != satellite.orbit_issue) row.residual_m -= satellite.orbit_step_m;
   row.residual_m += antenna_step_m(satellite, before);
   row.residual_m -= ionosphere_step_m(satellite, before);
-  row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 +
-                          square(change_sigma_m(config_, bands_, satellite, carrier, dt)));
+  row.sigma_m =
+      std::sqrt(square(carrier.sigma) + before.variance_m2 +
+                square(change_sigma_m(config_, bands_, satellite, carrier, predicted_p_e, dt)));
   row.system_time = static_cast<int>(index_of(satellite.satellite.system));
   return row;
 }
