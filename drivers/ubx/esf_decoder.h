@@ -26,7 +26,7 @@ struct EsfCounters {
 // messages. Its clock is the receiver's own in milliseconds: calibTtag where it is there, timeTag
 // otherwise. UBX-ESF-RAW holds several whole samples with the time tags of the sensor, of which 24
 // bits count in steps of 39.0625 us. That step is in no document of the receiver; it is the one of
-// the sensors that it contains, and whoever uses the clock follows its rate anyway. Where both
+// the sensors that it contains, and whoever uses the clock finds its drift. Where both
 // messages come, UBX-ESF-RAW is used: it is finer and has every sample.
 class EsfDecoder {
  public:

@@ -77,8 +77,8 @@ void PulseLine::fit() {
 
 bool PulseLine::holds_at(std::int64_t clock_ns) const {
   if (!is_ready()) return false;
-  const std::int64_t since_ns = nanoseconds_between(gps_time(clock_ns), last_);
-  return since_ns > -kHold_ns && since_ns <= kHold_ns;
+  const double since_ns = static_cast<double>(clock_ns - clock_origin_ns_) - points_.back().x_ns;
+  return std::abs(since_ns) <= static_cast<double>(kHold_ns);
 }
 
 GpsTime PulseLine::gps_time(std::int64_t clock_ns) const {
