@@ -18,6 +18,11 @@ boost::system::error_code protocol_error() {
   return boost::system::errc::make_error_code(boost::system::errc::protocol_error);
 }
 
+// Casters close without TLS's goodbye: that is an end like any other.
+boost::system::error_code as_end(const boost::system::error_code& error) {
+  return error == asio::ssl::error::stream_truncated ? asio::error::eof : error;
+}
+
 }  // namespace
 
 NtripSession::NtripSession(asio::io_context* io, const NtripOptions* options,
@@ -98,7 +103,7 @@ void NtripSession::on_answer(const Error& error, std::size_t count) {
     return send_position();
   }
   if (answer != NtripAnswer::kPending) return finish_open(protocol_error());
-  if (error) return finish_open(error);
+  if (error) return finish_open(as_end(error));
   await_answer();
 }
 
@@ -143,7 +148,7 @@ void NtripSession::on_bytes(asio::mutable_buffer buffer, Endpoint::Read done, co
   reply_.feed({incoming_.data(), count}, &stream_);
   if (deliver(buffer, &done)) return;
   if (!error) return read(buffer, std::move(done));
-  done(error == asio::ssl::error::stream_truncated ? asio::error::eof : error, 0);
+  done(as_end(error), 0);
 }
 
 // A line is written only when the one before it has gone out.

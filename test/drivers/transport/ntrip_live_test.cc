@@ -155,10 +155,13 @@ TEST_CASE("A caster's stream comes whole, in both versions and through TLS", "[n
       }
     }
   }
-  const Collector old = run(caster.options("V1ONLY"), 20, ten);
-  REQUIRE(old.failures.size() == 1);
-  CHECK_THAT(old.failures[0], Catch::Contains("without an answer"));
-  check_messages(old.text);
+  for (const bool tls : {false, true}) {
+    CAPTURE(tls);
+    const Collector old = run(caster.options("V1ONLY", tls), 20, ten);
+    REQUIRE(old.failures.size() == 1);
+    CHECK_THAT(old.failures[0], Catch::Contains("without an answer"));
+    check_messages(old.text);
+  }
 }
 
 TEST_CASE("A refusal is told with its remedy, and not repeated soon", "[ntrip]") {

@@ -212,6 +212,19 @@ def journaled(out, said):
     return faults
 
 
+def connections(caster, said):
+    """Each break is told, and the stream is open again after it; without service that is told once more."""
+    opened = sum("service: " in line and " is open" in line for line in said.splitlines())
+    told = [line.split("service: ", 1)[1] for line in said.splitlines() if "warning: service: " in line and "trying again" in line]
+    print(f"caster: {caster.refused} refused, {caster.served} served, {caster.broken} broken off; leonav-connect opened it {opened} times and told:")
+    print("".join(f"  {line}\n" for line in told), end="")
+    if caster.broken != 2 or caster.served != 3 or opened != 3:
+        return ["the caster was not opened anew after each break"]
+    if sum("closed the connection; trying again" in line for line in told) != 2 or not any("without an answer" in line for line in told):
+        return ["a break, or a caster without service, is not told as such"]
+    return []
+
+
 def published(text):
     """How many messages each stream published, by the last line about it."""
     return {name: int(count) for name, count in re.findall(r"(\w+): [\w ]+, \d+ bytes, (\d+) messages", text)}
