@@ -22,6 +22,20 @@ constexpr std::size_t kSatellites = 64;
 
 using Words = std::span<const std::uint32_t>;
 
+// Makes a page of the words of E6-B: 486 bits from the highest one of the first word, then tail and
+// padding.
+SubframeStatus read_page(Words words, const SubframeOrigin& origin, NavigationUpdate* update) {
+  CorrectionPage page;
+  page.satellite = origin.satellite;
+  page.received = origin.now;
+  for (std::size_t i = 0; i < page.bits.size(); ++i) {
+    page.bits[i] = static_cast<std::uint8_t>(words[i / 4] >> (24 - 8 * (i % 4)));
+  }
+  if (!is_intact(page)) return SubframeStatus::kBadParity;
+  update->page = page;
+  return SubframeStatus::kPage;
+}
+
 }  // namespace
 
 // There is one collector per satellite and message; a satellite number is below kSatellites.
@@ -52,7 +66,8 @@ SubframeStatus RxmSfrbxDecoder::State::add_gps(std::uint8_t signal_id, Words wor
 SubframeStatus RxmSfrbxDecoder::State::add_galileo(std::uint8_t signal_id, Words words,
                                                    const SubframeOrigin& origin,
                                                    NavigationUpdate* update) {
-  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5;
+  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5, kE6B = 8;
+  constexpr std::size_t kPageWords = 16;
   const std::size_t number = origin.satellite.number;
   if ((signal_id == kE1B || signal_id == kE5bI) && words.size() == GalileoInav::kWords) {
     return galileo_inav[number].add(words.first<GalileoInav::kWords>(), origin, update);
@@ -60,7 +75,8 @@ SubframeStatus RxmSfrbxDecoder::State::add_galileo(std::uint8_t signal_id, Words
   if (signal_id == kE5aI && words.size() == GalileoFnav::kWords) {
     return galileo_fnav[number].add(words.first<GalileoFnav::kWords>(), origin, update);
   }
-  return SubframeStatus::kOtherMessage;  // E6-B: the high accuracy service
+  if (signal_id == kE6B && words.size() == kPageWords) return read_page(words, origin, update);
+  return SubframeStatus::kOtherMessage;
 }
 
 SubframeStatus RxmSfrbxDecoder::State::add_beidou(std::uint8_t signal_id, Words words,
@@ -131,6 +147,9 @@ void RxmSfrbxDecoder::count(SubframeStatus status) {
   switch (status) {
     case SubframeStatus::kUsed:
       ++counters_.subframes;
+      break;
+    case SubframeStatus::kPage:
+      ++counters_.pages;
       break;
     case SubframeStatus::kOtherMessage:
       ++counters_.other_message;

@@ -1,5 +1,6 @@
-// This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides and ionosphere
-// coefficients. Source: u-blox ZED-F9P interface description UBX-22008968, sections 1.5 and 3.17.9.
+// This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides, ionosphere
+// coefficients and pages of corrections. Source: u-blox ZED-F9P interface description UBX-22008968,
+// sections 1.5 and 3.17.9.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,7 @@ namespace leonav {
 // Counts of subframes and ephemerides.
 struct RxmSfrbxCounters {
   std::uint64_t subframes = 0;  // understood and used
+  std::uint64_t pages = 0;      // of corrections (Galileo E6-B), passed on
   std::uint64_t bad_length = 0;
   std::uint64_t bad_version = 0;
   std::uint64_t bad_satellite = 0;

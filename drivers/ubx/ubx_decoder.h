@@ -1,4 +1,5 @@
-// This unit decodes a u-blox byte stream to observations, ephemerides and ionosphere coefficients.
+// This unit decodes a u-blox byte stream to observations, ephemerides, ionosphere coefficients and
+// pages of corrections.
 // Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2.
 #pragma once
 #include <cstdint>
@@ -7,6 +8,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/correction_page.h"
 #include "drivers/ubx/rxm_rawx.h"
 #include "drivers/ubx/rxm_sfrbx.h"
 #include "drivers/ubx/ubx_framer.h"
@@ -20,6 +22,8 @@ class UbxHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
+  // A page of Galileo HAS, received at the time of the last epoch.
+  virtual void on_page(const CorrectionPage& page) = 0;
 };
 
 // Counts of all parts of the decoder.

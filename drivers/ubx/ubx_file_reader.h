@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
+using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, CorrectionPage>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

@@ -15,10 +15,12 @@ constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
 bool is_receiver(const StreamConfig& stream) {
-  return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kImuLine;
+  return !stream.is_service && stream.format != FormatKind::kVectornav &&
+         stream.format != FormatKind::kImuLine;
 }
 bool is_inertial(const StreamConfig& stream) {
-  return !is_receiver(stream) || stream.oem7.is_inertial;
+  return stream.format == FormatKind::kVectornav || stream.format == FormatKind::kImuLine ||
+         stream.oem7.is_inertial;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -31,10 +33,8 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
     if (!names.insert(stream.name).second) {
       root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
     }
-    if (!stream.is_service) {
-      receivers += is_receiver(stream);
-      inertial += is_inertial(stream);
-    }
+    receivers += is_receiver(stream);
+    inertial += is_inertial(stream);
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {
@@ -73,6 +73,10 @@ const char* name_of(FormatKind format) {
       return "oem7";
     case FormatKind::kVectornav:
       return "vectornav";
+    case FormatKind::kHas:
+      return "has";
+    case FormatKind::kB2b:
+      return "b2b";
     case FormatKind::kImuLine:
       break;
   }

@@ -16,6 +16,7 @@
 #include "tools/connect/formats/imu_line_format.h"
 #include "tools/connect/formats/message_output.h"
 #include "tools/connect/formats/oem7_format.h"
+#include "tools/connect/formats/page_format.h"
 #include "tools/connect/formats/rtcm3_format.h"
 #include "tools/connect/formats/ubx_format.h"
 #include "tools/connect/formats/vectornav_format.h"
@@ -94,7 +95,7 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
   switch (stream.format) {
     case FormatKind::kUbx:
       return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
-                                         &corrections);
+                                         &corrections, stream.uses_pages);
     case FormatKind::kRtcm3:
       return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output,
                                            stream.is_service, &corrections);
@@ -103,6 +104,10 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
                                           &output);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output);
+    case FormatKind::kHas:
+      return std::make_unique<PageFormat>(PageService::kGalileoHas, &corrections);
+    case FormatKind::kB2b:
+      return std::make_unique<PageFormat>(PageService::kBeidouB2b, &corrections);
     case FormatKind::kImuLine:
       break;
   }

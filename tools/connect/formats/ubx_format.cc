@@ -13,16 +13,32 @@ void UbxFormat::on_klobuchar(const KlobucharModel& model) {
   receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));
 }
 
+void UbxFormat::on_page(const CorrectionPage& page) {
+  if (!uses_pages_) return;
+  for (const SsrMessage& message : pages_.add(page)) {
+    published_corrections_ +=
+        static_cast<std::uint64_t>(corrections_->take(message, page.received));
+  }
+}
+
+std::string UbxFormat::detail() const {
+  std::string text = receiver_.detail();
+  if (!uses_pages_) return text;
+  const std::string of_corrections = corrections_->detail();
+  if (!text.empty() && !of_corrections.empty()) text += "; ";
+  return text + of_corrections;
+}
+
 FormatCounts UbxFormat::counts() const {
   const UbxCounters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.messages;
-  counts.messages = receiver_.messages();
+  counts.messages = receiver_.messages() + published_corrections_;
   counts.damaged = c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete;
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +
                    c.rawx.bad_satellite + c.sfrbx.bad_length + c.sfrbx.bad_version +
                    c.sfrbx.bad_satellite + c.sfrbx.bad_parity + c.sfrbx.bad_week +
-                   c.sfrbx.wrong_satellite + c.sfrbx.not_sane;
+                   c.sfrbx.wrong_satellite + c.sfrbx.not_sane + pages_.refused();
   return counts;
 }
 

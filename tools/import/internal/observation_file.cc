@@ -42,7 +42,23 @@ class UbxFile final : public ObservationFile {
  public:
   explicit UbxFile(const std::string& path) : reader_(path) {}
 
-  bool next(ObservationItem* item) override { return reader_.next(item); }
+  bool next(ObservationItem* item) override {
+    for (UbxOutput output; reader_.next(&output);) {
+      if (auto* epoch = std::get_if<RawEpoch>(&output)) {
+        *item = std::move(*epoch);
+        return true;
+      }
+      if (const auto* ephemeris = std::get_if<Ephemeris>(&output)) {
+        *item = *ephemeris;
+        return true;
+      }
+      if (const auto* model = std::get_if<KlobucharModel>(&output)) {
+        *item = *model;
+        return true;
+      }
+    }
+    return false;
+  }
   long lost_epochs() const override {
     const RxmRawxCounters rawx = reader_.counters().rawx;
     return static_cast<long>(rawx.bad_length + rawx.bad_version + rawx.bad_time);
@@ -71,6 +87,7 @@ class UbxFile final : public ObservationFile {
         {"measurement without a value", rawx.empty},
         {"subframe of a system not used", sfrbx.other_system},
         {"subframe of a message not used", sfrbx.other_message},
+        {"page of Galileo HAS (list the file under corrections too)", sfrbx.pages},
         {"subframe with a wrong length or version", sfrbx.bad_length + sfrbx.bad_version},
         {"subframe with a parity error", sfrbx.bad_parity},
         {"subframe of a satellite that does not exist", sfrbx.bad_satellite},
