@@ -106,8 +106,7 @@ void Blocks::take_clock(double multiplier, SsrSatellite* satellite) {
   left_out_->unavailable += value == kUnavailable;
   left_out_->do_not_use += value == kDoNotUse;
   satellite->clock_ends = value == kUnavailable || value == kDoNotUse;
-  if (!satellite->clock_ends)
-    satellite->clock = SsrClock{value * kUnit_m * multiplier, 0.0, 0.0, {}};
+  if (!satellite->clock_ends) satellite->clock = SsrClock{value * kUnit_m * multiplier, 0.0, 0.0};
 }
 
 HasStatus Blocks::read_clocks() {

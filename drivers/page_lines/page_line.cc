@@ -47,7 +47,8 @@ bool read_octets(std::string_view hex, CorrectionPage* page) {
 }  // namespace
 
 std::optional<CorrectionPage> page_from_line(std::string_view line, PageService service) {
-  constexpr int kLatestWeek = 9999, kLongest = 128;
+  constexpr int kLatestWeek = 9999;
+  constexpr std::size_t kLongest = 128;  // octets
   const std::optional<Columns> columns = split(trim(line));
   if (!columns) return std::nullopt;
   const auto& [week_text, second_text, satellite_text, type_text, length_text, hex] = *columns;
@@ -60,9 +61,10 @@ std::optional<CorrectionPage> page_from_line(std::string_view line, PageService 
   }
   CorrectionPage page;
   const bool is_beidou = service == PageService::kBeidouB2b;
-  if (!satellite || *satellite < 1 || *satellite > 63 || !length || *length > kLongest ||
-      *length < static_cast<int>(page.bits.size()) ||
-      hex.size() != 2 * static_cast<std::size_t>(*length) || !read_octets(hex, &page)) {
+  if (!satellite || *satellite < 1 || *satellite > 63 || !length ||
+      *length < static_cast<int>(page.bits.size()) || hex.size() % 2 != 0 ||
+      hex.size() < 2 * static_cast<std::size_t>(*length) || hex.size() > 2 * kLongest ||
+      !read_octets(hex, &page)) {
     return std::nullopt;
   }
   page.service = service;

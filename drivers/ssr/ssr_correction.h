@@ -48,15 +48,15 @@ struct SsrOrbit {
   Eigen::Vector3d delta_rate_rac{0, 0, 0};  // m/s
   OrbitAxes axes = OrbitAxes::kAlongVelocity;
   // B2b only: IOD Corr, which the satellite's clock must share.
-  std::optional<std::uint8_t> correction_issue;
+  std::optional<std::uint8_t> correction_issue = std::nullopt;
 };
 
 // The polynomial, in metres, is to be added to the broadcast clock times the speed of light:
 // c0 + c1 t + c2 t^2, with t from the message's time plus half its update interval, or from its
 // time alone where the interval is the shortest one of a second.
 struct SsrClock {
-  double c0_m = 0.0, c1 = 0.0, c2 = 0.0;         // m, m/s, m/s^2
-  std::optional<std::uint8_t> correction_issue;  // as of SsrOrbit
+  double c0_m = 0.0, c1 = 0.0, c2 = 0.0;                        // m, m/s, m/s^2
+  std::optional<std::uint8_t> correction_issue = std::nullopt;  // as of SsrOrbit
 };
 
 // The bias of a signal's code is to be added to its pseudorange, that of its phase to the carrier.

@@ -40,7 +40,7 @@ TEST_CASE("The seconds of PPP-B2b are BeiDou's") {
 
 TEST_CASE("Any other line is no page") {
   CHECK(is_page(line("2269 0 1 6 61 ")));
-  CHECK(is_page(line("2269 0 1 6 62 ", kHex + "ff") + "\r"));
+  CHECK(is_page(line("2269 0 1 6 62 ", kHex + "ff")));
   CHECK_FALSE(is_page(""));
   CHECK_FALSE(is_page(line("2269 0 1 6 ")));
   CHECK_FALSE(is_page(line("2269 0 1 6 61 ") + " 5"));
@@ -55,7 +55,9 @@ TEST_CASE("Any other line is no page") {
   CHECK_FALSE(is_page(line("2269 0 1 x 61 ")));
   CHECK_FALSE(is_page(line("2269 0 1 6 62 ")));
   CHECK_FALSE(is_page(line("2269 0 1 6 60 ", kHex.substr(2))));
-  CHECK_FALSE(is_page(line("2269 0 1 6 129 ", std::string(258, '0'))));
+  CHECK(is_page(line("2269 0 1 6 62 ", std::string(128, '0'))));  // as recorded: 16 words
+  CHECK_FALSE(is_page(line("2269 0 1 6 61 ", std::string(258, '0'))));
+  CHECK_FALSE(is_page(line("2269 0 1 6 129 ", std::string(256, '0'))));
   CHECK_FALSE(is_page(line("2269 0 1 6 61 ", kHex.substr(1))));
   CHECK_FALSE(is_page(line("2269 0 1 6 61 ", "g" + kHex.substr(1))));
   CHECK_FALSE(is_page(line("2269 0 1 6 62 ", kHex + "0g")));

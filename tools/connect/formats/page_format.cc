@@ -15,6 +15,7 @@ void PageFormat::feed(std::span<const std::uint8_t> bytes, std::int64_t) {
 }
 
 void PageFormat::take_line() {
+  if (line_.ends_with('\r')) line_.pop_back();
   const auto page = overflows_ ? std::nullopt : page_from_line(line_, service_);
   const bool is_bad = !page && (overflows_ || !is_remark(line_));
   line_.clear();
