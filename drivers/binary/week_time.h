@@ -38,6 +38,15 @@ inline GpsTime nearest_instant_of(double tow_s, GpsTime near) {
   return nearest_instant_ns(std::llround(tow_s * 1e9), near);
 }
 
+// Returns the instant at this offset from the start of a period that is nearest to `near`. Periods
+// of equal length (a day, an hour) begin with GPS time.
+constexpr GpsTime nearest_instant_of_period(std::int64_t offset_ns, std::int64_t period_ns,
+                                            GpsTime near) {
+  const std::int64_t ahead = (near.nanoseconds() - offset_ns) % period_ns;
+  const std::int64_t after = ahead < 0 ? ahead + period_ns : ahead;
+  return near.plus_nanoseconds(after > period_ns / 2 ? period_ns - after : -after);
+}
+
 // Returns whether a broadcast week number can be that of `time`: the week itself or, since receiver
 // and satellite may be on two sides of a week's end, a neighbour. `offset` is week zero of the
 // system's own count in GPS weeks.

@@ -6,13 +6,15 @@
 
 #include "core/base/gps_time.h"
 #include "core/gnss/orbits/ephemeris.h"
+#include "drivers/binary/correction_page.h"
 
 namespace leonav {
 
-// Result of one subframe: the set that it completed, if any.
+// Result of one subframe: the set that it completed, if any, or the page of corrections that it is.
 struct NavigationUpdate {
   std::optional<Ephemeris> ephemeris;
   std::optional<KlobucharModel> klobuchar;
+  std::optional<CorrectionPage> page;
 };
 
 // Outcome of one subframe.

@@ -147,15 +147,16 @@ void take_satellite(BitReader* bits, const SsrType& type, SsrSatellite* satellit
 // orbit before the issue, the IGS behind the solution; RTCM's BeiDou time is BeiDou's own.
 std::uint32_t take_header(BitReader* bits, SsrMessage* m, std::uint32_t* epoch_s) {
   const bool has_frame = m->kind == SsrKind::kOrbit || m->kind == SsrKind::kOrbitAndClock;
-  bits->skip(m->is_igs ? 12 + 3 + 8 : 12);
+  const bool is_igs = m->service == SsrService::kIgs;
+  bits->skip(is_igs ? 12 + 3 + 8 : 12);
   *epoch_s = bits->take(20);
   m->update_interval_s = kIntervals[bits->take(4)];
   m->more_follow = bits->take(1) != 0;
-  if (has_frame && !m->is_igs) m->is_regional_frame = bits->take(1) != 0;
+  if (has_frame && !is_igs) m->is_regional_frame = bits->take(1) != 0;
   m->issue = static_cast<std::uint8_t>(bits->take(4));
   m->provider = static_cast<std::uint16_t>(bits->take(16));
   m->solution = static_cast<std::uint8_t>(bits->take(4));
-  if (has_frame && m->is_igs) m->is_regional_frame = bits->take(1) != 0;
+  if (has_frame && is_igs) m->is_regional_frame = bits->take(1) != 0;
   if (m->kind == SsrKind::kPhaseBias) {
     m->dispersive_is_consistent = bits->take(1) != 0;
     m->wide_lane_is_consistent = bits->take(1) != 0;
@@ -176,7 +177,7 @@ SsrStatus read_ssr(const SsrType& type, std::span<const std::uint8_t> message, G
   SsrMessage m;
   m.kind = type.kind;
   m.system = type.system;
-  m.is_igs = type.is_igs;
+  m.service = type.is_igs ? SsrService::kIgs : SsrService::kRtcm;
   BitReader bits(message);
   std::uint32_t epoch_s = 0;
   const std::uint32_t count = take_header(&bits, &m, &epoch_s);

@@ -34,22 +34,27 @@ void CorrectionStore::add(const SsrMessage& message) {
     counters_.in_regional_frame += message.satellites.size();
     return;
   }
-  const Correction correction{message.time, reference_time(message), source_of(message),
-                              message.is_igs};
+  const Correction correction{message.time,    reference_time(message), source_of(message),
+                              message.service, message.validity_s,      message.at_antenna};
   for (const SsrSatellite& from : message.satellites) {
     if (!is_valid(from.satellite)) continue;
     Satellite& to = satellites_[from.satellite];
+    if (from.orbit_ends) to.orbit_is = {};
+    if (from.clock_ends) to.clock = to.earlier_clock = {};
     if (from.orbit) {
       // A clock's correction belongs to the elements that the orbit of its time corrects.
       const bool is_other_issue =
-          from.orbit->issue != to.orbit.issue || from.orbit->beidou_toe != to.orbit.beidou_toe;
-      if (is_other_issue && to.clock_is.sent < message.time) to.clock_is = {};
+          !from.orbit->correction_issue &&
+          (from.orbit->issue != to.orbit.issue || from.orbit->beidou_toe != to.orbit.beidou_toe);
+      if (is_other_issue && to.clock.is.sent < message.time) to.clock = {};
       to.orbit = *from.orbit;
       to.orbit_is = correction;
     }
     if (from.clock) {
-      to.clock = *from.clock;
-      to.clock_is = correction;
+      if (from.clock->correction_issue != to.clock.values.correction_issue) {
+        to.earlier_clock = to.clock;
+      }
+      to.clock = {*from.clock, correction};
     }
     if (from.high_rate_clock_m) {
       to.high_rate_m = *from.high_rate_clock_m;
@@ -65,36 +70,50 @@ std::vector<CorrectedState> CorrectionStore::states(const SsrMessage& message, G
   for (const SsrSatellite& from : message.satellites) {
     const auto satellite = satellites_.find(from.satellite);
     if (satellite == satellites_.end()) continue;
-    if (const auto one = state(satellite->second, time)) states.push_back(*one);
+    if (const auto one = state(from.satellite, satellite->second, time)) states.push_back(*one);
   }
   counters_.states += states.size();
   return states;
 }
 
-std::optional<CorrectedState> CorrectionStore::state(const Satellite& s, GpsTime time) {
+// Whether orbit and clock are of one solution.
+bool CorrectionStore::go_together(const Satellite& s, const Clock& clock) {
+  return s.orbit_is.service == clock.is.service && s.orbit_is.source == clock.is.source &&
+         s.orbit.correction_issue == clock.values.correction_issue;
+}
+
+std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satellite& s,
+                                                     GpsTime time) {
   const auto none = [](std::uint64_t* counter) {
     ++*counter;
     return std::nullopt;
   };
   if (!s.orbit_is.reference.is_set()) return none(&counters_.without_orbit);
-  if (!s.clock_is.reference.is_set()) return none(&counters_.without_clock);
-  if (s.orbit_is.source != s.clock_is.source) return none(&counters_.of_other_issue);
-  if (!is_within(time, s.orbit_is.reference, options_.max_orbit_age_s) ||
-      !is_within(time, s.clock_is.reference, options_.max_clock_age_s)) {
+  if (!s.clock.is.reference.is_set()) return none(&counters_.without_clock);
+  if (s.orbit_is.service == SsrService::kBeidouB2b && id.system == System::kBeidou) {
+    return none(&counters_.of_unread_message);
+  }
+  const bool has_earlier = !go_together(s, s.clock) && s.earlier_clock.is.reference.is_set();
+  const Clock& clock = has_earlier ? s.earlier_clock : s.clock;
+  if (!go_together(s, clock)) return none(&counters_.of_other_issue);
+  if (!is_within(time, s.orbit_is.reference,
+                 s.orbit_is.validity_s.value_or(options_.max_orbit_age_s)) ||
+      !is_within(time, clock.is.reference,
+                 clock.is.validity_s.value_or(options_.max_clock_age_s))) {
     return none(&counters_.too_old);
   }
   const Ephemeris* broadcast = corrected_ephemeris(s, time);
   if (broadcast == nullptr) return none(&counters_.without_ephemeris);
 
-  OrbitAndClock corrections{s.orbit, s.orbit_is.reference, s.clock, s.clock_is.reference, 0.0};
+  OrbitAndClock corrections{s.orbit, s.orbit_is.reference, clock.values, clock.is.reference, 0.0};
   const bool has_high_rate =
-      s.high_rate_is.reference.is_set() && s.high_rate_is.source == s.clock_is.source &&
-      s.high_rate_is.reference >= s.clock_is.reference &&
+      s.high_rate_is.reference.is_set() && s.high_rate_is.source == clock.is.source &&
+      s.high_rate_is.reference >= clock.is.reference &&
       is_within(time, s.high_rate_is.reference, options_.max_high_rate_age_s);
   if (has_high_rate) corrections.high_rate_clock_m = s.high_rate_m;
   CorrectedState state = apply(corrections, *broadcast, time);
   if (has_high_rate) state.corrected_at = s.high_rate_is.reference;
-  state.at_antenna = options_.at_antenna;
+  state.at_antenna = s.orbit_is.at_antenna.value_or(options_.at_antenna);
   state.sigma_m = s.accuracy_m.value_or(options_.default_sigma_m);
   return state;
 }
@@ -104,7 +123,7 @@ const Ephemeris* CorrectionStore::corrected_ephemeris(const Satellite& s, GpsTim
   double nearest_s = kLongestLife_s;
   for (const Ephemeris& e : s.ephemerides) {
     const double age_s = std::abs(seconds_between(time, e.toe));
-    if (age_s > nearest_s || !is_corrected_by(e, s.orbit, s.orbit_is.is_igs)) continue;
+    if (age_s > nearest_s || !is_corrected_by(e, s.orbit, s.orbit_is.service)) continue;
     nearest = &e;
     nearest_s = age_s;
   }

@@ -16,13 +16,14 @@
 namespace leonav {
 
 struct CorrectionOptions {
-  // Which point of a satellite the corrected positions are. No message says it: providers state it
-  // of a stream (of the IGS' combined ones SSRA is the antenna phase centre, SSRC the centre of
-  // mass).
+  // Which point of a satellite the corrected positions are, where a message does not say it. Of
+  // RTCM and the IGS providers state it of a stream (of the IGS' combined ones SSRA is the antenna
+  // phase centre, SSRC the centre of mass).
   bool at_antenna = true;
   // Galileo sends each issue in two messages, whose clocks differ.
   NavigationMessage galileo_message = NavigationMessage::kGalileoInav;
-  // A correction farther from its reference time than this is not used.
+  // A correction farther from its reference time than this is not used. HAS and B2b say themselves
+  // for how long one holds, which counts instead.
   double max_orbit_age_s = 180.0;
   double max_clock_age_s = 60.0;
   double max_high_rate_age_s = 10.0;
@@ -37,8 +38,9 @@ struct CorrectionCounters {
   std::uint64_t without_orbit = 0;  // a clock's correction alone
   std::uint64_t without_clock = 0;  // an orbit's correction alone
   std::uint64_t without_ephemeris =
-      0;                             // the issue that is corrected has not come, or went long ago
-  std::uint64_t of_other_issue = 0;  // orbit and clock of different IOD SSR, solution, provider
+      0;  // the issue that is corrected has not come, or went long ago
+  std::uint64_t of_unread_message = 0;  // of a message that leonav does not read: B-CNAV1 (B2b)
+  std::uint64_t of_other_issue = 0;     // orbit and clock of different IOD SSR, solution, provider
   std::uint64_t too_old = 0;
   std::uint64_t in_regional_frame = 0;  // satellites of messages in another frame than the ITRF
 };
@@ -51,7 +53,9 @@ class CorrectionStore {
   // Galileo message that the stream does not refer to, are left out.
   void add(const Ephemeris& ephemeris);
   // The newest correction of its kind replaces that of the same satellite, whatever its time. An
-  // orbit that refers to another issue than the one before ends a clock that was sent earlier.
+  // orbit that refers to another issue than the one before ends a clock that was sent earlier. Of
+  // B2b, whose clocks name the orbits that they belong to, the last clock with another IOD Corr is
+  // kept too, for an orbit that has not come yet.
   void add(const SsrMessage& message);
 
   // Makes the states at `time` of the satellites of a message that was added. A satellite without
@@ -66,18 +70,25 @@ class CorrectionStore {
     GpsTime sent,
         reference;  // the message's time, and the instant its polynomials are counted from
     CorrectionSource source;
-    bool is_igs = false;
+    SsrService service = SsrService::kRtcm;
+    std::optional<double> validity_s;
+    std::optional<bool> at_antenna;
+  };
+  struct Clock {
+    SsrClock values;
+    Correction is;
   };
   struct Satellite {
-    std::vector<Ephemeris> ephemerides;           // in the order of arrival
-    Correction orbit_is, clock_is, high_rate_is;  // reference unset: none
+    std::vector<Ephemeris> ephemerides;  // in the order of arrival
+    Correction orbit_is, high_rate_is;   // reference unset: none
     SsrOrbit orbit;
-    SsrClock clock;
+    Clock clock, earlier_clock;  // earlier: with another IOD Corr than `clock`
     double high_rate_m = 0.0;
     std::optional<double> accuracy_m;
   };
 
-  std::optional<CorrectedState> state(const Satellite& satellite, GpsTime time);
+  static bool go_together(const Satellite& satellite, const Clock& clock);
+  std::optional<CorrectedState> state(SatelliteId id, const Satellite& satellite, GpsTime time);
   const Ephemeris* corrected_ephemeris(const Satellite& satellite, GpsTime time) const;
 
   CorrectionOptions options_;

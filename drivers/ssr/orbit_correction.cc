@@ -12,9 +12,12 @@ namespace {
 // Returns what is to be subtracted from the broadcast position at `time`.
 Eigen::Vector3d displacement(const OrbitAndClock& corrections, const SatelliteState& broadcast,
                              GpsTime time) {
-  const Eigen::Vector3d along = broadcast.v_e.normalized();
   const Eigen::Vector3d across = broadcast.p_e.cross(broadcast.v_e).normalized();
-  const Eigen::Vector3d radial = along.cross(across);
+  const bool is_along_velocity = corrections.orbit.axes == OrbitAxes::kAlongVelocity;
+  const Eigen::Vector3d along =
+      is_along_velocity ? broadcast.v_e.normalized() : across.cross(broadcast.p_e.normalized());
+  const Eigen::Vector3d radial =
+      is_along_velocity ? along.cross(across) : broadcast.p_e.normalized();
   const Eigen::Vector3d delta =
       corrections.orbit.delta_rac_m +
       corrections.orbit.delta_rate_rac * seconds_between(time, corrections.orbit_reference);
@@ -57,13 +60,17 @@ CorrectedState apply(const OrbitAndClock& corrections, const Ephemeris& broadcas
   return state;
 }
 
-bool is_corrected_by(const Ephemeris& broadcast, const SsrOrbit& orbit, bool is_igs) {
+bool is_corrected_by(const Ephemeris& broadcast, const SsrOrbit& orbit, SsrService service) {
+  const bool is_from_pages =
+      service == SsrService::kGalileoHas || service == SsrService::kBeidouB2b;
   switch (broadcast.satellite.system) {
     case System::kGps:
       return (broadcast.issue & 0xFF) == orbit.issue;
     case System::kGalileo:
-      return (broadcast.issue & (is_igs ? 0xFF : 0x3FF)) == orbit.issue;
+      if (is_from_pages && broadcast.message != NavigationMessage::kGalileoInav) return false;
+      return (broadcast.issue & (service == SsrService::kIgs ? 0xFF : 0x3FF)) == orbit.issue;
     case System::kBeidou:
+      if (is_from_pages) return false;
       return orbit.beidou_toe ? beidou_toe_s(broadcast) / 8 % 1024 == *orbit.beidou_toe
                               : beidou_toe_s(broadcast) / 720 % 240 == orbit.issue;
     case System::kLeo:

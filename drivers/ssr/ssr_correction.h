@@ -1,5 +1,6 @@
 // This header defines corrections to broadcast orbits and clocks and biases of signals, as state
-// space representation (SSR) messages give them. Source: RTCM 10403.3, 3.5.12; IGS SSR v1.00.
+// space representation (SSR) messages give them. Source: RTCM 10403.3, 3.5.12; IGS SSR v1.00;
+// Galileo HAS SIS ICD 1.0; BDS-SIS-ICD-PPP-B2b-1.0.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -23,6 +24,20 @@ enum class SsrKind : std::uint8_t {
   kHighRateClock,
 };
 
+// Who defines a message. It decides which broadcast message is corrected, and what its issue is.
+enum class SsrService : std::uint8_t {
+  kRtcm = 0,
+  kIgs,         // 4076
+  kGalileoHas,  // E6-B
+  kBeidouB2b,   // PPP-B2b
+};
+
+// Axes of an orbit's correction; across is r x v of the broadcast message for both.
+enum class OrbitAxes : std::uint8_t {
+  kAlongVelocity = 0,  // along is v, radial = along x across
+  kRadial,             // radial is r, along = across x radial
+};
+
 // The values along radius, track and cross track are to be subtracted from the broadcast position,
 // as X = X_broadcast - [r a c] delta.
 struct SsrOrbit {
@@ -31,13 +46,17 @@ struct SsrOrbit {
   std::optional<std::uint16_t> beidou_toe;
   Eigen::Vector3d delta_rac_m{0, 0, 0};     // radial, along, across
   Eigen::Vector3d delta_rate_rac{0, 0, 0};  // m/s
+  OrbitAxes axes = OrbitAxes::kAlongVelocity;
+  // B2b only: IOD Corr, which the satellite's clock must share.
+  std::optional<std::uint8_t> correction_issue = std::nullopt;
 };
 
 // The polynomial, in metres, is to be added to the broadcast clock times the speed of light:
 // c0 + c1 t + c2 t^2, with t from the message's time plus half its update interval, or from its
 // time alone where the interval is the shortest one of a second.
 struct SsrClock {
-  double c0_m = 0.0, c1 = 0.0, c2 = 0.0;  // m, m/s, m/s^2
+  double c0_m = 0.0, c1 = 0.0, c2 = 0.0;                        // m, m/s, m/s^2
+  std::optional<std::uint8_t> correction_issue = std::nullopt;  // as of SsrOrbit
 };
 
 // The bias of a signal's code is to be added to its pseudorange, that of its phase to the carrier.
@@ -47,7 +66,7 @@ struct SsrBias {
   // Of a phase only.
   bool is_integer = false;           // the ambiguity of the corrected carrier is a whole number
   std::uint8_t wide_lane = 0;        // DF484, IDF030 as sent; 0: no whole wide lane
-  std::uint8_t discontinuities = 0;  // counts modulo 16
+  std::uint8_t discontinuities = 0;  // counts modulo 16; of HAS modulo 4
 };
 
 // What a message says of one satellite; empty: not in this kind of message.
@@ -55,6 +74,8 @@ struct SsrSatellite {
   SatelliteId satellite;
   std::optional<SsrOrbit> orbit;
   std::optional<SsrClock> clock;
+  // The message says that there is none: what was sent before ends.
+  bool orbit_ends = false, clock_ends = false;
   std::optional<double> high_rate_clock_m;     // to be added to the clock's polynomial
   std::optional<std::uint8_t> accuracy_index;  // DF389, IDF034: class and value, 3 bits each
   std::vector<SsrBias> code_biases, phase_biases;
@@ -65,14 +86,18 @@ struct SsrSatellite {
 struct SsrMessage {
   SsrKind kind = SsrKind::kOrbit;
   System system = System::kGps;
-  bool is_igs = false;  // 4076; otherwise RTCM's own
-  GpsTime time;         // epoch of the corrections
-  double update_interval_s = 0.0;
+  SsrService service = SsrService::kRtcm;
+  GpsTime time;                      // epoch of the corrections
+  double update_interval_s = 0.0;    // of HAS and B2b there is none
+  std::optional<double> validity_s;  // the corrections hold for so long after `time`
+  // Which point of a satellite the corrected orbit is of; unset where no message says it.
+  std::optional<bool> at_antenna;
   bool more_follow = false;
   bool is_regional_frame = false;  // orbit only: the frame is not the ITRF
-  std::uint8_t issue = 0;          // IOD SSR: orbits and clocks with the same one go together
-  std::uint16_t provider = 0;
-  std::uint8_t solution = 0;
+  // IOD SSR, of HAS the IOD Set ID: orbits and clocks with the same one go together.
+  std::uint8_t issue = 0;
+  std::uint16_t provider = 0;                                              // of HAS and B2b 0
+  std::uint8_t solution = 0;                                               // of HAS the Mask ID
   bool dispersive_is_consistent = false, wide_lane_is_consistent = false;  // phase biases only
   std::vector<SsrSatellite> satellites;
 };

@@ -14,6 +14,20 @@ constexpr std::size_t kMaxWords = 19;  // BeiDou B-CNAV1, the longest there is
 
 using Words = std::span<const std::uint32_t>;
 
+constexpr std::size_t kPageWords = 16;
+
+// Makes a page of the words of E6-B: 486 bits from the highest one of the first word, then tail and
+// padding.
+CorrectionPage read_page(Words words, const SubframeOrigin& origin) {
+  CorrectionPage page;
+  page.satellite = origin.satellite;
+  page.received = origin.now;
+  for (std::size_t i = 0; i < page.bits.size(); ++i) {
+    page.bits[i] = static_cast<std::uint8_t>(words[i / 4] >> (24 - 8 * (i % 4)));
+  }
+  return page;
+}
+
 }  // namespace
 
 RxmSfrbxDecoder::RxmSfrbxDecoder() : collector_(std::make_unique<NavigationCollector>()) {}
@@ -52,8 +66,8 @@ NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, 
 
 NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
                                       const SubframeOrigin& origin) {
-  constexpr std::uint8_t kL1Ca = 0;                       // L2C and L5 carry CNAV
-  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5;  // E6-B: the high accuracy service
+  constexpr std::uint8_t kL1Ca = 0;  // L2C and L5 carry CNAV
+  constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5, kE6B = 8;
   switch (origin.satellite.system) {
     case System::kGps:
       if (signal_id != kL1Ca || words.size() != GpsLnav::kWords) break;
@@ -62,6 +76,7 @@ NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
       if ((signal_id == kE1B || signal_id == kE5bI) && words.size() == GalileoInav::kWords) {
         return collector_->add_galileo_inav(words.first<GalileoInav::kWords>(), origin);
       }
+      if (signal_id == kE6B && words.size() == kPageWords) return add_page(words, origin);
       if (signal_id != kE5aI || words.size() != GalileoFnav::kWords) break;
       return collector_->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
     case System::kBeidou: {
@@ -77,9 +92,22 @@ NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
   return {};
 }
 
+NavigationUpdate RxmSfrbxDecoder::add_page(Words words, const SubframeOrigin& origin) {
+  NavigationUpdate update;
+  const CorrectionPage page = read_page(words, origin);
+  if (is_intact(page)) {
+    ++counters_.pages;
+    update.page = page;
+  } else {
+    ++bad_pages_;
+  }
+  return update;
+}
+
 RxmSfrbxCounters RxmSfrbxDecoder::counters() const {
   RxmSfrbxCounters counters = counters_;
   static_cast<NavigationCounters&>(counters) = collector_->counters();
+  counters.bad_parity += bad_pages_;
   return counters;
 }
 

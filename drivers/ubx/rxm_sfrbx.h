@@ -1,5 +1,6 @@
-// This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides and ionosphere
-// coefficients. Source: u-blox ZED-F9P interface description UBX-22008968, sections 1.5 and 3.17.9.
+// This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides, ionosphere
+// coefficients and pages of corrections. Source: u-blox ZED-F9P interface description UBX-22008968,
+// sections 1.5 and 3.17.9.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,7 @@ namespace leonav {
 
 // Counts of subframes and ephemerides.
 struct RxmSfrbxCounters : NavigationCounters {
+  std::uint64_t pages = 0;  // of corrections (Galileo E6-B), passed on
   std::uint64_t bad_length = 0;
   std::uint64_t bad_version = 0;
   std::uint64_t bad_satellite = 0;
@@ -32,8 +34,10 @@ class RxmSfrbxDecoder {
  private:
   NavigationUpdate add(std::uint8_t signal_id, std::span<const std::uint32_t> words,
                        const SubframeOrigin& origin);
+  NavigationUpdate add_page(std::span<const std::uint32_t> words, const SubframeOrigin& origin);
 
   RxmSfrbxCounters counters_;  // without the collector's part
+  std::uint64_t bad_pages_ = 0;
   std::unique_ptr<NavigationCollector> collector_;
 };
 

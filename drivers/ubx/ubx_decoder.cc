@@ -53,6 +53,7 @@ void UbxDecoder::dispatch(const UbxMessage& message, UbxHandler* handler) {
     const NavigationUpdate update = state_->sfrbx.decode(message.payload, state_->now);
     if (update.ephemeris) handler->on_ephemeris(*update.ephemeris);
     if (update.klobuchar) handler->on_klobuchar(*update.klobuchar);
+    if (update.page) handler->on_page(*update.page);
   } else if (message.message_class == kClassEsf && message.id == kIdMeas) {
     state_->esf.decode_meas(message.payload,
                             [handler](const EsfReading& r) { handler->on_inertial(r); });

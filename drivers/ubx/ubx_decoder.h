@@ -1,6 +1,7 @@
 // This unit decodes a u-blox byte stream to observations, ephemerides, ionosphere coefficients,
-// inertial readings and time marks. Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX
-// version 1, UBX-RXM-SFRBX version 2, UBX-ESF-MEAS, UBX-ESF-RAW, UBX-TIM-TM2.
+// pages of corrections, inertial readings and time marks. Source: u-blox F9/X20 interface
+// descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2, UBX-ESF-MEAS, UBX-ESF-RAW,
+// UBX-TIM-TM2.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/correction_page.h"
 #include "drivers/ubx/esf_decoder.h"
 #include "drivers/ubx/rxm_rawx.h"
 #include "drivers/ubx/rxm_sfrbx.h"
@@ -23,8 +25,9 @@ class UbxHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
-  // Of receivers with an inertial sensor, and of pulses at their inputs: who needs neither leaves
-  // these as they are.
+  // A page of Galileo HAS, received at the time of the last epoch; readings of a receiver with an
+  // inertial sensor; pulses at its inputs. Who does not need one leaves it as it is.
+  virtual void on_page(const CorrectionPage& /*page*/) {}
   virtual void on_inertial(const EsfReading& /*reading*/) {}
   virtual void on_time_mark(const TimeMark& /*mark*/) {}
 };

@@ -19,6 +19,7 @@ struct UbxFileReader::State : UbxHandler {
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { outputs.emplace_back(model); }
   void on_inertial(const EsfReading& reading) override { outputs.emplace_back(reading); }
+  void on_page(const CorrectionPage& page) override { outputs.emplace_back(page); }
 
   std::string path;
   std::ifstream file;

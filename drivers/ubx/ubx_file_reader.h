@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, EsfReading>;
+using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, EsfReading, CorrectionPage>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

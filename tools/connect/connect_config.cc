@@ -16,12 +16,12 @@ constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
 bool is_receiver(const StreamConfig& stream) {
-  return stream.format != FormatKind::kVectornav && stream.format != FormatKind::kXsens &&
-         stream.format != FormatKind::kImuLine;
+  return !stream.is_service && stream.format != FormatKind::kVectornav &&
+         stream.format != FormatKind::kXsens && stream.format != FormatKind::kImuLine;
 }
 bool is_inertial(const StreamConfig& stream) {
-  return !is_receiver(stream) || stream.oem7.is_inertial || stream.is_sbf_inertial ||
-         stream.has_ubx_imu;
+  return (!stream.is_service && !is_receiver(stream)) || stream.oem7.is_inertial ||
+         stream.is_sbf_inertial || stream.has_ubx_imu;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -34,10 +34,8 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
     if (!names.insert(stream.name).second) {
       root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
     }
-    if (!stream.is_service) {
-      receivers += is_receiver(stream);
-      inertial += is_inertial(stream);
-    }
+    receivers += is_receiver(stream);
+    inertial += is_inertial(stream);
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {
@@ -106,6 +104,10 @@ const char* name_of(FormatKind format) {
       return "vectornav";
     case FormatKind::kXsens:
       return "xsens";
+    case FormatKind::kHas:
+      return "has";
+    case FormatKind::kB2b:
+      return "b2b";
     case FormatKind::kImuLine:
       break;
   }

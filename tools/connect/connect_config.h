@@ -14,7 +14,17 @@
 
 namespace leonav {
 
-enum class FormatKind : std::uint8_t { kUbx, kRtcm3, kOem7, kSbf, kVectornav, kXsens, kImuLine };
+enum class FormatKind : std::uint8_t {
+  kUbx,
+  kRtcm3,
+  kOem7,
+  kSbf,
+  kVectornav,
+  kXsens,
+  kImuLine,
+  kHas,
+  kB2b
+};
 
 struct StreamConfig {
   std::string name;
@@ -27,7 +37,8 @@ struct StreamConfig {
   ImuStampOptions stamps;        // of inertial sensors
   double repeat_s = 30.0;   // of a receiver: an ephemeris is sent again after so long; 0: never
   GpsTime day;              // of kRtcm3 from a file: noon of the day it was recorded
-  bool is_service = false;  // of kRtcm3: corrections, no receiver
+  bool is_service = false;  // of kRtcm3, kHas, kB2b: corrections, no receiver
+  bool uses_pages = false;  // of kUbx: the corrections of Galileo's E6-B are used
   std::string record;       // file for every byte; empty: none
   double silent_s = 3.0;    // a stream without bytes for so long is told
 };

@@ -16,6 +16,7 @@
 #include "tools/connect/formats/imu_line_format.h"
 #include "tools/connect/formats/message_output.h"
 #include "tools/connect/formats/oem7_format.h"
+#include "tools/connect/formats/page_format.h"
 #include "tools/connect/formats/rtcm3_format.h"
 #include "tools/connect/formats/sbf_format.h"
 #include "tools/connect/formats/ubx_format.h"
@@ -95,7 +96,8 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
 }
 
 std::unique_ptr<StreamFormat> Connector::State::make_ubx_format(const StreamConfig& stream) {
-  const UbxStreamOptions options{stream.has_ubx_imu, stream.stamps, config.pulse.input};
+  const UbxStreamOptions options{stream.has_ubx_imu, stream.stamps, config.pulse.input,
+                                 stream.uses_pages};
   return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
                                      &corrections, options,
                                      config.pulse.stream.empty() ? nullptr : &pulses);
@@ -119,6 +121,10 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kXsens:
       return std::make_unique<XsensFormat>(&gps, stream.stamps, &output, own_pulses);
+    case FormatKind::kHas:
+      return std::make_unique<PageFormat>(PageService::kGalileoHas, &corrections);
+    case FormatKind::kB2b:
+      return std::make_unique<PageFormat>(PageService::kBeidouB2b, &corrections);
     case FormatKind::kImuLine:
       break;
   }

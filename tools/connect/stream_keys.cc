@@ -133,7 +133,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
                             {"sbf", FormatKind::kSbf},
                             {"vectornav", FormatKind::kVectornav},
                             {"xsens", FormatKind::kXsens},
-                            {"imu_line", FormatKind::kImuLine}},
+                            {"imu_line", FormatKind::kImuLine},
+                            {"has", FormatKind::kHas},
+                            {"b2b", FormatKind::kB2b}},
                            &stream->format);
   if (stream->format == FormatKind::kImuLine) {
     group.group("line", [&](ConfigReader& line) { read_line(line, &stream->line); });
@@ -150,6 +152,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
     read_day(group, stream);
     group.boolean("corrections", &stream->is_service);
   }
+  if (stream->format == FormatKind::kUbx) group.boolean("corrections", &stream->uses_pages);
+  const bool has_pages = stream->format == FormatKind::kHas || stream->format == FormatKind::kB2b;
+  if (has_pages) stream->is_service = true;
   if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
   if (stream->format == FormatKind::kSbf) group.boolean("inertial", &stream->is_sbf_inertial);
   if (stream->format == FormatKind::kUbx) {
@@ -161,7 +166,7 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
       stream->format == FormatKind::kOem7 || stream->format == FormatKind::kSbf) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
-  } else {
+  } else if (!has_pages) {
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
   }
   group.text("record", &stream->record);

@@ -21,8 +21,10 @@ struct Dataset {
   std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
   std::vector<std::string> orbits;      // SP3
   std::vector<std::string> clocks;      // RINEX clock
-  std::vector<std::string> corrections;     // RTCM 3 with SSR, .rtcm3 or .rtcm, in order of time
-  double corrections_latency_s = 10.0;      // from a correction's time to its arrival
+  // RTCM 3 with SSR (.rtcm3, .rtcm) or pages of HAS (.has, .ubx) or PPP-B2b (.b2b), in order of
+  // time
+  std::vector<std::string> corrections;
+  double corrections_latency_s = 10.0;      // of RTCM, from a correction's time to its arrival
   bool corrections_at_antenna = true;       // CorrectionOptions::at_antenna
   std::vector<std::string> antenna_models;  // ANTEX
   std::string receiver_antenna;       // type and radome; empty: as in the observations' header

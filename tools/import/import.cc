@@ -21,6 +21,7 @@
 #include "tools/import/internal/corrections.h"
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
+#include "tools/import/internal/page_file.h"
 #include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/internal/sbf_file.h"
 #include "tools/import/internal/ubx_file.h"
@@ -241,7 +242,9 @@ std::vector<ImuSample> Import::read_imu(const std::string& path) {
 
 void Import::load_corrections() {
   for (const std::string& path : dataset_.corrections) {
-    auto of_file = read_corrections(path, dataset_.date, dataset_.corrections_latency_s, &report_);
+    auto of_file = has_page_name(path) ? read_pages(path, &report_)
+                                       : read_corrections(path, dataset_.date,
+                                                          dataset_.corrections_latency_s, &report_);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(arriving_corrections_));
   }
   std::stable_sort(arriving_corrections_.begin(), arriving_corrections_.end(),

@@ -115,7 +115,7 @@ Comparison compare(const std::string& path, const std::vector<std::uint8_t>& byt
     for (const SsrSatellite& s : m.satellites) {
       REQUIRE(result.satellites < theirs.size());
       const Words& words = theirs[result.satellites++];
-      const bool is_beidou_time = m.system == System::kBeidou && !m.is_igs;
+      const bool is_beidou_time = m.system == System::kBeidou && m.service != SsrService::kIgs;
       const double tow = m.time.plus_seconds(is_beidou_time ? -14.0 : 0.0).tow_s();
       const int d = differences(m, s, words);
       if (std::stod(words[2]) != tow || d > 0) {

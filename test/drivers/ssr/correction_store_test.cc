@@ -133,21 +133,21 @@ TEST_CASE("A correction waits for its broadcast message and is never mixed with 
 TEST_CASE("Issues are those of each system") {
   SsrOrbit orbit;
   orbit.issue = 0x34;
-  CHECK(is_corrected_by(elements(kG05, 0x34), orbit, false));
-  CHECK_FALSE(is_corrected_by(elements(kG05, 0x35), orbit, false));
+  CHECK(is_corrected_by(elements(kG05, 0x34), orbit, SsrService::kRtcm));
+  CHECK_FALSE(is_corrected_by(elements(kG05, 0x35), orbit, SsrService::kRtcm));
   const SatelliteId galileo{System::kGalileo, 3};
-  CHECK_FALSE(is_corrected_by(elements(galileo, 0x134), orbit, false));
-  CHECK(is_corrected_by(elements(galileo, 0x134), orbit, true));
+  CHECK_FALSE(is_corrected_by(elements(galileo, 0x134), orbit, SsrService::kRtcm));
+  CHECK(is_corrected_by(elements(galileo, 0x134), orbit, SsrService::kIgs));
   orbit.issue = 0x134;
-  CHECK(is_corrected_by(elements(galileo, 0x134), orbit, false));
+  CHECK(is_corrected_by(elements(galileo, 0x134), orbit, SsrService::kRtcm));
   // toe 345600 s of GPS is 345586 s of BeiDou; 345614 is 345600, a whole hour.
   const SatelliteId beidou{System::kBeidou, 20};
   orbit.issue = 345'600 / 720 % 240;
-  CHECK(is_corrected_by(elements(beidou, 1, 14.0), orbit, true));
-  CHECK_FALSE(is_corrected_by(elements(beidou, 1, 14.0 + 3600.0), orbit, true));
+  CHECK(is_corrected_by(elements(beidou, 1, 14.0), orbit, SsrService::kIgs));
+  CHECK_FALSE(is_corrected_by(elements(beidou, 1, 14.0 + 3600.0), orbit, SsrService::kIgs));
   orbit.beidou_toe = 345'600 / 8 % 1024;
-  CHECK(is_corrected_by(elements(beidou, 1, 14.0), orbit, false));
-  CHECK_FALSE(is_corrected_by(elements(beidou, 1, 14.0 + 3600.0), orbit, false));
+  CHECK(is_corrected_by(elements(beidou, 1, 14.0), orbit, SsrService::kRtcm));
+  CHECK_FALSE(is_corrected_by(elements(beidou, 1, 14.0 + 3600.0), orbit, SsrService::kRtcm));
 }
 
 TEST_CASE("Old corrections, other solutions and regional frames make no states") {
@@ -205,6 +205,124 @@ TEST_CASE("Reference times, accuracies and high-rate clocks are taken") {
   // It ends with the next clock, and with its age.
   CHECK(store.states(rapid, kTime.plus_seconds(45.0)).at(0).corrected_at ==
         kTime.plus_seconds(5.0));
+}
+
+TEST_CASE("Corrections that say for how long they hold, and of which point, are believed") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  SsrMessage o = orbit(0.0, 17), c = clock(0.0);
+  for (SsrMessage* m : {&o, &c}) {
+    m->service = SsrService::kGalileoHas;
+    m->at_antenna = false;
+  }
+  o.validity_s = 300.0;
+  c.validity_s = 20.0;
+  store.add(o);
+  store.add(c);
+  CHECK(store.states(c, kTime.plus_seconds(21.0)).empty());
+  const auto states = store.states(c, kTime.plus_seconds(20.0));
+  REQUIRE(states.size() == 1);
+  CHECK_FALSE(states[0].at_antenna);
+  SsrMessage later = c;
+  later.time = kTime.plus_seconds(290.0);
+  store.add(later);
+  CHECK(store.states(later, kTime.plus_seconds(300.0)).size() == 1);
+  CHECK(store.states(later, kTime.plus_seconds(301.0)).empty());
+  CHECK(store.counters().too_old == 2);
+}
+
+TEST_CASE("A correction that is not available any more ends the one before") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  store.add(orbit(0.0, 17));
+  CHECK(states_at(&store, 0.0) == 1);
+  SsrMessage no_clock = clock(10.0);
+  no_clock.satellites[0].clock.reset();
+  no_clock.satellites[0].clock_ends = true;
+  store.add(no_clock);
+  CHECK(store.states(no_clock, kTime.plus_seconds(10.0)).empty());
+  CHECK(store.counters().without_clock == 1);
+  SsrMessage no_orbit = orbit(20.0, 17);
+  no_orbit.satellites[0].orbit.reset();
+  no_orbit.satellites[0].orbit_ends = true;
+  store.add(no_orbit);
+  CHECK(states_at(&store, 20.0) == 0);
+  CHECK(store.counters().without_orbit == 1);
+}
+
+TEST_CASE("Orbits of one service are not used with clocks of another") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  SsrMessage o = orbit(0.0, 17);
+  o.service = SsrService::kGalileoHas;
+  store.add(o);
+  CHECK(states_at(&store, 0.0) == 0);
+  CHECK(store.counters().of_other_issue == 1);
+}
+
+TEST_CASE("HAS and PPP-B2b refer to I/NAV, and to BeiDou's message that is not read") {
+  const SatelliteId galileo{System::kGalileo, 3}, beidou{System::kBeidou, 20};
+  SsrOrbit of;
+  of.issue = 5;
+  Ephemeris fnav = elements(galileo, 5);
+  fnav.message = NavigationMessage::kGalileoFnav;
+  for (const SsrService service : {SsrService::kGalileoHas, SsrService::kBeidouB2b}) {
+    CHECK(is_corrected_by(elements(galileo, 5), of, service));
+    CHECK_FALSE(is_corrected_by(elements(galileo, 0x105), of, service));
+    CHECK_FALSE(is_corrected_by(fnav, of, service));
+    CHECK_FALSE(is_corrected_by(elements(beidou, 5), of, service));
+  }
+  CHECK(is_corrected_by(fnav, of, SsrService::kRtcm));
+  CorrectionStore store;
+  store.add(elements(beidou, 5));
+  SsrMessage o = orbit(0.0, 5, beidou), c = clock(0.0, 0.5, beidou);
+  o.service = c.service = SsrService::kBeidouB2b;
+  store.add(o);
+  store.add(c);
+  CHECK(store.states(c, kTime).empty());
+  CHECK(store.counters().of_unread_message == 1);
+  CHECK(store.counters().without_ephemeris == 0);
+}
+
+TEST_CASE(
+    "Of PPP-B2b orbit and clock share the IOD Corr, and the clock before waits for its orbit") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  const auto b2b = [](SsrMessage m, std::uint8_t issue) {
+    m.service = SsrService::kBeidouB2b;
+    if (m.satellites[0].orbit) {
+      m.satellites[0].orbit->correction_issue = issue;
+      m.satellites[0].orbit->axes = OrbitAxes::kRadial;
+    }
+    if (m.satellites[0].clock) m.satellites[0].clock->correction_issue = issue;
+    return m;
+  };
+  const auto clock_at = [&](double time_s) {
+    const auto states = store.states(clock(time_s), kTime.plus_seconds(time_s));
+    const double broadcast =
+        broadcast_state(elements(kG05, 17), kTime.plus_seconds(time_s)).clock_s;
+    return states.empty() ? 0.0 : kSpeedOfLight * (states[0].clock_s - broadcast);
+  };
+  store.add(b2b(orbit(0.0, 17), 1));
+  store.add(b2b(clock(0.0, 0.5), 1));
+  CHECK(clock_at(0.0) == Approx(0.5).margin(1e-6));
+  store.add(b2b(clock(6.0, 0.7), 2));  // before the orbit that it belongs to
+  CHECK(clock_at(6.0) == Approx(0.5).margin(1e-6));
+  store.add(b2b(clock(12.0, 0.8), 2));
+  CHECK(clock_at(12.0) == Approx(0.5).margin(1e-6));
+  store.add(b2b(orbit(10.0, 17), 2));
+  CHECK(clock_at(12.0) == Approx(0.8).margin(1e-6));
+  store.add(b2b(orbit(20.0, 17), 3));
+  CHECK(clock_at(20.0) == 0.0);
+  CHECK(store.counters().of_other_issue == 1);
+  // Its axes are those of the radius: what is radial has no part along track.
+  SsrMessage radial = b2b(orbit(20.0, 17), 2);
+  radial.satellites[0].orbit->delta_rac_m = {1.0, 0.0, 0.0};
+  store.add(radial);
+  const auto states = store.states(clock(20.0), kTime.plus_seconds(20.0));
+  REQUIRE(states.size() == 1);
+  const SatelliteState broadcast = broadcast_state(elements(kG05, 17), kTime.plus_seconds(20.0));
+  CHECK((broadcast.p_e - broadcast.p_e.normalized() - states[0].p_e).norm() < 1e-6);
 }
 
 TEST_CASE("Biases are turned to what is subtracted") {

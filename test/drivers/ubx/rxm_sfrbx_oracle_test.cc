@@ -65,8 +65,10 @@ TEST_CASE("The walk's subframes are counted to the last one") {
   const RxmSfrbxCounters& c = ours.counters.sfrbx;
   CHECK(c.subframes == 353);
   CHECK(c.ephemerides == 30);
-  CHECK(c.other_system == 307);    // SBAS
-  CHECK(c.other_message == 1667);  // CNAV, B-CNAV, high accuracy service, almanacs
+  CHECK(c.other_system == 307);  // SBAS
+  CHECK(c.pages == 634);         // Galileo's high accuracy service
+  CHECK(ours.pages.size() == 634);
+  CHECK(c.other_message == 1033);  // CNAV, B-CNAV, almanacs
   // C36, at the edge of reception: ten words with good check bits whose second of week is 639,xxx.
   CHECK(c.bad_parity == 1);
   CHECK(c.bad_week + c.wrong_satellite + c.without_time + c.not_sane == 0);

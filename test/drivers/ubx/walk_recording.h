@@ -18,10 +18,12 @@ struct UbxCollector : UbxHandler {
   void on_epoch(const RawEpoch& epoch) override { epochs.push_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { ephemerides.push_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { klobuchars.push_back(model); }
+  void on_page(const CorrectionPage& page) override { pages.push_back(page); }
 
   std::vector<RawEpoch> epochs;
   std::vector<Ephemeris> ephemerides;
   std::vector<KlobucharModel> klobuchars;
+  std::vector<CorrectionPage> pages;
   UbxCounters counters;
 };
 

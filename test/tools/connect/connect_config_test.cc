@@ -46,6 +46,23 @@ TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
       ConfigError);
 }
 
+TEST_CASE("Pages come from a service as text, or from a receiver that is told to use them",
+          "[connect]") {
+  const ConnectConfig config = load(
+      "streams:\n  - {name: a, source: tcp, host: h, port: 1, format: ubx, corrections: true}\n"
+      "  - {name: b, source: file, path: a.has, format: has}\n"
+      "  - {name: c, source: stdin, format: b2b}\n");
+  CHECK(config.streams.at(0).uses_pages);
+  CHECK_FALSE(config.streams.at(0).is_service);
+  CHECK(config.streams.at(1).format == FormatKind::kHas);
+  CHECK(config.streams.at(1).is_service);
+  CHECK(config.streams.at(2).format == FormatKind::kB2b);
+  CHECK(std::string(name_of(FormatKind::kHas)) == "has");
+  CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: has, latency_ms: 3")), ConfigError);
+  CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: vectornav, corrections: true")),
+                  ConfigError);
+}
+
 TEST_CASE("A NovAtel stream is a receiver, and an inertial sensor where that is asked for",
           "[connect]") {
   const std::string receiver = "name: span, source: tcp, host: span, port: 3001, format: oem7";

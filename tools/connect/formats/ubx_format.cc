@@ -15,6 +15,14 @@ void UbxFormat::on_klobuchar(const KlobucharModel& model) {
   receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));
 }
 
+void UbxFormat::on_page(const CorrectionPage& page) {
+  if (!options_.uses_pages) return;
+  for (const SsrMessage& message : pages_.add(page)) {
+    published_corrections_ +=
+        static_cast<std::uint64_t>(corrections_->take(message, page.received));
+  }
+}
+
 void UbxFormat::on_inertial(const EsfReading& reading) {
   if (options_.is_inertial) imu_.take(imu_reading(reading, arrival_ns_));
 }
@@ -55,7 +63,9 @@ std::string UbxFormat::pulse_text() const {
 
 std::string UbxFormat::detail() const {
   std::string all;
-  for (const std::string& part : {receiver_.detail(), inertial_text(), pulse_text()}) {
+  const std::string of_corrections = options_.uses_pages ? corrections_->detail() : "";
+  for (const std::string& part :
+       {receiver_.detail(), of_corrections, inertial_text(), pulse_text()}) {
     if (!part.empty()) all += (all.empty() ? "" : "; ") + part;
   }
   return all;
@@ -69,13 +79,13 @@ FormatCounts UbxFormat::counts() const {
   const UbxCounters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.messages;
-  counts.messages = receiver_.messages();
+  counts.messages = receiver_.messages() + published_corrections_;
   counts.damaged = c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete;
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +
                    c.rawx.bad_satellite + c.sfrbx.bad_length + c.sfrbx.bad_version +
                    c.sfrbx.bad_satellite + c.sfrbx.bad_parity + c.sfrbx.bad_week +
                    c.sfrbx.wrong_satellite + c.sfrbx.not_sane + c.esf.bad_length +
-                   c.time_marks.bad_length + c.time_marks.bad_time;
+                   c.time_marks.bad_length + c.time_marks.bad_time + pages_.refused();
   if (options_.is_inertial) {
     counts.messages += imu_.messages();
     counts.refused += c.esf.incomplete + imu_.refused();

@@ -1,5 +1,5 @@
 // The UbxStreamOptions are what a stream's configuration says of a u-blox receiver's own inertial
-// sensor, and of another sensor's pulses at its inputs.
+// sensor, of another sensor's pulses at its inputs, and of the corrections that it receives.
 #pragma once
 #include "tools/connect/stamps/imu_stamper.h"
 
@@ -16,6 +16,7 @@ struct UbxStreamOptions {
   bool is_inertial = false;  // samples of the receiver's own sensor are published
   ImuStampOptions stamps;    // of these
   PulseInput pulse_input;
+  bool uses_pages = false;  // the corrections of Galileo's E6-B are used
 };
 
 }  // namespace leonav

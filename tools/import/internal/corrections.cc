@@ -64,6 +64,8 @@ void Corrections::report(const std::string& where, ImportReport* report) const {
       {"corrected clock of a satellite without corrected orbit", c.without_orbit},
       {"corrected orbit of a satellite whose clock belongs to another issue", c.without_clock},
       {"correction of a broadcast message that is not there", c.without_ephemeris},
+      {"correction of a broadcast message that leonav does not read (B-CNAV1)",
+       c.of_unread_message},
       {"correction whose orbit and clock are of different solutions", c.of_other_issue},
       {"correction that is too old", c.too_old},
       {"correction in a regional frame", c.in_regional_frame}};

@@ -1,0 +1,113 @@
+// What leonav-connect publishes of pages of HAS and PPP-B2b: from lines, and from a u-blox
+// receiver.
+#include "tools/connect/formats/page_format.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "drivers/rinex/navigation_reader.h"
+#include "support/catch.h"
+#include "support/shared_data.h"
+#include "tools/connect/formats/ubx_format.h"
+
+namespace leonav {
+namespace {
+
+constexpr const char* kHas = "wire/has_gale6_189e.txt";
+constexpr const char* kB2b = "wire/b2b_189e.txt";
+constexpr const char* kNavigation = "wire/broadcast_189.23P";
+constexpr const char* kWalk = "walk/gnss.ubx";
+
+struct Counts : MessageTarget {
+  void take(Channel channel, ByteSpan) override { ++of[channel]; }
+  std::map<Channel, int> of;
+};
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void feed(StreamFormat* format, std::span<const std::uint8_t> bytes, std::size_t chunk = 997) {
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min(chunk, bytes.size()))) {
+    format->feed(bytes.first(std::min(chunk, bytes.size())), 0);
+  }
+  format->finish();
+}
+
+struct Rig {
+  void add_ephemerides() {
+    for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+      corrections.add(e);
+    }
+  }
+  Counts counts;
+  MessageOutput output{&counts};
+  CorrectionOutput corrections{{}, &output};
+};
+
+}  // namespace
+
+TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
+  const bool is_has = GENERATE(true, false);
+  const char* source = is_has ? kHas : kB2b;
+  if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
+  Rig rig;
+  rig.add_ephemerides();
+  PageFormat format(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b, &rig.corrections);
+  feed(&format, bytes_of(test::shared_data(source)));
+  CHECK(rig.counts.of[Channel::kCorrectedStates] > 500);
+  CHECK(rig.counts.of[Channel::kBiases] > 50);
+  const FormatCounts counts = format.counts();
+  CHECK(counts.frames == (is_has ? 17'145 : 14'382));
+  CHECK(counts.messages == rig.output.sent());
+  CHECK(counts.damaged == 0);
+  CHECK(format.data_time()->nanoseconds / kNanosecondsPerSecond % kSecondsPerWeek > 536'000);
+  CHECK_THAT(format.detail(), Catch::Contains("corrections of"));
+  if (!is_has) CHECK_THAT(format.detail(), Catch::Contains("B-CNAV1"));
+}
+
+TEST_CASE("Without ephemerides the text says that they are missing", "[connect]") {
+  if (!test::have_shared_data(kHas)) return;
+  Rig rig;
+  PageFormat format(PageService::kGalileoHas, &rig.corrections);
+  std::vector<std::uint8_t> bytes = bytes_of(test::shared_data(kHas));
+  bytes.resize(100'000);
+  feed(&format, bytes);
+  CHECK(rig.counts.of[Channel::kCorrectedStates] == 0);
+  CHECK_THAT(format.why_no_messages(), Catch::Contains("without their ephemeris"));
+}
+
+TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[connect]") {
+  Rig rig;
+  PageFormat format(PageService::kGalileoHas, &rig.corrections);
+  const std::string text = "# remark\n\r\nno page\n2269 0 1 6 61 " + std::string(122, 'a') + "\n";
+  feed(&format, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  CHECK(format.counts().frames == 1);
+  CHECK(format.counts().damaged == 2);  // a line, and a checksum
+  CHECK_THAT(format.why_no_messages(), Catch::Contains("1 x page with a wrong checksum"));
+  feed(&format, std::vector<std::uint8_t>(100'000, 'x'));
+  CHECK(format.counts().damaged == 3);
+  CHECK(format.counts().frames == 1);
+  CHECK(rig.output.sent() == 0);
+}
+
+TEST_CASE("A u-blox receiver's pages are used where that is asked for", "[connect]") {
+  if (!test::have_shared_data(kWalk)) return;
+  const bool uses_pages = GENERATE(true, false);
+  Rig rig;
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  UbxFormat format(0.05, 0.0, &clock, &rig.output, &rig.corrections, {.uses_pages = uses_pages});
+  feed(&format, bytes_of(test::shared_data(kWalk)));
+  CHECK((rig.counts.of[Channel::kCorrectedStates] > 5) == uses_pages);
+  CHECK((rig.counts.of[Channel::kBiases] > 2) == uses_pages);
+  CHECK(format.counts().messages == rig.output.sent());
+  CHECK(format.counts().refused <= 1);
+  const bool is_told = format.detail().find("corrections of") != std::string::npos;
+  CHECK(is_told == uses_pages);
+}
+
+}  // namespace leonav

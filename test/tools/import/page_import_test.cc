@@ -1,0 +1,96 @@
+// Pages of Galileo HAS and PPP-B2b in an import.
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/text/parse.h"
+#include "support/catch.h"
+#include "support/shared_data.h"
+#include "support/temporary_file.h"
+#include "tools/import/import.h"
+
+namespace leonav {
+namespace {
+
+constexpr const char* kHas = "wire/has_gale6_189e.txt";
+constexpr const char* kB2b = "wire/b2b_189e.txt";
+constexpr const char* kNavigation = "wire/broadcast_189.23P";
+constexpr const char* kWalk = "walk/gnss.ubx";
+
+// Imports a file of pages with two epochs that include it, 04:00 to 04:20 of 2023-07-08.
+ImportReport import_pages(const char* source, const std::string& name) {
+  const test::TemporaryFile yaml(
+      "set.yaml", "observations: a.obs\nnavigation: b.nav\ncorrections: " + name + "\n");
+  std::filesystem::copy_file(test::shared_data(source), yaml.beside(name));
+  std::filesystem::copy_file(test::shared_data(kNavigation), yaml.beside("b.nav"));
+  std::ofstream(yaml.beside("a.obs"))
+      << "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
+         "G    1 C1C                                                  SYS / # / OBS TYPES\n"
+         "                                                            END OF HEADER\n"
+         "> 2023 07 08 04 00  0.0000000  0  1\nG01  20000000.000\n"
+         "> 2023 07 08 04 20  0.0000000  0  1\nG01  20000000.000\n";
+  return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+}
+
+long left_out(const ImportReport& report, const std::string& reason) {
+  long count = 0;
+  for (const auto& skip : report.skipped) {
+    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
+  }
+  return count;
+}
+
+using Catch::Contains;
+
+}  // namespace
+
+TEST_CASE("pages of HAS make states of GPS and Galileo and biases", "[import]") {
+  if (!test::have_shared_data(kHas)) return;
+  const ImportReport report = import_pages(kHas, "pages.has");
+  CHECK(report.corrected_states > 1000);
+  CHECK(report.signal_biases > 1000);
+  CHECK(left_out(report, "correction that is too old") == 0);
+  CHECK(left_out(report, "wrong checksum") == 0);
+}
+
+TEST_CASE("pages of PPP-B2b make states of GPS, and BeiDou's are counted", "[import]") {
+  if (!test::have_shared_data(kB2b)) return;
+  const ImportReport report = import_pages(kB2b, "pages.b2b");
+  CHECK(report.corrected_states > 1000);
+  CHECK(report.signal_biases > 100);
+  CHECK(left_out(report, "correction of a broadcast message that leonav does not read") > 1000);
+}
+
+TEST_CASE("a receiver's own pages correct its observations", "[import]") {
+  if (!test::have_shared_data(kWalk)) return;
+  const auto import = [](const std::string& keys) {
+    const test::TemporaryFile yaml("set.yaml", "observations: a.ubx\n" + keys);
+    std::filesystem::copy_file(test::shared_data(kWalk), yaml.beside("a.ubx"));
+    return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  };
+  const ImportReport without = import("");
+  CHECK(without.corrected_states == 0);
+  CHECK(left_out(without, "page of Galileo HAS (list the file under corrections too)") == 634);
+  const ImportReport with = import("corrections: a.ubx\n");
+  CHECK(with.corrected_states > 50);
+  CHECK(with.signal_biases > 50);
+  CHECK(with.epochs == without.epochs);
+}
+
+TEST_CASE("a file without a message says what it holds", "[import]") {
+  const test::TemporaryFile yaml("set.yaml", "observations: a.obs\ncorrections: pages.has\n");
+  std::ofstream(yaml.beside("a.obs"));
+  const auto error = [&yaml](const std::string& text) {
+    std::ofstream(yaml.beside("pages.has")) << text;
+    try {
+      import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(error("nothing\n"), Contains("holds no usable message of corrections"));
+  CHECK_THAT(error("2269 0 1 6 61 " + std::string(122, 'a') + "\n"),
+             Contains("1 x page with a wrong checksum"));
+}
+
+}  // namespace leonav
