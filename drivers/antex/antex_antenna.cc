@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/calendar.h"
-#include "core/gnss/signals/signal.h"
+#include "core/gnss/signals/band_plan.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
