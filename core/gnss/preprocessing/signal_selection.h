@@ -26,6 +26,11 @@ struct SelectedSignals {
 // Returns whether band `a` of a system is preferred to band `b`, in the order of select_signals().
 bool band_comes_first(System system, const SignalPreference& preference, char a, char b);
 
+// Returns whether signal `a` of a system is preferred to signal `b`, in the same order: by band,
+// then by attribute. A strict order.
+bool signal_comes_first(System system, const SignalPreference& preference, SignalCode a,
+                        SignalCode b);
+
 // Returns whether a pseudorange is within physical bounds, which include a receiver clock error of
 // some 30 ms. A geostationary satellite is never farther than 43,000 km. A LEO satellite is so near
 // that 3 ms suffice to make its pseudorange negative; the models accept that, since tag and
