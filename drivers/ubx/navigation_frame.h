@@ -3,9 +3,11 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/base/gps_time.h"
 #include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 
 namespace leonav {
 
@@ -13,6 +15,7 @@ namespace leonav {
 struct NavigationUpdate {
   std::optional<Ephemeris> ephemeris;
   std::optional<KlobucharModel> klobuchar;
+  std::vector<SignalBias> biases;  // group delays of CNAV or B-CNAV
 };
 
 // Outcome of one subframe.

@@ -49,6 +49,7 @@ void UbxDecoder::dispatch(const UbxMessage& message, UbxHandler* handler) {
     const NavigationUpdate update = state_->sfrbx.decode(message.payload, state_->now);
     if (update.ephemeris) handler->on_ephemeris(*update.ephemeris);
     if (update.klobuchar) handler->on_klobuchar(*update.klobuchar);
+    if (!update.biases.empty()) handler->on_biases(update.biases);
   } else {
     ++state_->other_messages;
   }

@@ -1,9 +1,11 @@
-// This unit decodes a u-blox byte stream to observations, ephemerides and ionosphere coefficients.
+// This unit decodes a u-blox byte stream to observations, ephemerides, ionosphere coefficients and
+// group delays.
 // Source: u-blox F9/X20 interface descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
@@ -20,6 +22,7 @@ class UbxHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
+  virtual void on_biases(const std::vector<SignalBias>& biases) = 0;  // of one satellite
 };
 
 // Counts of all parts of the decoder.

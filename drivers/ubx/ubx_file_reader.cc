@@ -18,6 +18,7 @@ struct UbxFileReader::State : UbxHandler {
   void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { outputs.emplace_back(model); }
+  void on_biases(const std::vector<SignalBias>& biases) override { outputs.emplace_back(biases); }
 
   std::string path;
   std::ifstream file;

@@ -3,12 +3,13 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "drivers/ubx/ubx_decoder.h"
 
 namespace leonav {
 
-using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
+using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, std::vector<SignalBias>>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

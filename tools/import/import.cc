@@ -305,6 +305,7 @@ void Import::send_first(GpsTime start, LogOutput* log) {
       corrections_.add(*ephemeris);
     }
     if (auto* model = std::get_if<KlobucharModel>(&item)) log->write(start, *model);
+    if (auto* biases = std::get_if<std::vector<SignalBias>>(&item)) log->write(start, *biases);
   }
 }
 

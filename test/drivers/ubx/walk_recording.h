@@ -18,10 +18,14 @@ struct UbxCollector : UbxHandler {
   void on_epoch(const RawEpoch& epoch) override { epochs.push_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { ephemerides.push_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { klobuchars.push_back(model); }
+  void on_biases(const std::vector<SignalBias>& of_satellite) override {
+    biases.insert(biases.end(), of_satellite.begin(), of_satellite.end());
+  }
 
   std::vector<RawEpoch> epochs;
   std::vector<Ephemeris> ephemerides;
   std::vector<KlobucharModel> klobuchars;
+  std::vector<SignalBias> biases;
   UbxCounters counters;
 };
 

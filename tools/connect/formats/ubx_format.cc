@@ -12,6 +12,7 @@ void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(epheme
 void UbxFormat::on_klobuchar(const KlobucharModel& model) {
   receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));
 }
+void UbxFormat::on_biases(const std::vector<SignalBias>& biases) { receiver_.send(biases); }
 
 FormatCounts UbxFormat::counts() const {
   const UbxCounters c = decoder_.counters();

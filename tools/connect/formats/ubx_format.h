@@ -7,8 +7,8 @@
 namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
-// UBX-RXM-RAWX; EPHEMERIS and IONOSPHERE as UBX-RXM-SFRBX completes them. Besides, ephemerides are
-// repeated.
+// UBX-RXM-RAWX; EPHEMERIS, IONOSPHERE and BIASES as UBX-RXM-SFRBX completes them. Besides,
+// ephemerides are repeated.
 class UbxFormat final : public StreamFormat, private UbxHandler {
  public:
   // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
@@ -30,6 +30,7 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
+  void on_biases(const std::vector<SignalBias>& biases) override;
 
   double latency_s_;
   ReceiverOutput receiver_;
