@@ -21,6 +21,7 @@ struct Dataset {
   std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
   std::vector<std::string> orbits;      // SP3
   std::vector<std::string> clocks;      // RINEX clock
+  std::vector<std::string> biases;      // Bias-SINEX, of the product of orbits and clocks
   std::vector<std::string> corrections;     // RTCM 3 with SSR, .rtcm3 or .rtcm, in order of time
   double corrections_latency_s = 10.0;      // from a correction's time to its arrival
   bool corrections_at_antenna = true;       // CorrectionOptions::at_antenna

@@ -13,6 +13,8 @@ int body(int argc, char** argv) {
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
       "relative to the file: observations (RINEX 2 or 3, .ubx, .rtcm3, .rtcm,\n"
       "NovAtel's .oem7 or .gps), navigation (RINEX 2 or 3, .rtcm3, .rtcm), orbits (SP3), clocks,\n"
+      "biases (Bias-SINEX 1.00: code biases of the satellites, of the same provider as the "
+      "clocks),\n"
       "corrections (SSR in .rtcm3, .rtcm), antenna_models (ANTEX), imu (imu.csv; .oem7 or .gps\n"
       "with RAWIMUSX or its relatives), truth;\n"
       "imu_scale ([rad, m/s] of a count, for a NovAtel IMU whose type has no documented scale);\n"
