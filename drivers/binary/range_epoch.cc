@@ -29,17 +29,13 @@ bool RangeEpochs::assemble(GpsTime time, std::span<const RangeMeasurement> measu
   }
   last_time_ = time;
   epoch->time = time;
-  epoch->observations.clear();
+  signals_.clear();
   for (const RangeMeasurement& measurement : measurements) {
     SignalObservation observation;
-    if (!take(time, measurement, &observation)) continue;
-    if (epoch->observations.size() == epoch->observations.capacity()) {
-      ++counters_.beyond_capacity;
-    } else {
-      epoch->observations.push_back(observation);
-    }
+    if (take(time, measurement, &observation)) signals_.push_back(observation);
   }
-  sort_and_drop_duplicates(epoch);
+  sort_and_drop_duplicates();
+  capacity_.fit(&signals_, epoch);
   ++counters_.epochs;
   counters_.measurements += epoch->observations.size();
   return true;
@@ -106,8 +102,8 @@ bool RangeEpochs::lock_was_lost(GpsTime time, const RangeMeasurement& now, const
   return now.lock_time_s - last.lock_time_s + step_s < elapsed_s;
 }
 
-void RangeEpochs::sort_and_drop_duplicates(RawEpoch* epoch) {
-  auto& all = epoch->observations;
+void RangeEpochs::sort_and_drop_duplicates() {
+  auto& all = signals_;
   std::stable_sort(all.begin(), all.end(), order_of);
   const auto end = std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.satellite == b.satellite && a.code == b.code;

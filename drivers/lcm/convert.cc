@@ -103,13 +103,16 @@ InputFault convert(const corrected_state_t& from, GpsTime time, CorrectedState* 
 
 InputFault convert(const bias_t& from, GpsTime time, SignalBias* to) {
   const auto satellite = satellite_of(from);
-  if (!satellite || from.kind < 0 || from.kind > static_cast<int>(BiasKind::kPhase))
+  if (!satellite || from.kind < 0 || from.kind > static_cast<int>(BiasKind::kBroadcastCode) ||
+      !is_time_or_unset(from.from_ns) || !is_time_or_unset(from.until_ns))
     return InputFault::kOutOfRange;
   to->satellite = *satellite;
   to->code = {static_cast<char>(from.band), static_cast<char>(from.attribute)};
   to->kind = static_cast<BiasKind>(from.kind);
   to->time = time;
   to->bias_m = from.bias_m;
+  to->valid_from = GpsTime::from_nanoseconds(from.from_ns);
+  to->valid_until = GpsTime::from_nanoseconds(from.until_ns);
   return check(*to);
 }
 

@@ -368,6 +368,8 @@ ByteSpan Encoder::encode(std::span<const SignalBias> biases, std::uint64_t seque
     message.biases[i].attribute = static_cast<std::int8_t>(biases[i].code.attribute);
     message.biases[i].kind = static_cast<std::int8_t>(biases[i].kind);
     message.biases[i].bias_m = biases[i].bias_m;
+    message.biases[i].from_ns = biases[i].valid_from.nanoseconds();
+    message.biases[i].until_ns = biases[i].valid_until.nanoseconds();
   }
   return storage_->write(message);
 }

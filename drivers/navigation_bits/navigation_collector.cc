@@ -1,8 +1,29 @@
 #include "drivers/navigation_bits/navigation_collector.h"
 
+#include <algorithm>
+
 #include "core/gnss/orbits/satellite_state.h"
 
 namespace leonav {
+namespace {
+
+constexpr double kDelayRepeat_s = 3600.0;
+
+SubframeStatus status_of(CnavStatus status) {
+  switch (status) {
+    case CnavStatus::kDelays:
+      return SubframeStatus::kUsed;
+    case CnavStatus::kOtherType:
+      return SubframeStatus::kOtherMessage;
+    case CnavStatus::kBadChecksum:
+      return SubframeStatus::kBadParity;
+    case CnavStatus::kWrongSatellite:
+      return SubframeStatus::kWrongSatellite;
+  }
+  return SubframeStatus::kOtherMessage;
+}
+
+}  // namespace
 
 NavigationUpdate NavigationCollector::add_gps_lnav(
     std::span<const std::uint32_t, GpsLnav::kWords> words, const SubframeOrigin& origin) {
@@ -33,6 +54,48 @@ NavigationUpdate NavigationCollector::add_beidou(std::span<const std::uint32_t, 
                                     ? beidou_d2_[number].add(words, origin, &update)
                                     : beidou_d1_[number].add(words, origin, &update);
   return finish(status, update);
+}
+
+NavigationUpdate NavigationCollector::add_gps_cnav(std::span<const std::uint8_t> bits,
+                                                   const SubframeOrigin& origin) {
+  std::vector<SignalBias> biases;
+  const CnavStatus status = read_gps_cnav_delays(bits, origin.satellite, origin.now, &biases);
+  return finish_delays(status, std::move(biases), origin.now);
+}
+
+NavigationUpdate NavigationCollector::add_bcnav1(std::span<const std::uint8_t> bits,
+                                                 const SubframeOrigin& origin) {
+  std::vector<SignalBias> biases;
+  const CnavStatus status = read_bcnav1_delays(bits, origin.satellite, origin.now, &biases);
+  return finish_delays(status, std::move(biases), origin.now);
+}
+
+NavigationUpdate NavigationCollector::add_bcnav2(std::span<const std::uint8_t> bits,
+                                                 const SubframeOrigin& origin) {
+  std::vector<SignalBias> biases;
+  const CnavStatus status = read_bcnav2_delays(bits, origin.satellite, origin.now, &biases);
+  return finish_delays(status, std::move(biases), origin.now);
+}
+
+NavigationUpdate NavigationCollector::finish_delays(CnavStatus status,
+                                                    std::vector<SignalBias> biases, GpsTime now) {
+  count(status_of(status));
+  NavigationUpdate update;
+  if (are_new(biases, now)) update.biases = std::move(biases);
+  return update;
+}
+
+bool NavigationCollector::are_new(const std::vector<SignalBias>& biases, GpsTime now) {
+  const bool any_new = std::any_of(biases.begin(), biases.end(), [&](const SignalBias& bias) {
+    const auto last = reported_delays_.find({bias.satellite, bias.code});
+    return last == reported_delays_.end() || last->second.first != bias.bias_m ||
+           seconds_between(now, last->second.second) >= kDelayRepeat_s;
+  });
+  if (!any_new) return false;
+  for (const SignalBias& bias : biases)
+    reported_delays_[{bias.satellite, bias.code}] = {bias.bias_m, now};
+  ++counters_.delays;
+  return true;
 }
 
 NavigationUpdate NavigationCollector::finish(SubframeStatus status, NavigationUpdate update) {

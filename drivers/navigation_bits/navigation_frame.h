@@ -3,9 +3,11 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/base/gps_time.h"
 #include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "drivers/binary/correction_page.h"
 
 namespace leonav {
@@ -15,6 +17,7 @@ struct NavigationUpdate {
   std::optional<Ephemeris> ephemeris;
   std::optional<KlobucharModel> klobuchar;
   std::optional<CorrectionPage> page;
+  std::vector<SignalBias> biases;  // group delays of CNAV or B-CNAV
 };
 
 // Outcome of one subframe.

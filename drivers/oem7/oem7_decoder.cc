@@ -213,8 +213,9 @@ bool Oem7Decoder::take_imu(const Oem7Message& message, Oem7Handler* handler) {
 
 Oem7Counters Oem7Decoder::counters() const {
   const State& s = *state_;
-  Oem7Counters counters{s.framer.counters(), s.ranges,         s.epochs.counters(), s.ephemerides,
-                        s.imu.counters(),    s.second_antenna, s.responses,         s.unused};
+  Oem7Counters counters{s.framer.counters(), s.ranges,         s.epochs.counters(),
+                        s.ephemerides,       s.imu.counters(), s.second_antenna,
+                        s.responses,         s.unused,         s.epochs.losses()};
   counters.ranges.without_reference = s.rangecmp4.without_reference();
   return counters;
 }

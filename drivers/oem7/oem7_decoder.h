@@ -57,6 +57,7 @@ struct Oem7Counters {
   std::uint64_t second_antenna = 0;               // logs of the second antenna
   std::uint64_t responses = 0;                    // answers to commands
   std::map<std::uint16_t, std::uint64_t> unused;  // other logs, by number
+  CapacityLosses losses;                          // signals that did not fit into their epoch
 };
 
 // Returns the name of a log and, where it helps, why it is not used; its number if it is unknown.

@@ -35,10 +35,10 @@ struct ObservationReader::State {
   bool read_satellite_list_2(EpochLine* epoch, std::string_view line);
   void skip_event(const EpochLine& event);
   enum class Records { kComplete, kSomeMissing, kEndOfFile };
-  Records read_records(const EpochLine& line, RawEpoch* epoch);
+  Records read_records(const EpochLine& line);
   bool read_values_2(std::string* values);
   bool starts_epoch(std::string_view line) const;
-  void add_satellite(std::string_view name, std::string_view values, RawEpoch* epoch);
+  void add_satellite(std::string_view name, std::string_view values);
   void carry_interruptions(SignalObservation* signal);
   bool accept(const EpochLine& line, long line_number, RawEpoch* epoch);
   bool is_version_2() const { return parser.header().is_version_2(); }
@@ -47,7 +47,9 @@ struct ObservationReader::State {
   ObservationHeaderParser parser;
   ReadCounts counts;
   long epoch_line_number = 0;
-  SatelliteRecord record;  // kept for its memory
+  SatelliteRecord record;                  // kept for its memory
+  std::vector<SignalObservation> signals;  // of the epoch, in the order of the file
+  EpochCapacity capacity;
   // A loss of lock reported while the carrier was not measured holds until the carrier is measured.
   std::set<Signal> interrupted;
   // After a power failure every signal has lost lock when it first comes back.
@@ -163,7 +165,7 @@ bool ObservationReader::State::read_values_2(std::string* values) {
 }
 
 ObservationReader::State::Records ObservationReader::State::read_records(
-    const EpochLine& epoch_line, RawEpoch* epoch) {
+    const EpochLine& epoch_line) {
   std::string_view line;
   std::string values;
   for (int i = 0; i < epoch_line.count; ++i) {
@@ -172,7 +174,7 @@ ObservationReader::State::Records ObservationReader::State::read_records(
       if (!read_values_2(&values)) {
         return lines.next(line) ? (lines.step_back(), Records::kSomeMissing) : Records::kEndOfFile;
       }
-      add_satellite(epoch_line.satellites[static_cast<std::size_t>(i)], values, epoch);
+      add_satellite(epoch_line.satellites[static_cast<std::size_t>(i)], values);
       continue;
     }
     if (!lines.next(line)) return Records::kEndOfFile;
@@ -180,7 +182,7 @@ ObservationReader::State::Records ObservationReader::State::read_records(
       lines.step_back();
       return Records::kSomeMissing;
     }
-    add_satellite(columns(line, 0, 3), line.substr(std::min<std::size_t>(3, line.size())), epoch);
+    add_satellite(columns(line, 0, 3), line.substr(std::min<std::size_t>(3, line.size())));
   }
   return Records::kComplete;
 }
@@ -195,8 +197,7 @@ void ObservationReader::State::carry_interruptions(SignalObservation* signal) {
   if (power_failed && seen_since_failure.insert(key).second) signal->loss_of_lock = true;
 }
 
-void ObservationReader::State::add_satellite(std::string_view name, std::string_view values,
-                                             RawEpoch* epoch) {
+void ObservationReader::State::add_satellite(std::string_view name, std::string_view values) {
   if (const std::string_view reason = satellite_refusal(name); !reason.empty()) {
     counts.skip(reason, lines.line_number());
     return;
@@ -210,7 +211,7 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
                 lines.line_number());
     return;
   }
-  for (const SignalObservation& other : epoch->observations) {
+  for (const SignalObservation& other : signals) {
     if (other.satellite == satellite) {
       counts.skip("satellite that is twice in an epoch", lines.line_number());
       return;
@@ -220,32 +221,20 @@ void ObservationReader::State::add_satellite(std::string_view name, std::string_
   if (record.damaged_fields > 0) {
     counts.skip("value that is not readable", lines.line_number(), record.damaged_fields);
   }
-  std::size_t added = 0;
   for (SignalObservation& signal : record.signals) {
     carry_interruptions(&signal);
-    if (!is_measured(signal)) continue;
-    if (added == kMaxSignals) {
-      counts.skip("signal beyond the capacity of a satellite", lines.line_number());
-    } else if (epoch->observations.size() == kMaxObservations) {
-      counts.skip("signal beyond the capacity of an epoch", lines.line_number());
-    } else {
-      epoch->observations.push_back(signal);
-      ++added;
-    }
+    if (is_measured(signal)) signals.push_back(signal);
   }
 }
 
 // Returns whether the epoch can be used.
 bool ObservationReader::State::accept(const EpochLine& line, long line_number, RawEpoch* epoch) {
   epoch->time = to_gps_time(line.time, parser.header().time_system);
-  if (epoch->observations.empty()) {
+  if (signals.empty()) {
     counts.skip("epoch without a measurement of a used system", line_number);
     return false;
   }
-  std::sort(epoch->observations.begin(), epoch->observations.end(),
-            [](const SignalObservation& a, const SignalObservation& b) {
-              return Signal(a.satellite, a.code) < Signal(b.satellite, b.code);
-            });
+  capacity.fit(&signals, epoch);
   epoch_line_number = line_number;
   ++counts.used;
   return true;
@@ -271,8 +260,8 @@ bool ObservationReader::next(RawEpoch* epoch) {
       state_->power_failed = true;
       state_->seen_since_failure.clear();
     }
-    epoch->observations.clear();
-    switch (state_->read_records(line, epoch)) {
+    state_->signals.clear();
+    switch (state_->read_records(line)) {
       case State::Records::kEndOfFile:
         state_->counts.skip("last epoch, which is cut off", line_number);
         return false;
@@ -290,5 +279,6 @@ bool ObservationReader::next(RawEpoch* epoch) {
 const ObservationHeader& ObservationReader::header() const { return state_->parser.header(); }
 long ObservationReader::line_number() const { return state_->epoch_line_number; }
 const ReadCounts& ObservationReader::counts() const { return state_->counts; }
+const CapacityLosses& ObservationReader::losses() const { return state_->capacity.losses(); }
 
 }  // namespace leonav

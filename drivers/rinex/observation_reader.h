@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/gnss/signals/observation.h"
+#include "drivers/epoch/epoch_capacity.h"
 #include "drivers/rinex/observation_header.h"
 #include "drivers/rinex/read_counts.h"
 
@@ -11,7 +12,8 @@ namespace leonav {
 
 // Source: RINEX 2.11 (Gurtner, Estey 2007), RINEX 3.05 (IGS/RTCM 2020). Times are converted to GPS
 // time; values are those of core/gnss/signals/observation.h. Records that cannot be used are
-// counted with their reason and first line. The caller must refuse a file without a usable epoch
+// counted with their reason and first line; signals beyond the capacity of an epoch are counted in
+// losses(). The caller must refuse a file without a usable epoch
 // (counts().used == 0).
 class ObservationReader {
  public:
@@ -30,6 +32,7 @@ class ObservationReader {
 
   const ObservationHeader& header() const;
   const ReadCounts& counts() const;
+  const CapacityLosses& losses() const;
 
  private:
   struct State;

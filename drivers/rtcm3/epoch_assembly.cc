@@ -1,7 +1,5 @@
 #include "drivers/rtcm3/epoch_assembly.h"
 
-#include <algorithm>
-
 #include "core/base/calendar.h"
 #include "drivers/binary/week_time.h"
 
@@ -68,7 +66,7 @@ bool EpochAssembly::add(std::optional<GpsTime> time) {
     }
     epoch_.time = *time;
     ++counters_.messages;
-    observations_.add(message_, &epoch_);
+    observations_.add(message_, *time, &signals_);
   }
   return epoch_.time.is_set() && !more_follow_ && !counters_.bit_is_wrong;
 }
@@ -86,21 +84,18 @@ bool EpochAssembly::complete() {
   last_given_ = epoch_.time;
   if (!went_on_) gone_on_in_row_ = 0;
   went_on_ = false;
-  if (epoch_.observations.empty()) {
+  if (signals_.empty()) {
     ++counters_.empty_epochs;
     return false;
   }
-  std::sort(epoch_.observations.begin(), epoch_.observations.end(),
-            [](const SignalObservation& a, const SignalObservation& b) {
-              return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
-            });
+  capacity_.fit(&signals_, &epoch_);
   ++counters_.epochs;
   return true;
 }
 
 void EpochAssembly::clear() {
   epoch_.time = {};
-  epoch_.observations.clear();
+  signals_.clear();
 }
 
 }  // namespace leonav

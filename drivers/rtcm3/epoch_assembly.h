@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/gnss/signals/observation.h"
+#include "drivers/epoch/epoch_capacity.h"
 #include "drivers/rtcm3/msm_observations.h"
 
 namespace leonav {
@@ -62,6 +64,7 @@ class EpochAssembly {
 
   const EpochAssemblyCounters& counters() const { return counters_; }
   const MsmMeasurementCounters& measurement_counters() const { return observations_.counters(); }
+  const CapacityLosses& losses() const { return capacity_.losses(); }
 
  private:
   // Reads the message; returns the time of a message whose measurements can be used.
@@ -78,7 +81,9 @@ class EpochAssembly {
   MsmMessage message_;
   bool more_follow_ = true;  // as the present message says
   std::optional<std::uint16_t> station_;
-  RawEpoch epoch_;          // time unset: none is open
+  RawEpoch epoch_;                          // time unset: none is open
+  std::vector<SignalObservation> signals_;  // of the open epoch; each signal comes once at most
+  EpochCapacity capacity_;
   GpsTime last_given_;      // time of the last epoch that was given out or was empty
   bool went_on_ = false;    // that epoch had a late message
   int gone_on_in_row_ = 0;  // epochs in a row that had one

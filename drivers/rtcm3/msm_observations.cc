@@ -27,15 +27,12 @@ double metres(std::int32_t rough, std::int32_t fine, int fine_power) {
 
 }  // namespace
 
-void MsmObservations::add(const MsmMessage& message, RawEpoch* epoch) {
+void MsmObservations::add(const MsmMessage& message, GpsTime time,
+                          std::vector<SignalObservation>* signals) {
   for (const MsmCell& cell : message.cells) {
     SignalObservation observation;
-    if (!decode(message, cell, epoch->time, &observation)) continue;
-    if (epoch->observations.size() == kMaxObservations) {
-      ++counters_.beyond_capacity;
-      continue;
-    }
-    epoch->observations.push_back(observation);
+    if (!decode(message, cell, time, &observation)) continue;
+    signals->push_back(observation);
     ++counters_.measurements;
   }
 }

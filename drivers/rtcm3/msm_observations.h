@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/gnss/signals/observation.h"
 #include "drivers/rtcm3/msm_lock_time.h"
@@ -12,25 +13,24 @@ namespace leonav {
 
 // Counts of measurements, which are signals of a satellite at an epoch.
 struct MsmMeasurementCounters {
-  std::uint64_t measurements = 0;     // put into epochs
-  std::uint64_t unknown_signal = 0;   // bit of the signal mask without a RINEX code
-  std::uint64_t bad_satellite = 0;    // number outside its system's range
-  std::uint64_t bad_value = 0;        // single values out of range (left out)
-  std::uint64_t duplicates = 0;       // same satellite and code twice in an epoch
-  std::uint64_t empty = 0;            // neither code nor carrier nor Doppler
-  std::uint64_t beyond_capacity = 0;  // more than an epoch can hold
+  std::uint64_t measurements = 0;    // of messages, before the capacity of an epoch
+  std::uint64_t unknown_signal = 0;  // bit of the signal mask without a RINEX code
+  std::uint64_t bad_satellite = 0;   // number outside its system's range
+  std::uint64_t bad_value = 0;       // single values out of range (left out)
+  std::uint64_t duplicates = 0;      // same satellite and code twice in an epoch
+  std::uint64_t empty = 0;           // neither code nor carrier nor Doppler
 };
 
 // One receiver's observations.
 class MsmObservations {
  public:
-  // Adds the message's measurements to the epoch, in the order of the message. Of a satellite and
-  // code that come twice at one time, the first is used.
+  // Adds the message's measurements at `time` to those of the epoch, in the order of the message.
+  // Of a satellite and code that come twice at one time, the first is used.
   //
   // Code and carrier are (rough + fine) 299792.458 m/ms, the carrier divided by the wavelength, and
   // the Doppler is minus (rough + fine rate) over the wavelength: a growing range is a falling
   // frequency.
-  void add(const MsmMessage& message, RawEpoch* epoch);
+  void add(const MsmMessage& message, GpsTime time, std::vector<SignalObservation>* signals);
   const MsmMeasurementCounters& counters() const { return counters_; }
 
  private:

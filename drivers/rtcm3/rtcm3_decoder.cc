@@ -146,6 +146,7 @@ Rtcm3Counters Rtcm3Decoder::counters() const {
   counters.framer = state_->framer.counters();
   counters.epochs = state_->assembly.counters();
   counters.measurements = state_->assembly.measurement_counters();
+  counters.losses = state_->assembly.losses();
   counters.ephemerides = state_->ephemerides;
   counters.ssr = state_->ssr;
   counters.station_messages = state_->station_messages;

@@ -58,6 +58,7 @@ struct Rtcm3Counters {
   std::uint64_t station_messages = 0;
   std::uint64_t damaged_station_messages = 0;     // shorter than their fields
   std::map<std::uint16_t, std::uint64_t> unused;  // other messages, by number
+  CapacityLosses losses;                          // signals that did not fit into their epoch
 };
 
 // Returns in a few words what a message is that Rtcm3Counters::unused counts.

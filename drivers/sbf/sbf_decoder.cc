@@ -167,8 +167,9 @@ bool SbfDecoder::take_decoded_navigation(const SbfBlock& block, SbfHandler* hand
 
 SbfCounters SbfDecoder::counters() const {
   const State& s = *state_;
-  return {s.framer.counters(), s.counters, s.epochs.counters(), s.navigation.counters(),
-          s.raw.counters(),    s.decoded,  s.imu.counters(),    s.unused};
+  return {s.framer.counters(),     s.counters,       s.epochs.counters(),
+          s.navigation.counters(), s.raw.counters(), s.decoded,
+          s.imu.counters(),        s.unused,         s.epochs.losses()};
 }
 
 }  // namespace leonav

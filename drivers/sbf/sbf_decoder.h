@@ -57,6 +57,7 @@ struct SbfCounters {
   DecodedNavigationCounters decoded;
   ExtSensorCounters imu;
   std::map<std::uint16_t, std::uint64_t> unused;  // other blocks, by number
+  CapacityLosses losses;                          // signals that did not fit into their epoch
 };
 
 // Returns the name of a block and, where it helps, what to turn on instead; its number if it is

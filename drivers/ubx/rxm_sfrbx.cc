@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "drivers/binary/bit_field.h"
 #include "drivers/binary/little_endian.h"
 #include "drivers/ubx/ubx_signal.h"
 
@@ -14,7 +15,15 @@ constexpr std::size_t kMaxWords = 19;  // BeiDou B-CNAV1, the longest there is
 
 using Words = std::span<const std::uint32_t>;
 
-constexpr std::size_t kPageWords = 16;
+constexpr std::size_t kCnavWords = 10, kPageWords = 16, kBcnav1Words = 19, kBcnav2Words = 9;
+
+// The bits of a message that fill its words from the first on.
+std::vector<std::uint8_t> bits_of(Words words) {
+  BitWriter<kMaxWords * sizeof(std::uint32_t)> writer;
+  for (const std::uint32_t word : words) writer.put(word, 32);
+  const auto bytes = std::span<const std::uint8_t>(writer.bytes()).first(words.size_bytes());
+  return {bytes.begin(), bytes.end()};
+}
 
 // Makes a page of the words of E6-B: 486 bits from the highest one of the first word, then tail and
 // padding.
@@ -66,12 +75,19 @@ NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, 
 
 NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
                                       const SubframeOrigin& origin) {
-  constexpr std::uint8_t kL1Ca = 0;  // L2C and L5 carry CNAV
+  constexpr std::uint8_t kL1Ca = 0, kL2Cl = 3, kL2Cm = 4, kL5I = 6, kL5Q = 7;
+  constexpr std::uint8_t kB1Cp = 5, kB1Cd = 6, kB2ap = 7, kB2ad = 8;
   constexpr std::uint8_t kE1B = 1, kE5aI = 3, kE5bI = 5, kE6B = 8;
   switch (origin.satellite.system) {
-    case System::kGps:
+    case System::kGps: {
+      const bool is_cnav =
+          signal_id == kL2Cl || signal_id == kL2Cm || signal_id == kL5I || signal_id == kL5Q;
+      if (is_cnav && words.size() == kCnavWords) {
+        return collector_->add_gps_cnav(bits_of(words), origin);
+      }
       if (signal_id != kL1Ca || words.size() != GpsLnav::kWords) break;
       return collector_->add_gps_lnav(words.first<GpsLnav::kWords>(), origin);
+    }
     case System::kGalileo:
       if ((signal_id == kE1B || signal_id == kE5bI) && words.size() == GalileoInav::kWords) {
         return collector_->add_galileo_inav(words.first<GalileoInav::kWords>(), origin);
@@ -80,7 +96,13 @@ NavigationUpdate RxmSfrbxDecoder::add(std::uint8_t signal_id, Words words,
       if (signal_id != kE5aI || words.size() != GalileoFnav::kWords) break;
       return collector_->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
     case System::kBeidou: {
-      // B1C and B2a (5 to 8) carry B-CNAV. B1I, B2I and B3I carry D1 or D2.
+      if ((signal_id == kB1Cp || signal_id == kB1Cd) && words.size() == kBcnav1Words) {
+        return collector_->add_bcnav1(bits_of(words), origin);
+      }
+      if ((signal_id == kB2ap || signal_id == kB2ad) && words.size() == kBcnav2Words) {
+        return collector_->add_bcnav2(bits_of(words), origin);
+      }
+      // B1I, B2I and B3I carry D1 or D2.
       const bool is_d1_or_d2 = signal_id <= 4 || signal_id == 10;
       if (!is_d1_or_d2 || words.size() != kBeidouWords) break;
       return collector_->add_beidou(words.first<kBeidouWords>(), origin);

@@ -1,5 +1,6 @@
 // This unit decodes UBX-RXM-SFRBX (0x02 0x13), broadcast subframes, to ephemerides, ionosphere
-// coefficients and pages of corrections. Source: u-blox ZED-F9P interface description UBX-22008968,
+// coefficients, group delays and pages of corrections. Source: u-blox ZED-F9P interface description
+// UBX-22008968,
 // sections 1.5 and 3.17.9.
 #pragma once
 #include <cstdint>
@@ -21,7 +22,8 @@ struct RxmSfrbxCounters : NavigationCounters {
 };
 
 // The decoder collects the subframes of every satellite. It reports an ephemeris when it is
-// complete and differs from the last one reported for its satellite and message.
+// complete and differs from the last one reported for its satellite and message, and the group
+// delays of CNAV and B-CNAV when they differ or the last report is an hour old.
 class RxmSfrbxDecoder {
  public:
   RxmSfrbxDecoder();

@@ -54,6 +54,7 @@ void UbxDecoder::dispatch(const UbxMessage& message, UbxHandler* handler) {
     if (update.ephemeris) handler->on_ephemeris(*update.ephemeris);
     if (update.klobuchar) handler->on_klobuchar(*update.klobuchar);
     if (update.page) handler->on_page(*update.page);
+    if (!update.biases.empty()) handler->on_biases(update.biases);
   } else if (message.message_class == kClassEsf && message.id == kIdMeas) {
     state_->esf.decode_meas(message.payload,
                             [handler](const EsfReading& r) { handler->on_inertial(r); });

@@ -1,11 +1,12 @@
 // This unit decodes a u-blox byte stream to observations, ephemerides, ionosphere coefficients,
-// pages of corrections, inertial readings and time marks. Source: u-blox F9/X20 interface
-// descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2, UBX-ESF-MEAS, UBX-ESF-RAW,
-// UBX-TIM-TM2.
+// group delays, pages of corrections, inertial readings and time marks. Source: u-blox F9/X20
+// interface descriptions, UBX-RXM-RAWX version 1, UBX-RXM-SFRBX version 2, UBX-ESF-MEAS,
+// UBX-ESF-RAW, UBX-TIM-TM2.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
@@ -25,8 +26,10 @@ class UbxHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
-  // A page of Galileo HAS, received at the time of the last epoch; readings of a receiver with an
-  // inertial sensor; pulses at its inputs. Who does not need one leaves it as it is.
+  // Group delays of one satellite; a page of Galileo HAS, received at the time of the last epoch;
+  // readings of a receiver with an inertial sensor; pulses at its inputs. Who does not need one
+  // leaves it as it is.
+  virtual void on_biases(const std::vector<SignalBias>& /*biases*/) {}
   virtual void on_page(const CorrectionPage& /*page*/) {}
   virtual void on_inertial(const EsfReading& /*reading*/) {}
   virtual void on_time_mark(const TimeMark& /*mark*/) {}

@@ -20,6 +20,7 @@ struct UbxFileReader::State : UbxHandler {
   void on_klobuchar(const KlobucharModel& model) override { outputs.emplace_back(model); }
   void on_inertial(const EsfReading& reading) override { outputs.emplace_back(reading); }
   void on_page(const CorrectionPage& page) override { outputs.emplace_back(page); }
+  void on_biases(const std::vector<SignalBias>& biases) override { outputs.emplace_back(biases); }
 
   std::string path;
   std::ifstream file;

@@ -3,12 +3,14 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "drivers/ubx/ubx_decoder.h"
 
 namespace leonav {
 
-using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, EsfReading, CorrectionPage>;
+using UbxOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, std::vector<SignalBias>,
+                               EsfReading, CorrectionPage>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

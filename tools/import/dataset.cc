@@ -157,6 +157,7 @@ class DatasetParser {
       {"navigation", &dataset_.navigation},
       {"orbits", &dataset_.orbits},
       {"clocks", &dataset_.clocks},
+      {"biases", &dataset_.biases},
       {"corrections", &dataset_.corrections},
       {"antenna_models", &dataset_.antenna_models},
       {"imu", &dataset_.imu},
@@ -167,7 +168,7 @@ class DatasetParser {
 
 std::vector<std::string> Dataset::files() const {
   std::vector<std::string> all = {path};
-  for (const auto* paths : {&observations, &navigation, &orbits, &clocks, &corrections,
+  for (const auto* paths : {&observations, &navigation, &orbits, &clocks, &biases, &corrections,
                             &antenna_models, &imu, &truth}) {
     all.insert(all.end(), paths->begin(), paths->end());
   }

@@ -21,6 +21,7 @@ struct Dataset {
   std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
   std::vector<std::string> orbits;      // SP3
   std::vector<std::string> clocks;      // RINEX clock
+  std::vector<std::string> biases;      // Bias-SINEX, of the product of orbits and clocks
   // RTCM 3 with SSR (.rtcm3, .rtcm) or pages of HAS (.has, .ubx) or PPP-B2b (.b2b), in order of
   // time
   std::vector<std::string> corrections;

@@ -18,6 +18,7 @@
 #include "drivers/text/parse.h"
 #include "drivers/text/stamp_order.h"
 #include "tools/import/internal/antenna_source.h"
+#include "tools/import/internal/bias_source.h"
 #include "tools/import/internal/corrections.h"
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
@@ -59,6 +60,7 @@ class Import {
     antennas_ = load_antennas(dataset_, observations_.antenna(), start, &report_);
     LogOutput log(output, &report_);
     load_clocks(start);
+    biases_ = load_biases(dataset_.biases, start, options_.to, &report_);
     schedule(start);
     send_first(start, &log);
     while (send_next(&log)) show_progress();
@@ -66,6 +68,10 @@ class Import {
     corrections_.report(dataset_.path, &report_);
     report_.skip(dataset_.path, "ephemeris sent after the end",
                  static_cast<long>(ephemerides_.size() - next_ephemeris_));
+    long late_biases = 0;
+    for (std::size_t i = next_bias_; i < biases_.size(); ++i)
+      late_biases += static_cast<long>(biases_[i].biases.size());
+    report_.skip(dataset_.path, "bias that begins to hold after the end", late_biases);
     log.commit();
     return report_;
   }
@@ -97,6 +103,9 @@ class Import {
     return next_orbit_ < orbits_.size() ? orbits_[next_orbit_].arrival : kNever;
   }
 
+  GpsTime bias_arrival() const {
+    return next_bias_ < biases_.size() ? biases_[next_bias_].arrival : kNever;
+  }
   GpsTime correction_arrival() const {
     return next_correction_ < arriving_corrections_.size()
                ? arriving_corrections_[next_correction_].arrival
@@ -109,6 +118,7 @@ class Import {
   ImportReport report_;
   Corrections corrections_;
   std::vector<ScheduledCorrection> arriving_corrections_;
+  std::vector<ScheduledBiases> biases_;
   ObservationSource observations_;
   std::optional<ObservationItem> observation_;  // the next one; empty at the end
   GpsTime observation_arrival_;
@@ -121,7 +131,8 @@ class Import {
   std::vector<ScheduledOrbitEpoch> orbits_;
   KlobucharModel klobuchar_;
   std::vector<AntennaPattern> antennas_;
-  std::size_t next_imu_ = 0, next_ephemeris_ = 0, next_orbit_ = 0, next_correction_ = 0;
+  std::size_t next_imu_ = 0, next_ephemeris_ = 0, next_orbit_ = 0, next_correction_ = 0,
+              next_bias_ = 0;
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
 
@@ -154,6 +165,11 @@ void Import::warn_of_missing() {
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) continue;
     warn("truth " + path + " is not there: nothing to judge the results by");
+  }
+  if (!dataset_.biases.empty() && dataset_.orbits.empty()) {
+    warn(
+        "biases without orbits: they belong to the clocks of the product they came with, and "
+        "broadcast clocks are used without them");
   }
   if (!dataset_.clocks.empty() && dataset_.orbits.empty()) {
     warn("clocks without orbits are of no use: broadcast orbits go with broadcast clocks");
@@ -312,6 +328,7 @@ void Import::send_first(GpsTime start, LogOutput* log) {
       corrections_.add(*ephemeris);
     }
     if (auto* model = std::get_if<KlobucharModel>(&item)) log->write(start, *model);
+    if (auto* biases = std::get_if<std::vector<SignalBias>>(&item)) log->write(start, *biases);
   }
 }
 
@@ -347,7 +364,10 @@ void Import::send_observation(LogOutput* log) {
 bool Import::send_next(LogOutput* log) {
   const GpsTime data = std::min(imu_arrival(), observation_arrival());
   if (data == kNever) return false;
-  if (ephemeris_arrival() <= std::min(data, correction_arrival())) {
+  if (bias_arrival() <= data) {
+    const ScheduledBiases& item = biases_[next_bias_++];
+    log->write(item.arrival, std::span<const SignalBias>(item.biases));
+  } else if (ephemeris_arrival() <= std::min(data, correction_arrival())) {
     const ScheduledEphemeris& item = ephemerides_[next_ephemeris_++];
     log->write(item.arrival, item.ephemeris);
     corrections_.add(item.ephemeris);

@@ -22,6 +22,11 @@ void ImportReport::skip(std::string_view where, std::string_view reason, long co
   if (count > 0) skipped.push_back({std::string(where), std::string(reason), count});
 }
 
+void ImportReport::skip(std::string_view where, const CapacityLosses& losses) {
+  skip(where, spare_text(losses), static_cast<long>(losses.spare));
+  skip(where, usable_text(losses), static_cast<long>(losses.usable));
+}
+
 void ImportReport::warn_if_most_lost(const std::string& path, const std::string& what, long lost,
                                      long all) {
   if (2 * lost <= all) return;

@@ -7,6 +7,7 @@
 
 #include "core/base/gps_time.h"
 #include "core/gnss/signals/satellite.h"
+#include "drivers/epoch/epoch_capacity.h"
 
 namespace leonav {
 
@@ -32,6 +33,8 @@ struct ImportReport {
 
   // Counts `count` skipped items.
   void skip(std::string_view where, std::string_view reason, long count);
+  // Counts the signals that did not fit into their epochs.
+  void skip(std::string_view where, const CapacityLosses& losses);
   // Warns if more than half of a stream was lost: then it differs from the recording too much.
   void warn_if_most_lost(const std::string& path, const std::string& what, long lost, long all);
 };

@@ -27,13 +27,7 @@ int band_rank(const SignalPreference& preference, char band) {
 // Strict order of the signals of one satellite: better first.
 bool is_better(const SignalPreference& preference, const BandPlan& bands,
                const SignalObservation& a, const SignalObservation& b) {
-  if (a.code.band != b.code.band) {
-    return band_comes_first(a.satellite.system, preference, a.code.band, b.code.band, bands);
-  }
-  const int attribute_a = preference_rank(preference.attributes, a.code.attribute);
-  const int attribute_b = preference_rank(preference.attributes, b.code.attribute);
-  if (attribute_a != attribute_b) return attribute_a < attribute_b;
-  return a.code.attribute < b.code.attribute;
+  return signal_comes_first(a.satellite.system, preference, a.code, b.code, bands);
 }
 
 bool is_useful_pair(const BandPlan& bands, const SignalObservation& a, const SignalObservation& b) {
@@ -64,6 +58,15 @@ bool band_comes_first(System system, const SignalPreference& preference, char a,
   return bands.frequency_hz(system, a) > bands.frequency_hz(system, b);
 }
 
+bool signal_comes_first(System system, const SignalPreference& preference, SignalCode a,
+                        SignalCode b, const BandPlan& bands) {
+  if (a.band != b.band) return band_comes_first(system, preference, a.band, b.band, bands);
+  const int attribute_a = preference_rank(preference.attributes, a.attribute);
+  const int attribute_b = preference_rank(preference.attributes, b.attribute);
+  if (attribute_a != attribute_b) return attribute_a < attribute_b;
+  return a.attribute < b.attribute;
+}
+
 bool is_plausible_pseudorange(System system, double pseudorange_m) {
   const double smallest = system == System::kLeo ? kMinPseudorangeLeo : kMinPseudorange;
   return pseudorange_m >= smallest && pseudorange_m <= kMaxPseudorange;  // NaN fails
@@ -89,6 +92,12 @@ SelectedSignals select_signals(std::span<const SignalObservation> observations,
       if (is_better(preference, plan, signal, **same_band)) *same_band = &signal;
     } else if (bands.size() < bands.capacity()) {
       bands.push_back(&signal);
+    } else {  // a LEO satellite with more bands than that
+      const auto worst = std::max_element(
+          bands.begin(), bands.end(), [&](const SignalObservation* a, const SignalObservation* b) {
+            return is_better(preference, plan, *a, *b);
+          });
+      if (is_better(preference, plan, signal, **worst)) *worst = &signal;
     }
   }
   std::sort(selected.bands.begin(), selected.bands.end(),

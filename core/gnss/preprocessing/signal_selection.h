@@ -27,6 +27,11 @@ struct SelectedSignals {
 bool band_comes_first(System system, const SignalPreference& preference, char a, char b,
                       const BandPlan& bands = {});
 
+// Returns whether signal `a` of a system is preferred to signal `b`, in the same order: by band,
+// then by attribute. A strict order.
+bool signal_comes_first(System system, const SignalPreference& preference, SignalCode a,
+                        SignalCode b, const BandPlan& bands = {});
+
 // Returns whether a pseudorange is within physical bounds, which include a receiver clock error of
 // some 30 ms. A geostationary satellite is never farther than 43,000 km. A LEO satellite is so near
 // that 3 ms suffice to make its pseudorange negative; the models accept that, since tag and

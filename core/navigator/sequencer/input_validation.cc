@@ -68,7 +68,10 @@ InputFault check(const CorrectedState& state) {
 
 InputFault check(const SignalBias& bias) {
   if (!std::isfinite(bias.bias_m)) return InputFault::kNotFinite;
-  if (!is_plausible(bias.time) || !is_sane(bias)) return InputFault::kOutOfRange;
+  const auto is_plausible_or_unset = [](GpsTime t) { return !t.is_set() || is_plausible(t); };
+  if (!is_plausible(bias.time) || !is_sane(bias) || !is_plausible_or_unset(bias.valid_from) ||
+      !is_plausible_or_unset(bias.valid_until))
+    return InputFault::kOutOfRange;
   return InputFault::kNone;
 }
 

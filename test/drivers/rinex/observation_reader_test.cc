@@ -1,5 +1,6 @@
 #include "drivers/rinex/observation_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/calendar.h"
@@ -167,7 +168,8 @@ TEST_CASE("RINEX 3: a loss of lock without a carrier holds until the carrier is 
   CHECK(read.epochs[1].observations[0].loss_of_lock);
 }
 
-TEST_CASE("RINEX 3: more satellites and signals than fit are counted", "[rinex]") {
+TEST_CASE("RINEX 3: more satellites than fit are counted by name, the first frequency is kept",
+          "[rinex]") {
   std::string body = epoch_3("1.0000000", 0, 399);
   for (int i = 1; i <= 399; ++i) {
     char name[8];
@@ -177,15 +179,46 @@ TEST_CASE("RINEX 3: more satellites and signals than fit are counted", "[rinex]"
   const auto read = read_text(header_3("3.05", types_3("L    2 C1C C2W")) + body);
   REQUIRE(read.epochs.size() == 1);
   CHECK(read.epochs[0].observations.size() == kMaxObservations);
-  CHECK(read.counts.count_of("signal beyond the capacity of an epoch") == 798 - kMaxObservations);
+  CHECK(read.losses.usable == 798 - kMaxObservations);
+  CHECK(read.losses.spare == 0);
+  CHECK(usable_text(read.losses).starts_with("signal beyond the 512 that an epoch holds (leo 2W)"));
+  const auto& kept = read.epochs[0].observations;
+  CHECK(std::count_if(kept.begin(), kept.end(),
+                      [](const SignalObservation& o) { return o.code.band == '1'; }) == 399);
+}
 
+TEST_CASE("RINEX 3: a satellite keeps its signals, however many come before in the header",
+          "[rinex]") {
+  // Thirteen columns to a line, twelve of which the navigator would rather not have before L2 P(Y).
+  const std::string types = header_line(
+      "G   13 C1X C1L C1S C2X C2L C2S C5X C5I C1P C5Q C2P C1W C1C", "SYS / # / OBS TYPES");
   std::string fields;
-  for (int i = 0; i < 8; ++i) fields += field(2e7 + i);
-  const auto many = read_text(header_3("3.05", types_3("G    8 C1C C1W C1L C2W C2L C2X C5Q C5X")) +
-                              epoch_3("1.0000000", 0, 1) + "G01" + fields + "\n");
+  for (int i = 0; i < 13; ++i) fields += field(2e7 + i);
+  const auto one =
+      read_text(header_3("3.05", types) + epoch_3("1.0000000", 0, 1) + "G01" + fields + "\n");
+  REQUIRE(one.epochs.size() == 1);
+  CHECK(one.epochs[0].observations.size() == 13);
+  CHECK(one.counts.skipped.empty());
+  REQUIRE(find(one.epochs[0], "G01", "1C") != nullptr);
+  CHECK(find(one.epochs[0], "G01", "1C")->pseudorange_m == 2e7 + 12);
+
+  std::string body = epoch_3("1.0000000", 0, 60);
+  for (int i = 1; i <= 60; ++i) {
+    char name[8];
+    std::snprintf(name, sizeof name, "G%02d", i);
+    body += name + fields + "\n";
+  }
+  const auto many = read_text(header_3("3.05", types) + body);
   REQUIRE(many.epochs.size() == 1);
-  CHECK(many.epochs[0].observations.size() == kMaxSignals);
-  CHECK(many.counts.count_of("signal beyond the capacity of a satellite") == 2);
+  CHECK(many.epochs[0].observations.size() == kMaxObservations);
+  CHECK(many.losses.usable == 0);
+  CHECK(many.losses.spare == 60 * 13 - kMaxObservations);
+  CHECK(spare_text(many.losses).find("gps 1L 1S") != std::string::npos);
+  for (int i = 1; i <= 60; ++i) {
+    char name[8];
+    std::snprintf(name, sizeof name, "G%02d", i);
+    for (const char* code : {"1C", "2P", "5X"}) CHECK(find(many.epochs[0], name, code) != nullptr);
+  }
 }
 
 TEST_CASE("a file cut off at any byte keeps its whole epochs and no wrong value", "[rinex]") {

@@ -45,6 +45,7 @@ inline std::string epoch_3(const std::string& second, int flag, int count) {
 struct Observations {
   std::vector<RawEpoch> epochs;
   ReadCounts counts;
+  CapacityLosses losses;
 };
 
 inline Observations read_text(const std::string& text) {
@@ -54,6 +55,7 @@ inline Observations read_text(const std::string& text) {
   RawEpoch epoch;
   while (reader.next(&epoch)) result.epochs.push_back(epoch);
   result.counts = reader.counts();
+  result.losses = reader.losses();
   return result;
 }
 

@@ -37,25 +37,24 @@ std::vector<Words> msm_lines(const std::vector<std::uint8_t>& bytes, GpsTime tim
   std::vector<Words> lines;
   MsmObservations observations;
   MsmMessage message;
-  RawEpoch epoch;
+  std::vector<SignalObservation> signals;
   for (const auto& extent : test::frame_extents(bytes)) {
     const auto type = msm_type(extent.type);
     if (!type || !type->system || !type->has_full_range()) continue;
     time = time.plus_seconds(1.0);  // a new one each time, so that nothing counts as repeated
-    epoch.time = time;
-    epoch.observations.clear();
+    signals.clear();
     REQUIRE(read_msm(*type, std::span(bytes).subspan(extent.first + 3, extent.size - 6),
                      &message) == MsmStatus::kOk);
-    observations.add(message, &epoch);
+    observations.add(message, time, &signals);
     std::size_t next = 0;
     for (const MsmCell& cell : message.cells) {
       const auto code = signal_from_msm(*type->system, cell.signal);
       REQUIRE(code);
       const SatelliteId satellite{*type->system, message.satellites[cell.satellite].number};
       SignalObservation o;
-      if (next < epoch.observations.size() && epoch.observations[next].satellite == satellite &&
-          epoch.observations[next].code == *code) {
-        o = epoch.observations[next++];
+      if (next < signals.size() && signals[next].satellite == satellite &&
+          signals[next].code == *code) {
+        o = signals[next++];
       }
       const auto text = [](double value) {
         char buffer[40];
@@ -68,7 +67,7 @@ std::vector<Words> msm_lines(const std::vector<std::uint8_t>& bytes, GpsTime tim
                        text(o.doppler_hz), text(o.cn0_dbhz), std::to_string(cell.least_lock_ms),
                        cell.half_cycle_ambiguous ? "1" : "0"});
     }
-    CHECK(next == epoch.observations.size());
+    CHECK(next == signals.size());
   }
   return lines;
 }

@@ -19,11 +19,15 @@ struct UbxCollector : UbxHandler {
   void on_ephemeris(const Ephemeris& ephemeris) override { ephemerides.push_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { klobuchars.push_back(model); }
   void on_page(const CorrectionPage& page) override { pages.push_back(page); }
+  void on_biases(const std::vector<SignalBias>& of_satellite) override {
+    biases.insert(biases.end(), of_satellite.begin(), of_satellite.end());
+  }
 
   std::vector<RawEpoch> epochs;
   std::vector<Ephemeris> ephemerides;
   std::vector<KlobucharModel> klobuchars;
   std::vector<CorrectionPage> pages;
+  std::vector<SignalBias> biases;
   UbxCounters counters;
 };
 

@@ -45,6 +45,7 @@ LogCounts read_log(const std::string& path) {
   KlobucharModel model;
   PreciseStates states;
   AntennaPattern antenna;
+  SignalBiases biases;
   while (reader.next(&event)) {
     ++counts.events[event.channel];
     if (event.timestamp_us <= last_stamp_us) counts.stamps_increase = false;
@@ -65,6 +66,8 @@ LogCounts read_log(const std::string& path) {
       result = decoder.decode(bytes, &antenna);
       if (antenna.is_receiver) ++counts.receiver_bands;
       if (!antenna.is_receiver) counts.antennas.insert(antenna.satellite);
+    } else if (event.channel == "LEONAV_BIASES") {
+      result = decoder.decode(bytes, &biases);
     } else {
       REQUIRE(event.channel == "LEONAV_ORBIT_CLOCK");
       result = decoder.decode(bytes, &states);

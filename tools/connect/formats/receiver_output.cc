@@ -51,6 +51,11 @@ void ReceiverOutput::send(const KlobucharModel& model, GpsTime received) {
   ++messages_;
 }
 
+void ReceiverOutput::send(const std::vector<SignalBias>& biases) {
+  output_->send(std::span<const SignalBias>(biases));
+  ++messages_;
+}
+
 std::optional<DataTime> ReceiverOutput::data_time() const {
   if (!last_epoch_.is_set()) return std::nullopt;
   return DataTime{true, last_epoch_.nanoseconds()};

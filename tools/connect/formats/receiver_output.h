@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/transport/byte_source.h"
 #include "tools/connect/formats/correction_output.h"
@@ -27,6 +28,7 @@ class ReceiverOutput {
   void send(const Ephemeris& ephemeris);
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);
+  void send(const std::vector<SignalBias>& biases);
 
   // Sends ephemerides again that are due, as every epoch does; for a stream without epochs.
   void repeat_ephemerides(GpsTime now);

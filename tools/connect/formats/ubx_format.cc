@@ -14,6 +14,7 @@ void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(epheme
 void UbxFormat::on_klobuchar(const KlobucharModel& model) {
   receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));
 }
+void UbxFormat::on_biases(const std::vector<SignalBias>& biases) { receiver_.send(biases); }
 
 void UbxFormat::on_page(const CorrectionPage& page) {
   if (!options_.uses_pages) return;

@@ -12,8 +12,8 @@
 namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
-// UBX-RXM-RAWX; EPHEMERIS and IONOSPHERE as UBX-RXM-SFRBX completes them; CORRECTED_STATES and
-// BIASES of the pages of E6-B. Besides, ephemerides are repeated. Samples of UBX-ESF-RAW or
+// UBX-RXM-RAWX; EPHEMERIS, IONOSPHERE and BIASES as UBX-RXM-SFRBX completes them; CORRECTED_STATES
+// and BIASES of the pages of E6-B. Besides, ephemerides are repeated. Samples of UBX-ESF-RAW or
 // UBX-ESF-MEAS are stamped by arrivals.
 class UbxFormat final : public StreamFormat, private UbxHandler {
  public:
@@ -44,6 +44,7 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
+  void on_biases(const std::vector<SignalBias>& biases) override;
   void on_page(const CorrectionPage& page) override;
   void on_inertial(const EsfReading& reading) override;
   void on_time_mark(const TimeMark& mark) override;

@@ -33,6 +33,7 @@ class RinexFile final : public ObservationFile {
     for (const ReadCounts::Skip& skip : reader_.counts().skipped) {
       report->skip(path + ":" + std::to_string(skip.first_line), skip.reason, skip.count);
     }
+    report->skip(path, reader_.losses());
   }
 
  private:

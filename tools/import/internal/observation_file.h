@@ -4,14 +4,16 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 #include "tools/import/import_report.h"
 
 namespace leonav {
 
-using ObservationItem = std::variant<RawEpoch, Ephemeris, KlobucharModel>;
+using ObservationItem = std::variant<RawEpoch, Ephemeris, KlobucharModel, std::vector<SignalBias>>;
 
 // An observation file of any format.
 class ObservationFile {

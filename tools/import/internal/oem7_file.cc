@@ -27,8 +27,8 @@ void report_framer(const std::string& path, const Oem7FramerCounters& framer,
 }
 
 void report_epochs(const std::string& path, const Oem7Counters& counters, ImportReport* report) {
-  const auto& [framer, ranges, epochs, ephemerides, imu, second_antenna, responses, unused] =
-      counters;
+  const auto& [framer, ranges, epochs, ephemerides, imu, second_antenna, responses, unused,
+               losses] = counters;
   skip_all(path,
            {{"range log that does not hold what it claims", ranges.bad_length},
             {"range log before the receiver knew the time", ranges.without_time},
@@ -40,7 +40,6 @@ void report_epochs(const std::string& path, const Oem7Counters& counters, Import
             {"measured value out of range", epochs.bad_value},
             {"measurement that is twice in an epoch", epochs.duplicates},
             {"measurement without a value", epochs.empty},
-            {"measurement beyond the capacity of an epoch", epochs.beyond_capacity},
             {"ephemeris that repeats the one before", ephemerides.repeated},
             {"ephemeris that is shorter than its fields", ephemerides.bad_length},
             {"ephemeris of a satellite that does not exist", ephemerides.bad_satellite},
@@ -55,6 +54,7 @@ void report_epochs(const std::string& path, const Oem7Counters& counters, Import
             {"log of the second antenna", second_antenna},
             {"answer to a command", responses}},
            report);
+  report->skip(path, losses);
   for (const auto& [number, count] : unused) {
     report->skip(path, "log that is not used: " + unused_log_text(number),
                  static_cast<long>(count));

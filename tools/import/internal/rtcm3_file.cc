@@ -31,8 +31,8 @@ Rtcm3FileReader open_rtcm3(const std::string& path, GpsTime date) {
 }
 
 void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, ImportReport* report) {
-  const auto& [framer, epochs, measurements, ephemerides, ssr, station, damaged_station, unused] =
-      counters;
+  const auto& [framer, epochs, measurements, ephemerides, ssr, station, damaged_station, unused,
+               losses] = counters;
   const std::pair<const char*, std::uint64_t> reasons[] = {
       {"frame with a wrong checksum", framer.bad_checksums},
       {"frame that the end of the file cuts off", framer.incomplete},
@@ -51,7 +51,6 @@ void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, Import
       {"measured value out of range", measurements.bad_value},
       {"measurement that is twice in an epoch", measurements.duplicates},
       {"measurement without a value", measurements.empty},
-      {"measurement beyond the capacity of an epoch", measurements.beyond_capacity},
       {"ephemeris that repeats the one before", ephemerides.repeated},
       {"ephemeris that is shorter than its fields", ephemerides.bad_length},
       {"ephemeris of a satellite that does not exist", ephemerides.bad_satellite},
@@ -63,6 +62,7 @@ void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, Import
   for (const auto& [reason, count] : reasons) {
     report->skip(path, reason, static_cast<long>(count));
   }
+  report->skip(path, losses);
   for (const auto& [number, count] : unused) {
     report->skip(
         path, "message " + std::to_string(number) + ": " + std::string(unused_message_text(number)),

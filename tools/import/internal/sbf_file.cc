@@ -26,7 +26,8 @@ void report_framer(const std::string& path, const SbfFramerCounters& framer, Imp
 }
 
 void report_epochs(const std::string& path, const SbfCounters& counters, ImportReport* report) {
-  const auto& [framer, measurements, epochs, navigation, raw, decoded, imu, unused] = counters;
+  const auto& [framer, measurements, epochs, navigation, raw, decoded, imu, unused, losses] =
+      counters;
   skip_all(
       path,
       {{"MeasEpoch that does not hold what it claims", measurements.bad_length},
@@ -41,7 +42,6 @@ void report_epochs(const std::string& path, const SbfCounters& counters, ImportR
        {"measured value out of range", epochs.bad_value},
        {"measurement that is twice in an epoch", epochs.duplicates},
        {"measurement without a value", epochs.empty},
-       {"measurement beyond the capacity of an epoch", epochs.beyond_capacity},
        {"subframe of a message not used", navigation.other_message},
        {"subframe with a parity error", navigation.bad_parity + raw.crc_failed},
        {"subframe that contradicts its message", navigation.bad_week + navigation.wrong_satellite},
@@ -60,6 +60,7 @@ void report_epochs(const std::string& path, const SbfCounters& counters, ImportR
        {"GPSIon that is damaged", decoded.bad_ionosphere},
        {"inertial block (used where the file is listed under imu)", imu.samples}},
       report);
+  report->skip(path, losses);
   for (const auto& [number, count] : unused) {
     report->skip(path, "block that is not used: " + unused_block_text(number),
                  static_cast<long>(count));

@@ -258,7 +258,8 @@ def corrected_states(messages):
 def biases(messages):
     rows, owner = _rows(messages, "biases")
     columns = {"satellite": names.satellite_names(rows["system"], rows["number"]), "signal": names.signal_names(rows["band"], rows["attribute"]),
-               "is_phase": np.asarray(rows["kind"]) == 1, "bias_m": _native(rows["bias_m"])}
+               "is_phase": np.asarray(rows["kind"]) == 1, "is_broadcast": np.asarray(rows["kind"]) == 2, "bias_m": _native(rows["bias_m"]),
+               "valid_from_ns": _native(rows["from_ns"]), "valid_until_ns": _native(rows["until_ns"])}
     return {"": _table(_gather(messages, "time_ns")[owner], columns)}
 
 

@@ -60,17 +60,52 @@ double frequency_of(const DelayContext& context, const SignalObservation& signal
   return context.config->bands.frequency_hz(signal.satellite.system, signal.code.band);
 }
 
+// Returns the delay of a pair of which CNAV gives one signal, and the older message the other.
+std::optional<GroupDelay> half_cnav_delay(const DelayContext& context, SatelliteId satellite,
+                                          const Ephemeris& broadcast, SignalCode first,
+                                          SignalCode second) {
+  const auto of_first = context.signal_biases->broadcast_delay(satellite, context.time, first);
+  const auto of_second = context.signal_biases->broadcast_delay(satellite, context.time, second);
+  if (!of_first && !of_second) return std::nullopt;
+  const GroupDelay a = of_first ? *of_first : group_delay(broadcast, first);
+  const GroupDelay b = of_second ? *of_second : group_delay(broadcast, second);
+  const IonosphereFree pair = ionosphere_free(frequency_hz(satellite.system, first.band),
+                                              frequency_hz(satellite.system, second.band));
+  return GroupDelay{pair.gamma1 * a.delay_m + pair.gamma2 * b.delay_m,
+                    std::hypot(pair.gamma1 * a.sigma_m, pair.gamma2 * b.sigma_m)};
+}
+
+// Returns the delay by CNAV or B-CNAV against the clock of the satellite's state. GPS' broadcast
+// clock and those of products refer to the same pair, L1 and L2 P(Y); BeiDou's to B3I, and those of
+// products to B1I and B3I.
+std::optional<GroupDelay> cnav_delay(const DelayContext& context, SatelliteId satellite,
+                                     const Ephemeris* broadcast, bool precise_clock,
+                                     SignalCode first, SignalCode second) {
+  if (context.signal_biases == nullptr) return std::nullopt;
+  auto delay = context.signal_biases->broadcast_delay(satellite, context.time, first, second);
+  if (!delay && broadcast != nullptr && second.is_set())
+    delay = half_cnav_delay(context, satellite, *broadcast, first, second);
+  if (!delay || !precise_clock || satellite.system == System::kGps) return delay;
+  if (satellite.system != System::kBeidou || broadcast == nullptr) return std::nullopt;
+  const GroupDelay reference = group_delay(*broadcast, {'2', 'I'}, {'6', 'I'});
+  return GroupDelay{delay->delay_m - reference.delay_m,
+                    std::hypot(delay->sigma_m, reference.sigma_m)};
+}
+
+// Returns the delay by the biases of the clock's product, else by the broadcast messages: of the
+// older one and CNAV the one that knows it better.
 GroupDelay delay_of(const DelayContext& context, const SatelliteInView& satellite,
                     const Ephemeris* broadcast, SignalCode first, SignalCode second) {
-  if (satellite.source == OrbitSource::kPrecise || broadcast == nullptr) {
-    if (context.signal_biases != nullptr) {
-      const auto delay =
-          context.signal_biases->code_delay(satellite.satellite, context.time, first, second);
-      if (delay) return *delay;
-    }
-    return precise_group_delay(satellite.satellite.system, broadcast, first, second);
+  const SatelliteId id = satellite.satellite;
+  const bool precise_clock = satellite.source == OrbitSource::kPrecise || broadcast == nullptr;
+  if (precise_clock && context.signal_biases != nullptr) {
+    const auto delay = context.signal_biases->code_delay(id, context.time, first, second);
+    if (delay) return *delay;
   }
-  return group_delay(*broadcast, first, second);
+  const GroupDelay older = precise_clock ? precise_group_delay(id.system, broadcast, first, second)
+                                         : group_delay(*broadcast, first, second);
+  const auto cnav = cnav_delay(context, id, broadcast, precise_clock, first, second);
+  return cnav && cnav->sigma_m < older.sigma_m ? *cnav : older;
 }
 
 // Returns the part that all satellites have in common of what the model leaves in the code of

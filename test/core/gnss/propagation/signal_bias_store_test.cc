@@ -37,10 +37,11 @@ TEST_CASE("The newest bias of a signal counts, and a full table drops what arriv
   REQUIRE(store.add(bias("1C", 2.0)));
   REQUIRE(store.add(bias("1C", 3.0)));
   CHECK(store.code_delay(kG05, kTime, {'1', 'C'})->delay_m == 3.0);
+  constexpr int kCapacity = static_cast<int>(SignalBiasStore::kMaxIntervals * kMaxSignalBiases);
   int others = 0;
   for (const char band : {'1', '2', '5'}) {
     for (char attribute = 'A'; attribute <= 'Z'; ++attribute) {
-      if (others == static_cast<int>(kMaxSignalBiases)) break;
+      if (others == kCapacity) break;
       if (band == '1' && attribute == 'C') continue;
       REQUIRE(store.add({kG05, {band, attribute}, BiasKind::kCode, kTime, 1.0}));
       ++others;
@@ -64,6 +65,71 @@ TEST_CASE("Biases that no satellite can have are refused, those of carriers are 
   other.kind = BiasKind::kPhase;
   CHECK(store.add(other));
   CHECK_FALSE(store.code_delay(kG05, kTime, {'1', 'C'}));
+  other = bias("1C", 1.0);
+  other.valid_from = other.valid_until = kTime;
+  CHECK_FALSE(store.add(other));
+}
+
+TEST_CASE("A bias outside its validity is not used, and that of the next interval can come ahead") {
+  const GpsTime midnight = kTime.plus_seconds(3600.0);
+  SignalBias today = bias("1C", 1.0), tomorrow = bias("1C", 2.0);
+  today.valid_from = midnight.plus_seconds(-86'400.0);
+  today.valid_until = tomorrow.valid_from = midnight;
+  tomorrow.valid_until = midnight.plus_seconds(86'400.0);
+  SignalBiasStore store;
+  REQUIRE(store.add(today));
+  REQUIRE(store.add(tomorrow));
+  const auto at = [&](double seconds) {
+    const auto delay = store.code_delay(kG05, midnight.plus_seconds(seconds), {'1', 'C'});
+    return delay ? delay->delay_m : 0.0;
+  };
+  CHECK(at(-86'400.001) == 0.0);
+  CHECK(at(-86'400.0) == 1.0);
+  CHECK(at(-0.001) == 1.0);
+  CHECK(at(0.0) == 2.0);
+  // Longer than a day after it was received: the validity that is stated counts.
+  CHECK(at(86'399.0) == 2.0);
+  CHECK(at(86'400.0) == 0.0);
+  // The same interval anew replaces; a pair needs both of its signals to hold.
+  tomorrow.bias_m = 3.0;
+  REQUIRE(store.add(tomorrow));
+  CHECK(at(0.0) == 3.0);
+  SignalBias second = bias("2W", 1.0);
+  second.valid_until = midnight;
+  REQUIRE(store.add(second));
+  CHECK(store.code_delay(kG05, midnight.plus_seconds(-1.0), {'1', 'C'}, {'2', 'W'}));
+  CHECK_FALSE(store.code_delay(kG05, midnight, {'1', 'C'}, {'2', 'W'}));
+}
+
+TEST_CASE("A full table drops a bias that has ended before one that holds") {
+  SignalBiasStore store;
+  REQUIRE(store.add(bias("1C", 1.0)));  // arrived first and holds
+  SignalBias ended = bias("2W", 1.0);
+  ended.valid_from = kTime.plus_seconds(-100.0);
+  ended.valid_until = kTime;
+  REQUIRE(store.add(ended));
+  constexpr int kOthers = static_cast<int>(SignalBiasStore::kMaxIntervals * kMaxSignalBiases) - 1;
+  for (int i = 0; i < kOthers; ++i) {
+    const char band = i < 26 ? '5' : '2';
+    const SignalCode code{band, static_cast<char>('A' + i % 26)};
+    if (code == SignalCode{'2', 'W'}) continue;
+    REQUIRE(store.add({kG05, code, BiasKind::kCode, kTime, 1.0}));
+  }
+  CHECK(store.code_delay(kG05, kTime, {'1', 'C'}));
+  CHECK_FALSE(store.code_delay(kG05, kTime.plus_seconds(-1.0), {'2', 'W'}));
+}
+
+TEST_CASE("Biases against the broadcast clock and those against a product's stay apart") {
+  SignalBiasStore store;
+  REQUIRE(store.add(bias("1C", 1.0)));
+  SignalBias broadcast = bias("1C", -4.0);
+  broadcast.kind = BiasKind::kBroadcastCode;
+  CHECK_FALSE(store.broadcast_delay(kG05, kTime, {'1', 'C'}));
+  REQUIRE(store.add(broadcast));
+  CHECK(store.code_delay(kG05, kTime, {'1', 'C'})->delay_m == 1.0);
+  CHECK(store.broadcast_delay(kG05, kTime, {'1', 'C'})->delay_m == -4.0);
+  CHECK(store.broadcast_delay(kG05, kTime, {'1', 'C'})->sigma_m >
+        store.code_delay(kG05, kTime, {'1', 'C'})->sigma_m);
 }
 
 }  // namespace leonav

@@ -1,0 +1,29 @@
+// This unit collects the biases of satellites' signals that come with the precise products of a
+// recording.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/gnss/propagation/signal_bias_store.h"
+#include "tools/import/import_report.h"
+
+namespace leonav {
+
+// A message of biases with its arrival; it holds kMaxBiases at most.
+struct ScheduledBiases {
+  GpsTime arrival;
+  std::vector<SignalBias> biases;
+};
+
+// Reads Bias-SINEX files and schedules their biases for a recording from `start` to `end` (unset:
+// not known): those that hold at `start` arrive then, the others kBiasLead_s before they begin to
+// hold. Those whose validity lies outside are left out. `report` gets what the files leave out.
+// Throws FileError for a file that cannot be read.
+std::vector<ScheduledBiases> load_biases(const std::vector<std::string>& paths, GpsTime start,
+                                         GpsTime end, ImportReport* report);
+
+// Longer than an epoch is late, and short against the validity of a bias: of each signal the store
+// keeps two.
+inline constexpr double kBiasLead_s = 60.0;
+
+}  // namespace leonav
