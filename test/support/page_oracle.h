@@ -105,6 +105,7 @@ struct PageComparison {
   std::size_t same = 0, different = 0, ours_alone = 0, theirs_alone = 0;
   double position_m = 0.0, clock_m = 0.0;  // largest differences of states
   PageValueKey first_theirs, first_ours, first_different;
+  std::vector<PageValueKey> theirs;  // that are theirs alone
 };
 
 // A value that is not available is equal to one that is not available, or not there.
@@ -121,8 +122,9 @@ inline PageComparison compare(char kind, const PageValues& ours, const PageValue
     if (our == ours.end() || is_none(our->second)) {
       if (is_none(their)) {
         ++c.same;
-      } else if (c.theirs_alone++ == 0) {
-        c.first_theirs = key;
+      } else {
+        if (c.theirs_alone++ == 0) c.first_theirs = key;
+        c.theirs.push_back(key);
       }
       continue;
     }
