@@ -31,6 +31,8 @@ InstallationMonitor::InstallationMonitor(const GnssConfig& gnss, const RobustCon
                                          double max_reverse_speed_m_s, Posture posture)
     : record_(posture == Posture::kInHand ? kOnFoot : kInVehicle),
       point_(gnss, robust),
+      range_rates_(gnss.bands),
+      code_order_(gnss.bands),
       lever_arm_(lever_arm_b),
       max_reverse_speed_m_s_(max_reverse_speed_m_s),
       posture_(posture) {}

@@ -12,6 +12,9 @@ void read_imu_stamps(ConfigReader& group, double* time_offset_s);
 // To be called after read_vehicle(), because some defaults depend on the vehicle's kind.
 void read_alignment(ConfigReader& group, const VehicleConfig& vehicle, AlignmentConfig* config);
 void read_gnss(ConfigReader& group, GnssConfig* config);
+// Reads the group `key`, carriers of LEO satellites in MHz by band. Fails where two bands have the
+// same carrier.
+void read_leo_bands(ConfigReader& group, const char* key, BandPlan* bands);
 // Reads the keys of gnss about the motion of the ground, and the file of ocean loading.
 void read_ground(ConfigReader& group, GnssConfig* config);
 void read_ekf(ConfigReader& group, NavigatorConfig* config);

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "daemon/config/config_groups.h"
 
@@ -47,6 +50,19 @@ void read_system(ConfigReader& group, SystemConfig* config) {
   group.number("doppler_sigma_m_s", {1e-4, 1e2}, &config->sigma.doppler_m_s);
 }
 
+// Signals of LEO satellites on a band without a carrier could never be used.
+void check_bands(const ConfigReader& group, const BandPlan& bands,
+                 const SignalPreference& signals) {
+  const auto check = [&](const char* key, char band) {
+    if (bands.frequency_hz(System::kLeo, band) > 0.0) return;
+    group.fail(key, std::string("names band ") + band +
+                        ", which has no carrier: give gnss.leo_bands_mhz." + band +
+                        " in MHz, or name a band that has one");
+  };
+  check("first_band", signals.first_band);
+  for (const char band : signals.second_bands) check("second_bands", band);
+}
+
 void read_catalog(ConfigReader& group, EphemerisConfig* config) {
   constexpr Bounds kAge = {1.0, 7.0 * 86400.0};
   group.boolean("use_precise", &config->use_precise);
@@ -81,8 +97,33 @@ void read_systems(ConfigReader& group, GnssConfig* config) {
 
 }  // namespace
 
+void read_leo_bands(ConfigReader& group, const char* key, BandPlan* bands) {
+  constexpr double kMegahertz = 1e6;
+  group.group(key, [bands](ConfigReader& reader) {
+    std::array<std::string, BandPlan::kBands> names;
+    for (std::size_t i = 0; i < BandPlan::kBands; ++i) {
+      const char band = static_cast<char>(BandPlan::kFirstBand + i);
+      names[i] = std::string(1, band);
+      const double before = bands->frequency_hz(System::kLeo, band);
+      std::optional<double> mhz;
+      if (before > 0.0) mhz = before / kMegahertz;
+      reader.number(names[i].c_str(),
+                    {BandPlan::kLowest_hz / kMegahertz, BandPlan::kHighest_hz / kMegahertz}, &mhz);
+      // A tenth of a hertz is far finer than any interface document.
+      const double hz = mhz ? std::round(*mhz * kMegahertz * 10.0) / 10.0 : 0.0;
+      bands->set_leo(band, hz);
+      for (char other = BandPlan::kFirstBand; hz > 0.0 && other < band; ++other) {
+        if (bands->frequency_hz(System::kLeo, other) != hz) continue;
+        reader.fail(names[i].c_str(), std::string("is also the carrier of band ") + other +
+                                          "; give it to one band and ~ to the other");
+      }
+    }
+  });
+}
+
 void read_gnss(ConfigReader& group, GnssConfig* config) {
   read_systems(group, config);
+  read_leo_bands(group, "leo_bands_mhz", &config->bands);
   group.number("elevation_mask_deg", {-90.0, 90.0}, &config->elevation_mask, kDegree);
   group.number("cn0_mask_dbhz", {0.0, 60.0}, &config->cn0_mask_dbhz);
   group.choice<CodeCombination>("code_combination",
@@ -109,7 +150,10 @@ void read_gnss(ConfigReader& group, GnssConfig* config) {
   for (const System system : kSystems) {
     const std::string name(to_string(system));
     group.group(name.c_str(), [&](ConfigReader& reader) {
-      read_system(reader, &config->systems[index_of(system)]);
+      SystemConfig& chosen = config->systems[index_of(system)];
+      read_system(reader, &chosen);
+      if (system == System::kLeo && chosen.enabled)
+        check_bands(reader, config->bands, chosen.signals);
     });
   }
 }

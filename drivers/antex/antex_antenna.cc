@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/calendar.h"
-#include "core/gnss/signals/signal.h"
+#include "core/gnss/signals/band_plan.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
@@ -145,7 +145,7 @@ AntexAntenna::Problem AntexAntenna::start_frequency(std::string_view text) {
   if (!system) {
     if (kOtherSystems.find(name[0]) == std::string_view::npos) return "frequency of no system";
     ++other_system_bands_;
-  } else if (name[1] != '0' || !(frequency_hz(*system, name[2]) > 0.0)) {
+  } else if (name[1] != '0' || !is_band_of(*system, name[2])) {
     ++unknown_bands_;
   } else if (satellite_ && satellite_->system != *system) {
     return "frequency of another system than the satellite's";

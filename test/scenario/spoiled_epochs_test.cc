@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "core/gnss/signals/band_plan.h"
 #include "scenario/edited_log.h"
 #include "scenario/recorded_runs.h"
 
@@ -60,7 +61,7 @@ auto spoil(const Spoiled& how) {
       last = o.satellite;
       if (!how.is_hit(o.satellite)) continue;
       o.pseudorange_m += off_m;
-      o.carrier_cycles += off_m / wavelength_m(o.satellite.system, o.code.band);
+      o.carrier_cycles += off_m / BandPlan().wavelength_m(o.satellite.system, o.code.band);
     }
     epoch->time = epoch->time.plus_seconds(how.late_s);
     return true;

@@ -7,6 +7,7 @@
 
 #include "core/gnss/orbits/satellite_attitude.h"
 #include "core/gnss/propagation/phase_wind_up.h"
+#include "core/gnss/signals/band_plan.h"
 #include "support/simulated_sky.h"
 
 namespace leonav::test {
@@ -42,7 +43,7 @@ class SimulatedCarriers {
       const Eigen::Matrix3d C_es =
           satellite_axes(state.p_e, state.v_e, sun_e, attitude_law(o.satellite, leo_attitude));
       arc.wind_up = phase_wind_up_cycles(state.p_e, C_es, p_a, C_er, arc.wind_up);
-      const double frequency = frequency_hz(o.satellite.system, o.code.band);
+      const double frequency = BandPlan().frequency_hz(o.satellite.system, o.code.band);
       const double wavelength = kSpeedOfLight / frequency;
       double ionosphere = 0.0;
       if (receiver.atmosphere) {

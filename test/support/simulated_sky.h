@@ -16,6 +16,7 @@
 #include "core/gnss/propagation/ionosphere.h"
 #include "core/gnss/propagation/shapiro.h"
 #include "core/gnss/propagation/troposphere.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/observation.h"
 
 namespace leonav::test {
@@ -154,7 +155,7 @@ inline RawEpoch simulate_epoch(
   for (const Ephemeris& e : sky.ephemerides) {
     if (simulated_elevation(receiver, e, t) < receiver.elevation_mask) continue;
     for (const auto& [code, cn0] : receiver.signals) {
-      const double frequency = frequency_hz(e.satellite.system, code.band);
+      const double frequency = BandPlan().frequency_hz(e.satellite.system, code.band);
       if (frequency == 0.0) continue;
       const auto range = [&](double at) {
         return simulated_pseudorange(sky, receiver, e, at, frequency);

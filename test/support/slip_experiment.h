@@ -14,6 +14,7 @@
 #include "core/gnss/cycle_slips/range_change.h"
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/gnss/measurement/weighting.h"
+#include "core/gnss/signals/band_plan.h"
 #include "support/slip_counts.h"
 #include "support/slip_prediction.h"
 
@@ -141,8 +142,8 @@ class SlipRun {
     const System system = input.first->satellite.system;
     *factors = {1.0, 0.0};
     if (!std::isfinite(status.second_m)) return status.first_m;
-    *factors = ionosphere_free(frequency_hz(system, input.first->code.band),
-                               frequency_hz(system, input.second->code.band));
+    *factors = ionosphere_free(BandPlan().frequency_hz(system, input.first->code.band),
+                               BandPlan().frequency_hz(system, input.second->code.band));
     return factors->gamma1 * status.first_m + factors->gamma2 * status.second_m;
   }
 
@@ -172,7 +173,7 @@ class SlipRun {
     const double sigma_m = row_sigma_m(input.elevation, false, {1.0, 0.0}, interval_s);
     const SignalObservation& first = *input.first;
     return config_.range_change_limit * sigma_m <=
-           wavelength_m(first.satellite.system, first.code.band);
+           BandPlan().wavelength_m(first.satellite.system, first.code.band);
   }
 
   void check_geometry(std::size_t k, const RawEpoch& raw, const std::vector<CarrierInput>& inputs,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/gnss/signals/band_plan.h"
 #include "support/simulated_sky.h"
 #include "support/slip_table.h"
 
@@ -148,8 +149,8 @@ class SlipScene1Hz {
         [&](const Ephemeris& candidate) { return candidate.satellite == o->satellite; });
     const double elevation = simulated_elevation(receiver, ephemeris, t);
     const double weight = elevation_factor(elevation), dt = options_.interval_s;
-    const double wavelength = wavelength_m(o->satellite.system, o->code.band);
-    const double ratio = wavelength / wavelength_m(o->satellite.system, '1');
+    const double wavelength = BandPlan().wavelength_m(o->satellite.system, o->code.band);
+    const double ratio = wavelength / BandPlan().wavelength_m(o->satellite.system, '1');
     if (is_first) scintillation_ = e.scintillation.next(options_.scintillation_m, 3.0, dt, draw());
     const double delay =
         ratio * ratio * (ionosphere_m(elevation, t, e.wave_phase) + scintillation_);

@@ -15,6 +15,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/gravity.h"
 #include "core/earth/rotation.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/inertial/strapdown/imu.h"
 #include "core/inertial/strapdown/nav_state.h"
 #include "support/simulated_carrier.h"
@@ -193,7 +194,7 @@ inline std::vector<RawEpoch> synthetic_epochs(const SyntheticDriveOptions& optio
   const auto noise = [&](SignalObservation* o) {
     o->pseudorange_m += options.code_sigma_m * normal(generator);
     o->doppler_hz += options.doppler_sigma_m_s * normal(generator) /
-                     wavelength_m(o->satellite.system, o->code.band);
+                     BandPlan().wavelength_m(o->satellite.system, o->code.band);
   };
   SimulatedCarriers carriers(options.carrier_sigma_m, options.slip_probability, options.seed + 2);
   std::vector<RawEpoch> epochs;

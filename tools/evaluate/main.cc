@@ -62,11 +62,13 @@ int body(int argc, char** argv) {
       .option("--block-s", "S",
               "with --integrity: epochs closer together than this count as one trial", "60")
       .option("--mask", "DEG", "with --quality: elevation from which a satellite is usable", "15")
+      .option("--leo-bands", "BAND=MHZ,...",
+              "with --quality: carriers of LEO satellites beside or in place of 1=1575.42,2=1227.6")
       .option("--prefix", "PREFIX", "with --quality: of the log's channels", "LEONAV_");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.has("--quality")) return leonav::run_quality(arguments);
   const bool integrity = arguments.has("--integrity");
-  for (const char* name : {"--plots", "--mask", "--prefix"}) {
+  for (const char* name : {"--plots", "--mask", "--leo-bands", "--prefix"}) {
     if (integrity && name == std::string("--plots")) continue;
     if (arguments.has(name)) throw leonav::UsageError(std::string(name) + " needs --quality");
   }

@@ -1,9 +1,11 @@
 #include "tools/evaluate/quality_mode.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 #include "tools/evaluate/internal/plot_script.h"
@@ -15,6 +17,26 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kPlotEpochs = 5000;
+
+// Reads carriers by band, "9=2492.028,3=5020.5" in MHz, as gnss.leo_bands_mhz of the configuration.
+BandPlan read_bands(const std::string& text) {
+  BandPlan plan;
+  std::istringstream entries(text);
+  for (std::string entry; std::getline(entries, entry, ',');) {
+    std::istringstream parts(entry);
+    char band = 0, equals = 0;
+    double mhz = 0.0;
+    parts >> band >> equals >> mhz;
+    const double hz = std::round(mhz * 1e7) / 10.0;
+    if (!parts || !parts.eof() || equals != '=' || !is_band_of(System::kLeo, band) ||
+        !(hz >= BandPlan::kLowest_hz && hz <= BandPlan::kHighest_hz)) {
+      throw UsageError("--leo-bands: '" + entry +
+                       "' is not BAND=MHZ with a band 1 to 9 and 1000 to 8000 MHz, as 9=2492.028");
+    }
+    plan.set_leo(band, hz);
+  }
+  return plan;
+}
 
 }  // namespace
 
@@ -30,6 +52,7 @@ int run_quality(const Arguments& arguments) {
   const double mask_deg = arguments.number("--mask");
   if (!(mask_deg >= 0.0 && mask_deg < 90.0)) throw UsageError("--mask must be within 0 and 90");
   options.elevation_mask = mask_deg * std::numbers::pi / 180.0;
+  if (arguments.has("--leo-bands")) options.bands = read_bands(arguments.get("--leo-bands"));
   const bool plots = arguments.has("--plots");
   if (plots) options.plot_epochs = kPlotEpochs;
   const fs::path folder = plots ? make_plot_folder(arguments.get("--plots")) : fs::path();

@@ -28,6 +28,7 @@ DopRange range_of(std::vector<float> values) {
 GnssConfig config_of(const QualityOptions& options) {
   GnssConfig config = default_gnss_config();
   config.elevation_mask = options.elevation_mask;
+  config.bands = options.bands;
   return config;
 }
 
@@ -35,7 +36,10 @@ GnssConfig config_of(const QualityOptions& options) {
 class Analysis {
  public:
   Analysis(const Census& census, const QualityOptions& options, Quality* quality)
-      : quality_(*quality), sky_(config_of(options)), streams_(census.plans(), CycleSlipConfig()) {
+      : quality_(*quality),
+        sky_(config_of(options)),
+        streams_(census.plans(), config_of(options)),
+        code_steps_(options.bands) {
     const std::uint64_t most = options.plot_epochs;
     if (most > 0) plot_every_ = (quality_.times.epochs + most - 1) / most;
   }

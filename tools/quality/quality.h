@@ -19,6 +19,7 @@ namespace leonav {
 struct QualityOptions {
   std::string prefix{kDefaultChannelPrefix};
   double elevation_mask = default_gnss_config().elevation_mask;  // rad; of usable satellites
+  BandPlan bands;  // carriers; of LEO satellites as configured
   // Rows for plots are kept of every k-th epoch, so that there are at most this many; 0: no rows.
   std::uint64_t plot_epochs = 0;
 };

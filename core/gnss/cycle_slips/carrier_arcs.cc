@@ -19,7 +19,8 @@ constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
 }  // namespace
 
 struct CarrierArcs::Storage {
-  explicit Storage(const CycleSlipConfig& config_in) : config(config_in) {}
+  Storage(const CycleSlipConfig& config_in, const BandPlan& bands_in)
+      : config(config_in), bands(bands_in) {}
 
   struct Current {
     ArcDetectors* detectors = nullptr;  // nullptr: no carrier
@@ -40,6 +41,7 @@ struct CarrierArcs::Storage {
   void apply_detectors(const ClockJump& jump, Current* current, CarrierStatus* status);
 
   CycleSlipConfig config;
+  BandPlan bands;
   std::array<ArcDetectors, kMaxEphemerisSatellites> detectors_of;
   boost::container::static_vector<Current, kMaxSatellites> current;
   std::bitset<kMaxEphemerisSatellites> seen;  // in this epoch
@@ -62,14 +64,14 @@ void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
   const std::size_t count = std::min(inputs.size(), current.capacity());
   for (const CarrierInput& input : inputs.first(count)) {
     current.emplace_back();
-    if (!has_carrier(input)) continue;
+    if (!has_carrier(input, bands)) continue;
     const std::size_t index = table_index_of(input.first->satellite);
     if (index >= detectors_of.size() || seen.test(index)) continue;
     seen.set(index);
     Current& entry = current.back();
     entry.detectors = &detectors_of[index];
     entry.detectors->system = input.first->satellite.system;
-    entry.sample = carrier_sample(input, now, shift_ms * kMillisecond_m);
+    entry.sample = carrier_sample(input, bands, now, shift_ms * kMillisecond_m);
     const CarrierSample& sample = entry.sample;
     // On one frequency no test works across an absence; a pair has its geometry-free combination.
     const bool blind = sample.signal_count == 1 && entry.detectors->last().time != previous;
@@ -173,8 +175,8 @@ void CarrierArcs::Storage::apply_detectors(const ClockJump& jump, Current* entry
   fill(*entry, status);
 }
 
-CarrierArcs::CarrierArcs(const CycleSlipConfig& config)
-    : storage_(std::make_unique<Storage>(config)) {}
+CarrierArcs::CarrierArcs(const CycleSlipConfig& config, const BandPlan& bands)
+    : storage_(std::make_unique<Storage>(config, bands)) {}
 CarrierArcs::~CarrierArcs() = default;
 CarrierArcs::CarrierArcs(CarrierArcs&&) noexcept = default;
 CarrierArcs& CarrierArcs::operator=(CarrierArcs&&) noexcept = default;
@@ -184,7 +186,8 @@ void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, Ar
   if (!s.range_change_applied) apply_range_change({}, epoch);
   *epoch = {};
   // An epoch without any carrier does not count as an epoch of the arcs.
-  if (std::none_of(inputs.begin(), inputs.end(), has_carrier)) {
+  if (std::none_of(inputs.begin(), inputs.end(),
+                   [&s](const CarrierInput& input) { return has_carrier(input, s.bands); })) {
     s.current.clear();
     s.seen.reset();
     epoch->satellites.resize(std::min(inputs.size(), epoch->satellites.capacity()));

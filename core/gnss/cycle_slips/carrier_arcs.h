@@ -43,7 +43,8 @@ struct ArcEpoch {
 // CarrierArcs runs the detectors of every satellite and numbers the arcs.
 class CarrierArcs {
  public:
-  explicit CarrierArcs(const CycleSlipConfig& config);  // allocates once
+  // Allocates once. `bands`: the carriers of the LEO satellites.
+  explicit CarrierArcs(const CycleSlipConfig& config, const BandPlan& bands = {});
   ~CarrierArcs();
   CarrierArcs(CarrierArcs&&) noexcept;
   CarrierArcs& operator=(CarrierArcs&&) noexcept;

@@ -8,6 +8,7 @@
 #include "core/gnss/measurement/cycle_slip_config.h"
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/orbits/satellite_attitude.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/signal.h"
 
 namespace leonav {
@@ -65,6 +66,7 @@ enum class WeightModel : unsigned char {
 // Settings of the whole chapter core/gnss.
 struct GnssConfig {
   std::array<SystemConfig, kSystemCount> systems;
+  BandPlan bands;                              // carriers; of LEO satellites as configured
   double elevation_mask = 0.2617993877991494;  // rad (15 degrees)
   double cn0_mask_dbhz = 0.0;
   CodeCombination code_combination = CodeCombination::kAutomatic;

@@ -17,8 +17,8 @@ constexpr double kHistoryTimeout_s = 600.0;
 
 }  // namespace
 
-CarrierPreprocessor::CarrierPreprocessor(const CycleSlipConfig& config)
-    : config_(config), arcs_(config) {}
+CarrierPreprocessor::CarrierPreprocessor(const CycleSlipConfig& config, const BandPlan& bands)
+    : config_(config), bands_(bands), arcs_(config, bands) {}
 
 void CarrierPreprocessor::begin(GpsTime time) {
   time_ = time;
@@ -93,8 +93,9 @@ RangeChangeRow CarrierPreprocessor::row_of(const SatelliteInView& satellite,
   if (before.issue != satellite.orbit_issue) row.residual_m -= satellite.orbit_step_m;
   row.residual_m += antenna_step_m(satellite, before);
   row.residual_m -= ionosphere_step_m(satellite, before);
-  row.sigma_m = std::sqrt(square(carrier.sigma) + before.variance_m2 +
-                          square(change_sigma_m(config_, satellite, carrier, dt)));
+  row.sigma_m =
+      std::sqrt(square(carrier.sigma) + before.variance_m2 +
+                square(change_sigma_m(config_, bands_, satellite, carrier, predicted_p_e, dt)));
   row.system_time = static_cast<int>(index_of(satellite.satellite.system));
   return row;
 }

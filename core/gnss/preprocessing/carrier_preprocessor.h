@@ -24,7 +24,8 @@ struct AntennaChange {
 //   check_range_changes with the predicted motion; store_epoch with the estimated position.
 class CarrierPreprocessor {
  public:
-  explicit CarrierPreprocessor(const CycleSlipConfig& config);
+  // `bands`: the carriers of the LEO satellites.
+  explicit CarrierPreprocessor(const CycleSlipConfig& config, const BandPlan& bands = {});
 
   void begin(GpsTime time);
   // Returns the pair of signals of the satellite's arc, or nullptr if there is none or it has been
@@ -94,6 +95,7 @@ class CarrierPreprocessor {
   void set_disturbances(MeasurementEpoch* epoch) const;
 
   CycleSlipConfig config_;
+  BandPlan bands_;
   CarrierArcs arcs_;
   ArcEpoch arc_epoch_;
   boost::container::static_vector<CarrierInput, kMaxSatellites> inputs_;

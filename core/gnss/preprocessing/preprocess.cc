@@ -47,8 +47,9 @@ double strongest_cn0(std::span<const SignalObservation> observations) {
 }
 
 // Receivers write exactly zero where they measured no Doppler.
-bool has_doppler(const SignalObservation& signal) {
-  const double wavelength = wavelength_m(signal.satellite.system, signal.code.band);
+bool has_doppler(const DelayContext& context, const SignalObservation& signal) {
+  const double wavelength =
+      context.config->bands.wavelength_m(signal.satellite.system, signal.code.band);
   return signal.doppler_hz != 0.0 &&
          std::abs(signal.doppler_hz) * wavelength < kMaxRangeRate;  // NaN: not measured
 }
@@ -66,7 +67,8 @@ Candidate examine(const DelayContext& context, const EphemerisStore& ephemeris_s
     view->reason = Reason::kSystemDisabled;
     return candidate;
   }
-  candidate.signals = select_signals(observations, system.signals, config.cn0_mask_dbhz);
+  candidate.signals =
+      select_signals(observations, system.signals, config.cn0_mask_dbhz, config.bands);
   if (candidate.signals.first == nullptr) {
     view->reason = reason_without_signal(candidate.signals);
     return candidate;
@@ -170,14 +172,14 @@ void append_doppler(const DelayContext& context, const Candidate& candidate,
   const SatelliteInView& view = epoch->satellites[candidate.satellite_index];
   const SelectedSignals& signals = candidate.signals;
   const bool pair = view.satellite.system == System::kLeo && signals.second != nullptr &&
-                    has_doppler(*signals.first) && has_doppler(*signals.second);
+                    has_doppler(context, *signals.first) && has_doppler(context, *signals.second);
   if (pair) {
     append(candidate, doppler_measurement(context, *signals.first, signals.second, view), epoch);
     return;
   }
   const SignalObservation* strongest = nullptr;
   for (const SignalObservation* signal : signals.bands) {
-    if (!has_doppler(*signal)) continue;
+    if (!has_doppler(context, *signal)) continue;
     const bool stronger = strongest == nullptr || signal->cn0_dbhz > strongest->cn0_dbhz ||
                           (std::isnan(strongest->cn0_dbhz) && !std::isnan(signal->cn0_dbhz));
     if (stronger) strongest = signal;

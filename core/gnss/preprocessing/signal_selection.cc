@@ -25,10 +25,10 @@ int band_rank(const SignalPreference& preference, char band) {
 }
 
 // Strict order of the signals of one satellite: better first.
-bool is_better(const SignalPreference& preference, const SignalObservation& a,
-               const SignalObservation& b) {
+bool is_better(const SignalPreference& preference, const BandPlan& bands,
+               const SignalObservation& a, const SignalObservation& b) {
   if (a.code.band != b.code.band) {
-    return band_comes_first(a.satellite.system, preference, a.code.band, b.code.band);
+    return band_comes_first(a.satellite.system, preference, a.code.band, b.code.band, bands);
   }
   const int attribute_a = preference_rank(preference.attributes, a.code.attribute);
   const int attribute_b = preference_rank(preference.attributes, b.code.attribute);
@@ -36,17 +36,17 @@ bool is_better(const SignalPreference& preference, const SignalObservation& a,
   return a.code.attribute < b.code.attribute;
 }
 
-bool is_useful_pair(const SignalObservation& a, const SignalObservation& b) {
-  const double fa = frequency_hz(a.satellite.system, a.code.band);
-  const double fb = frequency_hz(b.satellite.system, b.code.band);
+bool is_useful_pair(const BandPlan& bands, const SignalObservation& a, const SignalObservation& b) {
+  const double fa = bands.frequency_hz(a.satellite.system, a.code.band);
+  const double fb = bands.frequency_hz(b.satellite.system, b.code.band);
   return fa != fb && combined_sigma(ionosphere_free(fa, fb), 1.0, 1.0) <= kMaxCombinationNoise;
 }
 
 // Chooses the pair that has the best first signal, and then the best second signal.
-void choose_pair(SelectedSignals* selected) {
+void choose_pair(const BandPlan& bands, SelectedSignals* selected) {
   for (const SignalObservation* a : selected->bands) {
     for (const SignalObservation* b : selected->bands) {
-      if (a == b || !is_useful_pair(*a, *b)) continue;
+      if (a == b || !is_useful_pair(bands, *a, *b)) continue;
       selected->first = a;
       selected->second = b;
       return;
@@ -56,11 +56,12 @@ void choose_pair(SelectedSignals* selected) {
 
 }  // namespace
 
-bool band_comes_first(System system, const SignalPreference& preference, char a, char b) {
+bool band_comes_first(System system, const SignalPreference& preference, char a, char b,
+                      const BandPlan& bands) {
   const int rank_a = band_rank(preference, a);
   const int rank_b = band_rank(preference, b);
   if (rank_a != rank_b) return rank_a < rank_b;
-  return frequency_hz(system, a) > frequency_hz(system, b);
+  return bands.frequency_hz(system, a) > bands.frequency_hz(system, b);
 }
 
 bool is_plausible_pseudorange(System system, double pseudorange_m) {
@@ -69,10 +70,11 @@ bool is_plausible_pseudorange(System system, double pseudorange_m) {
 }
 
 SelectedSignals select_signals(std::span<const SignalObservation> observations,
-                               const SignalPreference& preference, double cn0_mask_dbhz) {
+                               const SignalPreference& preference, double cn0_mask_dbhz,
+                               const BandPlan& plan) {
   SelectedSignals selected;
   for (const SignalObservation& signal : observations) {
-    if (!(frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) continue;
+    if (!(plan.frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) continue;
     if (!std::isfinite(signal.pseudorange_m) || signal.pseudorange_m == 0.0) continue;
     selected.any_pseudorange = true;
     if (!is_plausible_pseudorange(signal.satellite.system, signal.pseudorange_m)) continue;
@@ -84,18 +86,18 @@ SelectedSignals select_signals(std::span<const SignalObservation> observations,
         bands.begin(), bands.end(),
         [&](const SignalObservation* other) { return other->code.band == signal.code.band; });
     if (same_band != bands.end()) {
-      if (is_better(preference, signal, **same_band)) *same_band = &signal;
+      if (is_better(preference, plan, signal, **same_band)) *same_band = &signal;
     } else if (bands.size() < bands.capacity()) {
       bands.push_back(&signal);
     }
   }
   std::sort(selected.bands.begin(), selected.bands.end(),
             [&](const SignalObservation* a, const SignalObservation* b) {
-              return is_better(preference, *a, *b);
+              return is_better(preference, plan, *a, *b);
             });
   if (selected.bands.empty()) return selected;
   selected.first = selected.bands.front();
-  choose_pair(&selected);
+  choose_pair(plan, &selected);
   return selected;
 }
 

@@ -24,7 +24,8 @@ struct SelectedSignals {
 };
 
 // Returns whether band `a` of a system is preferred to band `b`, in the order of select_signals().
-bool band_comes_first(System system, const SignalPreference& preference, char a, char b);
+bool band_comes_first(System system, const SignalPreference& preference, char a, char b,
+                      const BandPlan& bands = {});
 
 // Returns whether a pseudorange is within physical bounds, which include a receiver clock error of
 // some 30 ms. A geostationary satellite is never farther than 43,000 km. A LEO satellite is so near
@@ -36,8 +37,9 @@ bool is_plausible_pseudorange(System system, double pseudorange_m);
 // preference: first band, second bands, then the others by falling frequency, because a receiver
 // may track none of the preferred ones. Attributes within a band are in the order of the
 // preference, then alphabetical. Signals without a plausible pseudorange or below the C/N0 mask are
-// skipped.
+// skipped, and those on bands that `plan` does not have.
 SelectedSignals select_signals(std::span<const SignalObservation> observations,
-                               const SignalPreference& preference, double cn0_mask_dbhz);
+                               const SignalPreference& preference, double cn0_mask_dbhz,
+                               const BandPlan& plan = {});
 
 }  // namespace leonav

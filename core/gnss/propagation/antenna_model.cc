@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/gnss/signals/signal.h"
+#include "core/gnss/signals/band_plan.h"
 
 namespace leonav {
 namespace {
@@ -54,7 +54,7 @@ bool is_sane(const AntennaPattern& pattern) {
   const SatelliteId id = pattern.satellite;
   if (index_of(id.system) >= kSystemCount) return false;
   if (pattern.is_receiver ? id.number != 0 : !is_valid(id)) return false;
-  if (!(frequency_hz(id.system, pattern.band) > 0.0)) return false;
+  if (!is_band_of(id.system, pattern.band)) return false;
   if (pattern.valid_from.is_set() && pattern.valid_until.is_set() &&
       pattern.valid_until < pattern.valid_from) {
     return false;

@@ -5,8 +5,6 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 
-#include "core/gnss/signals/signal.h"
-
 namespace leonav {
 namespace {
 
@@ -81,17 +79,18 @@ SatelliteBand* slot_for(const AntennaPattern& pattern, SatelliteBands* bands) {
   return &bands->emplace_back();
 }
 
-double distance_hz(System a, char band_a, System b, char band_b) {
-  return std::abs(frequency_hz(a, band_a) - frequency_hz(b, band_b));
-}
-
 }  // namespace
 
 struct AntennaPatternStore::Storage {
+  BandPlan bands;
   std::array<SatelliteBands, kMaxEphemerisSatellites> satellites;
   boost::container::static_vector<ReceiverBand, kMaxReceiverAntennaBands> receiver;
   std::uint64_t arrivals = 0;
   Counters counters;
+
+  double distance_hz(System a, char band_a, System b, char band_b) const {
+    return std::abs(bands.frequency_hz(a, band_a) - bands.frequency_hz(b, band_b));
+  }
 
   bool add_satellite(const AntennaPattern& pattern) {
     SatelliteBand* slot = slot_for(pattern, &satellites[table_index_of(pattern.satellite)]);
@@ -134,7 +133,10 @@ struct AntennaPatternStore::Storage {
   }
 };
 
-AntennaPatternStore::AntennaPatternStore() : storage_(std::make_unique<Storage>()) {}
+AntennaPatternStore::AntennaPatternStore(const BandPlan& bands)
+    : storage_(std::make_unique<Storage>()) {
+  storage_->bands = bands;
+}
 AntennaPatternStore::~AntennaPatternStore() = default;
 AntennaPatternStore::AntennaPatternStore(AntennaPatternStore&&) noexcept = default;
 AntennaPatternStore& AntennaPatternStore::operator=(AntennaPatternStore&&) noexcept = default;
@@ -151,7 +153,8 @@ AntennaRange AntennaPatternStore::satellite_range(SatelliteId satellite, char ba
                                                   const Eigen::Vector3d& p_sat_e,
                                                   const Eigen::Matrix3d& C_es,
                                                   const Eigen::Vector3d& p_a_e) const {
-  if (!is_valid(satellite) || !(frequency_hz(satellite.system, band) > 0.0)) return {};
+  if (!is_valid(satellite) || !(storage_->bands.frequency_hz(satellite.system, band) > 0.0))
+    return {};
   const SatelliteBand* entry = storage_->find(satellite, band, time);
   if (entry == nullptr) return {};
   return {satellite_antenna_range_m(entry->offset_m, entry->grid(), p_sat_e, C_es, p_a_e),
@@ -160,12 +163,12 @@ AntennaRange AntennaPatternStore::satellite_range(SatelliteId satellite, char ba
 
 AntennaRange AntennaPatternStore::receiver_range(System system, char band,
                                                  const Eigen::Vector3d& u_r) const {
-  if (!(frequency_hz(system, band) > 0.0)) return {};
+  if (!(storage_->bands.frequency_hz(system, band) > 0.0)) return {};
   const ReceiverBand* best = nullptr;
   double best_hz = kMaxNeighbour_hz;
   for (const ReceiverBand& entry : storage_->receiver) {
     const AntennaPattern& pattern = entry.pattern;
-    const double hz = distance_hz(system, band, pattern.satellite.system, pattern.band);
+    const double hz = storage_->distance_hz(system, band, pattern.satellite.system, pattern.band);
     const bool own = hz == best_hz && pattern.satellite.system == system;
     if (hz < best_hz || own || (best == nullptr && hz <= best_hz)) {
       best = &entry;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/gnss/propagation/antenna_model.h"
+#include "core/gnss/signals/band_plan.h"
 
 namespace leonav {
 
@@ -31,7 +32,8 @@ class AntennaPatternStore {
  public:
   static constexpr double kMaxNeighbour_hz = 120e6;  // within upper, within lower L band
 
-  AntennaPatternStore();
+  // `bands`: the carriers of the LEO satellites.
+  explicit AntennaPatternStore(const BandPlan& bands = {});
   ~AntennaPatternStore();
   AntennaPatternStore(AntennaPatternStore&&) noexcept;
   AntennaPatternStore& operator=(AntennaPatternStore&&) noexcept;

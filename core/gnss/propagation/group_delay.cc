@@ -137,6 +137,7 @@ GroupDelay evaluate(const LinearDelay& form, const std::array<double, 2>& broadc
 }  // namespace
 
 GroupDelay group_delay(const Ephemeris& ephemeris, SignalCode first, SignalCode second) {
+  if (ephemeris.satellite.system == System::kLeo) return {};
   LinearDelay form;
   if (!observable_delay(ephemeris.satellite.system, ephemeris.message, first, second, &form)) {
     return {0.0, kUnknownGroupDelaySigma};

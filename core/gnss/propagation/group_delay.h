@@ -15,7 +15,8 @@ struct GroupDelay {
 
 // Computes the delay relative to a broadcast clock, of the signal `first` alone or, with `second`,
 // of the ionosphere-free combination (f1^2 P1 - f2^2 P2) / (f1^2 - f2^2). A band that the system
-// does not have, or twice the same band, gives zero with kUnknownGroupDelaySigma.
+// does not have, or twice the same band, gives zero with kUnknownGroupDelaySigma. The clock of a
+// LEO satellite is that of each of its signals, so that none has a delay.
 GroupDelay group_delay(const Ephemeris& ephemeris, SignalCode first, SignalCode second = {});
 
 // Computes the delay relative to a precise clock, which refers to the ionosphere-free pair of its

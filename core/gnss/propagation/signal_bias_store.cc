@@ -34,18 +34,21 @@ const Stored* find(const SatelliteBiases& biases, SignalCode code, GpsTime time)
 }  // namespace
 
 struct SignalBiasStore::Storage {
+  BandPlan bands;
   std::uint64_t arrivals = 0;
   std::array<SatelliteBiases, kMaxEphemerisSatellites> of;
 };
 
-SignalBiasStore::SignalBiasStore() : storage_(std::make_unique<Storage>()) {}
+SignalBiasStore::SignalBiasStore(const BandPlan& bands) : storage_(std::make_unique<Storage>()) {
+  storage_->bands = bands;
+}
 SignalBiasStore::~SignalBiasStore() = default;
 SignalBiasStore::SignalBiasStore(SignalBiasStore&&) noexcept = default;
 SignalBiasStore& SignalBiasStore::operator=(SignalBiasStore&&) noexcept = default;
 
 bool is_sane(const SignalBias& bias) {
   return is_valid(bias.satellite) && bias.time.nanoseconds() > 0 &&
-         frequency_hz(bias.satellite.system, bias.code.band) > 0.0 && bias.code.attribute >= 'A' &&
+         is_band_of(bias.satellite.system, bias.code.band) && bias.code.attribute >= 'A' &&
          bias.code.attribute <= 'Z' && std::abs(bias.bias_m) <= kLargestBias_m;
 }
 
@@ -75,9 +78,9 @@ std::optional<GroupDelay> SignalBiasStore::code_delay(SatelliteId satellite, Gps
   if (a == nullptr) return std::nullopt;
   if (!second.is_set()) return GroupDelay{a->bias_m, kBiasSigma};
   const Stored* b = find(biases, second, time);
-  const double f1 = frequency_hz(satellite.system, first.band);
-  const double f2 = frequency_hz(satellite.system, second.band);
-  if (b == nullptr || f1 == f2) return std::nullopt;
+  const double f1 = storage_->bands.frequency_hz(satellite.system, first.band);
+  const double f2 = storage_->bands.frequency_hz(satellite.system, second.band);
+  if (b == nullptr || !(f1 > 0.0) || !(f2 > 0.0) || f1 == f2) return std::nullopt;
   const double gamma1 = f1 * f1 / (f1 * f1 - f2 * f2), gamma2 = 1.0 - gamma1;
   return GroupDelay{gamma1 * a->bias_m + gamma2 * b->bias_m,
                     kBiasSigma * std::hypot(gamma1, gamma2)};

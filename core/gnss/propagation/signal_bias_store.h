@@ -7,6 +7,7 @@
 
 #include "core/base/gps_time.h"
 #include "core/gnss/propagation/group_delay.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/satellite.h"
 #include "core/gnss/signals/signal.h"
 
@@ -37,7 +38,8 @@ inline constexpr double kLongestBiasAge_s = 86400.0;
 // kept.
 class SignalBiasStore {
  public:
-  SignalBiasStore();
+  // `bands`: the carriers of the LEO satellites.
+  explicit SignalBiasStore(const BandPlan& bands = {});
   ~SignalBiasStore();
   SignalBiasStore(SignalBiasStore&&) noexcept;
   SignalBiasStore& operator=(SignalBiasStore&&) noexcept;

@@ -59,17 +59,6 @@ double beidou_multiple(char band) {
   }
 }
 
-double leo_multiple(char band) {
-  switch (band) {
-    case '1':
-      return 154.0;
-    case '2':
-      return 120.0;
-    default:
-      return 0.0;
-  }
-}
-
 }  // namespace
 
 std::optional<SignalCode> signal_from_string(std::string_view code) {
@@ -92,7 +81,7 @@ double frequency_hz(System system, char band) {
     case System::kBeidou:
       return beidou_multiple(band) * kFundamental;
     case System::kLeo:
-      return leo_multiple(band) * kFundamental;
+      break;
   }
   return 0.0;
 }

@@ -42,12 +42,12 @@ struct Pair {
   }
 };
 
-Pair pair_of(const SignalObservation& first, const SignalObservation& second,
+Pair pair_of(const BandPlan& bands, const SignalObservation& first, const SignalObservation& second,
              const Ephemeris* elements) {
   Pair pair;
   const System system = first.satellite.system;
-  const double f1 = frequency_hz(system, first.code.band);
-  const double f2 = frequency_hz(system, second.code.band);
+  const double f1 = bands.frequency_hz(system, first.code.band);
+  const double f2 = bands.frequency_hz(system, second.code.band);
   const double fl1 = frequency_hz(System::kGps, '1');
   if (!(f1 > 0.0) || !(f2 > 0.0)) return pair;
   pair.share = fl1 * fl1 * (1.0 / (f2 * f2) - 1.0 / (f1 * f1));
@@ -86,7 +86,7 @@ void CodeOrderMonitor::add(const RawEpoch& epoch, const MeasurementEpoch& seen,
     const bool has_group_delay = satellite.system != System::kLeo;
     const Ephemeris* elements =
         has_group_delay ? ephemeris_store.ephemeris_at(satellite, epoch.time) : nullptr;
-    const Pair pair = pair_of(*signals.first, *signals.second, elements);
+    const Pair pair = pair_of(bands_, *signals.first, *signals.second, elements);
     if (!pair.usable()) continue;
     Mean& mean = satellites_[table_index_of(satellite)];
     mean.n += 1.0F;

@@ -6,6 +6,7 @@
 #include "core/base/capacity.h"
 #include "core/gnss/measurement/measurement.h"
 #include "core/gnss/orbits/ephemeris_store.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/observation.h"
 #include "core/installation_checks/convention.h"
 
@@ -20,7 +21,9 @@ namespace leonav {
 // The satellites' group delays fit one order of the codes only, so that both orders are tried.
 class CodeOrderMonitor {
  public:
-  void clear() { *this = CodeOrderMonitor(); }
+  // `bands`: the carriers of the LEO satellites.
+  explicit CodeOrderMonitor(const BandPlan& bands = {}) : bands_(bands) {}
+  void clear() { *this = CodeOrderMonitor(bands_); }
   // Adds an epoch; `seen` holds the elevations of its satellites.
   void add(const RawEpoch& epoch, const MeasurementEpoch& seen,
            const EphemerisStore& ephemeris_store);
@@ -40,6 +43,7 @@ class CodeOrderMonitor {
   };
   Line line(std::size_t exchanged) const;
 
+  BandPlan bands_;
   std::array<Mean, kMaxEphemerisSatellites> satellites_{};
 };
 

@@ -23,13 +23,6 @@ bool is_near(double value, double expected, double share) {
   return std::abs(value - expected) < share * std::abs(expected);
 }
 
-// Returns the ratio of two bands' frequencies, which is the inverse ratio of their wavelengths; NaN
-// if the system does not have both.
-double ratio_of(System system, std::size_t a, std::size_t b) {
-  return frequency_hz(system, static_cast<char>('0' + a)) /
-         frequency_hz(system, static_cast<char>('0' + b));
-}
-
 // Returns whether the factor is the one that results from the other band's name; false if the two
 // differ too little.
 bool matches_other_band(double factor, double ratio) {
@@ -37,6 +30,13 @@ bool matches_other_band(double factor, double ratio) {
 }
 
 }  // namespace
+
+// Returns the ratio of two bands' frequencies, which is the inverse ratio of their wavelengths; NaN
+// if the system does not have both.
+double RangeRateMonitor::ratio_of(System system, std::size_t a, std::size_t b) const {
+  return bands_.frequency_hz(system, static_cast<char>('0' + a)) /
+         bands_.frequency_hz(system, static_cast<char>('0' + b));
+}
 
 void RangeRateMonitor::Sums::add(const Sums& epoch) {
   if (epoch.n < kMinSatellites) return;
@@ -76,7 +76,7 @@ void RangeRateMonitor::compare(const RawEpoch& epoch, double dt) {
     const auto key = std::tie(now.satellite, now.code);
     while (before != last_.end() && std::tie(before->satellite, before->code) < key) ++before;
     if (before == last_.end() || std::tie(before->satellite, before->code) != key) continue;
-    const double wavelength = wavelength_m(now.satellite.system, now.code.band);
+    const double wavelength = bands_.wavelength_m(now.satellite.system, now.code.band);
     const double x = -0.5 * wavelength * (now.doppler_hz + before->doppler_hz);
     const double y = (now.pseudorange_m - before->pseudorange_m) / dt;
     if (!std::isfinite(x + y)) continue;

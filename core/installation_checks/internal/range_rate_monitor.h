@@ -5,6 +5,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include "core/base/capacity.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/observation.h"
 #include "core/installation_checks/convention.h"
 
@@ -17,7 +18,9 @@ namespace leonav {
 // to one percent.
 class RangeRateMonitor {
  public:
-  void clear() { *this = RangeRateMonitor(); }
+  // `bands`: the carriers of the LEO satellites.
+  explicit RangeRateMonitor(const BandPlan& bands = {}) : bands_(bands) {}
+  void clear() { *this = RangeRateMonitor(bands_); }
   // Adds an epoch of raw observations.
   void add(const RawEpoch& epoch);
   // Returns the mistake that explains the factors, or none.
@@ -49,6 +52,9 @@ class RangeRateMonitor {
   double exchanged_factor(System system) const;
   bool is_mislabelled(System system, std::size_t band) const;
 
+  double ratio_of(System system, std::size_t a, std::size_t b) const;
+
+  BandPlan bands_;
   Table sums_{};
   boost::container::static_vector<Last, kMaxObservations> last_;
   GpsTime last_time_;

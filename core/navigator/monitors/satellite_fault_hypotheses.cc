@@ -14,11 +14,12 @@ namespace {
 constexpr double kChance = 3.0;
 
 // Returns the change of a carrier by a slip that its tests may miss, m; 0: the signal is not known.
-double missed_slip_m(System system, const Measurement& carrier) {
-  const double first_hz = frequency_hz(system, carrier.code.band);
+double missed_slip_m(const BandPlan& bands, System system, const Measurement& carrier) {
+  const double first_hz = bands.frequency_hz(system, carrier.code.band);
   if (!(first_hz > 0.0)) return 0.0;
   const bool pair = carrier.second_code != SignalCode();
-  return kSpeedOfLight / (first_hz + (pair ? frequency_hz(system, carrier.second_code.band) : 0.0));
+  return kSpeedOfLight /
+         (first_hz + (pair ? bands.frequency_hz(system, carrier.second_code.band) : 0.0));
 }
 
 // Whether |separation| and kChance of its sigmas are within one sigma of the filter, per axis.
@@ -35,7 +36,7 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
                                            const MeasurementEpoch& epoch,
                                            const FilterMeasurements& measurements,
                                            const PositionEstimate& estimate,
-                                           const IntegrityConfig& config) {
+                                           const IntegrityConfig& config, const BandPlan& bands) {
   FaultHypotheses faults;
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(estimate.p_e));
   const Eigen::Matrix3d covariance_n = C_ne * estimate.covariance_e * C_ne.transpose();
@@ -60,7 +61,7 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
     const Eigen::Vector3d per_metre_n = C_ne * directions.position_e(i);
     FaultHypothesis slip;
     slip.probability = probability(config.missed_slips_per_hour);
-    slip.separation_n = missed_slip_m(satellite.system, measurement) * per_metre_n;
+    slip.separation_n = missed_slip_m(bands, satellite.system, measurement) * per_metre_n;
     add(slip);
     const auto followed = monitor.followed_range(satellite, measurement.code);
     if (!followed) continue;

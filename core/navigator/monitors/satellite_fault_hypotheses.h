@@ -5,6 +5,7 @@
 
 #include "core/filter/update/filter_measurement.h"
 #include "core/gnss/measurement/measurement.h"
+#include "core/gnss/signals/band_plan.h"
 #include "core/integrity/fault_hypothesis.h"
 #include "core/integrity/integrity_config.h"
 #include "core/navigator/monitors/satellite_fault_monitor.h"
@@ -29,6 +30,7 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
                                            const MeasurementEpoch& epoch,
                                            const FilterMeasurements& measurements,
                                            const PositionEstimate& estimate,
-                                           const IntegrityConfig& config);
+                                           const IntegrityConfig& config,
+                                           const BandPlan& bands = {});
 
 }  // namespace leonav

@@ -16,7 +16,9 @@ ConventionFinding found(double zenith_m, int epochs, double noise_m = 0.3) {
   CodeOrderMonitor check;
   RawEpoch raw;
   MeasurementEpoch seen;
-  const double f1 = frequency_hz(System::kLeo, '1'), f2 = frequency_hz(System::kLeo, '2');
+  const BandPlan bands;
+  const double f1 = bands.frequency_hz(System::kLeo, '1'),
+               f2 = bands.frequency_hz(System::kLeo, '2');
   const double gamma = f1 * f1 / (f2 * f2);
   for (int n = 0; n < epochs; ++n) {
     raw.time = GpsTime::from_week_and_tow(2200, 1000.0 + n);

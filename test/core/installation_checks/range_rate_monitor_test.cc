@@ -100,7 +100,9 @@ TEST_CASE("beside a system in order the exchanged one is told, with its own fact
     const RawEpoch right = epoch;
     for (SignalObservation o : right.observations) {
       o.satellite.system = System::kLeo;
-      const double f1 = frequency_hz(System::kLeo, '1'), f2 = frequency_hz(System::kLeo, '2');
+      const BandPlan bands;
+      const double f1 = bands.frequency_hz(System::kLeo, '1'),
+                   f2 = bands.frequency_hz(System::kLeo, '2');
       o.doppler_hz *= o.code.band == '1' ? f2 / f1 : f1 / f2;
       epoch.observations.push_back(o);
     }

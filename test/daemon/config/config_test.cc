@@ -63,6 +63,39 @@ TEST_CASE("how LEO satellites stand is read by name") {
   CHECK(error.find("orbit_normal, yaw_steering") != std::string::npos);
 }
 
+TEST_CASE("carriers of LEO satellites are configured by band") {
+  using leonav::System;
+  const auto gnss = [](const std::string& keys) {
+    return load_config_text("gnss:\n" + keys, "x").navigator.gnss;
+  };
+  CHECK(gnss("  elevation_mask_deg: 9\n").bands == leonav::BandPlan());
+  const leonav::BandPlan bands = gnss(
+                                     "  leo_bands_mhz: {1: ~, 9: 2492.028, 3: 5020.5}\n  leo: "
+                                     "{first_band: 9, second_bands: [3]}\n")
+                                     .bands;
+  CHECK(bands.frequency_hz(System::kLeo, '9') == 2492.028e6);
+  CHECK(bands.frequency_hz(System::kLeo, '3') == 5020.5e6);
+  CHECK(bands.frequency_hz(System::kLeo, '1') == 0.0);
+  CHECK(bands.frequency_hz(System::kLeo, '2') == 1227.6e6);  // not given: as before
+  CHECK(bands.frequency_hz(System::kGps, '1') == 1575.42e6);
+  CHECK(error_of("gnss:\n  leo_bands_mhz:\n    9: 12000\n") ==
+        "car.yaml:3: gnss.leo_bands_mhz.9: 12000 is out of range; must be between 1000 and 8000");
+  CHECK(error_of("gnss:\n  leo_bands_mhz:\n    9: 2.492e9\n").find("between 1000 and 8000") !=
+        std::string::npos);
+  CHECK(error_of("gnss:\n  leo_bands_mhz:\n    C: 5020.5\n")
+            .find("car.yaml:3: gnss.leo_bands_mhz.C: unknown key") == 0);
+  CHECK(error_of("gnss:\n  leo_bands_mhz:\n    9: 1575.42\n") ==
+        "car.yaml:3: gnss.leo_bands_mhz.9: is also the carrier of band 1; give it to one band and "
+        "~ to the other");
+  CHECK(error_of("gnss:\n  leo:\n    first_band: 9\n") ==
+        "car.yaml:3: gnss.leo.first_band: names band 9, which has no carrier: give "
+        "gnss.leo_bands_mhz.9 in MHz, or name a band that has one");
+  CHECK(error_of("gnss:\n  leo:\n    second_bands: [2, 3]\n").find("gnss.leo_bands_mhz.3") !=
+        std::string::npos);
+  // Where LEO is not used, nobody needs its bands.
+  CHECK_NOTHROW(gnss("  systems: [gps]\n  leo_bands_mhz: {1: ~}\n"));
+}
+
 TEST_CASE("lever arm and time offset are estimated where that is asked for") {
   using namespace leonav::ekf_index;
   const auto load = [](const std::string& text) { return load_config_text(text, "x").navigator; };

@@ -81,7 +81,7 @@ TEST_CASE("carriers are paired as the navigator would, by what is there most oft
 }
 
 TEST_CASE("a step that all codes share is taken out, one satellite's is not") {
-  CodeSteps steps;
+  CodeSteps steps{BandPlan()};
   RawEpoch epoch;
   double offset_m = 0.0;
   for (int k = 0; k < 60; ++k) {

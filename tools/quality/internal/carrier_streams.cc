@@ -42,7 +42,8 @@ bool is_flagged_by_receiver(SlipCauses causes) {
 // so that effects common to all satellites (clock jumps, geometry) are detected as well as in the
 // first stream.
 struct CarrierStreams::Stream {
-  explicit Stream(const CycleSlipConfig& config) : arcs(config), range_test(config) {}
+  explicit Stream(const GnssConfig& config)
+      : arcs(config.cycle_slips, config.bands), range_test(config.cycle_slips, config.bands) {}
 
   CarrierArcs arcs;
   RangeTest range_test;
@@ -52,9 +53,8 @@ struct CarrierStreams::Stream {
   std::map<SatelliteId, std::size_t> place;  // index in `inputs`, for own satellites
 };
 
-CarrierStreams::CarrierStreams(std::map<SatelliteId, CarrierPlan> plans,
-                               const CycleSlipConfig& config)
-    : plans_(std::move(plans)) {
+CarrierStreams::CarrierStreams(std::map<SatelliteId, CarrierPlan> plans, const GnssConfig& config)
+    : plans_(std::move(plans)), bands_(config.bands) {
   std::size_t most = 1;
   for (const auto& [satellite, plan] : plans_) most = std::max(most, plan.others.size());
   for (std::size_t i = 0; i < most; ++i) streams_.push_back(std::make_unique<Stream>(config));
@@ -142,9 +142,9 @@ PairedCarriers CarrierStreams::carriers_of(SatelliteId satellite, char band) con
   carriers.arc = std::uint64_t{status->arc} * streams_.size() + place + 1;
   carriers.own_m = band == reference ? status->first_m : status->second_m;
   carriers.other_m = band == reference ? status->second_m : status->first_m;
-  carriers.own_hz = frequency_hz(satellite.system, band);
+  carriers.own_hz = bands_.frequency_hz(satellite.system, band);
   carriers.other_hz =
-      frequency_hz(satellite.system, band == reference ? others[place].band : reference);
+      bands_.frequency_hz(satellite.system, band == reference ? others[place].band : reference);
   return carriers;
 }
 

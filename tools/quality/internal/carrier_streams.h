@@ -46,7 +46,7 @@ struct PairedCarriers {
 // CarrierStreams holds one stream for every partner of a reference carrier.
 class CarrierStreams {
  public:
-  CarrierStreams(std::map<SatelliteId, CarrierPlan> plans, const CycleSlipConfig& config);
+  CarrierStreams(std::map<SatelliteId, CarrierPlan> plans, const GnssConfig& config);
   ~CarrierStreams();
 
   // Processes an epoch and returns the arcs that ended, in the satellites' order.
@@ -67,6 +67,7 @@ class CarrierStreams {
   const CarrierStatus* status_of(SatelliteId satellite, std::size_t place) const;
 
   std::map<SatelliteId, CarrierPlan> plans_;
+  BandPlan bands_;
   std::vector<std::unique_ptr<Stream>> streams_;
   std::vector<ArcBreak> breaks_;
   std::uint64_t clock_jumps_ = 0;

@@ -12,13 +12,14 @@ namespace {
 constexpr double kGapFactor = 1.5;
 constexpr double kNearlyAsOften = 0.9;
 
-bool has_both(const SignalObservation& o) {
+bool has_both(const BandPlan& bands, const SignalObservation& o) {
   return std::isfinite(o.carrier_cycles) && std::isfinite(o.pseudorange_m) &&
-         frequency_hz(o.satellite.system, o.code.band) > 0.0;
+         bands.frequency_hz(o.satellite.system, o.code.band) > 0.0;
 }
 
-bool is_useful(System system, char a, char b) {
-  const IonosphereFree pair = ionosphere_free(frequency_hz(system, a), frequency_hz(system, b));
+bool is_useful(const BandPlan& bands, System system, char a, char b) {
+  const IonosphereFree pair =
+      ionosphere_free(bands.frequency_hz(system, a), bands.frequency_hz(system, b));
   return combined_sigma(pair, 1.0, 1.0) <= kMaxCombinationNoise;
 }
 
@@ -38,7 +39,7 @@ void Census::add(const RawEpoch& epoch) {
   times_.last = epoch.time;
   ++times_.epochs;
   for (const SignalObservation& o : epoch.observations) {
-    if (!has_both(o)) continue;
+    if (!has_both(config_.bands, o)) continue;
     auto& signals = satellites_[o.satellite];
     auto found = std::find_if(signals.begin(), signals.end(),
                               [&](const SignalCount& s) { return s.code == o.code; });
@@ -95,7 +96,7 @@ CarrierPlan Census::plan_of(System system, const std::vector<SignalCount>& signa
       *same = signal;
   }
   const auto comes_first = [&](const SignalCount& a, const SignalCount& b) {
-    return band_comes_first(system, preference, a.code.band, b.code.band);
+    return band_comes_first(system, preference, a.code.band, b.code.band, config_.bands);
   };
   std::sort(bands.begin(), bands.end(), comes_first);
   const auto take_best = [&](auto&& counts) {
@@ -115,7 +116,7 @@ CarrierPlan Census::plan_of(System system, const std::vector<SignalCount>& signa
   CarrierPlan plan;
   plan.reference = take_best(any);
   const auto useful = [&](const SignalCount& band) {
-    return is_useful(system, plan.reference.band, band.code.band);
+    return is_useful(config_.bands, system, plan.reference.band, band.code.band);
   };
   if (std::any_of(bands.begin(), bands.end(), useful)) plan.others.push_back(take_best(useful));
   while (!bands.empty()) plan.others.push_back(take_best(any));

@@ -19,7 +19,7 @@ void CodeSteps::repair(RawEpoch* epoch) {
   std::vector<StepSample> changes;  // one per satellite, because its signals are not independent
   SatelliteId last;
   for (const SignalObservation& o : epoch->observations) {
-    const double wavelength = wavelength_m(o.satellite.system, o.code.band);
+    const double wavelength = bands_.wavelength_m(o.satellite.system, o.code.band);
     const double now_m = o.pseudorange_m - o.carrier_cycles * wavelength;
     if (!(wavelength > 0.0) || !std::isfinite(now_m)) continue;
     Before& before = before_[{o.satellite, o.code}];

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/observation.h"
 
 namespace leonav {
@@ -15,6 +16,8 @@ namespace leonav {
 // CodeSteps sums up the steps since the start.
 class CodeSteps {
  public:
+  explicit CodeSteps(const BandPlan& bands) : bands_(bands) {}
+
   // Removes the steps so far, including this epoch's, from its codes.
   //
   // A step is the result of find_common_step() (as in the filter) for the signals' changes of code
@@ -29,6 +32,7 @@ class CodeSteps {
     double code_minus_carrier_m = 0.0;
   };
 
+  BandPlan bands_;
   std::map<std::pair<SatelliteId, SignalCode>, Before> before_;
   std::uint64_t epoch_ = 0, count_ = 0;
   double offset_m_ = 0.0;  // of the codes since the start

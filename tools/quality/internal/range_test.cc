@@ -21,11 +21,11 @@ struct Combined {
   bool single = false;
 };
 
-Combined combine(const CarrierInput& input, const CarrierStatus& status) {
+Combined combine(const BandPlan& bands, const CarrierInput& input, const CarrierStatus& status) {
   if (!std::isfinite(status.second_m)) return {status.first_m, 1.0, true};
   const System system = input.first->satellite.system;
-  const IonosphereFree pair = ionosphere_free(frequency_hz(system, input.first->code.band),
-                                              frequency_hz(system, input.second->code.band));
+  const IonosphereFree pair = ionosphere_free(bands.frequency_hz(system, input.first->code.band),
+                                              bands.frequency_hz(system, input.second->code.band));
   return {pair.gamma1 * status.first_m + pair.gamma2 * status.second_m,
           combined_sigma(pair, 1.0, 1.0), false};
 }
@@ -57,7 +57,7 @@ std::vector<RangeChangeRowResult> RangeTest::test(const std::vector<CarrierInput
     if (before.time != last_time_ || before.arc != status.arc ||
         before.source != satellite->source || before.issue != satellite->orbit_issue)
       continue;
-    const Combined now = combine(inputs[i], status);
+    const Combined now = combine(bands_, inputs[i], status);
     RangeChangeRow row;
     row.direction = predict_range(*satellite, sky.antenna_p_e()).d_range_d_p.transpose();
     row.direction_change = row.direction - before.direction;
@@ -94,7 +94,7 @@ void RangeTest::remember(const std::vector<CarrierInput>& inputs, const ArcEpoch
     before_[satellite->satellite] = {
         last_time_,
         status.arc,
-        residual_m(*satellite, combine(inputs[i], status), sky),
+        residual_m(*satellite, combine(bands_, inputs[i], status), sky),
         predict_range(*satellite, sky.antenna_p_e()).d_range_d_p.transpose(),
         satellite->source,
         satellite->orbit_issue};

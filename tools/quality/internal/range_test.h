@@ -13,7 +13,8 @@ namespace leonav {
 // RangeTest compares the residuals of successive epochs.
 class RangeTest {
  public:
-  explicit RangeTest(const CycleSlipConfig& config) : config_(config) {}
+  RangeTest(const CycleSlipConfig& config, const BandPlan& bands)
+      : config_(config), bands_(bands) {}
 
   // Tests the epoch that `arcs` has processed; results are in the order of the inputs.
   std::vector<RangeChangeRowResult> test(const std::vector<CarrierInput>& inputs,
@@ -33,6 +34,7 @@ class RangeTest {
   };
 
   CycleSlipConfig config_;
+  BandPlan bands_;
   GpsTime last_time_;
   double last_position_sigma_m_ = 0.0;
   std::map<SatelliteId, Before> before_;

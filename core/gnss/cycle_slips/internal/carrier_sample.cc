@@ -5,11 +5,12 @@
 namespace leonav {
 namespace {
 
-CarrierSignal signal_of(const SignalObservation& observation, double code_shift_m) {
+CarrierSignal signal_of(const SignalObservation& observation, const BandPlan& bands,
+                        double code_shift_m) {
   CarrierSignal signal;
   signal.code = observation.code;
-  signal.frequency_hz = frequency_hz(observation.satellite.system, observation.code.band);
-  signal.wavelength_m = wavelength_m(observation.satellite.system, observation.code.band);
+  signal.frequency_hz = bands.frequency_hz(observation.satellite.system, observation.code.band);
+  signal.wavelength_m = bands.wavelength_m(observation.satellite.system, observation.code.band);
   signal.carrier_m = observation.carrier_cycles * signal.wavelength_m;
   signal.code_m = observation.pseudorange_m - code_shift_m;
   signal.doppler_m_s = -observation.doppler_hz * signal.wavelength_m;
@@ -19,31 +20,32 @@ CarrierSignal signal_of(const SignalObservation& observation, double code_shift_
   return signal;
 }
 
-bool is_usable(const SignalObservation* observation) {
+bool is_usable(const SignalObservation* observation, const BandPlan& bands) {
   return observation != nullptr && std::isfinite(observation->carrier_cycles) &&
          index_of(observation->satellite.system) < kSystemCount &&
-         frequency_hz(observation->satellite.system, observation->code.band) > 0.0;
+         bands.frequency_hz(observation->satellite.system, observation->code.band) > 0.0;
 }
 
-bool is_pair(const CarrierInput& input) {
-  return is_usable(input.second) && input.second->satellite == input.first->satellite &&
-         frequency_hz(input.first->satellite.system, input.first->code.band) !=
-             frequency_hz(input.first->satellite.system, input.second->code.band);
+bool is_pair(const CarrierInput& input, const BandPlan& bands) {
+  return is_usable(input.second, bands) && input.second->satellite == input.first->satellite &&
+         bands.frequency_hz(input.first->satellite.system, input.first->code.band) !=
+             bands.frequency_hz(input.first->satellite.system, input.second->code.band);
 }
 
 }  // namespace
 
-bool has_carrier(const CarrierInput& input) {
-  return is_usable(input.first) && is_valid(input.first->satellite);
+bool has_carrier(const CarrierInput& input, const BandPlan& bands) {
+  return is_usable(input.first, bands) && is_valid(input.first->satellite);
 }
 
-CarrierSample carrier_sample(const CarrierInput& input, GpsTime time, double shift_m) {
+CarrierSample carrier_sample(const CarrierInput& input, const BandPlan& bands, GpsTime time,
+                             double shift_m) {
   CarrierSample sample;
   sample.time = time;
   sample.elevation = std::isfinite(input.elevation) ? input.elevation : 0.0;
-  sample.signal_count = is_pair(input) ? 2 : 1;
-  sample.signal[0] = signal_of(*input.first, shift_m);
-  if (sample.signal_count == 2) sample.signal[1] = signal_of(*input.second, shift_m);
+  sample.signal_count = is_pair(input, bands) ? 2 : 1;
+  sample.signal[0] = signal_of(*input.first, bands, shift_m);
+  if (sample.signal_count == 2) sample.signal[1] = signal_of(*input.second, bands, shift_m);
   sample.carrier_shift_m = shift_m;
   return sample;
 }

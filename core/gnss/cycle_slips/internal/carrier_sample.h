@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/observation.h"
 
 namespace leonav {
@@ -44,10 +45,11 @@ struct CarrierSample {
 };
 
 // Returns whether the input can be followed: it has a carrier of a known satellite and signal.
-bool has_carrier(const CarrierInput& input);
+bool has_carrier(const CarrierInput& input, const BandPlan& bands);
 
 // Converts an input that has a carrier. `shift_m` is the sum of the jumps of codes against carriers
 // since the start of the run; it is removed from the codes and added by carrier().
-CarrierSample carrier_sample(const CarrierInput& input, GpsTime time, double shift_m);
+CarrierSample carrier_sample(const CarrierInput& input, const BandPlan& bands, GpsTime time,
+                             double shift_m);
 
 }  // namespace leonav

@@ -30,19 +30,30 @@ constexpr double kAntennaRandomWalk = 0.001;  // m/sqrt(s)
 // frequency noise of 5e-12 at one second, as rubidium clocks of GPS and BeiDou have.
 constexpr double kClockRandomWalk = 0.0015;  // m/sqrt(s)
 
+// Returns how fast the line of sight to a satellite turns, rad/s.
+double turning_rate(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
+  const Eigen::Vector3d to = satellite.p_e - p_a_e;
+  return to.cross(satellite.v_e).norm() / to.squaredNorm();
+}
+
+// Returns 1 sigma of a LEO satellite's orbit error along each axis, m.
+double leo_orbit_sigma_m(const SatelliteInView& satellite) {
+  return satellite.source == OrbitSource::kBroadcast ? satellite.orbit_sigma_m
+                                                     : kPreciseOrbitSigma_m;
+}
+
 // Returns the random walk of a LEO satellite's orbit error. Within minutes the line of sight sweeps
 // over that error, which is equal in all directions and practically constant for an arc: each
 // radian of motion shows the full error anew.
 double leo_random_walk(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
-  const Eigen::Vector3d to = satellite.p_e - p_a_e;
-  const double rate = to.cross(satellite.v_e).norm() / to.squaredNorm();  // rad/s
-  return kPreciseOrbitSigma_m * std::sqrt(rate);
+  return leo_orbit_sigma_m(satellite) * std::sqrt(turning_rate(satellite, p_a_e));
 }
 
 double orbit_random_walk(const SatelliteInView& satellite, const DelayContext& context) {
-  if (satellite.source == OrbitSource::kBroadcast) return kBroadcastRandomWalk;
-  if (satellite.satellite.system != System::kLeo) return kPreciseRandomWalk;
-  return leo_random_walk(satellite, to_ecef(context.antenna));
+  if (satellite.satellite.system == System::kLeo) {
+    return leo_random_walk(satellite, to_ecef(context.antenna));
+  }
+  return satellite.source == OrbitSource::kBroadcast ? kBroadcastRandomWalk : kPreciseRandomWalk;
 }
 
 }  // namespace
@@ -53,7 +64,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   const SatelliteInView& satellite = *in_view;
   const System system = satellite.satellite.system;
   const double sigma0 = context.config->systems[index_of(system)].sigma.carrier_m;
-  const double f1 = frequency_hz(system, first.code.band);
+  const double f1 = context.config->bands.frequency_hz(system, first.code.band);
   const double noise1 = sigma0 * noise_factor(*context.config, satellite.elevation, first.cn0_dbhz);
 
   Measurement carrier;
@@ -64,7 +75,7 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   double noise = noise1;
   double random_walk = square(orbit_random_walk(satellite, context));
   if (second != nullptr) {
-    const double f2 = frequency_hz(system, second->code.band);
+    const double f2 = context.config->bands.frequency_hz(system, second->code.band);
     const IonosphereFree pair = ionosphere_free(f1, f2);
     carrier.second_code = second->code;
     range = pair.gamma1 * range +
@@ -105,19 +116,24 @@ double orbit_step_m(const Ephemeris& from, const Ephemeris& to, GpsTime time,
   return kSpeedOfLight * (now.clock_s - before.clock_s) - line_of_sight.dot(now.p_e - before.p_e);
 }
 
-double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& satellite,
-                      const Measurement& carrier, double dt) {
+double change_sigma_m(const CycleSlipConfig& config, const BandPlan& bands,
+                      const SatelliteInView& satellite, const Measurement& carrier,
+                      const Eigen::Vector3d& p_a_e, double dt) {
   const System system = satellite.satellite.system;
   const bool leo = system == System::kLeo;
   const bool broadcast = satellite.source == OrbitSource::kBroadcast;
   const double precise = leo ? kEpochRandomWalkLeo : kPreciseRandomWalk;
   const double clock = broadcast ? kClockRandomWalk : precise;
-  if (carrier.second_code.band != 0) return clock * std::sqrt(dt);
+  double own = clock * std::sqrt(dt);
+  // The line of sight to a LEO satellite turns over the error of its broadcast orbit.
+  if (leo && broadcast) {
+    own = std::hypot(own, leo_orbit_sigma_m(satellite) * turning_rate(satellite, p_a_e) * dt);
+  }
+  if (carrier.second_code.band != 0) return own;
   const double rate = leo ? config.ionosphere_rate_leo_m_s : config.ionosphere_rate_m_s;
   const double to_frequency =
-      square(frequency_hz(System::kGps, '1') / frequency_hz(system, carrier.code.band));
-  return std::hypot(clock * std::sqrt(dt),
-                    rate * to_frequency * elevation_factor(satellite.elevation) * dt);
+      square(frequency_hz(System::kGps, '1') / bands.frequency_hz(system, carrier.code.band));
+  return std::hypot(own, rate * to_frequency * elevation_factor(satellite.elevation) * dt);
 }
 
 }  // namespace leonav

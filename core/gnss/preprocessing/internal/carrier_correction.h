@@ -19,8 +19,10 @@ double orbit_step_m(const Ephemeris& from, const Ephemeris& to, GpsTime time,
                     const Eigen::Vector3d& p_a_e);
 
 // Returns 1 sigma (m) of a carrier's change over `dt` seconds beside noise and motion: the
-// satellite's clock and, on one frequency, the ionosphere.
-double change_sigma_m(const CycleSlipConfig& config, const SatelliteInView& satellite,
-                      const Measurement& carrier, double dt);
+// satellite's clock, on one frequency the ionosphere, and for a LEO satellite the error of a
+// broadcast orbit, over which the line of sight from `p_a_e` (ECEF, m) turns.
+double change_sigma_m(const CycleSlipConfig& config, const BandPlan& bands,
+                      const SatelliteInView& satellite, const Measurement& carrier,
+                      const Eigen::Vector3d& p_a_e, double dt);
 
 }  // namespace leonav

@@ -34,7 +34,7 @@ char reference_band(const GnssConfig& config, System system, const Candidates& c
     const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
     if (view.satellite.system != system || view.reason != Reason::kUsed) continue;
     const char band = candidate.signals.bands.front()->code.band;
-    if (best == 0 || band_comes_first(system, preference, band, best)) best = band;
+    if (best == 0 || band_comes_first(system, preference, band, best, config.bands)) best = band;
   }
   return best;
 }
@@ -59,6 +59,7 @@ char most_frequent_partner(System system, char reference, const Candidates& cand
 void estimate_code_biases(const DelayContext& context, const Candidates& candidates,
                           const MeasurementEpoch& epoch, ReceiverCodeBiases* biases) {
   const bool pairs = context.config->code_combination != CodeCombination::kSingleFrequency;
+  const BandPlan& bands = context.config->bands;
   biases->open(context.time);
   for (const System system : kSystems) {
     const char reference =
@@ -68,14 +69,15 @@ void estimate_code_biases(const DelayContext& context, const Candidates& candida
     if (pairs && biases->partner(system) == 0) {
       const char partner = most_frequent_partner(system, reference, candidates, epoch);
       if (partner != 0) {
-        const double f1 = frequency_hz(system, reference), f2 = frequency_hz(system, partner);
+        const double f1 = bands.frequency_hz(system, reference),
+                     f2 = bands.frequency_hz(system, partner);
         biases->set_partner(system, partner, ionosphere_free(f1, f2).gamma2);
       }
     }
     for (char band = '1'; band <= '9'; ++band) {
       InterBandDifferences differences;
-      const double band_factor = ionosphere_factor(frequency_hz(system, band)) -
-                                 ionosphere_factor(frequency_hz(system, reference));
+      const double band_factor = ionosphere_factor(bands.frequency_hz(system, band)) -
+                                 ionosphere_factor(bands.frequency_hz(system, reference));
       for (const Candidate& candidate : candidates) {
         const SatelliteInView& view = epoch.satellites[candidate.satellite_index];
         if (view.satellite.system != system || view.reason != Reason::kUsed) continue;

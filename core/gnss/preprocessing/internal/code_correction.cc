@@ -56,8 +56,8 @@ double atmosphere_variance(const DelayContext& context, const SatelliteInView& s
   return square(context.config->troposphere_model_error_m * obliquity(satellite.elevation));
 }
 
-double frequency_of(const SignalObservation& signal) {
-  return frequency_hz(signal.satellite.system, signal.code.band);
+double frequency_of(const DelayContext& context, const SignalObservation& signal) {
+  return context.config->bands.frequency_hz(signal.satellite.system, signal.code.band);
 }
 
 GroupDelay delay_of(const DelayContext& context, const SatelliteInView& satellite,
@@ -79,7 +79,8 @@ GroupDelay delay_of(const DelayContext& context, const SatelliteInView& satellit
 IonosphereError common_ionosphere_error(const DelayContext& context,
                                         const SignalObservation& signal, double elevation,
                                         double sigma, double variance) {
-  const double mapping = ionosphere_factor(frequency_of(signal)) * ionosphere_slant(elevation);
+  const double mapping =
+      ionosphere_factor(frequency_of(context, signal)) * ionosphere_slant(elevation);
   IonosphereError error;
   error.mapping = mapping;
   error.zenith_sigma = std::sqrt(1.0 - kIndividualShare) * sigma / mapping;
@@ -215,7 +216,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
       given.biases->is_reference_pair(first.satellite.system, first.code.band, second->code.band))
     context.biases = nullptr;
   const double elevation = noise_elevation(context, *satellite);
-  const double f1 = frequency_of(first);
+  const double f1 = frequency_of(context, first);
   const double noise1 = code_noise(context, elevation, first);
 
   Measurement code;
@@ -226,7 +227,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
   double band_variance = 0.0;
   double ionosphere = 0.0;  // variance of the model's error
   if (second != nullptr) {
-    const IonosphereFree pair = ionosphere_free(f1, frequency_of(*second));
+    const IonosphereFree pair = ionosphere_free(f1, frequency_of(context, *second));
     code.second_code = second->code;
     range = pair.gamma1 * range + pair.gamma2 * unbiased_range(context, *second);
     const double of_first = square(pair.gamma1) * bias_variance(context, first);
@@ -268,8 +269,8 @@ CodeVariances code_variances(const DelayContext& context,
   if (!context.has_position || bands.empty()) return variances;
   const double elevation = satellite.elevation;
   const SignalObservation& first = *bands.front();
-  const double f1 = frequency_of(first);
-  const IonosphereFree pair = ionosphere_free(f1, frequency_of(second));
+  const double f1 = frequency_of(context, first);
+  const IonosphereFree pair = ionosphere_free(f1, frequency_of(context, second));
   variances.pair_noise = square(combined_sigma(pair, code_noise(context, elevation, first),
                                                code_noise(context, elevation, second)));
   double information = 0.0;
@@ -287,7 +288,7 @@ Measurement doppler_measurement(const DelayContext& context, const SignalObserva
   const double sigma0 =
       context.config->systems[index_of(satellite.satellite.system)].sigma.doppler_m_s;
   const double elevation = noise_elevation(context, satellite);
-  const double f1 = frequency_of(first);
+  const double f1 = frequency_of(context, first);
   const double rate1 = -first.doppler_hz * kSpeedOfLight / f1;
   const double noise1 = sigma0 * noise_factor(*context.config, elevation, first.cn0_dbhz);
 
@@ -297,7 +298,7 @@ Measurement doppler_measurement(const DelayContext& context, const SignalObserva
   double rate = rate1;
   doppler.sigma = noise1;
   if (second != nullptr) {
-    const double f2 = frequency_of(*second);
+    const double f2 = frequency_of(context, *second);
     const IonosphereFree pair = ionosphere_free(f1, f2);
     const double noise2 = sigma0 * noise_factor(*context.config, elevation, second->cn0_dbhz);
     doppler.second_code = second->code;

@@ -60,7 +60,8 @@ AntennaCorrection antenna_range(const DelayContext& context, const SatelliteInVi
     add(first.band, 1.0);
   } else {
     const IonosphereFree pair =
-        ionosphere_free(frequency_hz(system, first.band), frequency_hz(system, second.band));
+        ionosphere_free(context.config->bands.frequency_hz(system, first.band),
+                        context.config->bands.frequency_hz(system, second.band));
     add(first.band, pair.gamma1);
     add(second.band, pair.gamma2);
   }

@@ -76,7 +76,9 @@ MeasurementFrontEnd::MeasurementFrontEnd(const NavigatorConfig& config)
       inertial_(config.motion == MotionModel::kInertial),
       lever_arm_b_(config.vehicle.lever_arm_b),
       ephemeris_store_(config.gnss.ephemeris_store),
-      carriers_(config.gnss.cycle_slips),
+      antennas_(config.gnss.bands),
+      signal_biases_(config.gnss.bands),
+      carriers_(config.gnss.cycle_slips, config.gnss.bands),
       measurements_(std::make_unique<MeasurementEpoch>()),
       point_measurements_(std::make_unique<MeasurementEpoch>()) {}
 

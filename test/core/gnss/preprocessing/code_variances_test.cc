@@ -10,6 +10,7 @@
 #include "core/gnss/preprocessing/internal/code_correction.h"
 #include "core/gnss/preprocessing/preprocess.h"
 #include "core/gnss/propagation/ionosphere.h"
+#include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
 #include "support/simulated_sky.h"
 
@@ -121,7 +122,7 @@ TEST_CASE("what the ionosphere's model leaves in common is half of the variance,
       .alpha = {2e-8, 1e-8, -6e-8, -6e-8}, .beta = {1e5, 6e4, -2e5, -1e5}, .valid = true};
   for (std::size_t i = 0; i < codes.signals.size(); ++i) {
     const Measurement code = codes.code(i);
-    const double f = frequency_hz(of.system, codes.signals[i].code.band);
+    const double f = BandPlan().frequency_hz(of.system, codes.signals[i].code.band);
     const IonosphereError& common = code.ionosphere;
     CHECK(common.mapping ==
           Approx(square(1575.42e6 / f) * slant_in_shell(of.elevation)).epsilon(1e-6));

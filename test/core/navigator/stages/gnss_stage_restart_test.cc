@@ -1,4 +1,5 @@
 // When the filter is started anew, and when it is not.
+#include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
 #include "support/stage_drive.h"
 
@@ -80,7 +81,7 @@ TEST_CASE("a filter locked out of all Dopplers is started anew, with codes good 
     if (t <= 0.0) continue;
     for (SignalObservation& o : raw.observations) {
       o.pseudorange_m += 50.0 * t;
-      o.doppler_hz -= 50.0 / wavelength_m(o.satellite.system, o.code.band);
+      o.doppler_hz -= 50.0 / BandPlan().wavelength_m(o.satellite.system, o.code.band);
     }
   }
   NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kConstantVelocity);

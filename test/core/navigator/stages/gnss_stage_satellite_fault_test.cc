@@ -1,5 +1,6 @@
 // A satellite whose clock drifts away: it is found, told and left out, and the position keeps to
 // its sigma.
+#include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
 #include "support/stage_drive.h"
 
@@ -14,7 +15,7 @@ SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
     const double range_m = drift_m_s * std::max(seconds(raw.time) - kBegin_s, 0.0);
     for (SignalObservation& o : raw.observations) {
       if (o.satellite != victim || range_m == 0.0) continue;
-      const double length_m = wavelength_m(o.satellite.system, o.code.band);
+      const double length_m = BandPlan().wavelength_m(o.satellite.system, o.code.band);
       o.pseudorange_m += range_m;
       o.carrier_cycles += range_m / length_m;
       o.doppler_hz -= drift_m_s / length_m;

@@ -1,5 +1,6 @@
 // Ranges that stay wrong by another amount for each satellite, as with orbits of another day: it is
 // told, and the sigma is as large as the error.
+#include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
 #include "support/stage_drive.h"
 
@@ -17,7 +18,7 @@ SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
       const int third = (o.satellite.number + 2 * static_cast<int>(o.satellite.system)) % 3;
       const double range_m = size_m * (third - 1);
       o.pseudorange_m += range_m;
-      o.carrier_cycles += range_m / wavelength_m(o.satellite.system, o.code.band);
+      o.carrier_cycles += range_m / BandPlan().wavelength_m(o.satellite.system, o.code.band);
     }
   return drive;
 }

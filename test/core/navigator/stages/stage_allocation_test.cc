@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
 #include "support/stage_drive.h"
 #include "tools/common/allocations/allocation_counter.h"
@@ -221,7 +222,7 @@ TEST_CASE("leaving a satellite out and changing how codes are combined allocates
     for (SignalObservation& o : raw.observations) {
       if (o.satellite != drifting) continue;
       o.pseudorange_m += range_m;
-      o.carrier_cycles += range_m / wavelength_m(o.satellite.system, o.code.band);
+      o.carrier_cycles += range_m / BandPlan().wavelength_m(o.satellite.system, o.code.band);
     }
     if (t > 320.0 && t < 350.0) pass_a_street(&bits, &raw);
   }
