@@ -113,16 +113,19 @@ InputFault convert(const bias_t& from, GpsTime time, SignalBias* to) {
   return check(*to);
 }
 
-InputFault convert(const ephemeris_t& from, Ephemeris* to) {
+namespace {
+
+// Fills what both messages of elements have.
+template <typename T>
+InputFault convert_elements(const T& from, Ephemeris* to) {
   const auto satellite = satellite_of(from);
-  if (!satellite || !message_fits_system(satellite->system, from.message) ||
-      !is_time_or_unset(from.time_ns) || !is_time(from.toe_ns) || !is_time(from.toc_ns) ||
-      !is_uint16(from.issue) || !is_uint16(from.issue_clock) || !is_uint16(from.health)) {
+  if (!satellite || !is_time_or_unset(from.time_ns) || !is_time(from.toe_ns) ||
+      !is_time(from.toc_ns) || !is_uint16(from.issue) || !is_uint16(from.issue_clock) ||
+      !is_uint16(from.health)) {
     return InputFault::kOutOfRange;
   }
   *to = Ephemeris();
   to->satellite = *satellite;
-  to->message = static_cast<NavigationMessage>(from.message);
   to->transmission_time = GpsTime::from_nanoseconds(from.time_ns);
   to->toe = GpsTime::from_nanoseconds(from.toe_ns);
   to->toc = GpsTime::from_nanoseconds(from.toc_ns);
@@ -148,13 +151,36 @@ InputFault convert(const ephemeris_t& from, Ephemeris* to) {
                                                  {from.cis, &to->cis},
                                                  {from.af0, &to->af0},
                                                  {from.af1, &to->af1},
-                                                 {from.af2, &to->af2},
-                                                 {from.group_delay_s[0], &to->group_delay_s[0]},
-                                                 {from.group_delay_s[1], &to->group_delay_s[1]}};
+                                                 {from.af2, &to->af2}};
   for (const auto& [value, target] : elements) {
     if (!std::isfinite(value)) return InputFault::kNotFinite;
     *target = value;
   }
+  return InputFault::kNone;
+}
+
+}  // namespace
+
+InputFault convert(const ephemeris_t& from, Ephemeris* to) {
+  const auto satellite = satellite_of(from);
+  if (!satellite || !message_fits_system(satellite->system, from.message)) {
+    return InputFault::kOutOfRange;
+  }
+  const InputFault fault = convert_elements(from, to);
+  if (fault != InputFault::kNone) return fault;
+  to->message = static_cast<NavigationMessage>(from.message);
+  if (!all_finite(from.group_delay_s)) return InputFault::kNotFinite;
+  for (std::size_t i = 0; i < 2; ++i) to->group_delay_s[i] = from.group_delay_s[i];
+  return is_sane(*to) ? InputFault::kNone : InputFault::kNotSane;
+}
+
+InputFault convert(const leo_ephemeris_t& from, Ephemeris* to) {
+  const InputFault fault = convert_elements(from, to);
+  if (fault != InputFault::kNone) return fault;
+  if (to->satellite.system != System::kLeo) return InputFault::kOutOfRange;
+  if (!std::isfinite(from.a_dot) || !std::isfinite(from.delta_n_dot)) return InputFault::kNotFinite;
+  to->a_dot = from.a_dot;
+  to->delta_n_dot = from.delta_n_dot;
   return is_sane(*to) ? InputFault::kNone : InputFault::kNotSane;
 }
 

@@ -10,6 +10,7 @@
 #include <leonav/corrected_state_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
+#include <leonav/leo_ephemeris_t.hpp>
 #include <leonav/precise_state_t.hpp>
 
 #include "core/gnss/orbits/ephemeris.h"
@@ -39,6 +40,7 @@ InputFault convert(const precise_state_t& from, GpsTime time, PreciseState* to);
 InputFault convert(const corrected_state_t& from, GpsTime time, CorrectedState* to);
 InputFault convert(const bias_t& from, GpsTime time, SignalBias* to);
 InputFault convert(const ephemeris_t& from, Ephemeris* to);
+InputFault convert(const leo_ephemeris_t& from, Ephemeris* to);
 InputFault convert(const antenna_t& from, AntennaPattern* to);
 InputFault convert(const checkpoint_t& from, Checkpoint* to);
 InputFault convert(const checkpoint_v1_t& from, Checkpoint* to);

@@ -13,6 +13,7 @@
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
+#include <leonav/leo_ephemeris_t.hpp>
 #include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
@@ -50,6 +51,7 @@ constexpr std::int32_t schema_of(const smoother_t&) {
   return static_cast<std::int32_t>(OutputSchema::kNewest);
 }
 constexpr std::int32_t schema_of(const checkpoint_t&) { return wire::kCheckpointSchema; }
+constexpr std::int32_t schema_of(const leo_ephemeris_t&) { return wire::kLeoEphemerisSchema; }
 
 // Runs the generated decoder and checks that it used the whole message and that the schema is
 // known. Precondition: counts have been checked.
@@ -118,6 +120,25 @@ DecodeResult decode_elements(ByteSpan bytes, std::size_t capacity, Message* mess
     }
   }
   return result;
+}
+
+// Returns the schema of a message whose type depends on it; 0 where the message is too short.
+std::int32_t schema_in(ByteSpan bytes) {
+  if (bytes.size() < wire::kSchemaOffset + 4) return 0;
+  return static_cast<std::int32_t>(wire::read_uint32(bytes, wire::kSchemaOffset));
+}
+
+// Reads broadcast elements, those of a LEO satellite or others.
+template <typename T>
+DecodeResult decode_ephemeris(ByteSpan bytes, Ephemeris* ephemeris) {
+  T message{};
+  InputFault fault = read(bytes, &message);
+  if (fault == InputFault::kNone) {
+    Ephemeris converted;
+    fault = wire::convert(message, &converted);
+    if (fault == InputFault::kNone) *ephemeris = converted;
+  }
+  return result_of(message, fault);
 }
 
 // Reads a checkpoint in one of its versions.
@@ -226,14 +247,9 @@ DecodeResult Decoder::decode(ByteSpan bytes, RawEpoch* epoch) {
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Ephemeris* ephemeris) {
-  ephemeris_t message{};
-  InputFault fault = read(bytes, &message);
-  if (fault == InputFault::kNone) {
-    Ephemeris converted;
-    fault = convert(message, &converted);
-    if (fault == InputFault::kNone) *ephemeris = converted;
-  }
-  return result_of(message, fault);
+  return schema_in(bytes) == wire::kLeoEphemerisSchema
+             ? decode_ephemeris<leo_ephemeris_t>(bytes, ephemeris)
+             : decode_ephemeris<ephemeris_t>(bytes, ephemeris);
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, KlobucharModel* model) {
@@ -297,10 +313,8 @@ DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Checkpoint* checkpoint) {
-  const bool first = bytes.size() >= wire::kSchemaOffset + 4 &&
-                     wire::read_uint32(bytes, wire::kSchemaOffset) == wire::kSchema;
-  return first ? decode_checkpoint<checkpoint_v1_t>(bytes, checkpoint)
-               : decode_checkpoint<checkpoint_t>(bytes, checkpoint);
+  return schema_in(bytes) == wire::kSchema ? decode_checkpoint<checkpoint_v1_t>(bytes, checkpoint)
+                                           : decode_checkpoint<checkpoint_t>(bytes, checkpoint);
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {

@@ -16,6 +16,7 @@
 #include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
+#include <leonav/leo_ephemeris_t.hpp>
 #include <leonav/odometer_t.hpp>
 #include <leonav/orbit_clock_t.hpp>
 #include <leonav/smoother_t.hpp>
@@ -55,6 +56,37 @@ void fill(const SignalObservation& from, gnss_observation_t* to) {
   to->lock_time_s = static_cast<float>(from.lock_time_s);
   to->flags = static_cast<std::int8_t>((from.loss_of_lock ? wire::kFlagLossOfLock : 0) |
                                        (from.half_cycle_ambiguous ? wire::kFlagHalfCycle : 0));
+}
+
+// Fills what both messages of elements have.
+template <typename T>
+void fill_elements(const Ephemeris& from, std::uint64_t sequence, T* to) {
+  set_header(from.transmission_time, sequence, to);
+  set_satellite(from.satellite, to);
+  to->toe_ns = from.toe.nanoseconds();
+  to->toc_ns = from.toc.nanoseconds();
+  to->issue = from.issue;
+  to->issue_clock = from.issue_clock;
+  to->health = from.health;
+  to->accuracy_m = from.accuracy_m;
+  to->sqrt_a = from.sqrt_a;
+  to->eccentricity = from.eccentricity;
+  to->m0 = from.m0;
+  to->delta_n = from.delta_n;
+  to->omega0 = from.omega0;
+  to->omega_dot = from.omega_dot;
+  to->i0 = from.i0;
+  to->i_dot = from.i_dot;
+  to->omega = from.omega;
+  to->cuc = from.cuc;
+  to->cus = from.cus;
+  to->crc = from.crc;
+  to->crs = from.crs;
+  to->cic = from.cic;
+  to->cis = from.cis;
+  to->af0 = from.af0;
+  to->af1 = from.af1;
+  to->af2 = from.af2;
 }
 
 // Sets the header of an output that has versions.
@@ -278,34 +310,17 @@ ByteSpan Encoder::encode(const RawEpoch& epoch, std::uint64_t sequence) {
 }
 
 ByteSpan Encoder::encode(const Ephemeris& from, std::uint64_t sequence) {
+  if (from.satellite.system == System::kLeo) {
+    leo_ephemeris_t to;
+    fill_elements(from, sequence, &to);
+    to.schema = wire::kLeoEphemerisSchema;
+    to.a_dot = from.a_dot;
+    to.delta_n_dot = from.delta_n_dot;
+    return storage_->write(to);
+  }
   ephemeris_t to;
-  set_header(from.transmission_time, sequence, &to);
-  set_satellite(from.satellite, &to);
+  fill_elements(from, sequence, &to);
   to.message = static_cast<std::int8_t>(from.message);
-  to.toe_ns = from.toe.nanoseconds();
-  to.toc_ns = from.toc.nanoseconds();
-  to.issue = from.issue;
-  to.issue_clock = from.issue_clock;
-  to.health = from.health;
-  to.accuracy_m = from.accuracy_m;
-  to.sqrt_a = from.sqrt_a;
-  to.eccentricity = from.eccentricity;
-  to.m0 = from.m0;
-  to.delta_n = from.delta_n;
-  to.omega0 = from.omega0;
-  to.omega_dot = from.omega_dot;
-  to.i0 = from.i0;
-  to.i_dot = from.i_dot;
-  to.omega = from.omega;
-  to.cuc = from.cuc;
-  to.cus = from.cus;
-  to.crc = from.crc;
-  to.crs = from.crs;
-  to.cic = from.cic;
-  to.cis = from.cis;
-  to.af0 = from.af0;
-  to.af1 = from.af1;
-  to.af2 = from.af2;
   for (std::size_t i = 0; i < from.group_delay_s.size(); ++i) {
     to.group_delay_s[i] = from.group_delay_s[i];
   }

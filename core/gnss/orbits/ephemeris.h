@@ -44,6 +44,9 @@ struct Ephemeris {
   double cuc = 0.0, cus = 0.0;  // rad
   double crc = 0.0, crs = 0.0;  // m
   double cic = 0.0, cis = 0.0;  // rad
+  // Rates that only a LEO satellite's message has; as in CNAV (IS-GPS-200 table 30-I).
+  double a_dot = 0.0;        // m/s, of the semi-major axis
+  double delta_n_dot = 0.0;  // rad/s^2, of delta_n
 
   double af0 = 0.0, af1 = 0.0, af2 = 0.0;  // s, s/s, s/s^2
 

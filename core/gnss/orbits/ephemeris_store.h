@@ -40,7 +40,7 @@ struct EphemerisConfig {
   double max_age_gps_s = 7200.0;  // |t - toe|
   double max_age_galileo_s = 14400.0;
   double max_age_beidou_s = 21600.0;
-  double max_age_leo_s = 7200.0;
+  double max_age_leo_s = 900.0;     // elements of a low orbit are fitted to minutes of it
   double max_orbit_gap_s = 1000.0;  // precise nodes farther apart than this are not interpolated
   // This is the same limit for nodes of clock files; beyond it the orbits' clocks are used.
   double max_clock_gap_s = 45.0;

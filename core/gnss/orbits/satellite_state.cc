@@ -61,10 +61,13 @@ struct InPlane {
 };
 
 InPlane in_plane(const Ephemeris& eph, double mu, double tk) {
-  const double A = eph.sqrt_a * eph.sqrt_a;
+  const double A0 = eph.sqrt_a * eph.sqrt_a;
+  const double A = A0 + eph.a_dot * tk;
   const double e = eph.eccentricity;
-  const double n = std::sqrt(mu / (A * A * A)) + eph.delta_n;
-  const double E = eccentric_anomaly(std::remainder(eph.m0 + n * tk, 2.0 * kPi), e);
+  const double n0 = std::sqrt(mu / (A0 * A0 * A0)) + eph.delta_n;
+  const double mean_n = n0 + 0.5 * eph.delta_n_dot * tk;  // over tk
+  const double n = n0 + eph.delta_n_dot * tk;             // rate of the mean anomaly at tk
+  const double E = eccentric_anomaly(std::remainder(eph.m0 + mean_n * tk, 2.0 * kPi), e);
   const double sin_E = std::sin(E), cos_E = std::cos(E);
   const double q = 1.0 - e * cos_E;
   const double E_rate = n / q;
@@ -77,7 +80,8 @@ InPlane in_plane(const Ephemeris& eph, double mu, double tk) {
   p.latitude = phi + eph.cus * s2 + eph.cuc * c2;
   p.latitude_rate = phi_rate * (1.0 + 2.0 * (eph.cus * c2 - eph.cuc * s2));
   p.radius = A * q + eph.crs * s2 + eph.crc * c2;
-  p.radius_rate = A * e * sin_E * E_rate + 2.0 * phi_rate * (eph.crs * c2 - eph.crc * s2);
+  p.radius_rate =
+      A * e * sin_E * E_rate + 2.0 * phi_rate * (eph.crs * c2 - eph.crc * s2) + eph.a_dot * q;
   p.inclination = eph.i0 + eph.i_dot * tk + eph.cis * s2 + eph.cic * c2;
   p.inclination_rate = eph.i_dot + 2.0 * phi_rate * (eph.cis * c2 - eph.cic * s2);
   p.e_sin_E = e * sin_E;
@@ -166,8 +170,11 @@ bool sane_orbit(const Ephemeris& eph) {
   for (const double angle : {eph.m0, eph.omega0, eph.i0, eph.omega}) {
     if (!within(angle, 2.0 * kPi + 1e-6)) return false;
   }
-  // These bounds contain the ranges of the messages' fields (LEO, being lower, moves more).
-  return within(eph.delta_n, 1e-6) && within(eph.omega_dot, 1e-5) && within(eph.i_dot, 1e-6) &&
+  // These bounds contain the ranges of the messages' fields. A LEO satellite, being lower, moves
+  // more: its elements, fitted to minutes of its orbit, take up what J2 does in that time.
+  const double rate = leo ? 1e-5 : 1e-6;
+  return within(eph.delta_n, rate) && within(eph.omega_dot, 1e-5) && within(eph.i_dot, rate) &&
+         within(eph.a_dot, leo ? 30.0 : 0.0) && within(eph.delta_n_dot, leo ? 1e-8 : 0.0) &&
          within(eph.cuc, 1e-2) && within(eph.cus, 1e-2) && within(eph.cic, 1e-2) &&
          within(eph.cis, 1e-2) && within(eph.crc, 1e5) && within(eph.crs, 1e5);
 }

@@ -157,6 +157,58 @@ TEST_CASE("wrong values are named") {
   CHECK(decoder.decode(encoder.encode(ephemeris, 1), &ephemeris).fault == InputFault::kNotSane);
 }
 
+TEST_CASE("elements of a LEO satellite come back with their rates, others in their old message") {
+  Encoder encoder;
+  Decoder decoder;
+  Ephemeris sent;
+  sent.satellite = {System::kLeo, 150};
+  sent.toe = sent.toc = sent.transmission_time = GpsTime::from_week_and_tow(2200, 345600.0);
+  sent.sqrt_a = 2711.0;
+  sent.eccentricity = 0.001;
+  sent.i0 = 1.5;
+  sent.delta_n = -3e-7;
+  sent.crc = 1400.0;
+  sent.af0 = 1e-5;
+  sent.issue = 7;
+  sent.a_dot = 0.19;
+  sent.delta_n_dot = -6e-11;
+  const Bytes bytes = copy(encoder.encode(sent, 5));
+  Ephemeris back;
+  const DecodeResult result = decoder.decode(bytes, &back);
+  REQUIRE(result.fault == InputFault::kNone);
+  CHECK(result.sequence == 5);
+  CHECK(back.satellite == sent.satellite);
+  CHECK(back.toe == sent.toe);
+  CHECK(back.transmission_time == sent.transmission_time);
+  CHECK(back.issue == sent.issue);
+  for (double Ephemeris::*const element :
+       {&Ephemeris::sqrt_a, &Ephemeris::eccentricity, &Ephemeris::i0, &Ephemeris::delta_n,
+        &Ephemeris::crc, &Ephemeris::af0, &Ephemeris::a_dot, &Ephemeris::delta_n_dot}) {
+    CHECK(back.*element == sent.*element);
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    const Bytes cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
+    CHECK(decoder.decode(cut, &back).fault != InputFault::kNone);
+  }
+  Ephemeris bad = sent;
+  bad.delta_n_dot = std::numeric_limits<double>::quiet_NaN();
+  CHECK(decoder.decode(encoder.encode(bad, 1), &back).fault == InputFault::kNotFinite);
+  bad.delta_n_dot = 1.0;
+  CHECK(decoder.decode(encoder.encode(bad, 1), &back).fault == InputFault::kNotSane);
+  Bytes other = bytes;
+  other[28] = 0;  // GPS in the message for LEO
+  other[30] = 5;
+  CHECK(decoder.decode(other, &back).fault == InputFault::kOutOfRange);
+  // The other systems' message is that of journals before: its size is fixed.
+  sent.satellite = {System::kGps, 5};
+  sent.sqrt_a = 5153.6;
+  sent.a_dot = sent.delta_n_dot = 0.0;
+  sent.delta_n = 4e-9;
+  const Bytes old = copy(encoder.encode(sent, 1));
+  CHECK(old.size() == 8 + 52 + 21 * 8);
+  CHECK(decoder.decode(old, &back).fault == InputFault::kNone);
+}
+
 TEST_CASE("a count larger than the message or the capacity never reaches the allocator") {
   Encoder encoder;
   Decoder decoder;

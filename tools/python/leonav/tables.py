@@ -218,8 +218,10 @@ def streams(messages):
 
 
 def ephemeris(m):
-    columns = {"satellite": names.satellite_names(m["system"], m["number"]),
-               "message": names.named(m["message"], names.EPHEMERIS_MESSAGES)}
+    low = "message" not in m.dtype.names  # leo_ephemeris_t
+    columns = {"satellite": names.satellite_names(m["system"], m["number"])}
+    if not low:
+        columns["message"] = names.named(m["message"], names.EPHEMERIS_MESSAGES)
     for name in ("toe", "toc"):
         columns[f"{name}_gps_week"], columns[f"{name}_gps_tow_s"] = gps_time.week_and_tow(m[f"{name}_ns"])
     units = {"sqrt_a": "_sqrt_m", "m0": "_rad", "delta_n": "_rad_s", "omega0": "_rad", "omega_dot": "_rad_s", "i0": "_rad",
@@ -227,7 +229,10 @@ def ephemeris(m):
              "af1": "_s_s", "af2": "_s_s2"}
     for name in ("issue", "issue_clock", "health", "accuracy_m", "eccentricity", *units):
         columns[name + units.get(name, "")] = _native(m[name])
-    _spread(columns, "group_delay_{}_s", m["group_delay_s"], ("1", "2"))
+    if low:
+        columns.update({"a_dot_m_s": _native(m["a_dot"]), "delta_n_dot_rad_s2": _native(m["delta_n_dot"])})
+    else:
+        _spread(columns, "group_delay_{}_s", m["group_delay_s"], ("1", "2"))
     columns["sequence"] = _native(m["sequence"])
     return {"": _table(m["time_ns"], columns)}
 
@@ -304,7 +309,7 @@ def end(m):
 # Channel, without prefix: its types, the newest first, and what makes its tables. A function whose types are of fixed size
 # gets a numpy array of all messages, any other a list of dicts.
 CHANNELS = {
-    "IMU": (("imu_t",), imu), "GNSS_EPOCH": (("gnss_epoch_t",), gnss_epoch), "EPHEMERIS": (("ephemeris_t",), ephemeris),
+    "IMU": (("imu_t",), imu), "GNSS_EPOCH": (("gnss_epoch_t",), gnss_epoch), "EPHEMERIS": (("ephemeris_t", "leo_ephemeris_t"), ephemeris),
     "ORBIT_CLOCK": (("orbit_clock_t",), orbit_clock), "IONOSPHERE": (("ionosphere_t",), ionosphere), "ANTENNA": (("antenna_t",), antenna),
     "CORRECTED_STATES": (("corrected_states_t",), corrected_states), "BIASES": (("biases_t",), biases),
     "COMMAND": (("command_t",), command), "ODOMETER": (("odometer_t",), odometer),

@@ -4,6 +4,7 @@
 
 #include "broadcast_oracle.h"
 #include "core/gnss/signals/signal.h"
+#include "leo_oracle.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -137,6 +138,68 @@ TEST_CASE("A LEO satellite flies by Kepler elements too", "[satellite_state]") {
   CHECK(state.v_e.norm() == Approx(7.29e3).epsilon(0.02));
   e.sqrt_a = 5153.6;  // GPS's height is not low
   CHECK_FALSE(is_sane(e));
+}
+
+// The oracle's own equations, integration and fit: test/oracle/leo_elements.py.
+TEST_CASE("Elements with rates follow an integrated low orbit for ten to twenty minutes",
+          "[satellite_state]") {
+  for (const test::LeoArc& arc : test::leo_arcs()) {
+    INFO(arc.name);
+    REQUIRE(is_sane(arc.elements));
+    double worst_m = 0.0, worst_m_s = 0.0, without_rates_m = 0.0;
+    Ephemeris fixed = arc.elements;
+    fixed.a_dot = fixed.delta_n_dot = 0.0;
+    for (const test::LeoState& state : arc.states) {
+      const GpsTime t = arc.elements.toe.plus_seconds(state.since_toe_s);
+      const SatelliteState by_elements = broadcast_state(arc.elements, t);
+      worst_m = std::max(worst_m, (by_elements.p_e - state.p_e).norm());
+      worst_m_s = std::max(worst_m_s, (by_elements.v_e - state.v_e).norm());
+      without_rates_m =
+          std::max(without_rates_m, (broadcast_state(fixed, t).p_e - state.p_e).norm());
+    }
+    UNSCOPED_INFO("worst " << worst_m << " m, " << worst_m_s << " m/s");
+    // No more than the elements themselves are off, and a micrometre of rounding.
+    CHECK(worst_m < 1.01 * arc.worst_m + 1e-5);
+    CHECK(worst_m_s < 1.01 * arc.worst_m_s + 1e-6);
+    CHECK(worst_m < 0.06);
+    CHECK(worst_m_s < 2e-3);
+    CHECK(without_rates_m > 1.0);  // the rates are applied
+  }
+}
+
+TEST_CASE("The velocity of a low satellite is the derivative of its position",
+          "[satellite_state]") {
+  for (test::LeoArc arc : test::leo_arcs()) {
+    INFO(arc.name);
+    Ephemeris& e = arc.elements;
+    e.a_dot = 5.0, e.delta_n_dot = 1e-9;  // more than fitted: an error of their terms shows
+    for (const test::LeoState& state : arc.states) {
+      const auto at = [&](double dt) {
+        return broadcast_state(e, e.toe.plus_seconds(state.since_toe_s + dt));
+      };
+      const double h = 0.5;  // s
+      const Eigen::Vector3d v =
+          (8.0 * (at(h).p_e - at(-h).p_e) - (at(2 * h).p_e - at(-2 * h).p_e)) / (12.0 * h);
+      CHECK((at(0).v_e - v).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("Rates are for LEO satellites, and bounded", "[satellite_state]") {
+  Ephemeris gps = test::rtklib_broadcast_cases().front().ephemeris;
+  Ephemeris leo = test::leo_arcs().front().elements;
+  REQUIRE(is_sane(leo));
+  for (double Ephemeris::*const rate : {&Ephemeris::a_dot, &Ephemeris::delta_n_dot}) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {nan, 1e300, -100.0}) {
+      Ephemeris e = leo;
+      e.*rate = bad;
+      CHECK_FALSE(is_sane(e));
+    }
+    Ephemeris e = gps;
+    e.*rate = 1e-13;
+    CHECK_FALSE(is_sane(e));
+  }
 }
 
 }  // namespace leonav
