@@ -25,8 +25,8 @@ constexpr const char *kToldOrbits =
 
 std::string orbit_file(System system) { return std::string(to_string(system)) + ".sp3"; }
 
-std::vector<SignalCode> plan_of(System system) {
-  const auto signals = signals_of(system);
+std::vector<SignalCode> plan_of(const Scenario& scenario, System system) {
+  const auto signals = signals_of(scenario, system);
   return {signals.begin(), signals.end()};
 }
 
@@ -54,10 +54,10 @@ Export::Export(const Scenario& scenario, const TrueSky& sky, const ExportOptions
   header.position_e = to_ecef(scenario.route.origin);
   header.interval_s = scenario.receiver.interval_s;
   if (options.leo_as_gps) {
-    header.signals[System::kGps] = plan_of(System::kLeo);
+    header.signals[System::kGps] = plan_of(scenario, System::kLeo);
   } else {
     for (const TrueSatellite& satellite : sky.satellites) {
-      header.signals.try_emplace(satellite.id.system, plan_of(satellite.id.system));
+      header.signals.try_emplace(satellite.id.system, plan_of(scenario, satellite.id.system));
     }
   }
   observations_ = std::make_unique<RinexObservationWriter>(path(kObservations), std::move(header));

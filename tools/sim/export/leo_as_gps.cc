@@ -91,7 +91,7 @@ std::vector<Ephemeris> LeoAsGps::elements(const BroadcastMessages& messages) con
     const auto name = names_.find(satellite.id);
     if (name == names_.end() || satellite.id.system != System::kLeo) continue;
     for (double toe = 0.0; toe <= scenario_.duration_s + 0.5 * kInterval; toe += kInterval) {
-      const IssueRequest request{name->second, toe, kInterval, Eigen::Vector3d::Zero(), 0.0};
+      const IssueRequest request{name->second, toe, kInterval};
       elements.push_back(fit_issue(scenario_, satellite, request).elements);
       elements.back().transmission_time = elements.back().toe;
     }

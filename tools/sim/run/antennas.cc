@@ -6,7 +6,7 @@
 
 namespace leonav::sim {
 
-std::vector<AntennaPattern> ideal_antennas(const TrueSky& sky) {
+std::vector<AntennaPattern> ideal_antennas(const Scenario& scenario, const TrueSky& sky) {
   std::vector<AntennaPattern> patterns;
   std::set<System> systems;
   for (const TrueSatellite& satellite : sky.satellites) systems.insert(satellite.id.system);
@@ -14,7 +14,7 @@ std::vector<AntennaPattern> ideal_antennas(const TrueSky& sky) {
   pattern.is_receiver = true;
   for (const System system : systems) {
     pattern.satellite = {system, 0};
-    for (const SignalCode code : signals_of(system)) {
+    for (const SignalCode code : signals_of(scenario, system)) {
       pattern.band = code.band;
       patterns.push_back(pattern);
     }
@@ -22,7 +22,7 @@ std::vector<AntennaPattern> ideal_antennas(const TrueSky& sky) {
   pattern.is_receiver = false;
   for (const TrueSatellite& satellite : sky.satellites) {
     pattern.satellite = satellite.id;
-    for (const SignalCode code : signals_of(satellite.id.system)) {
+    for (const SignalCode code : signals_of(scenario, satellite.id.system)) {
       pattern.band = code.band;
       patterns.push_back(pattern);
     }

@@ -9,6 +9,6 @@ namespace leonav::sim {
 
 // Returns phase centres in the centres of mass and at the receiver's reference point, for every
 // direction. They are published explicitly, because an unknown pattern does not count as zero.
-std::vector<AntennaPattern> ideal_antennas(const TrueSky& sky);
+std::vector<AntennaPattern> ideal_antennas(const Scenario& scenario, const TrueSky& sky);
 
 }  // namespace leonav::sim

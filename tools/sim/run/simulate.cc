@@ -60,7 +60,7 @@ class Run {
       throw std::runtime_error("duration_s is too short: the drive ends before the first epoch, " +
                                std::to_string(next_tag_s_) + " s after its start");
     }
-    const std::vector<AntennaPattern> antennas = ideal_antennas(sky_);
+    const std::vector<AntennaPattern> antennas = ideal_antennas(scenario_, sky_);
     for (const AntennaPattern& pattern : antennas) log->write(scenario.start, pattern);
     BroadcastMessages messages = make_broadcast(scenario, sky_);
     Products products = provided_products(scenario, sky_, faults_);

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "daemon/config/config_groups.h"
+
 namespace leonav::sim {
 namespace {
 
@@ -64,6 +66,26 @@ void read_errors(ConfigReader& group, EphemerisErrors* errors) {
   group.number("clock_error_m", kSigma, &errors->clock_m);
 }
 
+void read_signals(ConfigReader& group, ConstellationConfig* c) {
+  std::vector<std::string> names;
+  for (const SignalCode signal : c->signals) names.push_back(to_string(signal));
+  group.list("signals", &names, "list of two RINEX codes");
+  if (names.size() != c->signals.size() || names[0] == names[1]) {
+    group.fail("signals", "must be two different RINEX codes, as [9S, 3C]");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto signal = signal_from_string(names[i]);
+    if (!signal) {
+      group.fail("signals", "'" + names[i] + "' is no RINEX code: a band 1 to 9 and a letter");
+    }
+    if (!(c->bands.frequency_hz(c->system, signal->band) > 0.0)) {
+      group.fail("signals", "'" + names[i] + "' is on a band without a carrier: give bands_mhz." +
+                                signal->band + " in MHz");
+    }
+    c->signals[i] = *signal;
+  }
+}
+
 }  // namespace
 
 void read_constellation(ConfigReader& group, ConstellationConfig* c) {
@@ -79,9 +101,6 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
                                   {"broadcast", ProvidedProducts::kBroadcast},
                                   {"both", ProvidedProducts::kBoth}},
                                  &c->provided);
-  if (c->provided != ProvidedProducts::kPrecise && c->system == System::kLeo) {
-    group.fail("told", "must be precise: low satellites have no broadcast message");
-  }
   read_errors(group, &c->precise);
   group.number("clock_error_varying_m", kSigma, &c->precise.clock_varying_m);
   group.number("product_update_s", {0.0, 86'400.0}, &c->precise.update_s);
@@ -89,7 +108,10 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   group.number("clock_interval_s", {1.0, 900.0}, &c->clock_interval_s);
   group.number("group_delay_m", {0.0, 30.0}, &c->group_delay_m);
   group.group("broadcast", [c](ConfigReader& r) {
-    r.number("issue_interval_s", {600.0, 7200.0}, &c->broadcast.issue_interval_s);
+    // Elements describe a low orbit for some minutes.
+    const bool low = c->system == System::kLeo;
+    r.number("issue_interval_s", {low ? 60.0 : 600.0, low ? 1800.0 : 7200.0},
+             &c->broadcast.issue_interval_s);
     read_errors(r, &c->broadcast.errors);
   });
   group.group("clock", [c](ConfigReader& r) {
@@ -102,6 +124,9 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   own.system = c->system;
   if (group.groups("shells", [&](ConfigReader& r) { read_shell(r, &own); })) c->shells = own.shells;
   check_numbers(group, *c);
+  if (c->system != System::kLeo) return;
+  read_leo_bands(group, "bands_mhz", &c->bands);
+  read_signals(group, c);
 }
 
 }  // namespace leonav::sim

@@ -2,10 +2,12 @@
 // products.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
-#include "core/gnss/signals/satellite.h"
+#include "core/gnss/signals/band_plan.h"
+#include "core/gnss/signals/signal.h"
 #include "daemon/config/config_reader.h"
 
 namespace leonav::sim {
@@ -63,6 +65,9 @@ struct ConstellationConfig {
   BroadcastConfig broadcast;
   SatelliteClockConfig clock;
   double group_delay_m = 2.0;  // 1 sigma of TGD, BGD
+  // LEO: carriers, and the two signals that are sent; those of the others are fixed.
+  BandPlan bands;
+  std::array<SignalCode, 2> signals{{{'1', 'C'}, {'2', 'W'}}};
 };
 
 void read_constellation(ConfigReader& group, ConstellationConfig* constellation);

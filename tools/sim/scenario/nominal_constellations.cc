@@ -145,6 +145,7 @@ ConstellationConfig nominal_constellation(System system) {
       add_leo(&c);
       c.node_interval_s = 30.0;
       c.provided = ProvidedProducts::kPrecise;
+      c.broadcast.issue_interval_s = 600.0;
       c.clock.noise_s_per_sqrt_s = 3e-12;
       c.group_delay_m = 0.0;
       break;

@@ -36,6 +36,9 @@ struct Scenario {
   std::vector<Fault> faults;
   bool ideal = false;              // everything that a navigator cannot model is removed
   std::vector<std::string> given;  // the keys that were given
+
+  // Carriers; of LEO satellites those of their constellation.
+  const BandPlan& bands() const { return constellations[index_of(System::kLeo)].bands; }
 };
 
 }  // namespace leonav::sim

@@ -133,8 +133,8 @@ void SatelliteObserver::measure(const EpochInstant& now, const Geometry& g, cons
                       g.reception.extra_m_s + g.street.extra_m_s + pull.rate_m_s;
   SignalObservation o;
   o.satellite = satellite_.id;
-  o.code = signals_of(system)[s];
-  const double frequency = frequency_hz(system, o.code.band);
+  o.code = signals_of(world_.scenario, system)[s];
+  const double frequency = world_.scenario.bands().frequency_hz(system, o.code.band);
   const double wavelength = kSpeedOfLight / frequency, delay = delay_per_tecu_m(frequency);
   const double late_m = signal_delay_m(system, satellite_.group_delay_m, o.code.band);
   o.pseudorange_m = common + late_m + kSpeedOfLight * now.clock.code_s + delay * g.path.tecu +

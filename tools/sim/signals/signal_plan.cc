@@ -4,7 +4,7 @@
 
 namespace leonav::sim {
 
-std::span<const SignalCode> signals_of(System system) {
+std::span<const SignalCode> signals_of(const Scenario& scenario, System system) {
   static constexpr std::array<SignalCode, 2> kGps{{{'1', 'C'}, {'2', 'W'}}};
   static constexpr std::array<SignalCode, 2> kGalileo{{{'1', 'C'}, {'5', 'Q'}}};
   static constexpr std::array<SignalCode, 2> kBeidou{{{'2', 'I'}, {'6', 'I'}}};
@@ -13,8 +13,9 @@ std::span<const SignalCode> signals_of(System system) {
       return kGalileo;
     case System::kBeidou:
       return kBeidou;
-    case System::kGps:
     case System::kLeo:
+      return scenario.constellations[index_of(system)].signals;
+    case System::kGps:
       break;
   }
   return kGps;

@@ -4,9 +4,11 @@
 
 #include "core/gnss/signals/satellite.h"
 #include "core/gnss/signals/signal.h"
+#include "tools/sim/scenario/scenario.h"
 
 namespace leonav::sim {
 
-std::span<const SignalCode> signals_of(System system);
+// Returns the two signals of the system; the span is valid as long as the scenario.
+std::span<const SignalCode> signals_of(const Scenario& scenario, System system);
 
 }  // namespace leonav::sim

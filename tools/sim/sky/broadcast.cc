@@ -10,6 +10,8 @@ namespace leonav::sim {
 namespace {
 
 constexpr int kSamplesPerSide = 16;
+// Issues of a low satellite overlap by so much on either side.
+constexpr double kLowOverlap_s = 60.0;
 
 NavigationMessage message_of(SatelliteId satellite) {
   switch (satellite.system) {
@@ -27,14 +29,21 @@ NavigationMessage message_of(SatelliteId satellite) {
 
 // Returns half the arc that an issue is fitted to: the validity in the interface document, or
 // slightly more.
-double half_span_s(System system) {
+double half_span_s(System system, double interval_s) {
   if (system == System::kGps) return 7200.0;
+  if (system == System::kLeo) return 0.5 * interval_s + kLowOverlap_s;
   return system == System::kGalileo ? 3600.0 : 5400.0;  // eccentric Galileo orbits need short arcs
 }
-double lead_s(System system) { return system == System::kGps ? 7200.0 : 0.0; }
+double lead_s(System system, double interval_s) {
+  if (system == System::kLeo) return 0.5 * interval_s;
+  return system == System::kGps ? 7200.0 : 0.0;
+}
 
 // The smallest URA and SISA that occur in messages.
-double accuracy_m(System system) { return system == System::kGalileo ? 3.12 : 2.0; }
+double accuracy_m(System system) {
+  if (system == System::kLeo) return 1.0;
+  return system == System::kGalileo ? 3.12 : 2.0;
+}
 
 // Returns the state with axes rotated to those of ECEF at `t`.
 OrbitState at_own_axes(const OrbitState& state, double t) {
@@ -59,7 +68,7 @@ EphemerisFit fit_issue(const Scenario& scenario, const TrueSatellite& satellite,
   given.satellite = request.as;
   given.message = message_of(request.as);
   given.toe = given.toc = scenario.start.plus_seconds(request.toe_s);
-  given.transmission_time = given.toe.plus_seconds(-lead_s(request.as.system));
+  given.transmission_time = given.toe.plus_seconds(-request.lead_s);
   const auto tow = static_cast<std::int64_t>(std::llround(given.toe.tow_s()));
   given.issue = given.issue_clock = static_cast<std::uint16_t>(tow / 600 % 256);
   given.health = satellite.health;
@@ -93,7 +102,7 @@ BroadcastMessages make_broadcast(const Scenario& scenario, const TrueSky& sky) {
   BroadcastMessages messages;
   for (const TrueSatellite& satellite : sky.satellites) {
     const ConstellationConfig& c = scenario.constellations[satellite.constellation];
-    if (c.provided == ProvidedProducts::kPrecise || c.system == System::kLeo) continue;
+    if (c.provided == ProvidedProducts::kPrecise) continue;
     EphemerisErrors errors = c.broadcast.errors;
     errors.update_s = c.broadcast.issue_interval_s;
     const EphemerisError error(errors, satellite.id, period_s(satellite.orbit.at(0.0)),
@@ -101,10 +110,16 @@ BroadcastMessages make_broadcast(const Scenario& scenario, const TrueSky& sky) {
     const double interval = c.broadcast.issue_interval_s;
     const double start_tow = scenario.start.tow_s();
     // The issues begin with the one in force at the start and the one before.
-    double toe = std::floor((start_tow + lead_s(c.system)) / interval) * interval - start_tow;
-    for (toe -= interval; toe <= scenario.duration_s + lead_s(c.system); toe += interval) {
-      const IssueRequest request{satellite.id, toe, half_span_s(c.system), error.orbit_m(toe),
-                                 error.clock_m(toe)};
+    double toe =
+        std::floor((start_tow + lead_s(c.system, interval)) / interval) * interval - start_tow;
+    for (toe -= interval; toe <= scenario.duration_s + lead_s(c.system, interval);
+         toe += interval) {
+      const IssueRequest request{satellite.id,
+                                 toe,
+                                 half_span_s(c.system, interval),
+                                 error.orbit_m(toe),
+                                 error.clock_m(toe),
+                                 lead_s(c.system, interval)};
       const EphemerisFit fit = fit_issue(scenario, satellite, request);
       messages.residuals[index_of(c.system)].add(fit);
       messages.ephemerides.push_back(fit.elements);

@@ -27,8 +27,8 @@ struct BroadcastMessages {
 //
 // Elements are fitted to the true orbit with the error of its issue; the clock polynomial is of
 // first degree; health and group delays are included. Reference times are multiples of the
-// interval. GPS sends an issue two hours ahead of its reference time, the others from it on, so
-// that ages are realistic.
+// interval. GPS sends an issue two hours ahead of its reference time, a LEO satellite half an
+// interval, the others from it on, so that ages are realistic.
 BroadcastMessages make_broadcast(const Scenario& scenario, const TrueSky& sky);
 
 // The message that one satellite would send for `toe_s` (from the start) under the name `as`: the
@@ -38,6 +38,7 @@ struct IssueRequest {
   double toe_s = 0.0, half_span_s = 7200.0;
   Eigen::Vector3d orbit_error_m = Eigen::Vector3d::Zero();  // along, cross, radial
   double clock_error_m = 0.0;
+  double lead_s = 0.0;  // from the transmission to toe
 };
 // Fits one issue.
 EphemerisFit fit_issue(const Scenario& scenario, const TrueSatellite& satellite,

@@ -14,27 +14,34 @@ namespace leonav::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kElements = 15;
-constexpr double kSampleSigma = 0.01;  // relative to the priors
-using Elements = Eigen::Matrix<double, kElements, 1>;
+constexpr Eigen::Index kElements = 15;
+constexpr Eigen::Index kMostElements = 17;  // with the rates of a LEO satellite
+constexpr double kSampleSigma = 0.01;       // relative to the priors
+using Elements = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostElements, 1>;
 
 // The order is: sqrt_a, e cos omega, e sin omega, m0 + omega, delta_n, omega0, omega_dot, i0,
-// i_dot, cuc, cus, crc, crs, cic, cis. The steps move the satellite by some metres.
-Elements steps() {
-  Elements step;
-  step << 1e-3, 1e-7, 1e-7, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-7, 1.0, 1.0, 1e-7, 1e-7;
-  return step;
+// i_dot, cuc, cus, crc, crs, cic, cis, and of a LEO satellite a_dot, delta_n_dot.
+Eigen::Index count_of(const Ephemeris& given) {
+  return given.satellite.system == System::kLeo ? kMostElements : kElements;
+}
+
+// Returns steps that move the satellite by some metres.
+Elements steps(Eigen::Index count) {
+  Eigen::Matrix<double, kMostElements, 1> step;
+  step << 1e-3, 1e-7, 1e-7, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-11, 1e-7, 1e-7, 1.0, 1.0, 1e-7, 1e-7,
+      1e-2, 1e-12;
+  return step.head(count);
 }
 
 // Returns 1 / sigma of the priors (0: none), in units of the steps. The Earth's flattening perturbs
 // low satellites, and their short arcs, a hundred times more.
-Elements prior_weights(bool low) {
-  Elements sigma;
-  sigma << 0, 0, 0, 0, 2e-8, 0, 2e-8, 0, 1e-9, 2e-5, 2e-5, 500.0, 500.0, 1e-6, 1e-6;
+Elements prior_weights(bool low, Eigen::Index count) {
+  Eigen::Matrix<double, kMostElements, 1> sigma;
+  sigma << 0, 0, 0, 0, 2e-8, 0, 2e-8, 0, 1e-9, 2e-5, 2e-5, 500.0, 500.0, 1e-6, 1e-6, 0.01, 1e-12;
   if (low) sigma *= 100.0;
-  const Elements step = steps();
-  Elements weight = Elements::Zero();
-  for (int i = 0; i < kElements; ++i) weight[i] = sigma[i] > 0.0 ? step[i] / sigma[i] : 0.0;
+  const Elements step = steps(count);
+  Elements weight = Elements::Zero(count);
+  for (Eigen::Index i = 0; i < count; ++i) weight[i] = sigma[i] > 0.0 ? step[i] / sigma[i] : 0.0;
   return weight;
 }
 
@@ -49,6 +56,7 @@ Ephemeris with_elements(const Ephemeris& given, const Elements& x) {
   e.omega_dot = x[6];
   e.i0 = x[7], e.i_dot = x[8];
   e.cuc = x[9], e.cus = x[10], e.crc = x[11], e.crs = x[12], e.cic = x[13], e.cis = x[14];
+  if (x.size() == kMostElements) e.a_dot = x[15], e.delta_n_dot = x[16];
   return e;
 }
 
@@ -76,7 +84,7 @@ Elements first_guess(const Ephemeris& given, OrbitState s) {
       given.toe.plus_nanoseconds(beidou ? kBeidouMinusGpsSeconds * kNanosecondsPerSecond : 0)
           .tow_s();
   const double rate = beidou ? 7.2921150e-5 : 7.2921151467e-5;
-  Elements x = Elements::Zero();
+  Elements x = Elements::Zero(count_of(given));
   x.head<4>() << std::sqrt(a), ex, ey, E - ecc * std::sin(E) + perigee;
   x[5] = node + std::remainder(rate * tow, 2.0 * kPi);
   x[7] = std::acos(h.z() / h.norm());
@@ -88,20 +96,20 @@ Eigen::VectorXd residuals(const Ephemeris& given, const Elements& x, const Eleme
                           std::span<const OrbitSample> samples) {
   const Ephemeris e = with_elements(given, x);
   const auto n = static_cast<Eigen::Index>(3 * samples.size());
-  Eigen::VectorXd r(n + kElements);
+  Eigen::VectorXd r(n + x.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     r.segment<3>(static_cast<Eigen::Index>(3 * i)) =
         (broadcast_state(e, samples[i].time).p_e - samples[i].p_e) / kSampleSigma;
   }
-  r.tail<kElements>() = weights.cwiseProduct(x.cwiseQuotient(steps()));
+  r.tail(x.size()) = weights.cwiseProduct(x.cwiseQuotient(steps(x.size())));
   return r;
 }
 
 Eigen::MatrixXd jacobian(const Ephemeris& given, const Elements& x, const Elements& weights,
                          std::span<const OrbitSample> samples) {
-  const Elements step = steps();
-  Eigen::MatrixXd j(static_cast<Eigen::Index>(3 * samples.size()) + kElements, kElements);
-  for (int i = 0; i < kElements; ++i) {
+  const Elements step = steps(x.size());
+  Eigen::MatrixXd j(static_cast<Eigen::Index>(3 * samples.size()) + x.size(), x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
     Elements up = x, down = x;
     up[i] += step[i];
     down[i] -= step[i];
@@ -115,13 +123,14 @@ Eigen::MatrixXd jacobian(const Ephemeris& given, const Elements& x, const Elemen
 
 EphemerisFit fit_ephemeris(const Ephemeris& given, const OrbitState& at_toe,
                            std::span<const OrbitSample> samples) {
-  const Elements weights = prior_weights(at_toe.p_i.norm() < 1.2e7), step = steps();
+  const Eigen::Index count = count_of(given);
+  const Elements weights = prior_weights(at_toe.p_i.norm() < 1.2e7, count), step = steps(count);
   Elements x = first_guess(given, at_toe);
   Eigen::VectorXd r = residuals(given, x, weights, samples);
   double damping = 1e-6;
   for (int round = 0; round < 30 && damping < 1e6; ++round) {
     const Eigen::MatrixXd j = jacobian(given, x, weights, samples);
-    Eigen::MatrixXd system(j.rows() + kElements, kElements);
+    Eigen::MatrixXd system(j.rows() + count, count);
     const Elements size = j.colwise().norm().transpose();
     const Elements diagonal = std::sqrt(damping) * size;
     system << j, Eigen::MatrixXd(diagonal.asDiagonal());

@@ -19,8 +19,8 @@ struct EphemerisFit {
   double rms_m = 0.0, worst_m = 0.0;  // 3D, over the samples
 };
 
-// Fits the fifteen elements of IS-GPS-200 table 20-III to `samples` (two dozen or more, around
-// given.toe).
+// Fits the fifteen elements of IS-GPS-200 table 20-III, and of a LEO satellite the two rates, to
+// `samples` (two dozen or more, around given.toe).
 //
 // The method is Gauss-Newton with Levenberg-Marquardt damping. Satellite, message and toe of
 // `given` must be set. `at_toe` is the state at toe, in the inertial axes that coincide with ECEF

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
 #include "support/simulated_receiver.h"
@@ -48,7 +49,7 @@ int compare(const std::string& fault, const std::function<bool(double, Satellite
 }
 
 double meters(const SignalObservation& o, double cycles) {
-  return cycles * wavelength_m(o.satellite.system, o.code.band);
+  return cycles * BandPlan().wavelength_m(o.satellite.system, o.code.band);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/signal.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/decode.h"
@@ -98,7 +99,7 @@ TEST_CASE("Added low satellites are as the same receiver would have had them", "
       if (o.satellite.system != System::kLeo) continue;
       const auto found = reference.find({o.satellite, o.code});
       if (found == reference.end()) continue;  // rises or sets
-      const double wavelength = wavelength_m(o.satellite.system, o.code.band);
+      const double wavelength = BandPlan().wavelength_m(o.satellite.system, o.code.band);
       const double code = o.pseudorange_m - found->second.pseudorange_m;
       // The time base that the clock was read by is off by 5 m, 1 sigma, and half a second of an
       // orbit around a point instead of the Earth is 4 m; of these little changes from epoch to

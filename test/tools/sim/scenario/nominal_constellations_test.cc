@@ -92,8 +92,25 @@ TEST_CASE("Numbers that are taken or too high are errors") {
   CHECK_THROWS_WITH(load("shells: [{semi_major_axis_km: 29600, planes: 2, per_plane: 4}, "
                          "{semi_major_axis_km: 29600, first_number: 3}]"),
                     Catch::Contains("number 3") && Catch::Contains("twice"));
-  CHECK_THROWS_WITH(load_scenario_text("satellites: {leo: {told: both}}\n", "scenario.yaml"),
-                    Catch::Contains("precise"));
+}
+
+TEST_CASE("Low satellites send the signals that the scenario gives, on its carriers") {
+  const auto load = [](const std::string& keys) {
+    return load_scenario_text("satellites: {leo: {" + keys + "}}\n", "s.yaml");
+  };
+  const Scenario usual = load("enabled: true");
+  CHECK(usual.bands() == BandPlan());
+  CHECK(usual.constellations[index_of(System::kLeo)].signals[1] == SignalCode{'2', 'W'});
+  const Scenario other = load("bands_mhz: {9: 2492.028, 3: 5020.5}, signals: [9S, 3C]");
+  CHECK(other.bands().frequency_hz(System::kLeo, '3') == 5020.5e6);
+  CHECK(other.constellations[index_of(System::kLeo)].signals[0] == SignalCode{'9', 'S'});
+  CHECK_THROWS_WITH(load("signals: [9S, 2W]"),
+                    Catch::Contains("s.yaml:1: ") && Catch::Contains("bands_mhz.9"));
+  CHECK_THROWS_WITH(load("signals: [1C]"), Catch::Contains("two different"));
+  CHECK_THROWS_WITH(load("signals: [1C, 1C]"), Catch::Contains("two different"));
+  CHECK_THROWS_WITH(load("signals: [1C, S9]"), Catch::Contains("no RINEX code"));
+  CHECK_THROWS_WITH(load_scenario_text("satellites: {gps: {signals: [1C, 5Q]}}\n", "s.yaml"),
+                    Catch::Contains("unknown key"));
 }
 
 TEST_CASE("Orbits through the Earth are refused, planes without a span go all round") {

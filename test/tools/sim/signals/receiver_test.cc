@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
 #include "support/simulated_receiver.h"
@@ -15,7 +16,7 @@ namespace {
 const std::string kDrive = "duration_s: 120\nroute: {standing_s: 20}\n";
 
 double meters(const SignalObservation& o, double cycles) {
-  return cycles * wavelength_m(o.satellite.system, o.code.band);
+  return cycles * BandPlan().wavelength_m(o.satellite.system, o.code.band);
 }
 
 // Calls `check(before, now, after)` for each signal that three epochs in a row hold by its carrier.
