@@ -20,9 +20,10 @@ SKY_TEXT = (
     "Each line is a satellite over the run, its mark where it was last. Cells darken with the share of epochs in which a signal was lost: "
     "the satellite was there before and after, or came too weak. Directions are to north, also of a vehicle that turns, so that in streets "
     "this is a mean of what stood around it.")
-RESIDUAL_TEXT = "What the update left of each measurement. Those that were rejected stand at the edge where they are larger than the picture."
-SATELLITE_TEXT = ("Colour is the largest residual of a satellite in its slice of time, over the RMS of all residuals of its kind that were used; grey: there was none. "
-                  "A column of one colour is a common cause.")
+RESIDUAL_TEXT = "What the update left of each measurement. Rejected ones that are larger than the picture stand at its edge."
+SATELLITE_TEXT = (
+    "Colour is the largest residual of a satellite in its slice of time, over the RMS of all residuals of its kind that were used; grey: "
+    "there was none. A column of one colour is a common cause.")
 TIMELINE_TEXT = "Short events are drawn wider than they are."
 
 

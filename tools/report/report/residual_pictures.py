@@ -72,7 +72,8 @@ def _draw_kind(axis, run, mine, kind, systems, start, length):
     axis.set_ylabel(f"{name} ({unit})")
     one = counts(table["reason"][mine])
     rms = np.sqrt(np.mean(residual[used] ** 2)) if used.any() else np.nan
-    axis.set_title(f"3 sigma {three_sigma:.3g} {unit};  {one.used} used, RMS {rms:.3g} {unit}; {one.weakened} of them down-weighted;  {one.rejected} rejected "
+    axis.set_title(f"3 sigma {three_sigma:.3g} {unit};  {one.used} used, RMS {rms:.3g} {unit};  "
+                   f"{one.weakened} of them down-weighted;  {one.rejected} rejected "
                    f"({100.0 * one.rejected / max(one.total, 1):.1f} %)", loc="right", fontsize=8.5, fontweight="normal", color="#333333")
 
 

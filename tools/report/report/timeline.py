@@ -58,7 +58,8 @@ def health_row(run):
     if run.health is None:
         return Row("health", [], np.zeros(0), style.GREY, NOT_KNOWN)
     status = run.health["status"]
-    longest = max(3.0, GAP_INTERVALS * usual_interval(run.health.time)) if len(status) > 2 else 3.0  # of a replay at speed, seconds are longer
+    # Of a log that was played fast, its seconds are longer.
+    longest = max(3.0, GAP_INTERVALS * usual_interval(run.health.time)) if len(status) > 2 else 3.0
     return Row("health", spans_of(run.health.time, status, style.STATUS_COLORS, longest), np.zeros(0), style.GREY,
                shares(status, {one: one for one in style.STATUS_COLORS}))
 
