@@ -5,7 +5,7 @@
 
 namespace leonav {
 
-inline constexpr std::size_t kMaxSignals = 6;         // signals of one satellite
+inline constexpr std::size_t kMaxSignals = 6;         // signals used of a satellite: one a band
 inline constexpr std::size_t kMaxObservations = 512;  // signals in one raw epoch, all satellites
 // Satellites in one raw epoch. The table is as large as that of the observations, so that no
 // satellite can go missing unreported.

@@ -1,7 +1,7 @@
 #include "drivers/epoch/epoch_capacity.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "core/gnss/preprocessing/signal_selection.h"
 
@@ -108,6 +108,19 @@ std::string usable_text(const CapacityLosses& losses) {
   return "signal beyond the " + limit_text() + " (" + names_of(losses.usable_codes) +
          "), though no other code of its frequency was kept: the solution goes without it; record "
          "fewer satellites or frequencies";
+}
+
+std::string summary_of(const CapacityLosses& losses) {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* what,
+                       const std::set<std::pair<System, SignalCode>>& codes) {
+    if (count == 0) return;
+    text += (text.empty() ? "beyond the " + limit_text() + ": " : ", ") + std::to_string(count) +
+            what + names_of(codes) + ")";
+  };
+  add(losses.spare, " spare signals (", losses.spare_codes);
+  add(losses.usable, " usable signals (", losses.usable_codes);
+  return text;
 }
 
 }  // namespace leonav

@@ -46,5 +46,7 @@ class EpochCapacity {
 // misses them. Empty: none.
 std::string spare_text(const CapacityLosses& losses);
 std::string usable_text(const CapacityLosses& losses);
+// Returns both with their counts in a few words.
+std::string summary_of(const CapacityLosses& losses);
 
 }  // namespace leonav

@@ -122,6 +122,10 @@ TEST_CASE("a loss that the estimator feels is told apart, and a band of no syste
   CHECK(spare_text(capacity.losses())
             .starts_with("signal beyond the 512 that an epoch holds (leo 9A)"));
   CHECK(usable_text(capacity.losses()).find("(leo 2W)") != std::string::npos);
+  CHECK(
+      summary_of(capacity.losses()) ==
+      "beyond the 512 that an epoch holds: 300 spare signals (leo 9A), 88 usable signals (leo 2W)");
+  CHECK(summary_of({}).empty());
 }
 
 TEST_CASE("no system has more bands than the models take of a satellite") {

@@ -15,6 +15,7 @@
 
 using namespace leonav;
 using namespace leonav::test;
+using Catch::Contains;
 
 namespace {
 

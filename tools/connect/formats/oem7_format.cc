@@ -64,8 +64,12 @@ std::string Oem7Format::inertial_text() const {
 }
 
 std::string Oem7Format::detail() const {
-  const std::string receiver = receiver_.detail(), inertial = inertial_text();
-  return receiver + (receiver.empty() || inertial.empty() ? "" : "; ") + inertial;
+  std::string text;
+  for (const std::string& part :
+       {receiver_.detail(), summary_of(decoder_.counters().losses), inertial_text()}) {
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  }
+  return text;
 }
 
 std::string Oem7Format::why_no_frames() const {

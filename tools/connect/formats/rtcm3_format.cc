@@ -42,6 +42,8 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 
 std::string Rtcm3Format::detail() const {
   std::string text = receiver_.detail();
+  const std::string losses = summary_of(decoder_.counters().losses);
+  if (!losses.empty()) text += "; " + losses;
   if (!last_ssr_.is_set()) return text;
   const std::string of_corrections = corrections_->detail();
   if (!text.empty() && !of_corrections.empty()) text += "; ";
