@@ -71,7 +71,7 @@ TEST_CASE("Blocks of random contents with a good checksum do no harm") {
   const SbfCounters& c = decoded.counters;
   CHECK(c.framer.blocks == 20'000);
   CHECK(c.framer.bytes_skipped == 0);
-  CHECK(c.measurements.bad_length > 500);
+  CHECK(c.measurements.bad_length > 400);  // half of the MeasEpochs are well formed
   CHECK(c.measurements.scrambled > 100);
   CHECK(c.measurements.other_antennas > 100);
   CHECK(c.epochs.epochs > 50);
