@@ -113,7 +113,7 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
                                            stream.is_service, &corrections);
     case FormatKind::kOem7:
       return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
-                                          &output);
+                                          &output, &corrections);
     case FormatKind::kSbf:
       return std::make_unique<SbfFormat>(stream.is_sbf_inertial, config.gnss_latency_s,
                                          stream.repeat_s, &gps, &output, &corrections);

@@ -15,13 +15,14 @@ namespace leonav {
 class Oem7Format final : public StreamFormat, private Oem7Handler {
  public:
   // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
-  // epochs' arrivals set `clock`. Both pointers must outlive this object.
+  // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput. The pointers must outlive
+  // this object.
   Oem7Format(const Oem7StreamOptions& options, double latency_s, double repeat_s, GpsClock* clock,
-             MessageOutput* output)
+             MessageOutput* output, CorrectionOutput* corrections = nullptr)
       : options_(options),
         latency_s_(latency_s),
         output_(output),
-        receiver_(repeat_s, clock, output),
+        receiver_(repeat_s, clock, output, corrections),
         decoder_({options.imu_scale}) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;

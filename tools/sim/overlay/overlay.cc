@@ -124,7 +124,7 @@ class Overlay {
   // first.
   void tell_products(const LogEvent& event) {
     if (report_.epochs == 1) {
-      for (const AntennaPattern& pattern : ideal_antennas(sky_)) {
+      for (const AntennaPattern& pattern : ideal_antennas(scenario_, sky_)) {
         output_.write(event.timestamp_us, channel_name(Channel::kAntenna),
                       encoder_.encode(pattern, raw_->time, kUncounted));
       }

@@ -52,14 +52,14 @@ void add_epoch(const Positions& satellites, const Eigen::Vector3d& p_a_e,
 }
 
 // Returns the satellites with a pseudorange on every signal of their system.
-Positions tracked_of(const RawEpoch& epoch, const Positions& in_the_sky) {
+Positions tracked_of(const Scenario& scenario, const RawEpoch& epoch, const Positions& in_the_sky) {
   std::map<SatelliteId, std::size_t> ranges;
   for (const SignalObservation& o : epoch.observations) {
     if (std::isfinite(o.pseudorange_m)) ++ranges[o.satellite];
   }
   Positions tracked;
   for (const auto& [id, p_e] : in_the_sky) {
-    if (ranges[id] >= signals_of(id.system).size()) tracked[id] = p_e;
+    if (ranges[id] >= signals_of(scenario, id.system).size()) tracked[id] = p_e;
   }
   return tracked;
 }
@@ -134,7 +134,7 @@ SkyStatistics sky_statistics(const Scenario& scenario, double mask, double step_
       const Eigen::Vector3d p_e = to_earth(satellite.orbit.at(t).p_i, t);
       if (look_angles(p_e, p_a_e).elevation >= mask) up[satellite.id] = p_e;
     }
-    const Positions tracked = tracked_of(receiver.epoch(t), up);
+    const Positions tracked = tracked_of(scenario, receiver.epoch(t), up);
     for (std::size_t i = 0; i < statistics.combinations.size(); ++i) {
       const SystemCombination& combination = statistics.combinations[i];
       add_epoch(up, p_a_e, combination, scratch.get(), &statistics.in_the_sky[i]);
