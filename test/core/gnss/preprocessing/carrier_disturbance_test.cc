@@ -219,18 +219,21 @@ TEST_CASE("a satellite's antenna that becomes known disturbs its own arc, which 
 
 TEST_CASE("how far a carrier may change unseen: nanoseconds' clocks, one frequency's ionosphere") {
   const CycleSlipConfig config;
+  const BandPlan bands;
+  const Eigen::Vector3d p_a_e = Eigen::Vector3d::Zero();
   SatelliteInView view;
   view.elevation = 1.5;
   view.source = OrbitSource::kPrecise;
   Measurement carrier;
   carrier.code = {'1', 'C'};
-  CHECK(change_sigma_m(config, view, carrier, 30.0) == Approx(0.015).epsilon(0.01));
+  CHECK(change_sigma_m(config, bands, view, carrier, p_a_e, 30.0) == Approx(0.015).epsilon(0.01));
   view.source = OrbitSource::kBroadcast;
   carrier.second_code = {'2', 'W'};
-  CHECK(change_sigma_m(config, view, carrier, 30.0) == Approx(0.0082).epsilon(0.01));
+  CHECK(change_sigma_m(config, bands, view, carrier, p_a_e, 30.0) == Approx(0.0082).epsilon(0.01));
   carrier.second_code = {};
   // A cycle of 19 cm is twice the limit of five sigma, noise of 3 mm at both epochs included.
-  CHECK(5.0 * std::hypot(change_sigma_m(config, view, carrier, 30.0), 0.0042) < 0.095);
+  CHECK(5.0 * std::hypot(change_sigma_m(config, bands, view, carrier, p_a_e, 30.0), 0.0042) <
+        0.095);
 }
 
 TEST_CASE("the pair that is followed is forgotten when its arc's gap ends, not by this interval") {

@@ -100,7 +100,9 @@ TEST_CASE("A u-blox receiver's pages are used where that is asked for", "[connec
   const bool uses_pages = GENERATE(true, false);
   Rig rig;
   GpsClock clock(TimeReference::kGnss, 0.05);
-  UbxFormat format(0.05, 0.0, &clock, &rig.output, &rig.corrections, {.uses_pages = uses_pages});
+  UbxStreamOptions options;
+  options.uses_pages = uses_pages;
+  UbxFormat format(0.05, 0.0, &clock, &rig.output, &rig.corrections, options);
   feed(&format, bytes_of(test::shared_data(kWalk)));
   CHECK((rig.counts.of[Channel::kCorrectedStates] > 5) == uses_pages);
   CHECK((rig.counts.of[Channel::kBiases] > 2) == uses_pages);
