@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "drivers/nmea/fields.h"
 #include "drivers/nmea/fix_quality.h"
@@ -14,14 +15,14 @@ namespace {
 constexpr double kKnot_m_s = 1852.0 / 3600.0, kKilometresPerHour = 3.6;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// A height of at most seven characters, so that GGA stays within the 82 of the standard; a sign
-// takes the place of a digit.
-std::string height_field(double metres) {
-  const double size = metres < 0.0 ? -10.0 * metres : metres;
-  return number_field(metres, size < 999.9995    ? 3
-                              : size < 9'999.995 ? 2
-                              : size < 99'999.95 ? 1
-                                                 : 0);
+// A height with as many of three decimals as fit, so that GGA stays within the 82 of the standard:
+// a third decimal of the time takes the place of one.
+std::string height_field(double metres, bool is_time_long) {
+  const std::size_t most = is_time_long ? 7 : 8;
+  int decimals = 3;
+  std::string text = number_field(metres, decimals);
+  while (text.size() > most && decimals > 0) text = number_field(metres, --decimals);
+  return text;
 }
 
 double speed_of(const Solution& solution) { return std::hypot(solution.v_n[0], solution.v_n[1]); }
@@ -48,7 +49,8 @@ std::string gga_sentence(const Solution& solution, const SkyView* sky, const Fix
   // Dead reckoning has no satellites, whatever the last epoch had.
   const bool has_sky = sky != nullptr && quality.mode == 'A';
   Sentence sentence("GNGGA");
-  sentence.field(utc_fields(solution.time).time);
+  const std::string time = utc_fields(solution.time).time;
+  sentence.field(time);
   add_place(solution, quality.has_position, &sentence);
   sentence.field(std::string(1, quality.gga));
   const int used = has_sky ? std::clamp(sky->used, 0, 99) : 0;
@@ -57,7 +59,8 @@ std::string gga_sentence(const Solution& solution, const SkyView* sky, const Fix
   sentence.field(number_field(hdop, hdop < 9.995 ? 2 : 1));
   const double separation_m = options.geoid_separation_m;
   if (quality.has_position) {
-    sentence.field(height_field(solution.height - separation_m)).field("M");
+    const bool is_time_long = time.size() > std::string_view("hhmmss.ss").size();
+    sentence.field(height_field(solution.height - separation_m, is_time_long)).field("M");
     sentence.field(number_field(separation_m, 1)).field("M");
   } else {
     sentence.field("").field("").field("").field("");

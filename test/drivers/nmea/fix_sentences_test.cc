@@ -83,8 +83,9 @@ TEST_CASE("Heights may be negative, and long ones lose decimals, not characters"
   solution.height = -430.5;
   const FixOptions options{-106.9, 50.0};
   const SkyView view = sky();
+  CHECK(body(gga_sentence(solution, &view, options)).ends_with(",-323.600,M,-106.9,M,,"));
+  solution.time = solution.time.plus_nanoseconds(5'000'000);  // takes a decimal's place
   CHECK(body(gga_sentence(solution, &view, options)).ends_with(",-323.60,M,-106.9,M,,"));
-  solution.time = solution.time.plus_nanoseconds(5'000'000);  // a third decimal of the time
   for (const double height : {-9'999.9996, 999.9996, 12'345.67, -999.9996, -99.9996, 123'456.7}) {
     solution.height = height;
     SkyView poor = view;
