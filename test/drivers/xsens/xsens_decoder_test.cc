@@ -224,7 +224,8 @@ TEST_CASE("A counter that wraps goes on", "[xsens]") {
   CHECK(back.extend(0) == 0);
 }
 
-TEST_CASE("Damage costs the message that it is in and no other, in chunks of any size", "[xsens]") {
+TEST_CASE("Damage of MTData2 costs the message that it is in and no other, in chunks of any size",
+          "[xsens]") {
   constexpr std::size_t kMessages = 400;
   Bytes stream;
   std::vector<bool> is_damaged(kMessages, false);

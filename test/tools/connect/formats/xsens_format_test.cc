@@ -31,8 +31,11 @@ struct Packed {
 };
 
 Bytes message(std::uint8_t id, const Packed& payload) {
-  Bytes bytes = {0xFA, 0xFF, id, static_cast<std::uint8_t>(payload.bytes.size())};
-  bytes.insert(bytes.end(), payload.bytes.begin(), payload.bytes.end());
+  Bytes bytes;
+  for (const std::size_t byte :
+       {std::size_t{0xFA}, std::size_t{0xFF}, std::size_t{id}, payload.bytes.size()})
+    bytes.push_back(static_cast<std::uint8_t>(byte));
+  for (const std::uint8_t byte : payload.bytes) bytes.push_back(byte);
   const unsigned sum = std::accumulate(bytes.begin() + 1, bytes.end(), 0U);
   bytes.push_back(static_cast<std::uint8_t>(256 - sum % 256));
   return bytes;
