@@ -37,7 +37,7 @@ void rank(const SignalPreference& preference, const BandPlan& bands,
   });
   for (auto i = begin; i < end; ++i) {
     const SignalObservation& signal = *i->signal;
-    if (!is_band_of(signal.satellite.system, signal.code.band)) {
+    if (!(bands.frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) {
       i->of_frequency = kNoFrequency;
       continue;
     }

@@ -15,9 +15,9 @@ inline constexpr std::int32_t kLeoEphemerisSchema = 2;  // on the channel of eph
 // Of HEALTH. SOLUTION, EPOCH and SMOOTHER: output_schema.h.
 inline constexpr std::int32_t kHealthSchema = 2;
 
-// Largest message that the Decoder accepts. The longest of lcmtypes/ is epoch_t at full capacity
-// (31.4 KiB).
-inline constexpr std::size_t kMaxMessageBytes = 40 * 1024;
+// Largest message that the Decoder accepts. The longest of lcmtypes/ is biases_t at full capacity
+// (60.1 KiB).
+inline constexpr std::size_t kMaxMessageBytes = 64 * 1024;
 
 // Latest time that is accepted: week 10000 (year 2171). Later ones are wrong and near the end of
 // the 64-bit range.

@@ -83,8 +83,8 @@ TEST_CASE("a file without a message says what it holds", "[import]") {
     std::ofstream(yaml.beside("pages.has")) << text;
     try {
       import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
-    } catch (const FileError& error) {
-      return std::string(error.what());
+    } catch (const FileError& fault) {
+      return std::string(fault.what());
     }
     return std::string();
   };
