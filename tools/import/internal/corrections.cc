@@ -17,7 +17,12 @@ std::vector<ScheduledCorrection> read_corrections(const std::string& path, GpsTi
   long epochs = 0;
   for (Rtcm3Output output; reader.next(&output);) {
     if (const auto* message = std::get_if<SsrMessage>(&output)) {
-      const GpsTime arrival = message->time.plus_seconds(latency_s);
+      GpsTime arrival = message->time.plus_seconds(latency_s);
+      // Some services send biases with the time at which they were determined, hours ago.
+      const bool has_biases =
+          message->kind == SsrKind::kCodeBias || message->kind == SsrKind::kPhaseBias;
+      if (has_biases && !corrections.empty())
+        arrival = std::max(arrival, corrections.back().arrival);
       for (const Ephemeris& e : before_first) corrections.push_back({arrival, e});
       before_first.clear();
       corrections.push_back({arrival, *message});
