@@ -97,7 +97,7 @@ TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[co
 
 TEST_CASE("A u-blox receiver's pages are used where that is asked for", "[connect]") {
   if (!test::have_shared_data(kWalk)) return;
-  std::uint64_t biases_without_pages = 0;  // those of CNAV and B-CNAV
+  int biases_without_pages = 0;  // those of CNAV and B-CNAV
   for (const bool uses_pages : {false, true}) {
     Rig rig;
     GpsClock clock(TimeReference::kGnss, 0.05);
