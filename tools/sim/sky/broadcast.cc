@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gnss/orbits/satellite_state.h"
 #include "core/gnss/signals/signal.h"
 #include "tools/sim/sky/ephemeris_error.h"
 
@@ -84,14 +85,19 @@ EphemerisFit fit_issue(const Scenario& scenario, const TrueSatellite& satellite,
   }
   const OrbitState at_toe = at_own_axes(satellite.orbit.at(request.toe_s), request.toe_s);
   EphemerisFit fit = fit_ephemeris(given, at_toe, samples);
-  // The clock polynomial is the true clock's straight line over the arc.
-  const double before = satellite.clock.at(request.toe_s - request.half_span_s).offset_s;
-  const double after = satellite.clock.at(request.toe_s + request.half_span_s).offset_s;
+  // The clock polynomial is the straight line over the arc of what the user's relativistic term
+  // leaves of the true clock: with fitted elements that term is not quite that of the orbit.
+  const auto left_s = [&](double t) {
+    return clock_s(satellite, t) -
+           broadcast_state(fit.elements, scenario.start.plus_seconds(t)).clock_s;
+  };
+  const double before = left_s(request.toe_s - request.half_span_s);
+  const double after = left_s(request.toe_s + request.half_span_s);
   const double reference_m = broadcast_reference_m(given.message, satellite.group_delay_m);
+  const double at_toe_s = left_s(request.toe_s);
   Ephemeris& e = fit.elements;
   e.af1 = (after - before) / (2.0 * request.half_span_s);
-  e.af0 = satellite.clock.at(request.toe_s).offset_s +
-          (request.clock_error_m - reference_m) / kSpeedOfLight;
+  e.af0 = at_toe_s + (request.clock_error_m - reference_m) / kSpeedOfLight;
   for (std::size_t i = 0; i < 2; ++i) {
     e.group_delay_s[i] = satellite.group_delay_m[i] / kSpeedOfLight;
   }

@@ -17,6 +17,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr Eigen::Index kElements = 15;
 constexpr Eigen::Index kMostElements = 17;  // with the rates of a LEO satellite
 constexpr double kSampleSigma = 0.01;       // relative to the priors
+// Elements of a low orbit take some hundred rounds: over minutes most of them act alike.
+constexpr int kMostRounds = 300;
 using Elements = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostElements, 1>;
 
 // The order is: sqrt_a, e cos omega, e sin omega, m0 + omega, delta_n, omega0, omega_dot, i0,
@@ -128,7 +130,7 @@ EphemerisFit fit_ephemeris(const Ephemeris& given, const OrbitState& at_toe,
   Elements x = first_guess(given, at_toe);
   Eigen::VectorXd r = residuals(given, x, weights, samples);
   double damping = 1e-6;
-  for (int round = 0; round < 30 && damping < 1e6; ++round) {
+  for (int round = 0; round < kMostRounds && damping < 1e6; ++round) {
     const Eigen::MatrixXd j = jacobian(given, x, weights, samples);
     Eigen::MatrixXd system(j.rows() + count, count);
     const Elements size = j.colwise().norm().transpose();
