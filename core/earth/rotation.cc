@@ -55,6 +55,11 @@ EulerAngles euler_from_rotation(const Eigen::Matrix3d& C_nb) {
   return angles;
 }
 
+Eigen::Vector3d rotate_about_z(const Eigen::Vector3d& v, double angle) {
+  const double s = std::sin(angle), c = std::cos(angle);
+  return {c * v.x() + s * v.y(), -s * v.x() + c * v.y(), v.z()};
+}
+
 double wrap_to_pi(double angle) {
   const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;

@@ -22,6 +22,10 @@ struct EulerAngles {
 Eigen::Matrix3d rotation_from_euler(const EulerAngles& angles);  // C_nb
 EulerAngles euler_from_rotation(const Eigen::Matrix3d& C_nb);
 
+// Returns the vector in axes that have turned by `angle` about z: from an inertial frame, or from
+// the Earth-fixed one of another instant, to the Earth-fixed one.
+Eigen::Vector3d rotate_about_z(const Eigen::Vector3d& v, double angle);
+
 double wrap_to_pi(double angle);  // result in (-pi, pi]
 
 }  // namespace leonav

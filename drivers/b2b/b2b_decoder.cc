@@ -74,8 +74,9 @@ std::vector<SsrMessage> B2bDecoder::add(const CorrectionPage& page) {
   } else {
     const auto iodp = bits.take(4);
     const Mask& mask = masks_[iodp];
-    const bool is_known = mask.received.is_set() && mask.issue == head.issue &&
-                          seconds_between(page.received, mask.received) <= kLongestMaskLife_s;
+    const bool is_known =
+        mask.received.is_set() && mask.issue == head.issue &&
+        std::abs(seconds_between(page.received, mask.received)) <= kLongestMaskLife_s;
     if (!is_known) return refuse(&counters_.without_mask);
     head.validity_s = kClockValidity_s;
     satellites = read_clocks(&bits, mask);

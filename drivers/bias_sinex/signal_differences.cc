@@ -4,6 +4,8 @@
 #include <deque>
 #include <set>
 
+#include "core/gnss/measurement/weighting.h"
+
 namespace leonav {
 namespace {
 
@@ -37,8 +39,8 @@ double reference_value(System system, const ClockReference& reference, const Val
   if (!reference.second.is_set()) return values.at(reference.first);
   const double f1 = frequency_hz(system, reference.first.band);
   const double f2 = frequency_hz(system, reference.second.band);
-  const double gamma_1 = f1 * f1 / (f1 * f1 - f2 * f2);
-  return gamma_1 * values.at(reference.first) + (1.0 - gamma_1) * values.at(reference.second);
+  const IonosphereFree pair = ionosphere_free(f1, f2);
+  return pair.gamma1 * values.at(reference.first) + pair.gamma2 * values.at(reference.second);
 }
 
 // Solves one interval.

@@ -15,10 +15,6 @@ constexpr double kMaxDoppler = 1e5;      // Hz
 constexpr double kMaxCn0 = 80.0;         // dB-Hz
 constexpr double kMaxLockTime = 1e9;     // s
 
-bool order_of(const SignalObservation& a, const SignalObservation& b) {
-  return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
-}
-
 }  // namespace
 
 bool RangeEpochs::assemble(GpsTime time, std::span<const RangeMeasurement> measurements,
@@ -104,7 +100,7 @@ bool RangeEpochs::lock_was_lost(GpsTime time, const RangeMeasurement& now, const
 
 void RangeEpochs::sort_and_drop_duplicates() {
   auto& all = signals_;
-  std::stable_sort(all.begin(), all.end(), order_of);
+  std::stable_sort(all.begin(), all.end(), comes_before);
   const auto end = std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.satellite == b.satellite && a.code == b.code;
   });

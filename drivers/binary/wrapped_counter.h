@@ -1,13 +1,15 @@
 // The WrappedCounter continues a counter that begins again at zero after its last value.
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 namespace leonav {
 
 // Of all numbers that leave the same rest modulo 2^bits, the one nearest to the number before is
 // meant. A counter that stands still, or goes back by less than half of its range, is followed so;
-// a pause of more than half of the range cannot be told from a shorter one.
+// a pause of more than half of the range cannot be told from a shorter one. Beyond kFarthest, which
+// no sensor reaches in a century, it begins anew, so that users may multiply it.
 class WrappedCounter {
  public:
   // Precondition: 1 <= bits <= 32.
@@ -17,7 +19,7 @@ class WrappedCounter {
   // first one is itself.
   std::int64_t extend(std::uint32_t value) {
     const std::int64_t rest = value & (range_ - 1);
-    if (!last_) {
+    if (!last_ || std::abs(*last_) > kFarthest) {
       last_ = rest;
       return rest;
     }
@@ -26,6 +28,8 @@ class WrappedCounter {
     last_ = *last_ + step;
     return *last_;
   }
+
+  static constexpr std::int64_t kFarthest = std::int64_t{1} << 42;
 
  private:
   std::int64_t range_;

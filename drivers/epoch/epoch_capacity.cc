@@ -8,10 +8,6 @@
 namespace leonav {
 namespace {
 
-bool order_of(const SignalObservation& a, const SignalObservation& b) {
-  return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
-}
-
 constexpr int kNoFrequency = 99;  // after all others: of a band that the system does not have
 
 // A signal with its place among those of its satellite.
@@ -37,7 +33,7 @@ void rank(const SignalPreference& preference, const BandPlan& bands,
   });
   for (auto i = begin; i < end; ++i) {
     const SignalObservation& signal = *i->signal;
-    if (!(bands.frequency_hz(signal.satellite.system, signal.code.band) > 0.0)) {
+    if (!is_band_of(signal.satellite.system, signal.code.band)) {
       i->of_frequency = kNoFrequency;
       continue;
     }
@@ -65,7 +61,8 @@ std::string limit_text() { return std::to_string(kMaxObservations) + " that an e
 EpochCapacity::EpochCapacity(const GnssConfig& config) : config_(config) {}
 
 void EpochCapacity::fit(std::vector<SignalObservation>* signals, RawEpoch* epoch) {
-  std::sort(signals->begin(), signals->end(), order_of);
+  if (!std::is_sorted(signals->begin(), signals->end(), comes_before))
+    std::sort(signals->begin(), signals->end(), comes_before);
   if (signals->size() > kMaxObservations) keep_usable(signals);
   epoch->observations.assign(signals->begin(), signals->end());
 }
@@ -92,7 +89,7 @@ void EpochCapacity::keep_usable(std::vector<SignalObservation>* signals) {
   }
   std::vector<SignalObservation> kept;
   for (std::size_t i = 0; i < kMaxObservations; ++i) kept.push_back(*ranked[i].signal);
-  std::sort(kept.begin(), kept.end(), order_of);
+  std::sort(kept.begin(), kept.end(), comes_before);
   *signals = std::move(kept);
 }
 

@@ -1,6 +1,7 @@
 #include "drivers/has/has_message.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -27,10 +28,13 @@ class Blocks {
   HasStatus read_orbits();
   HasStatus read_clocks();
   HasStatus read_clock_subset();
-  HasStatus read_code_biases();
-  HasStatus read_phase_biases();
+  HasStatus read_code_biases() { return read_biases(SsrKind::kCodeBias); }
+  HasStatus read_phase_biases() { return read_biases(SsrKind::kPhaseBias); }
 
  private:
+  HasStatus read_biases(SsrKind kind);
+  void take_bias(SsrKind kind, System system, const std::optional<SignalCode>& code,
+                 SsrSatellite* satellite);
   bool take_validity();
   std::optional<double> take_value(int count, double unit);
   void take_clock(double multiplier, SsrSatellite* satellite);
@@ -145,21 +149,15 @@ HasStatus Blocks::read_clock_subset() {
   return HasStatus::kOk;
 }
 
-HasStatus Blocks::read_code_biases() {
+HasStatus Blocks::read_biases(SsrKind kind) {
   if (!take_validity()) return HasStatus::kBadValidity;
   for (const HasSystemMask& of : mask_) {
-    SsrMessage m = message(SsrKind::kCodeBias, of);
+    SsrMessage m = message(kind, of);
     for (std::size_t s = 0; s < of.satellites.size(); ++s) {
       SsrSatellite& satellite = m.satellites.emplace_back();
       satellite.satellite = of.satellites[s];
       for (std::size_t i = 0; i < of.signals.size(); ++i) {
-        if (((of.cells[s] >> i) & 1u) == 0) continue;
-        const auto bias = take_value(11, 0.02);
-        left_out_->unavailable += !bias;
-        left_out_->reserved_signals += !of.signals[i];
-        if (bias && of.signals[i]) {
-          satellite.code_biases.push_back({*of.signals[i], *bias, false, 0, 0});
-        }
+        if (((of.cells[s] >> i) & 1u) != 0) take_bias(kind, of.system, of.signals[i], &satellite);
       }
     }
     add(std::move(m), of);
@@ -167,28 +165,18 @@ HasStatus Blocks::read_code_biases() {
   return HasStatus::kOk;
 }
 
-HasStatus Blocks::read_phase_biases() {
-  if (!take_validity()) return HasStatus::kBadValidity;
-  for (const HasSystemMask& of : mask_) {
-    SsrMessage m = message(SsrKind::kPhaseBias, of);
-    for (std::size_t s = 0; s < of.satellites.size(); ++s) {
-      SsrSatellite& satellite = m.satellites.emplace_back();
-      satellite.satellite = of.satellites[s];
-      for (std::size_t i = 0; i < of.signals.size(); ++i) {
-        if (((of.cells[s] >> i) & 1u) == 0) continue;
-        const auto cycles = take_value(11, 0.01);
-        const auto discontinuities = static_cast<std::uint8_t>(bits_->take(2));
-        left_out_->unavailable += !cycles;
-        left_out_->reserved_signals += !of.signals[i];
-        if (!cycles || !of.signals[i]) continue;
-        const double wavelength = wavelength_m(of.system, of.signals[i]->band);
-        satellite.phase_biases.push_back(
-            {*of.signals[i], *cycles * wavelength, false, 0, discontinuities});
-      }
-    }
-    add(std::move(m), of);
-  }
-  return HasStatus::kOk;
+void Blocks::take_bias(SsrKind kind, System system, const std::optional<SignalCode>& code,
+                       SsrSatellite* satellite) {
+  const bool is_phase = kind == SsrKind::kPhaseBias;
+  const auto value = take_value(11, is_phase ? 0.01 : 0.02);  // cycles, or m
+  SsrBias bias;
+  if (is_phase) bias.discontinuities = static_cast<std::uint8_t>(bits_->take(2));
+  left_out_->unavailable += !value;
+  left_out_->reserved_signals += !code;
+  if (!value || !code) return;
+  bias.code = *code;
+  bias.bias_m = is_phase ? *value * wavelength_m(system, code->band) : *value;
+  (is_phase ? satellite->phase_biases : satellite->code_biases).push_back(bias);
 }
 
 }  // namespace
@@ -210,7 +198,8 @@ HasStatus HasMessages::decode(std::span<const std::uint8_t> octets, GpsTime rece
     if (!mask) return HasStatus::kBadMask;
     known = {received, std::move(*mask)};
   }
-  if (!known.received.is_set() || seconds_between(received, known.received) > kLongestMaskLife_s) {
+  if (!known.received.is_set() ||
+      std::abs(seconds_between(received, known.received)) > kLongestMaskLife_s) {
     return HasStatus::kWithoutMask;
   }
   SsrMessage head;

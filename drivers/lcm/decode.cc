@@ -75,21 +75,17 @@ DecodeResult result_of(const T& message, InputFault fault) {
   return {fault, static_cast<std::uint64_t>(message.sequence), 0};
 }
 
-bool before(const SignalObservation& a, const SignalObservation& b) {
-  return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
-}
-
 // Sorts the observations and removes all that share satellite and signal with another. Returns
 // whether there were any.
 bool sort_and_drop_copies(RawEpoch* epoch) {
   auto& list = epoch->observations;
-  if (!std::is_sorted(list.begin(), list.end(), before)) {
-    std::sort(list.begin(), list.end(), before);
+  if (!std::is_sorted(list.begin(), list.end(), comes_before)) {
+    std::sort(list.begin(), list.end(), comes_before);
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t end = i + 1;
-    while (end < list.size() && !before(list[i], list[end])) ++end;
+    while (end < list.size() && !comes_before(list[i], list[end])) ++end;
     if (end == i + 1) list[kept++] = list[i];
     i = end;
   }

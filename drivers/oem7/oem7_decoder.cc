@@ -22,7 +22,6 @@ struct Oem7Decoder::State {
   explicit State(const Oem7Options& options) : imu(options.imu_scale) {}
 
   void give(EphemerisStatus status, const Ephemeris& ephemeris, Oem7Handler* handler);
-  bool count(EphemerisStatus status);
   void give(const Ephemeris& ephemeris, Oem7Handler* handler);
   void give_galileo(std::span<const std::uint8_t> payload, GpsTime now, Oem7Handler* handler);
   void give_ionosphere(std::span<const std::uint8_t> payload, Oem7Handler* handler);
@@ -42,32 +41,6 @@ struct Oem7Decoder::State {
   std::map<std::uint16_t, std::uint64_t> unused;
 };
 
-bool Oem7Decoder::State::count(EphemerisStatus status) {
-  switch (status) {
-    case EphemerisStatus::kOk:
-      return true;
-    case EphemerisStatus::kBadLength:
-      ++ephemerides.bad_length;
-      break;
-    case EphemerisStatus::kBadSatellite:
-      ++ephemerides.bad_satellite;
-      break;
-    case EphemerisStatus::kBadTime:
-      ++ephemerides.bad_time;
-      break;
-    case EphemerisStatus::kBadWeek:
-      ++ephemerides.bad_week;
-      break;
-    case EphemerisStatus::kBadSubframes:
-      ++ephemerides.bad_subframes;
-      break;
-    case EphemerisStatus::kNotSane:
-      ++ephemerides.not_sane;
-      break;
-  }
-  return false;
-}
-
 void Oem7Decoder::State::give(const Ephemeris& ephemeris, Oem7Handler* handler) {
   if (!reported.is_new(ephemeris)) {
     ++ephemerides.repeated;
@@ -79,13 +52,13 @@ void Oem7Decoder::State::give(const Ephemeris& ephemeris, Oem7Handler* handler) 
 
 void Oem7Decoder::State::give(EphemerisStatus status, const Ephemeris& ephemeris,
                               Oem7Handler* handler) {
-  if (count(status)) give(ephemeris, handler);
+  if (ephemerides.count(status)) give(ephemeris, handler);
 }
 
 void Oem7Decoder::State::give_galileo(std::span<const std::uint8_t> payload, GpsTime now,
                                       Oem7Handler* handler) {
   GalileoSets sets;
-  if (!count(read_galephemeris(payload, now, &sets))) return;
+  if (!ephemerides.count(read_galephemeris(payload, now, &sets))) return;
   if (sets.inav) give(*sets.inav, handler);
   if (sets.fnav) give(*sets.fnav, handler);
 }

@@ -10,6 +10,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/ephemeris_status.h"
 #include "drivers/binary/range_epoch.h"
 #include "drivers/oem7/oem7_framer.h"
 #include "drivers/oem7/raw_imu.h"
@@ -34,15 +35,9 @@ struct Oem7RangeCounters {
 };
 
 // Counts of logs with ephemerides.
-struct Oem7EphemerisCounters {
-  std::uint64_t ephemerides = 0;  // given out
-  std::uint64_t repeated = 0;     // same contents as before, or GPSEPHEM beside RAWEPHEM
-  std::uint64_t bad_length = 0;
-  std::uint64_t bad_satellite = 0;
-  std::uint64_t bad_time = 0;        // reference time beyond the end of the week
-  std::uint64_t bad_week = 0;        // its week contradicts the receiver's
-  std::uint64_t bad_subframes = 0;   // not subframes 1 to 3 of one issue
-  std::uint64_t not_sane = 0;        // elements outside physical bounds
+struct Oem7EphemerisCounters : EphemerisRefusals {
+  std::uint64_t ephemerides = 0;     // given out
+  std::uint64_t repeated = 0;        // same contents as before, or GPSEPHEM beside RAWEPHEM
   std::uint64_t without_time = 0;    // the receiver did not know the time
   std::uint64_t bad_ionosphere = 0;  // IONUTC that is too short or not finite
 };

@@ -182,30 +182,30 @@ bool is_broadcast_ephemeris(std::uint16_t message_number) {
          message_number == kGalileoInav;
 }
 
-BroadcastStatus decode_ephemeris(std::uint16_t message_number,
+EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
                                  Ephemeris* ephemeris) {
-  if (message.size() * 8 < bits_of(message_number)) return BroadcastStatus::kBadLength;
+  if (message.size() * 8 < bits_of(message_number)) return EphemerisStatus::kBadLength;
   const bool is_beidou = message_number == kBeidou;
   const System system =
       is_beidou ? System::kBeidou : (message_number == kGps ? System::kGps : System::kGalileo);
   BitReader reader(message);
   Ephemeris e;
   e.satellite = {system, static_cast<std::uint16_t>(reader.skip(12).take(6))};
-  if (!is_valid(e.satellite)) return BroadcastStatus::kBadSatellite;
+  if (!is_valid(e.satellite)) return EphemerisStatus::kBadSatellite;
   const Times times = take_elements(message_number, reader, &e);
   if (times.toe_s >= kSecondsPerWeek || times.toc_s >= kSecondsPerWeek) {
-    return BroadcastStatus::kBadTime;
+    return EphemerisStatus::kBadTime;
   }
-  if (!agrees(system, times.week, near)) return BroadcastStatus::kBadWeek;
+  if (!agrees(system, times.week, near)) return EphemerisStatus::kBadWeek;
   const auto instant = [&](std::int64_t s) {
     return is_beidou ? nearest_beidou_instant(s, near) : nearest_instant(s, near);
   };
   e.toe = instant(times.toe_s);
   e.toc = instant(times.toc_s);
-  if (!is_sane(e)) return BroadcastStatus::kNotSane;
+  if (!is_sane(e)) return EphemerisStatus::kNotSane;
   *ephemeris = e;
-  return BroadcastStatus::kOk;
+  return EphemerisStatus::kOk;
 }
 
 }  // namespace leonav

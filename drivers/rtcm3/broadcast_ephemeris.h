@@ -6,18 +6,9 @@
 #include <span>
 
 #include "core/gnss/orbits/ephemeris.h"
+#include "drivers/binary/ephemeris_status.h"
 
 namespace leonav {
-
-// Outcome of one message.
-enum class BroadcastStatus : std::uint8_t {
-  kOk = 0,
-  kBadLength,     // shorter than its fields
-  kBadSatellite,  // number outside its system's range
-  kBadTime,       // reference time beyond the end of the week
-  kBadWeek,       // its week contradicts the stream's
-  kNotSane,       // elements outside physical bounds
-};
 
 // Returns whether a message number is one of those that decode_ephemeris() reads.
 bool is_broadcast_ephemeris(std::uint16_t message_number);
@@ -25,7 +16,7 @@ bool is_broadcast_ephemeris(std::uint16_t message_number);
 // Decodes one message. The times of week are completed to the instants nearest to `near`, with
 // which the message's own week must agree. The messages do not say when the set was sent:
 // transmission_time stays unset. Precondition: is_broadcast_ephemeris(), `near` is set.
-BroadcastStatus decode_ephemeris(std::uint16_t message_number,
+EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
                                  Ephemeris* ephemeris);
 

@@ -74,24 +74,8 @@ void Rtcm3Decoder::take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler
     return;
   }
   Ephemeris ephemeris;
-  switch (decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris)) {
-    case BroadcastStatus::kBadLength:
-      ++counters.bad_length;
-      return;
-    case BroadcastStatus::kBadSatellite:
-      ++counters.bad_satellite;
-      return;
-    case BroadcastStatus::kBadTime:
-      ++counters.bad_time;
-      return;
-    case BroadcastStatus::kBadWeek:
-      ++counters.bad_week;
-      return;
-    case BroadcastStatus::kNotSane:
-      ++counters.not_sane;
-      return;
-    case BroadcastStatus::kOk:
-      break;
+  if (!counters.count(decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris))) {
+    return;
   }
   if (!state_->reported.is_new(ephemeris)) {
     ++counters.repeated;

@@ -9,6 +9,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/ephemeris_status.h"
 #include "drivers/rtcm3/epoch_assembly.h"
 #include "drivers/rtcm3/rtcm3_framer.h"
 #include "drivers/rtcm3/ssr_reader.h"
@@ -28,14 +29,9 @@ class Rtcm3Handler {
 };
 
 // Counts of ephemeris messages.
-struct Rtcm3EphemerisCounters {
-  std::uint64_t ephemerides = 0;  // given out
-  std::uint64_t repeated = 0;     // same contents as the one before
-  std::uint64_t bad_length = 0;
-  std::uint64_t bad_satellite = 0;
-  std::uint64_t bad_time = 0;           // reference time beyond the end of the week
-  std::uint64_t bad_week = 0;           // its week contradicts the stream's
-  std::uint64_t not_sane = 0;           // elements outside physical bounds
+struct Rtcm3EphemerisCounters : EphemerisRefusals {
+  std::uint64_t ephemerides = 0;        // given out
+  std::uint64_t repeated = 0;           // same contents as the one before
   std::uint64_t without_reference = 0;  // the week is not known
 };
 

@@ -121,7 +121,7 @@ EphemerisStatus read_bdsnav(std::span<const std::uint8_t> payload, GpsTime near,
 
 EphemerisStatus read_galnav(std::span<const std::uint8_t> payload, GpsTime near,
                             Ephemeris* ephemeris) {
-  constexpr std::size_t kSize = 126;
+  constexpr std::size_t kSize = 130;
   constexpr std::uint8_t kInav = 2, kFnav = 16;
   if (payload.size() < kSize) return EphemerisStatus::kBadLength;
   Ephemeris& e = *ephemeris;

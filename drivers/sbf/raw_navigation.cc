@@ -1,11 +1,16 @@
 #include "drivers/sbf/raw_navigation.h"
 
+#include <cmath>
+
 #include "drivers/binary/bit_field.h"
 #include "drivers/binary/little_endian.h"
 #include "drivers/sbf/sbf_signal.h"
 
 namespace leonav {
 namespace {
+
+// A set is broadcast for one to four hours: one that is missing for so long comes no more.
+constexpr double kLongestRawAge_s = 7200.0;
 
 constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023, kBdsRaw = 4047;
 // Satellite, result of the receiver's check, errors, signal, frequency, channel.
@@ -76,7 +81,10 @@ bool RawNavigationReader::is_raw_navigation(std::uint16_t number) {
 }
 
 bool RawNavigationReader::has(const Ephemeris& ephemeris) const {
-  return has_[static_cast<std::size_t>(ephemeris.message)][ephemeris.satellite.number];
+  const GpsTime made =
+      made_[static_cast<std::size_t>(ephemeris.message)][ephemeris.satellite.number];
+  return made.is_set() &&
+         std::abs(seconds_between(ephemeris.transmission_time, made)) <= kLongestRawAge_s;
 }
 
 NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
@@ -102,7 +110,7 @@ NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
   const NavigationUpdate update =
       add(number, payload.subspan(kHeadSize), {*satellite, time}, collector);
   if (update.ephemeris) {
-    has_[static_cast<std::size_t>(update.ephemeris->message)].set(satellite->number);
+    made_[static_cast<std::size_t>(update.ephemeris->message)][satellite->number] = time;
   }
   return update;
 }

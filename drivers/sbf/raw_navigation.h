@@ -2,7 +2,6 @@
 // GALRawINAV (4023) and BDSRaw (4047). Source: mosaic-X5 Reference Guide, chapters of these names.
 #pragma once
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,8 +26,8 @@ class RawNavigationReader {
   // Precondition: is_raw_navigation(number).
   NavigationUpdate read(std::uint16_t number, GpsTime time, std::span<const std::uint8_t> payload,
                         NavigationCollector* collector);
-  // Returns whether a set of this satellite and message was made of bits, so that what the receiver
-  // itself has decoded of it is not needed.
+  // Returns whether a set of this satellite and message was made of bits within the last two hours,
+  // so that what the receiver itself has decoded of it is not needed.
   bool has(const Ephemeris& ephemeris) const;
   const RawNavigationCounters& counters() const { return counters_; }
 
@@ -38,7 +37,8 @@ class RawNavigationReader {
   NavigationUpdate add(std::uint16_t number, std::span<const std::uint8_t> bits,
                        const SubframeOrigin& origin, NavigationCollector* collector) const;
 
-  std::array<std::bitset<NavigationCollector::kSatellites>, kMessages> has_;
+  // When the last set was made.
+  std::array<std::array<GpsTime, NavigationCollector::kSatellites>, kMessages> made_;
   RawNavigationCounters counters_;
 };
 

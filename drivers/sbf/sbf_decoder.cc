@@ -14,7 +14,6 @@ constexpr std::uint16_t kGpsNav = 5891, kGalNav = 4002, kBdsNav = 4081, kGpsIon 
 }  // namespace
 
 struct SbfDecoder::State {
-  bool count(EphemerisStatus status);
   void give(const KlobucharModel& model, SbfHandler* handler);
   void give(EphemerisStatus status, const Ephemeris& ephemeris, SbfHandler* handler);
 
@@ -31,32 +30,6 @@ struct SbfDecoder::State {
   std::map<std::uint16_t, std::uint64_t> unused;
 };
 
-bool SbfDecoder::State::count(EphemerisStatus status) {
-  switch (status) {
-    case EphemerisStatus::kOk:
-      return true;
-    case EphemerisStatus::kBadLength:
-      ++decoded.bad_length;
-      break;
-    case EphemerisStatus::kBadSatellite:
-      ++decoded.bad_satellite;
-      break;
-    case EphemerisStatus::kBadTime:
-      ++decoded.bad_time;
-      break;
-    case EphemerisStatus::kBadWeek:
-      ++decoded.bad_week;
-      break;
-    case EphemerisStatus::kBadSubframes:
-      ++decoded.bad_subframes;
-      break;
-    case EphemerisStatus::kNotSane:
-      ++decoded.not_sane;
-      break;
-  }
-  return false;
-}
-
 void SbfDecoder::State::give(const KlobucharModel& model, SbfHandler* handler) {
   if (model == klobuchar) return;
   klobuchar = model;
@@ -65,7 +38,7 @@ void SbfDecoder::State::give(const KlobucharModel& model, SbfHandler* handler) {
 
 void SbfDecoder::State::give(EphemerisStatus status, const Ephemeris& ephemeris,
                              SbfHandler* handler) {
-  if (!count(status)) return;
+  if (!decoded.count(status)) return;
   if (raw.has(ephemeris)) {
     ++decoded.beside_raw;
   } else if (navigation.take_decoded(ephemeris)) {

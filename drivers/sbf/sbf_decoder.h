@@ -9,6 +9,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/ephemeris_status.h"
 #include "drivers/binary/range_epoch.h"
 #include "drivers/sbf/ext_sensor_meas.h"
 #include "drivers/sbf/raw_navigation.h"
@@ -35,14 +36,8 @@ struct MeasEpochCounters {
 };
 
 // Counts of blocks with navigation data that the receiver has decoded.
-struct DecodedNavigationCounters {
-  std::uint64_t beside_raw = 0;  // not needed: the bits come too
-  std::uint64_t bad_length = 0;
-  std::uint64_t bad_satellite = 0;
-  std::uint64_t bad_time = 0;        // reference time beyond the end of the week
-  std::uint64_t bad_week = 0;        // its week contradicts the receiver's
-  std::uint64_t bad_subframes = 0;   // issues that differ within a set
-  std::uint64_t not_sane = 0;        // lacks a group delay, or is of an unknown source
+struct DecodedNavigationCounters : EphemerisRefusals {
+  std::uint64_t beside_raw = 0;      // not needed: the bits come too
   std::uint64_t without_time = 0;    // the receiver did not know the time
   std::uint64_t bad_ionosphere = 0;  // GPSIon that is too short or not finite
 };

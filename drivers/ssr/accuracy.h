@@ -11,4 +11,7 @@ namespace leonav {
 // Source: RTCM 10403.3, DF389; IGS SSR v1.00, IDF034.
 std::optional<double> ssr_accuracy_m(std::uint8_t index);
 
+// The index by which a service tells that a satellite is not to be relied on.
+inline constexpr std::uint8_t kWorstSsrAccuracy = 63;
+
 }  // namespace leonav

@@ -60,7 +60,7 @@ void CorrectionStore::add(const SsrMessage& message) {
       to.high_rate_m = *from.high_rate_clock_m;
       to.high_rate_is = correction;
     }
-    if (from.accuracy_index) to.accuracy_m = ssr_accuracy_m(*from.accuracy_index);
+    if (from.accuracy_index) to.accuracy_index = *from.accuracy_index;
   }
 }
 
@@ -102,6 +102,7 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
                  clock.is.validity_s.value_or(options_.max_clock_age_s))) {
     return none(&counters_.too_old);
   }
+  if (s.accuracy_index == kWorstSsrAccuracy) return none(&counters_.not_reliable);
   const Ephemeris* broadcast = corrected_ephemeris(s, time);
   if (broadcast == nullptr) return none(&counters_.without_ephemeris);
 
@@ -114,7 +115,7 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
   CorrectedState state = apply(corrections, *broadcast, time);
   if (has_high_rate) state.corrected_at = s.high_rate_is.reference;
   state.at_antenna = s.orbit_is.at_antenna.value_or(options_.at_antenna);
-  state.sigma_m = s.accuracy_m.value_or(options_.default_sigma_m);
+  state.sigma_m = ssr_accuracy_m(s.accuracy_index).value_or(options_.default_sigma_m);
   return state;
 }
 

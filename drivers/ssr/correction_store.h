@@ -42,6 +42,7 @@ struct CorrectionCounters {
   std::uint64_t of_unread_message = 0;  // of a message that leonav does not read: B-CNAV1 (B2b)
   std::uint64_t of_other_issue = 0;     // orbit and clock of different IOD SSR, solution, provider
   std::uint64_t too_old = 0;
+  std::uint64_t not_reliable = 0;       // the service says that its error may be of any size
   std::uint64_t in_regional_frame = 0;  // satellites of messages in another frame than the ITRF
 };
 
@@ -84,7 +85,7 @@ class CorrectionStore {
     SsrOrbit orbit;
     Clock clock, earlier_clock;  // earlier: with another IOD Corr than `clock`
     double high_rate_m = 0.0;
-    std::optional<double> accuracy_m;
+    std::uint8_t accuracy_index = 0;  // 0: the stream says nothing
   };
 
   static bool go_together(const Satellite& satellite, const Clock& clock);

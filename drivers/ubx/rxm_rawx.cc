@@ -54,10 +54,6 @@ bool is_within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
 
-bool order_of(const SignalObservation& a, const SignalObservation& b) {
-  return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
-}
-
 }  // namespace
 
 RxmRawxDecoder::RxmRawxDecoder(const RxmRawxOptions& options) : options_(options), lock_{} {}
@@ -98,7 +94,7 @@ RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawE
 
 void RxmRawxDecoder::sort_and_drop_duplicates(RawEpoch* epoch) {
   auto& all = epoch->observations;
-  std::stable_sort(all.begin(), all.end(), order_of);
+  std::stable_sort(all.begin(), all.end(), comes_before);
   const auto end = std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.satellite == b.satellite && a.code == b.code;
   });

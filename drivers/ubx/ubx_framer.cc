@@ -90,6 +90,7 @@ void UbxFramer::take(Position start, Position end, UbxMessage* message) {
   message->payload = std::span<const std::uint8_t>(buffer_).subspan(start + kHeader - base_,
                                                                     end - start - kOverhead);
   begin_ = end;
+  searched_ = std::max(searched_, begin_);
   starts_.erase(starts_.begin(), starts_.lower_bound(end));
   ++counters_.messages;
   foreign_.interrupt();

@@ -8,14 +8,20 @@ def fail(text):
     sys.exit(f"FAILED: {text}")
 
 
+def namespace_command():
+    """The command that runs another one in a network namespace of its own; exit 77: none can be made."""
+    for enter in (["unshare", "-n"], ["unshare", "-rn"]):
+        if subprocess.run([*enter, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+            return enter
+    print("SKIPPED: no network namespace can be made here")
+    sys.exit(77)
+
+
 def enter_namespace():
-    """Starts this script again in a namespace with LCM's multicast route on loopback; exit 77: none can be made."""
+    """Starts this script again in a namespace with LCM's multicast route on loopback."""
     if os.environ.get("LEONAV_IN_NAMESPACE") != "yes":
-        for enter in (["unshare", "-n"], ["unshare", "-rn"]):
-            if subprocess.run([*enter, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-                os.environ["LEONAV_IN_NAMESPACE"] = "yes"
-                os.execvp(enter[0], [*enter, sys.executable, *sys.argv])
-        print("SKIPPED: no network namespace can be made here")
-        sys.exit(77)
+        enter = namespace_command()
+        os.environ["LEONAV_IN_NAMESPACE"] = "yes"
+        os.execvp(enter[0], [*enter, sys.executable, *sys.argv])
     subprocess.run(["ip", "link", "set", "lo", "up", "multicast", "on"], check=True)
     subprocess.run(["ip", "route", "add", "224.0.0.0/4", "dev", "lo"], check=True)

@@ -61,7 +61,7 @@ void refuse_lonely_pulse(const ConfigReader& root, const ConnectConfig& config) 
   if (config.pulse.stream.empty()) return;
   const bool has_sensor =
       std::any_of(config.streams.begin(), config.streams.end(), [&](const StreamConfig& stream) {
-        return stream.name == config.pulse.stream && !is_receiver(stream);
+        return stream.name == config.pulse.stream && !stream.is_service && !is_receiver(stream);
       });
   if (!has_sensor) {
     root.fail("time", "pulse.stream is '" + config.pulse.stream +

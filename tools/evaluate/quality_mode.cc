@@ -33,6 +33,10 @@ BandPlan read_bands(const std::string& text) {
       throw UsageError("--leo-bands: '" + entry +
                        "' is not BAND=MHZ with a band 1 to 9 and 1000 to 8000 MHz, as 9=2492.028");
     }
+    for (char other = BandPlan::kFirstBand; other <= BandPlan::kLastBand; ++other) {
+      if (other != band && plan.frequency_hz(System::kLeo, other) == hz)
+        throw UsageError("--leo-bands: '" + entry + "' is also the carrier of band " + other);
+    }
     plan.set_leo(band, hz);
   }
   return plan;

@@ -166,7 +166,7 @@ void Import::warn_of_missing() {
     if (std::filesystem::is_regular_file(path, error)) continue;
     warn("truth " + path + " is not there: nothing to judge the results by");
   }
-  if (!dataset_.biases.empty() && dataset_.orbits.empty()) {
+  if (!dataset_.biases.empty() && dataset_.orbits.empty() && dataset_.corrections.empty()) {
     warn(
         "biases without orbits: they belong to the clocks of the product they came with, and "
         "broadcast clocks are used without them");

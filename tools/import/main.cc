@@ -24,7 +24,11 @@ int body(int argc, char** argv) {
       "are of; antenna);\n"
       "and as text name, receiver_antenna (type and radome, where the observations' header is\n"
       "wrong), and date (YYYY-MM-DD, of the recording: RTCM 3 messages do\n"
-      "not say the week; up to three days off will do).");
+      "not say the week; up to three days off will do). The shortest one:\n"
+      "\n"
+      "  observations: rover.ubx   # brings its ephemerides; beside RINEX add navigation: "
+      "brdc.nav\n"
+      "  imu: imu.csv");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")
       .option("--to", "WEEK:SECONDS", "leave out data after this GPS time")

@@ -14,8 +14,9 @@ namespace {
 constexpr int kIssuesAtStart = 2;
 
 bool is_valid_at(const Ephemeris& e, GpsTime time) {
+  constexpr double kLeo_s = 7200.0;  // longer than any navigator is told to use them
   const EphemerisConfig limits;
-  double max_age_s = limits.max_age_leo_s;
+  double max_age_s = kLeo_s;
   switch (e.satellite.system) {
     case System::kGps:
       max_age_s = limits.max_age_gps_s;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
 
 namespace leonav {
 namespace {
@@ -17,11 +18,6 @@ LookupStatus state_at_transmission(const EphemerisStore& ephemeris_store, Satell
   if (!std::isfinite(state->clock_s)) return LookupStatus::kNoEphemeris;  // orbit without clock
   const GpsTime transmission = by_satellite_clock.plus_seconds(-state->clock_s);
   return ephemeris_store.state_at(id, transmission, state, ephemeris);
-}
-
-Eigen::Vector3d rotate_about_z(const Eigen::Vector3d& v, double angle) {
-  const double s = std::sin(angle), c = std::cos(angle);
-  return {c * v.x() + s * v.y(), -s * v.x() + c * v.y(), v.z()};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
+#include "core/earth/rotation.h"
 #include "core/gnss/orbits/internal/precise_clock.h"
 
 namespace leonav {
@@ -24,17 +25,21 @@ Eigen::Vector3d gravitation(const Eigen::Vector3d& p) {
                                   p.z() * (1.0 + oblate * (3.0 - 5.0 * z2)));
 }
 
-// Turns an inertial vector into the frame that has turned with the Earth by `angle`.
-Eigen::Vector3d turned(const Eigen::Vector3d& v, double angle) {
-  const double s = std::sin(angle), c = std::cos(angle);
-  return {c * v.x() + s * v.y(), -s * v.x() + c * v.y(), v.z()};
-}
-
 Eigen::Vector3d earth_rotation_cross(const Eigen::Vector3d& p) {
   return {-kEarthRotationRate * p.y(), kEarthRotationRate * p.x(), 0.0};
 }
 
 }  // namespace
+
+bool is_sane(const CorrectedState& state) {
+  if (!is_valid(state.satellite) || state.time.nanoseconds() <= 0) return false;
+  if (state.corrected_at.nanoseconds() <= 0 || state.orbit_corrected_at.nanoseconds() <= 0) {
+    return false;
+  }
+  const double radius = state.p_e.norm(), speed = state.v_e.norm();  // comparisons fail for NaN
+  return radius > 6.4e6 && radius < 1e8 && speed < 1e4 && std::abs(state.clock_s) < 0.1 &&
+         std::abs(state.clock_drift) < 1e-6 && state.sigma_m > 0.0 && state.sigma_m < 1e3;
+}
 
 SatelliteState carried_state(const CorrectedState& from, GpsTime time) {
   const double dt = seconds_between(time, from.time);
@@ -46,8 +51,9 @@ SatelliteState carried_state(const CorrectedState& from, GpsTime time) {
   const Eigen::Vector3d a4 = gravitation(p + dt * v + 0.5 * dt * dt * a2);
   const double angle = kEarthRotationRate * dt;
   SatelliteState state;
-  state.p_e = turned(p + dt * v + dt * dt / 6.0 * (a1 + a2 + a3), angle);
-  const Eigen::Vector3d v_inertial = turned(v + dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4), angle);
+  state.p_e = rotate_about_z(p + dt * v + dt * dt / 6.0 * (a1 + a2 + a3), angle);
+  const Eigen::Vector3d v_inertial =
+      rotate_about_z(v + dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4), angle);
   state.v_e = v_inertial - earth_rotation_cross(state.p_e);
   state.clock_s = from.clock_s + from.clock_drift * dt;
   state.clock_drift = from.clock_drift;

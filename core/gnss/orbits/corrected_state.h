@@ -25,12 +25,19 @@ struct CorrectedState {
   double sigma_m = 0.0;      // 1 sigma of orbit and clock along the line of sight at corrected_at
 };
 
+// Returns whether the values are those of a satellite: finite, above the ground and below 1e8 m,
+// times set, a clock within 0.1 s, a sigma of at most 1 km.
+bool is_sane(const CorrectedState& state);
+
 // Who made the corrections: SSR provider, solution, and issue of the data (IOD SSR).
 struct CorrectionSource {
   std::uint16_t provider = 0;
   std::uint8_t solution = 0, issue = 0;
   friend bool operator==(const CorrectionSource&, const CorrectionSource&) = default;
 };
+
+// No correction of an orbit holds for longer; services give seconds to some minutes, HAS an hour.
+inline constexpr double kLongestOrbitAge_s = 3600.0;
 
 // A state is not carried further than this: what the gravity model leaves out (Moon, Sun, J3 and
 // higher: below 1e-5 m/s^2) comes to 2 cm then, and to 2 mm after 20 s.

@@ -109,14 +109,6 @@ bool is_sane_node(const PreciseState& state) {
   return has_clock || std::isnan(state.clock_s);
 }
 
-bool is_sane_state(const CorrectedState& state) {
-  if (!is_valid(state.satellite) || state.time.nanoseconds() <= 0) return false;
-  if (state.corrected_at.nanoseconds() <= 0) return false;
-  const double radius = state.p_e.norm(), speed = state.v_e.norm();
-  return radius > 6.4e6 && radius < 1e8 && speed < 1e4 && std::abs(state.clock_s) < 0.1 &&
-         std::abs(state.clock_drift) < 1e-6 && state.sigma_m > 0.0 && state.sigma_m < 1e3;
-}
-
 // SatelliteState::issue has the kind of product in its two highest bits. For broadcast elements the
 // others are the message, the time of ephemeris (it repeats after 4.5 h, twice the longest life of
 // a set) and the issue.
@@ -139,6 +131,9 @@ bool find_corrected(const SatelliteProducts& products, GpsTime time, const Ephem
   if (!corrected.time.is_set()) return false;
   if (std::abs(seconds_between(time, corrected.time)) > kLongestCarry_s) return false;
   if (std::abs(seconds_between(time, corrected.corrected_at)) > options.max_age_corrections_s) {
+    return false;
+  }
+  if (std::abs(seconds_between(time, corrected.orbit_corrected_at)) > kLongestOrbitAge_s) {
     return false;
   }
   *state = carried_state(corrected, time);
@@ -214,7 +209,7 @@ bool EphemerisStore::add(const PreciseState& state) {
 }
 
 bool EphemerisStore::add(const CorrectedState& state) {
-  if (!is_sane_state(state)) return false;
+  if (!is_sane(state)) return false;
   storage_->products_of[table_index_of(state.satellite)].corrected = state;
   return true;
 }

@@ -52,12 +52,22 @@ struct Problem {
   const RobustConfig& robust;
   ReceiverCodeBiases* biases;
   std::span<const SatelliteId> faulty;
+  const SignalBiasStore* signal_biases;
 };
+
+PreprocessAids aids_of(const Problem& problem) {
+  PreprocessAids aids;
+  aids.biases = problem.biases;
+  aids.signal_biases = problem.signal_biases;
+  aids.caps = false;
+  aids.faulty = problem.faulty;
+  return aids;
+}
 
 // Solves a first position without any assumption: no mask and no atmosphere.
 bool solve_cold_start(const Problem& problem, MeasurementEpoch* epoch, PositionFit* position) {
   preprocess(problem.raw, problem.ephemeris_store, problem.config, Eigen::Vector3d::Zero(), epoch,
-             {.biases = problem.biases, .caps = false, .faulty = problem.faulty});
+             aids_of(problem));
   fit_position(*epoch, problem.robust, surface_below(*epoch), position);
   if (gives_position(*position)) return true;
   if (position->fit.status == FitStatus::kTooFewRows) return false;
@@ -69,8 +79,7 @@ bool solve_cold_start(const Problem& problem, MeasurementEpoch* epoch, PositionF
 bool solve_from(const Problem& problem, Eigen::Vector3d p_e, MeasurementEpoch* epoch,
                 PositionFit* position) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    preprocess(problem.raw, problem.ephemeris_store, problem.config, p_e, epoch,
-               {.biases = problem.biases, .caps = false, .faulty = problem.faulty});
+    preprocess(problem.raw, problem.ephemeris_store, problem.config, p_e, epoch, aids_of(problem));
     fit_position(*epoch, problem.robust, p_e, position);
     if (!gives_position(*position)) return false;
     const double moved = (position->state.head<3>() - p_e).norm();
@@ -163,10 +172,12 @@ int redundancy(const PointSolution& point) {
 PointSolution solve_point(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
-                          ReceiverCodeBiases* biases, std::span<const SatelliteId> faulty) {
+                          ReceiverCodeBiases* biases, std::span<const SatelliteId> faulty,
+                          const SignalBiasStore* signal_biases) {
   ReceiverCodeBiases of_this_epoch;
   const Problem problem{
-      raw, ephemeris_store, config, robust, biases != nullptr ? biases : &of_this_epoch, faulty};
+      raw,    ephemeris_store, config, robust, biases != nullptr ? biases : &of_this_epoch,
+      faulty, signal_biases};
   PointSolution solution;
   solution.clock_m.fill(std::numeric_limits<double>::quiet_NaN());
   solution.clock_drift_m_s.fill(std::numeric_limits<double>::quiet_NaN());

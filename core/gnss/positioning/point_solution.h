@@ -9,6 +9,7 @@
 #include "core/gnss/measurement/gnss_config.h"
 #include "core/gnss/measurement/measurement.h"
 #include "core/gnss/preprocessing/receiver_code_bias.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 #include "core/robust/igg3.h"
 
@@ -44,12 +45,14 @@ int redundancy(const PointSolution& point);
 
 // Solves `raw` from scratch (an approximate position of zero is valid) and leaves in `epoch` the
 // preprocessed measurements at the solution with a reason for each. `biases` are those of
-// preprocess(), `faulty` satellites are not used. SystemConfig::max_satellites does not apply, so
+// preprocess() and should go with the same `signal_biases` as there, `faulty` satellites are not
+// used. SystemConfig::max_satellites does not apply, so
 // that an experiment with few satellites can start.
 PointSolution solve_point(const RawEpoch& raw, const EphemerisStore& ephemeris_store,
                           const GnssConfig& config, const RobustConfig& robust,
                           const Eigen::Vector3d& approximate_p_e, MeasurementEpoch* epoch,
                           ReceiverCodeBiases* biases = nullptr,
-                          std::span<const SatelliteId> faulty = {});
+                          std::span<const SatelliteId> faulty = {},
+                          const SignalBiasStore* signal_biases = nullptr);
 
 }  // namespace leonav

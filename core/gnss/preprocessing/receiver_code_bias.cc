@@ -15,6 +15,7 @@ constexpr double kMaxSpan = 3600.0;       // s; after a longer gap the growth st
 // in a row are a new delay (the receiver has restarted its tracking).
 constexpr double kOutlierMargin = 10.0;  // m
 constexpr int kMaxOutlierEpochs = 5;
+constexpr double kStepVariance = 25.0;        // m^2, of a step of unknown size
 constexpr double kMedianEfficiency = 1.5708;  // variance of a median against that of a mean
 
 std::size_t digit(char band) { return static_cast<std::size_t>(band - '0'); }
@@ -114,6 +115,14 @@ void ReceiverCodeBiases::step_ionosphere_model(double step_m) {
   for (State* state : {&before_, &systems_}) {
     for (SystemBiases& system : *state) {
       for (Bias& bias : system.bands) bias.value_m -= step_m * bias.ionosphere_mapping;
+    }
+  }
+}
+
+void ReceiverCodeBiases::widen(System system) {
+  for (State* state : {&before_, &systems_}) {
+    for (Bias& bias : (*state)[index_of(system)].bands) {
+      if (bias.variance_m2 >= 0.0) bias.variance_m2 = std::max(bias.variance_m2, kStepVariance);
     }
   }
 }

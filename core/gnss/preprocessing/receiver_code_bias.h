@@ -49,6 +49,9 @@ class ReceiverCodeBiases {
   double ionosphere_mapping(System system, char band) const;
   // Follows a step of the modelled zenith delay on L1, m.
   void step_ionosphere_model(double step_m);
+  // Allows for a step of unknown size, some metres, of all delays of a system: the next epochs
+  // decide.
+  void widen(System system);
 
  private:
   struct Bias {

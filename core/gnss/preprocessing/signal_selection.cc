@@ -55,7 +55,8 @@ bool band_comes_first(System system, const SignalPreference& preference, char a,
   const int rank_a = band_rank(preference, a);
   const int rank_b = band_rank(preference, b);
   if (rank_a != rank_b) return rank_a < rank_b;
-  return bands.frequency_hz(system, a) > bands.frequency_hz(system, b);
+  const double hz_a = bands.frequency_hz(system, a), hz_b = bands.frequency_hz(system, b);
+  return hz_a != hz_b ? hz_a > hz_b : a < b;
 }
 
 bool signal_comes_first(System system, const SignalPreference& preference, SignalCode a,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/capacity.h"
+#include "core/gnss/measurement/weighting.h"
 
 namespace leonav {
 namespace {
@@ -76,8 +77,9 @@ std::optional<GroupDelay> delay_of(const Biases<capacity>& biases, const BandPla
   const double f1 = bands.frequency_hz(system, first.band);
   const double f2 = bands.frequency_hz(system, second.band);
   if (b == nullptr || !(f1 > 0.0) || !(f2 > 0.0) || f1 == f2) return std::nullopt;
-  const double gamma1 = f1 * f1 / (f1 * f1 - f2 * f2), gamma2 = 1.0 - gamma1;
-  return GroupDelay{gamma1 * a->bias_m + gamma2 * b->bias_m, sigma * std::hypot(gamma1, gamma2)};
+  const IonosphereFree pair = ionosphere_free(f1, f2);
+  return GroupDelay{pair.gamma1 * a->bias_m + pair.gamma2 * b->bias_m,
+                    combined_sigma(pair, sigma, sigma)};
 }
 
 }  // namespace
@@ -121,6 +123,13 @@ bool SignalBiasStore::add(const SignalBias& bias) {
       break;
   }
   return true;
+}
+
+bool SignalBiasStore::has(const SignalBias& bias) const {
+  if (!is_valid(bias.satellite) || bias.kind == BiasKind::kPhase) return true;
+  const Storage::Satellite& satellite = storage_->of[table_index_of(bias.satellite)];
+  return bias.kind == BiasKind::kCode ? find(satellite.product, bias.code, bias.time) != nullptr
+                                      : find(satellite.broadcast, bias.code, bias.time) != nullptr;
 }
 
 std::optional<GroupDelay> SignalBiasStore::code_delay(SatelliteId satellite, GpsTime time,

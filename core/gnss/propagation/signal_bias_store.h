@@ -58,6 +58,10 @@ class SignalBiasStore {
   bool add(const SignalBias& bias);
   static constexpr std::size_t kMaxIntervals = 2;
 
+  // Returns whether one of the same signal and kind is kept that holds at `bias.time`. Of carriers
+  // none is needed: true.
+  bool has(const SignalBias& bias) const;
+
   // Returns the delay at `time` against the clock of the product, of the signal `first` or, with
   // `second`, of the ionosphere-free pair; nullopt where a signal has no bias that holds then. Of
   // several the one that arrived last counts.

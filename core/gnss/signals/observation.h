@@ -27,7 +27,12 @@ struct SignalObservation {
   bool half_cycle_ambiguous = false;  // carrier may be off by half a cycle
 };
 
-// All observations of one epoch, sorted by satellite, then code; there is at most one per satellite
+// Returns whether `a` stands before `b` in a RawEpoch: by satellite, then by code.
+inline bool comes_before(const SignalObservation& a, const SignalObservation& b) {
+  return a.satellite != b.satellite ? a.satellite < b.satellite : a.code < b.code;
+}
+
+// All observations of one epoch, sorted by comes_before(); there is at most one per satellite
 // and code.
 struct RawEpoch {
   GpsTime time;  // receiver's time tag of signal reception

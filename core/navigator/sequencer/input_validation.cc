@@ -57,13 +57,9 @@ InputFault check(const CorrectedState& state) {
                          std::isfinite(state.clock_s) && std::isfinite(state.clock_drift) &&
                          std::isfinite(state.sigma_m);
   if (!is_finite) return InputFault::kNotFinite;
-  if (!is_valid(state.satellite) || !is_plausible(state.time) || !is_plausible(state.corrected_at))
-    return InputFault::kOutOfRange;
-  const double radius = state.p_e.norm();
-  const bool in_range = radius > 6.3e6 && radius < 1e8 && state.v_e.norm() < 1e4 &&
-                        std::abs(state.clock_s) < 1.0 && std::abs(state.clock_drift) < 1e-6 &&
-                        state.sigma_m > 0.0 && state.sigma_m < 1e3;
-  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+  const bool in_time = is_plausible(state.time) && is_plausible(state.corrected_at) &&
+                       is_plausible(state.orbit_corrected_at);
+  return in_time && is_sane(state) ? InputFault::kNone : InputFault::kOutOfRange;
 }
 
 InputFault check(const SignalBias& bias) {

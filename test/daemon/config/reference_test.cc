@@ -56,8 +56,10 @@ std::vector<ReferenceKey> keys_of(const std::string& reference) {
   return keys;
 }
 
-// Groups whose keys are those of another group, where their meaning stands.
+// Groups whose keys are those of another group, or all alike, and where their meaning stands.
 std::string path_of_meaning(const std::string& path) {
+  const std::string bands = "gnss.leo_bands_mhz.";
+  if (path.starts_with(bands)) return bands + "1";
   for (const auto& [twin, original] :
        {std::pair("gnss.galileo.", "gnss.gps."), std::pair("gnss.beidou.", "gnss.gps."),
         std::pair("gnss.leo.", "gnss.gps."), std::pair("realtime.ins.", "realtime.io."),

@@ -111,7 +111,7 @@ TEST_CASE("an epoch that fits is sorted and nothing else") {
 TEST_CASE("a loss that the estimator feels is told apart, and a band of no system goes first") {
   std::vector<SignalObservation> signals;
   for (std::uint16_t number = 1; number <= 300; ++number) {
-    for (const char* code : {"9A", "2W", "1C"})
+    for (const char* code : {"0A", "2W", "1C"})
       signals.push_back(observation({System::kLeo, number}, code));
   }
   RawEpoch epoch;
@@ -120,11 +120,11 @@ TEST_CASE("a loss that the estimator feels is told apart, and a band of no syste
   CHECK(capacity.losses().usable == 600 - kMaxObservations);
   CHECK(capacity.losses().spare == 300);
   CHECK(spare_text(capacity.losses())
-            .starts_with("signal beyond the 512 that an epoch holds (leo 9A)"));
+            .starts_with("signal beyond the 512 that an epoch holds (leo 0A)"));
   CHECK(usable_text(capacity.losses()).find("(leo 2W)") != std::string::npos);
   CHECK(
       summary_of(capacity.losses()) ==
-      "beyond the 512 that an epoch holds: 300 spare signals (leo 9A), 88 usable signals (leo 2W)");
+      "beyond the 512 that an epoch holds: 300 spare signals (leo 0A), 88 usable signals (leo 2W)");
   CHECK(summary_of({}).empty());
 }
 

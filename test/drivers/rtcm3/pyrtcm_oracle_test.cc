@@ -159,7 +159,7 @@ TEST_CASE("Every ephemeris agrees with pyrtcm to the last bit") {
       const auto status =
           decode_ephemeris(extent.type, std::span(bytes).subspan(extent.first + 3, extent.size - 6),
                            r.reference, &e);
-      REQUIRE(status == BroadcastStatus::kOk);
+      REQUIRE(status == EphemerisStatus::kOk);
       CHECK(std::to_string(extent.type) == line[1]);
       CHECK(to_string(e.satellite) == line[2]);
       CHECK(time_of_week(e, e.toe) == number(line[4]));

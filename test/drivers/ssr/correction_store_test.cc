@@ -196,6 +196,12 @@ TEST_CASE("Reference times, accuracies and high-rate clocks are taken") {
   CHECK(one.orbit_corrected_at == kTime.plus_seconds(30.0));
   CHECK(one.corrected_at == kTime.plus_seconds(5.0));
   CHECK(one.sigma_m == Approx(0.18125));
+  ura.satellites[0].accuracy_index = kWorstSsrAccuracy;
+  store.add(ura);
+  CHECK(store.states(c, kTime.plus_seconds(30.0)).empty());
+  CHECK(store.counters().not_reliable == 1);
+  ura.satellites[0].accuracy_index = 37;
+  store.add(ura);
   SsrMessage rapid = message(SsrKind::kHighRateClock, 28.0);
   rapid.satellites[0].high_rate_clock_m = 0.25;
   store.add(rapid);

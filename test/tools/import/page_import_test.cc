@@ -69,7 +69,8 @@ TEST_CASE("a receiver's own pages correct its observations", "[import]") {
   };
   const ImportReport without = import("");
   CHECK(without.corrected_states == 0);
-  CHECK(left_out(without, "page of Galileo HAS (list the file under corrections too)") == 634);
+  CHECK(left_out(without,
+                 "page of Galileo HAS (used where the file is listed under corrections)") == 634);
   const ImportReport with = import("corrections: a.ubx\n");
   CHECK(with.corrected_states > 50);
   CHECK(with.signal_biases > 50);

@@ -97,7 +97,7 @@ TEST_CASE("ephemerides of a stream of corrections serve as navigation", "[import
   const ImportReport with =
       import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
   CHECK(with.ephemerides > 50);
-  CHECK(left_out(with, "SSR message (list the file under corrections too)") > 1000);
+  CHECK(left_out(with, "SSR message (used where the file is listed under corrections)") > 1000);
   CHECK(left_out(with, "ephemeris that repeats the one before") > 5000);
 }
 

@@ -447,7 +447,8 @@ class Page(unittest.TestCase):
         text = path.read_text()
         reader.feed(text)
         self.assertEqual(reader.open, [])
-        self.assertNotIn("http", text)
+        written = re.sub(r'"data:image/png;base64,[^"]*"', "", text)
+        self.assertFalse("http" in written, "the page refers to something outside")
         return reader, text
 
     def test_one_file_holds_everything(self):
@@ -558,18 +559,18 @@ class Refusals(unittest.TestCase):
         folder.mkdir()
         good = {name: (WORK / name).read_bytes() for name in ("solution.csv", "satellites.csv", "measurements.csv", "events.csv")}
         short = {name: b"\n".join(data.split(b"\n")[:120]) for name, data in good.items()}
-        tried = 0
-        for _ in range(6):
+        shown = 0
+        for damaged in [()] + [(name,) for name in short] + [tuple(short)] * 4:
             for name, data in short.items():
                 bad = bytearray(data)
-                for _ in range(dice.choice((0, 0, 1, 3, 30))):
+                for _ in range(dice.choice((1, 3, 30)) if name in damaged else 0):
                     bad[dice.randrange(len(bad))] = dice.choice(b"0123456789.,-e\n\xffnGx")
                 (folder / name).write_bytes(bad)
             code, _, err = run_report(folder, "--color", dice.choice(("source", "sigma", "speed")), "-o", folder / "r.html")
-            self.assertIn(code, (0, 1))
+            self.assertIn(code, (0, 1) if damaged else (0,), err)
             self.assertTrue(code == 0 or "mutated/" in err, err)
-            tried += code == 0
-        self.assertGreater(tried, 1)
+            shown += code == 0
+        self.assertGreater(shown, 0)
 
 
 if __name__ == "__main__":

@@ -40,6 +40,7 @@ std::string CorrectionOutput::detail() const {
       {"without clock", c.without_clock},
       {"of two solutions", c.of_other_issue},
       {"too old", c.too_old},
+      {"that the service does not vouch for", c.not_reliable},
       {"in a regional frame", c.in_regional_frame}};
   const char* separator = "; not used since the start: ";
   for (const auto& [reason, count] : reasons) {

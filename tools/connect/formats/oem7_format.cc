@@ -64,12 +64,10 @@ std::string Oem7Format::inertial_text() const {
 }
 
 std::string Oem7Format::detail() const {
-  std::string text;
-  for (const std::string& part :
-       {receiver_.detail(), summary_of(decoder_.counters().losses), inertial_text()}) {
-    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
-  }
-  return text;
+  // Samples alone must not hide a receiver that gives no epochs.
+  const std::string missing = receiver_.last_epoch().is_set() ? "" : why_no_messages();
+  return joined(
+      {missing, receiver_.detail(), summary_of(decoder_.counters().losses), inertial_text()});
 }
 
 std::string Oem7Format::why_no_frames() const {

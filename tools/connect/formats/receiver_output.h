@@ -42,11 +42,11 @@ class ReceiverOutput {
 
  private:
   GpsClock* clock_;
+  void note_step(GpsTime time);
+
   MessageOutput* output_;
   CorrectionOutput* corrections_;
   EphemerisRepeater repeater_;
-  void note_step(GpsTime time);
-
   GpsTime last_epoch_;
   std::uint64_t time_steps_ = 0;
   double last_step_s_ = 0.0;

@@ -41,13 +41,8 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 }
 
 std::string Rtcm3Format::detail() const {
-  std::string text = receiver_.detail();
-  const std::string losses = summary_of(decoder_.counters().losses);
-  if (!losses.empty()) text += "; " + losses;
-  if (!last_ssr_.is_set()) return text;
-  const std::string of_corrections = corrections_->detail();
-  if (!text.empty() && !of_corrections.empty()) text += "; ";
-  return text + of_corrections;
+  return joined({receiver_.detail(), summary_of(decoder_.counters().losses),
+                 last_ssr_.is_set() ? corrections_->detail() : ""});
 }
 
 FormatCounts Rtcm3Format::counts() const {

@@ -66,8 +66,10 @@ std::string SbfFormat::inertial_text() const {
 }
 
 std::string SbfFormat::detail() const {
-  const std::string receiver = receiver_.detail(), inertial = inertial_text();
-  return receiver + (receiver.empty() || inertial.empty() ? "" : "; ") + inertial;
+  // Samples alone must not hide a receiver that gives no epochs.
+  const std::string missing = receiver_.last_epoch().is_set() ? "" : why_no_messages();
+  return joined(
+      {missing, receiver_.detail(), summary_of(decoder_.counters().losses), inertial_text()});
 }
 
 std::string SbfFormat::why_no_frames() const {

@@ -6,4 +6,12 @@ namespace leonav {
 
 double StreamFormat::stamp_sigma_s() const { return std::numeric_limits<double>::quiet_NaN(); }
 
+std::string joined(std::initializer_list<std::string> parts) {
+  std::string all;
+  for (const std::string& part : parts) {
+    if (!part.empty()) all += (all.empty() ? "" : "; ") + part;
+  }
+  return all;
+}
+
 }  // namespace leonav

@@ -1,6 +1,7 @@
 // A StreamFormat turns the bytes of one stream into messages.
 #pragma once
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,5 +37,8 @@ class StreamFormat {
   // 1 sigma of the stamps against GPS time, s; NaN where they are the device's own.
   virtual double stamp_sigma_s() const;
 };
+
+// Returns the parts that are not empty, with semicolons between them.
+std::string joined(std::initializer_list<std::string> parts);
 
 }  // namespace leonav

@@ -62,14 +62,20 @@ std::string UbxFormat::pulse_text() const {
   return "no pulses: switch UBX-TIM-TM2 on for this port of the receiver";
 }
 
-std::string UbxFormat::detail() const {
-  std::string all;
-  const std::string of_corrections = options_.uses_pages ? corrections_->detail() : "";
-  for (const std::string& part :
-       {receiver_.detail(), of_corrections, inertial_text(), pulse_text()}) {
-    if (!part.empty()) all += (all.empty() ? "" : "; ") + part;
+std::string UbxFormat::corrections_text() const {
+  if (!options_.uses_pages) return "";
+  if (decoder_.counters().sfrbx.pages == 0) {
+    return "no pages of Galileo HAS: switch E6 on (CFG-SIGNAL-GAL_E6_ENA)";
   }
-  return all;
+  if (published_corrections_ > 0) return corrections_->detail();
+  std::string why = "pages of Galileo HAS, but no corrections yet";
+  for (const auto& [reason, count] : pages_.left_out())
+    why += ", " + std::to_string(count) + " x " + reason;
+  return why;
+}
+
+std::string UbxFormat::detail() const {
+  return joined({receiver_.detail(), corrections_text(), inertial_text(), pulse_text()});
 }
 
 double UbxFormat::stamp_sigma_s() const {
@@ -81,7 +87,8 @@ FormatCounts UbxFormat::counts() const {
   FormatCounts counts;
   counts.frames = c.framer.messages;
   counts.messages = receiver_.messages() + published_corrections_;
-  counts.damaged = c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete;
+  counts.damaged =
+      c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete + pages_.damaged();
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +
                    c.rawx.bad_satellite + c.sfrbx.bad_length + c.sfrbx.bad_version +
                    c.sfrbx.bad_satellite + c.sfrbx.bad_parity + c.sfrbx.bad_week +

@@ -48,6 +48,7 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   void on_page(const CorrectionPage& page) override;
   void on_inertial(const EsfReading& reading) override;
   void on_time_mark(const TimeMark& mark) override;
+  std::string corrections_text() const;
   std::string inertial_text() const;
   std::string pulse_text() const;
 

@@ -59,16 +59,14 @@ std::string XsensFormat::detail() const {
 
 std::string XsensFormat::why_no_frames() const {
   return "bytes arrive but no valid Xsens message: is the baud rate right, and is the output "
-         "MTData2 "
-         "and not NMEA?";
+         "MTData2 and not NMEA?";
 }
 
 std::string XsensFormat::why_no_messages() const {
   const XsensCounters c = decoder_.counters();
   if (c.old_data > 0) {
     return "MTData arrives, the sensors' former output: set an output configuration, which makes "
-           "it "
-           "MTData2";
+           "it MTData2";
   }
   if (c.measurements == 0 && c.bad_values > 0)
     return "every value is beyond what a sensor measures";
@@ -79,8 +77,7 @@ std::string XsensFormat::why_no_messages() const {
   }
   if (c.measurements == 0) {
     return "the messages hold no motion: add DeltaQ and DeltaV, or RateOfTurn and Acceleration, "
-           "with "
-           "one rate to the output configuration";
+           "with one rate to the output configuration";
   }
   return ImuFormat::why_no_messages() + "; the output should hold SampleTimeFine";
 }

@@ -73,6 +73,7 @@ void Corrections::report(const std::string& where, ImportReport* report) const {
        c.of_unread_message},
       {"correction whose orbit and clock are of different solutions", c.of_other_issue},
       {"correction that is too old", c.too_old},
+      {"correction that the service does not vouch for", c.not_reliable},
       {"correction in a regional frame", c.in_regional_frame}};
   for (const auto& [reason, count] : reasons) {
     report->skip(where, reason, static_cast<long>(count));

@@ -20,7 +20,7 @@ Rtcm3Options options_for(const std::string& path, GpsTime date) {
 
 void report_corrections(const std::string& path, const Rtcm3Counters& counters,
                         ImportReport* report) {
-  report->skip(path, "SSR message (list the file under corrections too)",
+  report->skip(path, "SSR message (used where the file is listed under corrections)",
                static_cast<long>(counters.ssr.messages));
 }
 

@@ -45,7 +45,7 @@ void report_epochs(const std::string& path, const UbxCounters& counters, ImportR
             {"measurement without a value", rawx.empty},
             {"subframe of a system not used", sfrbx.other_system},
             {"subframe of a message not used", sfrbx.other_message},
-            {"page of Galileo HAS (list the file under corrections too)", sfrbx.pages},
+            {"page of Galileo HAS (used where the file is listed under corrections)", sfrbx.pages},
             {"subframe with a wrong length or version", sfrbx.bad_length + sfrbx.bad_version},
             {"subframe with a parity error", sfrbx.bad_parity},
             {"subframe of a satellite that does not exist", sfrbx.bad_satellite},

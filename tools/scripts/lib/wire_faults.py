@@ -16,10 +16,11 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE / "wire"))
+sys.path[:0] = [str(HERE / "wire"), str(HERE.parents[2] / "test/tools")]
 import judge  # noqa: E402
 import live  # noqa: E402
 from drive import Drive  # noqa: E402
+from live_program import namespace_command  # noqa: E402
 from rows import LIMIT_M, ROWS, SETTLED_S, Scene, all_rows  # noqa: E402
 
 HEADER = """
@@ -132,15 +133,14 @@ def enter_namespace_and_run(words):
     (folder / "result.json").write_text(json.dumps(result, indent=1))
 
 
-def start(name, words):
+def start(name, words, namespace):
     """Runs one row in a process of its own, in a namespace; returns its result."""
     folder = words.out / name
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "result.json").unlink(missing_ok=True)
-    own = subprocess.run(["unshare", "-n", "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0
     script = 'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"'
     with open(folder / "run.txt", "w", encoding="utf-8") as text:
-        subprocess.run(["unshare", "-n" if own else "-rn", "sh", "-c", script, "row", sys.executable, __file__, words.bin, words.out, "--one", name],
+        subprocess.run([*namespace, "sh", "-c", script, "row", sys.executable, __file__, words.bin, words.out, "--one", name],
                        stdout=text, stderr=text, check=False)
     try:
         return json.loads((folder / "result.json").read_text())
@@ -162,11 +162,12 @@ def main():
     if unknown:
         parser.error(f"no row is called {unknown[0]}; there are: {', '.join(row.name for row in ROWS)}")
     rows = [row for row in all_rows() if row.name in words.rows] if words.rows else ROWS
+    namespace = namespace_command()
     words.out.mkdir(parents=True, exist_ok=True)
     # The longest begin first.
     order = sorted(rows, key=lambda row: -row.duration_s)
     with concurrent.futures.ThreadPoolExecutor(words.jobs) as pool:
-        running = {row.name: pool.submit(start, row.name, words) for row in order}
+        running = {row.name: pool.submit(start, row.name, words, namespace) for row in order}
         lines, failed = [HEADER], 0
         for row in rows:
             result = running[row.name].result()

@@ -90,8 +90,12 @@ void MeasurementFrontEnd::add(const CorrectedStates& states) {
   for (const CorrectedState& state : states) ephemeris_store_.add(state);
 }
 
+// A bias that comes for the first time moves codes by metres, and the receiver's delays with them.
 void MeasurementFrontEnd::add(const SignalBiases& biases) {
-  for (const SignalBias& bias : biases) signal_biases_.add(bias);
+  for (const SignalBias& bias : biases) {
+    const bool is_new = !signal_biases_.has(bias);
+    if (signal_biases_.add(bias) && is_new) code_biases_.widen(bias.satellite.system);
+  }
 }
 
 // What is estimated beyond the model, or contains an error of it, follows the model.
@@ -113,9 +117,9 @@ IndependentSolution MeasurementFrontEnd::solve(const EpochWork& work,
                                                const Eigen::Vector3d& approximate_p_e,
                                                ReceiverCodeBiases* biases) {
   IndependentSolution solution;
-  solution.point =
-      solve_point(work.raw, ephemeris_store_, gnss_, robust_, approximate_p_e,
-                  point_measurements_.get(), biases, {excluded_.data(), excluded_.size()});
+  solution.point = solve_point(work.raw, ephemeris_store_, gnss_, robust_, approximate_p_e,
+                               point_measurements_.get(), biases,
+                               {excluded_.data(), excluded_.size()}, &signal_biases_);
   point_measurements_->index = work.index;
   solution.accepted = is_accepted(solution.point);
   solution.measurements = point_measurements_.get();

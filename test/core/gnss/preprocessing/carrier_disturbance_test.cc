@@ -236,6 +236,33 @@ TEST_CASE("how far a carrier may change unseen: nanoseconds' clocks, one frequen
         0.095);
 }
 
+TEST_CASE("the line of sight to a low satellite turns over the error of its broadcast orbit") {
+  const CycleSlipConfig config;
+  BandPlan bands;
+  bands.set_leo('9', 2492.028e6);
+  const Eigen::Vector3d p_a_e(6378137.0, 0.0, 0.0);
+  SatelliteInView view;
+  view.satellite = {System::kLeo, 7};
+  view.elevation = 1.5;
+  view.source = OrbitSource::kBroadcast;
+  view.orbit_sigma_m = 0.5;
+  view.p_e = {6378137.0 + 750e3, 0.0, 0.0};
+  view.v_e = {0.0, 7500.0, 0.0};  // turns by 0.01 rad/s
+  Measurement carrier;
+  carrier.code = {'9', 'S'};
+  carrier.second_code = {'1', 'C'};
+  const double clock = change_sigma_m(config, bands, view, carrier, view.p_e * 1e3, 30.0);
+  const double both = change_sigma_m(config, bands, view, carrier, p_a_e, 30.0);
+  CHECK(std::sqrt(both * both - clock * clock) == Approx(0.5 * 0.01 * 30.0).epsilon(0.001));
+  carrier.second_code = {};
+  // One frequency: the ionosphere of S band is (1575.42/2492.028)^2 of that of L1.
+  const double s_band = change_sigma_m(config, bands, view, carrier, view.p_e * 1e3, 30.0);
+  carrier.code = {'1', 'C'};
+  const double l_band = change_sigma_m(config, bands, view, carrier, view.p_e * 1e3, 30.0);
+  CHECK(std::sqrt((s_band * s_band - clock * clock) / (l_band * l_band - clock * clock)) ==
+        Approx(std::pow(1575.42 / 2492.028, 2)).epsilon(0.001));
+}
+
 TEST_CASE("the pair that is followed is forgotten when its arc's gap ends, not by this interval") {
   CarrierPreprocessor preprocessor{CycleSlipConfig()};
   const GpsTime start = GpsTime::from_week_and_tow(2200, 1000.0);

@@ -72,7 +72,7 @@ def against_files(out):
 
 
 def against_truth(bin_folder, out, configuration, start):
-    """leonav-eval from the thirtieth epoch with attitude on; beside it the same bytes with the broadcast orbits alone."""
+    """leonav-eval from the twentieth epoch with attitude on; beside it the same bytes with the broadcast orbits alone."""
     live = leonav.read_solution(out / "live/solution.csv")
     aligned = live[np.isfinite(live["yaw_deg"])]
     if len(aligned) < SETTLING_EPOCHS + 15:
