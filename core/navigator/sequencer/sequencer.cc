@@ -47,7 +47,8 @@ void Sequencer::monitor_conventions(const ImuSample& sample, InputFault fault) {
 
 void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
-  const StampDecision stamp = imu_.evaluate_stamp(sample, epochs_.newest_time());
+  const StampDecision stamp =
+      imu_.evaluate_stamp(sample, epochs_.newest_time(), epochs_.max_ahead_ns());
   if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
   if (!lay_on_timeline(&sample)) return reject(InputFault::kTimeBackwards);

@@ -61,7 +61,10 @@ enum class SequencerCapacity : std::uint8_t {
 //   rejected, until a run of consistent ones shows that time itself has changed. Then everything
 //   restarts in the new time.
 // - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
-//   intervals where those are longer. While IMU samples arrive, GNSS does not change the time.
+//   intervals where those are longer. While IMU samples arrive between epochs, GNSS does not change
+//   the time: "ahead" is counted from the IMU alone.
+// - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
+//   of IMU samples so far behind them restarts everything in the time of the IMU.
 // - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an
 //   outage or has a wrong stamp. It is held until the next one: if that is later, there was an
 //   outage. So an outage of any length, or an interval other than configured, costs no epoch.

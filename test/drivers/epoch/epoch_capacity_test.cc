@@ -111,8 +111,9 @@ TEST_CASE("an epoch that fits is sorted and nothing else") {
 TEST_CASE("a loss that the estimator feels is told apart, and a band of no system goes first") {
   std::vector<SignalObservation> signals;
   for (std::uint16_t number = 1; number <= 300; ++number) {
-    for (const char* code : {"0A", "2W", "1C"})
+    for (const char* code : {"1A", "2W", "1C"})
       signals.push_back(observation({System::kLeo, number}, code));
+    signals[signals.size() - 3].code.band = '0';
   }
   RawEpoch epoch;
   EpochCapacity capacity;

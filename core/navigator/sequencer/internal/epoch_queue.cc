@@ -17,7 +17,10 @@ EpochQueue::EpochQueue(double epoch_interval_s)
 }
 
 StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
-  const GpsTime reference = std::max(imu_time, newest_time());
+  // Where IMU samples come between the epochs, these cannot lead the time away from them.
+  const bool imu_runs = imu_time.is_set() && imu_time != imu_time_at_last_;
+  imu_time_at_last_ = imu_time;
+  const GpsTime reference = imu_runs ? imu_time : std::max(imu_time, newest_time());
   if (!reference.is_set()) return {};
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
   if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
@@ -85,6 +88,7 @@ void EpochQueue::set_issued(GpsTime time, bool empty) {
 void EpochQueue::clear() {
   last_time_ = last_raw_time_ = GpsTime();
   last_is_empty_ = true;
+  imu_time_at_last_ = GpsTime();
   count_ = 0;
   has_held_ = false;
   time_monitor_.clear();

@@ -30,6 +30,8 @@ class EpochQueue {
   // Decides whether the stamp of an epoch fits. `imu_time` is the end of the last accepted IMU
   // sample; may be unset. A late epoch passes here; is_late() finds it.
   StampDecision evaluate(GpsTime time, GpsTime imu_time);
+  // Returns how far an epoch may lie ahead of everything seen, ns.
+  std::int64_t max_ahead_ns() const { return max_ahead_ns_; }
   // Ends the run of rejected epochs, because an IMU sample or an epoch has fitted.
   void clear_rejected_run() { time_monitor_.clear(); }
   bool is_late(GpsTime time) const { return time <= last_time_; }
@@ -78,8 +80,9 @@ class EpochQueue {
   std::size_t count_ = 0;
   std::unique_ptr<RawEpoch> held_;  // meaningful while has_held_
   bool has_held_ = false;
-  GpsTime last_time_;      // of the last issued epoch, or where the IMU stream began
-  GpsTime last_raw_time_;  // of the last issued epoch that was not empty
+  GpsTime imu_time_at_last_;  // at the last evaluate()
+  GpsTime last_time_;         // of the last issued epoch, or where the IMU stream began
+  GpsTime last_raw_time_;     // of the last issued epoch that was not empty
   bool last_is_empty_ = true;
 };
 

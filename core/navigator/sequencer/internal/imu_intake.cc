@@ -8,6 +8,14 @@
 #include "core/navigator/sequencer/input_validation.h"
 
 namespace leonav {
+namespace {
+
+// Returns whether the sample ends more than `limit_ns` before `time`, which may be unset.
+bool is_behind(const ImuSample& sample, GpsTime time, std::int64_t limit_ns) {
+  return time.is_set() && nanoseconds_between(time, sample.time) > limit_ns;
+}
+
+}  // namespace
 
 ImuIntake::ImuIntake(const NavigatorConfig& config)
     : C_b_imu_(
@@ -36,17 +44,22 @@ bool ImuIntake::leaps(const ImuSample& sample) const {
 
 std::optional<ImuSample> ImuIntake::release_held() { return std::exchange(held_, std::nullopt); }
 
-StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch) {
+StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch,
+                                        std::int64_t max_epoch_ahead_ns) {
   const GpsTime last_stamp = timeline_.last_stamp();
-  if (!last_stamp.is_set()) return {};
-  if (sample.time == last_stamp) return {InputFault::kDuplicate};
-  const GpsTime newest = std::max(last_stamp, newest_epoch);
-  const bool backwards = !timeline_.follows(sample);
-  if (!backwards && nanoseconds_between(sample.time, newest) <= kMaxStampAheadNs) return {};
+  if (last_stamp.is_set() && sample.time == last_stamp) return {InputFault::kDuplicate};
+  const bool behind_others = is_behind(sample, newest_epoch, max_epoch_ahead_ns) ||
+                             is_behind(sample, time_, kMaxStampAheadNs);
+  const bool backwards = behind_others || !timeline_.follows(sample);
+  const bool ahead =
+      last_stamp.is_set() &&
+      nanoseconds_between(sample.time, std::max(last_stamp, newest_epoch)) > kMaxStampAheadNs;
+  if (!backwards && !ahead) return {};
   if (!time_monitor_.reject(sample.time)) {
     return {backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead};
   }
-  return {InputFault::kNone, true, seconds_between(sample.time, last_stamp)};
+  const GpsTime old = last_stamp.is_set() ? last_stamp : newest_epoch;
+  return {InputFault::kNone, true, seconds_between(sample.time, old)};
 }
 
 void ImuIntake::accept(const ImuSample& sample) {

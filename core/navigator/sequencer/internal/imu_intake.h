@@ -39,8 +39,10 @@ class ImuIntake {
   // Returns the held sample and ends its hold; nullopt: none was held.
   std::optional<ImuSample> release_held();
 
-  // Decides whether the stamp fits the stream so far. `newest_epoch` may be unset.
-  StampDecision evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch);
+  // Decides whether the stamp fits the stream so far and the epochs. `newest_epoch` may be unset;
+  // `max_epoch_ahead_ns` is how far an epoch may lie ahead of the sample.
+  StampDecision evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch,
+                               std::int64_t max_epoch_ahead_ns);
   // Moves the sample to its time on the timeline, unless the timeline refuses it.
   ImuTimeline::Placement lay_on_timeline(ImuSample* sample) {
     return timeline_.place(time_, sample);
