@@ -30,13 +30,28 @@ namespace {
 
 using namespace leonav;
 
-// Blocked in every thread; `main` takes them one at a time. A second one ends the process at once.
+// Blocked in every thread of leonavd; `main` takes them one at a time. A second one ends the
+// process at once.
 sigset_t stop_signals() {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
   sigaddset(&set, SIGINT);
   return set;
+}
+
+pthread_t main_thread;
+
+// Libraries have threads that were there before main() and block nothing (OpenBLAS). A signal that
+// the kernel gives to one of them goes on to the main thread instead of ending the process.
+extern "C" void pass_to_main_thread(int signal) { pthread_kill(main_thread, signal); }
+
+void take_stop_signals_in_this_thread() {
+  const sigset_t set = stop_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread is started: all inherit it
+  main_thread = pthread_self();
+  std::signal(SIGTERM, pass_to_main_thread);
+  std::signal(SIGINT, pass_to_main_thread);
 }
 
 // As an input, before any other: so it is in the journal, and a replay needs no file.
@@ -135,8 +150,7 @@ void check_solve_time(const NavigatorConfig& config) {
 
 int run(const DaemonConfig& config) {
   check_solve_time(config.navigator);
-  const sigset_t set = stop_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread exists: all inherit it
+  take_stop_signals_in_this_thread();
   std::signal(SIGPIPE, SIG_IGN);
 
   const ServiceManager manager;
@@ -174,6 +188,7 @@ int run(const DaemonConfig& config) {
 
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGINT, SIG_DFL);
+  const sigset_t set = stop_signals();
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // from here on a second signal kills
   stop.store(true);
   io.join();

@@ -41,6 +41,8 @@ constexpr LogName kNames[] = {
     {1124, "GALFNAVRAWEPHEMERIS (turn on GALEPHEMERIS)"},
     {1126, "GALINAVRAWEPHEMERIS (turn on GALEPHEMERIS)"},
     {1163, "PSRDOP2"},
+    {1309, "GALINAVEPHEMERIS (turn on GALEPHEMERIS)"},
+    {1310, "GALFNAVEPHEMERIS (turn on GALEPHEMERIS)"},
     {1336, "QZSSEPHEMERIS (system not used)"},
     {1362, "IMURATECORRIMUS"},
     {1465, "INSPVAX"},

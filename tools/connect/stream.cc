@@ -76,9 +76,12 @@ void Stream::on_end(const std::string& why) {
   look();
   watch_.on_end(why);
   told_ = watch_.state();
-  if (why.empty()) {
-    spdlog::info("{}: {} has ended, after {} messages", name_, source_text_,
-                 format_->counts().messages);
+  const FormatCounts counts = format_->counts();
+  if (why.empty() && counts.messages == 0) {
+    spdlog::warn("{}: {} has ended and nothing could be published: {}", name_, source_text_,
+                 counts.frames == 0 ? format_->why_no_frames() : format_->why_no_messages());
+  } else if (why.empty()) {
+    spdlog::info("{}: {} has ended, after {} messages", name_, source_text_, counts.messages);
   } else {
     spdlog::error("{}: {}", name_, why);
   }

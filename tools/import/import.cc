@@ -72,6 +72,7 @@ class Import {
     for (std::size_t i = next_bias_; i < biases_.size(); ++i)
       late_biases += static_cast<long>(biases_[i].biases.size());
     report_.skip(dataset_.path, "bias that begins to hold after the end", late_biases);
+    warn_of_missing_ephemerides();
     log.commit();
     return report_;
   }
@@ -81,6 +82,7 @@ class Import {
   bool is_before(GpsTime time) const { return options_.from.is_set() && time < options_.from; }
 
   void warn_of_missing();
+  void warn_of_missing_ephemerides();
   void load_navigation();
   void load_orbits();
   void load_clocks(GpsTime start);
@@ -136,20 +138,21 @@ class Import {
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
 
+// Observations of some formats bring ephemerides, so that this is known at the end.
+void Import::warn_of_missing_ephemerides() {
+  if (!dataset_.navigation.empty() || report_.ephemerides > 0) return;
+  report_.warnings.push_back(
+      dataset_.orbits.empty()
+          ? "no navigation, no orbits and no ephemerides in the observations: no satellite has a "
+            "position and there will be no solution"
+          : "no navigation: no group delays and no ionosphere model, so single-frequency positions "
+            "are off by metres, and satellites the orbits lack are not used");
+}
+
 void Import::warn_of_missing() {
   const auto warn = [this](const std::string& text) { report_.warnings.push_back(text); };
   if (dataset_.observations.empty()) {
     warn("no observations: there is nothing to position by, only the IMU can be replayed");
-  }
-  if (dataset_.navigation.empty() && dataset_.orbits.empty()) {
-    warn(
-        "no navigation and no orbits: unless the observations bring ephemerides (.ubx, .oem7, "
-        ".sbf, .rtcm3), "
-        "no satellite has a position and there will be no solution");
-  } else if (dataset_.navigation.empty()) {
-    warn(
-        "no navigation: no group delays and no ionosphere model, so single-frequency positions "
-        "are off by metres, and satellites the orbits lack are not used");
   }
   if (dataset_.orbits.empty() && dataset_.corrections.empty()) {
     warn(

@@ -21,10 +21,8 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
     }
   }
   const std::vector<SignalBias> biases = biases_of(message, now);
-  if (!biases.empty()) {
-    output_->send(std::span<const SignalBias>(biases));
-    ++published;
-  }
+  // Biases come although no correction can be used, so that they must not count.
+  if (!biases.empty()) output_->send(std::span<const SignalBias>(biases));
   return published;
 }
 

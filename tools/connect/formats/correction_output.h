@@ -18,7 +18,8 @@ class CorrectionOutput {
       : store_(options), output_(output) {}
 
   void add(const Ephemeris& ephemeris) { store_.add(ephemeris); }
-  // Takes a message that came at `now`, GPS time. Returns the number of messages published.
+  // Takes a message that came at `now`, GPS time. Returns the number of messages with states
+  // that were published.
   int take(const SsrMessage& message, GpsTime now);
   // What came, in a few words; empty while nothing has come.
   std::string detail() const;

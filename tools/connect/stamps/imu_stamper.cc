@@ -102,10 +102,11 @@ std::string ImuStamper::text() const {
                     options_.rate_hz > 0.0 ? "count" : "the sensor's clock", sigma_s() * 1e3,
                     line_.drift() * 1e6, static_cast<unsigned long long>(line_.steps())) +
              (line_.steps() > 0 ? format(", the last by %.3f s", line_.last_step_s()) : "") +
-             (pulses_ == nullptr ? ""
-                                 : "; no pulses that can be used: is the sensor's output connected "
-                                   "to the receiver's EXTINT, and is UBX-TIM-TM2 on? " +
-                                       tie_.text());
+             (pulses_ == nullptr
+                  ? ""
+                  : "; no pulses that can be used yet, as always in the first seconds: is the "
+                    "sensor's output connected to the receiver's EXTINT, and is UBX-TIM-TM2 on? " +
+                        tie_.text());
     case Kind::kNone:
       break;
   }
