@@ -8,8 +8,9 @@ namespace leonav {
 
 // Of all numbers that leave the same rest modulo 2^bits, the one nearest to the number before is
 // meant. A counter that stands still, or goes back by less than half of its range, is followed so;
-// a pause of more than half of the range cannot be told from a shorter one. Beyond kFarthest, which
-// no sensor reaches in a century, it begins anew, so that users may multiply it.
+// a pause of more than half of the range cannot be told from a shorter one. Beyond kFarthest, where
+// only damaged input leads (139 years of a clock of 1 kHz), it begins anew: so the result times
+// 1e6, nanoseconds of such a clock, does not overflow.
 class WrappedCounter {
  public:
   // Precondition: 1 <= bits <= 32.

@@ -14,7 +14,8 @@ namespace {
 constexpr int kIssuesAtStart = 2;
 
 bool is_valid_at(const Ephemeris& e, GpsTime time) {
-  constexpr double kLeo_s = 7200.0;  // longer than any navigator is told to use them
+  // Elements of low orbits are useless after two hours, whatever `max_age_leo_s` allows.
+  constexpr double kLeo_s = 7200.0;
   const EphemerisConfig limits;
   double max_age_s = kLeo_s;
   switch (e.satellite.system) {

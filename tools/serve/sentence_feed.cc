@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "drivers/nmea/satellite_sentences.h"
 
@@ -57,12 +56,8 @@ void SentenceFeed::on_epoch(std::span<const std::uint8_t> bytes) {
   sky.hdop = epoch_.hdop;
   sky.vdop = epoch_.vdop;
   for (const OutputSatellite& one : epoch_.satellites) {
-    // Where a satellite without orbits stands is not known, which EPOCH tells by two zeros.
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    const bool has_direction = one.elevation != 0.0 || one.azimuth != 0.0;
-    sky.satellites.push_back({one.satellite, has_direction ? one.elevation : kUnknown,
-                              has_direction ? one.azimuth : kUnknown, one.cn0_dbhz,
-                              is_used(one.reason)});
+    sky.satellites.push_back(
+        {one.satellite, one.elevation, one.azimuth, one.cn0_dbhz, is_used(one.reason)});
   }
   sky_ = sky;
 }

@@ -15,7 +15,6 @@ constexpr double kMaxSpan = 3600.0;       // s; after a longer gap the growth st
 // in a row are a new delay (the receiver has restarted its tracking).
 constexpr double kOutlierMargin = 10.0;  // m
 constexpr int kMaxOutlierEpochs = 5;
-constexpr double kStepVariance = 25.0;        // m^2, of a step of unknown size
 constexpr double kMedianEfficiency = 1.5708;  // variance of a median against that of a mean
 
 std::size_t digit(char band) { return static_cast<std::size_t>(band - '0'); }
@@ -119,10 +118,10 @@ void ReceiverCodeBiases::step_ionosphere_model(double step_m) {
   }
 }
 
-void ReceiverCodeBiases::widen(System system) {
+void ReceiverCodeBiases::widen(System system, double variance_m2) {
   for (State* state : {&before_, &systems_}) {
     for (Bias& bias : (*state)[index_of(system)].bands) {
-      if (bias.variance_m2 >= 0.0) bias.variance_m2 = std::max(bias.variance_m2, kStepVariance);
+      if (bias.variance_m2 >= 0.0) bias.variance_m2 += variance_m2;
     }
   }
 }

@@ -49,9 +49,8 @@ class ReceiverCodeBiases {
   double ionosphere_mapping(System system, char band) const;
   // Follows a step of the modelled zenith delay on L1, m.
   void step_ionosphere_model(double step_m);
-  // Allows for a step of unknown size, some metres, of all delays of a system: the next epochs
-  // decide.
-  void widen(System system);
+  // Allows for a step of all delays of a system with this variance, m^2: the next epochs decide.
+  void widen(System system, double variance_m2);
 
  private:
   struct Bias {

@@ -132,6 +132,17 @@ bool SignalBiasStore::has(const SignalBias& bias) const {
                                       : find(satellite.broadcast, bias.code, bias.time) != nullptr;
 }
 
+std::size_t SignalBiasStore::count_in_system(const SignalBias& bias) const {
+  SignalBias other = bias;
+  std::size_t count = 0;
+  const std::uint16_t highest = kHighestNumber[index_of(bias.satellite.system)];
+  for (std::uint16_t number = 1; number <= highest; ++number) {
+    other.satellite.number = number;
+    count += has(other);
+  }
+  return count;
+}
+
 std::optional<GroupDelay> SignalBiasStore::code_delay(SatelliteId satellite, GpsTime time,
                                                       SignalCode first, SignalCode second) const {
   if (!is_valid(satellite)) return std::nullopt;

@@ -58,9 +58,11 @@ class SignalBiasStore {
   bool add(const SignalBias& bias);
   static constexpr std::size_t kMaxIntervals = 2;
 
-  // Returns whether one of the same signal and kind is kept that holds at `bias.time`. Of carriers
-  // none is needed: true.
+  // Returns whether one of the same satellite, signal and kind is kept that holds at `bias.time`.
+  // Of carriers none is needed: true.
   bool has(const SignalBias& bias) const;
+  // Returns how many satellites of its system have one of the same signal and kind.
+  std::size_t count_in_system(const SignalBias& bias) const;
 
   // Returns the delay at `time` against the clock of the product, of the signal `first` or, with
   // `second`, of the ionosphere-free pair; nullopt where a signal has no bias that holds then. Of

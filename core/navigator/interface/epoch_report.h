@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/base/capacity.h"
@@ -35,8 +36,10 @@ struct AidingReport {
 // One satellite of the epoch, used or not.
 struct SatelliteReport {
   SatelliteId satellite;
-  Reason reason = Reason::kUsed;          // kUsed if any of its measurements was used
-  double elevation = 0.0, azimuth = 0.0;  // rad
+  Reason reason = Reason::kUsed;  // kUsed if any of its measurements was used
+  // rad; NaN where it has no orbit
+  double elevation = std::numeric_limits<double>::quiet_NaN();
+  double azimuth = std::numeric_limits<double>::quiet_NaN();
   double cn0_dbhz = 0.0;
   double ephemeris_age_s = 0.0;
   OrbitSource source = OrbitSource::kNone;

@@ -21,7 +21,7 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
     }
   }
   const std::vector<SignalBias> biases = biases_of(message, now);
-  // Biases come although no correction can be used, so that they must not count.
+  // Not counted: a service sends biases also while none of its corrections can be used.
   if (!biases.empty()) output_->send(std::span<const SignalBias>(biases));
   return published;
 }

@@ -13,7 +13,7 @@ namespace leonav {
 // Counts since the start, for the stream's status.
 struct FormatCounts {
   std::uint64_t frames = 0;    // messages or lines of the format that are whole
-  std::uint64_t messages = 0;  // published
+  std::uint64_t messages = 0;  // published; of corrections those with states
   std::uint64_t damaged = 0;   // refused by checksum, length or number of columns
   std::uint64_t refused = 0;   // whole, but with values or times that cannot be used
 };

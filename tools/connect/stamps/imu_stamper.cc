@@ -104,7 +104,7 @@ std::string ImuStamper::text() const {
              (line_.steps() > 0 ? format(", the last by %.3f s", line_.last_step_s()) : "") +
              (pulses_ == nullptr
                   ? ""
-                  : "; no pulses that can be used yet, as always in the first seconds: is the "
+                  : "; no pulses that can be used, as in the first seconds of every run: is the "
                     "sensor's output connected to the receiver's EXTINT, and is UBX-TIM-TM2 on? " +
                         tie_.text());
     case Kind::kNone:

@@ -31,8 +31,10 @@ void report_satellites(const MeasurementEpoch& epoch, EpochReport* report) {
     SatelliteReport satellite;
     satellite.satellite = in_view.satellite;
     satellite.reason = in_view.reason;
-    satellite.elevation = in_view.elevation;
-    satellite.azimuth = in_view.azimuth;
+    if (in_view.elevation != 0.0 || in_view.azimuth != 0.0) {  // both 0: not known
+      satellite.elevation = in_view.elevation;
+      satellite.azimuth = in_view.azimuth;
+    }
     satellite.cn0_dbhz = in_view.cn0_dbhz;
     satellite.ephemeris_age_s = in_view.ephemeris_age_s;
     satellite.source = in_view.source;

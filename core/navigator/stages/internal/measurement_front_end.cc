@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "core/filter/state/covariance_blocks.h"
 #include "core/gnss/measurement/range_model.h"
@@ -20,6 +21,7 @@ constexpr double kMaxPdop = 15.0;
 // At a prediction with a smaller sigma, delays are correct to a centimetre.
 constexpr double kMaxLinearizationSigma_m = 20.0;
 constexpr double kMaxResidualRms_m = 60.0;
+constexpr double kFirstBias_m = 5.0;  // size of the biases of codes, 1 sigma
 
 // A start can compare its measurements only with each other. It therefore always excludes faults,
 // even if robust weighting is off in the filter.
@@ -90,11 +92,14 @@ void MeasurementFrontEnd::add(const CorrectedStates& states) {
   for (const CorrectedState& state : states) ephemeris_store_.add(state);
 }
 
-// A bias that comes for the first time moves codes by metres, and the receiver's delays with them.
+// A bias that comes for the first time moves the codes of its satellite by metres. The receiver's
+// delays, which are the mean of n satellites, move by an n-th of that.
 void MeasurementFrontEnd::add(const SignalBiases& biases) {
   for (const SignalBias& bias : biases) {
     const bool is_new = !signal_biases_.has(bias);
-    if (signal_biases_.add(bias) && is_new) code_biases_.widen(bias.satellite.system);
+    if (!signal_biases_.add(bias) || !is_new) continue;
+    const auto satellites = static_cast<double>(signal_biases_.count_in_system(bias));
+    code_biases_.widen(bias.satellite.system, square(kFirstBias_m / std::max(satellites, 1.0)));
   }
 }
 

@@ -70,6 +70,24 @@ TEST_CASE("the same epoch twice counts once") {
   CHECK(twice.variance_m2(System::kGps, '5') == once.variance_m2(System::kGps, '5'));
 }
 
+TEST_CASE("a step that is allowed for is followed at once, of its own system alone") {
+  for (const System widened : {System::kGps, System::kGalileo}) {
+    std::mt19937 generator(4);
+    ReceiverCodeBiases biases;
+    for (int epoch = 0; epoch < 60; ++epoch) feed(&biases, epoch, around(5.0, 1.0, &generator));
+    const double before_m2 = biases.variance_m2(System::kGps, '5');
+    biases.widen(widened, 25.0);
+    feed(&biases, 60, around(8.0, 1.0, &generator));
+    const double offset_m = biases.offset_m(System::kGps, '5');
+    if (widened == System::kGps) {
+      CHECK(std::abs(offset_m - 8.0) < 1.0);
+      CHECK(biases.variance_m2(System::kGps, '5') > before_m2);
+    } else {
+      CHECK(std::abs(offset_m - 5.0) < 1.0);
+    }
+  }
+}
+
 TEST_CASE("a strange epoch is passed over, a new delay is taken after five") {
   std::mt19937 generator(3);
   ReceiverCodeBiases biases;

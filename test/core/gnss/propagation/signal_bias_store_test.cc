@@ -50,6 +50,26 @@ TEST_CASE("The newest bias of a signal counts, and a full table drops what arriv
   CHECK_FALSE(store.code_delay(kG05, kTime, {'1', 'C'}));
 }
 
+TEST_CASE("A bias that is new is told from one that is followed by the next") {
+  SignalBiasStore store;
+  CHECK_FALSE(store.has(bias("1C", 2.0)));
+  CHECK(store.count_in_system(bias("1C", 2.0)) == 0);
+  REQUIRE(store.add(bias("1C", 2.0)));
+  SignalBias next = bias("1C", 3.0);
+  next.time = kTime.plus_seconds(10.0);
+  CHECK(store.has(next));
+  next.kind = BiasKind::kBroadcastCode;
+  CHECK_FALSE(store.has(next));
+  next = bias("1C", 3.0);
+  next.satellite.number = 6;
+  CHECK_FALSE(store.has(next));
+  CHECK(store.count_in_system(next) == 1);
+  REQUIRE(store.add(next));
+  CHECK(store.count_in_system(next) == 2);
+  next.satellite.system = System::kGalileo;
+  CHECK(store.count_in_system(next) == 0);
+}
+
 TEST_CASE("Biases that no satellite can have are refused, those of carriers are not kept") {
   SignalBiasStore store;
   CHECK_FALSE(store.add(bias("9C", 1.0)));
