@@ -1,9 +1,12 @@
 #include "drivers/sbf/raw_navigation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "drivers/binary/bit_field.h"
 #include "drivers/binary/little_endian.h"
+#include "drivers/sbf/raw_page.h"
 #include "drivers/sbf/sbf_signal.h"
 
 namespace leonav {
@@ -12,18 +15,32 @@ namespace {
 // A set is broadcast for one to four hours: one that is missing for so long comes no more.
 constexpr double kLongestRawAge_s = 7200.0;
 
-constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023, kBdsRaw = 4047;
+constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023,
+                        kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB2b = 4242;
 // Satellite, result of the receiver's check, errors, signal, frequency, channel.
 constexpr std::size_t kHeadSize = 6;
-constexpr std::size_t kMaxWords = 10;
 
-System system_of(std::uint16_t number) {
-  if (number == kGpsRawCa) return System::kGps;
-  return number == kBdsRaw ? System::kBeidou : System::kGalileo;
-}
+struct BlockLayout {
+  std::uint16_t number;
+  System system;
+  std::size_t words;  // of 32 bits
+};
+constexpr BlockLayout kLayouts[] = {
+    {kGpsRawCa, System::kGps, GpsLnav::kWords},
+    {kGalRawFnav, System::kGalileo, GalileoFnav::kWords},
+    {kGalRawInav, System::kGalileo, GalileoInav::kWords},
+    {kGalRawCnav, System::kGalileo, kGalileoPageWords},
+    {kBdsRaw, System::kBeidou, kBeidouWords},
+    {kBdsRawB2b, System::kBeidou, kB2bFrameWords},
+};
+constexpr std::size_t kMaxWords = kB2bFrameWords;
 
-std::size_t words_of(std::uint16_t number) {
-  return system_of(number) == System::kGalileo ? GalileoInav::kWords : kMaxWords;
+// Returns nullptr for a block of another kind.
+const BlockLayout* layout_of(std::uint16_t number) {
+  const auto* found =
+      std::find_if(std::begin(kLayouts), std::end(kLayouts),
+                   [number](const BlockLayout& layout) { return layout.number == number; });
+  return found == std::end(kLayouts) ? nullptr : found;
 }
 
 template <std::size_t kCount>
@@ -77,7 +94,7 @@ std::array<std::uint32_t, kBeidouWords> beidou_words(
 }
 
 bool RawNavigationReader::is_raw_navigation(std::uint16_t number) {
-  return number == kGpsRawCa || number == kGalRawFnav || number == kGalRawInav || number == kBdsRaw;
+  return layout_of(number) != nullptr;
 }
 
 bool RawNavigationReader::has(const Ephemeris& ephemeris) const {
@@ -90,12 +107,13 @@ bool RawNavigationReader::has(const Ephemeris& ephemeris) const {
 NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
                                            std::span<const std::uint8_t> payload,
                                            NavigationCollector* collector) {
-  if (payload.size() < kHeadSize + words_of(number) * sizeof(std::uint32_t)) {
+  const BlockLayout& layout = *layout_of(number);
+  if (payload.size() < kHeadSize + layout.words * sizeof(std::uint32_t)) {
     ++counters_.bad_length;
     return {};
   }
   const std::optional<SatelliteId> satellite = satellite_from_sbf(payload[0]);
-  if (!satellite || satellite->system != system_of(number) || !is_valid(*satellite)) {
+  if (!satellite || satellite->system != layout.system || !is_valid(*satellite)) {
     ++counters_.bad_satellite;
     return {};
   }
@@ -117,23 +135,59 @@ NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
 
 NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const std::uint8_t> bits,
                                           const SubframeOrigin& origin,
-                                          NavigationCollector* collector) const {
+                                          NavigationCollector* collector) {
   std::array<std::uint32_t, kMaxWords> buffer{};
-  for (std::size_t i = 0; i < words_of(number); ++i) {
+  for (std::size_t i = 0; i < layout_of(number)->words; ++i) {
     buffer[i] = read_u4(bits.data() + i * sizeof(std::uint32_t));
   }
   const std::span<const std::uint32_t, kMaxWords> words(buffer);
   switch (number) {
     case kGpsRawCa:
-      return collector->add_gps_lnav(gps_words(words), origin);
+      return collector->add_gps_lnav(gps_words(words.first<GpsLnav::kWords>()), origin);
     case kGalRawInav:
       return collector->add_galileo_inav(galileo_inav_words(words.first<GalileoInav::kWords>()),
                                          origin);
     case kGalRawFnav:
       return collector->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
+    case kGalRawCnav:
+      return add_galileo_page(words, origin);
+    case kBdsRawB2b:
+      return add_beidou_b2b(words, origin, collector);
     default:
-      return collector->add_beidou(beidou_words(words), origin);
+      return collector->add_beidou(beidou_words(words.first<kBeidouWords>()), origin);
   }
+}
+
+NavigationUpdate RawNavigationReader::add_galileo_page(std::span<const std::uint32_t> words,
+                                                       const SubframeOrigin& origin) {
+  return pass_on(galileo_page(words.first<kGalileoPageWords>(), origin));
+}
+
+// The geostationary satellites send PPP-B2b on this signal, the others B-CNAV3.
+NavigationUpdate RawNavigationReader::add_beidou_b2b(std::span<const std::uint32_t> words,
+                                                     const SubframeOrigin& origin,
+                                                     NavigationCollector* collector) {
+  if (!is_beidou_geostationary(origin.satellite)) {
+    collector->count_other_message();
+    return {};
+  }
+  const B2bFrame frame = b2b_frame(words.first<kB2bFrameWords>(), origin);
+  if (frame.satellite_number != origin.satellite.number) {
+    ++counters_.wrong_satellite;
+    return {};
+  }
+  return pass_on(frame.page);
+}
+
+NavigationUpdate RawNavigationReader::pass_on(const CorrectionPage& page) {
+  NavigationUpdate update;
+  if (is_intact(page)) {
+    ++counters_.pages;
+    update.page = page;
+  } else {
+    ++counters_.bad_pages;
+  }
+  return update;
 }
 
 }  // namespace leonav

@@ -1,5 +1,6 @@
 // This unit reads the blocks with raw navigation bits: GPSRawCA (4017), GALRawFNAV (4022),
-// GALRawINAV (4023) and BDSRaw (4047). Source: mosaic-X5 Reference Guide, chapters of these names.
+// GALRawINAV (4023), GALRawCNAV (4024), BDSRaw (4047) and BDSRawB2b (4242). Source: mosaic-X5
+// Reference Guide, chapters of these names.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,15 +12,19 @@
 
 namespace leonav {
 
-// Counts of blocks that gave no subframe.
+// Counts of pages of corrections, and of blocks that gave no subframe and no page.
 struct RawNavigationCounters {
+  std::uint64_t pages = 0;  // of corrections (E6-B, PPP-B2b), passed on
   std::uint64_t bad_length = 0;
   std::uint64_t bad_satellite = 0;
-  std::uint64_t without_time = 0;  // the receiver did not know the time
-  std::uint64_t crc_failed = 0;    // by the receiver's own check
+  std::uint64_t without_time = 0;     // the receiver did not know the time
+  std::uint64_t crc_failed = 0;       // by the receiver's own check
+  std::uint64_t bad_pages = 0;        // by the page's own checksum
+  std::uint64_t wrong_satellite = 0;  // B2b: the frame names another satellite than the block
 };
 
-// The reader turns the bits of a block into the words that the collector takes.
+// The reader turns the bits of a block into the words that the collector takes, or into a page of
+// corrections.
 class RawNavigationReader {
  public:
   static bool is_raw_navigation(std::uint16_t number);
@@ -35,7 +40,12 @@ class RawNavigationReader {
   static constexpr std::size_t kMessages = 5;  // values of NavigationMessage
 
   NavigationUpdate add(std::uint16_t number, std::span<const std::uint8_t> bits,
-                       const SubframeOrigin& origin, NavigationCollector* collector) const;
+                       const SubframeOrigin& origin, NavigationCollector* collector);
+  NavigationUpdate add_galileo_page(std::span<const std::uint32_t> words,
+                                    const SubframeOrigin& origin);
+  NavigationUpdate add_beidou_b2b(std::span<const std::uint32_t> words,
+                                  const SubframeOrigin& origin, NavigationCollector* collector);
+  NavigationUpdate pass_on(const CorrectionPage& page);
 
   // When the last set was made.
   std::array<std::array<GpsTime, NavigationCollector::kSatellites>, kMessages> made_;

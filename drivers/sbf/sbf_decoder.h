@@ -1,5 +1,6 @@
 // This unit decodes a Septentrio byte stream (SBF) to observations, ephemerides, ionosphere
-// coefficients and inertial measurements. Source: mosaic-X5 and AsteRx SBi3 Pro+ Reference Guides.
+// coefficients, pages of corrections and inertial measurements. Source: mosaic-X5 and AsteRx SBi3
+// Pro+ Reference Guides.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "core/gnss/orbits/ephemeris.h"
 #include "core/gnss/signals/observation.h"
+#include "drivers/binary/correction_page.h"
 #include "drivers/binary/ephemeris_status.h"
 #include "drivers/binary/range_epoch.h"
 #include "drivers/sbf/ext_sensor_meas.h"
@@ -24,7 +26,10 @@ class SbfHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
-  virtual void on_imu(const ExtSensorRates&) {}
+  // A page of Galileo HAS or PPP-B2b, received at the time of its block; measurements of an
+  // inertial sensor. Who does not need one leaves it as it is.
+  virtual void on_page(const CorrectionPage& /*page*/) {}
+  virtual void on_imu(const ExtSensorRates& /*rates*/) {}
 };
 
 // Counts of blocks with measurements that gave no epoch, and of measurements left out.

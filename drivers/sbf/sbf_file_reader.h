@@ -8,7 +8,7 @@
 
 namespace leonav {
 
-using SbfOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, ExtSensorRates>;
+using SbfOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, CorrectionPage, ExtSensorRates>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

@@ -4,6 +4,8 @@
   sbf.py fields FILE         one line of numbers for each measurement, ephemeris and set of coefficients
   sbf.py generate SEED >OUT  blocks of every kind that leonav reads, with random fields, packed by the guide's tables
   sbf.py transcode FILE >OUT the subframes of a u-blox recording as blocks of raw navigation bits
+  sbf.py has FILE >OUT       lines of pages of Galileo HAS (E6-B) as blocks GALRawCNAV
+  sbf.py b2b FILE >OUT       lines of pages of PPP-B2b as blocks BDSRawB2b, between which are some of B-CNAV3
   sbf.py --have              exits 0 if pysbf2 is there
 """
 import math
@@ -193,6 +195,45 @@ def transcode(path):
                 yield made
 
 
+def check_by_pysbf2(name, made, head, words):
+    """Packs one block by pysbf2 too, where it is there; both must agree in every byte."""
+    try:
+        from pysbf2 import SBFMessage
+    except ImportError:
+        return
+    if SBFMessage(name, NavBits=words, scaling=False, **head).serialize() != made:
+        sys.exit(f"pysbf2 packs {name} otherwise")
+
+
+def page_blocks(service, path):
+    """Pages as Septentrio hands them out. Symbols of the code behind a page of PPP-B2b are random: nobody reads them."""
+    rnd, at = random.Random(1), 0
+    for line in open(path):
+        week, second, satellite, _, _, text = line.split()
+        week, second, satellite = int(week), int(second), int(satellite)
+        bits = bin(int("1" + text, 16))[3:]
+        at += 1
+        if service == "has":
+            name, number, source, count = "GALRawCNAV", satellite + 70, 19, 16
+            words = words_of(bits[:492], count)
+            head = {"ViterbiCnt": 0, "FreqNr": 0}
+        else:
+            # The seconds of these files are BeiDou's, 14 s behind those of the block.
+            second += 14
+            name, number, source, count = "BDSRawB2b", satellite + (140 if satellite <= 40 else 182), 34, 31
+            frame = f"{satellite:06b}000000" + bits[:486] + format(rnd.getrandbits(486), "0486b")
+            words = words_of(frame, count)
+            head = {"Reserved1": 0, "Reserved2": 0}
+            if at % 100 == 0:  # another satellite's navigation message on the same signal
+                yield block(4242, struct.pack("<BBBBBB", 160, 1, 0, source, 0, 9) + words, second * 1000, week=week)
+        made = block(4024 if service == "has" else 4242, struct.pack("<BBBBBB", number, 1, 0, source, 0, 9) + words,
+                     second * 1000, week=week)
+        if at % 100 == 1:
+            check_by_pysbf2(name, made, dict(head, TOW=second * 1000, WNc=week, SVID=number, CRCPassed=1, SigIdx=source,
+                                             RxChannel=9), words)
+        yield made
+
+
 def name_of(satellite):
     for system, first, last, offset in (("G", 1, 37, 0), ("E", 71, 106, 70), ("C", 141, 180, 140), ("C", 223, 245, 182)):
         if first <= satellite <= last:
@@ -274,6 +315,8 @@ def main():
         sys.stdout.buffer.write(b"".join(generate(int(sys.argv[2]))))
     elif len(sys.argv) == 3 and sys.argv[1] == "transcode":
         sys.stdout.buffer.write(b"".join(transcode(sys.argv[2])))
+    elif len(sys.argv) == 3 and sys.argv[1] in ("has", "b2b"):
+        sys.stdout.buffer.write(b"".join(page_blocks(*sys.argv[1:])))
     else:
         sys.exit(__doc__)
 

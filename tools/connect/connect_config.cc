@@ -21,7 +21,7 @@ bool is_receiver(const StreamConfig& stream) {
 }
 bool is_inertial(const StreamConfig& stream) {
   return (!stream.is_service && !is_receiver(stream)) || stream.oem7.is_inertial ||
-         stream.is_sbf_inertial || stream.has_ubx_imu;
+         stream.sbf.is_inertial || stream.has_ubx_imu;
 }
 
 // Two senders on one channel would be one stream with twice the messages.

@@ -115,8 +115,8 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
                                           &output, &corrections);
     case FormatKind::kSbf:
-      return std::make_unique<SbfFormat>(stream.is_sbf_inertial, config.gnss_latency_s,
-                                         stream.repeat_s, &gps, &output, &corrections);
+      return std::make_unique<SbfFormat>(stream.sbf, config.gnss_latency_s, stream.repeat_s, &gps,
+                                         &output, &corrections);
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kXsens:

@@ -156,7 +156,10 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   const bool has_pages = stream->format == FormatKind::kHas || stream->format == FormatKind::kB2b;
   if (has_pages) stream->is_service = true;
   if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
-  if (stream->format == FormatKind::kSbf) group.boolean("inertial", &stream->is_sbf_inertial);
+  if (stream->format == FormatKind::kSbf) {
+    group.boolean("inertial", &stream->sbf.is_inertial);
+    group.boolean("corrections", &stream->sbf.uses_pages);
+  }
   if (stream->format == FormatKind::kUbx) {
     group.boolean("inertial", &stream->has_ubx_imu);
     if (stream->has_ubx_imu) {

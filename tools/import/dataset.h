@@ -22,8 +22,8 @@ struct Dataset {
   std::vector<std::string> orbits;      // SP3
   std::vector<std::string> clocks;      // RINEX clock
   std::vector<std::string> biases;      // Bias-SINEX, of the product of orbits and clocks
-  // RTCM 3 with SSR (.rtcm3, .rtcm) or pages of HAS (.has, .ubx) or PPP-B2b (.b2b), in order of
-  // time
+  // RTCM 3 with SSR (.rtcm3, .rtcm) or pages of HAS (.has, .ubx, .sbf) or PPP-B2b (.b2b, .sbf), in
+  // order of time
   std::vector<std::string> corrections;
   double corrections_latency_s = 10.0;      // of RTCM, from a correction's time to its arrival
   bool corrections_at_antenna = true;       // CorrectionOptions::at_antenna

@@ -58,6 +58,9 @@ TEST_CASE("Pages come from a service as text, or from a receiver that is told to
   CHECK(config.streams.at(1).is_service);
   CHECK(config.streams.at(2).format == FormatKind::kB2b);
   CHECK(std::string(name_of(FormatKind::kHas)) == "has");
+  const std::string septentrio = "name: a, source: tcp, host: h, port: 1, format: sbf";
+  CHECK_FALSE(load(stream(septentrio)).streams.at(0).sbf.uses_pages);
+  CHECK(load(stream(septentrio + ", corrections: true")).streams.at(0).sbf.uses_pages);
   CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: has, latency_ms: 3")), ConfigError);
   CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: vectornav, corrections: true")),
                   ConfigError);

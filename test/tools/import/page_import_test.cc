@@ -1,9 +1,11 @@
 // Pages of Galileo HAS and PPP-B2b in an import.
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "drivers/text/parse.h"
 #include "support/catch.h"
+#include "support/pages_in_sbf.h"
 #include "support/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
@@ -16,11 +18,22 @@ constexpr const char* kB2b = "wire/b2b_189e.txt";
 constexpr const char* kNavigation = "wire/broadcast_189.23P";
 constexpr const char* kWalk = "walk/gnss.ubx";
 
-// Imports a file of pages with two epochs that include it, 04:00 to 04:20 of 2023-07-08.
-ImportReport import_pages(const char* source, const std::string& name) {
+struct Imported {
+  ImportReport report;
+  std::string log;  // its bytes
+};
+
+// Imports a file of pages with two epochs that include it, 04:00 to 04:20 of 2023-07-08. A file
+// whose name ends in .sbf is made of the lines.
+Imported import_log(const char* source, const std::string& name) {
   const test::TemporaryFile yaml(
       "set.yaml", "observations: a.obs\nnavigation: b.nav\ncorrections: " + name + "\n");
-  std::filesystem::copy_file(test::shared_data(source), yaml.beside(name));
+  if (name.ends_with(".sbf")) {
+    REQUIRE(test::write_pages_as_sbf(source == std::string(kHas) ? "has" : "b2b",
+                                     test::shared_data(source), yaml.beside(name)));
+  } else {
+    std::filesystem::copy_file(test::shared_data(source), yaml.beside(name));
+  }
   std::filesystem::copy_file(test::shared_data(kNavigation), yaml.beside("b.nav"));
   std::ofstream(yaml.beside("a.obs"))
       << "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
@@ -28,7 +41,15 @@ ImportReport import_pages(const char* source, const std::string& name) {
          "                                                            END OF HEADER\n"
          "> 2023 07 08 04 00  0.0000000  0  1\nG01  20000000.000\n"
          "> 2023 07 08 04 20  0.0000000  0  1\nG01  20000000.000\n";
-  return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  Imported result;
+  result.report = import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+  std::ifstream log(yaml.beside("out.lcmlog"), std::ios::binary);
+  result.log = {std::istreambuf_iterator<char>(log), {}};
+  return result;
+}
+
+ImportReport import_pages(const char* source, const std::string& name) {
+  return import_log(source, name).report;
 }
 
 long left_out(const ImportReport& report, const std::string& reason) {
@@ -58,6 +79,19 @@ TEST_CASE("pages of PPP-B2b make states of GPS, and BeiDou's are counted", "[imp
   CHECK(report.corrected_states > 1000);
   CHECK(report.signal_biases > 100);
   CHECK(left_out(report, "correction of a broadcast message that leonav does not read") > 1000);
+}
+
+TEST_CASE("pages in a Septentrio receiver's file make the log that lines of text make",
+          "[import]") {
+  for (const char* source : {kHas, kB2b}) {
+    if (!test::have_shared_data(source)) return;
+    const Imported lines = import_log(source, source == kHas ? "pages.has" : "pages.b2b");
+    const Imported blocks = import_log(source, "pages.sbf");
+    CHECK(blocks.report.corrected_states > 1000);
+    CHECK(blocks.report.corrected_states == lines.report.corrected_states);
+    CHECK(blocks.report.signal_biases == lines.report.signal_biases);
+    CHECK(blocks.log == lines.log);
+  }
 }
 
 TEST_CASE("a receiver's own pages correct its observations", "[import]") {

@@ -16,7 +16,7 @@ void SbfFormat::on_klobuchar(const KlobucharModel& model) {
 }
 
 void SbfFormat::on_imu(const ExtSensorRates& rates) {
-  if (!is_inertial_) return;
+  if (!options_.is_inertial) return;
   last_sample_ = rates.time;
   const std::optional<ImuSample> sample = samples_.take(rates);
   if (!sample) return;
@@ -30,16 +30,18 @@ FormatCounts SbfFormat::counts() const {
   const ImuSamplerCounters& s = samples_.counters();
   FormatCounts counts;
   counts.frames = c.framer.blocks;
-  counts.messages = receiver_.messages() + sent_samples_;
-  counts.damaged = c.framer.bad_checksums + c.framer.bad_lengths + c.framer.incomplete;
+  counts.messages = receiver_.messages() + pages_.published() + sent_samples_;
+  counts.damaged =
+      c.framer.bad_checksums + c.framer.bad_lengths + c.framer.incomplete + pages_.damaged();
   counts.refused = c.measurements.bad_length + c.measurements.without_time +
                    c.measurements.scrambled + c.epochs.bad_value + c.epochs.bad_satellite +
                    c.navigation.bad_parity + c.navigation.bad_week + c.navigation.wrong_satellite +
                    c.navigation.not_sane + c.raw.bad_length + c.raw.bad_satellite +
-                   c.raw.crc_failed + c.decoded.bad_length + c.decoded.bad_satellite +
-                   c.decoded.bad_time + c.decoded.bad_week + c.decoded.bad_subframes +
-                   c.decoded.not_sane + c.decoded.bad_ionosphere;
-  if (is_inertial_) {
+                   c.raw.crc_failed + c.raw.bad_pages + c.raw.wrong_satellite + pages_.refused() +
+                   c.decoded.bad_length + c.decoded.bad_satellite + c.decoded.bad_time +
+                   c.decoded.bad_week + c.decoded.bad_subframes + c.decoded.not_sane +
+                   c.decoded.bad_ionosphere;
+  if (options_.is_inertial) {
     counts.refused +=
         c.imu.bad_length + c.imu.without_time + c.imu.bad_value + s.out_of_order + s.impossible;
   }
@@ -54,7 +56,7 @@ std::optional<DataTime> SbfFormat::data_time() const {
 
 std::string SbfFormat::inertial_text() const {
   const ExtSensorCounters imu = decoder_.counters().imu;
-  if (!is_inertial_) {
+  if (!options_.is_inertial) {
     return imu.samples > 0 ? "inertial data that are not published ('inertial: true' does)" : "";
   }
   if (sent_samples_ > 0) return std::to_string(sent_samples_) + " inertial samples";
@@ -69,7 +71,10 @@ std::string SbfFormat::detail() const {
   // Samples alone must not hide a receiver that gives no epochs.
   const std::string missing = receiver_.last_epoch().is_set() ? "" : why_no_messages();
   return joined(
-      {missing, receiver_.detail(), summary_of(decoder_.counters().losses), inertial_text()});
+      {missing, receiver_.detail(), summary_of(decoder_.counters().losses),
+       pages_.text("no pages of Galileo HAS or PPP-B2b: turn on GALRawCNAV and BDSRawB2b, "
+                   "and their signals GALE6BC and BDSB2b"),
+       inertial_text()});
 }
 
 std::string SbfFormat::why_no_frames() const {
@@ -102,7 +107,7 @@ std::string SbfFormat::why_no_messages() const {
   if (!others.empty()) others += ")";
   return "SBF blocks arrive, but no MeasEpoch" + others +
          ": turn on MeasEpoch, GPSRawCA, GALRawINAV and BDSRaw" +
-         (is_inertial_ ? ", and ExtSensorMeas" : "");
+         (options_.is_inertial ? ", and ExtSensorMeas" : "");
 }
 
 }  // namespace leonav

@@ -16,14 +16,6 @@ void UbxFormat::on_klobuchar(const KlobucharModel& model) {
 }
 void UbxFormat::on_biases(const std::vector<SignalBias>& biases) { receiver_.send(biases); }
 
-void UbxFormat::on_page(const CorrectionPage& page) {
-  if (!options_.uses_pages) return;
-  for (const SsrMessage& message : pages_.add(page)) {
-    published_corrections_ +=
-        static_cast<std::uint64_t>(corrections_->take(message, page.received));
-  }
-}
-
 void UbxFormat::on_inertial(const EsfReading& reading) {
   if (options_.is_inertial) imu_.take(imu_reading(reading, arrival_ns_));
 }
@@ -62,20 +54,10 @@ std::string UbxFormat::pulse_text() const {
   return "no pulses: switch UBX-TIM-TM2 on for this port of the receiver";
 }
 
-std::string UbxFormat::corrections_text() const {
-  if (!options_.uses_pages) return "";
-  if (decoder_.counters().sfrbx.pages == 0) {
-    return "no pages of Galileo HAS: switch E6 on (CFG-SIGNAL-GAL_E6_ENA)";
-  }
-  if (published_corrections_ > 0) return corrections_->detail();
-  std::string why = "pages of Galileo HAS, but no corrections yet";
-  for (const auto& [reason, count] : pages_.left_out())
-    why += ", " + std::to_string(count) + " x " + reason;
-  return why;
-}
-
 std::string UbxFormat::detail() const {
-  return joined({receiver_.detail(), corrections_text(), inertial_text(), pulse_text()});
+  return joined({receiver_.detail(),
+                 pages_.text("no pages of Galileo HAS: switch E6 on (CFG-SIGNAL-GAL_E6_ENA)"),
+                 inertial_text(), pulse_text()});
 }
 
 double UbxFormat::stamp_sigma_s() const {
@@ -86,7 +68,7 @@ FormatCounts UbxFormat::counts() const {
   const UbxCounters c = decoder_.counters();
   FormatCounts counts;
   counts.frames = c.framer.messages;
-  counts.messages = receiver_.messages() + published_corrections_;
+  counts.messages = receiver_.messages() + pages_.published();
   counts.damaged =
       c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete + pages_.damaged();
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +

@@ -4,10 +4,10 @@
 #pragma once
 #include "drivers/ubx/ubx_decoder.h"
 #include "tools/connect/formats/imu_output.h"
+#include "tools/connect/formats/received_pages.h"
 #include "tools/connect/formats/receiver_output.h"
 #include "tools/connect/formats/stream_format.h"
 #include "tools/connect/formats/ubx_options.h"
-#include "tools/import/page_decoder.h"
 
 namespace leonav {
 
@@ -26,9 +26,9 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
             PulseQueue* pulses = nullptr)
       : latency_s_(latency_s),
         options_(options),
-        corrections_(corrections),
         pulses_(pulses),
         receiver_(repeat_s, clock, output, corrections),
+        pages_(options.uses_pages, corrections),
         imu_(clock, options.stamps, output) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
@@ -45,23 +45,20 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
   void on_biases(const std::vector<SignalBias>& biases) override;
-  void on_page(const CorrectionPage& page) override;
+  void on_page(const CorrectionPage& page) override { pages_.take(page); }
   void on_inertial(const EsfReading& reading) override;
   void on_time_mark(const TimeMark& mark) override;
-  std::string corrections_text() const;
   std::string inertial_text() const;
   std::string pulse_text() const;
 
   double latency_s_;
   UbxStreamOptions options_;
-  CorrectionOutput* corrections_;
   PulseQueue* pulses_;
   ReceiverOutput receiver_;
+  ReceivedPages pages_;
   ImuOutput imu_;
   std::uint64_t sent_pulses_ = 0, other_pulses_ = 0;  // handed on; of another input or edge
   UbxDecoder decoder_;
-  PageDecoder pages_;
-  std::uint64_t published_corrections_ = 0;
   std::int64_t arrival_ns_ = 0;  // of the bytes at hand
 };
 

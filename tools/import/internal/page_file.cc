@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/page_lines/page_file_reader.h"
+#include "drivers/sbf/sbf_file_reader.h"
 #include "drivers/text/parse.h"
 #include "drivers/ubx/ubx_file_reader.h"
 #include "tools/import/internal/observation_file.h"
@@ -23,9 +24,11 @@ void read_lines(const std::string& path, const PageTaker& take, ImportReport* re
   report->skip(path + ":" + std::to_string(c.first_bad_line), "line that is no page", c.bad_lines);
 }
 
-void read_ubx(const std::string& path, const PageTaker& take) {
-  UbxFileReader reader(path);
-  for (UbxOutput output; reader.next(&output);) {
+// Reads the pages between the other messages of a receiver.
+template <typename Reader, typename Output>
+void read_receiver(const std::string& path, const PageTaker& take) {
+  Reader reader(path);
+  for (Output output; reader.next(&output);) {
     if (const auto* page = std::get_if<CorrectionPage>(&output)) take(*page);
   }
 }
@@ -33,7 +36,8 @@ void read_ubx(const std::string& path, const PageTaker& take) {
 }  // namespace
 
 bool has_page_name(const std::string& path) {
-  return has_ending(path, ".has") || has_ending(path, ".b2b") || has_ending(path, ".ubx");
+  return has_ending(path, ".has") || has_ending(path, ".b2b") || has_ending(path, ".ubx") ||
+         has_ending(path, ".sbf");
 }
 
 std::vector<ScheduledCorrection> read_pages(const std::string& path, ImportReport* report) {
@@ -45,7 +49,9 @@ std::vector<ScheduledCorrection> read_pages(const std::string& path, ImportRepor
     }
   };
   if (has_ending(path, ".ubx")) {
-    read_ubx(path, take);
+    read_receiver<UbxFileReader, UbxOutput>(path, take);
+  } else if (has_ending(path, ".sbf")) {
+    read_receiver<SbfFileReader, SbfOutput>(path, take);
   } else {
     read_lines(path, take, report);
   }

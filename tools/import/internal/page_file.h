@@ -8,8 +8,8 @@
 
 namespace leonav {
 
-// Returns whether a file of corrections holds pages: of HAS (.has, or .ubx of a receiver of E6-B)
-// or of PPP-B2b (.b2b).
+// Returns whether a file of corrections holds pages: lines of HAS (.has) or PPP-B2b (.b2b), or what
+// a receiver has recorded of them (.ubx, .sbf).
 bool has_page_name(const std::string& path);
 
 // Reads the corrections of a file in its order; each arrives with the page that completes its

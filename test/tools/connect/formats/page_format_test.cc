@@ -1,5 +1,5 @@
-// What leonav-connect publishes of pages of HAS and PPP-B2b: from lines, and from a u-blox
-// receiver.
+// What leonav-connect publishes of pages of HAS and PPP-B2b: from lines, and from receivers of
+// u-blox and Septentrio.
 #include "tools/connect/formats/page_format.h"
 
 #include <algorithm>
@@ -10,7 +10,10 @@
 
 #include "drivers/rinex/navigation_reader.h"
 #include "support/catch.h"
+#include "support/pages_in_sbf.h"
 #include "support/shared_data.h"
+#include "support/temporary_file.h"
+#include "tools/connect/formats/sbf_format.h"
 #include "tools/connect/formats/ubx_format.h"
 
 namespace leonav {
@@ -22,8 +25,12 @@ constexpr const char* kNavigation = "wire/broadcast_189.23P";
 constexpr const char* kWalk = "walk/gnss.ubx";
 
 struct Counts : MessageTarget {
-  void take(Channel channel, ByteSpan) override { ++of[channel]; }
+  void take(Channel channel, ByteSpan bytes) override {
+    ++of[channel];
+    all.emplace_back(bytes.begin(), bytes.end());
+  }
   std::map<Channel, int> of;
+  std::vector<std::vector<std::uint8_t>> all;
 };
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
@@ -94,6 +101,47 @@ TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[co
   CHECK(format.counts().damaged == 3);
   CHECK(format.counts().frames == 1);
   CHECK(rig.output.sent() == 0);
+}
+
+TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where they are used",
+          "[connect]") {
+  const bool is_has = GENERATE(true, false);
+  const char* source = is_has ? kHas : kB2b;
+  if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
+  Rig of_lines;
+  of_lines.add_ephemerides();
+  PageFormat lines(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b,
+                   &of_lines.corrections);
+  feed(&lines, bytes_of(test::shared_data(source)));
+  const test::TemporaryFile place("pages.sbf", "");
+  REQUIRE(
+      test::write_pages_as_sbf(is_has ? "has" : "b2b", test::shared_data(source), place.path()));
+  for (const bool uses_pages : {true, false}) {
+    Rig rig;
+    rig.add_ephemerides();
+    GpsClock clock(TimeReference::kGnss, 0.05);
+    SbfStreamOptions options;
+    options.uses_pages = uses_pages;
+    SbfFormat format(options, 0.05, 0.0, &clock, &rig.output, &rig.corrections);
+    feed(&format, bytes_of(place.path()));
+    CHECK(format.counts().damaged + format.counts().refused == 0);
+    CHECK(format.counts().messages == rig.output.sent());
+    CHECK((format.detail().find(rig.corrections.detail()) != std::string::npos) == uses_pages);
+    if (uses_pages) {
+      CHECK(rig.counts.all.size() > 500);
+      CHECK(rig.counts.all == of_lines.counts.all);
+    } else {
+      CHECK(rig.counts.all.empty());
+    }
+  }
+}
+
+TEST_CASE("A Septentrio stream without the pages that it is to give says what to turn on",
+          "[connect]") {
+  Rig rig;
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  const SbfFormat format({false, true}, 0.05, 0.0, &clock, &rig.output, &rig.corrections);
+  CHECK_THAT(format.detail(), Catch::Contains("turn on GALRawCNAV and BDSRawB2b"));
 }
 
 TEST_CASE("A u-blox receiver's pages are used where that is asked for", "[connect]") {

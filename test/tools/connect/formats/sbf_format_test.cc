@@ -76,7 +76,7 @@ struct Messages : MessageTarget {
 };
 
 struct Rig {
-  explicit Rig(bool is_inertial) : format(is_inertial, 0.05, 30.0, &clock, &output) {}
+  explicit Rig(bool is_inertial) : format({is_inertial, false}, 0.05, 30.0, &clock, &output) {}
   Messages messages;
   MessageOutput output{&messages};
   GpsClock clock{TimeReference::kGnss, 0.05};
