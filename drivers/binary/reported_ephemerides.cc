@@ -21,6 +21,8 @@ bool say_the_same(const Ephemeris& a, const Ephemeris& b) {
                       e.crs,
                       e.cic,
                       e.cis,
+                      e.a_dot,
+                      e.delta_n_dot,
                       e.af0,
                       e.af1,
                       e.af2,

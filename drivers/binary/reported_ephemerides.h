@@ -20,8 +20,7 @@ class ReportedEphemerides {
   static constexpr std::size_t kSatellites = 64;
 
  private:
-  static constexpr std::size_t kMessages = 5;  // values of NavigationMessage
-  std::array<std::array<Ephemeris, kSatellites>, kMessages> last_;
+  std::array<std::array<Ephemeris, kSatellites>, kNavigationMessages> last_;
 };
 
 }  // namespace leonav

@@ -27,6 +27,8 @@ bool message_fits_system(System system, std::int8_t message) {
     case NavigationMessage::kBeidouD1:
     case NavigationMessage::kBeidouD2:
       return system == System::kBeidou;
+    case NavigationMessage::kBeidouCnav1:
+      break;
   }
   return false;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/gnss/orbits/satellite_state.h"
+#include "drivers/navigation_bits/beidou_cnav1.h"
 
 namespace leonav {
 namespace {
@@ -67,7 +68,17 @@ NavigationUpdate NavigationCollector::add_bcnav1(std::span<const std::uint8_t> b
                                                  const SubframeOrigin& origin) {
   std::vector<SignalBias> biases;
   const CnavStatus status = read_bcnav1_delays(bits, origin.satellite, origin.now, &biases);
-  return finish_delays(status, std::move(biases), origin.now);
+  Ephemeris ephemeris;
+  if (status == CnavStatus::kDelays) {
+    const SubframeStatus elements = read_bcnav1_elements(bits, origin, &ephemeris);
+    if (elements != SubframeStatus::kUsed) {
+      count(elements);
+      return {};
+    }
+  }
+  NavigationUpdate update = finish_delays(status, std::move(biases), origin.now);
+  if (status == CnavStatus::kDelays && is_new_issue(ephemeris)) update.ephemeris = ephemeris;
+  return update;
 }
 
 NavigationUpdate NavigationCollector::add_bcnav2(std::span<const std::uint8_t> bits,

@@ -48,9 +48,9 @@ class NavigationCollector {
   // D1 or D2, by the satellite's orbit.
   NavigationUpdate add_beidou(std::span<const std::uint32_t, kBeidouWords> words,
                               const SubframeOrigin& origin);
-  // The group delays of a message of GPS CNAV, BeiDou B-CNAV1 (its subframe 2) or B-CNAV2, whose
-  // bits begin with the first byte's highest one. They are given when they have changed, and again
-  // every hour, so that a program that starts later gets them.
+  // The group delays of a message of GPS CNAV, BeiDou B-CNAV1 (its subframe 2, whose elements are
+  // given too) or B-CNAV2, whose bits begin with the first byte's highest one. They are given when
+  // they have changed, and again every hour, so that a program that starts later gets them.
   NavigationUpdate add_gps_cnav(std::span<const std::uint8_t> bits, const SubframeOrigin& origin);
   NavigationUpdate add_bcnav1(std::span<const std::uint8_t> bits, const SubframeOrigin& origin);
   NavigationUpdate add_bcnav2(std::span<const std::uint8_t> bits, const SubframeOrigin& origin);

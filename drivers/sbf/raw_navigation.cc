@@ -16,8 +16,9 @@ namespace {
 constexpr double kLongestRawAge_s = 7200.0;
 
 constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023,
-                        kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB2b = 4242;
-// Satellite, result of the receiver's check, errors, signal, frequency, channel.
+                        kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB1c = 4218, kBdsRawB2b = 4242;
+// Satellite, result of the receiver's check, errors, signal, frequency, channel. Of B1C the check
+// is that of subframe 2, and that of subframe 3 stands in place of the errors.
 constexpr std::size_t kHeadSize = 6;
 
 struct BlockLayout {
@@ -31,9 +32,11 @@ constexpr BlockLayout kLayouts[] = {
     {kGalRawInav, System::kGalileo, GalileoInav::kWords},
     {kGalRawCnav, System::kGalileo, kGalileoPageWords},
     {kBdsRaw, System::kBeidou, kBeidouWords},
+    {kBdsRawB1c, System::kBeidou, kBcnav1Words},
     {kBdsRawB2b, System::kBeidou, kB2bFrameWords},
 };
-constexpr std::size_t kMaxWords = kB2bFrameWords;
+constexpr std::size_t kMaxWords = kBcnav1Words;
+constexpr int kNumberBits = 6;  // of a satellite of BeiDou, at the beginning of a frame
 
 // Returns nullptr for a block of another kind.
 const BlockLayout* layout_of(std::uint16_t number) {
@@ -91,6 +94,17 @@ std::array<std::uint32_t, kBeidouWords> beidou_words(
   std::array<std::uint32_t, kBeidouWords> result{};
   for (std::uint32_t& word : result) word = reader.take(30);
   return result;
+}
+
+std::array<std::uint8_t, kBcnav1Bytes> bcnav1_subframe_2(
+    std::span<const std::uint32_t, kBcnav1Words> words) {
+  constexpr std::size_t kFirstSubframe = 72;
+  const auto bytes = bytes_of(words);
+  BitReader reader(bytes);
+  reader.skip(kFirstSubframe);
+  BitWriter<kBcnav1Bytes> writer;
+  copy_bits(&reader, 8 * kBcnav1Bytes, &writer);
+  return writer.bytes();
 }
 
 bool RawNavigationReader::is_raw_navigation(std::uint16_t number) {
@@ -151,6 +165,8 @@ NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const 
       return collector->add_galileo_fnav(words.first<GalileoFnav::kWords>(), origin);
     case kGalRawCnav:
       return add_galileo_page(words, origin);
+    case kBdsRawB1c:
+      return add_beidou_b1c(words, origin, collector);
     case kBdsRawB2b:
       return add_beidou_b2b(words, origin, collector);
     default:
@@ -161,6 +177,16 @@ NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const 
 NavigationUpdate RawNavigationReader::add_galileo_page(std::span<const std::uint32_t> words,
                                                        const SubframeOrigin& origin) {
   return pass_on(galileo_page(words.first<kGalileoPageWords>(), origin));
+}
+
+NavigationUpdate RawNavigationReader::add_beidou_b1c(std::span<const std::uint32_t> words,
+                                                     const SubframeOrigin& origin,
+                                                     NavigationCollector* collector) {
+  if (words[0] >> (32 - kNumberBits) != origin.satellite.number) {
+    ++counters_.wrong_satellite;
+    return {};
+  }
+  return collector->add_bcnav1(bcnav1_subframe_2(words.first<kBcnav1Words>()), origin);
 }
 
 // The geostationary satellites send PPP-B2b on this signal, the others B-CNAV3.

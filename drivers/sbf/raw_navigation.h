@@ -1,6 +1,6 @@
 // This unit reads the blocks with raw navigation bits: GPSRawCA (4017), GALRawFNAV (4022),
-// GALRawINAV (4023), GALRawCNAV (4024), BDSRaw (4047) and BDSRawB2b (4242). Source: mosaic-X5
-// Reference Guide, chapters of these names.
+// GALRawINAV (4023), GALRawCNAV (4024), BDSRaw (4047), BDSRawB1C (4218) and BDSRawB2b (4242).
+// Source: mosaic-X5 Reference Guide, chapters of these names.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct RawNavigationCounters {
   std::uint64_t without_time = 0;     // the receiver did not know the time
   std::uint64_t crc_failed = 0;       // by the receiver's own check
   std::uint64_t bad_pages = 0;        // by the page's own checksum
-  std::uint64_t wrong_satellite = 0;  // B2b: the frame names another satellite than the block
+  std::uint64_t wrong_satellite = 0;  // B1C, B2b: the frame names another one than the block
 };
 
 // The reader turns the bits of a block into the words that the collector takes, or into a page of
@@ -37,18 +37,18 @@ class RawNavigationReader {
   const RawNavigationCounters& counters() const { return counters_; }
 
  private:
-  static constexpr std::size_t kMessages = 5;  // values of NavigationMessage
-
   NavigationUpdate add(std::uint16_t number, std::span<const std::uint8_t> bits,
                        const SubframeOrigin& origin, NavigationCollector* collector);
   NavigationUpdate add_galileo_page(std::span<const std::uint32_t> words,
                                     const SubframeOrigin& origin);
+  NavigationUpdate add_beidou_b1c(std::span<const std::uint32_t> words,
+                                  const SubframeOrigin& origin, NavigationCollector* collector);
   NavigationUpdate add_beidou_b2b(std::span<const std::uint32_t> words,
                                   const SubframeOrigin& origin, NavigationCollector* collector);
   NavigationUpdate pass_on(const CorrectionPage& page);
 
   // When the last set was made.
-  std::array<std::array<GpsTime, NavigationCollector::kSatellites>, kMessages> made_;
+  std::array<std::array<GpsTime, NavigationCollector::kSatellites>, kNavigationMessages> made_;
   RawNavigationCounters counters_;
 };
 
@@ -62,6 +62,12 @@ std::array<std::uint32_t, GpsLnav::kWords> gps_words(
 // Galileo I/NAV: 114 bits of the even part, without its tail, and 120 of the odd one.
 std::array<std::uint32_t, GalileoInav::kWords> galileo_inav_words(
     std::span<const std::uint32_t, GalileoInav::kWords> words);
+// B-CNAV1: of 1800 symbols, whose interleaving the receiver has undone, the first 6 are the number
+// of the satellite. Subframe 2 begins with symbol 72: its 600 bits, left-aligned, then as many
+// symbols of the code LDPC(200,100), by which the receiver has corrected them.
+inline constexpr std::size_t kBcnav1Words = 57, kBcnav1Bytes = 75;
+std::array<std::uint8_t, kBcnav1Bytes> bcnav1_subframe_2(
+    std::span<const std::uint32_t, kBcnav1Words> words);
 // BeiDou: 300 bits in a row.
 std::array<std::uint32_t, kBeidouWords> beidou_words(
     std::span<const std::uint32_t, kBeidouWords> words);

@@ -104,6 +104,7 @@ void SbfDecoder::take_raw_navigation(const SbfBlock& block, SbfHandler* handler)
       s.raw.read(block.number, block.time, block.payload, &s.navigation);
   if (update.ephemeris) handler->on_ephemeris(*update.ephemeris);
   if (update.klobuchar) s.give(*update.klobuchar, handler);
+  if (!update.biases.empty()) handler->on_biases(update.biases);
   if (update.page) handler->on_page(*update.page);
 }
 

@@ -1,14 +1,16 @@
 // This unit decodes a Septentrio byte stream (SBF) to observations, ephemerides, ionosphere
-// coefficients, pages of corrections and inertial measurements. Source: mosaic-X5 and AsteRx SBi3
-// Pro+ Reference Guides.
+// coefficients, group delays, pages of corrections and inertial measurements. Source: mosaic-X5 and
+// AsteRx SBi3 Pro+ Reference Guides.
 #pragma once
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/gnss/orbits/ephemeris.h"
+#include "core/gnss/propagation/signal_bias_store.h"
 #include "core/gnss/signals/observation.h"
 #include "drivers/binary/correction_page.h"
 #include "drivers/binary/ephemeris_status.h"
@@ -26,8 +28,9 @@ class SbfHandler {
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
   virtual void on_klobuchar(const KlobucharModel& model) = 0;
-  // A page of Galileo HAS or PPP-B2b, received at the time of its block; measurements of an
-  // inertial sensor. Who does not need one leaves it as it is.
+  // Group delays of one satellite; a page of Galileo HAS or PPP-B2b, received at the time of its
+  // block; measurements of an inertial sensor. Who does not need one leaves it as it is.
+  virtual void on_biases(const std::vector<SignalBias>& /*biases*/) {}
   virtual void on_page(const CorrectionPage& /*page*/) {}
   virtual void on_imu(const ExtSensorRates& /*rates*/) {}
 };

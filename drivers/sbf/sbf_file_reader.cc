@@ -17,6 +17,7 @@ struct SbfFileReader::State : SbfHandler {
   void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { outputs.emplace_back(model); }
+  void on_biases(const std::vector<SignalBias>& biases) override { outputs.emplace_back(biases); }
   void on_page(const CorrectionPage& page) override { outputs.emplace_back(page); }
   void on_imu(const ExtSensorRates& rates) override { outputs.emplace_back(rates); }
 

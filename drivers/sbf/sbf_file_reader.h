@@ -3,12 +3,14 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "drivers/sbf/sbf_decoder.h"
 
 namespace leonav {
 
-using SbfOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, CorrectionPage, ExtSensorRates>;
+using SbfOutput = std::variant<RawEpoch, Ephemeris, KlobucharModel, std::vector<SignalBias>,
+                               CorrectionPage, ExtSensorRates>;
 
 // The file is read in chunks. The constructor and next() throw FileError if it cannot be opened or
 // read.

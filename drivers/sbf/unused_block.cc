@@ -47,7 +47,6 @@ constexpr BlockName kNames[] = {
     {4113, "Meas3MP (turn on MeasEpoch)"},
     {4120, "BDSIon"},
     {4121, "BDSUtc"},
-    {4218, "BDSRawB1C (turn on BDSRaw)"},
     {4219, "BDSRawB2a (turn on BDSRaw)"},
     {4221, "GPSRawL1C (CNAV-2)"},
     {4224, "IMUSetup"},

@@ -17,13 +17,27 @@ bool is_within(GpsTime time, GpsTime reference, double limit_s) {
 
 }  // namespace
 
+CorrectionCounters& operator+=(CorrectionCounters& sum, const CorrectionCounters& other) {
+  sum.states += other.states;
+  sum.without_orbit += other.without_orbit;
+  sum.without_clock += other.without_clock;
+  sum.without_ephemeris += other.without_ephemeris;
+  sum.without_bcnav1 += other.without_bcnav1;
+  sum.of_other_issue += other.of_other_issue;
+  sum.too_old += other.too_old;
+  sum.not_reliable += other.not_reliable;
+  sum.in_regional_frame += other.in_regional_frame;
+  return sum;
+}
+
 void CorrectionStore::add(const Ephemeris& ephemeris) {
   if (!is_valid(ephemeris.satellite) || !is_sane(ephemeris)) return;
   const bool is_galileo = ephemeris.satellite.system == System::kGalileo;
   if (is_galileo && ephemeris.message != options_.galileo_message) return;
   std::vector<Ephemeris>& kept = satellites_[ephemeris.satellite].ephemerides;
   std::erase_if(kept, [&](const Ephemeris& old) {
-    return old.issue == ephemeris.issue && old.toe == ephemeris.toe;
+    return old.message == ephemeris.message && old.issue == ephemeris.issue &&
+           old.toe == ephemeris.toe;
   });
   if (kept.size() == kIssuesKept) kept.erase(kept.begin());
   kept.push_back(ephemeris);
@@ -90,9 +104,6 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
   };
   if (!s.orbit_is.reference.is_set()) return none(&counters_.without_orbit);
   if (!s.clock.is.reference.is_set()) return none(&counters_.without_clock);
-  if (s.orbit_is.service == SsrService::kBeidouB2b && id.system == System::kBeidou) {
-    return none(&counters_.of_unread_message);
-  }
   const bool has_earlier = !go_together(s, s.clock) && s.earlier_clock.is.reference.is_set();
   const Clock& clock = has_earlier ? s.earlier_clock : s.clock;
   if (!go_together(s, clock)) return none(&counters_.of_other_issue);
@@ -104,7 +115,11 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
   }
   if (s.accuracy_index == kWorstSsrAccuracy) return none(&counters_.not_reliable);
   const Ephemeris* broadcast = corrected_ephemeris(s, time);
-  if (broadcast == nullptr) return none(&counters_.without_ephemeris);
+  if (broadcast == nullptr) {
+    const bool is_of_bcnav1 =
+        s.orbit_is.service == SsrService::kBeidouB2b && id.system == System::kBeidou;
+    return none(is_of_bcnav1 ? &counters_.without_bcnav1 : &counters_.without_ephemeris);
+  }
 
   OrbitAndClock corrections{s.orbit, s.orbit_is.reference, clock.values, clock.is.reference, 0.0};
   const bool has_high_rate =

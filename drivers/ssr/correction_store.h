@@ -38,13 +38,16 @@ struct CorrectionCounters {
   std::uint64_t without_orbit = 0;  // a clock's correction alone
   std::uint64_t without_clock = 0;  // an orbit's correction alone
   std::uint64_t without_ephemeris =
-      0;  // the issue that is corrected has not come, or went long ago
-  std::uint64_t of_unread_message = 0;  // of a message that leonav does not read: B-CNAV1 (B2b)
-  std::uint64_t of_other_issue = 0;     // orbit and clock of different IOD SSR, solution, provider
+      0;                             // the issue that is corrected has not come, or went long ago
+  std::uint64_t without_bcnav1 = 0;  // the same, of B2b's corrections of BeiDou (B-CNAV1)
+  std::uint64_t of_other_issue = 0;  // orbit and clock of different IOD SSR, solution, provider
   std::uint64_t too_old = 0;
   std::uint64_t not_reliable = 0;       // the service says that its error may be of any size
   std::uint64_t in_regional_frame = 0;  // satellites of messages in another frame than the ITRF
 };
+
+// Adds the counts of another store.
+CorrectionCounters& operator+=(CorrectionCounters& sum, const CorrectionCounters& other);
 
 class CorrectionStore {
  public:

@@ -70,7 +70,11 @@ bool is_corrected_by(const Ephemeris& broadcast, const SsrOrbit& orbit, SsrServi
       if (is_from_pages && broadcast.message != NavigationMessage::kGalileoInav) return false;
       return (broadcast.issue & (service == SsrService::kIgs ? 0xFF : 0x3FF)) == orbit.issue;
     case System::kBeidou:
-      if (is_from_pages) return false;
+      if (is_from_pages) {
+        return broadcast.message == NavigationMessage::kBeidouCnav1 &&
+               broadcast.issue == orbit.issue;
+      }
+      if (broadcast.message == NavigationMessage::kBeidouCnav1) return false;
       return orbit.beidou_toe ? beidou_toe_s(broadcast) / 8 % 1024 == *orbit.beidou_toe
                               : beidou_toe_s(broadcast) / 720 % 240 == orbit.issue;
     case System::kLeo:

@@ -33,7 +33,8 @@ CorrectedState apply(const OrbitAndClock& corrections, const Ephemeris& broadcas
 // Returns whether an orbit's correction refers to these elements, by the issue that a message of
 // the service gives: the lowest eight bits of GPS' IODE, of Galileo's IODnav as many as were sent,
 // of BeiDou toe in units of 8 s modulo 1024 (RTCM) or of 720 s modulo 240 (IGS). HAS and B2b refer
-// to Galileo's I/NAV alone, and B2b to BeiDou's B-CNAV1, of which no Ephemeris is made.
+// to Galileo's I/NAV alone, and B2b to BeiDou's B-CNAV1 alone, by the lowest eight bits of its
+// IODC, which are the IODE. RTCM and the IGS refer to D1 and D2.
 bool is_corrected_by(const Ephemeris& broadcast, const SsrOrbit& orbit, SsrService service);
 
 }  // namespace leonav

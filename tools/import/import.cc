@@ -327,7 +327,7 @@ void Import::send_first(GpsTime start, LogOutput* log) {
   }
   for (ObservationItem& item : before_start_) {
     if (auto* ephemeris = std::get_if<Ephemeris>(&item)) {
-      log->write(start, *ephemeris);
+      if (!is_for_corrections_alone(*ephemeris)) log->write(start, *ephemeris);
       corrections_.add(*ephemeris);
     }
     if (auto* model = std::get_if<KlobucharModel>(&item)) log->write(start, *model);
@@ -357,8 +357,11 @@ void Import::fetch_observation() {
 }
 
 void Import::send_observation(LogOutput* log) {
-  std::visit([&](const auto& item) { log->write(observation_arrival_, item); }, *observation_);
-  if (const auto* ephemeris = std::get_if<Ephemeris>(&*observation_)) corrections_.add(*ephemeris);
+  const auto* ephemeris = std::get_if<Ephemeris>(&*observation_);
+  if (ephemeris == nullptr || !is_for_corrections_alone(*ephemeris)) {
+    std::visit([&](const auto& item) { log->write(observation_arrival_, item); }, *observation_);
+  }
+  if (ephemeris != nullptr) corrections_.add(*ephemeris);
   fetch_observation();
 }
 

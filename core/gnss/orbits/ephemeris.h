@@ -1,7 +1,8 @@
 // This header defines broadcast ephemerides in Kepler form: GPS LNAV, Galileo I/NAV and F/NAV,
-// BeiDou D1 and D2.
+// BeiDou D1, D2 and B-CNAV1.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/gps_time.h"
@@ -16,7 +17,9 @@ enum class NavigationMessage : std::uint8_t {
   kGalileoFnav = 2,
   kBeidouD1 = 3,
   kBeidouD2 = 4,
+  kBeidouCnav1 = 5,  // is_for_corrections_alone(); on no wire
 };
+inline constexpr std::size_t kNavigationMessages = 6;
 
 // One set of broadcast elements, in SI units and radians (semicircles of the messages are already
 // multiplied by pi). All times are GPS time (BeiDou's are already moved by 14 s). Symbols are those
@@ -27,8 +30,8 @@ struct Ephemeris {
   GpsTime toe;                    // reference time of the orbit
   GpsTime toc;                    // reference time of the clock
   GpsTime transmission_time;      // when the set was sent; unset if unknown
-  std::uint16_t issue = 0;        // GPS IODE, Galileo IODnav, BeiDou AODE
-  std::uint16_t issue_clock = 0;  // GPS IODC, BeiDou AODC
+  std::uint16_t issue = 0;        // GPS IODE, Galileo IODnav, BeiDou AODE, of B-CNAV1 IODE
+  std::uint16_t issue_clock = 0;  // GPS IODC, BeiDou AODC, of B-CNAV1 IODC
   std::uint16_t health = 0;       // 0 is healthy; otherwise the raw bits as in RINEX
   double accuracy_m = 0.0;        // user range accuracy / SISA, 1 sigma; negative: no prediction
 
@@ -44,7 +47,8 @@ struct Ephemeris {
   double cuc = 0.0, cus = 0.0;  // rad
   double crc = 0.0, crs = 0.0;  // m
   double cic = 0.0, cis = 0.0;  // rad
-  // Rates that only a LEO satellite's message has; as in CNAV (IS-GPS-200 table 30-I).
+  // Rates that only B-CNAV1 and a LEO satellite's message have; as in CNAV (IS-GPS-200 table 30-I,
+  // BDS-SIS-ICD-B1C table 7-8).
   double a_dot = 0.0;        // m/s, of the semi-major axis
   double delta_n_dot = 0.0;  // rad/s^2, of delta_n
 
@@ -54,6 +58,13 @@ struct Ephemeris {
   // BeiDou: [0] TGD1 (B1I), [1] TGD2 (B2I).
   std::array<double, 2> group_delay_s = {0.0, 0.0};
 };
+
+// Returns whether elements serve a correction service alone, which refers to them. Those of B-CNAV1
+// come without the group delays of B1I and B2I, without which most users of the clock are off by
+// metres, and without health; D1 gives all of it.
+inline bool is_for_corrections_alone(const Ephemeris& ephemeris) {
+  return ephemeris.message == NavigationMessage::kBeidouCnav1;
+}
 
 // Klobuchar coefficients as broadcast by GPS (IS-GPS-200 20.3.3.5.2.5).
 struct KlobucharModel {

@@ -175,7 +175,7 @@ EphemerisStore::EphemerisStore(EphemerisStore&&) noexcept = default;
 EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
 
 bool EphemerisStore::add(const Ephemeris& ephemeris) {
-  if (!is_sane(ephemeris)) return false;
+  if (!is_sane(ephemeris) || is_for_corrections_alone(ephemeris)) return false;
   auto& stored = storage_->products_of[table_index_of(ephemeris.satellite)].ephemerides;
   auto slot = std::find_if(stored.begin(), stored.end(), [&](const StoredEphemeris& s) {
     return is_same_issue(s.ephemeris, ephemeris);

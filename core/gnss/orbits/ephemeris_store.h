@@ -58,9 +58,9 @@ class EphemerisStore {
   EphemerisStore(EphemerisStore&&) noexcept;
   EphemerisStore& operator=(EphemerisStore&&) noexcept;
 
-  // Returns false if the ephemeris is not sane (nothing changes then). A repeated issue replaces
-  // its predecessor. A full table drops the entry of this satellite that arrived first, so that
-  // wrong times in the input cannot block a slot permanently.
+  // Returns false if the ephemeris is not sane, or for corrections alone (nothing changes then). A
+  // repeated issue replaces its predecessor. A full table drops the entry of this satellite that
+  // arrived first, so that wrong times in the input cannot block a slot permanently.
   bool add(const Ephemeris& ephemeris);
   bool add(const PreciseState& state);
   // The newest corrected state of a satellite replaces the one before, whatever its time.

@@ -144,8 +144,11 @@ bool message_fits(const Ephemeris& ephemeris) {
       return ephemeris.message == NavigationMessage::kGalileoInav ||
              ephemeris.message == NavigationMessage::kGalileoFnav;
     case System::kBeidou:
+      // Satellites in geostationary orbits send no B1C.
       return ephemeris.message == NavigationMessage::kBeidouD1 ||
-             ephemeris.message == NavigationMessage::kBeidouD2;
+             ephemeris.message == NavigationMessage::kBeidouD2 ||
+             (ephemeris.message == NavigationMessage::kBeidouCnav1 &&
+              !is_beidou_geostationary(ephemeris.satellite));
     case System::kGps:
     case System::kLeo:
       return ephemeris.message == NavigationMessage::kGpsLnav;
@@ -157,6 +160,17 @@ bool sane_times(const Ephemeris& ephemeris) {
   if (ephemeris.toe.nanoseconds() <= 0 || ephemeris.toc.nanoseconds() <= 0) return false;
   if (ephemeris.transmission_time.nanoseconds() < 0) return false;
   return within(seconds_between(ephemeris.toe, ephemeris.toc), 86400.0);
+}
+
+// Bounds of the rates that not every message has, which contain the ranges of the fields.
+struct RateBounds {
+  double a_dot;        // m/s
+  double delta_n_dot;  // rad/s^2
+};
+RateBounds rate_bounds(const Ephemeris& eph) {
+  if (eph.satellite.system == System::kLeo) return {30.0, 1e-8};
+  if (eph.message == NavigationMessage::kBeidouCnav1) return {8.0, 1e-10};
+  return {0.0, 0.0};
 }
 
 bool sane_orbit(const Ephemeris& eph) {
@@ -173,8 +187,9 @@ bool sane_orbit(const Ephemeris& eph) {
   // These bounds contain the ranges of the messages' fields. A LEO satellite, being lower, moves
   // more: its elements, fitted to minutes of its orbit, take up what J2 does in that time.
   const double rate = leo ? 1e-5 : 1e-6;
+  const RateBounds rates = rate_bounds(eph);
   return within(eph.delta_n, rate) && within(eph.omega_dot, 1e-5) && within(eph.i_dot, rate) &&
-         within(eph.a_dot, leo ? 30.0 : 0.0) && within(eph.delta_n_dot, leo ? 1e-8 : 0.0) &&
+         within(eph.a_dot, rates.a_dot) && within(eph.delta_n_dot, rates.delta_n_dot) &&
          within(eph.cuc, 1e-2) && within(eph.cus, 1e-2) && within(eph.cic, 1e-2) &&
          within(eph.cis, 1e-2) && within(eph.crc, 1e5) && within(eph.crs, 1e5);
 }

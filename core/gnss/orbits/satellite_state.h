@@ -32,10 +32,10 @@ struct SatelliteState {
 
 // Computes orbit and clock from broadcast elements at `time` (system time of transmission).
 //
-// Position: IS-GPS-200 table 20-IV; BDS-SIS-ICD-B1I table 5-11 (geostationary satellites too);
-// Galileo OS-SIS-ICD 5.1.1. Velocity: analytic derivative. Clock: includes -2 r.v/c^2 (of the
-// Kepler orbit) and no group delay. `ephemeris` must be sane (is_sane); the caller checks age and
-// health.
+// Position: IS-GPS-200 table 20-IV; BDS-SIS-ICD-B1I table 5-11 (geostationary satellites too),
+// BDS-SIS-ICD-B1C table 7-9; Galileo OS-SIS-ICD 5.1.1. Velocity: analytic derivative. Clock:
+// includes -2 r.v/c^2 (of the Kepler orbit) and no group delay. `ephemeris` must be sane (is_sane);
+// the caller checks age and health.
 SatelliteState broadcast_state(const Ephemeris& ephemeris, GpsTime time);
 
 // Returns whether the elements are within physical bounds: finite, eccentricity below 0.2 (two

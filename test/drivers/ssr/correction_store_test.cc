@@ -2,6 +2,7 @@
 #include "drivers/ssr/correction_store.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 #include "core/gnss/orbits/satellite_state.h"
@@ -266,7 +267,7 @@ TEST_CASE("Orbits of one service are not used with clocks of another") {
   CHECK(store.counters().of_other_issue == 1);
 }
 
-TEST_CASE("HAS and PPP-B2b refer to I/NAV, and to BeiDou's message that is not read") {
+TEST_CASE("HAS and PPP-B2b refer to I/NAV, and PPP-B2b to BeiDou's B-CNAV1 alone") {
   const SatelliteId galileo{System::kGalileo, 3}, beidou{System::kBeidou, 20};
   SsrOrbit of;
   of.issue = 5;
@@ -279,6 +280,15 @@ TEST_CASE("HAS and PPP-B2b refer to I/NAV, and to BeiDou's message that is not r
     CHECK_FALSE(is_corrected_by(elements(beidou, 5), of, service));
   }
   CHECK(is_corrected_by(fnav, of, SsrService::kRtcm));
+  Ephemeris bcnav1 = elements(beidou, 5);
+  bcnav1.message = NavigationMessage::kBeidouCnav1;
+  bcnav1.m0 += 1e-5;
+  CHECK(is_corrected_by(bcnav1, of, SsrService::kBeidouB2b));
+  SsrOrbit of_toe = of;
+  of_toe.beidou_toe =
+      static_cast<std::uint16_t>(std::lround((bcnav1.toe.tow_s() - 14.0) / 8.0)) % 1024;
+  CHECK(is_corrected_by(elements(beidou, 5), of_toe, SsrService::kRtcm));
+  CHECK_FALSE(is_corrected_by(bcnav1, of_toe, SsrService::kRtcm));
   CorrectionStore store;
   store.add(elements(beidou, 5));
   SsrMessage o = orbit(0.0, 5, beidou), c = clock(0.0, 0.5, beidou);
@@ -286,8 +296,16 @@ TEST_CASE("HAS and PPP-B2b refer to I/NAV, and to BeiDou's message that is not r
   store.add(o);
   store.add(c);
   CHECK(store.states(c, kTime).empty());
-  CHECK(store.counters().of_unread_message == 1);
+  CHECK(store.counters().without_bcnav1 == 1);
   CHECK(store.counters().without_ephemeris == 0);
+  // A set of D1 with the same issue and reference time stays beside it.
+  store.add(bcnav1);
+  store.add(elements(beidou, 5));
+  const auto states = store.states(c, kTime);
+  REQUIRE(states.size() == 1);
+  const double distance_m = (states[0].p_e - broadcast_state(bcnav1, kTime).p_e).norm();
+  CHECK(distance_m == Approx(std::sqrt(14.0)));
+  CHECK((states[0].p_e - broadcast_state(elements(beidou, 5), kTime).p_e).norm() > 100.0);
 }
 
 TEST_CASE(

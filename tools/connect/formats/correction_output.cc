@@ -33,7 +33,7 @@ std::string CorrectionOutput::detail() const {
       format("corrections of %zu satellites, used of %zu", last_satellites_, last_states_);
   const std::pair<const char*, std::uint64_t> reasons[] = {
       {"without their ephemeris", c.without_ephemeris},
-      {"of a broadcast message that is not read (B-CNAV1)", c.of_unread_message},
+      {"of BeiDou without their ephemeris of B-CNAV1 (turn on B1C)", c.without_bcnav1},
       {"without orbit", c.without_orbit},
       {"without clock", c.without_clock},
       {"of two solutions", c.of_other_issue},

@@ -39,6 +39,10 @@ void ReceiverOutput::repeat_ephemerides(GpsTime now) {
 void ReceiverOutput::send(const Ephemeris& ephemeris) {
   Ephemeris sent = ephemeris;
   sent.transmission_time = transmission_time(ephemeris);
+  if (is_for_corrections_alone(sent)) {
+    if (corrections_ != nullptr) corrections_->add(sent);
+    return;
+  }
   output_->send(sent);
   if (corrections_ != nullptr) corrections_->add(sent);
   repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);

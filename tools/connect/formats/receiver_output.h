@@ -25,6 +25,7 @@ class ReceiverOutput {
 
   // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock.
   void send(const RawEpoch& epoch, std::int64_t arrival_ns);
+  // Elements for corrections alone are not published.
   void send(const Ephemeris& ephemeris);
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);

@@ -11,8 +11,8 @@
 namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
-// MeasEpoch, EPHEMERIS and IONOSPHERE of the blocks with navigation data, CORRECTED_STATES and
-// BIASES of the pages in GALRawCNAV and BDSRawB2b, IMU of ExtSensorMeas, which has GPS time.
+// MeasEpoch, EPHEMERIS, IONOSPHERE and BIASES of the blocks with navigation data, CORRECTED_STATES
+// and BIASES of the pages in GALRawCNAV and BDSRawB2b, IMU of ExtSensorMeas, which has GPS time.
 // Besides, ephemerides are repeated.
 class SbfFormat final : public StreamFormat, private SbfHandler {
  public:
@@ -39,6 +39,7 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
+  void on_biases(const std::vector<SignalBias>& biases) override { receiver_.send(biases); }
   void on_page(const CorrectionPage& page) override { pages_.take(page); }
   void on_imu(const ExtSensorRates& rates) override;
   std::string inertial_text() const;

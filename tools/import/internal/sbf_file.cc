@@ -109,6 +109,10 @@ bool SbfFile::next(ObservationItem* item) {
       *item = *model;
       return true;
     }
+    if (auto* biases = std::get_if<std::vector<SignalBias>>(&output)) {
+      *item = std::move(*biases);
+      return true;
+    }
   }
   return false;
 }

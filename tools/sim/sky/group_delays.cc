@@ -39,6 +39,7 @@ double broadcast_reference_m(NavigationMessage message, const BroadcastDelays& d
       return delays[0] - delays[1];
     case NavigationMessage::kBeidouD1:
     case NavigationMessage::kBeidouD2:
+    case NavigationMessage::kBeidouCnav1:
       return b3i_delay_m(delays);
     case NavigationMessage::kGpsLnav:
     case NavigationMessage::kGalileoFnav:

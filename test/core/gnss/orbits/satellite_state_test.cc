@@ -185,7 +185,7 @@ TEST_CASE("The velocity of a low satellite is the derivative of its position",
   }
 }
 
-TEST_CASE("Rates are for LEO satellites, and bounded", "[satellite_state]") {
+TEST_CASE("Rates are for LEO satellites and B-CNAV1, and bounded", "[satellite_state]") {
   Ephemeris gps = test::rtklib_broadcast_cases().front().ephemeris;
   Ephemeris leo = test::leo_arcs().front().elements;
   REQUIRE(is_sane(leo));
@@ -198,6 +198,16 @@ TEST_CASE("Rates are for LEO satellites, and bounded", "[satellite_state]") {
     }
     Ephemeris e = gps;
     e.*rate = 1e-13;
+    CHECK_FALSE(is_sane(e));
+    e = gps;
+    e.satellite = {System::kBeidou, 21};
+    e.message = NavigationMessage::kBeidouD1;
+    CHECK(is_sane(e));
+    e.*rate = 1e-13;
+    CHECK_FALSE(is_sane(e));
+    e.message = NavigationMessage::kBeidouCnav1;
+    CHECK(is_sane(e));
+    e.*rate = 10.0;
     CHECK_FALSE(is_sane(e));
   }
 }

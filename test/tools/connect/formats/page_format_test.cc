@@ -8,6 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "drivers/b2b/b2b_decoder.h"
+#include "drivers/page_lines/page_file_reader.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "support/catch.h"
 #include "support/pages_in_sbf.h"
@@ -76,6 +78,35 @@ TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
   CHECK(format.data_time()->nanoseconds / kNanosecondsPerSecond % kSecondsPerWeek > 536'000);
   CHECK_THAT(format.detail(), Catch::Contains("corrections of"));
   if (!is_has) CHECK_THAT(format.detail(), Catch::Contains("B-CNAV1"));
+}
+
+// No recording has B-CNAV1 of this hour: sets with the issues that the corrections name.
+TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]") {
+  if (!test::have_shared_data(kB2b)) return;
+  Rig rig;
+  PageFileReader pages(test::shared_data(kB2b), PageService::kBeidouB2b);
+  B2bDecoder decoder;
+  for (CorrectionPage page; pages.next(&page);) {
+    for (const SsrMessage& message : decoder.add(page)) {
+      if (message.system != System::kBeidou || message.kind != SsrKind::kOrbit) continue;
+      for (const SsrSatellite& of : message.satellites) {
+        if (!of.orbit) continue;
+        Ephemeris e;
+        e.satellite = of.satellite;
+        e.message = NavigationMessage::kBeidouCnav1;
+        e.toe = e.toc = message.time;
+        e.issue = of.orbit->issue;
+        e.sqrt_a = 5282.6;
+        e.i0 = 0.96;
+        rig.corrections.add(e);
+      }
+    }
+  }
+  PageFormat format(PageService::kBeidouB2b, &rig.corrections);
+  feed(&format, bytes_of(test::shared_data(kB2b)));
+  CHECK(rig.counts.of[Channel::kCorrectedStates] > 500);
+  CHECK(rig.counts.of[Channel::kBiases] > 50);
+  CHECK_THAT(format.detail(), !Catch::Contains("B-CNAV1"));
 }
 
 TEST_CASE("Without ephemerides the text says that they are missing", "[connect]") {

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Elements in BeiDou's B-CNAV1 by the PyPI package cssrlib, as an oracle for drivers/navigation_bits.
+
+  bcnav1.py FILE   one line for each subframe 2 in the UBX-RXM-SFRBX of a u-blox recording: satellite, IODE, IODC, seconds
+                   of BeiDou's week of toe and toc, 20 elements, position (m), velocity (m/s) and clock (s) at toe + 1000 s
+  bcnav1.py sbf FILE >OUT   the same subframes as blocks BDSRawB1C of a Septentrio receiver, of the week and time of the
+                   last UBX-RXM-RAWX; needs no cssrlib
+  bcnav1.py --have exits 0 if cssrlib is there
+
+cssrlib takes a frame with subframe 3, of which u-blox gives nothing: one of page type 1 with zeros stands in for it.
+"""
+import struct
+import sys
+
+ELEMENTS = "A e M0 deln OMG0 OMGd i0 idot omg cuc cus crc crs cic cis af0 af1 af2 Adot delnd"
+
+
+def messages(path):
+    """Yields satellite, week, seconds and the 600 bits of each subframe 2."""
+    data = open(path, "rb").read()
+    at, week, second = 0, None, None
+    while (at := data.find(b"\xb5\x62\x02", at)) >= 0:
+        size, = struct.unpack_from("<H", data, at + 4)
+        if data[at + 3] == 0x15:
+            second, week = struct.unpack_from("<dH", data, at + 6)
+        elif data[at + 3] == 0x13 and size == 8 + 4 * 19 and data[at + 6] == 3 and data[at + 8] in (5, 6) and week:
+            words = struct.unpack_from(">19I", b"".join(data[k:k + 4][::-1] for k in range(at + 14, at + 14 + 76, 4)))
+            yield data[at + 7], week, second, "".join(f"{word:032b}" for word in words)[:600]
+        at += 3
+
+
+def decoded(path):
+    from cssrlib.ephemeris import eph2pos
+    from cssrlib.gnss import bdt2gpst, bdt2time, prn2sat, timeadd, uGNSS
+    from cssrlib.rawnav import RawNav
+
+    decoder = RawNav()
+    for satellite, week, second, bits in messages(path):
+        frame = bits + "00000011" + "000001" + "0" * 258 + "00000000"
+        message = int(frame.ljust(912, "0"), 2).to_bytes(114, "big")
+        eph = decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), message)
+        if eph is None:
+            continue
+        position, velocity, clock = eph2pos(timeadd(eph.toe, 1000.0), eph, True)
+        numbers = [getattr(eph, name) for name in ELEMENTS.split()]
+        toc = int(bits[39 + 203 + 222:39 + 203 + 222 + 11], 2) * 300
+        print(f"C{satellite:02d}", eph.iode, eph.iodc, int(eph.toes), toc,
+              *(repr(float(x)) for x in (*numbers, *position, *velocity, clock)))
+
+
+def as_sbf(path):
+    from sbf import block, words_of
+
+    for satellite, week, second, bits in messages(path):
+        frame = f"{satellite:06b}" + "0" * 66 + bits + "1" * (1800 - 672)
+        head = struct.pack("<BBBBBB", satellite + (140 if satellite <= 40 else 182), 1, 1, 13, 0, 3)
+        sys.stdout.buffer.write(block(4218, head + words_of(frame, 57), round(second * 1000), week=week))
+
+
+def main():
+    if sys.argv[1:] == ["--have"]:
+        import cssrlib.rawnav  # noqa: F401
+    elif sys.argv[1] == "sbf":
+        as_sbf(sys.argv[2])
+    else:
+        decoded(sys.argv[1])
+
+
+if __name__ == "__main__":
+    main()
