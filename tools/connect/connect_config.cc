@@ -75,7 +75,8 @@ void refuse_lonely_pulse(const ConfigReader& root, const ConnectConfig& config) 
   }
 }
 
-void read_corrections(ConfigReader& group, CorrectionOptions* options) {
+void read_corrections(ConfigReader& group, CorrectionOptions* options,
+                      ServiceChoiceOptions* services) {
   constexpr Bounds kAge = {1.0, 3600.0};
   group.choice<bool>("point", {{"antenna", true}, {"mass_centre", false}}, &options->at_antenna);
   group.choice<NavigationMessage>(
@@ -86,6 +87,8 @@ void read_corrections(ConfigReader& group, CorrectionOptions* options) {
   group.number("max_clock_age_s", kAge, &options->max_clock_age_s);
   group.number("max_high_rate_age_s", kAge, &options->max_high_rate_age_s);
   group.number("sigma_m", {0.001, 100.0}, &options->default_sigma_m);
+  group.number("fallback_s", {5.0, 600.0}, &services->fallback_s);
+  group.number("return_s", {0.0, 3600.0}, &services->return_s);
 }
 
 }  // namespace
@@ -128,8 +131,9 @@ ConnectConfig load_connect_config(const std::string& path,
       group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kMillisecond);
       group.group("pulse", [&](ConfigReader& pulse) { read_pulse(pulse, &config.pulse); });
     });
-    root.group("corrections",
-               [&](ConfigReader& group) { read_corrections(group, &config.corrections); });
+    root.group("corrections", [&](ConfigReader& group) {
+      read_corrections(group, &config.corrections, &config.services);
+    });
     root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
     root.groups("streams", [&](ConfigReader& group) {

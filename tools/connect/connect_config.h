@@ -12,6 +12,7 @@
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
 #include "tools/connect/stamps/imu_stamper.h"
+#include "tools/import/service_choice.h"
 
 namespace leonav {
 
@@ -57,6 +58,7 @@ struct ConnectConfig {
   PulseConfig pulse;
   double playback_speed = 1.0;
   CorrectionOptions corrections;
+  ServiceChoiceOptions services;
   double status_interval_s = 10.0;  // of the text for each stream; 0: only changes
   std::vector<StreamConfig> streams;
 };

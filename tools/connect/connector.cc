@@ -7,6 +7,8 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <csignal>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "daemon/link/lcm_publisher.h"
@@ -29,17 +31,27 @@ namespace leonav {
 
 namespace asio = boost::asio;
 
+namespace {
+
+void tell_change(const ServiceChange& change) {
+  const bool is_fallback = !change.from.empty() && !change.is_return;
+  spdlog::log(is_fallback ? spdlog::level::warn : spdlog::level::info, "{}", to_text(change));
+}
+
+}  // namespace
+
 struct Connector::State {
   explicit State(const ConnectConfig& configuration)
       : config(configuration),
         publisher(config.lcm),
         output(&publisher),
-        corrections(config.corrections, &output),
+        corrections(config.corrections, config.services, &output, tell_change),
         gps(config.reference, config.gnss_latency_s),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {
     for (const StreamConfig& stream : config.streams) {
+      correction_outputs.try_emplace(stream.name, stream.name, &corrections);
       streams.push_back(
           std::make_unique<Stream>(stream, &clock, make_source(stream), make_format(stream)));
     }
@@ -48,6 +60,9 @@ struct Connector::State {
   std::unique_ptr<ByteSource> make_source(const StreamConfig& stream);
   std::unique_ptr<StreamFormat> make_format(const StreamConfig& stream);
   std::unique_ptr<StreamFormat> make_ubx_format(const StreamConfig& stream);
+  CorrectionOutput* corrections_of(const StreamConfig& stream) {
+    return &correction_outputs.at(stream.name);
+  }
   void wait_for_signal();
   void wait_a_second();
   void each_second();
@@ -60,7 +75,9 @@ struct Connector::State {
   ConnectConfig config;
   LcmPublisher publisher;
   MessageOutput output;
-  CorrectionOutput corrections;
+  SharedCorrections corrections;
+  // One of each stream, also of those without corrections: their ephemerides are corrected.
+  std::map<std::string, CorrectionOutput> correction_outputs;
   GpsClock gps;
   PulseQueue pulses;
   ArrivalClock clock;
@@ -99,7 +116,7 @@ std::unique_ptr<StreamFormat> Connector::State::make_ubx_format(const StreamConf
   const UbxStreamOptions options{stream.has_ubx_imu, stream.stamps, config.pulse.input,
                                  stream.uses_pages};
   return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
-                                     &corrections, options,
+                                     corrections_of(stream), options,
                                      config.pulse.stream.empty() ? nullptr : &pulses);
 }
 
@@ -110,21 +127,21 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return make_ubx_format(stream);
     case FormatKind::kRtcm3:
       return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output,
-                                           stream.is_service, &corrections);
+                                           stream.is_service, corrections_of(stream));
     case FormatKind::kOem7:
       return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
-                                          &output, &corrections);
+                                          &output, corrections_of(stream));
     case FormatKind::kSbf:
       return std::make_unique<SbfFormat>(stream.sbf, config.gnss_latency_s, stream.repeat_s, &gps,
-                                         &output, &corrections);
+                                         &output, corrections_of(stream));
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kXsens:
       return std::make_unique<XsensFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kHas:
-      return std::make_unique<PageFormat>(PageService::kGalileoHas, &corrections);
+      return std::make_unique<PageFormat>(PageService::kGalileoHas, corrections_of(stream));
     case FormatKind::kB2b:
-      return std::make_unique<PageFormat>(PageService::kBeidouB2b, &corrections);
+      return std::make_unique<PageFormat>(PageService::kBeidouB2b, corrections_of(stream));
     case FormatKind::kImuLine:
       break;
   }

@@ -264,6 +264,7 @@ void Import::load_corrections() {
     auto of_file = has_page_name(path) ? read_pages(path, &report_)
                                        : read_corrections(path, dataset_.date,
                                                           dataset_.corrections_latency_s, &report_);
+    corrections_.add_file(path, &of_file);
     std::move(of_file.begin(), of_file.end(), std::back_inserter(arriving_corrections_));
   }
   std::stable_sort(arriving_corrections_.begin(), arriving_corrections_.end(),

@@ -6,17 +6,13 @@
 #include "core/base/calendar.h"
 
 namespace leonav {
-namespace {
-
-std::string to_text(GpsTime time) {
+std::string text_of(GpsTime time) {
   const CalendarTime c = to_calendar(time);
   char text[64];
   std::snprintf(text, sizeof text, "%04d-%02d-%02d %02d:%02d:%06.3f", c.year, c.month, c.day,
                 c.hour, c.minute, c.second);
   return text;
 }
-
-}  // namespace
 
 void ImportReport::skip(std::string_view where, std::string_view reason, long count) {
   if (count > 0) skipped.push_back({std::string(where), std::string(reason), count});
@@ -58,12 +54,13 @@ std::string to_string(const ImportReport& report) {
         << (report.receiver_antenna.empty() ? "unknown" : report.receiver_antenna) << "\n";
   }
   if (report.first.is_set()) {
-    out << "span: " << to_text(report.first) << " to " << to_text(report.last) << " GPS time, "
+    out << "span: " << text_of(report.first) << " to " << text_of(report.last) << " GPS time, "
         << seconds_between(report.last, report.first) << " s\n";
   }
   for (const ImportReport::Skip& skip : report.skipped) {
     out << "left out: " << skip.count << " x " << skip.reason << " (" << skip.where << ")\n";
   }
+  for (const std::string& note : report.notes) out << note << "\n";
   for (const std::string& warning : report.warnings) out << "warning: " << warning << "\n";
   return out.str();
 }

@@ -29,6 +29,7 @@ struct ImportReport {
   std::map<System, long> satellites;  // different ones observed
   GpsTime first, last;                // of epochs and IMU samples
   std::vector<Skip> skipped;
+  std::vector<std::string> notes;     // what was decided
   std::vector<std::string> warnings;  // missing data, with the consequence for the solution
 
   // Counts `count` skipped items.
@@ -39,6 +40,8 @@ struct ImportReport {
   void warn_if_most_lost(const std::string& path, const std::string& what, long lost, long all);
 };
 
+// Returns an instant as a date and a time of day in GPS time.
+std::string text_of(GpsTime time);
 // Returns the report as text of several lines.
 std::string to_string(const ImportReport& report);
 

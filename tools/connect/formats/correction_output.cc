@@ -8,29 +8,39 @@
 namespace leonav {
 
 int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
-  int published = 0;
-  store_.add(message);
+  const CorrectionResult result = shared_->services.take(stream_, message, now);
   if (has_clocks(message)) {
-    const std::vector<CorrectedState> states = store_.states(message, now);
-    last_states_ = states.size();
+    last_usable_ = result.usable_states;
     last_satellites_ = message.satellites.size();
-    if (!states.empty()) {
-      output_->send(std::span<const CorrectedState>(states), source_of(message));
-      output_->note_time(now);
-      ++published;
-    }
   }
-  const std::vector<SignalBias> biases = biases_of(message, now);
+  int published = result.is_left_out ? 1 : 0;
   // Not counted: a service sends biases also while none of its corrections can be used.
-  if (!biases.empty()) output_->send(std::span<const SignalBias>(biases));
+  if (!result.biases.empty()) {
+    shared_->output->send(std::span<const SignalBias>(result.biases));
+  }
+  if (!result.states.empty()) {
+    shared_->output->send(std::span<const CorrectedState>(result.states), result.source);
+    shared_->output->note_time(now);
+    ++published;
+  }
+  if (result.change && shared_->on_change) shared_->on_change(*result.change);
   return published;
 }
 
 std::string CorrectionOutput::detail() const {
   if (last_satellites_ == 0) return "";
-  const CorrectionCounters& c = store_.counters();
-  std::string text =
-      format("corrections of %zu satellites, used of %zu", last_satellites_, last_states_);
+  const CorrectionServices& services = shared_->services;
+  const CorrectionCounters c = services.counters(stream_);
+  std::string text = format("corrections of %zu satellites, %s of %zu", last_satellites_,
+                            services.services() > 1 ? "usable" : "used", last_usable_);
+  if (services.services() > 1) {
+    const std::string systems = services.systems_of(stream_);
+    text += systems.empty() ? ", in reserve behind another service" : ", in use for " + systems;
+    if (services.changes() > 0) {
+      text +=
+          format(", %llu changes of services", static_cast<unsigned long long>(services.changes()));
+    }
+  }
   const std::pair<const char*, std::uint64_t> reasons[] = {
       {"without their ephemeris", c.without_ephemeris},
       {"of BeiDou without their ephemeris of B-CNAV1 (turn on B1C)", c.without_bcnav1},

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "drivers/ssr/correction_store.h"
+#include "tools/import/correction_services.h"
 #include "tools/import/import_report.h"
 #include "tools/import/log_output.h"
 
@@ -15,6 +15,7 @@ namespace leonav {
 struct ScheduledCorrection {
   GpsTime arrival;
   std::variant<SsrMessage, Ephemeris> item;
+  std::size_t stream = 0;  // of CorrectionServices
 };
 
 // Reads the SSR messages and ephemerides of a file, in order of arrival: a message comes
@@ -27,19 +28,30 @@ std::vector<ScheduledCorrection> read_corrections(const std::string& path, GpsTi
 // Corrections turns messages into states and biases, in order of arrival.
 class Corrections {
  public:
-  explicit Corrections(const CorrectionOptions& options) : store_(options) {}
+  explicit Corrections(const CorrectionOptions& options) : services_(options) {}
 
-  void add(const Ephemeris& ephemeris) { store_.add(ephemeris); }
+  // Takes a file's corrections, in order of arrival, and numbers their stream: that of a file of
+  // the same kind that ends before they begin, because recordings come in pieces, otherwise one of
+  // their own. Services are preferred in the order of these calls.
+  void add_file(const std::string& path, std::vector<ScheduledCorrection>* corrections);
+  void add(const Ephemeris& ephemeris) { services_.add(ephemeris); }
   // Takes what arrives; writes what it makes where `log` is given.
   void take(const ScheduledCorrection& correction, LogOutput* log);
-  // Reports the satellites of which no state could be made.
+  // Reports the satellites of which no state could be made, and of several services which was used.
   void report(const std::string& where, ImportReport* report) const;
 
  private:
-  void take(GpsTime arrival, const SsrMessage& message, LogOutput* log);
-  void take(GpsTime arrival, const Ephemeris& ephemeris, LogOutput* log);
+  struct File {
+    std::string ending;  // of its name
+    GpsTime last;        // arrival
+    std::size_t stream = 0;
+  };
+  void take(const ScheduledCorrection& from, const SsrMessage& message, LogOutput* log);
+  void take(const ScheduledCorrection& from, const Ephemeris& ephemeris, LogOutput* log);
 
-  CorrectionStore store_;
+  CorrectionServices services_;
+  std::vector<File> files_;             // the last one of each stream
+  std::vector<ServiceChange> changes_;  // up to kMaxChanges
 };
 
 }  // namespace leonav

@@ -45,7 +45,7 @@ std::vector<ScheduledCorrection> read_pages(const std::string& path, ImportRepor
   std::vector<ScheduledCorrection> corrections;
   const auto take = [&](const CorrectionPage& page) {
     for (SsrMessage& message : decoder.add(page)) {
-      corrections.push_back({page.received, std::move(message)});
+      corrections.push_back({page.received, std::move(message), 0});
     }
   };
   if (has_ending(path, ".ubx")) {

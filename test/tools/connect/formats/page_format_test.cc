@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "drivers/b2b/b2b_decoder.h"
@@ -55,7 +56,8 @@ struct Rig {
   }
   Counts counts;
   MessageOutput output{&counts};
-  CorrectionOutput corrections{{}, &output};
+  SharedCorrections shared{{}, {}, &output};
+  CorrectionOutput corrections{"service", &shared};
 };
 
 }  // namespace
@@ -69,7 +71,8 @@ TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
   PageFormat format(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b, &rig.corrections);
   feed(&format, bytes_of(test::shared_data(source)));
   CHECK(rig.counts.of[Channel::kCorrectedStates] > 500);
-  CHECK(rig.counts.of[Channel::kBiases] > 50);
+  // Those of PPP-B2b are BeiDou's, which has no states without B-CNAV1.
+  CHECK((rig.counts.of[Channel::kBiases] > 50) == is_has);
   const FormatCounts counts = format.counts();
   CHECK(counts.frames == (is_has ? 17'145 : 14'382));
   // Biases do not count.
@@ -106,7 +109,52 @@ TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]")
   feed(&format, bytes_of(test::shared_data(kB2b)));
   CHECK(rig.counts.of[Channel::kCorrectedStates] > 500);
   CHECK(rig.counts.of[Channel::kBiases] > 50);
-  CHECK_THAT(format.detail(), !Catch::Contains("B-CNAV1"));
+  CHECK(rig.shared.services.systems_of(0) == "BeiDou");
+  CHECK(rig.shared.services.counters().without_bcnav1 == 0);
+}
+
+TEST_CASE("Of two services the one listed first is used, and the other one's text says so",
+          "[connect]") {
+  if (!test::have_shared_data(kHas) || !test::have_shared_data(kB2b) ||
+      !test::have_shared_data(kNavigation)) {
+    return;
+  }
+  std::vector<std::string> told;
+  Counts counts;
+  MessageOutput output(&counts);
+  SharedCorrections shared({}, {}, &output,
+                           [&told](const ServiceChange& c) { told.push_back(to_text(c)); });
+  CorrectionOutput of_b2b("beidou", &shared), of_has("galileo", &shared);
+  for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+    of_has.add(e);
+  }
+  PageFormat b2b(PageService::kBeidouB2b, &of_b2b), has(PageService::kGalileoHas, &of_has);
+  // Six minutes of both; PPP-B2b ends after three.
+  const auto feed_second = [](StreamFormat* format, std::ifstream* lines, int second) {
+    std::string line;
+    for (auto begin = lines->tellg(); std::getline(*lines, line); begin = lines->tellg()) {
+      if (std::stoi(line.substr(5)) > second) {
+        lines->seekg(begin);
+        return;
+      }
+      line += "\n";
+      format->feed({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, 0);
+    }
+  };
+  std::ifstream b2b_lines(test::shared_data(kB2b)), has_lines(test::shared_data(kHas));
+  for (int second = 532'800; second < 532'800 + 360; ++second) {
+    if (second < 532'800 + 180) feed_second(&b2b, &b2b_lines, second - 14);
+    feed_second(&has, &has_lines, second);
+    if (second != 532'800 + 170) continue;
+    CHECK_THAT(b2b.detail(), Catch::Contains("in use for GPS"));
+    CHECK_THAT(has.detail(), Catch::Contains("in use for Galileo"));
+  }
+  CHECK_THAT(b2b.detail(), Catch::Contains("in reserve"));
+  CHECK_THAT(has.detail(), Catch::Contains("in use for GPS, Galileo"));
+  for (const std::string& text : told) INFO(text);
+  CHECK(
+      told.back().starts_with("corrections of GPS are now those of 'galileo' (Galileo HAS): "
+                              "'beidou' (PPP-B2b) has given none for 3"));
 }
 
 TEST_CASE("Without ephemerides the text says that they are missing", "[connect]") {

@@ -165,7 +165,8 @@ Ephemeris elements(std::uint16_t issue) {
 TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
   Messages messages;
   MessageOutput output(&messages);
-  CorrectionOutput corrections({}, &output);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
   GpsClock clock(TimeReference::kGnss, 0.05);
   ReceiverOutput receiver(30.0, &clock, &output, &corrections);
   Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
