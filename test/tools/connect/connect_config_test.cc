@@ -66,6 +66,16 @@ TEST_CASE("Pages come from a service as text, or from a receiver that is told to
                   ConfigError);
 }
 
+TEST_CASE("The times after which another correction service is used are bounded", "[connect]") {
+  const std::string receiver = stream("name: a, source: tcp, host: h, port: 1, format: sbf");
+  CHECK(load(receiver).services.fallback_s == 30.0);
+  CHECK(load(receiver).services.return_s == 60.0);
+  const ConnectConfig config = load("corrections: {fallback_s: 12, return_s: 0}\n" + receiver);
+  CHECK(config.services.fallback_s == 12.0);
+  CHECK(config.services.return_s == 0.0);
+  CHECK_THROWS_AS(load("corrections: {fallback_s: 1}\n" + receiver), ConfigError);
+}
+
 TEST_CASE("A NovAtel stream is a receiver, and an inertial sensor where that is asked for",
           "[connect]") {
   const std::string receiver = "name: span, source: tcp, host: span, port: 3001, format: oem7";
@@ -92,8 +102,8 @@ TEST_CASE("A Septentrio stream is a receiver, and an inertial sensor where that 
   const StreamConfig plain = load(stream(receiver)).streams.at(0);
   CHECK(plain.format == FormatKind::kSbf);
   CHECK(std::string(name_of(plain.format)) == "sbf");
-  CHECK_FALSE(plain.is_sbf_inertial);
-  CHECK(load(stream(receiver + ", inertial: true")).streams.at(0).is_sbf_inertial);
+  CHECK_FALSE(plain.sbf.is_inertial);
+  CHECK(load(stream(receiver + ", inertial: true")).streams.at(0).sbf.is_inertial);
   CHECK(load(stream(receiver + ", repeat_ephemerides_s: 5")).streams.at(0).repeat_s == 5.0);
   CHECK_THROWS_AS(load(stream(receiver + ", latency_ms: 5")), ConfigError);
   CHECK_THROWS_AS(load(stream(receiver + ", imu_scale: [1e-9, 2e-8]")), ConfigError);

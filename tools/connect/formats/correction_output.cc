@@ -37,8 +37,8 @@ std::string CorrectionOutput::detail() const {
     const std::string systems = services.systems_of(stream_);
     text += systems.empty() ? ", in reserve behind another service" : ", in use for " + systems;
     if (services.changes() > 0) {
-      text +=
-          format(", %llu changes of services", static_cast<unsigned long long>(services.changes()));
+      text += format(", changes of services: %llu",
+                     static_cast<unsigned long long>(services.changes()));
     }
   }
   const std::pair<const char*, std::uint64_t> reasons[] = {
