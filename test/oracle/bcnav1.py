@@ -2,7 +2,7 @@
 """Elements in BeiDou's B-CNAV1 by the PyPI package cssrlib, as an oracle for drivers/navigation_bits.
 
   bcnav1.py FILE   one line for each subframe 2 in the UBX-RXM-SFRBX of a u-blox recording: satellite, IODE, IODC, seconds
-                   of BeiDou's week of toe and toc, 20 elements, position (m), velocity (m/s) and clock (s) at toe + 1000 s
+                   of BeiDou's week of toe and toc, 20 elements, position (m) and clock (s) at toe + 1000 s
   bcnav1.py sbf FILE >OUT   the same subframes as blocks BDSRawB1C of a Septentrio receiver, of the week and time of the
                    last UBX-RXM-RAWX; needs no cssrlib
   bcnav1.py --have exits 0 if cssrlib is there
@@ -41,11 +41,11 @@ def decoded(path):
         eph = decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), message)
         if eph is None:
             continue
-        position, velocity, clock = eph2pos(timeadd(eph.toe, 1000.0), eph, True)
+        position, clock = eph2pos(timeadd(eph.toe, 1000.0), eph)
         numbers = [getattr(eph, name) for name in ELEMENTS.split()]
         toc = int(bits[39 + 203 + 222:39 + 203 + 222 + 11], 2) * 300
         print(f"C{satellite:02d}", eph.iode, eph.iodc, int(eph.toes), toc,
-              *(repr(float(x)) for x in (*numbers, *position, *velocity, clock)))
+              *(repr(float(x)) for x in (*numbers, *position, clock)))
 
 
 def as_sbf(path):
