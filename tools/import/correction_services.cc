@@ -100,7 +100,7 @@ CorrectionResult CorrectionServices::take(std::size_t stream, const SsrMessage& 
     result.source = source_of(message);
   } else {
     left_out_states_ += states.size();
-    result.is_left_out = choice.in_use() && (!states.empty() || !biases.empty());
+    result.is_left_out = !states.empty();
   }
   return result;
 }

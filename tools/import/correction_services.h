@@ -33,7 +33,7 @@ struct CorrectionResult {
   CorrectionSource source;        // of the states
   std::size_t usable_states = 0;  // also of a service that is not in use
   std::optional<ServiceChange> change;
-  // Usable states or biases that were left out because another service is in use.
+  // Usable states were left out because another service is in use.
   bool is_left_out = false;
 };
 

@@ -216,7 +216,7 @@ TEST_CASE("biases come with the states that they belong to, and end with them", 
   REQUIRE(later.biases.size() == 1);
   const auto other = rig.services.take(rig.second, bias(2.0, "1C", 1.0), at(2.0));
   CHECK(other.biases.empty());
-  CHECK(other.is_left_out);
+  CHECK_FALSE(other.is_left_out);
   // The second one gives no 2W and no 5Q: those of the first one end.
   rig.send(rig.second, 40.0);
   REQUIRE(rig.last.change);

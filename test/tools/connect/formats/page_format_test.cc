@@ -6,7 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/b2b/b2b_decoder.h"
@@ -89,11 +91,12 @@ TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]")
   Rig rig;
   PageFileReader pages(test::shared_data(kB2b), PageService::kBeidouB2b);
   B2bDecoder decoder;
+  std::set<std::pair<SatelliteId, std::uint16_t>> known;
   for (CorrectionPage page; pages.next(&page);) {
     for (const SsrMessage& message : decoder.add(page)) {
       if (message.system != System::kBeidou || message.kind != SsrKind::kOrbit) continue;
       for (const SsrSatellite& of : message.satellites) {
-        if (!of.orbit) continue;
+        if (!of.orbit || !known.insert({of.satellite, of.orbit->issue}).second) continue;
         Ephemeris e;
         e.satellite = of.satellite;
         e.message = NavigationMessage::kBeidouCnav1;
@@ -203,9 +206,10 @@ TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where 
     options.uses_pages = uses_pages;
     SbfFormat format(options, 0.05, 0.0, &clock, &rig.output, &rig.corrections);
     feed(&format, bytes_of(place.path()));
-    CHECK(format.counts().damaged + format.counts().refused == 0);
-    CHECK(format.counts().messages == rig.output.sent());
-    CHECK((format.detail().find(rig.corrections.detail()) != std::string::npos) == uses_pages);
+    CHECK(format.counts().damaged == 0);
+    CHECK(format.counts().refused == (uses_pages ? lines.counts().refused : 0));
+    CHECK(format.counts().messages == (uses_pages ? lines.counts().messages : 0));
+    CHECK((format.detail().find("corrections of") != std::string::npos) == uses_pages);
     if (uses_pages) {
       CHECK(rig.counts.all.size() > 500);
       CHECK(rig.counts.all == of_lines.counts.all);
