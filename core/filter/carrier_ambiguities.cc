@@ -17,14 +17,17 @@ int count_of(const Ambiguities& ambiguities) { return static_cast<int>(ambiguiti
 
 }  // namespace
 
-void remove_ended_arcs(const MeasurementEpoch& epoch, double max_gap_s, StateEstimate* estimate) {
+void remove_ended_arcs(const MeasurementEpoch& epoch, double max_gap_s, const ArcJoiner& joiner,
+                       StateEstimate* estimate) {
   const Ambiguities& ambiguities = estimate->state().ambiguities;
   for (int i = count_of(ambiguities) - 1; i >= 0; --i) {
     const Ambiguity& ambiguity = ambiguities[static_cast<std::size_t>(i)];
     bool ended = ambiguity.rejected >= kMaxRejectedEpochs ||
                  seconds_between(epoch.time, ambiguity.last_used) > max_gap_s;
+    const bool kept = joiner.keeps(ambiguity.arc);
     for (const Measurement& measurement : epoch.measurements) {
-      if (measurement.observable != Observable::kCarrier || measurement.arc == ambiguity.arc)
+      if (kept || measurement.observable != Observable::kCarrier ||
+          measurement.arc == ambiguity.arc)
         continue;
       const SatelliteInView& satellite = epoch.satellites[measurement.satellite_index];
       ended = ended || satellite.satellite == ambiguity.satellite;

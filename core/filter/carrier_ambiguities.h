@@ -1,14 +1,17 @@
 // These functions let the ambiguity states of a StateEstimate come and go with the carrier arcs.
 #pragma once
+#include "core/filter/arc_joiner.h"
 #include "core/filter/estimate/state_estimate.h"
 #include "core/filter/update/filter_measurement.h"
 #include "core/gnss/measurement/measurement.h"
 
 namespace leonav {
 
-// Removes the ambiguities of arcs that have ended: the satellite has another arc now, its carrier
-// was rejected in two epochs in a row, or it was not used for more than `max_gap_s`.
-void remove_ended_arcs(const MeasurementEpoch& epoch, double max_gap_s, StateEstimate* estimate);
+// Removes the ambiguities of arcs that have ended: the satellite has another arc now, to which it
+// cannot be joined, its carrier was rejected in two epochs in a row, or it was not used for more
+// than `max_gap_s`.
+void remove_ended_arcs(const MeasurementEpoch& epoch, double max_gap_s, const ArcJoiner& joiner,
+                       StateEstimate* estimate);
 
 // Removes ambiguities without a carrier in this epoch, the longest unused first, until the new arcs
 // fit into the state.

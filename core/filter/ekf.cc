@@ -69,6 +69,7 @@ Ekf::Ekf(const EkfConfig& config, const ImuErrorModel& imu, const Vector3d& leve
       estimate_(config),
       propagator_(config, imu),
       assembler_(config),
+      arc_joiner_(config),
       clocks_(config.robust),
       prediction_test_(config.robust, config.prediction_suspect_ratio),
       errors_unknown_(config.learn_errors) {}
@@ -101,6 +102,7 @@ void Ekf::initialize(GpsTime time, const PointSolution& given) {
   }
   estimate_.initialize(time, point, antenna_model_.offset_without_attitude_e(point.p_e));
   assembler_.reset();
+  arc_joiner_.reset();
   prediction_test_.reset();
   clocks_.reset();
   last_update_ = time;
@@ -165,7 +167,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   if (!initialized_) return result;
 
   allow_for_lasting_errors(epoch);
-  remove_ended_arcs(epoch, config_.max_arc_gap_s, &estimate_);
+  remove_ended_arcs(epoch, config_.max_arc_gap_s, arc_joiner_, &estimate_);
+  result.arcs_joined = arc_joiner_.join(&estimate_);
   make_room_for_new_arcs(epoch, &estimate_);
   inflate_disturbed_states(epoch, &estimate_);
   update_ionosphere(epoch, &estimate_);
@@ -195,6 +198,8 @@ EkfUpdateResult Ekf::update(const MeasurementEpoch& epoch) {
   assembler_.add_update(before, position_variance(covariance()));
   sigma_inflation_ = update.sigma_inflation;
   report_update(update, epoch, &result);
+  arc_joiner_.observe(epoch, measurements(), learned_errors(), assembler_.standing(),
+                      filter_state());
   if (!measurements().empty()) last_update_ = epoch.time;
   const double share = config_.vehicle.restart_share;
   if (share > 0.0 && has_attitude() &&

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/filter/arc_joiner.h"
 #include "core/filter/attitude_convergence.h"
 #include "core/filter/estimate/antenna_model.h"
 #include "core/filter/estimate/inertial_propagator.h"
@@ -45,7 +46,8 @@ struct EkfUpdateResult {
   // ambiguities are removed at the next epoch.
   boost::container::static_vector<SatelliteId, kMaxArcs> slipped;
   int arcs_without_capacity = 0;
-  double nis = 0.0;  // normalized innovation squared of the used measurements
+  int arcs_joined = 0;  // ArcJoiner
+  double nis = 0.0;     // normalized innovation squared of the used measurements
   // Median |innovation| over its sigma of all codes or Dopplers offered, clocks removed, divided by
   // what it is for normal errors: 1 when all is well, whatever weights are used. NaN: fewer than
   // four.
@@ -189,6 +191,7 @@ class Ekf {
   StateEstimate estimate_;
   InertialPropagator propagator_;
   MeasurementAssembler assembler_;
+  ArcJoiner arc_joiner_;
   ReceiverClocks clocks_;
   PredictionTest prediction_test_;
   AttitudeConvergence attitude_convergence_;

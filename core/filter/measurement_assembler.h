@@ -66,6 +66,8 @@ class MeasurementAssembler {
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }
   const FilterMeasurements& measurements() const { return measurements_; }
+  // Returns whether the antenna stood still at measurements().
+  bool standing() const { return speed_ < kStandingSpeed_m_s; }
   // Returns the seconds from the update before to measurements().
   double interval_s() const { return interval_s_; }
   const ExcludedMeasurements& excluded() const { return excluded_; }
@@ -87,7 +89,6 @@ class MeasurementAssembler {
   // Sets variance and gain variance of `entry`; `dt`: seconds since the last update.
   void weigh(const MeasurementEpoch& epoch, const Measurement& measurement,
              double line_of_sight_rate, double dt, FilterMeasurement* entry);
-  bool standing() const { return speed_ < kStandingSpeed_m_s; }
   template <typename Predicate>
   void exclude_if(Predicate predicate);
 

@@ -155,6 +155,8 @@ void read_ekf(ConfigReader& group, NavigatorConfig* config) {
   group.boolean("carrier", &ekf.use_carrier);
   group.number("carrier_clock_noise_m_per_sqrt_s", {0.0, 1e6}, &ekf.carrier_clock_noise);
   group.number("max_arc_gap_s", {0.1, 600.0}, &ekf.max_arc_gap_s);
+  group.boolean("join_arcs", &ekf.join_arcs);
+  group.number("wrong_join_probability", {1e-12, 0.1}, &ekf.wrong_join_probability);
   group.number("wet_delay_sigma_m", {0.0, 1.0}, &ekf.wet_delay_sigma_m);
   group.number("wet_delay_noise_m_per_sqrt_h", {0.0, 1.0}, &ekf.wet_delay_noise, 1.0 / kRootHour);
   group.number("clock_offset_noise_m_per_sqrt_s", kNoise, &ekf.clock.offset_noise);

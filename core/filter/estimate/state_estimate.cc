@@ -471,6 +471,23 @@ void StateEstimate::remove_ambiguity(int index) {
   if (process_.continuous) process_.remove(state_.first_ambiguity() + index);
 }
 
+void StateEstimate::join_ambiguities(int from, int to, double difference_m, double sigma_m) {
+  EkfCorrection row = EkfCorrection::Zero(covariance_.rows());
+  row(state_.first_ambiguity() + from) = -1.0;
+  row(state_.first_ambiguity() + to) = 1.0;
+  const double residual =
+      difference_m - (state_.ambiguities[static_cast<std::size_t>(to)].value_m -
+                      state_.ambiguities[static_cast<std::size_t>(from)].value_m);
+  const EkfCorrection spread = covariance_ * row;
+  const double variance = row.dot(spread) + square(sigma_m);
+  if (process_.continuous) process_.condition(row, residual, square(sigma_m));
+  const EkfCorrection gain = spread / variance;
+  const EkfCorrection correction = residual * gain;
+  joseph_update(gain, spread, variance, &covariance_);
+  if (process_.continuous) process_.transition.rightCols<1>() -= correction;
+  add(correction, has_attitude_, &state_);
+}
+
 // Values and variances outlive the filter that found them; correlations do not.
 void StateEstimate::start_vehicle_constants() {
   const int known = static_cast<int>(state_.vehicle.size());

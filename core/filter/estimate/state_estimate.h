@@ -137,6 +137,8 @@ class StateEstimate {
   void record_carrier(int state, GpsTime time, bool used);
   void add_ambiguity(const Ambiguity& ambiguity, double sigma_m);
   void remove_ambiguity(int index);
+  // Applies ambiguity `to` minus ambiguity `from` = difference_m, with an error of `sigma_m`.
+  void join_ambiguities(int from, int to, double difference_m, double sigma_m);
 
   // --- vehicle constants ---
   // Appends constants up to `constant` (kTravelYaw ... in ekf_index) before the ambiguities, each

@@ -65,6 +65,10 @@ struct EkfConfig {
   // m/sqrt(s), steps included; 0: one clock.
   double carrier_clock_noise = 0.0;
   double max_arc_gap_s = 120.0;  // an ambiguity not observed for longer is dropped
+  // Joins a new arc of a carrier to the one before by whole cycles (ArcJoiner), where the
+  // probability that they are the wrong ones is below this.
+  bool join_arcs = false;
+  double wrong_join_probability = 1e-4;
   ClockModel clock;
   VehicleConstantsConfig vehicle;
   RobustConfig robust;

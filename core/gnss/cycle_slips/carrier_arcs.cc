@@ -138,12 +138,14 @@ void CarrierArcs::Storage::fill(const Current& entry, CarrierStatus* status) con
   status->arc = entry.detectors->arc;
   const CarrierSample& last = entry.detectors->last();
   for (int i = 0; i < last.signal_count; ++i) {
-    if (last.signal[static_cast<std::size_t>(i)].half_cycle_ambiguous) {
-      status->half_cycle_unresolved = true;
-    }
+    const auto index = static_cast<std::size_t>(i);
+    if (last.signal[index].half_cycle_ambiguous) status->half_cycle_unresolved = true;
+    status->repaired_m[index] = last.signal[index].repair_m;
   }
   status->first_m = last.carrier(0);
-  if (last.signal_count == 2) status->second_m = last.carrier(1);
+  if (last.signal_count != 2) return;
+  status->second_m = last.carrier(1);
+  status->geometry_free_noise = entry.detectors->geometry_free_noise(config);
 }
 
 void CarrierArcs::Storage::begin(Current* entry, SlipCauses causes, CarrierStatus* status) {

@@ -7,6 +7,7 @@
 //
 // Without a range change, apply_range_change({}, &epoch) ends every arc under suspicion.
 #pragma once
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "core/gnss/cycle_slips/internal/clock_jump.h"
 #include "core/gnss/cycle_slips/range_change.h"
 #include "core/gnss/measurement/cycle_slip_config.h"
+#include "core/gnss/measurement/geometry_free.h"
 #include "core/gnss/signals/slip_cause.h"
 
 namespace leonav {
@@ -31,6 +33,9 @@ struct CarrierStatus {
   // Carriers in metres, continuous over the arc: half cycles and clock jumps are repaired.
   double first_m = kNotMeasured;
   double second_m = kNotMeasured;
+  // Half cycles that these contain because they were repaired in this arc.
+  std::array<double, 2> repaired_m{};
+  GeometryFreeNoise geometry_free_noise;  // of a pair
   bool doppler_tested = false;  // the carrier's change was compared with that of a Doppler
 };
 

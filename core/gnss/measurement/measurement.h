@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/capacity.h"
+#include "core/gnss/measurement/carrier_cycles.h"
 #include "core/gnss/orbits/satellite_state.h"
 #include "core/gnss/signals/signal.h"
 #include "core/gnss/signals/slip_cause.h"
@@ -126,6 +127,7 @@ struct Measurement {
   // 1 sigma of a step of the ambiguity since the last epoch: another orbit, antenna pattern or
   // model of the ionosphere
   double disturbance_m = 0.0;
+  CarrierCycles cycles;
   Reason reason = Reason::kUsed;
 
   // Return the variance, and its part that is correlated from epoch to epoch, without what the

@@ -10,8 +10,8 @@ namespace {
 
 double geometry_free(const CarrierSample& sample) { return sample.carrier(0) - sample.carrier(1); }
 
-GeometryFreeNoise geometry_free_noise(const CycleSlipConfig& config, System system,
-                                      const CarrierSample& sample) {
+GeometryFreeNoise noise_of(const CycleSlipConfig& config, System system,
+                           const CarrierSample& sample) {
   const bool leo = system == System::kLeo;
   const double factor = elevation_factor(sample.elevation);
   const double ratio = sample.signal[0].frequency_hz / sample.signal[1].frequency_hz;
@@ -83,7 +83,7 @@ ArcDetectors::PairTest ArcDetectors::test_pair(const CycleSlipConfig& config,
   const double interval_s = seconds_between(sample.time, last_.time);
   const double value = geometry_free(sample);
   test.geometry_free =
-      geometry_free_.innovation(value, interval_s, geometry_free_noise(config, system, sample));
+      geometry_free_.innovation(value, interval_s, noise_of(config, system, sample));
   if (!has_codes(sample)) return test;
   test.wide_lane = wide_lane_.deviation(wide_lane_value(sample), wide_lane_sigma(config, sample));
   if (has_codes(last_)) {
@@ -92,6 +92,10 @@ ArcDetectors::PairTest ArcDetectors::test_pair(const CycleSlipConfig& config,
     test.code_difference_m = codes - codes_before - (value - geometry_free(last_));
   }
   return test;
+}
+
+GeometryFreeNoise ArcDetectors::geometry_free_noise(const CycleSlipConfig& config) const {
+  return noise_of(config, system, last_);
 }
 
 SlipFindings ArcDetectors::detect_slips(const CycleSlipConfig& config,
@@ -216,8 +220,7 @@ void ArcDetectors::begin(const CycleSlipConfig& config, const CarrierSample& sam
   last_ = sample;
   known_ = true;
   if (sample.signal_count == 1) return;
-  geometry_free_.start(geometry_free(last_), interval_s, geometry_free_noise(config, system, last_),
-                       keep);
+  geometry_free_.start(geometry_free(last_), interval_s, noise_of(config, system, last_), keep);
   wide_lane_.clear(keep);
   update_wide_lane(config);
 }
@@ -229,8 +232,7 @@ void ArcDetectors::update(const CycleSlipConfig& config, const CarrierSample& sa
   last_interval_s_ = seconds_between(sample.time, last_.time);
   last_ = sample;
   if (sample.signal_count == 1) return;
-  geometry_free_.update(geometry_free(sample), last_interval_s_,
-                        geometry_free_noise(config, system, sample));
+  geometry_free_.update(geometry_free(sample), last_interval_s_, noise_of(config, system, sample));
   if (with_codes) update_wide_lane(config);
 }
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "core/gnss/cycle_slips/internal/carrier_sample.h"
-#include "core/gnss/cycle_slips/internal/geometry_free.h"
 #include "core/gnss/cycle_slips/internal/melbourne_wuebbena.h"
 #include "core/gnss/measurement/cycle_slip_config.h"
+#include "core/gnss/measurement/geometry_free.h"
 #include "core/gnss/signals/slip_cause.h"
 
 namespace leonav {
@@ -30,6 +30,8 @@ class ArcDetectors {
   // Returns whether the sample is within `limit_s` of the last one and of the same signals.
   bool is_continued_by(const CarrierSample& sample, double limit_s) const;
   const CarrierSample& last() const { return last_; }
+  // Returns the noise of the last sample's geometry-free combination; it must be a pair.
+  GeometryFreeNoise geometry_free_noise(const CycleSlipConfig& config) const;
 
   // Tests flags and lock times; geometry-free and Melbourne-Wuebbena for a pair; half cycles, which
   // may set repair_m of `sample`. The sample must continue the track.

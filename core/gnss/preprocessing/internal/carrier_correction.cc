@@ -73,13 +73,21 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
   carrier.arc = status.arc;
   double range = status.first_m - satellite.wind_up_cycles * kSpeedOfLight / f1;
   double noise = noise1;
+  CarrierCycles& cycles = carrier.cycles;
+  cycles.wavelength_m[0] = kSpeedOfLight / f1;
+  cycles.repaired_m = status.repaired_m;
+  cycles.half_cycle_unresolved = status.half_cycle_unresolved;
   double random_walk = square(orbit_random_walk(satellite, context));
   if (second != nullptr) {
     const double f2 = context.config->bands.frequency_hz(system, second->code.band);
     const IonosphereFree pair = ionosphere_free(f1, f2);
     carrier.second_code = second->code;
-    range = pair.gamma1 * range +
-            pair.gamma2 * (status.second_m - satellite.wind_up_cycles * kSpeedOfLight / f2);
+    const double second_m = status.second_m - satellite.wind_up_cycles * kSpeedOfLight / f2;
+    cycles.wavelength_m[1] = kSpeedOfLight / f2;
+    cycles.gamma = {pair.gamma1, pair.gamma2};
+    cycles.geometry_free_m = range - second_m;
+    cycles.geometry_free_noise = status.geometry_free_noise;
+    range = pair.gamma1 * range + pair.gamma2 * second_m;
     noise = combined_sigma(
         pair, noise1,
         sigma0 * noise_factor(*context.config, satellite.elevation, second->cn0_dbhz));

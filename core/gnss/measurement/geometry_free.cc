@@ -1,4 +1,4 @@
-#include "core/gnss/cycle_slips/internal/geometry_free.h"
+#include "core/gnss/measurement/geometry_free.h"
 
 #include <algorithm>
 #include <cmath>

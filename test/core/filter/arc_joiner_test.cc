@@ -1,0 +1,143 @@
+#include "core/filter/arc_joiner.h"
+
+#include "core/filter/state/ambiguities.h"
+#include "core/gnss/measurement/weighting.h"
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
+constexpr double kGap_s = 20.0;
+const SatelliteId kSatellite{System::kGps, 7};
+
+// Two arcs of one satellite, parted by a gap and by 1000 and -400 cycles.
+struct Scene {
+  double cn0_before = 45.0, cn0_after = 45.0;
+  double geometry_free_step_m = 0.0;
+  bool half_cycle = false;
+  double repaired_m = 0.0;  // by the second arc, of the first signal
+};
+
+double cycles_m() {
+  const IonosphereFree pair = ionosphere_free(kL1, kL2);
+  return pair.gamma1 * kC / kL1 * 1000.0 - pair.gamma2 * kC / kL2 * 400.0;
+}
+
+class Run {
+ public:
+  explicit Run(const Scene& scene, bool join = true)
+      : estimate_(config(join)), joiner_(config(join)) {
+    // The first epoch shows how strong the signal is directly.
+    observe(1, 0.0, 45.0, 2.0, {}, false);
+    observe(1, 1.0, scene.cn0_before, 2.0, {}, false);
+    const double geometry_free_m =
+        2.0 + 1000.0 * kC / kL1 + 400.0 * kC / kL2 + scene.geometry_free_step_m;
+    observe(2, 1.0 + kGap_s, scene.cn0_after, geometry_free_m, {}, scene.half_cycle);
+    observe(2, 2.0 + kGap_s, scene.cn0_after, geometry_free_m + scene.repaired_m,
+            {scene.repaired_m, 0.0}, scene.half_cycle);
+    const double repaired = ionosphere_free(kL1, kL2).gamma1 * scene.repaired_m;
+    estimate_.shift_ambiguity(estimate_.state().first_ambiguity() + 1,
+                              cycles_m() + repaired + 0.04);
+    joined = joiner_.join(&estimate_);
+  }
+
+  int joined = 0;
+  const FilterState& state() const { return estimate_.state(); }
+  double variance() const {
+    return estimate_.covariance()(state().first_ambiguity(), state().first_ambiguity());
+  }
+
+ private:
+  static EkfConfig config(bool join) {
+    EkfConfig config;
+    config.join_arcs = join;
+    return config;
+  }
+
+  void observe(std::uint32_t arc, double t, double cn0_dbhz, double geometry_free_m,
+               std::array<double, 2> repaired_m, bool half_cycle) {
+    const IonosphereFree pair = ionosphere_free(kL1, kL2);
+    MeasurementEpoch epoch;
+    epoch.time = GpsTime::from_week_and_tow(2200, 1000.0 + t);
+    epoch.satellites.emplace_back();
+    epoch.satellites[0].satellite = kSatellite;
+    epoch.satellites[0].cn0_dbhz = cn0_dbhz;
+    epoch.satellites[0].elevation = 1.0;
+    Measurement code;
+    code.sigma = 1.0;
+    Measurement carrier;
+    carrier.observable = Observable::kCarrier;
+    carrier.sigma = 0.01;
+    carrier.arc = arc;
+    carrier.cycles.wavelength_m = {kC / kL1, kC / kL2};
+    carrier.cycles.gamma = {pair.gamma1, pair.gamma2};
+    carrier.cycles.geometry_free_m = geometry_free_m;
+    carrier.cycles.geometry_free_noise = {0.003, 0.0003, 0.00001};
+    carrier.cycles.repaired_m = repaired_m;
+    carrier.cycles.half_cycle_unresolved = half_cycle;
+    epoch.measurements.push_back(code);
+    epoch.measurements.push_back(carrier);
+    if (find_ambiguity(state().ambiguities, arc) == kNoAmbiguity) {
+      Ambiguity ambiguity;
+      ambiguity.arc = arc;
+      ambiguity.satellite = kSatellite;
+      ambiguity.started = epoch.time;
+      estimate_.add_ambiguity(ambiguity, arc == 1 ? 0.02 : 0.06);
+    }
+    FilterMeasurement used;
+    used.index = 1;
+    used.observable = Observable::kCarrier;
+    used.ambiguity = state().first_ambiguity() + find_ambiguity(state().ambiguities, arc);
+    FilterMeasurements measurements;
+    measurements.push_back(used);
+    errors_.begin_epoch(epoch);
+    joiner_.observe(epoch, measurements, errors_, false, state());
+  }
+
+  StateEstimate estimate_;
+  ArcJoiner joiner_;
+  LearnedErrors errors_{EkfConfig()};
+};
+
+}  // namespace
+
+TEST_CASE("arcs that differ by whole cycles are joined") {
+  const Run run{Scene{}};
+  CHECK(run.joined == 1);
+  REQUIRE(run.state().ambiguities.size() == 1);
+  CHECK(run.state().ambiguities[0].arc == 2);
+  // The earlier ambiguity is 0 within 2 cm and the later one was 4 cm off within 6 cm.
+  CHECK(run.state().ambiguities[0].value_m == Approx(cycles_m()).margin(0.01));
+  CHECK(run.variance() < 0.025 * 0.025);
+  CHECK(run.variance() > 0.015 * 0.015);
+}
+
+TEST_CASE("half cycles repaired in an arc are not whole cycles of another") {
+  const Run run{Scene{.repaired_m = 0.5 * kC / kL1}};
+  CHECK(run.joined == 1);
+}
+
+TEST_CASE("arcs are joined alike every time") {
+  const Run a{Scene{}}, b{Scene{}};
+  CHECK(a.state().ambiguities[0].value_m == b.state().ambiguities[0].value_m);
+  CHECK(a.variance() == b.variance());
+}
+
+TEST_CASE("arcs are not joined where that is switched off") {
+  CHECK(Run(Scene{}, false).joined == 0);
+}
+
+TEST_CASE("a signal weaker than it has been is not joined") {
+  CHECK(Run(Scene{.cn0_before = 38.0}).joined == 0);
+  CHECK(Run(Scene{.cn0_after = 38.0}).joined == 0);
+}
+
+TEST_CASE("an unresolved half cycle is not joined") {
+  CHECK(Run(Scene{.half_cycle = true}).joined == 0);
+}
+
+TEST_CASE("a geometry-free change that is no cycles' is not joined") {
+  CHECK(Run(Scene{.geometry_free_step_m = 0.08}).joined == 0);
+}

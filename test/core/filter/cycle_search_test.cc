@@ -1,0 +1,87 @@
+#include "core/filter/cycle_search.h"
+
+#include <cmath>
+#include <random>
+
+#include "core/base/square.h"
+#include "core/gnss/measurement/weighting.h"
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
+
+CycleEquations equations_of(double n1, double n2, double sigma_m, double geometry_free_sigma_m) {
+  const IonosphereFree pair = ionosphere_free(kL1, kL2);
+  CycleEquations e;
+  e.wavelength_m = {kC / kL1, kC / kL2};
+  e.gamma = {pair.gamma1, pair.gamma2};
+  e.difference_m = pair.gamma1 * e.wavelength_m[0] * n1 + pair.gamma2 * e.wavelength_m[1] * n2;
+  e.geometry_free_m = e.wavelength_m[0] * n1 - e.wavelength_m[1] * n2;
+  e.difference_sigma_m = sigma_m;
+  e.geometry_free_sigma_m = geometry_free_sigma_m;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("the search finds what brute force over a big box finds") {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<int> cycles(-40, 40);
+  for (int round = 0; round < 50; ++round) {
+    CAPTURE(round);
+    CycleEquations e = equations_of(cycles(random), cycles(random), 0.15, 0.012);
+    e.difference_m += 0.15 * normal(random);
+    e.geometry_free_m += 0.012 * normal(random);
+    double best = INFINITY, best_1 = 0.0, best_2 = 0.0, sum = 0.0;
+    for (int n1 = -300; n1 <= 300; ++n1)
+      for (int n2 = -300; n2 <= 300; ++n2) {
+        const double x = n1 * e.wavelength_m[0], y = n2 * e.wavelength_m[1];
+        const double chi_square =
+            square((e.difference_m - e.gamma[0] * x - e.gamma[1] * y) / e.difference_sigma_m) +
+            square((e.geometry_free_m - x + y) / e.geometry_free_sigma_m);
+        sum += std::exp(-0.5 * chi_square);
+        if (chi_square >= best) continue;
+        best = chi_square;
+        best_1 = n1;
+        best_2 = n2;
+      }
+    const CycleSearch search = search_cycles(e);
+    REQUIRE(search.found);
+    CHECK(search.cycles[0] == best_1);
+    CHECK(search.cycles[1] == best_2);
+    CHECK(search.chi_square == Approx(best).margin(1e-6));
+    // What lies outside five sigmas is not counted.
+    CHECK(search.wrong_probability == Approx(1.0 - std::exp(-0.5 * best) / sum).margin(2e-5));
+  }
+}
+
+TEST_CASE("cycles are certain or not by the sigma of the difference") {
+  CHECK(search_cycles(equations_of(-178806, 15484, 0.05, 0.01)).wrong_probability < 1e-4);
+  CHECK(search_cycles(equations_of(3, -2, 0.6, 0.02)).wrong_probability > 1e-3);
+  CHECK_FALSE(search_cycles(equations_of(3, -2, 100.0, 0.01)).found);  // too many to decide
+}
+
+TEST_CASE("a geometry-free change that no cycles explain is refused") {
+  CycleEquations e = equations_of(5, 4, 0.03, 0.003);
+  e.geometry_free_m += 0.02;
+  const CycleSearch search = search_cycles(e);
+  CHECK((!search.found || search.chi_square > 13.8));
+}
+
+TEST_CASE("on one frequency the difference alone decides") {
+  CycleEquations e;
+  e.wavelength_m = {kC / kL1, 0.0};
+  e.difference_m = 12.0 * e.wavelength_m[0] + 0.01;
+  e.difference_sigma_m = 0.02;
+  const CycleSearch search = search_cycles(e);
+  REQUIRE(search.found);
+  CHECK(search.cycles[0] == 12.0);
+  CHECK(search.length_m == Approx(12.0 * e.wavelength_m[0]));
+  CHECK(search.wrong_probability < 1e-4);
+  e.difference_sigma_m = 0.08;
+  CHECK(search_cycles(e).wrong_probability > 1e-2);
+}
