@@ -9,8 +9,8 @@
 namespace leonav {
 namespace {
 
-// 99.9 % points of chi-square with one and two degrees of freedom.
-constexpr double kMostChiSquareSingle = 10.83, kMostChiSquarePair = 13.82;
+// 99 % points of chi-square with one and two degrees of freedom.
+constexpr double kMostChiSquareSingle = 6.63, kMostChiSquarePair = 9.21;
 
 // Returns whether a satellite's signal is as strong as it has been. Without a code, or without a
 // C/N0, that is not known.

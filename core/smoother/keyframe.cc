@@ -20,4 +20,21 @@ EkfCorrection full_error(const ActiveStates& active, const EkfCorrection& part) 
   return error;
 }
 
+ArcJoins joins_of(const KeyframeInput& input) {
+  ArcJoins joins;
+  const Index first = input.from.first_ambiguity();
+  const auto value_m = [&](int i) {
+    return input.from.ambiguities[static_cast<std::size_t>(i)].value_m;
+  };
+  for (const ProcessJoin& given : input.process.joins) {
+    ArcJoin join;
+    join.from = static_cast<int>(given.from - first);
+    join.to = static_cast<int>(given.to - first);
+    join.difference_m = value_m(join.to) - value_m(join.from) + given.innovation_m;
+    join.variance = given.variance;
+    joins.push_back(join);
+  }
+  return joins;
+}
+
 }  // namespace leonav

@@ -31,6 +31,14 @@ struct KeyframeMeasurement {
 using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
 using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxMeasurements>;
 
+// Two ambiguities of a keyframe whose arcs the filter has joined since: `to` minus `from` is
+// difference_m, with the variance given in m^2.
+struct ArcJoin {
+  int from = 0, to = 0;  // indices of ambiguities
+  double difference_m = 0.0, variance = 0.0;
+};
+using ArcJoins = boost::container::static_vector<ArcJoin, kMaxArcs>;
+
 // The input for one keyframe: an epoch as the filter has treated it, with the same measurements,
 // corrections and variances.
 struct KeyframeInput {
@@ -63,6 +71,9 @@ struct KeyframeInput {
   FaultHypotheses fault_hypotheses;
 };
 
+// Returns the joins of arcs between the previous keyframe's ambiguities.
+ArcJoins joins_of(const KeyframeInput& input);
+
 // The states that are estimated: the core states (before the ambiguities) whose variance is not
 // zero, in order, and all ambiguities.
 struct ActiveStates {
@@ -88,6 +99,7 @@ struct ProcessFactor {
   bool has_information = false;
   EkfCovariance information;
   EkfCorrection gradient;
+  ArcJoins joins;  // of ambiguities of the previous keyframe
 };
 
 // One keyframe of the window.

@@ -24,6 +24,25 @@ void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
                  gradient);
 }
 
+void add_joins(const Keyframe& before, const ArcJoins& joins, EkfCovariance* information,
+               EkfCorrection* gradient) {
+  const Ambiguities& ambiguities = before.state.ambiguities;
+  for (const ArcJoin& join : joins) {
+    const Eigen::Index from = before.active.core_size() + join.from;
+    const Eigen::Index to = before.active.core_size() + join.to;
+    const double weight = 1.0 / join.variance;
+    const double residual =
+        join.difference_m - (ambiguities[static_cast<std::size_t>(join.to)].value_m -
+                             ambiguities[static_cast<std::size_t>(join.from)].value_m);
+    (*information)(from, from) += weight;
+    (*information)(to, to) += weight;
+    (*information)(from, to) -= weight;
+    (*information)(to, from) -= weight;
+    (*gradient)(from) -= weight * residual;
+    (*gradient)(to) += weight * residual;
+  }
+}
+
 }  // namespace
 
 AttitudeJacobian attitude_jacobian(const ActiveStates& active, const CoreState& estimate,
@@ -76,6 +95,7 @@ void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrec
 
 void add_process_information(const Keyframe& before, const ProcessFactor& process_factor,
                              EkfCovariance* information, EkfCorrection* gradient) {
+  add_joins(before, process_factor.joins, information, gradient);
   if (!process_factor.has_information) return;
   EkfCovariance added;
   EkfCorrection slope;

@@ -71,8 +71,8 @@ struct LinearProcessFactor {
 void linearize_process_factor(const Keyframe& before, const Keyframe& keyframe,
                               LinearProcessFactor* process_factor);
 
-// Adds the information that motion constraints after keyframe `before` give about it, if there is
-// any.
+// Adds the information that motion constraints and joined arcs after keyframe `before` give about
+// it, if there is any.
 //
 // The cost added is 0.5 e^T information e - gradient^T e, with e the error of its estimate.
 void add_process_information(const Keyframe& before, const ProcessFactor& process_factor,

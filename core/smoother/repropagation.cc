@@ -1,7 +1,5 @@
 #include "core/smoother/repropagation.h"
 
-#include <algorithm>
-
 #include "core/smoother/window.h"
 
 namespace leonav {
@@ -9,23 +7,12 @@ namespace {
 
 using Eigen::Index;
 
-// Keeps what the filter's joined arcs (ArcJoiner) say of ambiguities, about the present estimate of
-// the keyframe before instead of where the factor begins, and forgets all else.
-void keep_information_of_ambiguities(const Keyframe& before, ProcessFactor* process_factor) {
-  EkfCovariance& information = process_factor->information;
-  const EkfCorrection moved =
-      active_part(before.active, difference(before.state, process_factor->from));
-  for (Index i = 0; i < before.active.size(); ++i)
-    for (Index j = 0; j < before.active.size(); ++j)
-      if (std::min(i, j) < before.active.core_size()) information(i, j) = 0.0;
-  process_factor->gradient.head(before.active.core_size()).setZero();
-  process_factor->gradient -= information * moved;
-}
-
-// Takes the information of motion constraints about the inertial states before; they concern no
-// others.
+// Information of motion constraints about the inertial states before; they concern no others.
 void take_information(const FilterProcess& process, const ActiveStates& active,
                       ProcessFactor* process_factor) {
+  process_factor->information.setZero(active.size(), active.size());
+  process_factor->gradient.setZero(active.size());
+  if (!process.has_information) return;
   for (Index i = 0; i < active.core_size(); ++i) {
     const int row = active.core[static_cast<std::size_t>(i)];
     process_factor->gradient(i) = process.gradient(row);
@@ -48,13 +35,7 @@ void Repropagator::integrate(const Keyframe& before, Keyframe* keyframe) {
   const CoreState whole = uncorrected_state(estimate);
   to.nav = whole.nav;
   to.vehicle = whole.vehicle;
-  if (process_factor.has_information) {
-    keep_information_of_ambiguities(before, &process_factor);
-  } else if (process.has_information) {
-    process_factor.information.setZero(before.active.size(), before.active.size());
-    process_factor.gradient.setZero(before.active.size());
-  }
-  process_factor.has_information = process_factor.has_information || process.has_information;
+  process_factor.has_information = process.has_information;
   if (process.has_information) take_information(process, before.active, &process_factor);
   for (Index i = 0; i < keyframe->active.core_size(); ++i) {
     const int row = keyframe->active.core[static_cast<std::size_t>(i)];

@@ -77,6 +77,7 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
     if (!process_factor.information.allFinite() || !process_factor.gradient.allFinite())
       return false;
   }
+  process_factor.joins = joins_of(input);
   return process_factor.F.allFinite() && noise.allFinite();
 }
 
@@ -95,6 +96,7 @@ bool keep_without_motion(const KeyframeInput& input, const Keyframe& before, Key
   take_motion(before.state, &process_factor.from);
   take_motion(before.state, &process_factor.to);
   process_factor.has_information = false;
+  process_factor.joins = joins_of(input);
   process_factor.F.setZero(rows.size(), columns.size());
   process_factor.noise.setZero(rows.size(), rows.size());
   const auto moves = [](const ActiveStates& active, Index i) {
@@ -123,6 +125,7 @@ void part(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe
   process_factor.to.carrier_clock_m = before.state.carrier_clock_m;
   process_factor.to.ionosphere_m = before.state.ionosphere_m;
   process_factor.has_information = false;
+  process_factor.joins.clear();
   process_factor.F.setZero(rows.size(), before.active.size());
   process_factor.noise.setZero(rows.size(), rows.size());
   for (Index i = 0; i < rows.size(); ++i) {

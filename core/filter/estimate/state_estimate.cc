@@ -480,7 +480,9 @@ void StateEstimate::join_ambiguities(int from, int to, double difference_m, doub
                       state_.ambiguities[static_cast<std::size_t>(from)].value_m);
   const EkfCorrection spread = covariance_ * row;
   const double variance = row.dot(spread) + square(sigma_m);
-  if (process_.continuous) process_.condition(row, residual, square(sigma_m));
+  if (process_.continuous)
+    process_.join(state_.first_ambiguity() + from, state_.first_ambiguity() + to, residual,
+                  square(sigma_m));
   const EkfCorrection gain = spread / variance;
   const EkfCorrection correction = residual * gain;
   joseph_update(gain, spread, variance, &covariance_);

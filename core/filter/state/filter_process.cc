@@ -32,6 +32,27 @@ void FilterProcess::condition(const EkfCorrection& h, double innovation, double 
   gradient += (unexplained / total) * seen;
 }
 
+void FilterProcess::join(Index from, Index to, double innovation_m, double variance) {
+  const Index then = transition.cols() - 1;
+  const auto column_of = [&](Index row) {
+    for (Index j = 0; j < then; ++j)
+      if (transition(row, j) == 1.0) return j;
+    return Index(-1);
+  };
+  const Index column = column_of(to), column_from = column_of(from);
+  if (column < 0) {
+    transition.row(to) = transition.row(from);
+    transition(to, then) += innovation_m;
+    noise.row(to) = noise.row(from);
+    noise.col(to) = noise.col(from);
+    noise(to, to) = noise(from, from) + variance;
+  } else if (column_from >= 0 && joins.size() < joins.capacity()) {
+    joins.push_back({column_from, column,
+                     innovation_m - (transition(to, then) - transition(from, then)),
+                     variance + noise(from, from) + noise(to, to)});
+  }
+}
+
 void FilterProcess::start(Index row, double variance) {
   transition.row(row).setZero();
   noise.row(row).setZero();

@@ -60,6 +60,16 @@ bool set_prior(const KeyframeInput& input, LogKeyframe* keyframe) {
   return true;
 }
 
+// Returns the ambiguity of the keyframe before that the one in `row` goes on from: its own, or the
+// one that its arc was joined to as it began.
+int origin_of(const KeyframeInput& input, Index row) {
+  const Index first = input.from.first_ambiguity();
+  for (std::size_t i = 0; i < input.from.ambiguities.size(); ++i)
+    if (input.process.transition(row, first + static_cast<Index>(i)) == 1.0)
+      return static_cast<int>(i);
+  return kNoAmbiguity;
+}
+
 }  // namespace
 
 void LogGraph::add(const KeyframeInput& input) {
@@ -104,6 +114,16 @@ void LogGraph::add_process(const KeyframeInput& input, const LogKeyframe& before
   process.columns = before.active;
   process.F = selected(input.process.transition, keyframe->active, before.active);
   process.noise = selected(input.process.noise, keyframe->active, keyframe->active);
+  for (const ArcJoin& join : joins_of(input)) {
+    const auto arc_of = [&](int i) {
+      return arcs_.find(input.from.ambiguities[static_cast<std::size_t>(i)].arc);
+    };
+    const auto from = arc_of(join.from), to = arc_of(join.to);
+    if (from == arcs_.end() || to == arcs_.end()) continue;
+    process.joins.push_back({from->second.piece, to->second.piece,
+                             join.difference_m - (to->second.offset_m - from->second.offset_m),
+                             join.variance});
+  }
   if (!input.process.has_information) return;
   process.information = selected(input.process.information, before.active, before.active);
   process.gradient.resize(before.core_size());
@@ -117,9 +137,12 @@ void LogGraph::follow_arcs(const KeyframeInput& input, bool linked) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = input.state.first_ambiguity() + static_cast<Index>(i);
     const double variance = linked ? input.process.noise(row, row) : kFirstGuessVariance;
-    const auto known = arcs_.find(now[i].arc);
-    const int before = linked ? find_ambiguity(input.from.ambiguities, now[i].arc) : kNoAmbiguity;
-    if (known != arcs_.end() && before != kNoAmbiguity && variance < kNewStartVariance) {
+    const int before = linked ? origin_of(input, row) : kNoAmbiguity;
+    const auto known =
+        before == kNoAmbiguity
+            ? arcs_.end()
+            : arcs_.find(input.from.ambiguities[static_cast<std::size_t>(before)].arc);
+    if (known != arcs_.end() && variance < kNewStartVariance) {
       Arc arc = known->second;
       arc.pending_variance += variance;
       arc.offset_m += input.prior.ambiguities[i].value_m -

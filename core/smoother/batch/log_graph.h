@@ -37,6 +37,13 @@ struct LogMeasurement {
   double residual = 0.0;  // at the estimate, m or m/s
 };
 
+// Two pieces whose arcs the filter has joined: the value of `to` minus that of `from` is
+// difference_m, with the variance given in m^2.
+struct PieceJoin {
+  int from = 0, to = 0;
+  double difference_m = 0.0, variance = 0.0;
+};
+
 // The process factor from the keyframe before, as ProcessFactor.
 struct LogProcess {
   bool exists = false;  // false: nothing is known between the two
@@ -46,6 +53,7 @@ struct LogProcess {
   // Empty unless motion constraints between the two keyframes were applied.
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
+  std::vector<PieceJoin> joins;  // of pieces under way at the keyframe before
 };
 
 // One keyframe of the log.

@@ -182,6 +182,7 @@ void LogProcesses::integrate(LogKeyframe* before, LogKeyframe* keyframe) {
   LogProcess& process = keyframe->process;
   process = LogProcess();
   process.exists = true;
+  process.joins = old.joins;
   process.from = before->state;
   process.to = uncorrected_state(estimate);
   process.to.vehicle.resize(keyframe->state.vehicle.size(), 0.0);

@@ -52,6 +52,16 @@ struct Followed {
   double offset_m = 0.0;
 };
 
+// `before`: the ambiguities of the keyframe before.
+void copy_joins(const ArcJoins& joins, const std::vector<Followed>& before, LogProcess* process) {
+  for (const ArcJoin& join : joins) {
+    const Followed& from = before[static_cast<std::size_t>(join.from)];
+    const Followed& to = before[static_cast<std::size_t>(join.to)];
+    process->joins.push_back(
+        {from.piece, to.piece, join.difference_m - (to.offset_m - from.offset_m), join.variance});
+  }
+}
+
 // Follows the keyframe's ambiguities. `last` is the keyframe before, with its `before`.
 std::vector<Followed> follow(const Keyframe* last, const Keyframe& keyframe,
                              const std::vector<Followed>& before, LogGraph* graph) {
@@ -137,7 +147,10 @@ std::optional<WindowGraph> graph_of(const Window& window, const Eigen::Vector3d&
     of.measured_rate_b = keyframe.measured_rate_b;
     of.acceleration_e = keyframe.acceleration_e;
     of.vertical_antenna_offset_e = keyframe.vertical_antenna_offset_e;
-    if (k > 0) copy_process(*last, keyframe, &of.process);
+    if (k > 0) {
+      copy_process(*last, keyframe, &of.process);
+      copy_joins(keyframe.process_factor.joins, before, &of.process);
+    }
     before = follow(last, keyframe, before, &graph);
     result.ambiguities_m.emplace_back();
     for (const Followed& ambiguity : before) {

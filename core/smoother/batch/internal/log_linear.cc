@@ -46,6 +46,20 @@ Index index_of_piece(const LogKeyframe& keyframe, int piece) {
   return keyframe.core_size() + (found - keyframe.pieces.begin());
 }
 
+void add_join(const LogGraph& graph, const LogKeyframe& keyframe, const PieceJoin& join,
+              LogInformation* sum) {
+  const Index from = index_of_piece(keyframe, join.from), to = index_of_piece(keyframe, join.to);
+  const double weight = 1.0 / join.variance;
+  const double residual =
+      join.difference_m - (graph.piece(join.to).value_m - graph.piece(join.from).value_m);
+  sum->matrix(from, from) += weight;
+  sum->matrix(to, to) += weight;
+  sum->matrix(from, to) -= weight;
+  sum->matrix(to, from) -= weight;
+  sum->gradient(from) -= weight * residual;
+  sum->gradient(to) += weight * residual;
+}
+
 }  // namespace
 
 LogLinearProcess linearize_process(const LogGraph& graph, int k) {
@@ -100,10 +114,12 @@ void add_information(const LogGraph& graph, int k, LogInformation* sum) {
 }
 
 bool add_constraints(const LogGraph& graph, int k, LogInformation* sum) {
-  if (k + 1 == graph.size() || graph.at(k + 1).process.information.size() == 0) return false;
+  if (k + 1 == graph.size()) return false;
   const LogProcess& process = graph.at(k + 1).process;
-  add_quadratic(graph.at(k), process.from, process.information, process.gradient, sum);
-  return true;
+  if (process.information.size() > 0)
+    add_quadratic(graph.at(k), process.from, process.information, process.gradient, sum);
+  for (const PieceJoin& join : process.joins) add_join(graph, graph.at(k), join, sum);
+  return process.information.size() > 0 || !process.joins.empty();
 }
 
 }  // namespace leonav

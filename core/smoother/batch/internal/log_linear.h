@@ -25,7 +25,8 @@ LogLinearProcess linearize_process(const LogGraph& graph, int k);
 
 // Adds the information of a keyframe's measurements and of its own prior.
 void add_information(const LogGraph& graph, int k, LogInformation* sum);
-// Adds what motion constraints between a keyframe and the next say of it; false: there were none.
+// Adds what motion constraints and joined arcs between a keyframe and the next say of it; false:
+// there were none.
 bool add_constraints(const LogGraph& graph, int k, LogInformation* sum);
 
 // Returns a measurement's residual (measured minus predicted, without its ambiguity) and its row at

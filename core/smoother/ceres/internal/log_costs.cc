@@ -161,6 +161,28 @@ class MeasurementsCost final : public LogCost {
   bool factors_;
 };
 
+// Two pieces whose arcs the filter has joined.
+class JoinCost final : public LogCost {
+ public:
+  JoinCost(const LogGraph& graph, const LogUnknowns& unknowns, const PieceJoin& join)
+      : LogCost(graph, unknowns, {}, {join.from, join.to}),
+        weight_(1.0 / std::sqrt(join.variance)),
+        shift_m_(graph.piece(join.to).value_m - graph.piece(join.from).value_m -
+                 join.difference_m) {
+    set_num_residuals(1);
+  }
+
+ private:
+  void evaluate(const Evaluation& at) const override {
+    (*at.residuals)(0) = weight_ * (shift_m_ + at.pieces(1) - at.pieces(0));
+    if (at.jacobians == nullptr) return;
+    (*at.of_pieces)(0, 0) = -weight_;
+    (*at.of_pieces)(0, 1) = weight_;
+  }
+
+  double weight_, shift_m_;
+};
+
 }  // namespace
 
 LogCost::LogCost(const LogGraph& graph, const LogUnknowns& unknowns, std::vector<int> keyframes,
@@ -250,6 +272,8 @@ bool make_costs(const LogGraph& graph, const LogUnknowns& unknowns, bool factors
     if (process.information.size() > 0)
       costs->push_back(std::make_unique<QuadraticCost>(
           graph, unknowns, k - 1, process.from, VectorXd(), process.information, process.gradient));
+    for (const PieceJoin& join : process.joins)
+      costs->push_back(std::make_unique<JoinCost>(graph, unknowns, join));
     std::vector<const LogMeasurement*> plain;
     for (const LogMeasurement& measurement : keyframe.measurements) {
       if (factors && !(measurement.factor > 0.0)) continue;

@@ -1,5 +1,5 @@
 // This unit gives the terms of a LogGraph's cost to Ceres: priors, process factors, motion
-// constraints, codes and Dopplers, carriers, and the steps of ambiguities.
+// constraints, codes and Dopplers, carriers, joined arcs, and the steps of ambiguities.
 #pragma once
 #include <ceres/cost_function.h>
 
