@@ -32,11 +32,12 @@ class Run {
     // The first epoch shows how strong the signal is directly.
     observe(1, 0.0, 45.0, 2.0, {}, false);
     observe(1, 1.0, scene.cn0_before, 2.0, {}, false);
+    // Carriers are continuous over an arc: a half cycle found later was in it from the start.
     const double geometry_free_m =
-        2.0 + 1000.0 * kC / kL1 + 400.0 * kC / kL2 + scene.geometry_free_step_m;
+        2.0 + 1000.0 * kC / kL1 + 400.0 * kC / kL2 + scene.geometry_free_step_m + scene.repaired_m;
     observe(2, 1.0 + kGap_s, scene.cn0_after, geometry_free_m, {}, scene.half_cycle);
-    observe(2, 2.0 + kGap_s, scene.cn0_after, geometry_free_m + scene.repaired_m,
-            {scene.repaired_m, 0.0}, scene.half_cycle);
+    observe(2, 2.0 + kGap_s, scene.cn0_after, geometry_free_m, {scene.repaired_m, 0.0},
+            scene.half_cycle);
     const double repaired = ionosphere_free(kL1, kL2).gamma1 * scene.repaired_m;
     estimate_.shift_ambiguity(estimate_.state().first_ambiguity() + 1,
                               cycles_m() + repaired + 0.04);

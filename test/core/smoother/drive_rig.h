@@ -30,6 +30,7 @@ struct DriveOptions {
   bool calibrating = false;                     // lever arm and time offset are estimated
   double random_walk = 0.0;                     // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
+  bool joined = false;                          // the smoother is told joins of its first two arcs
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, of the attitude that the filter is given
   int aligned_at = 0;                           // epoch at whose end it is given that; 0: the start
   // Epoch at which the filter starts over from a point solution, and at whose end it has an
@@ -82,6 +83,7 @@ class Drive {
     if (aligns) align();
     keyframe_from_filter(measured_.index, measured_.time, &measured_, &from_, &filter_,
                          input_.get());
+    if (options_.joined) join();
     input_->block_complete = input_->follows_previous || aligns || epoch_ == options_.restarted_at;
     return *input_;
   }
@@ -118,6 +120,14 @@ class Drive {
                         {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.01},
                         {0.0, 0.0, 0.0, 2e-4, 2e-4, 2e-4, 2e-6}};
     return config;
+  }
+
+  // Every third epoch: the first two ambiguities differ by what they do and 4 mm, within 1 cm.
+  void join() {
+    const Ambiguities& ambiguities = input_->from.ambiguities;
+    if (!input_->follows_previous || epoch_ % 3 != 0 || ambiguities.size() < 2) return;
+    const Eigen::Index first = input_->from.first_ambiguity();
+    input_->process.joins.push_back({first, first + 1, 0.004, 1e-4});
   }
 
   void restart() {

@@ -103,4 +103,17 @@ TEST_CASE("an inertial window with carriers is the batch least squares and the f
   CHECK(apart.filter_covariance < 0.03 * options.noise + 1e-7);
 }
 
+TEST_CASE("a window with joined arcs is the batch least squares") {
+  DriveOptions options;
+  options.noise = 1e-3;
+  options.random_walk = GENERATE(0.0, 1e-3);
+  options.joined = true;
+  const Apart apart = compare(options, 20);
+  report("joined arcs", apart);
+  CHECK(apart.dense < 1e-9);
+  CHECK(apart.covariance < 3e-8);
+  CHECK(apart.oldest < 1e-6);
+  CHECK(apart.filter_covariance > 0.1);  // the filter knows nothing of the joins
+}
+
 }  // namespace leonav

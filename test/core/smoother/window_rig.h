@@ -77,8 +77,9 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
   for (int i = 0; i < window.size(); ++i) {
     step.first.push_back(states);
     states += window.at(i).active.size();
-    rows +=
-        window.at(i).active.size() + static_cast<Eigen::Index>(window.at(i).measurements.size());
+    rows += window.at(i).active.size() +
+            static_cast<Eigen::Index>(window.at(i).measurements.size() +
+                                      (i > 0 ? window.at(i).process_factor.joins.size() : 0));
   }
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, states);
   Eigen::VectorXd r = Eigen::VectorXd::Zero(rows);
@@ -108,6 +109,20 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
       r.segment(row, n) = -root * process_error(before, keyframe);
     }
     row += n;
+    if (k > 0) {
+      const Keyframe& before = window.at(k - 1);
+      const Eigen::Index ambiguities =
+          step.first[static_cast<std::size_t>(k) - 1] + before.active.core_size();
+      const auto value_m = [&](int i) {
+        return before.state.ambiguities[static_cast<std::size_t>(i)].value_m;
+      };
+      for (const ArcJoin& join : keyframe.process_factor.joins) {
+        const double weight = 1.0 / std::sqrt(join.variance);
+        J(row, ambiguities + join.to) = weight;
+        J(row, ambiguities + join.from) = -weight;
+        r(row++) = weight * (join.difference_m - (value_m(join.to) - value_m(join.from)));
+      }
+    }
     const AntennaMotion antenna = antenna_of(keyframe, lever_b);
     for (const KeyframeMeasurement& m : keyframe.measurements) {
       const double weight = std::sqrt(m.factor / m.gain_variance);

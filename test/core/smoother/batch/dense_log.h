@@ -143,6 +143,13 @@ inline void add_process_rows(const LogGraph& graph, int k, const DenseLog& log, 
             -root * (to - process.F * from));
   if (process.information.size() > 0)
     rows->add_quadratic(first_before, slope_before, from, process.information, process.gradient);
+  for (const PieceJoin& join : process.joins) {
+    const Eigen::MatrixXd weight = Eigen::MatrixXd::Constant(1, 1, 1.0 / std::sqrt(join.variance));
+    const double residual =
+        join.difference_m - (graph.piece(join.to).value_m - graph.piece(join.from).value_m);
+    rows->add({{log.first.back() + join.to, weight}, {log.first.back() + join.from, -weight}},
+              residual * weight.col(0));
+  }
 }
 
 inline void add_measurement_rows(const LogGraph& graph, int k, const DenseLog& log,

@@ -47,6 +47,7 @@ TEST_CASE("a whole log: the chain leads where Ceres leads") {
   options.random_walk = GENERATE(0.0, 1e-3, 0.02);
   options.arc_epochs = GENERATE(1'000'000, 15);
   options.constrained = GENERATE(false, true);
+  options.joined = GENERATE(false, true);
   LogGraph by_chain = graph_of(options, 40), by_ceres = graph_of(options, 40);
   const BatchResult chain = smooth_log(nullptr, &by_chain);
   const BatchResult ceres = smooth_log(

@@ -102,6 +102,14 @@ TEST_CASE("constraints on the motion between keyframes: the chain leads where Ce
   compare(options, GENERATE(3, 10, 20), 25);
 }
 
+TEST_CASE("joined arcs: the chain leads where Ceres leads") {
+  DriveOptions options;
+  options.joined = true;
+  options.random_walk = GENERATE(0.0, 1e-3);
+  options.arc_epochs = GENERATE(1'000'000, 15);
+  compare(options, 10, 25);
+}
+
 TEST_CASE("Ceres refuses a window without information") {
   DriveOptions options;
   Drive drive(options);
