@@ -65,7 +65,7 @@ struct EngineCounters {
   std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
   // The same by source of the orbit: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
-  Gauge orbit_fallbacks, orbit_returns, satellite_faults, widened_predictions;
+  Gauge orbit_fallbacks, orbit_returns, satellite_faults, widened_predictions, arcs_joined;
   // Learned errors of codes and Dopplers: over all classes, then by kLearnedClassNames.
   std::array<LearnedGauges, 2> learned;
   std::array<Gauge, kSystemCount> lasting_cm;  // LastingErrors; 0: none

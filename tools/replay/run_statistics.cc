@@ -27,6 +27,7 @@ void RunStatistics::add(const EpochReport& report) {
   alignment_ = report.alignment;
   if (report.solution.source == Source::kNone) ++epochs_without_position_;
   used_sum_ += report.satellites_used;
+  arcs_joined_ += static_cast<std::uint64_t>(report.arcs_joined);
   for (const SatelliteReport& satellite : report.satellites) {
     used_of_[index_of(satellite.satellite.system)] += satellite.reason == Reason::kUsed ? 1 : 0;
     ++satellites_by_reason_[std::string(to_string(satellite.reason))];
@@ -91,6 +92,7 @@ void RunStatistics::print(std::ostream& out) const {
   print_map(out, "satellites", satellites_by_reason_);
   print_map(out, "measurements", measurements_by_reason_);
   out << "carrier arcs: " << carrier_arcs_ << "\n";
+  if (arcs_joined_ > 0) out << "carrier arcs joined to the one before: " << arcs_joined_ << "\n";
   print_map(out, "carrier arcs ended by", arc_ends_);
   print_map(out, "events", events_);
 }

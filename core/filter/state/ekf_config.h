@@ -67,7 +67,7 @@ struct EkfConfig {
   double max_arc_gap_s = 120.0;  // an ambiguity not observed for longer is dropped
   // Joins a new arc of a carrier to the one before by whole cycles (ArcJoiner), where the
   // probability that they are the wrong ones is below this.
-  bool join_arcs = false;
+  bool join_arcs = true;
   double wrong_join_probability = 1e-4;
   ClockModel clock;
   VehicleConstantsConfig vehicle;

@@ -1,7 +1,9 @@
 #include "core/installation_checks/internal/yaw_rate_fit.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
+#include <cstddef>
 
 #include "core/installation_checks/stamp_offset_monitor.h"
 
@@ -43,6 +45,17 @@ class Line {
   double x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
 };
 
+using Ratios = boost::container::static_vector<double, MotionRecord::kCapacity>;
+
+double median(Ratios ratios) {
+  if (ratios.empty()) return 0.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+bool is_right(double ratio) { return std::abs(ratio) > kLowest && std::abs(ratio) < kHighest; }
+
 bool is_later_by(const MotionSecond& later, const MotionSecond& earlier, int lag_s) {
   return std::abs(seconds_between(later.time, earlier.time) - lag_s) < 0.5;
 }
@@ -60,6 +73,7 @@ bool YawRateFit::contradicts() const {
 YawRateFit fit_yaw_rate(const MotionRecord& record, const Eigen::Vector3d& axis_b, int lag_s) {
   YawRateFit fit;
   Line line;
+  Ratios ratios;
   GpsTime first;
   const auto& seconds = record.seconds();
   const int count = static_cast<int>(seconds.size());
@@ -69,20 +83,24 @@ YawRateFit fit_yaw_rate(const MotionRecord& record, const Eigen::Vector3d& axis_
     if (!course.has_course || !gyros.has_imu || !is_later_by(gyros, course, lag_s)) continue;
     if (!first.is_set()) first = course.time;
     fit.span_s = seconds_between(course.time, first);
-    line.add(course.course_rate, axis_b.dot(gyros.rate_b));
+    const double rate = axis_b.dot(gyros.rate_b);
+    line.add(course.course_rate, rate);
     const double turn = std::abs(course.course_rate);
-    if (turn > kTurning) fit.turned += turn * course.seconds;
+    if (!(turn > kTurning)) continue;
+    fit.turned += turn * course.seconds;
+    ratios.push_back(rate / course.course_rate);
   }
   fit.seconds = line.count();
   if (fit.seconds == 0) return fit;
   fit.slope = line.slope();
   fit.correlation = line.correlation();
+  fit.median_ratio = median(ratios);
   return fit;
 }
 
 ConventionFinding check_yaw_rate_scale(const YawRateFit& fit, double imu_interval_s) {
   const double size = std::abs(fit.slope);
-  if (!fit.follows() || (size > kLowest && size < kHighest)) return {};
+  if (!fit.follows() || is_right(fit.slope) || is_right(fit.median_ratio)) return {};
   if (size > 0.7 * kDegreesPerRadian && size < 1.4 * kDegreesPerRadian)
     return {Convention::kGyrosInDegrees, fit.slope};
   if (std::abs(size - imu_interval_s) < 0.2 * imu_interval_s)

@@ -16,6 +16,9 @@ struct YawRateFit {
   double turned = 0.0;  // rad, sum of the course's turns in both directions
   double slope = 0.0;
   double correlation = 0.0;  // squared correlation
+  // Median of the ratio of both rates over the seconds that turn: one second with a wrong course,
+  // from reflected Dopplers, may give the line its slope, but not the median. 0: none turns.
+  double median_ratio = 0.0;
   // It has turned by more than one bend, and the rates follow the course.
   bool follows() const;
   // It has turned by more than one bend, and the rates do not follow the course.
@@ -26,7 +29,7 @@ struct YawRateFit {
 YawRateFit fit_yaw_rate(const MotionRecord& record, const Eigen::Vector3d& axis_b, int lag_s = 0);
 
 // Tests the size of the turn about the vertical that the accelerometers show. Returns kNone if it
-// is right within 30 %, of either sign, or not known.
+// is right within 30 %, of either sign, by the line or by the median, or not known.
 ConventionFinding check_yaw_rate_scale(const YawRateFit& about_vertical, double imu_interval_s);
 
 // Tests, where hardly any rate about the vertical is measured, whether the gyro of another axis

@@ -68,6 +68,7 @@ void StageSink::on_epoch(const EpochReport& report) {
       counters_->lasting_cm[i].set(std::llround(report.learned_errors.lasting_m[i] * 1e2));
   }
   counters_->widened_predictions.add(report.widened_predictions);
+  counters_->arcs_joined.add(report.arcs_joined);
   counters_->alignment_need.set(pack_alignment_need(report.alignment));
   if (checkpoints_ != nullptr && report.checkpoint) checkpoints_->set(*report.checkpoint);
   encoder_.on_epoch(report);

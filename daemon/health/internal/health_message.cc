@@ -73,6 +73,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("satellite faults", counters->satellite_faults.get(), message);
   add_count("widened predictions", counters->widened_predictions.get(), message);
+  add_count("arcs joined", counters->arcs_joined.get(), message);
   add_learned("learned code", counters->learned[0], message);
   add_learned("learned doppler", counters->learned[1], message);
   for (const System system : kSystems)

@@ -71,6 +71,24 @@ TEST_CASE("gyros of another unit are told by their slope", "[conventions]") {
   CHECK(!scaled(-1.0));
 }
 
+TEST_CASE("a second with a wrong course does not make a wrong unit", "[conventions]") {
+  MotionRecord record;
+  test::LevelDrive drive;
+  for (int i = 0; i < 100; ++i) {
+    test::feed_second(&drive, &record, test::nothing);
+    PointSolution point = drive.point();
+    if (i == 64) point.v_e = Eigen::AngleAxisd(2.0, drive.point().p_e.normalized()) * point.v_e;
+    record.end_second(drive.time(), &point);
+  }
+  YawRateFit fit = fit_yaw_rate(record, kDown);
+  CHECK(std::abs(fit.slope) < 0.7);
+  CHECK(fit.median_ratio == Approx(1.0).margin(0.1));
+  fit.correlation = 0.9;  // as where that second turns as much, the other way round
+  CHECK(!check_yaw_rate_scale(fit, 0.01));
+  fit.median_ratio = fit.slope;
+  CHECK(check_yaw_rate_scale(fit, 0.01).convention == Convention::kGyroUnit);
+}
+
 TEST_CASE("a turn of the wrong sign has the opposite slope", "[conventions]") {
   const MotionRecord record = record_of([](ImuSample* sample) { sample->delta_theta_b *= -1.0; });
   CHECK(fit_yaw_rate(record, kDown).slope == Approx(-1.0).margin(0.03));

@@ -30,6 +30,7 @@ struct DriveOptions {
   bool calibrating = false;                     // lever arm and time offset are estimated
   double random_walk = 0.0;                     // of the carriers, m/sqrt(s)
   int arc_epochs = 1'000'000;                   // an arc's length; they end one after the other
+  bool whole_cycles = false;                    // is what a satellite's arcs differ by
   bool joined = false;                          // the smoother is told joins of its first two arcs
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, of the attitude that the filter is given
   int aligned_at = 0;                           // epoch at whose end it is given that; 0: the start
@@ -268,6 +269,12 @@ class Drive {
           predict_range(view, truth_.p_antenna_e).range_m +
           truth_.clocks.offset_m(static_cast<Eigen::Index>(index_of(view.satellite.system))) +
           ambiguities_m_(i) + 10.0 * turn + share * options_.carrier_sigma * noise_.normal();
+      if (options_.whole_cycles) {
+        constexpr double kWavelength_m = 0.2;  // 50 of them are the 10 m
+        epoch.satellites[code.satellite_index].cn0_dbhz = 45.0;
+        carrier.cycles.wavelength_m = {kWavelength_m, 0.0};
+        carrier.cycles.gamma = {1.0, 0.0};
+      }
       epoch.measurements.push_back(carrier);
     }
     for (Measurement& m : epoch.measurements)

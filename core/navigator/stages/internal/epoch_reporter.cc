@@ -64,6 +64,7 @@ void EpochReporter::add_point(const IndependentSolution& solution) {
 void EpochReporter::add_update(const MeasurementEpoch& epoch, const EkfUpdateResult& result,
                                const Ekf& filter) {
   report_update(epoch, result, filter.antenna_position_e(), report_.get());
+  report_->arcs_joined = result.arcs_joined;
 }
 
 void EpochReporter::monitor_usability() {
