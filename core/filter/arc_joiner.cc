@@ -9,8 +9,8 @@
 namespace leonav {
 namespace {
 
-// 99 % points of chi-square with one and two degrees of freedom.
-constexpr double kMostChiSquareSingle = 6.63, kMostChiSquarePair = 9.21;
+// Sharpness (CycleSearch) from which on a pair of arcs shows whether they differ by whole cycles.
+constexpr double kSharp = 4.0;
 
 // Returns whether a satellite's signal is as strong as it has been. Without a code, or without a
 // C/N0, that is not known.
@@ -53,7 +53,7 @@ int ArcJoiner::join(StateEstimate* estimate) {
 
 bool ArcJoiner::join_one(StateEstimate* estimate) {
   const Ambiguities& ambiguities = estimate->state().ambiguities;
-  for (const Arc& now : arcs_) {
+  for (Arc& now : arcs_) {
     if (!now.always_direct || now.cycles.half_cycle_unresolved) continue;
     const int to = find_ambiguity(ambiguities, now.arc);
     if (to == kNoAmbiguity || ambiguities[static_cast<std::size_t>(to)].rejected > 0) continue;
@@ -64,6 +64,11 @@ bool ArcJoiner::join_one(StateEstimate* estimate) {
         continue;
       const std::optional<CycleSearch> between = cycles_between(old, now, *estimate);
       if (!between) continue;
+      if (!now.compared && between->sharpness > kSharp) {
+        now.compared = true;
+        whole_cycles_.learn(between->likelihood_ratio);
+      }
+      if (!is_certain(*between)) continue;
       estimate->join_ambiguities(from, to,
                                  between->length_m + now.cycles.repaired_measurement_m() -
                                      old.cycles.repaired_measurement_m(),
@@ -110,12 +115,13 @@ std::optional<CycleSearch> ArcJoiner::cycles_between(const Arc& old, const Arc& 
     equations.geometry_free_sigma_m =
         std::hypot(change.sigma_m, to_geometry_free * old.sigma_m, to_geometry_free * now.sigma_m);
   }
-  const CycleSearch search = search_cycles(equations);
-  const double most = now.cycles.is_pair() ? kMostChiSquarePair : kMostChiSquareSingle;
-  const bool ok = search.found && search.chi_square < most &&
-                  search.wrong_probability < config_.wrong_join_probability;
-  if (!ok) return std::nullopt;
-  return search;
+  return search_cycles(equations);
+}
+
+bool ArcJoiner::is_certain(const CycleSearch& between) const {
+  return between.found && 1.0 - whole_cycles_.probability(between.likelihood_ratio) *
+                                      (1.0 - between.wrong_probability) <
+                              config_.wrong_join_probability;
 }
 
 void ArcJoiner::take(const Measurement& carrier, const SatelliteInView& satellite, GpsTime time,

@@ -8,6 +8,7 @@
 #include "core/filter/error_model/learned_errors.h"
 #include "core/filter/estimate/state_estimate.h"
 #include "core/filter/update/filter_measurement.h"
+#include "core/filter/whole_cycles.h"
 #include "core/gnss/measurement/measurement.h"
 
 namespace leonav {
@@ -15,8 +16,9 @@ namespace leonav {
 // A new arc of a satellite's carrier differs from the one before by whole cycles. While the filter
 // has the ambiguities of both, it knows their difference b_new - b_old within decimetres, and the
 // geometry-free combination has changed over the gap by the ionosphere and cycles alone. Where only
-// one pair of whole numbers fits both (search_cycles()), the difference is known within the noise
-// of the carriers, and the new arc goes on from the old one:
+// one pair of whole numbers fits both (search_cycles()), and the arcs of this receiver have been
+// seen to differ by whole cycles (WholeCycles), the difference is known within the noise of the
+// carriers, and the new arc goes on from the old one:
 //
 //   b_new - b_old = gamma1 lambda1 n1 + gamma2 lambda2 n2.
 //
@@ -54,17 +56,21 @@ class ArcJoiner {
     std::uint32_t orbit_issue = 0, antenna_issue = 0, ionosphere_issue = 0;
     bool direct = false;         // the signal was not weaker than it has been, at the last use
     bool always_direct = false;  // nor at any before
+    bool compared = false;       // WholeCycles has learned from it
   };
   Arc* find(std::uint32_t arc);
   const Arc* find(std::uint32_t arc) const;
   void take(const Measurement& carrier, const SatelliteInView& satellite, GpsTime time,
             bool direct);
-  // Returns the cycles between two arcs, if they are known well enough to be joined.
+  // Returns the cycles between two arcs; nullopt: the arcs cannot be compared.
   std::optional<CycleSearch> cycles_between(const Arc& old, const Arc& now,
                                             const StateEstimate& estimate) const;
+  // Returns whether it is certain enough that two arcs differ by these cycles.
+  bool is_certain(const CycleSearch& between) const;
   bool join_one(StateEstimate* estimate);
 
   EkfConfig config_;
+  WholeCycles whole_cycles_;
   boost::container::static_vector<Arc, kMaxArcs> arcs_;
 };
 

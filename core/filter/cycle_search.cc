@@ -17,14 +17,20 @@ class Candidates {
     if (!search_.found || chi_square < search_.chi_square) {
       const double best = search_.found ? search_.chi_square : chi_square;
       others_ = search_.found ? (others_ + 1.0) * std::exp(0.5 * (chi_square - best)) : 0.0;
-      search_ = {true, cycles, length_m, chi_square, 1.0};
+      search_.found = true;
+      search_.cycles = cycles;
+      search_.length_m = length_m;
+      search_.chi_square = chi_square;
     } else {
       others_ += std::exp(0.5 * (search_.chi_square - chi_square));
     }
   }
-  CycleSearch result() const {
+  CycleSearch result(double sharpness) const {
     CycleSearch search = search_;
-    if (search.found) search.wrong_probability = others_ / (1.0 + others_);
+    search.sharpness = sharpness;
+    if (!search.found) return search;
+    search.wrong_probability = others_ / (1.0 + others_);
+    search.likelihood_ratio = sharpness * (1.0 + others_) * std::exp(-0.5 * search.chi_square);
     return search;
   }
 
@@ -42,7 +48,7 @@ CycleSearch search_single(const CycleEquations& e) {
     const double length_m = n * e.wavelength_m[0];
     candidates.add({n, 0.0}, length_m, square((e.difference_m - length_m) / e.difference_sigma_m));
   }
-  return candidates.result();
+  return candidates.result(e.wavelength_m[0] / (std::sqrt(2.0 * M_PI) * e.difference_sigma_m));
 }
 
 }  // namespace
@@ -71,7 +77,9 @@ CycleSearch search_cycles(const CycleEquations& e) {
                                             e.geometry_free_sigma_m));
     }
   }
-  return candidates.result();
+  // The equations have the determinant one: cells are as large in their left sides.
+  return candidates.result(e.wavelength_m[0] * e.wavelength_m[1] /
+                           (2.0 * M_PI * e.difference_sigma_m * e.geometry_free_sigma_m));
 }
 
 }  // namespace leonav

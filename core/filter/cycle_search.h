@@ -27,6 +27,10 @@ struct CycleSearch {
   // one minus the success rate of integer rounding conditioned on the data (Teunissen 1998, Journal
   // of Geodesy 72, 606; for cycle slips Blewitt 1990, GRL 17, 199).
   double wrong_probability = 1.0;
+  // Likelihood of whole cycles over that of any length, both with a uniform density over the area
+  // searched: the candidates' normal densities times the area of a cell of whole cycles. The
+  // largest value that a single candidate may have is the sharpness.
+  double likelihood_ratio = 0.0, sharpness = 0.0;
 };
 
 // Searches all cycles within five sigmas of both equations.

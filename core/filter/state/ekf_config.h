@@ -66,9 +66,9 @@ struct EkfConfig {
   double carrier_clock_noise = 0.0;
   double max_arc_gap_s = 120.0;  // an ambiguity not observed for longer is dropped
   // Joins a new arc of a carrier to the one before by whole cycles (ArcJoiner), where the
-  // probability that they are the wrong ones is below this.
+  // probability that they are the wrong ones, or not whole, is below this.
   bool join_arcs = true;
-  double wrong_join_probability = 1e-4;
+  double wrong_join_probability = 0.01;
   ClockModel clock;
   VehicleConstantsConfig vehicle;
   RobustConfig robust;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
 constexpr double kGap_s = 20.0;
+constexpr double kOnePair = 0.3;  // of one pair of arcs alone no more is known
 const SatelliteId kSatellite{System::kGps, 7};
 
 // Two arcs of one satellite, parted by a gap and by 1000 and -400 cycles.
@@ -27,8 +28,8 @@ double cycles_m() {
 
 class Run {
  public:
-  explicit Run(const Scene& scene, bool join = true)
-      : estimate_(config(join)), joiner_(config(join)) {
+  explicit Run(const Scene& scene, bool join = true, double wrong = kOnePair)
+      : estimate_(config(join, wrong)), joiner_(config(join, wrong)) {
     // The first epoch shows how strong the signal is directly.
     observe(1, 0.0, 45.0, 2.0, {}, false);
     observe(1, 1.0, scene.cn0_before, 2.0, {}, false);
@@ -51,9 +52,10 @@ class Run {
   }
 
  private:
-  static EkfConfig config(bool join) {
+  static EkfConfig config(bool join, double wrong) {
     EkfConfig config;
     config.join_arcs = join;
+    config.wrong_join_probability = wrong;
     return config;
   }
 
@@ -124,6 +126,10 @@ TEST_CASE("arcs are joined alike every time") {
   const Run a{Scene{}}, b{Scene{}};
   CHECK(a.state().ambiguities[0].value_m == b.state().ambiguities[0].value_m);
   CHECK(a.variance() == b.variance());
+}
+
+TEST_CASE("one pair of arcs does not show that a receiver counts whole cycles") {
+  CHECK(Run(Scene{}, true, EkfConfig().wrong_join_probability).joined == 0);
 }
 
 TEST_CASE("arcs are not joined where that is switched off") {

@@ -56,6 +56,7 @@ TEST_CASE("the search finds what brute force over a big box finds") {
     CHECK(search.chi_square == Approx(best).margin(1e-6));
     // What lies outside five sigmas is not counted.
     CHECK(search.wrong_probability == Approx(1.0 - std::exp(-0.5 * best) / sum).margin(2e-5));
+    CHECK(search.likelihood_ratio == Approx(search.sharpness * sum).epsilon(1e-4));
   }
 }
 
@@ -70,6 +71,26 @@ TEST_CASE("a geometry-free change that no cycles explain is refused") {
   e.geometry_free_m += 0.02;
   const CycleSearch search = search_cycles(e);
   CHECK((!search.found || search.chi_square > 13.8));
+}
+
+TEST_CASE("the likelihood ratio is one on average over differences of any length") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> length(-50.0, 50.0);
+  for (const double second : {0.0, kC / kL2}) {
+    double mean = 0.0;
+    constexpr int kDraws = 20000;
+    for (int i = 0; i < kDraws; ++i) {
+      CycleEquations e = equations_of(0.0, 0.0, 0.03, 0.03);
+      e.wavelength_m[1] = second;
+      if (second == 0.0) e.gamma = {1.0, 0.0};
+      e.difference_m = length(random);
+      e.geometry_free_m = length(random);
+      const CycleSearch search = search_cycles(e);
+      CHECK(search.sharpness > 2.0);
+      mean += search.likelihood_ratio / kDraws;
+    }
+    CHECK(mean == Approx(1.0).margin(0.05));
+  }
 }
 
 TEST_CASE("on one frequency the difference alone decides") {

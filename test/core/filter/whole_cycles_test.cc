@@ -1,0 +1,56 @@
+#include "core/filter/whole_cycles.h"
+
+#include <cmath>
+#include <random>
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+constexpr double kSigma = 0.02;  // cycles
+
+// Likelihood ratio of a part of a cycle: its normal density over the uniform one.
+double ratio_of(double part) {
+  return std::exp(-0.5 * part * part / (kSigma * kSigma)) / (std::sqrt(2.0 * M_PI) * kSigma);
+}
+
+// The share learned from arcs of which `whole` differ by whole cycles, the others by any length.
+double learned(double whole, int arcs) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0.0, kSigma);
+  std::uniform_real_distribution<double> part(-0.5, 0.5), draw(0.0, 1.0);
+  WholeCycles cycles;
+  for (int i = 0; i < arcs; ++i)
+    cycles.learn(ratio_of(draw(random) < whole ? normal(random) : part(random)));
+  return cycles.share();
+}
+
+}  // namespace
+
+TEST_CASE("the share of arcs that differ by whole cycles is learned") {
+  CHECK(WholeCycles().share() == 0.5);
+  CHECK(learned(1.0, 400) > 0.97);
+  CHECK(learned(0.5, 400) == Approx(0.5).margin(0.08));
+  CHECK(learned(0.0, 400) < 0.03);
+}
+
+TEST_CASE("a share is known as well as its pairs of arcs are many") {
+  CHECK(learned(1.0, 3) > 0.6);
+  CHECK(learned(1.0, 3) < 0.9);
+}
+
+TEST_CASE("pairs of arcs that show nothing teach nothing") {
+  WholeCycles cycles;
+  for (int i = 0; i < 100; ++i) cycles.learn(1.0);
+  CHECK(cycles.share() == Approx(0.5));
+  CHECK(cycles.probability(1.0) == Approx(0.5));
+}
+
+TEST_CASE("the share lasts however many pairs there are") {
+  WholeCycles cycles;
+  for (int i = 0; i < 100'000; ++i) cycles.learn(i % 10 == 0 ? 0.0 : 20.0);
+  CHECK(cycles.share() == Approx(0.9).margin(0.03));
+  CHECK(cycles.probability(20.0) == Approx(180.0 / 181.0).margin(0.003));
+}
