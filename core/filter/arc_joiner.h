@@ -30,7 +30,12 @@ class ArcJoiner {
  public:
   explicit ArcJoiner(const EkfConfig& config) : config_(config) {}
 
+  // Forgets the arcs, but not what was learned of the receiver.
   void reset() { arcs_.clear(); }
+  // Returns whether any two arcs have been compared, and the share of arcs that differ by whole
+  // cycles (WholeCycles).
+  bool has_compared() const { return whole_cycles_.pairs() > 0; }
+  double whole_cycles_share() const { return whole_cycles_.share(); }
   // Returns whether an arc whose satellite has another one now may still be joined to that.
   bool keeps(std::uint32_t arc) const;
   // Joins what can be joined between two epochs; of arcs that are joined the earlier ambiguity is

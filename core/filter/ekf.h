@@ -149,6 +149,8 @@ class Ekf {
   Eigen::Vector3d vertical_antenna_offset_e() const;
   // What has been learned of the errors of its measurements.
   const LearnedErrors& learned_errors() const { return assembler_.errors(); }
+  // What joins carrier arcs, and has learned whether they differ by whole cycles.
+  const ArcJoiner& arc_joiner() const { return arc_joiner_; }
   // Returns whether carriers, and not codes, have kept the position since the last update.
   bool carriers_keep_position() const { return assembler_.carriers_keep_position(); }
   // Returns the present sizes and times of the errors of codes and Dopplers, for reports.

@@ -15,6 +15,7 @@ void WholeCycles::learn(double likelihood_ratio) {
     largest = std::max(largest, weights_[i]);
   }
   share_ = moment / sum;
+  ++pairs_;
   for (double& weight : weights_) weight /= largest;
 }
 

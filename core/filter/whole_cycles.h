@@ -20,11 +20,14 @@ class WholeCycles {
   double probability(double likelihood_ratio) const;
   // Returns the mean of the share.
   double share() const { return share_; }
+  // Returns the number of pairs learned from.
+  int pairs() const { return pairs_; }
 
  private:
   static constexpr int kSteps = 50;
   std::array<double, kSteps> weights_;
   double share_ = 0.5;
+  int pairs_ = 0;
 };
 
 }  // namespace leonav

@@ -103,6 +103,7 @@ void ReplayRun::print_summary(std::ostream& out) {
   statistics_.print(out);
   print_odometer(out);
   print_learned_errors(out);
+  print_whole_cycles(out);
   out << "solution.csv rows: " << files_.solution_rows() << "\n";
   for (std::size_t group = 0; group < kOutputGroups.size(); ++group) {
     out << "output " << kOutputGroups[group] << ": " << digest_.messages(group) << "\n";
@@ -136,6 +137,14 @@ void ReplayRun::print_learned_errors(std::ostream& out) {
   out << format("while it stands: codes %.0f %% over %.1f s, Dopplers %.0f %% over %.1f s\n",
                 100.0 * code.correlated_share, code.correlation_time_s,
                 100.0 * doppler.correlated_share, doppler.correlation_time_s);
+}
+
+// Prints whether the receiver's carrier arcs have been seen to differ by whole cycles.
+void ReplayRun::print_whole_cycles(std::ostream& out) {
+  const ArcJoiner& joiner = navigator_.gnss().ekf().arc_joiner();
+  if (!joiner.has_compared()) return;
+  out << format("carrier arcs that differ by whole cycles: %.0f %%\n",
+                100.0 * joiner.whole_cycles_share());
 }
 
 std::vector<std::string> ReplayRun::warnings() const {

@@ -45,6 +45,7 @@ class ReplayRun final : private OutputSink, private MessageTarget {
   void note_time(Channel channel, std::int64_t stamp_us);
   void print_odometer(std::ostream& out);
   void print_learned_errors(std::ostream& out);
+  void print_whole_cycles(std::ostream& out);
   void on_solution(const Solution& solution) override;
   void on_epoch(const EpochReport& report) override;
   void on_event(const Event& event) override;

@@ -68,7 +68,7 @@ struct EkfConfig {
   // Joins a new arc of a carrier to the one before by whole cycles (ArcJoiner), where the
   // probability that they are the wrong ones, or not whole, is below this.
   bool join_arcs = true;
-  double wrong_join_probability = 0.01;
+  double wrong_join_probability = 0.05;
   ClockModel clock;
   VehicleConstantsConfig vehicle;
   RobustConfig robust;
