@@ -37,6 +37,10 @@ class MessageRing {
     return 1.0 - static_cast<double>(queue_.write_available()) / static_cast<double>(capacity_);
   }
 
+  // Consumer: the share of the ring that waits, at least.
+  double waiting() const {
+    return static_cast<double>(queue_.read_available()) / static_cast<double>(capacity_);
+  }
   // Consumer: calls use(header, bytes) on the oldest message. False: empty.
   template <typename Use>
   bool consume_one(Use&& use) {

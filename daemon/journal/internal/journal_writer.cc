@@ -27,6 +27,8 @@ constexpr std::size_t kBufferBytes = 256 << 10;
 constexpr std::size_t kMostEventBytes =
     kEventHeaderBytes + kMaxEventChannelBytes + wire::kMaxMessageBytes + 1;
 constexpr std::int64_t kFirstRetryNs = 250'000'000, kLastRetryNs = 8 * kNanosecondsPerSecond;
+// Share of the ring that waits, above which a full disk is made emptier.
+constexpr double kCrowded = 0.4;
 constexpr int kMostNamesTried = 100;
 
 std::vector<std::uint8_t> configuration_of(const DaemonConfig& config) {
@@ -98,6 +100,7 @@ void JournalWriter::open() {
 }
 
 void JournalWriter::write_from(MessageRing* ring) {
+  is_crowded_ = ring->waiting() > kCrowded;
   if (!is_ready(false)) return;
   const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
   for (;;) {
@@ -112,19 +115,14 @@ void JournalWriter::write_from(MessageRing* ring) {
 }
 
 bool JournalWriter::finish(MessageRing* ring, const LostMessages& lost) {
-  if (!is_ready(true)) return false;
-  const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
-  for (;;) {
-    if (!buffer_.has_room(kMostEventBytes) && !flush()) return false;
-    if (!ring->consume_one(take)) break;
-  }
-  if (!flush()) return false;
+  is_crowded_ = true;  // there is no later attempt
+  if (!persist([&] { return write_all_of(ring); })) return false;
   const auto add = [this](Channel channel, ByteSpan bytes) {
     append({wall_clock_us(), static_cast<std::uint32_t>(bytes.size()), channel}, bytes);
   };
   if (lost.any()) add(Channel::kLost, encode_lost(lost, 0));
   add(Channel::kEnd, encode_journal_end(next_number_));
-  if (!flush()) return false;
+  if (!persist([&] { return is_ready(true) && flush(); })) return false;
   apply_keep();
   const bool synchronized = file_.sync();
   if (!synchronized) fail(file_.error());
@@ -133,10 +131,31 @@ bool JournalWriter::finish(MessageRing* ring, const LostMessages& lost) {
   return synchronized;
 }
 
+bool JournalWriter::write_all_of(MessageRing* ring) {
+  if (!is_ready(true)) return false;
+  const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
+  for (;;) {
+    if (!buffer_.has_room(kMostEventBytes) && !flush()) return false;
+    if (!ring->consume_one(take)) return flush();
+  }
+}
+
+// Tries again for as long as each failure has made room.
+template <typename Attempt>
+bool JournalWriter::persist(Attempt&& attempt) {
+  made_room_ = false;
+  while (!attempt()) {
+    if (!std::exchange(made_room_, false)) return false;
+  }
+  return true;
+}
+
 // Returns whether there is a piece to write to; begins one after a failure, when it is time to try.
 bool JournalWriter::is_ready(bool at_once) {
   if (begun_) return true;
-  if (retry_after_ns_ > 0 && !at_once && monotonic_ns() < retry_at_ns_) return false;
+  const std::int64_t wait_ns =
+      is_crowded_ ? std::min(retry_after_ns_, kFirstRetryNs) : retry_after_ns_;
+  if (!at_once && monotonic_ns() - failed_at_ns_ < wait_ns) return false;
   return begin_piece();
 }
 
@@ -203,6 +222,8 @@ void JournalWriter::end_piece() {
   begun_ = false;
   note_ended_piece();
   folder_->set_current("");
+  // One for the one that is about to be written: a disk smaller than the limits.
+  if (folder_->free_bytes() < bytes_of(config_.piece_mb)) folder_->delete_oldest();
   folder_->limit(true, bytes_of(config_.kept_mb));
   if (config_.total_mb > 0.0)
     folder_->limit(false, bytes_of(config_.total_mb) - bytes_of(config_.piece_mb));
@@ -232,14 +253,8 @@ bool JournalWriter::flush() {
   return true;
 }
 
-// Where the disk is full, the oldest piece makes room: one at an attempt, so that a disk that stays
-// full for another reason takes them slowly.
 bool JournalWriter::write_through(std::span<const std::uint8_t> bytes) {
-  std::size_t written = file_.write(bytes);
-  if (written < bytes.size() && (file_.error() == ENOSPC || file_.error() == EDQUOT) &&
-      file_.is_regular() && folder_->delete_oldest())
-    written += file_.write(bytes.subspan(written));
-  if (written < bytes.size()) {
+  if (file_.write(bytes) < bytes.size()) {
     fail(file_.error());
     return false;
   }
@@ -265,7 +280,10 @@ void JournalWriter::fail(int error) {
   begun_ = false;
   retry_after_ns_ =
       retry_after_ns_ == 0 ? kFirstRetryNs : std::min(2 * retry_after_ns_, kLastRetryNs);
-  retry_at_ns_ = monotonic_ns() + retry_after_ns_;
+  failed_at_ns_ = monotonic_ns();
+  // A disk may be full for a while: nothing is deleted before the memory runs out.
+  const bool full = error == ENOSPC || error == EDQUOT;
+  made_room_ = full && is_crowded_ && file_.is_regular() && folder_->delete_oldest();
 }
 
 bool JournalWriter::is_piece_full() const {

@@ -37,6 +37,9 @@ class JournalWriter {
   void keep() { keep_requested_.store(true, std::memory_order_relaxed); }
 
  private:
+  bool write_all_of(MessageRing* ring);
+  template <typename Attempt>
+  bool persist(Attempt&& attempt);
   bool is_ready(bool at_once);
   bool begin_piece();
   bool open_piece();
@@ -70,9 +73,11 @@ class JournalWriter {
   std::int64_t beginning_bytes_ = 0;
   std::int64_t next_number_ = 0;
   Stopwatch since_flush_, since_begin_;
-  std::int64_t retry_at_ns_ = 0, retry_after_ns_ = 0;  // retry_after_ns_ 0: nothing has failed
+  std::int64_t failed_at_ns_ = 0, retry_after_ns_ = 0;  // retry_after_ns_ 0: nothing has failed
   std::atomic<bool> keep_requested_{false};
   bool keeps_piece_ = false;
+  bool is_crowded_ = false;  // much waits in the ring
+  bool made_room_ = false;   // the last failure has deleted a piece
 };
 
 }  // namespace leonav

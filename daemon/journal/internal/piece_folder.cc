@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/piece_file.h"
@@ -107,6 +109,13 @@ bool PieceFolder::delete_oldest() {
   const std::int64_t before = counters_->deleted.get();
   remove(*first);
   return counters_->deleted.get() != before;
+}
+
+std::int64_t PieceFolder::free_bytes() const {
+  struct statvfs status {};
+  if (fstatvfs(descriptor(), &status) != 0) return std::numeric_limits<std::int64_t>::max();
+  const double bytes = static_cast<double>(status.f_bavail) * static_cast<double>(status.f_frsize);
+  return static_cast<std::int64_t>(std::min(bytes, 1e18));
 }
 
 void PieceFolder::remove(const Found& piece) {

@@ -35,6 +35,9 @@ class PieceFolder {
   // is a current piece.
   void keep_crashed_run();
 
+  // Bytes that may be written to the file system; the largest number where it is not known.
+  std::int64_t free_bytes() const;
+
   int descriptor() const { return dirfd(folder_.get()); }
 
  private:
