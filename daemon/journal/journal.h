@@ -58,6 +58,7 @@ class Journal {
 
  private:
   struct State;
+  static void leave(State* state);
   void fail(const std::string& reason);
   void count_lost(Channel channel);
   bool push_lost_mark();

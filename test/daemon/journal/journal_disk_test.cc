@@ -1,4 +1,6 @@
 // A journal on a disk that blocks, fills up, fails and comes back; its pieces and their limits.
+#include <fcntl.h>
+
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -6,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -14,6 +17,7 @@
 #include "daemon/journal/journal.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/journal_marks.h"
+#include "drivers/lcm/piece_file.h"
 #include "drivers/lcm/run_configuration.h"
 #include "drivers/lcm/wire.h"
 #include "support/catch.h"
@@ -27,41 +31,44 @@ namespace {
 using namespace leonav;
 namespace fs = std::filesystem;
 
-// The disk, as the journal's thread meets it.
+// The disk, as the journal's thread meets it. Who calls it may outlive the test.
 class Disk {
  public:
   std::function<int()> hook() {
-    return [this] {
-      std::unique_lock lock(mutex_);
-      ++calls_;
-      changed_.notify_all();
-      changed_.wait(lock, [this] { return !blocked_; });
-      return error_;
+    return [shared = shared_] {
+      std::unique_lock lock(shared->mutex);
+      ++shared->waiting;
+      shared->changed.notify_all();
+      shared->changed.wait(lock, [&] { return !shared->blocked; });
+      --shared->waiting;
+      return shared->error;
     };
   }
   void block(bool blocked) {
-    const std::lock_guard lock(mutex_);
-    blocked_ = blocked;
-    changed_.notify_all();
+    const std::lock_guard lock(shared_->mutex);
+    shared_->blocked = blocked;
+    shared_->changed.notify_all();
   }
   void fail_with(int error) {
-    const std::lock_guard lock(mutex_);
-    error_ = error;
+    const std::lock_guard lock(shared_->mutex);
+    shared_->error = error;
   }
-  // Waits until the journal has called `calls` times more.
-  void await_calls(int calls) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this, until = calls_ + calls] { return calls_ >= until; });
+  // Waits until the journal waits.
+  void await_call() {
+    std::unique_lock lock(shared_->mutex);
+    shared_->changed.wait(lock, [this] { return shared_->waiting > 0; });
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool blocked_ = false;
-  int error_ = 0, calls_ = 0;
+  struct Shared {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool blocked = false;
+    int error = 0, waiting = 0;
+  };
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };
 
-// 10 MB/s in real life would be a lot; here it is quick to write.
 DaemonConfig small_pieces(const std::string& path) {
   DaemonConfig config;
   config.journal.path = path;
@@ -257,7 +264,7 @@ TEST_CASE("a disk that blocks costs what the memory does not hold, and a mark sa
   sender.push_slowly(50);
   disk.block(true);
   sender.push(5);
-  disk.await_calls(1);
+  disk.await_call();
   CHECK_FALSE(journal.is_stalled());  // not yet
   sender.push(5000);                  // five times what there is room for
   const std::int64_t lost = journal.counters().lost_others.get();
@@ -292,7 +299,7 @@ TEST_CASE("where the memory is half full SOLUTION is left out, and nothing else"
   Sender sender(&journal);
   disk.block(true);
   sender.push(1, Channel::kSolution);
-  disk.await_calls(1);
+  disk.await_call();
   for (int i = 0; i < 800; ++i) {  // 0.8 MB
     sender.push(1, i % 4 == 0 ? Channel::kImu : Channel::kSolution);
   }
@@ -376,8 +383,7 @@ TEST_CASE("a disk that fails before anything is written and comes back has one p
 
 TEST_CASE("a disk that never returns holds up no end") {
   const test::TemporaryFile folder("unused", "");
-  // Outlives the journal, whose thread is left behind.
-  static Disk disk;
+  Disk disk;
   {
     DaemonConfig config = small_pieces(folder.beside("run.journal"));
     Journal journal(config, disk.hook());
@@ -385,7 +391,7 @@ TEST_CASE("a disk that never returns holds up no end") {
     journal.start();
     disk.block(true);
     Sender(&journal).push(10);
-    disk.await_calls(1);
+    disk.await_call();
     while (!journal.is_stalled()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK_FALSE(journal.finish());
     CHECK(journal.error() ==
@@ -393,10 +399,8 @@ TEST_CASE("a disk that never returns holds up no end") {
   }
   disk.block(false);
   // The thread goes on to its end, with the state that was left to it.
-  for (int i = 0; i < 2000 && !fs::exists(folder.beside("done")); ++i) {
+  for (int i = 0; i < 2000 && !has_end_mark(AT_FDCWD, folder.beside("run.journal").c_str()); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (contents(folder.beside("run.journal")).ended) break;
-  }
   CHECK(contents(folder.beside("run.journal")).ended);
 }
 
