@@ -255,7 +255,22 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
 
 void read_journal(ConfigReader& group, JournalConfig* config) {
   group.text("path", &config->path);
+  group.choice<JournalOutputs>("outputs",
+                               {{"all", JournalOutputs::kAll},
+                                {"thinned", JournalOutputs::kThinned},
+                                {"none", JournalOutputs::kNone}},
+                               &config->outputs);
   group.number("flush_interval_s", {0.01, 3600.0}, &config->flush_interval_s);
+  group.number("buffer_mb", {0.2, 1000.0}, &config->buffer_mb);
+  group.number("piece_mb", {0.1, 1e6}, &config->piece_mb);
+  group.number("piece_s", {0.0, 1e7}, &config->piece_s);
+  group.number("total_mb", {0.0, 1e9}, &config->total_mb);
+  group.number("kept_mb", {0.0, 1e9}, &config->kept_mb);
+  // A limit must leave room for the piece that is written and one before it.
+  if (config->total_mb > 0.0 && config->total_mb < 2.0 * config->piece_mb)
+    group.fail("total_mb", "must be at least twice piece_mb, or 0");
+  if (config->kept_mb > 0.0 && config->kept_mb < 2.0 * config->piece_mb)
+    group.fail("kept_mb", "must be at least twice piece_mb, or 0");
 }
 
 void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator) {

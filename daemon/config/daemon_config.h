@@ -1,5 +1,6 @@
 // DaemonConfig holds the whole configuration of the daemon.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,22 @@ struct LcmConfig {
   bool operator==(const LcmConfig&) const = default;
 };
 
+// Outputs that the journal holds. All of them follow from the inputs and decisions.
+enum class JournalOutputs : std::uint8_t {
+  kAll,
+  kThinned,  // one SOLUTION a second, and all others
+  kNone,     // none of SOLUTION, EPOCH, CONSTRAINTS, SMOOTHED
+};
+
 struct JournalConfig {
   std::string path;  // empty: no journal
+  JournalOutputs outputs = JournalOutputs::kAll;
   double flush_interval_s = 1.0;
+  double buffer_mb = 8.0;     // memory in which messages wait for the disk
+  double piece_mb = 256.0;    // a larger piece is ended
+  double piece_s = 3600.0;    // an older piece is ended; 0: of any age
+  double total_mb = 10000.0;  // all pieces but those that are kept; 0: no limit
+  double kept_mb = 2000.0;    // pieces around faults; 0: none is kept
 
   bool operator==(const JournalConfig&) const = default;
 };

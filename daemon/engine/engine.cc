@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/engine/internal/input_counters.h"
+#include "daemon/threads/wall_clock.h"
 
 namespace leonav {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::size_t kGnssOutBytes = 1 << 20;
 Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks)
     : config_(config),
       hooks_(std::move(hooks)),
-      journal_(&config_, &counters_),
+      journal_(config, hooks_.before_disk_call),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
       gnss_ring_(kGnssRing, &gnss_wakeup_),
       checkpoint_writer_(config.checkpoint),
@@ -35,7 +36,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
                     : nullptr),
       publisher_({&io_sink_.ring(), &inertial_sink_.ring(), &gnss_sink_.ring(),
                   smoother_ != nullptr ? &smoother_->outputs() : nullptr},
-                 &out_wakeup_, target, &journal_, &counters_, config.journal.flush_interval_s),
+                 &out_wakeup_, target, &journal_, &counters_),
       inertial_(config.navigator, &ekf_mailbox_,
                 smoother_ != nullptr ? smoother_->mailbox() : nullptr, &inertial_sink_),
       gnss_(config.navigator, &ekf_mailbox_, smoother_.get(), &gnss_sink_),
@@ -57,6 +58,7 @@ std::vector<std::string> Engine::start() {
   }
   started_ = true;
   checkpoint_writer_.start();
+  journal_.start();
   refused.push_back(publisher_.start(threads.out));
   if (smoother_ != nullptr) refused.push_back(smoother_->start(threads.smoother));
   refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));
@@ -67,10 +69,29 @@ std::vector<std::string> Engine::start() {
 
 void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us) {
   bytes = limit_length(bytes);
-  // Before it is dealt with: what a stage does must never be in the journal without its cause.
-  if (journal_.is_open()) io_sink_.ring().push(channel, timestamp_us, bytes);
-  dispatch_.dispatch(channel, bytes);
+  const InputFault fault = dispatch_.decode(channel, bytes);
+  if (fault == InputFault::kNone) {
+    // Before it is dealt with: what a stage does must never be in the journal without its cause.
+    if (journal_.is_open()) io_sink_.ring().push(channel, timestamp_us, bytes);
+    dispatch_.accept();
+  } else {
+    refuse(channel, fault, timestamp_us);
+  }
   copy_input_counters(dispatch_, sequencer_, &counters_);
+}
+
+// The journal need only know the number where the next one is an event: before it.
+void Engine::refuse(Channel channel, InputFault fault, std::int64_t timestamp_us) {
+  refusals_.add(channel, fault);
+  if (sequencer_.is_refusal_due(fault)) write_refusals(fault, timestamp_us);
+  dispatch_.refuse({channel, fault, 1});
+}
+
+void Engine::write_refusals(InputFault fault, std::int64_t timestamp_us) {
+  if (!journal_.is_open()) return;
+  refusals_.take(fault, [&](const RefusedInputs& refused, std::uint64_t sequence) {
+    io_sink_.ring().push(Channel::kRefused, timestamp_us, encode_refused(refused, sequence));
+  });
 }
 
 // A slot still in use from kMaxMailboxEpochs ago is left alone: the epoch becomes a miss, which is
@@ -90,6 +111,8 @@ bool Engine::idle_but_gnss() const {
 
 bool Engine::finish() {
   if (started_ && !finished_) {
+    for (std::size_t i = 0; i < kInputFaultCount; ++i)
+      write_refusals(static_cast<InputFault>(i), wall_clock_us());
     no_more_inputs_.store(true, std::memory_order_release);
     inertial_wakeup_.notify();
     gnss_wakeup_.notify();
@@ -101,7 +124,7 @@ bool Engine::finish() {
     journal_.finish();
   }
   finished_ = true;
-  return counters_.journal_failed.get() == 0;
+  return journal_.error().empty();
 }
 
 void Engine::run_inertial() {

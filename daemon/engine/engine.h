@@ -11,10 +11,11 @@
 #include "core/navigator/stages/inertial_navigator.h"
 #include "daemon/checkpoint/checkpoint_writer.h"
 #include "daemon/config/daemon_config.h"
-#include "daemon/engine/internal/journal_writer.h"
 #include "daemon/engine/internal/output_publisher.h"
+#include "daemon/engine/internal/refusals.h"
 #include "daemon/engine/internal/smoother_worker.h"
 #include "daemon/engine/internal/stage_sink.h"
+#include "daemon/journal/journal.h"
 #include "daemon/messages/input_dispatch.h"
 #include "daemon/threads/counters.h"
 #include "daemon/threads/realtime_thread.h"
@@ -22,16 +23,18 @@
 
 namespace leonav {
 
-// Calls by which a test holds a thread still; empty in production.
+// Calls by which a test holds a thread still, or lets a disk fail; empty in production.
 struct EngineHooks {
   std::function<void(std::uint64_t epoch)> before_epoch;      // in `gnss`
   std::function<void(std::uint64_t epoch)> before_iteration;  // in `smoother`
+  std::function<int()> before_disk_call;  // in `journal`; an errno with which the call fails, or 0
 };
 
 // It is everything of the daemon but the LCM socket. Threads: the caller of receive() is `io`. The
-// engine's own are `ins`, `gnss`, `smoother` (if it gives the answer), `out` (OutputPublisher) and
-// `file`, which writes the checkpoint. Rings: io -> ins, io -> gnss, gnss -> smoother, and from io,
-// ins, gnss, smoother and the caller of publish() (`main`) to out.
+// engine's own are `ins`, `gnss`, `smoother` (if it gives the answer), `out` (OutputPublisher),
+// `journal`, and `file`, which writes the checkpoint. Rings: io -> ins, io -> gnss, gnss ->
+// smoother, and from io, ins, gnss, smoother and the caller of publish() (`main`) to out, out ->
+// journal.
 class Engine final : private StageInputs {
  public:
   // `target` gets every output, in the `out` thread.
@@ -39,15 +42,15 @@ class Engine final : private StageInputs {
   ~Engine() override;
 
   // Opens the journal and starts the threads. Throws EventLogError if the journal cannot be
-  // created; one that exists is left alone, see journal_path(). Returns what the system refused
+  // created; one that exists is left alone, see journal().path(). Returns what the system refused
   // (priorities, ...); empty: nothing.
   std::vector<std::string> start();
 
   // An input as it came. One thread; waits while the stages are behind, drops nothing.
   void receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us);
 
-  // A message of the daemon itself (HEALTH). One thread. Where `out` is stuck (a disk that hangs)
-  // the message is dropped and counted, so that `main` stays able to take a signal.
+  // A message of the daemon itself (HEALTH). One thread. Where `out` is stuck the message is
+  // dropped and counted, so that `main` stays able to take a signal.
   void publish(Channel channel, ByteSpan bytes) { publisher_.publish(channel, bytes); }
 
   // True once everything received so far has been dealt with by all stages.
@@ -56,7 +59,7 @@ class Engine final : private StageInputs {
   bool idle_but_gnss() const;
 
   // After the last receive(): lets every stage finish its work, closes the journal. False if the
-  // journal is incomplete; journal_error() says why.
+  // journal is incomplete; journal().error() says why.
   bool finish();
 
   EngineCounters& counters() { return counters_; }
@@ -68,10 +71,9 @@ class Engine final : private StageInputs {
   WorkCount gnss_work() const { return gnss_ring_.count(); }
   WorkCount smoother_work() const { return smoother_ != nullptr ? smoother_->work() : WorkCount(); }
   WorkCount out_work() const { return publisher_.work(); }  // of all rings to `out`
-  // After start(): where the journal is written; empty: nowhere.
-  const std::string& journal_path() const { return journal_.path(); }
-  // Valid once counters().journal_failed is set.
-  const std::string& journal_error() const { return journal_.error(); }
+  const Journal& journal() const { return journal_; }
+  // Any thread: what is journaled around now is worth keeping.
+  void keep_journal() { journal_.keep(); }
   // What keeps the checkpoint's file from being written; empty: nothing.
   std::string checkpoint_error() const { return checkpoint_writer_.error(); }
 
@@ -81,13 +83,15 @@ class Engine final : private StageInputs {
   void push_gnss(const GnssWork& work) override { gnss_ring_.push(work); }
   void event(const Event& event) override { io_sink_.on_event(event); }
 
+  void refuse(Channel channel, InputFault fault, std::int64_t timestamp_us);
+  void write_refusals(InputFault fault, std::int64_t timestamp_us);
   void run_inertial();
   void run_gnss();
 
   DaemonConfig config_;
   EngineHooks hooks_;
   EngineCounters counters_;
-  JournalWriter journal_;
+  Journal journal_;
   Wakeup inertial_wakeup_, gnss_wakeup_, out_wakeup_;
   WorkRing<InertialWork> inertial_ring_;
   WorkRing<GnssWork> gnss_ring_;
@@ -100,6 +104,7 @@ class Engine final : private StageInputs {
   GnssStage gnss_;
   Sequencer sequencer_;
   InputDispatch dispatch_;
+  Refusals refusals_;
   std::atomic<bool> no_more_inputs_{false};
   bool started_ = false, finished_ = false;
   RealtimeThread inertial_thread_, gnss_thread_;

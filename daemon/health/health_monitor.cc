@@ -69,7 +69,7 @@ void HealthMonitor::evaluate(double now_s) {
   status_ = "OK";
   why_.clear();
   EngineCounters& counters = engine_->counters();
-  if (counters.journal_failed.get() != 0) worsen("FAULT", "journal: " + engine_->journal_error());
+  evaluate_journal();
   evaluate_solution(now_s);
   if (expects_imu_) evaluate_stream(counters.accepted_imu.get(), now_s, &imu_);
   evaluate_stream(counters.accepted_epochs.get(), now_s, &gnss_);
@@ -84,6 +84,18 @@ void HealthMonitor::evaluate(double now_s) {
   evaluate_count(counters.keyframes_skipped.get(), "keyframes skipped", &last_keyframes_skipped_);
   evaluate_count(sum(counters.lost), "inputs lost before they got here", &last_lost_);
   evaluate_count(static_cast<std::int64_t>(waits), "a queue was full", &last_waits_);
+}
+
+// The navigation needs no journal: what is missing in it is said, and the next piece may be whole.
+void HealthMonitor::evaluate_journal() {
+  const Journal& journal = engine_->journal();
+  const std::string failure = journal.failure();
+  if (!failure.empty()) worsen("FAULT", "journal: " + failure);
+  if (journal.is_stalled()) worsen("DEGRADED", "journal: the disk does not answer");
+  evaluate_count(journal.counters().lost_others.get(), "journal: messages are lost",
+                 &last_lost_journal_);
+  evaluate_count(journal.counters().lost_solutions.get(), "journal: solutions are left out",
+                 &last_left_out_);
 }
 
 // A mistake in the configuration or in what feeds the daemon: it stays until somebody has put it

@@ -39,6 +39,7 @@ class HealthMonitor {
   void evaluate_solution(double now_s);
   void evaluate_stream(std::int64_t number, double now_s, Stream* stream);
   void evaluate_levels();
+  void evaluate_journal();
   void evaluate_conventions();
   void evaluate_count(std::int64_t count, const char* reason, std::int64_t* last);
   void worsen(const char* status, const std::string& reason);
@@ -51,7 +52,8 @@ class HealthMonitor {
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
   std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_smoother_failures_ = 0,
-               last_keyframes_skipped_ = 0, last_lost_ = 0, last_waits_ = 0;
+               last_keyframes_skipped_ = 0, last_lost_ = 0, last_waits_ = 0, last_lost_journal_ = 0,
+               last_left_out_ = 0;
   std::string status_ = "OK", why_, suspicions_;
   std::vector<std::uint8_t> bytes_;
 };

@@ -91,6 +91,37 @@ class CheckpointLog {
   std::string last_error_;
 };
 
+// Each once: that the disk fails, what was lost, and that the journal goes on.
+class JournalLog {
+ public:
+  void look(const Journal& journal) {
+    const JournalCounters& counters = journal.counters();
+    const std::int64_t lost = counters.lost_others.get(), left_out = counters.lost_solutions.get();
+    const std::int64_t piece = counters.piece_number.get();
+    const bool loses = lost != last_lost_ || left_out != last_left_out_;
+    // At the end of a loss, when its size is known.
+    if (lost_ && !loses) {
+      spdlog::warn(
+          "journal: {} messages and {} solutions are missing so far; the disk was too slow", lost,
+          left_out);
+    }
+    lost_ = loses;
+    last_lost_ = lost;
+    last_left_out_ = left_out;
+    const std::string failure = journal.failure();
+    if (last_failure_.empty() && !failure.empty())
+      spdlog::error("journal: {}; a new piece is begun as soon as that can be done", failure);
+    if (!last_failure_.empty() && failure.empty())
+      spdlog::info("journal: written again, in piece {}", piece);
+    last_failure_ = failure;
+  }
+
+ private:
+  std::int64_t last_lost_ = 0, last_left_out_ = 0;
+  bool lost_ = false;
+  std::string last_failure_;
+};
+
 // Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
 // feeds the watchdog unless a thread hangs.
 void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
@@ -99,6 +130,8 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   const timespec second{1, 0};
   ThreadMonitor watch(engine);
   CheckpointLog checkpoint_log;
+  JournalLog journal_log;
+  bool had_answer = false;
   std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
@@ -113,6 +146,10 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
       spdlog::warn("not as it should be: {}", health->suspicions());
     last_suspicions = health->suspicions();
     checkpoint_log.look(engine);
+    journal_log.look(engine->journal());
+    // What led up to a fault is worth keeping; that there is no answer yet is none.
+    if (had_answer && health->status() == "FAULT") engine->keep_journal();
+    had_answer = health->status() != "FAULT";
     const std::string stalled_threads = watch.stalled_threads();
     if (stalled_threads.empty()) manager.feed_watchdog();
     if (!stalled_threads.empty() && stalled_threads != last_hanging)
@@ -152,6 +189,7 @@ int run(const DaemonConfig& config) {
   check_solve_time(config.navigator);
   take_stop_signals_in_this_thread();
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a failure of a write
 
   const ServiceManager manager;
   if (!manager.problem().empty()) spdlog::warn("{}", manager.problem());
@@ -175,10 +213,10 @@ int run(const DaemonConfig& config) {
   });
   if (!refused.empty()) spdlog::warn("{}", refused);
   spdlog::info("running; LCM {}, channels {}*, journal {}", config.lcm.url, config.lcm.prefix,
-               engine.journal_path().empty() ? "off" : engine.journal_path());
-  if (engine.journal_path() != config.journal.path) {
+               engine.journal().path().empty() ? "off" : engine.journal().path());
+  if (engine.journal().path() != config.journal.path) {
     spdlog::warn("journal {} exists and is kept; writing {}", config.journal.path,
-                 engine.journal_path());
+                 engine.journal().path());
   }
 
   HealthMonitor health(&engine, config.navigator);
@@ -193,7 +231,7 @@ int run(const DaemonConfig& config) {
   stop.store(true);
   io.join();
   if (!engine.finish()) {
-    spdlog::error("{}", engine.journal_error());
+    spdlog::error("{}", engine.journal().error());
     return kExitJournal;
   }
   if (io_failed.load()) {
@@ -203,7 +241,7 @@ int run(const DaemonConfig& config) {
   EngineCounters& counters = engine.counters();
   spdlog::info(
       "stopped; {} messages published, {} journaled, {} deadline misses, {} of the smoother",
-      counters.published.get(), counters.journaled.get(), counters.misses.get(),
+      counters.published.get(), engine.journal().counters().journaled.get(), counters.misses.get(),
       counters.smoother_misses.get());
   return 0;
 }

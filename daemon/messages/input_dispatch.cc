@@ -25,82 +25,101 @@ InputDispatch::InputDispatch(Sequencer* sequencer)
       antenna_(std::make_unique<AntennaPattern>()) {}
 
 void InputDispatch::dispatch(Channel channel, ByteSpan bytes) {
-  ++counters_.received[index_of(channel)];
-  DecodeResult result;
-  decode(channel, limit_length(bytes), &result);
-  if (result.fault != InputFault::kNone) {
-    sequencer_->on_rejected(result.fault);
+  if (channel == Channel::kRefused) {
+    if (const auto refused = decode_refused(bytes)) refuse(*refused);
     return;
   }
-  count_lost_messages(channel, result.sequence);
-  for (unsigned fault = 0; result.element_faults >> fault != 0; ++fault) {
-    if ((result.element_faults >> fault & 1U) != 0) {
+  const InputFault fault = decode(channel, bytes);
+  if (fault == InputFault::kNone) return accept();
+  ++counters_.received[index_of(channel)];
+  sequencer_->on_rejected(fault);
+}
+
+InputFault InputDispatch::decode(Channel channel, ByteSpan bytes) {
+  channel_ = channel;
+  result_ = decode_input(channel, limit_length(bytes));
+  return result_.fault;
+}
+
+void InputDispatch::accept() {
+  ++counters_.received[index_of(channel_)];
+  pass_on();
+  count_lost_messages(channel_, result_.sequence);
+  for (unsigned fault = 0; result_.element_faults >> fault != 0; ++fault) {
+    if ((result_.element_faults >> fault & 1U) != 0) {
       sequencer_->on_rejected(static_cast<InputFault>(fault));
     }
   }
 }
 
-void InputDispatch::decode(Channel channel, ByteSpan bytes, DecodeResult* result) {
-  const auto good = [result] { return result->fault == InputFault::kNone; };
+void InputDispatch::refuse(const RefusedInputs& refused) {
+  counters_.received[index_of(refused.channel)] += refused.count;
+  counters_.refused[index_of(refused.channel)] += refused.count;
+  sequencer_->on_refused(refused.fault, refused.count);
+}
+
+// Each value is made anew, so that nothing of a message that was refused is left in it.
+DecodeResult InputDispatch::decode_input(Channel channel, ByteSpan bytes) {
   switch (channel) {
-    case Channel::kImu: {
-      ImuSample sample;
-      *result = decoder_.decode(bytes, &sample);
-      if (good()) sequencer_->on_imu(sample);
-      break;
-    }
+    case Channel::kImu:
+      imu_ = ImuSample();
+      return decoder_.decode(bytes, &imu_);
     case Channel::kGnssEpoch:
-      *result = decoder_.decode(bytes, epoch_.get());
-      if (good()) sequencer_->on_raw_epoch(*epoch_);
-      break;
-    case Channel::kOdometer: {
-      OdometerIncrement increment;
-      *result = decoder_.decode(bytes, &increment);
-      if (good()) sequencer_->on_odometer(increment);
-      break;
-    }
-    case Channel::kEphemeris: {
-      Ephemeris ephemeris;
-      *result = decoder_.decode(bytes, &ephemeris);
-      if (good()) sequencer_->on_ephemeris(ephemeris);
-      break;
-    }
+      return decoder_.decode(bytes, epoch_.get());
+    case Channel::kOdometer:
+      odometer_ = OdometerIncrement();
+      return decoder_.decode(bytes, &odometer_);
+    case Channel::kEphemeris:
+      ephemeris_ = Ephemeris();
+      return decoder_.decode(bytes, &ephemeris_);
     case Channel::kOrbitClock:
-      *result = decoder_.decode(bytes, states_.get());
-      if (good()) sequencer_->on_precise_states(*states_);
-      break;
+      return decoder_.decode(bytes, states_.get());
     case Channel::kCorrectedStates:
-      *result = decoder_.decode(bytes, corrected_.get());
-      if (good()) sequencer_->on_corrected_states(*corrected_);
-      break;
+      return decoder_.decode(bytes, corrected_.get());
     case Channel::kBiases:
-      *result = decoder_.decode(bytes, biases_.get());
-      if (good()) sequencer_->on_signal_biases(*biases_);
-      break;
-    case Channel::kIonosphere: {
-      KlobucharModel model;
-      *result = decoder_.decode(bytes, &model);
-      if (good()) sequencer_->on_klobuchar(model);
-      break;
-    }
+      return decoder_.decode(bytes, biases_.get());
+    case Channel::kIonosphere:
+      ionosphere_ = KlobucharModel();
+      return decoder_.decode(bytes, &ionosphere_);
     case Channel::kAntenna:
-      *result = decoder_.decode(bytes, antenna_.get());
-      if (good()) sequencer_->on_antenna(*antenna_);
-      break;
-    case Channel::kCommand: {
-      Command command;
-      *result = decoder_.decode(bytes, &command);
-      if (good()) sequencer_->on_command(command);
-      break;
-    }
-    case Channel::kCheckpoint: {
-      Checkpoint checkpoint;
-      *result = decoder_.decode(bytes, &checkpoint);
-      if (good()) sequencer_->on_checkpoint(checkpoint);
-      break;
-    }
+      return decoder_.decode(bytes, antenna_.get());
+    case Channel::kCommand:
+      command_ = Command();
+      return decoder_.decode(bytes, &command_);
+    case Channel::kCheckpoint:
+      checkpoint_ = Checkpoint();
+      return decoder_.decode(bytes, &checkpoint_);
     default:
-      break;  // outputs are not ours to consume
+      return {};  // outputs are not ours to consume
+  }
+}
+
+void InputDispatch::pass_on() {
+  switch (channel_) {
+    case Channel::kImu:
+      return sequencer_->on_imu(imu_);
+    case Channel::kGnssEpoch:
+      return sequencer_->on_raw_epoch(*epoch_);
+    case Channel::kOdometer:
+      return sequencer_->on_odometer(odometer_);
+    case Channel::kEphemeris:
+      return sequencer_->on_ephemeris(ephemeris_);
+    case Channel::kOrbitClock:
+      return sequencer_->on_precise_states(*states_);
+    case Channel::kCorrectedStates:
+      return sequencer_->on_corrected_states(*corrected_);
+    case Channel::kBiases:
+      return sequencer_->on_signal_biases(*biases_);
+    case Channel::kIonosphere:
+      return sequencer_->on_klobuchar(ionosphere_);
+    case Channel::kAntenna:
+      return sequencer_->on_antenna(*antenna_);
+    case Channel::kCommand:
+      return sequencer_->on_command(command_);
+    case Channel::kCheckpoint:
+      return sequencer_->on_checkpoint(checkpoint_);
+    default:
+      return;
   }
 }
 

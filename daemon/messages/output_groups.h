@@ -16,6 +16,8 @@ inline constexpr std::array<std::string_view, 10> kOutputGroups = {
     "SOLUTION",   "DECISION",       "EPOCH",    "EVENT sequencer",   "EVENT inertial",
     "EVENT gnss", "EVENT smoother", "SMOOTHER", "DECISION keyframe", "SMOOTHED"};
 
+inline constexpr std::size_t kSolutionGroup = 0, kEpochGroup = 2, kSmoothedGroup = 9;
+
 // nullopt: not compared (inputs; HEALTH, which depends on the machine).
 std::optional<std::size_t> output_group(Channel channel, ByteSpan bytes);
 

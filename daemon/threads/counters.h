@@ -50,7 +50,7 @@ using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
 struct EngineCounters {
   // io
   Gauge io_rounds;  // polls for messages, with or without one
-  std::array<Gauge, kInputChannels.size()> received, lost;
+  std::array<Gauge, kInputChannels.size()> received, refused, lost;
   std::array<Gauge, 16> rejected;  // by InputFault
   Gauge odometer_age_ms;           // -1: none came
   Gauge accepted_odometer, late_odometer;
@@ -84,7 +84,7 @@ struct EngineCounters {
   // main
   Gauge unpublished;  // messages of HEALTH that found no room
   // out
-  Gauge published, journaled, journal_failed;
+  Gauge published;
 };
 
 }  // namespace leonav

@@ -7,7 +7,13 @@ namespace leonav {
 MessageRing::MessageRing(std::size_t capacity_bytes, Wakeup* consumer)
     : capacity_(std::max(capacity_bytes, 2 * sizeof(Buffer))),
       queue_(capacity_),
-      consumer_(consumer) {}
+      consumer_(consumer) {
+  // Every page is touched once, so that the process does not grow as the ring goes round.
+  outgoing_.fill(0);
+  while (queue_.push(outgoing_.data(), outgoing_.size()) > 0) {
+  }
+  queue_.reset();
+}
 
 void MessageRing::push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes) {
   if (try_push(channel, timestamp_us, bytes)) return;

@@ -32,6 +32,15 @@ class MessageRing {
   // As push(), but where there is no room it returns false instead of waiting.
   bool try_push(Channel channel, std::int64_t timestamp_us, ByteSpan bytes);
 
+  // Producer: the share of the ring that is in use, at most.
+  double fill() const {
+    return 1.0 - static_cast<double>(queue_.write_available()) / static_cast<double>(capacity_);
+  }
+
+  // Consumer: the share of the ring that waits, at least.
+  double waiting() const {
+    return static_cast<double>(queue_.read_available()) / static_cast<double>(capacity_);
+  }
   // Consumer: calls use(header, bytes) on the oldest message. False: empty.
   template <typename Use>
   bool consume_one(Use&& use) {

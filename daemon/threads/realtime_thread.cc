@@ -7,21 +7,13 @@
 #include <utility>
 
 namespace leonav {
-namespace {
-
-// Locked memory counts whole stacks, so they are no larger than they must be; the GNSS stage keeps
-// matrices of some hundred kilobytes on its own.
-constexpr std::size_t kStackBytes = 4U << 20;
-
-}  // namespace
-
 std::string RealtimeThread::start(const std::string& name, const ThreadConfig& config,
-                                  std::function<void()> body) {
+                                  std::function<void()> body, std::size_t stack_bytes) {
   body_ = std::move(body);
   name_ = "leonav-" + name;
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_attr_setstacksize(&attributes, stack_bytes);
   const auto entry = [](void* self) -> void* {
     auto* thread = static_cast<RealtimeThread*>(self);
     pthread_setname_np(pthread_self(), thread->name_.c_str());
@@ -57,6 +49,12 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
 void RealtimeThread::join() {
   if (!running_) return;
   pthread_join(thread_, nullptr);
+  running_ = false;
+}
+
+void RealtimeThread::detach() {
+  if (!running_) return;
+  pthread_detach(thread_);
   running_ = false;
 }
 

@@ -1,4 +1,5 @@
-// Messages of the daemon are stamped with the wall-clock time.
+// These functions give the time: of the wall clock, by which messages are stamped, and one that is
+// never set.
 #pragma once
 #include <cstdint>
 
@@ -6,5 +7,8 @@ namespace leonav {
 
 // As LCM logs stamp it: microseconds since 1970.
 std::int64_t wall_clock_us();
+
+// Nanoseconds of a clock that never goes back; only differences have a meaning.
+std::int64_t monotonic_ns();
 
 }  // namespace leonav

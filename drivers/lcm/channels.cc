@@ -6,7 +6,8 @@ namespace {
 constexpr std::array<std::string_view, kChannelCount> kNames = {
     "IMU",    "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE", "ANTENNA", "CORRECTED_STATES",
     "BIASES", "COMMAND",    "ODOMETER",  "CHECKPOINT",  "SOLUTION",   "EPOCH",   "CONSTRAINTS",
-    "EVENT",  "DECISION",   "SMOOTHER",  "SMOOTHED",    "HEALTH",     "CONFIG",  "END"};
+    "EVENT",  "DECISION",   "SMOOTHER",  "SMOOTHED",    "HEALTH",     "CONFIG",  "END",
+    "PIECE",  "REFUSED",    "LOST"};
 
 }  // namespace
 

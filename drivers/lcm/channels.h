@@ -10,7 +10,7 @@ namespace leonav {
 
 inline constexpr std::string_view kDefaultChannelPrefix = "LEONAV_";
 
-// The channels; inputs come first.
+// The channels; inputs come first. refused_t holds the number of an input: append only.
 enum class Channel : std::uint8_t {
   // inputs
   kImu,
@@ -33,10 +33,14 @@ enum class Channel : std::uint8_t {
   kSmoother,
   kSmoothed,
   kHealth,
-  kConfig,  // in journals only: the first message
-  kEnd,     // in journals only: the last message
+  // in journals only
+  kConfig,   // the first message
+  kEnd,      // the last message
+  kPiece,    // behind the configuration: which piece of which journal this is
+  kRefused,  // inputs that are counted, not held
+  kLost,     // messages are missing here
 };
-inline constexpr std::size_t kChannelCount = 21;
+inline constexpr std::size_t kChannelCount = 24;
 inline constexpr std::array<Channel, 11> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris,       Channel::kOrbitClock,
     Channel::kIonosphere, Channel::kAntenna,   Channel::kCorrectedStates, Channel::kBiases,
@@ -45,6 +49,10 @@ inline constexpr std::array<Channel, 11> kInputChannels = {
 constexpr std::size_t index_of(Channel channel) { return static_cast<std::size_t>(channel); }
 // Returns whether leonav receives the channel.
 constexpr bool is_input(Channel channel) { return channel <= Channel::kCheckpoint; }
+// Returns whether a replay consumes the channel.
+constexpr bool is_replayed(Channel channel) {
+  return is_input(channel) || channel == Channel::kRefused;
+}
 // Returns whether the channel carries products: orbits, clocks, ionosphere, antennas, biases. Their
 // senders repeat them regardless of the vehicle.
 constexpr bool is_product(Channel channel) {

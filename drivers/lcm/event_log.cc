@@ -2,38 +2,25 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <utility>
+
+#include "drivers/lcm/event_header.h"
+#include "drivers/lcm/journal_pieces.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
-constexpr std::size_t kHeaderBytes = 28;
-constexpr std::uint32_t kMaxChannelBytes = 999;  // liblcm has the same limit
-// Messages of liblcm have at most some megabytes.
-constexpr std::uint32_t kMaxDataBytes = 64U << 20;
-
-std::uint64_t get(const std::uint8_t* bytes, int count) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
-  return value;
-}
-
-void put(std::uint64_t value, int count, std::uint8_t* bytes) {
-  for (int i = count - 1; i >= 0; --i, value >>= 8) bytes[i] = static_cast<std::uint8_t>(value);
-}
+// Further than any run counts; sums stay far from the end of the range.
+constexpr std::int64_t kMostEvents = std::numeric_limits<std::int64_t>::max() / 4;
 
 }  // namespace
 
-EventLogReader::EventLogReader(const std::string& path) : path_(path) {
+EventFileReader::EventFileReader(const std::string& path) : path_(path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw EventLogError(path + ": is a directory, not an LCM log");
-  }
   file_.reset(std::fopen(path.c_str(), "rb"));
   if (file_ == nullptr) {
     throw EventLogError(path + ": cannot be opened: " + std::strerror(errno));
@@ -43,35 +30,35 @@ EventLogReader::EventLogReader(const std::string& path) : path_(path) {
   if (size_ == 0) throw EventLogError(path + ": is empty; expected an LCM log");
 }
 
-bool EventLogReader::next(LogEvent* event) {
-  std::array<std::uint8_t, kHeaderBytes> header;
-  const std::size_t got = std::fread(header.data(), 1, header.size(), file_.get());
+bool EventFileReader::next(LogEvent* event) {
+  EventHeaderBytes bytes;
+  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file_.get());
   if (got == 0 && std::ferror(file_.get()) == 0) return false;
   if (std::ferror(file_.get()) != 0)
     damaged(std::string("cannot be read: ") + std::strerror(errno));
-  if (got >= 4 && get(header.data(), 4) != kSyncWord) {
+  if (got >= 4 && !begins_event(bytes.data(), got)) {
     damaged(position_ == 0 ? "is not an LCM log (no sync word at its start)"
                            : "no event starts here; the log is damaged");
   }
-  if (got < header.size()) {
+  if (got < bytes.size()) {
     truncated_ = true;
     return false;
   }
-  const auto channel_bytes = static_cast<std::uint32_t>(get(&header[20], 4));
-  const auto data_bytes = static_cast<std::uint32_t>(get(&header[24], 4));
-  if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes) {
+  const EventHeader header = *decode_event_header(bytes);
+  const std::uint32_t channel_bytes = header.channel_bytes, data_bytes = header.data_bytes;
+  if (channel_bytes == 0 || channel_bytes > kMaxEventChannelBytes) {
     damaged("event with a channel name of " + std::to_string(channel_bytes) + " bytes");
   }
-  if (data_bytes > kMaxDataBytes) {
+  if (data_bytes > kMaxEventDataBytes) {
     damaged("event with " + std::to_string(data_bytes) + " bytes of data");
   }
-  const auto end = position_ + static_cast<std::int64_t>(kHeaderBytes + channel_bytes + data_bytes);
+  const auto end = position_ + static_cast<std::int64_t>(header.event_bytes());
   if (end > size_) {  // checked before the header's lengths allocate anything
     truncated_ = true;
     return false;
   }
-  event->number = static_cast<std::int64_t>(get(&header[4], 8));
-  event->timestamp_us = static_cast<std::int64_t>(get(&header[12], 8));
+  event->number = header.number;
+  event->timestamp_us = header.timestamp_us;
   event->channel.resize(channel_bytes);
   event->data.resize(data_bytes);
   if (std::fread(event->channel.data(), 1, channel_bytes, file_.get()) != channel_bytes ||
@@ -83,8 +70,47 @@ bool EventLogReader::next(LogEvent* event) {
   return true;
 }
 
-void EventLogReader::damaged(const std::string& what) const {
+void EventFileReader::damaged(const std::string& what) const {
   throw EventLogError(path_ + ": byte " + std::to_string(position_) + ": " + what);
+}
+
+EventLogReader::EventLogReader(const std::string& path) {
+  LogFiles files = journal_pieces(path);
+  paths_ = std::move(files.paths);
+  first_piece_ = files.first_piece;
+  std::error_code error;
+  for (const std::string& one : paths_) {
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(one, error));
+    size_ = error ? std::numeric_limits<std::int64_t>::max() : size_ + size;
+    if (error) break;
+  }
+  open_next_file();
+}
+
+bool EventLogReader::open_next_file() {
+  if (opened_ == paths_.size()) return false;
+  if (file_ != nullptr) passed_ += file_->position_bytes();
+  file_ = std::make_unique<EventFileReader>(paths_[opened_++]);
+  return true;
+}
+
+bool EventLogReader::next(LogEvent* event) {
+  for (;;) {
+    if (!file_->next(event)) {
+      if (!open_next_file()) return false;
+      continue;
+    }
+    if (!first_piece_) return true;
+    if (event->number < 0 || event->number > kMostEvents) {
+      throw EventLogError(paths_[opened_ - 1] + ": event with the number " +
+                          std::to_string(event->number) + "; the log is damaged");
+    }
+    // What a piece repeats: its beginning, and what a failing disk had taken after all.
+    if (event->number < next_number_) continue;
+    missing_ += event->number - next_number_;
+    next_number_ = event->number + 1;
+    return true;
+  }
 }
 
 EventLogWriter::EventLogWriter(const std::string& path) : path_(path) {
@@ -97,12 +123,9 @@ EventLogWriter::EventLogWriter(const std::string& path) : path_(path) {
 bool EventLogWriter::write(std::int64_t timestamp_us, std::string_view channel,
                            std::span<const std::uint8_t> data) {
   if (!error_.empty()) return false;
-  std::array<std::uint8_t, kHeaderBytes> header;
-  put(kSyncWord, 4, &header[0]);
-  put(static_cast<std::uint64_t>(next_number_), 8, &header[4]);
-  put(static_cast<std::uint64_t>(timestamp_us), 8, &header[12]);
-  put(channel.size(), 4, &header[20]);
-  put(data.size(), 4, &header[24]);
+  const EventHeaderBytes header =
+      encode_event_header({next_number_, timestamp_us, static_cast<std::uint32_t>(channel.size()),
+                           static_cast<std::uint32_t>(data.size())});
   const auto write_all = [this](const void* bytes, std::size_t size) {
     return size == 0 || std::fwrite(bytes, 1, size, file_.get()) == size;
   };

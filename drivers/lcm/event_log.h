@@ -2,18 +2,19 @@
 //
 // The class lcm::LogFile of liblcm ends silently where a log is damaged and ignores a full disk
 // when writing; a journal must report both.
-//
-// Format (LCM documentation, "Log file format"), big endian: sync word 0xEDA1DA01, event number
-// (8 bytes), timestamp in microseconds (8), channel length (4), data length (4), channel, data.
+// event_header.h has the format.
 #pragma once
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "drivers/lcm/journal_marks.h"
 
 namespace leonav {
 
@@ -37,11 +38,11 @@ struct FileCloser {
 };
 using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
-// EventLogReader reads a log event by event.
-class EventLogReader {
+// EventFileReader reads one file event by event.
+class EventFileReader {
  public:
   // Throws EventLogError if the file cannot be opened or is empty.
-  explicit EventLogReader(const std::string& path);
+  explicit EventFileReader(const std::string& path);
 
   // Reads the next event and returns true, or false at the end. Throws EventLogError with the byte
   // where the log is damaged. A last event that is cut short, as by a power failure, is the end;
@@ -61,6 +62,39 @@ class EventLogReader {
   FileHandle file_;
   std::int64_t size_ = 0, position_ = 0;
   bool truncated_ = false;
+};
+
+// EventLogReader reads a log event by event: a file, or the pieces of a journal as one log.
+class EventLogReader {
+ public:
+  // `path`: a log, a piece of a journal, with which its later pieces are read, or a folder with the
+  // pieces of one journal (journal_pieces.h). Throws EventLogError if it cannot be opened or is
+  // empty.
+  explicit EventLogReader(const std::string& path);
+
+  // Reads the next event, as EventFileReader does. The pieces of a journal give each event once.
+  bool next(LogEvent* event);
+
+  // Whether the last file ends with an event that is cut short.
+  bool truncated() const { return file_->truncated(); }
+  // Returns the number of events of a journal that are missing before the last one read, because
+  // pieces are: they were deleted, or are damaged at their ends.
+  std::int64_t missing() const { return missing_; }
+  // The first of the pieces; nullopt: the log has none.
+  const std::optional<PieceInfo>& first_piece() const { return first_piece_; }
+  // Of all files.
+  std::int64_t size_bytes() const { return size_; }
+  std::int64_t position_bytes() const { return passed_ + file_->position_bytes(); }
+
+ private:
+  bool open_next_file();
+
+  std::vector<std::string> paths_;
+  std::optional<PieceInfo> first_piece_;
+  std::size_t opened_ = 0;  // of paths_
+  std::unique_ptr<EventFileReader> file_;
+  std::int64_t size_ = 0, passed_ = 0;  // bytes of all files, of those before the open one
+  std::int64_t next_number_ = 0, missing_ = 0;
 };
 
 // EventLogWriter writes a log and keeps the first error.

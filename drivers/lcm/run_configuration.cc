@@ -52,12 +52,12 @@ std::optional<RunConfiguration> decode_run_configuration(ByteSpan bytes) {
   return configuration;
 }
 
-std::vector<std::uint8_t> encode_journal_end(std::int64_t messages) {
+std::array<std::uint8_t, kJournalEndBytes> encode_journal_end(std::int64_t messages) {
   end_t message{};
   message.sequence = 1;
   message.schema = wire::kSchema;
   message.messages = messages;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  std::array<std::uint8_t, kJournalEndBytes> bytes{};
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
 }

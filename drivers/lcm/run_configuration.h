@@ -1,5 +1,7 @@
 // These functions encode the first and the last message of a journal: configuration and clean stop.
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,8 +24,11 @@ std::vector<std::uint8_t> encode(const RunConfiguration& configuration);
 // Returns the configuration; nullopt: the message is damaged or has another schema.
 std::optional<RunConfiguration> decode_run_configuration(ByteSpan bytes);
 
+inline constexpr std::size_t kJournalEndBytes = 8 + 8 + 8 + 4 + 8;
+
 // Encodes the last message; `messages` is the number of messages before it.
-std::vector<std::uint8_t> encode_journal_end(std::int64_t messages);
+// Allocates nothing.
+std::array<std::uint8_t, kJournalEndBytes> encode_journal_end(std::int64_t messages);
 
 // Returns the number of messages; nullopt: the message is damaged or has another schema.
 std::optional<std::int64_t> decode_journal_end(ByteSpan bytes);

@@ -27,9 +27,13 @@ inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;
 // endian, without padding. The messages have their counts before their arrays: the Decoder checks
 // them before it calls the generated decoder, which resizes its vectors to any count in the
 // message.
+inline constexpr std::size_t kTimeOffset = 8;
+inline constexpr std::size_t kSequenceOffset = 16;
 inline constexpr std::size_t kSchemaOffset = 24;  // after fingerprint, time_ns, sequence
 inline constexpr std::size_t kFirstCountOffset = 28;
 inline constexpr std::size_t kEventStageOffset = 28;
+inline constexpr std::size_t kEventKindOffset = 29;
+inline constexpr std::size_t kEventCodeOffset = 30;
 inline constexpr std::size_t kDecisionMailboxOffset = 36;
 
 // Flags of gnss_observation_t.
@@ -50,6 +54,12 @@ inline std::uint32_t read_uint32(std::span<const std::uint8_t> bytes, std::size_
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[offset + i];
   return value;
+}
+
+// The same of 8 bytes.
+inline std::int64_t read_int64(std::span<const std::uint8_t> bytes, std::size_t offset) {
+  const auto high = static_cast<std::uint64_t>(read_uint32(bytes, offset));
+  return static_cast<std::int64_t>(high << 32 | read_uint32(bytes, offset + 4));
 }
 
 }  // namespace leonav::wire

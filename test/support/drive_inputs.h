@@ -45,6 +45,7 @@ inline DaemonConfig drive_config() {
   config.navigator.ekf.use_carrier = true;
   config.navigator.ekf.wet_delay_sigma_m = 0.1;
   config.threads.lock_memory = false;
+  config.journal.buffer_mb = 64.0;  // messages come much faster than from sensors
   return config;
 }
 

@@ -37,7 +37,37 @@ void note_answer(ByteSpan bytes, Decoder* decoder, JournalScan* scan) {
   scan->delivered.push_back(decision_of(report));
 }
 
+void note_loss(ByteSpan bytes, JournalScan* scan) {
+  const auto lost = decode_lost(bytes);
+  if (!lost) return;
+  scan->lost.solutions += lost->solutions;
+  scan->lost.others += lost->others;
+}
+
 }  // namespace
+
+std::vector<std::string> JournalScan::losses() const {
+  std::vector<std::string> list;
+  const auto count = [](auto number) { return std::to_string(number); };
+  if (first_piece > 1) {
+    list.push_back("the journal begins with piece " + count(first_piece) +
+                   ": the pieces before it are gone, and so is the state in which it begins. The "
+                   "replay begins as the service would that is started there");
+  }
+  if (missing > 0)
+    list.push_back(count(missing) + " messages are missing with pieces that are gone");
+  if (lost.others > 0) {
+    list.push_back(count(lost.others) +
+                   " messages are missing which the disk did not take in time. From the first of "
+                   "them on the replay is another run");
+  }
+  if (lost.solutions > 0) {
+    list.push_back(count(lost.solutions) +
+                   " SOLUTION were not recorded because the disk was too slow; they are "
+                   "regenerated");
+  }
+  return list;
+}
 
 JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   EventLogReader log(path);
@@ -45,6 +75,10 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   JournalScan scan;
   LogEvent event;
   std::optional<OutputSchema> schema;
+  if (const auto& piece = log.first_piece()) {
+    scan.outputs = piece->outputs;
+    scan.first_piece = piece->number;
+  }
   for (std::int64_t before = 0; log.next(&event); ++before) {
     const auto channel = channel_from_name(event.channel, prefix);
     if (!channel) {
@@ -55,6 +89,9 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
     ++scan.messages[index_of(*channel)];
     scan.stopped_cleanly = *channel == Channel::kEnd && decode_journal_end(event.data) == before;
     if (!schema) schema = output_schema_of(*channel, event.data);
+    if (*channel == Channel::kLost) note_loss(event.data, &scan);
+    scan.missing = log.missing();
+    if (scan.is_broken()) continue;
     if (*channel == Channel::kSmoother) note_answer(event.data, &decoder, &scan);
     if (*channel != Channel::kDecision) continue;
     Decision decision;

@@ -8,6 +8,7 @@
 
 #include "daemon/messages/output_groups.h"
 #include "drivers/lcm/channels.h"
+#include "drivers/lcm/journal_marks.h"
 #include "drivers/lcm/output_schema.h"
 
 namespace leonav {
@@ -21,11 +22,21 @@ struct JournalScan {
   // Results of the smoother with their iterations; the last epochs have no decision yet.
   std::vector<Decision> delivered;
   OutputSchema output_schema = OutputSchema::kNewest;  // of the first output that has one
-  bool truncated = false;                              // the last event is cut short
+  RecordedOutputs outputs = RecordedOutputs::kAll;     // that the journal was to hold
+  // Messages that the disk did not take in time, over the whole journal.
+  LostMessages lost;
+  std::int64_t first_piece = 1;  // number of the piece that the log begins with
+  std::int64_t missing = 0;      // messages in pieces that are gone
+  bool truncated = false;        // the last event is cut short
   bool stopped_cleanly = false;  // its last message is the end mark, and none is missing
 
   std::uint64_t inputs() const;
   std::string describe() const;  // "IMU 100, GNSS_EPOCH 3, ..."
+  // Returns whether a replay is the run only up to the place where messages are missing. Decisions
+  // behind it are not in `decisions`, because they are of other epochs than the replay's.
+  bool is_broken() const { return missing > 0 || lost.others > 0; }
+  // Returns what is missing, in sentences for the user.
+  std::vector<std::string> losses() const;
   // Returns whether leonavd wrote the log: its configuration first, a decision per epoch, and an
   // end mark.
   bool is_journal() const;

@@ -21,7 +21,9 @@ Arguments declare() {
   Arguments arguments(
       "leonav-replay", "[--config FILE | --preset NAME] --out DIR [options] run.lcmlog",
       "Feeds an LCM log (of lcm-logger, leonav-import or leonavd's journal) to the "
-      "navigator and writes\nits answers as tables. A journal holds its own configuration, which "
+      "navigator and writes\nits answers as tables. The first piece of a journal stands for all "
+      "its "
+      "pieces, and so does their folder. A journal holds its own configuration, which "
       "is the "
       "default. Its deadline misses are\nobeyed, so that its run comes again bit for bit.\nExit "
       "codes: 0 done; 1 a file or the "
@@ -83,13 +85,21 @@ std::string verdict(const ReplayRun& run, const JournalScan& scan, bool inertial
     }
     out << "verified " << verifier->compared() << " outputs, " << verifier->differences()
         << " differences\n";
-    if (!scan.stopped_cleanly) {
+    if (verifier->unrecorded() > 0) {
+      out << "not in the journal, and so not compared: " << verifier->unrecorded() << " outputs\n";
+    }
+    if (scan.is_broken()) {
+      out << "the journal has messages missing; regenerated behind the first of them: "
+          << verifier->beyond_end() << "\n";
+    } else if (!scan.stopped_cleanly) {
       out << "the journal was cut; regenerated beyond its end: " << verifier->beyond_end() << "\n";
     }
     if (verifier->differences() > 0) {
       return "the replay differs from the journal: " + verifier->first_difference() +
              (other_run.empty() ? "" : "; " + other_run);
     }
+    if (verifier->compared() == 0 && scan.is_broken())
+      return "nothing to verify: the journal lacks the beginning of its run";
     if (verifier->compared() == 0) return "nothing to verify: the log holds no recorded outputs";
   }
   return no_answer(run, scan, inertial);
@@ -105,7 +115,8 @@ void write_text(const std::string& path, const std::string& text) {
 int replay(int argc, char** argv) {
   Arguments arguments = declare();
   if (!arguments.parse(argc, argv)) return 0;
-  if (arguments.positional().size() != 1) throw UsageError("expected one log file");
+  if (arguments.positional().size() != 1)
+    throw UsageError("expected one log, or one folder with the pieces of a journal");
   ReplayRun::Options options;
   options.log = arguments.positional().front();
   options.out_folder = arguments.required("--out");
@@ -128,7 +139,9 @@ int replay(int argc, char** argv) {
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
   if (scan.truncated) summary << "warning: " << options.log << kCutShort;
   run.print_summary(summary);
-  for (const std::string& warning : run.warnings()) {
+  std::vector<std::string> warnings = scan.losses();
+  for (std::string& one : run.warnings()) warnings.push_back(std::move(one));
+  for (const std::string& warning : warnings) {
     summary << "warning: " << warning << "\n";
     std::cerr << "leonav-replay: WARNING: " << warning << "\n";
   }

@@ -20,7 +20,7 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       encoder_(this, scan.output_schema),
       navigator_(config.navigator, this),
       dispatch_(&navigator_.sequencer()) {
-  if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
+  if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_, scan_);
   for (const Decision& delivered : scan_.delivered) navigator_.record(delivered);
   for (const Decision& decision : scan_.decisions) navigator_.record(decision);
 }
@@ -32,14 +32,14 @@ void ReplayRun::run() {
   while (log.next(&event)) {
     const auto channel = channel_from_name(event.channel, prefix_);
     if (channel && is_input(*channel)) note_time(*channel, event.timestamp_us);
-    if (channel && is_input(*channel)) dispatch_.dispatch(*channel, event.data);
+    if (channel && is_replayed(*channel)) dispatch_.dispatch(*channel, event.data);
     if (log.position_bytes() >= next_progress) {
       std::cerr << "leonav-replay: " << 100 * log.position_bytes() / log.size_bytes() << " %\n";
       next_progress += log.size_bytes() / 10;
     }
   }
   files_.close();
-  if (verifier_ != nullptr) verifier_->finish(scan_.stopped_cleanly);
+  if (verifier_ != nullptr) verifier_->finish(scan_.stopped_cleanly && !scan_.is_broken());
 }
 
 void ReplayRun::note_time(Channel channel, std::int64_t stamp_us) {
@@ -95,10 +95,11 @@ void ReplayRun::print_summary(std::ostream& out) {
           << "\n";
     }
   }
-  const auto& rejected = navigator_.sequencer().counters().rejected;
-  for (std::size_t i = 0; i < rejected.size(); ++i) {
-    if (rejected[i] == 0) continue;
-    out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << rejected[i] << "\n";
+  const Sequencer::Counters& inputs = navigator_.sequencer().counters();
+  for (std::size_t i = 0; i < inputs.rejected.size(); ++i) {
+    const std::uint64_t count = inputs.rejected[i] + inputs.refused[i];
+    if (count == 0) continue;
+    out << "rejected " << to_string(static_cast<InputFault>(i)) << ": " << count << "\n";
   }
   statistics_.print(out);
   print_odometer(out);

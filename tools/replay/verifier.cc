@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "drivers/lcm/wire.h"
+
 namespace leonav {
 namespace {
 
@@ -14,32 +16,63 @@ std::string hex(std::uint8_t byte) {
 
 }  // namespace
 
-Verifier::Verifier(const std::string& journal, const std::string& prefix) : prefix_(prefix) {
+Verifier::Verifier(const std::string& journal, const std::string& prefix, const JournalScan& scan)
+    : prefix_(prefix),
+      outputs_(scan.outputs),
+      thinned_(scan.outputs != RecordedOutputs::kAll || scan.lost.solutions > 0) {
   for (Group& group : groups_) group.log = std::make_unique<EventLogReader>(journal);
 }
 
 bool Verifier::next_recorded(std::size_t group) {
   Group& state = groups_[group];
+  if (state.waits) return true;
   while (!state.ended) {
-    if (!state.log->next(&event_)) {
+    if (!state.log->next(&state.event) || state.log->missing() > 0) {
       state.ended = true;
       break;
     }
-    const auto channel = channel_from_name(event_.channel, prefix_);
-    if (!channel || output_group(*channel, event_.data) != group) continue;
+    const auto channel = channel_from_name(state.event.channel, prefix_);
+    if (!channel) continue;
+    if (*channel == Channel::kLost) {
+      const auto lost = decode_lost(state.event.data);
+      state.ended = lost && lost->others > 0;
+    }
+    if (output_group(*channel, state.event.data) != group) continue;
     ++state.count;
+    state.waits = true;
     return true;
   }
   return false;
 }
 
+// With journal.outputs: none.
+bool Verifier::is_absent(std::size_t group) const {
+  return outputs_ == RecordedOutputs::kNone &&
+         (group == kSolutionGroup || group == kEpochGroup || group == kSmoothedGroup);
+}
+
+// Which SOLUTION the next recorded one is, is known by its number.
+bool Verifier::was_left_out(std::size_t group, ByteSpan regenerated) {
+  if (group != kSolutionGroup || !thinned_ || !next_recorded(group)) return false;
+  const auto number = [](ByteSpan bytes) {
+    return bytes.size() < wire::kSchemaOffset ? 0 : wire::read_int64(bytes, wire::kSequenceOffset);
+  };
+  return number(regenerated) < number(groups_[group].event.data);
+}
+
 void Verifier::compare(std::size_t group, ByteSpan regenerated) {
+  if (is_absent(group) || was_left_out(group, regenerated)) {
+    ++unrecorded_;
+    return;
+  }
   if (!next_recorded(group)) {
-    ++beyond_end_;
+    // Behind the last one that was recorded.
+    ++(group == kSolutionGroup && thinned_ ? unrecorded_ : beyond_end_);
     return;
   }
   ++compared_;
-  const auto& recorded = event_.data;
+  groups_[group].waits = false;
+  const auto& recorded = groups_[group].event.data;
   const auto [mine, theirs] =
       std::mismatch(regenerated.begin(), regenerated.end(), recorded.begin(), recorded.end());
   if (mine == regenerated.end() && theirs == recorded.end()) return;
@@ -56,7 +89,8 @@ void Verifier::compare(std::size_t group, ByteSpan regenerated) {
 
 void Verifier::finish(bool complete) {
   for (std::size_t group = 0; group < groups_.size(); ++group) {
-    while (next_recorded(group)) differ(group, "recorded, but not regenerated");
+    for (; next_recorded(group); groups_[group].waits = false)
+      differ(group, "recorded, but not regenerated");
   }
   if (beyond_end_ > 0 && complete) {
     differences_ += beyond_end_;

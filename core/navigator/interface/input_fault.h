@@ -1,5 +1,6 @@
 // InputFault states why an input message was not used.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -19,6 +20,7 @@ enum class InputFault : std::uint8_t {
   kTooFarAhead = 9,    // the stamp is far later than all other inputs
   kOverlap = 10,       // the interval overlaps the previous one
 };
+inline constexpr std::size_t kInputFaultCount = 11;
 // Returns the name of a fault as outputs show it, for instance "not_finite".
 std::string_view to_string(InputFault fault);
 

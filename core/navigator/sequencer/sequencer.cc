@@ -265,6 +265,20 @@ void Sequencer::push_command(const Command& command) {
 
 void Sequencer::on_rejected(InputFault fault) { reject(fault); }
 
+void Sequencer::on_refused(InputFault fault, std::uint64_t count) {
+  const auto index = static_cast<std::size_t>(fault);
+  if (index >= counters_.refused.size() || count == 0) return;
+  counters_.refused[index] += count;
+  if (is_event_due(counters_.refused[index])) {
+    emit(EventKind::kRejectedInput, static_cast<std::uint8_t>(fault), 0.0);
+  }
+}
+
+bool Sequencer::is_refusal_due(InputFault fault) const {
+  const auto index = static_cast<std::size_t>(fault);
+  return index < counters_.refused.size() && is_event_due(counters_.refused[index] + 1);
+}
+
 void Sequencer::reject(InputFault fault) {
   const auto index = static_cast<std::size_t>(fault);
   if (index >= counters_.rejected.size()) return;

@@ -86,8 +86,15 @@ class Sequencer {
   void on_antenna(const AntennaPattern& pattern);
   void on_command(const Command& command);
   void on_checkpoint(const Checkpoint& checkpoint);
-  // Counts and reports a message that was refused before it reached the Sequencer.
+  // Counts and reports a message that was refused before it reached the Sequencer, or an element of
+  // one.
   void on_rejected(InputFault fault);
+  // Does the same for `count` messages that a journal counts instead of holding them. They have
+  // counters and a thinning of their own, so that the journal need only tell the number at each
+  // event: nothing else depends on when they came.
+  void on_refused(InputFault fault, std::uint64_t count);
+  // Returns whether the next refused message of this fault is reported by an event.
+  bool is_refusal_due(InputFault fault) const;
 
   // Numbers of inputs and epochs since construction.
   struct Counters {
@@ -97,6 +104,7 @@ class Sequencer {
     std::uint64_t odometer = 0, late_odometer = 0;  // accepted; accepted but too late to be used
     std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter (ImuTimeline)
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
+    std::array<std::uint64_t, 16> refused{};   // of on_refused(), the same
   };
   const Counters& counters() const { return counters_; }
   // Returns the end of the last accepted IMU sample; may be unset.

@@ -18,11 +18,12 @@ void copy_input_counters(const InputDispatch& dispatch, const Sequencer& sequenc
   const InputDispatch::Counters& inputs = dispatch.counters();
   for (std::size_t i = 0; i < kInputChannels.size(); ++i) {
     counters->received[i].set(static_cast<std::int64_t>(inputs.received[i]));
+    counters->refused[i].set(static_cast<std::int64_t>(inputs.refused[i]));
     counters->lost[i].set(static_cast<std::int64_t>(inputs.lost[i]));
   }
   const Sequencer::Counters& from = sequencer.counters();
   for (std::size_t i = 0; i < from.rejected.size(); ++i) {
-    counters->rejected[i].set(static_cast<std::int64_t>(from.rejected[i]));
+    counters->rejected[i].set(static_cast<std::int64_t>(from.rejected[i] + from.refused[i]));
   }
   counters->accepted_imu.set(static_cast<std::int64_t>(from.imu));
   counters->accepted_epochs.set(static_cast<std::int64_t>(from.epochs));

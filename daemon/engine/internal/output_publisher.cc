@@ -12,15 +12,13 @@ constexpr std::size_t kMainOutBytes = 128 << 10;
 }  // namespace
 
 OutputPublisher::OutputPublisher(const OutputRings& rings, Wakeup* wakeup, MessageTarget* target,
-                                 JournalWriter* journal, EngineCounters* counters,
-                                 double flush_interval_s)
+                                 Journal* journal, EngineCounters* counters)
     : rings_(rings),
       wakeup_(wakeup),
       main_ring_(kMainOutBytes, wakeup),
       target_(target),
       journal_(journal),
-      counters_(counters),
-      flush_interval_ns_(static_cast<std::int64_t>(flush_interval_s * 1e9)) {}
+      counters_(counters) {}
 
 std::string OutputPublisher::start(const ThreadConfig& config) {
   return thread_.start("out", config, [this] { run(); });
@@ -37,14 +35,10 @@ void OutputPublisher::publish(Channel channel, ByteSpan bytes) {
 }
 
 void OutputPublisher::run() {
-  Stopwatch since_flush;
   for (;;) {
     const std::uint32_t ticket = wakeup_->ticket();
     const bool last_round = no_more_.load(std::memory_order_acquire);
     while (drain()) {
-      if (since_flush.nanoseconds() < flush_interval_ns_) continue;
-      journal_->flush(false);
-      since_flush = Stopwatch();
     }
     if (last_round) return;
     wakeup_->wait(ticket);
@@ -78,11 +72,11 @@ bool OutputPublisher::drain() {
 }
 
 void OutputPublisher::pass_on(const MessageHeader& header, ByteSpan bytes) {
-  if (!is_input(header.channel)) {
+  if (!is_replayed(header.channel)) {
     target_->take(header.channel, bytes);
     counters_->published.add(1);
   }
-  journal_->write(header, bytes);
+  journal_->push(header, bytes);
 }
 
 boost::container::static_vector<const MessageRing*, 5> OutputPublisher::all_rings() const {

@@ -4,7 +4,7 @@
 #include <boost/container/static_vector.hpp>
 #include <string>
 
-#include "daemon/engine/internal/journal_writer.h"
+#include "daemon/journal/journal.h"
 #include "daemon/messages/encoding_sink.h"
 #include "daemon/threads/counters.h"
 #include "daemon/threads/message_ring.h"
@@ -25,15 +25,15 @@ struct OutputRings {
 class OutputPublisher {
  public:
   // `wakeup`: the one that the rings notify. `target` gets every output, in this thread.
-  OutputPublisher(const OutputRings& rings, Wakeup* wakeup, MessageTarget* target,
-                  JournalWriter* journal, EngineCounters* counters, double flush_interval_s);
+  OutputPublisher(const OutputRings& rings, Wakeup* wakeup, MessageTarget* target, Journal* journal,
+                  EngineCounters* counters);
 
   std::string start(const ThreadConfig& config);  // what the system refused; empty: nothing
   // After the last message: passes on what is left and ends the thread.
   void finish();
 
-  // A message of the daemon itself; thread `main`. Where this thread is stuck (a disk that hangs)
-  // the message is dropped and counted.
+  // A message of the daemon itself; thread `main`. Where this thread is stuck the message is
+  // dropped and counted.
   void publish(Channel channel, ByteSpan bytes);
 
   // Any thread, over all rings.
@@ -51,9 +51,8 @@ class OutputPublisher {
   Wakeup* wakeup_;
   MessageRing main_ring_;
   MessageTarget* target_;
-  JournalWriter* journal_;
+  Journal* journal_;
   EngineCounters* counters_;
-  std::int64_t flush_interval_ns_;
   std::atomic<bool> no_more_{false};
   RealtimeThread thread_;
 };

@@ -53,10 +53,24 @@ void add_learned(const std::string& observable, const LearnedGauges& gauges, hea
   }
 }
 
+void add_journal_counts(const Journal& journal, health_t* message) {
+  const JournalCounters& counters = journal.counters();
+  add_count("journaled", counters.journaled.get(), message);
+  add_count("journal lost", counters.lost_others.get(), message);
+  add_count("journal solutions left out", counters.lost_solutions.get(), message);
+  add_count("journal failures", counters.failures.get(), message);
+  add_count("journal pieces", counters.pieces.get(), message);
+  add_count("journal pieces deleted", counters.deleted.get(), message);
+  add_count("journal pieces kept", counters.kept.get(), message);
+  add_count("journal memory %", static_cast<std::int64_t>(journal.ring().high_water_percent),
+            message);
+}
+
 void add_counts(EngineCounters* counters, health_t* message) {
   for (const Channel channel : kInputChannels) {
     const std::string name(name_of(channel));
     add_count("received " + name, counters->received[index_of(channel)].get(), message);
+    add_count("refused " + name, counters->refused[index_of(channel)].get(), message);
     add_count("lost " + name, counters->lost[index_of(channel)].get(), message);
   }
   for (std::size_t i = 0; i < counters->rejected.size(); ++i) {
@@ -89,8 +103,6 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("keyframes skipped", counters->keyframes_skipped.get(), message);
   add_count("published", counters->published.get(), message);
   add_count("health dropped", counters->unpublished.get(), message);
-  add_count("journaled", counters->journaled.get(), message);
-  message->n_counts = static_cast<std::int32_t>(message->counts.size());
 }
 
 }  // namespace
@@ -127,6 +139,8 @@ void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std
   message.uptime_s = summary.uptime_s;
   add_levels(counters, summary.source, &message);
   add_counts(&counters, &message);
+  add_journal_counts(engine->journal(), &message);
+  message.n_counts = static_cast<std::int32_t>(message.counts.size());
   bytes->resize(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes->data(), 0, static_cast<int>(bytes->size()));
 }

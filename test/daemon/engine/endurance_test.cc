@@ -49,7 +49,7 @@ TEST_CASE("the counter of allocations sees those of a thread by its role") {
   CHECK(thread_allocations().gnss == before.gnss);
 }
 
-TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
+TEST_CASE("over a whole drive the threads of the stages and of the journal allocate nothing") {
   const test::TemporaryFile folder("unused", "");
   DaemonConfig config = test::drive_config();
   config.journal.path = folder.beside("journal.lcmlog");
@@ -74,6 +74,7 @@ TEST_CASE("over a whole drive the inertial and GNSS threads allocate nothing") {
   CHECK(target.epochs > 115);
   CHECK(after.inertial == before.inertial);
   CHECK(after.gnss == before.gnss);
+  CHECK(after.journal == before.journal);
 }
 
 TEST_CASE("the resident size stays flat over twenty drives' length") {

@@ -73,7 +73,7 @@ inline std::vector<Input> read_journal_inputs(const std::string& path) {
   while (log.next(&event)) {
     const auto channel = channel_from_name(event.channel);
     REQUIRE(channel.has_value());
-    if (is_input(*channel)) list.push_back({*channel, event.data});
+    if (is_replayed(*channel)) list.push_back({*channel, event.data});
   }
   CHECK_FALSE(log.truncated());
   return list;

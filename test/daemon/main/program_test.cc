@@ -1,4 +1,8 @@
 // leonavd's command line and its journal, as a user or a service manager meets them.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -120,4 +124,21 @@ TEST_CASE("leonavd --reference prints every key") {
   const auto run = test::run_program("leonavd", "--reference");
   CHECK(run.exit_code == 0);
   CHECK(run.out == test::text_of(LEONAV_SOURCE_DIR "/config/reference.yaml"));
+}
+
+TEST_CASE("a journal that nobody takes holds up neither the start nor the end of the service") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string pipe = folder.beside("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  REQUIRE(reader >= 0);
+  fcntl(reader, F_SETPIPE_SZ, 4096);  // less than the configuration that a journal begins with
+  test::DaemonProgram daemon({"--journal", pipe});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  CHECK(daemon.says("journal: the disk does not answer"));
+  CHECK(daemon.stop() == 5);
+  CHECK(daemon.text().find(pipe + ": the disk has not taken the end of the journal") !=
+        std::string::npos);
+  close(reader);
 }

@@ -34,7 +34,7 @@ TEST_CASE("A run's configuration survives the journal; damage is refused") {
     CHECK_FALSE(decode_run_configuration(damaged).has_value());
     at += 4 + length;
   }
-  std::vector<std::uint8_t> other_schema = bytes;
+  auto other_schema = bytes;
   other_schema[27] = 9;
   CHECK_FALSE(decode_run_configuration(other_schema).has_value());
 }
@@ -45,7 +45,7 @@ TEST_CASE("the end of a journal is read back, and refused where damaged") {
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     CHECK_FALSE(leonav::decode_journal_end(ByteSpan(bytes).first(size)).has_value());
   }
-  std::vector<std::uint8_t> other_schema = bytes;
+  auto other_schema = bytes;
   other_schema[27] = 9;
   CHECK_FALSE(leonav::decode_journal_end(other_schema).has_value());
 }

@@ -219,6 +219,51 @@ class Times(unittest.TestCase):
         self.assertTrue((gps_time.gps_ns(week, tow) == ns).all())
 
 
+class Pieces(unittest.TestCase):
+    """A journal in pieces, each with the events 0 and 1 of the run again."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(dir=WORK))
+
+    def write(self, name, run, piece, first, last):
+        mark = struct.pack(">8xqqiqqb", 0, piece, 1, run, first, 0)
+        events = [(0, "X_CONFIG", bytes(50)), (1, "X_PIECE", mark)] + [(i, "X_IMU", b"i") for i in range(first, last + 1)]
+        with open(self.folder / name, "wb") as log:
+            for number, channel, data in events:
+                log.write(event_log.HEADER.pack(event_log.SYNC, number, 0, len(channel), len(data)) + channel.encode() + data)
+
+    def counts(self, name):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            channels = [event.channel for event in leonav.events(self.folder / name)]
+        return channels.count("X_CONFIG"), channels.count("X_PIECE"), channels.count("X_IMU"), [str(one.message) for one in told]
+
+    def test_pieces_are_one_log_from_the_first_or_from_the_folder(self):
+        self.write("run", 5, 1, 2, 12)
+        self.write("run.part0002.kept", 5, 2, 10, 19)  # three events again
+        self.write("run.part0003", 5, 3, 20, 29)
+        (self.folder / "notes.txt").write_text("no log")
+        for name in ("run", "."):
+            self.assertEqual(self.counts(name), (1, 1, 28, []))
+        with open(self.folder / "run.part0002.kept", "r+b") as piece:  # cut short, and no piece has the rest
+            piece.truncate(os.path.getsize(piece.name) - 1)
+        self.assertEqual(self.counts("run")[:3], (1, 1, 27))
+        self.assertIn("1 messages are missing with pieces that are gone", self.counts("run")[3][0])
+        os.remove(self.folder / "run.part0002.kept")
+        self.assertIn("7 messages are missing", self.counts("run")[3][0])
+
+    def test_several_runs_in_a_folder_are_told_apart(self):
+        self.write("run", 5, 1, 2, 9)
+        self.write("run.part0002", 6, 2, 10, 19)
+        self.assertEqual(self.counts("run"), (1, 1, 8, []))
+        with self.assertRaisesRegex(leonav.LeonavError, "several runs; give the first piece"):
+            self.counts(".")
+        os.remove(self.folder / "run")
+        os.remove(self.folder / "run.part0002")
+        with self.assertRaisesRegex(leonav.LeonavError, "holds no piece of a journal"):
+            self.counts(".")
+
+
 class Damage(unittest.TestCase):
     def setUp(self):
         self.path = WORK / "damage.lcmlog"

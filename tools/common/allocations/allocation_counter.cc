@@ -13,13 +13,14 @@
 namespace leonav {
 namespace {
 std::atomic<bool> counting{false};
-std::atomic<std::size_t> allocations{0}, inertial{0}, gnss{0};
+std::atomic<std::size_t> allocations{0}, inertial{0}, gnss{0}, journal{0};
 void note() {
   if (counting.load(std::memory_order_relaxed)) allocations.fetch_add(1);
   char name[16] = {};
   prctl(PR_GET_NAME, name);  // a system call, because nothing here may allocate
   if (std::strcmp(name, "leonav-ins") == 0) inertial.fetch_add(1);
   if (std::strcmp(name, "leonav-gnss") == 0) gnss.fetch_add(1);
+  if (std::strcmp(name, "leonav-journal") == 0) journal.fetch_add(1);
 }
 }  // namespace
 
@@ -34,7 +35,7 @@ std::size_t stop_counting_allocations() {
   return allocations;
 }
 
-ThreadAllocations thread_allocations() { return {inertial, gnss}; }
+ThreadAllocations thread_allocations() { return {inertial, gnss, journal}; }
 
 }  // namespace leonav
 

@@ -9,10 +9,10 @@ namespace leonav {
 void start_counting_allocations();
 std::size_t stop_counting_allocations();
 
-// Allocations of the daemon's threads by role ("leonav-ins", "leonav-gnss"), each from its first
-// instruction on, summed over all engines.
+// Allocations of the daemon's threads by role ("leonav-ins", "leonav-gnss", "leonav-journal"), each
+// from its first instruction on, summed over all engines.
 struct ThreadAllocations {
-  std::size_t inertial = 0, gnss = 0;
+  std::size_t inertial = 0, gnss = 0, journal = 0;
 };
 ThreadAllocations thread_allocations();
 

@@ -9,6 +9,7 @@ import warnings
 from typing import Iterator, NamedTuple
 
 from .errors import LeonavError, LeonavWarning
+from .pieces import files_of
 
 SYNC = b"\xed\xa1\xda\x01"
 HEADER = struct.Struct(">4sqqII")
@@ -27,7 +28,9 @@ class Event(NamedTuple):
 
 
 def events(path, damaged="raise") -> Iterator[Event]:
-    """Yields the events of a log in the file's order.
+    """Yields the events of a log in the file's order, those of a journal's pieces as one log.
+
+    `path` is a log, the first piece of a journal, or the folder with the pieces of one run.
 
     A log whose last event is cut short, as by a power failure, yields what is there, then warns with LeonavWarning. Where a
     log is damaged in between, LeonavError names the byte; with damaged="skip" reading goes on at the next event that is
@@ -36,35 +39,59 @@ def events(path, damaged="raise") -> Iterator[Event]:
     if damaged not in ("raise", "skip"):
         raise ValueError("damaged must be 'raise' or 'skip'")
     try:
+        pieces = files_of(path)
+    except OSError as error:
+        raise LeonavError(f"{path}: {error.strerror}; check the path") from error
+    if not pieces:
+        for _, event in _events_of(path, damaged):
+            yield event
+        return
+    following, missing = 0, 0
+    for piece in pieces:
+        for number, event in _events_of(piece.path, damaged, is_last=piece == pieces[-1]):
+            if number < following:  # the beginning of a piece again, or what a failing disk had taken after all
+                continue
+            missing += number - following
+            following = number + 1
+            yield event
+    if missing:
+        warnings.warn(f"{path}: {missing} messages are missing with pieces that are gone", LeonavWarning, stacklevel=2)
+
+
+def _events_of(path, damaged, is_last=True):
+    """Yields the events of one file with their numbers."""
+    try:
         with open(path, "rb") as file:
             size = os.fstat(file.fileno()).st_size
             if size == 0:
                 raise LeonavError(f"{path}: byte 0: the file is empty; give a log of leonav-import, leonavd or lcm-logger")
-            yield from _events(path, file, size, damaged == "skip")
+            yield from _events(path, file, size, damaged == "skip", is_last)
     except OSError as error:
         raise LeonavError(f"{path}: {error.strerror}; check the path") from error
 
 
-def _events(path, file, size, skip):
+def _events(path, file, size, skip, is_last):
     position, left_out, first_damage = 0, 0, None
     while position < size:
         header = file.read(HEADER.size)
         what = _why_bad(header, position, size)
         if what is None:
-            _, _, stamp, channel_bytes, data_bytes = HEADER.unpack(header)
+            _, number, stamp, channel_bytes, data_bytes = HEADER.unpack(header)
             end = position + HEADER.size + channel_bytes + data_bytes
             channel = file.read(channel_bytes).decode(errors="replace")
             data = file.read(data_bytes)
             if len(data) == data_bytes:
-                yield Event(position, stamp, channel, data)
+                yield number, Event(position, stamp, channel, data)
                 position = end
                 continue
             what = "cut"
         following = _next_event(file, position + 1, size) if skip else None
+        if following is None and what == "cut" and not is_last:
+            break  # the next piece has it
         if following is None and what == "cut":
             warnings.warn(f"{path}: byte {position}: the last event is cut short, {size - position} bytes are left out; all before "
                           "it was read. The log was not closed: stop the program that writes it, or keep what is there", LeonavWarning,
-                          stacklevel=4)
+                          stacklevel=5)
             break
         if not skip:
             what = "an event begins here that is longer than the file" if what == "cut" else what
@@ -76,7 +103,7 @@ def _events(path, file, size, skip):
         position = following
         file.seek(position)
     if left_out:
-        warnings.warn(f"{path}: byte {first_damage}: the log is damaged; {left_out} bytes are left out in all", LeonavWarning, stacklevel=4)
+        warnings.warn(f"{path}: byte {first_damage}: the log is damaged; {left_out} bytes are left out in all", LeonavWarning, stacklevel=5)
 
 
 def _why_bad(header, position, size):

@@ -307,6 +307,21 @@ def end(m):
     return {"": _table(m["time_ns"], {"messages": _native(m["messages"])})}
 
 
+def piece(m):
+    return {"": _table(m["time_ns"], {"number": _native(m["sequence"]), "run": _native(m["run"]), "first": _native(m["first"]),
+                                      "outputs": _native(m["outputs"])})}
+
+
+def refused(m):
+    """Inputs that were refused as they came, since the row of the same reason and input before it."""
+    return {"": _table(m["time_ns"], {"fault": _native(m["fault"]), "input": _native(m["input"]),
+                                      "count": _native(m["count"])})}
+
+
+def lost(m):
+    return {"": _table(m["time_ns"], {"solutions": _native(m["solutions"]), "others": _native(m["others"])})}
+
+
 # Channel, without prefix: its types, the newest first, and what makes its tables. A function whose types are of fixed size
 # gets a numpy array of all messages, any other a list of dicts.
 CHANNELS = {
@@ -318,4 +333,5 @@ CHANNELS = {
     "EPOCH": (("epoch_t", "epoch_v1_t"), epoch), "CONSTRAINTS": (("constraints_t",), constraints), "EVENT": (("event_t",), event),
     "DECISION": (("decision_t",), decision), "SMOOTHER": (("smoother_t", "smoother_v1_t"), smoother),
     "SMOOTHED": (("solution_t", "solution_v1_t"), solution), "HEALTH": (("health_t",), health), "STREAMS": (("streams_t",), streams),
-    "CONFIG": (("config_t",), config), "END": (("end_t",), end)}
+    "CONFIG": (("config_t",), config), "END": (("end_t",), end),
+    "PIECE": (("piece_t",), piece), "REFUSED": (("refused_t",), refused), "LOST": (("lost_t",), lost)}
