@@ -1,6 +1,5 @@
 #include "drivers/binary/cnav_delays.h"
 
-#include <initializer_list>
 #include <optional>
 
 #include "drivers/binary/bit_field.h"
@@ -17,31 +16,6 @@ bool checksum_is_good(std::span<const std::uint8_t> bits, int count) {
       tail.skip(static_cast<std::size_t>(count - kChecksumBits)).take(kChecksumBits);
   return !tail.overrun() && crc24q(BitReader(bits), count - kChecksumBits) == sent;
 }
-
-// Appends the delay of all signals of a band with these attributes.
-class BiasWriter {
- public:
-  BiasWriter(SatelliteId satellite, GpsTime received, std::vector<SignalBias>* biases)
-      : satellite_(satellite), received_(received), biases_(biases) {}
-
-  void add(char band, std::initializer_list<char> attributes, std::optional<double> delay_s) {
-    if (!delay_s) return;
-    for (const char attribute : attributes) {
-      biases_->push_back({satellite_,
-                          {band, attribute},
-                          BiasKind::kBroadcastCode,
-                          received_,
-                          kSpeedOfLight * *delay_s,
-                          {},
-                          {}});
-    }
-  }
-
- private:
-  SatelliteId satellite_;
-  GpsTime received_;
-  std::vector<SignalBias>* biases_;
-};
 
 // A delay of GPS: 13 bits of 2^-35 s; the most negative number stands for "not available".
 std::optional<double> take_gps_delay(BitReader* bits) {
@@ -64,23 +38,12 @@ CnavStatus read_gps_cnav_delays(std::span<const std::uint8_t> bits, SatelliteId 
   if (reader.take(6) != satellite.number) return CnavStatus::kWrongSatellite;
   if (reader.take(6) != kClockAndDelays) return CnavStatus::kOtherType;
   reader.skip(127 - 20);  // time of week, alert flag, clock
-  const auto tgd = take_gps_delay(&reader);
-  // Returns TGD minus the next correction.
-  const auto next = [&]() -> std::optional<double> {
-    const auto isc = take_gps_delay(&reader);
-    if (!tgd || !isc) return std::nullopt;
-    return *tgd - *isc;
-  };
-  BiasWriter writer(satellite, received, biases);
-  constexpr double kGamma = (77.0 / 60.0) * (77.0 / 60.0);
-  writer.add('1', {'W', 'P'}, tgd);
-  writer.add('2', {'W', 'P'}, tgd ? std::optional(kGamma * *tgd) : std::nullopt);
-  writer.add('1', {'C'}, next());
-  writer.add('2', {'S', 'L', 'X'}, next());
-  const auto l5i = next(), l5q = next();
-  writer.add('5', {'I'}, l5i);
-  writer.add('5', {'Q'}, l5q);
-  if (l5i && l5q) writer.add('5', {'X'}, (*l5i + *l5q) / 2.0);
+  GpsCnavDelays delays;
+  for (auto* delay :
+       {&delays.tgd, &delays.isc_l1_ca, &delays.isc_l2c, &delays.isc_l5_i, &delays.isc_l5_q}) {
+    *delay = take_gps_delay(&reader);
+  }
+  append_biases(delays, satellite, received, biases);
   return CnavStatus::kDelays;
 }
 
@@ -91,14 +54,11 @@ CnavStatus read_bcnav1_delays(std::span<const std::uint8_t> bits, SatelliteId sa
   // Nothing but zeros has a good checksum too; the week tells it.
   if (reader.take(13) == 0) return CnavStatus::kBadChecksum;
   reader.skip(533 - 13);  // hour, issues, elements, clock
-  const double b2a_pilot = take_beidou_delay(&reader);
-  const double b1c_data_minus_pilot = take_beidou_delay(&reader);
-  const double b1c_pilot = take_beidou_delay(&reader);
-  BiasWriter writer(satellite, received, biases);
-  writer.add('5', {'P'}, b2a_pilot);
-  writer.add('1', {'P'}, b1c_pilot);
-  writer.add('1', {'D'}, b1c_pilot + b1c_data_minus_pilot);
-  writer.add('1', {'X'}, b1c_pilot + b1c_data_minus_pilot / 4.0);
+  BeidouCnavDelays delays;
+  delays.b2a_pilot = take_beidou_delay(&reader);
+  delays.b1c_data_minus_pilot = take_beidou_delay(&reader);
+  delays.b1c_pilot = take_beidou_delay(&reader);
+  append_biases(delays, satellite, received, biases);
   return CnavStatus::kDelays;
 }
 
@@ -110,15 +70,12 @@ CnavStatus read_bcnav2_delays(std::span<const std::uint8_t> bits, SatelliteId sa
   if (reader.take(6) != satellite.number) return CnavStatus::kWrongSatellite;
   if (reader.take(6) != kClockAndDelays) return CnavStatus::kOtherType;
   reader.skip(121 - 12);  // time, flags, clock, issue
-  const double b2a_pilot = take_beidou_delay(&reader);
-  const double b2a_data_minus_pilot = take_beidou_delay(&reader);
+  BeidouCnavDelays delays;
+  delays.b2a_pilot = take_beidou_delay(&reader);
+  delays.b2a_data_minus_pilot = take_beidou_delay(&reader);
   reader.skip(74);  // ionosphere
-  const double b1c_pilot = take_beidou_delay(&reader);
-  BiasWriter writer(satellite, received, biases);
-  writer.add('5', {'P'}, b2a_pilot);
-  writer.add('5', {'D'}, b2a_pilot + b2a_data_minus_pilot);
-  writer.add('5', {'X'}, b2a_pilot + b2a_data_minus_pilot / 2.0);
-  writer.add('1', {'P'}, b1c_pilot);
+  delays.b1c_pilot = take_beidou_delay(&reader);
+  append_biases(delays, satellite, received, biases);
   return CnavStatus::kDelays;
 }
 

@@ -1,14 +1,13 @@
-// This unit reads the group delays in the modernized messages of GPS and BeiDou, which give those
-// of the signals that the older messages leave out. Sources: IS-GPS-200N 30.3.3.3.1.1 and figure
-// 30-3 (CNAV on L2C), IS-GPS-705J 20.3.3.3.1.1 (the same on L5); BDS-SIS-ICD-B1C 1.0, 7.6 and
-// figure 6-6 (B-CNAV1, subframe 2); BDS-SIS-ICD-B2a 1.0, 7.6 and figure 6-5 (B-CNAV2, message type
-// 30).
+// This unit reads the bits of the group delays in the modernized messages of GPS and BeiDou.
+// Sources: IS-GPS-200N 30.3.3.3.1.1 and figure 30-3 (CNAV on L2C), IS-GPS-705J 20.3.3.3.1.1 (the
+// same on L5); BDS-SIS-ICD-B1C 1.0, 7.6 and figure 6-6 (B-CNAV1, subframe 2);
+// BDS-SIS-ICD-B2a 1.0, 7.6 and figure 6-5 (B-CNAV2, message type 30).
 #pragma once
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/gnss/propagation/signal_bias_store.h"
+#include "drivers/binary/cnav_biases.h"
 
 namespace leonav {
 
@@ -21,13 +20,7 @@ enum class CnavStatus : std::uint8_t {
 };
 
 // Each reads one message of `satellite`, its bits in order from the first byte's highest one, and
-// appends to `biases` what it gives, as kBroadcastCode with the time `received`. The values are
-// metres by which a signal leaves later than that of the clock, as GroupDelay has them:
-//   GPS: L1 P(Y) TGD, L2 P(Y) (77/60)^2 TGD; C/A, L2C, L5 I and Q: TGD minus the signal's ISC.
-//   BeiDou, against B3I: pilots of B1C and B2a: their TGD; data: TGD plus ISC.
-// Receivers that track data and pilot together get the mean by power: B1C one part of data to three
-// of pilot, L5 and B2a one to one. A delay that GPS marks as not available is left out with what
-// depends on it.
+// appends to `biases` what it gives (cnav_biases.h).
 
 // A CNAV message has 300 bits (38 bytes).
 CnavStatus read_gps_cnav_delays(std::span<const std::uint8_t> bits, SatelliteId satellite,

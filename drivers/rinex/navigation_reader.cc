@@ -5,13 +5,20 @@
 
 #include "drivers/rinex/calendar_fields.h"
 #include "drivers/rinex/navigation_record.h"
+#include "drivers/rinex/navigation_record_4.h"
 #include "drivers/rinex/satellite_refusal.h"
 #include "drivers/text/line_reader.h"
 
 namespace leonav {
 namespace {
 
-NavigationLayout read_first_line(LineReader* lines) {
+// Layout of the records, and whether they are those of RINEX 4.
+struct FileLayout {
+  NavigationLayout record;
+  bool is_version_4 = false;
+};
+
+FileLayout read_first_line(LineReader* lines) {
   std::string_view line;
   if (!lines->next(line)) throw FileError(lines->path(), 0, "the file is empty");
   const std::string_view label = trim(columns(line, 60, 20));
@@ -22,11 +29,13 @@ NavigationLayout read_first_line(LineReader* lines) {
   if (label != "RINEX VERSION / TYPE" || !version) {
     fail("does not begin with a RINEX VERSION / TYPE line; give a RINEX navigation file");
   }
-  if (!(*version >= 2.0 && *version < 4.0)) {
+  if (!(*version >= 2.0 && *version < 5.0)) {
     fail("RINEX version " + std::string(trim(columns(line, 0, 9))) +
-         " is not supported (2.00 to 3.05 are); convert the file to version 3");
+         " is not supported (2.00 to 4 are); convert the file to version 3");
   }
-  NavigationLayout layout;
+  FileLayout result;
+  result.is_version_4 = *version >= 4.0;
+  NavigationLayout& layout = result.record;
   layout.is_version_2 = *version < 3.0;
   const std::string_view type = columns(line, 20, 1);
   // RINEX 2 has a file type for each system: N GPS, G GLONASS, H SBAS, E Galileo.
@@ -39,7 +48,7 @@ NavigationLayout read_first_line(LineReader* lines) {
   if (type == "G") layout.system = 'R';
   if (type == "H") layout.system = 'S';
   if (type == "E") layout.system = 'E';
-  return layout;
+  return result;
 }
 
 // Reads four coefficients of 12 columns each.
@@ -74,9 +83,21 @@ void read_rest_of_header(LineReader* lines, NavigationFile* file) {
   file->klobuchar.valid = has_alpha && has_beta;
 }
 
+void take_record_4(const std::vector<std::string>& lines, long line_number, NavigationFile* file) {
+  NavigationRecord4 record;
+  const std::string_view reason = parse_record_4(lines, &record);
+  file->delays.insert(file->delays.end(), record.delays.begin(), record.delays.end());
+  if (record.klobuchar && !file->klobuchar.valid) file->klobuchar = *record.klobuchar;
+  if (record.ephemeris) file->ephemerides.push_back(*record.ephemeris);
+  if (reason.empty()) {
+    ++file->counts.used;
+  } else {
+    file->counts.skip(reason, line_number);
+  }
+}
+
 void take_record(const std::vector<std::string>& record, long line_number,
                  const NavigationLayout& layout, NavigationFile* file) {
-  if (record.empty()) return;
   std::string_view reason = satellite_refusal(record_satellite(record[0], layout));
   Ephemeris ephemeris;
   if (reason.empty()) reason = parse_navigation_record(record, layout, &ephemeris);
@@ -91,19 +112,28 @@ void take_record(const std::vector<std::string>& record, long line_number,
 }  // namespace
 
 NavigationFile read_navigation(const std::string& path) {
-  // The longest record has eight lines. Lines that follow without a satellite name are junk, of
-  // which a line or two suffice to recognize the record as damaged.
+  // The longest record has eight lines, eleven in RINEX 4. Lines that follow without a satellite
+  // name are junk, of which a line or two suffice to recognize the record as damaged.
   constexpr std::size_t kMaxLines = 16;
   LineReader lines(path);
   NavigationFile file;
-  const NavigationLayout layout = read_first_line(&lines);
+  const FileLayout layout = read_first_line(&lines);
   read_rest_of_header(&lines, &file);
   std::vector<std::string> record;
   long record_line = 0;
+  const auto take = [&] {
+    if (record.empty()) return;
+    if (layout.is_version_4) {
+      take_record_4(record, record_line, &file);
+    } else {
+      take_record(record, record_line, layout.record, &file);
+    }
+  };
   std::string_view line;
   while (lines.next(line)) {
-    if (starts_navigation_record(line, layout)) {
-      take_record(record, record_line, layout, &file);
+    if (layout.is_version_4 ? starts_record_4(line, record.size())
+                            : starts_navigation_record(line, layout.record)) {
+      take();
       record.assign(1, std::string(line));
       record_line = lines.line_number();
     } else if (record.empty()) {
@@ -112,7 +142,7 @@ NavigationFile read_navigation(const std::string& path) {
       record.emplace_back(line);
     }
   }
-  take_record(record, record_line, layout, &file);
+  take();
   return file;
 }
 

@@ -1,5 +1,5 @@
-// This unit parses one record of a RINEX navigation file: the lines from a satellite name to the
-// next.
+// This unit parses one record of a RINEX 2 or 3 navigation file: the lines from a satellite name to
+// the next.
 #pragma once
 #include <string>
 #include <string_view>

@@ -1,5 +1,7 @@
 #include "drivers/rinex/read_counts.h"
 
+#include <algorithm>
+
 namespace leonav {
 
 void ReadCounts::skip(std::string_view reason, long line, long count) {
@@ -23,6 +25,12 @@ long ReadCounts::count_of(std::string_view reason) const {
     if (skip.reason == reason) return skip.count;
   }
   return 0;
+}
+
+bool ReadCounts::all_skipped_by_design() const {
+  return !skipped.empty() && std::all_of(skipped.begin(), skipped.end(), [](const Skip& skip) {
+    return skip.reason.ends_with("not used)");
+  });
 }
 
 }  // namespace leonav

@@ -52,89 +52,90 @@ bool is_text(std::uint8_t byte) {
 }  // namespace
 
 std::size_t SbfFramer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
-    const auto first = static_cast<std::ptrdiff_t>(begin_);
-    const auto last = static_cast<std::ptrdiff_t>(end_);
+  if (begin_ > base_ && index(end_) + bytes.size() > kCapacity) {
+    const auto first = static_cast<std::ptrdiff_t>(index(begin_));
+    const auto last = static_cast<std::ptrdiff_t>(index(end_));
     std::copy(buffer_.begin() + first, buffer_.begin() + last, buffer_.begin());
     std::copy(crc_before_.begin() + first, crc_before_.begin() + last + 1, crc_before_.begin());
-    end_ -= begin_;
-    begin_ = 0;
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min(bytes.size(), kCapacity - index(end_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
-    crc_before_[end_ + 1] = crc16_next(crc_before_[end_], bytes[i]);
+    const std::size_t at = index(end_);
+    buffer_[at] = bytes[i];
+    crc_before_[at + 1] = crc16_next(crc_before_[at], bytes[i]);
     ++end_;
   }
   return count;
 }
 
-bool SbfFramer::is_sync() const {
-  return buffer_[begin_] == kSync[0] && buffer_[begin_ + 1] == kSync[1];
+void SbfFramer::find_starts() {
+  for (; searched_ + kHeader <= end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(index(searched_));
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(index(end_) - kHeader + 1);
+    searched_ += static_cast<Position>(std::find(from, to, kSync[0]) - from);
+    if (searched_ + kHeader > end_) return;
+    const std::uint8_t* p = buffer_.data() + index(searched_);
+    if (p[1] != kSync[1]) continue;
+    const std::size_t size = read_u2(p + 6);
+    if (size < kStamped || size > kMaxSize || size % 4 != 0) {
+      starts_.add_refused(searched_, kBadLength);
+    } else {
+      starts_.add(searched_, searched_ + size);
+    }
+  }
 }
 
 // The checksum of a piece of the stream follows from those before its first byte and behind its
 // last, because a checksum is linear: the first one, moved on by the length of the piece, is what
 // the bytes before contribute to the second.
-bool SbfFramer::checksum_is_good(std::size_t size) const {
+bool SbfFramer::checksum_is_good(const MessageStarts::Candidate& candidate) const {
   static_assert(kMaxSize < std::size_t{256} * 256);
-  const std::size_t first = begin_ + kCovered;
-  const std::uint16_t before = moved_on(crc_before_[first], size - kCovered);
-  const auto crc = static_cast<std::uint16_t>(crc_before_[begin_ + size] ^ before);
-  return crc == read_u2(buffer_.data() + begin_ + kSync.size());
-}
-
-void SbfFramer::describe(std::size_t size, SbfBlock* block) const {
-  const std::uint8_t* p = buffer_.data() + begin_;
-  block->number = read_u2(p + 4) & kNumberMask;
-  block->time = time_of(read_u2(p + 12), read_u4(p + 8));
-  block->payload = std::span(buffer_).subspan(begin_ + kStamped, size - kStamped);
+  const std::size_t start = index(candidate.start), end = index(candidate.end);
+  const std::size_t first = start + kCovered;
+  const std::uint16_t before = moved_on(crc_before_[first], end - first);
+  const auto crc = static_cast<std::uint16_t>(crc_before_[end] ^ before);
+  return crc == read_u2(buffer_.data() + start + kSync.size());
 }
 
 bool SbfFramer::next(SbfBlock* block) {
-  while (available() >= kHeader) {
-    if (!is_sync()) {
-      skip_to_sync();
-      continue;
+  find_starts();
+  while (const auto candidate = starts_.next_whole(end_)) {
+    if (checksum_is_good(*candidate)) {
+      take(*candidate, block);
+      return true;
     }
-    const std::size_t size = read_u2(buffer_.data() + begin_ + 6);
-    if (size < kStamped || size > kMaxSize || size % 4 != 0) {
-      ++counters_.bad_lengths;
-      skip(1);
-      continue;
-    }
-    if (available() < size) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(size)) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    describe(size, block);
-    begin_ += size;
-    ++counters_.blocks;
-    return true;
+    starts_.refuse(*candidate, kBadChecksum);
   }
-  if (finished_) skip(available());
+  // Bytes before the first start that still waits belong to no block.
+  skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
 
-void SbfFramer::skip(std::size_t count) {
-  const auto first = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  counters_.text_bytes += static_cast<std::uint64_t>(
-      std::count_if(first, first + static_cast<std::ptrdiff_t>(count), is_text));
-  begin_ += count;
-  counters_.bytes_skipped += count;
+void SbfFramer::take(const MessageStarts::Candidate& candidate, SbfBlock* block) {
+  skip_to(candidate.start);
+  const std::uint8_t* p = buffer_.data() + index(begin_);
+  block->number = read_u2(p + 4) & kNumberMask;
+  block->time = time_of(read_u2(p + 12), read_u4(p + 8));
+  block->payload = std::span(buffer_).subspan(index(candidate.start) + kStamped,
+                                              candidate.end - candidate.start - kStamped);
+  begin_ = candidate.end;
+  searched_ = std::max(searched_, begin_);
+  starts_.drop_before(begin_);
+  ++counters_.blocks;
 }
 
-void SbfFramer::skip_to_sync() {
-  const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_) + 1;
-  const auto found = std::find(from, buffer_.begin() + static_cast<std::ptrdiff_t>(end_), kSync[0]);
-  skip(static_cast<std::size_t>(found - from) + 1);
+void SbfFramer::skip_to(Position position) {
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.bad_lengths += none[kBadLength];
+  const auto first = buffer_.begin() + static_cast<std::ptrdiff_t>(index(begin_));
+  const auto last = buffer_.begin() + static_cast<std::ptrdiff_t>(index(position));
+  counters_.text_bytes += static_cast<std::uint64_t>(std::count_if(first, last, is_text));
+  counters_.bytes_skipped += position - begin_;
+  begin_ = position;
+  searched_ = std::max(searched_, begin_);
 }
 
 }  // namespace leonav

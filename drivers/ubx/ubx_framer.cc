@@ -48,7 +48,6 @@ bool UbxFramer::checksum_is_good(Position start, Position end) const {
   return a == buffer_[last + 1] && b == buffer_[last + 2];
 }
 
-// Every start is found once, and waits in two orders: by its place, and by the end of its message.
 void UbxFramer::find_starts() {
   for (; searched_ + kHeader <= end_; ++searched_) {
     const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(searched_ - base_);
@@ -58,26 +57,21 @@ void UbxFramer::find_starts() {
     if (at(searched_ + 1) != kSync2) continue;
     const std::size_t length = at(searched_ + 4) | (at(searched_ + 5) << 8);
     if (length > kMaxPayload) {
-      starts_[searched_] = Start::kOversize;
-      continue;
+      starts_.add_refused(searched_, kOversize);
+    } else {
+      starts_.add(searched_, searched_ + length + kOverhead);
     }
-    starts_[searched_] = Start::kWaiting;
-    waiting_.emplace(searched_ + length + kOverhead, searched_);
   }
 }
 
 bool UbxFramer::next(UbxMessage* message) {
   find_starts();
-  while (!waiting_.empty() && waiting_.top().first <= end_) {
-    const auto [end, start] = waiting_.top();
-    waiting_.pop();
-    const auto found = starts_.find(start);
-    if (found == starts_.end()) continue;  // within a message that was taken
-    if (checksum_is_good(start, end)) {
-      take(start, end, message);
+  while (const auto candidate = starts_.next_whole(end_)) {
+    if (checksum_is_good(candidate->start, candidate->end)) {
+      take(candidate->start, candidate->end, message);
       return true;
     }
-    found->second = Start::kBadChecksum;
+    starts_.refuse(*candidate, kBadChecksum);
   }
   skip_what_is_none();
   return false;
@@ -91,7 +85,7 @@ void UbxFramer::take(Position start, Position end, UbxMessage* message) {
                                                                     end - start - kOverhead);
   begin_ = end;
   searched_ = std::max(searched_, begin_);
-  starts_.erase(starts_.begin(), starts_.lower_bound(end));
+  starts_.drop_before(end);
   ++counters_.messages;
   foreign_.interrupt();
 }
@@ -99,27 +93,14 @@ void UbxFramer::take(Position start, Position end, UbxMessage* message) {
 // Bytes before the first start that still waits belong to no message.
 void UbxFramer::skip_what_is_none() {
   if (finished_) return skip_to(end_);
-  const auto waits = std::find_if(starts_.begin(), starts_.end(), [](const auto& start) {
-    return start.second == Start::kWaiting;
-  });
-  skip_to(waits != starts_.end() ? waits->first : std::max(searched_, begin_));
+  skip_to(starts_.first_waiting().value_or(std::max(searched_, begin_)));
 }
 
 void UbxFramer::skip_to(Position position) {
-  while (!starts_.empty() && starts_.begin()->first < position) {
-    switch (starts_.begin()->second) {
-      case Start::kWaiting:
-        ++(finished_ ? counters_.incomplete : counters_.bad_checksums);
-        break;
-      case Start::kBadChecksum:
-        ++counters_.bad_checksums;
-        break;
-      case Start::kOversize:
-        ++counters_.oversize;
-        break;
-    }
-    starts_.erase(starts_.begin());
-  }
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.oversize += none[kOversize];
   for (; begin_ < position; ++begin_) {
     foreign_.take(at(begin_));
     ++counters_.bytes_skipped;

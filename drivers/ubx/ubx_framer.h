@@ -4,13 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <map>
-#include <queue>
 #include <span>
-#include <utility>
-#include <vector>
 
+#include "drivers/binary/message_starts.h"
 #include "drivers/ubx/foreign_messages.h"
 
 namespace leonav {
@@ -57,11 +53,10 @@ class UbxFramer {
   static constexpr std::size_t kOverhead = 8;  // header, checksum 2
   static constexpr std::size_t kCapacity = 2 * (kMaxPayload + kOverhead);
 
-  // What a start in the stream has turned out to be.
-  enum class Start : std::uint8_t { kWaiting, kBadChecksum, kOversize };
+  // Why a start is none.
+  static constexpr std::size_t kBadChecksum = 1, kOversize = 2;
   // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
-  using Position = std::uint64_t;
-  using EndAndStart = std::pair<Position, Position>;
+  using Position = MessageStarts::Position;
 
   void find_starts();
   void skip_to(Position position);
@@ -77,8 +72,7 @@ class UbxFramer {
   std::uint8_t last_sum_of_sums_ = 0;
   Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
   Position searched_ = 0;                    // starts before it are known
-  std::map<Position, Start> starts_;         // at begin_ and behind it
-  std::priority_queue<EndAndStart, std::vector<EndAndStart>, std::greater<>> waiting_;
+  MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
   UbxFramerCounters counters_;
   ForeignMessages foreign_;

@@ -15,25 +15,27 @@ constexpr std::uint8_t kLongLength = 0xFF;  // the length follows in two bytes
 }  // namespace
 
 std::size_t XsensFramer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
-    std::copy(buffer_.begin() + begin_, buffer_.begin() + end_, buffer_.begin());
-    std::copy(sum_.begin() + begin_, sum_.begin() + end_, sum_.begin());
-    end_ -= begin_;
-    begin_ = 0;
+  if (begin_ > base_ && index(end_) + bytes.size() > kCapacity) {
+    const auto first = static_cast<std::ptrdiff_t>(index(begin_));
+    const auto last = static_cast<std::ptrdiff_t>(index(end_));
+    std::copy(buffer_.begin() + first, buffer_.begin() + last, buffer_.begin());
+    std::copy(sum_.begin() + first, sum_.begin() + last, sum_.begin());
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min(bytes.size(), kCapacity - index(end_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
+    buffer_[index(end_)] = bytes[i];
     last_sum_ = static_cast<std::uint8_t>(last_sum_ + bytes[i]);
-    sum_[end_] = last_sum_;
+    sum_[index(end_)] = last_sum_;
     ++end_;
   }
   return count;
 }
 
-XsensFramer::Header XsensFramer::read_header(std::size_t* header, std::size_t* payload) const {
-  const std::uint8_t* p = buffer_.data() + begin_;
-  const std::size_t size = end_ - begin_;
+XsensFramer::Header XsensFramer::read_header(Position start, std::size_t* header,
+                                             std::size_t* payload) const {
+  const std::uint8_t* p = buffer_.data() + index(start);
+  const std::size_t size = end_ - start;
   if (size >= 2 && p[1] != kBus) return Header::kImpossible;
   if (size < kShortHeader) return Header::kIncomplete;
   *header = kShortHeader;
@@ -46,59 +48,76 @@ XsensFramer::Header XsensFramer::read_header(std::size_t* header, std::size_t* p
   return *payload > kMaxShort && *payload <= kMaxPayload ? Header::kComplete : Header::kImpossible;
 }
 
+void XsensFramer::find_starts() {
+  for (; searched_ < end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(index(searched_));
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(index(end_));
+    searched_ += static_cast<Position>(std::find(from, to, kPreamble) - from);
+    if (searched_ == end_) return;
+    std::size_t header = 0, payload = 0;
+    const Header kind = read_header(searched_, &header, &payload);
+    if (kind == Header::kIncomplete) return;
+    if (kind == Header::kImpossible) {
+      starts_.add_refused(searched_, kBadLength);
+    } else {
+      starts_.add(searched_, searched_ + header + payload + kChecksum);
+    }
+  }
+}
+
+std::span<const std::uint8_t> XsensFramer::payload_of(
+    const MessageStarts::Candidate& candidate) const {
+  const std::size_t start = index(candidate.start);
+  const std::size_t header = buffer_[start + 3] == kLongLength ? kLongHeader : kShortHeader;
+  return std::span(buffer_).subspan(start + header,
+                                    index(candidate.end) - start - header - kChecksum);
+}
+
 // All bytes but the preamble, with the checksum, add up to zero modulo 256. The sum follows from
 // running ones, so that a candidate costs the same whatever length it claims.
-bool XsensFramer::checksum_is_good(std::size_t total) const {
-  return sum_[begin_ + total - 1] == sum_[begin_];
+std::size_t XsensFramer::fault_of(const MessageStarts::Candidate& candidate) const {
+  const std::size_t start = index(candidate.start);
+  if (sum_[index(candidate.end) - 1] != sum_[start]) return kBadChecksum;
+  if (buffer_[start + 2] == kMtData2) {
+    return DataGroups::fill(payload_of(candidate)) ? MessageStarts::kWaiting : kBadGroups;
+  }
+  return candidate.start == begin_ ? MessageStarts::kWaiting : kBadChecksum;
 }
 
 bool XsensFramer::next(XsensMessage* message) {
-  while (begin_ < end_) {
-    if (buffer_[begin_] != kPreamble) {
-      skip_to_preamble();
-      continue;
+  find_starts();
+  while (const auto candidate = starts_.next_whole(end_)) {
+    skip_to(starts_.first_waiting().value_or(begin_));  // the candidate waits, or one before it
+    const std::size_t fault = fault_of(*candidate);
+    if (fault == MessageStarts::kWaiting) {
+      take(*candidate, message);
+      return true;
     }
-    std::size_t header = 0, length = 0;
-    const Header kind = read_header(&header, &length);
-    if (kind == Header::kImpossible) {
-      ++counters_.bad_lengths;
-      skip(1);
-      continue;
-    }
-    const std::size_t total = header + length + kChecksum;
-    if (kind == Header::kIncomplete || end_ - begin_ < total) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(total)) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    const auto payload = std::span<const std::uint8_t>(buffer_).subspan(begin_ + header, length);
-    if (buffer_[begin_ + 2] == kMtData2 && !DataGroups::fill(payload)) {
-      ++counters_.bad_groups;
-      skip(1);
-      continue;
-    }
-    *message = {buffer_[begin_ + 2], payload};
-    begin_ += total;
-    ++counters_.messages;
-    return true;
+    starts_.refuse(*candidate, fault);
   }
+  // Bytes before the first start that still waits belong to no message.
+  skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
 
-void XsensFramer::skip(std::size_t count) {
-  begin_ += count;
-  counters_.bytes_skipped += count;
+void XsensFramer::take(const MessageStarts::Candidate& candidate, XsensMessage* message) {
+  skip_to(candidate.start);
+  *message = {buffer_[index(candidate.start) + 2], payload_of(candidate)};
+  begin_ = candidate.end;
+  searched_ = std::max(searched_, begin_);
+  starts_.drop_before(begin_);
+  ++counters_.messages;
 }
 
-void XsensFramer::skip_to_preamble() {
-  const auto from = buffer_.begin() + begin_;
-  skip(static_cast<std::size_t>(std::find(from, buffer_.begin() + end_, kPreamble) - from));
+void XsensFramer::skip_to(Position position) {
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.bad_lengths += none[kBadLength];
+  counters_.bad_groups += none[kBadGroups];
+  counters_.bytes_skipped += position - begin_;
+  begin_ = position;
+  searched_ = std::max(searched_, begin_);
 }
 
 }  // namespace leonav

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/binary/message_starts.h"
+
 namespace leonav {
 
 // A message with a good checksum; `payload` is valid until the framer is used again.
@@ -29,8 +31,9 @@ struct XsensFramerCounters {
 
 // The caller appends bytes and takes messages until none is left. The checksum has eight bits, so
 // that one of 256 false starts has a good one; an MTData2 counts only if its groups of data fill it
-// to its last byte. A false start or a damaged message costs only its own bytes: the search resumes
-// one byte after its first.
+// to its last byte. A false start or a damaged message costs only its own bytes, and no time: of
+// all starts in the stream the one whose message is whole first counts, if it is good. Only an
+// MTData2 counts before an earlier start is known to be none, as eight bits alone prove too little.
 class XsensFramer {
  public:
   static constexpr std::uint8_t kMtData2 = 0x36;
@@ -50,18 +53,28 @@ class XsensFramer {
   static constexpr std::size_t kLongHeader = 6, kShortHeader = 4, kChecksum = 1;
   static constexpr std::size_t kCapacity = 4 * (kLongHeader + kMaxPayload + kChecksum);
 
+  // Why a start is none.
+  static constexpr std::size_t kBadChecksum = 1, kBadLength = 2, kBadGroups = 3;
+  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
+  using Position = MessageStarts::Position;
+
   enum class Header : std::uint8_t { kComplete, kIncomplete, kImpossible };
-  // The lengths of header and payload of the message that begins at `begin_`.
-  Header read_header(std::size_t* header, std::size_t* payload) const;
-  bool checksum_is_good(std::size_t total) const;
-  void skip(std::size_t count);
-  void skip_to_preamble();
+  // The lengths of header and payload of the message that begins at `start`.
+  Header read_header(Position start, std::size_t* header, std::size_t* payload) const;
+  std::size_t index(Position position) const { return position - base_; }
+  void find_starts();
+  // MessageStarts::kWaiting: the candidate is good.
+  std::size_t fault_of(const MessageStarts::Candidate& candidate) const;
+  std::span<const std::uint8_t> payload_of(const MessageStarts::Candidate& candidate) const;
+  void take(const MessageStarts::Candidate& candidate, XsensMessage* message);
+  void skip_to(Position position);
 
   std::array<std::uint8_t, kCapacity> buffer_;
   std::array<std::uint8_t, kCapacity> sum_;  // modulo 256, of all bytes up to and with this one
   std::uint8_t last_sum_ = 0;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
+  Position searched_ = 0;                    // starts before it are known
+  MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
   XsensFramerCounters counters_;
 };

@@ -1,7 +1,9 @@
 // RINEX text put together for tests.
 #pragma once
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/rinex/observation_reader.h"
@@ -65,6 +67,25 @@ inline const SignalObservation* find(const RawEpoch& epoch, const std::string& s
     if (to_string(o.satellite) == satellite && to_string(o.code) == code) return &o;
   }
   return nullptr;
+}
+
+// A plausible record of a navigation file in Kepler form; `values` replaces single fields by their
+// place (0 is af0).
+inline std::string record_3(const std::string& head, std::vector<std::pair<int, double>> values,
+                            const char* exponent = "e") {
+  double f[31] = {1e-4, 1e-12, 0,    85,    12.5, 4e-9, 0.5, -1e-6, 1e-2,  8e-6, 5153.7,
+                  0,    1e-8,  -2.9, 2e-8,  0.96, 238., 0.7, -8e-9, 3e-10, 1,    2313,
+                  0,    2.0,   0,    -1e-8, 85,   0,    4,   0,     0};
+  for (const auto& [place, value] : values) f[place] = value;
+  std::string text = head;
+  for (int i = 0; i < 31; ++i) {
+    if (i >= 3 && (i - 3) % 4 == 0) text += "\n    ";
+    char field[32];
+    std::snprintf(field, sizeof field, "%19.12e", f[i]);
+    text += field;
+  }
+  std::replace(text.begin(), text.end(), 'e', exponent[0]);
+  return text + "\n";
 }
 
 }  // namespace leonav::test

@@ -96,6 +96,19 @@ TEST_CASE("A stream may end at every byte") {
   }
 }
 
+TEST_CASE("A damaged length holds back no block behind it") {
+  const auto stream = random_stream(40);
+  const auto blocks = test::block_extents(stream);
+  auto damaged = stream;
+  damaged[blocks[3].first + 6] = 0xFC, damaged[blocks[3].first + 7] = 0x3F;  // 16,380 bytes
+  SbfDecoder decoder;
+  test::SbfCollector collector;
+  decoder.feed(damaged, &collector);
+  CHECK(stream.size() < 16'380);
+  CHECK(decoder.counters().framer.blocks == 39);  // before the end of the stream
+  CHECK(decoder.counters().framer.bytes_skipped == blocks[3].size);
+}
+
 TEST_CASE("A flipped bit costs the block it is in and no other") {
   const auto clean = random_stream(2'000);
   const auto blocks = test::block_extents(clean);

@@ -266,9 +266,39 @@ TEST_CASE("A good checksum alone makes no message: the groups must fill it", "[x
   payload.insert(payload.end(), inner.begin(), inner.end());
   XsensCounters counters;
   const auto found = decode(message(0x36, payload), 4096, &counters).measurements;
-  CHECK(counters.framer.bad_groups == 1);
+  CHECK(counters.framer.bad_checksums == 1);
   REQUIRE(found.size() == 1);
   CHECK(found[0].packet_counter == 5);
+  payload.back() = 0, payload[7] = 0;  // the one inside is none now
+  CHECK(decode(message(0x36, payload), 4096, &counters).measurements.empty());
+  CHECK(counters.framer.bad_groups == 1);
+}
+
+TEST_CASE("A damaged length holds back no message behind it, nor does a false start", "[xsens]") {
+  for (const bool is_long : {true, false}) {
+    Bytes damaged = marked(1);
+    damaged[3] = is_long ? 0xFF : 250;
+    if (is_long) damaged[4] = 0x07, damaged[5] = 0xD0;  // 2000 bytes
+    const Bytes stream = joined({marked(0), damaged, {0xFA, 0xFF}, marked(2)});
+    XsensDecoder decoder;
+    Collector collector;
+    for (const std::uint8_t byte : stream) decoder.feed(std::span(&byte, 1), &collector);
+    REQUIRE(collector.measurements.size() == 2);  // before the end of the stream
+    CHECK(collector.measurements[1].packet_counter == 2);
+    CHECK(decoder.counters().framer.bytes_skipped == damaged.size() + 2);
+  }
+  // Other messages have no groups: they wait until an earlier start is known to be none.
+  XsensDecoder decoder;
+  Collector collector;
+  Bytes inner = joined({{0x10, 0x20, 2, 0, 9}, kRate, kForce, {0xC0, 0x20, 0}});
+  const Bytes other = message(0x3E, {});
+  inner.back() = static_cast<std::uint8_t>(other.size());
+  inner.insert(inner.end(), other.begin(), other.end());
+  for (const std::uint8_t byte : message(0x36, inner)) {
+    decoder.feed(std::span(&byte, 1), &collector);
+  }
+  REQUIRE(collector.measurements.size() == 1);
+  CHECK(collector.measurements[0].packet_counter == 9);
 }
 
 TEST_CASE("Random bytes yield no measurement and end", "[xsens]") {
