@@ -78,8 +78,11 @@ LogFiles files_of(const std::vector<Piece>& pieces) {
 
 }  // namespace
 
-LogFiles journal_pieces(const std::string& path) {
+LogFiles journal_pieces(const std::string& given) {
   std::error_code error;
+  // A piece that is kept after a fault has another name than its run was given.
+  const bool renamed = !fs::exists(given, error) && fs::exists(given + ".kept", error);
+  const std::string path = renamed ? given + ".kept" : given;
   if (fs::is_directory(path, error)) {
     const std::vector<Piece> pieces = pieces_in(path, "");
     require_one_run(path, pieces);

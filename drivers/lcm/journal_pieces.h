@@ -16,7 +16,8 @@ struct LogFiles {
 
 // `path` is
 // - a folder: all pieces in it, which must be of one run; other files are passed over;
-// - a piece of a journal: that one and the later ones of the run beside it;
+// - a piece of a journal, or its name before it was kept: that one and the later ones of the run
+//   beside it;
 // - any other log: that file alone.
 // Throws EventLogError where a folder holds no piece, or those of several runs.
 LogFiles journal_pieces(const std::string& path);

@@ -96,7 +96,7 @@ void JournalWriter::open() {
   if (config_.kept_mb > 0.0) folder_->keep_crashed_run();
   folder_->limit(true, bytes_of(config_.kept_mb));
   if (config_.total_mb > 0.0)
-    folder_->limit(false, bytes_of(config_.total_mb) - bytes_of(config_.piece_mb));
+    folder_->limit(false, bytes_of(config_.total_mb) - 2 * bytes_of(config_.piece_mb));
 }
 
 void JournalWriter::write_from(MessageRing* ring) {
@@ -221,7 +221,8 @@ void JournalWriter::end_piece() {
   file_.close();
   begun_ = false;
   note_ended_piece();
-  folder_->set_current("");
+  // The piece that has just ended stays, whatever the limits are.
+  folder_->set_current(piece_name_.data());
   // One for the one that is about to be written: a disk smaller than the limits.
   if (folder_->free_bytes() < bytes_of(config_.piece_mb)) folder_->delete_oldest();
   folder_->limit(true, bytes_of(config_.kept_mb));

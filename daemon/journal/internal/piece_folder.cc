@@ -60,7 +60,8 @@ bool PieceFolder::is_own(const char* name) const {
   journal.remove_prefix(name_.size());
   if (journal.empty()) return true;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  return journal.size() > 1 && journal[0] == '.' &&
+  // ".1" to ".9999", as the daemon writes them; a date behind the name is a user's.
+  return journal.size() > 1 && journal.size() <= 5 && journal[0] == '.' && journal[1] != '0' &&
          std::all_of(journal.begin() + 1, journal.end(), is_digit);
 }
 
@@ -104,7 +105,8 @@ void PieceFolder::limit(bool kept, std::int64_t bytes) {
 
 bool PieceFolder::delete_oldest() {
   std::int64_t total = 0;
-  const auto first = oldest(false, &total);
+  auto first = oldest(false, &total);
+  if (!first) first = oldest(true, &total);
   if (!first) return false;
   const std::int64_t before = counters_->deleted.get();
   remove(*first);

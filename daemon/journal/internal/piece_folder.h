@@ -27,7 +27,8 @@ class PieceFolder {
   // Deletes the oldest pieces until the others have at most `bytes`: those that are kept, or those
   // that are not.
   void limit(bool kept, std::int64_t bytes);
-  // Deletes the oldest one that is not kept; false: there is none.
+  // Deletes the oldest one that is not kept, or without such a one the oldest that is; false: there
+  // is none.
   bool delete_oldest();
   // Renames a piece to NAME.kept, so that limit(false, ...) passes it over.
   void keep(const char* name);

@@ -10,7 +10,7 @@ HEADER = struct.Struct(">4sqqII")
 SYNC = b"\xed\xa1\xda\x01"
 MOST_CHANNEL_BYTES = 999
 PIECE = struct.Struct(">8xqqiqqb")  # piece_t behind its fingerprint: time, number, schema, run, first event, outputs
-NAME = re.compile(r"(?P<journal>.+?)(\.part(?P<number>[0-9]{4,9}))?(\.kept)?")
+NAME = re.compile(r"(?P<journal>.+?)(\.part(?P<number>[0-9]{4,9}))?(\.kept)?", re.DOTALL)
 
 
 class Piece(NamedTuple):
@@ -49,11 +49,18 @@ def piece_of(path):
     return None
 
 
+def name_of(path):
+    """Returns the path under which a log is: a piece that is kept after a fault has been renamed."""
+    kept = os.fspath(path) + ".kept"
+    return kept if not os.path.exists(path) and os.path.exists(kept) else os.fspath(path)
+
+
 def files_of(path):
     """Returns the pieces that are read as one log, in order; an empty list where `path` is a log without pieces.
 
     A folder stands for the pieces of one run in it, a piece for itself and the later ones of its run beside it.
     """
+    path = name_of(path)
     if os.path.isdir(path):
         found = _in(path, None)
         if not found:
