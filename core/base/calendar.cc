@@ -102,4 +102,10 @@ int leap_seconds(GpsTime time) {
   return count;
 }
 
+// The second look-up is right on the day of a leap second too.
+GpsTime gps_from_utc(GpsTime reading) {
+  const GpsTime first = reading.plus_seconds(leap_seconds(reading));
+  return reading.plus_seconds(leap_seconds(first));
+}
+
 }  // namespace leonav

@@ -20,6 +20,11 @@ CalendarTime to_calendar(GpsTime time);
 // Bulletin C.
 int leap_seconds(GpsTime time);
 
+// Returns the GPS time of an instant whose UTC from_calendar() has turned into `reading`. An
+// inserted second, 23:59:60, and the one behind it have the same reading, which is taken for the
+// former.
+GpsTime gps_from_utc(GpsTime reading);
+
 // BeiDou time is GPS time minus 14 s (BDS-SIS-ICD 3.3); its week 0 is GPS week 1356.
 inline constexpr int kBeidouMinusGpsSeconds = -14;
 inline constexpr int kBeidouWeekZeroInGpsWeeks = 1356;

@@ -23,13 +23,7 @@ GpsTime gps_time_of(GpsTime reading, std::string_view time_system) {
     return reading.plus_seconds(-kBeidouMinusGpsSeconds);
   }
   if (time_system == "TAI") return reading.plus_seconds(-kTaiMinusGpsSeconds);
-  if (time_system == "UTC" || time_system == "GLO") {
-    // The leap second takes effect in UTC; the second look-up at the result is right on the day of
-    // a step too.
-    const GpsTime first = reading.plus_seconds(leap_seconds(reading));
-    return reading.plus_seconds(leap_seconds(first));
-  }
-  return reading;
+  return time_system == "UTC" || time_system == "GLO" ? gps_from_utc(reading) : reading;
 }
 
 }  // namespace leonav

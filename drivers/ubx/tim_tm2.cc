@@ -21,10 +21,7 @@ std::optional<GpsTime> edge_time(int week, std::uint32_t tow_ms, std::uint32_t t
   }
   const GpsTime time = GpsTime::from_nanoseconds(
       week * kNanosecondsPerWeek + std::int64_t{tow_ms} * kNanosecondsPerMillisecond + tow_ns);
-  if (!is_utc) return time;
-  // The second look-up is right on the day of a leap second too.
-  const GpsTime first = time.plus_seconds(leap_seconds(time));
-  return time.plus_seconds(leap_seconds(first));
+  return is_utc ? gps_from_utc(time) : time;
 }
 
 }  // namespace

@@ -110,11 +110,7 @@ std::optional<GpsTime> read_utc(const std::uint8_t* at) {
       at[5] > 60 || ms > 999 || year < 10) {
     return std::nullopt;
   }
-  const GpsTime reading =
-      from_calendar({2000 + year, at[1], at[2], at[3], at[4], at[5] + ms * 1e-3});
-  // The second look-up is right on the day of a leap second too.
-  const GpsTime first = reading.plus_seconds(leap_seconds(reading));
-  return reading.plus_seconds(leap_seconds(first));
+  return gps_from_utc(from_calendar({2000 + year, at[1], at[2], at[3], at[4], at[5] + ms * 1e-3}));
 }
 
 void read_times(const Fields& fields, VectornavMeasurement* m) {

@@ -50,11 +50,8 @@ std::optional<GpsTime> read_utc(std::span<const std::uint8_t> data) {
       p[0] > 12 || p[1] < 1 || p[1] > 31 || p[2] > 23 || p[3] > 59 || p[4] > 60) {
     return std::nullopt;
   }
-  const GpsTime reading = from_calendar({year, p[0], p[1], p[2], p[3], static_cast<double>(p[4])})
-                              .plus_nanoseconds(static_cast<std::int64_t>(ns));
-  // The second look-up is right on the day of a leap second too.
-  const GpsTime first = reading.plus_seconds(leap_seconds(reading));
-  return reading.plus_seconds(leap_seconds(first));
+  return gps_from_utc(from_calendar({year, p[0], p[1], p[2], p[3], static_cast<double>(p[4])})
+                          .plus_nanoseconds(static_cast<std::int64_t>(ns)));
 }
 
 // Returns the rotation vector of a unit quaternion (q0, q1, q2, q3): with v the length of (q1, q2,

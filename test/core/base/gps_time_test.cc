@@ -88,3 +88,13 @@ TEST_CASE("Leap seconds", "[time]") {
   CHECK(leap_seconds(from_calendar({2017, 1, 1, 0, 0, 18.0})) == 18);
   CHECK(leap_seconds(from_calendar({2026, 1, 1, 0, 0, 0.0})) == 18);
 }
+
+TEST_CASE("GPS time of UTC around a leap second", "[time]") {
+  const auto at = [](const CalendarTime& utc) { return gps_from_utc(from_calendar(utc)); };
+  const GpsTime midnight = from_calendar({2017, 1, 1, 0, 0, 0.0});
+  CHECK(at({2016, 12, 31, 23, 59, 59.5}) == midnight.plus_seconds(16.5));
+  CHECK(at({2016, 12, 31, 23, 59, 60.5}) == midnight.plus_seconds(17.5));
+  CHECK(at({2017, 1, 1, 0, 0, 1.0}) == midnight.plus_seconds(19.0));
+  CHECK(at({1980, 1, 6, 0, 0, 1.0}) == GpsTime::from_nanoseconds(kNanosecondsPerSecond));
+  CHECK(at({2026, 1, 1, 0, 0, 0.0}) == from_calendar({2026, 1, 1, 0, 0, 18.0}));
+}

@@ -10,8 +10,7 @@ namespace leonav {
 namespace {
 
 GpsTime from_utc(int year, int month, int day, double hour) {
-  const GpsTime utc = from_calendar({year, month, day, 0, 0, hour * 3600.0});
-  return utc.plus_seconds(leap_seconds(utc));
+  return gps_from_utc(from_calendar({year, month, day, 0, 0, hour * 3600.0}));
 }
 
 double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -14,10 +14,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-GpsTime from_utc(const CalendarTime& calendar) {
-  const GpsTime utc = from_calendar(calendar);
-  return utc.plus_seconds(leap_seconds(utc));
-}
+GpsTime from_utc(const CalendarTime& calendar) { return gps_from_utc(from_calendar(calendar)); }
 
 }  // namespace
 

@@ -18,7 +18,7 @@ std::optional<GpsTime> GpsClock::at(std::int64_t arrival_ns) const {
     const GpsTime utc =
         GpsTime::from_nanoseconds(arrival_ns - kGpsEpochSince1970_s * kNanosecondsPerSecond);
     if (!gps_minus_utc_s_) {
-      gps_minus_utc_s_ = leap_seconds(utc.plus_seconds(leap_seconds(utc)));
+      gps_minus_utc_s_ = leap_seconds(gps_from_utc(utc));
     }
     return utc.plus_seconds(*gps_minus_utc_s_);
   }
