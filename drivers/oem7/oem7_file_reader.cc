@@ -1,57 +1,36 @@
 #include "drivers/oem7/oem7_file_reader.h"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <deque>
-#include <filesystem>
-#include <fstream>
 
-#include "drivers/text/parse.h"
+#include "drivers/text/byte_file.h"
 
 namespace leonav {
 
 struct Oem7FileReader::State : Oem7Handler {
-  State(const std::string& file_path, const Oem7Options& options)
-      : path(file_path), decoder(options) {}
+  State(const std::string& path, const Oem7Options& options)
+      : file(path, "NovAtel bytes"), decoder(options) {}
 
   void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
   void on_klobuchar(const KlobucharModel& model) override { outputs.emplace_back(model); }
   void on_imu(const RawImuIncrements& increments) override { outputs.emplace_back(increments); }
 
-  std::string path;
-  std::ifstream file;
+  ByteFile file;
   Oem7Decoder decoder;
   std::deque<Oem7Output> outputs;  // of the last chunk
   bool at_end = false;
 };
 
 Oem7FileReader::Oem7FileReader(const std::string& path, const Oem7Options& options)
-    : state_(std::make_unique<State>(path, options)) {
-  if (std::filesystem::is_directory(path)) {
-    throw FileError(path, 0, "is a directory; name a file of NovAtel bytes");
-  }
-  errno = 0;
-  state_->file.open(path, std::ios::binary);
-  if (!state_->file) {
-    throw FileError(path, 0,
-                    std::string("cannot be opened (") + std::strerror(errno) +
-                        "); check the path and the permissions");
-  }
-}
-
+    : state_(std::make_unique<State>(path, options)) {}
 Oem7FileReader::~Oem7FileReader() = default;
 
 bool Oem7FileReader::next(Oem7Output* output) {
   State& s = *state_;
   while (s.outputs.empty() && !s.at_end) {
-    std::array<char, 4096> chunk;
-    s.file.read(chunk.data(), chunk.size());
-    const auto count = static_cast<std::size_t>(s.file.gcount());
-    if (s.file.bad()) throw FileError(s.path, 0, "cannot be read to its end; check the disk");
-    s.decoder.feed({reinterpret_cast<const std::uint8_t*>(chunk.data()), count}, &s);
-    if (!s.file) {
+    const std::span<const std::uint8_t> bytes = s.file.next();
+    s.decoder.feed(bytes, &s);
+    if (bytes.empty()) {
       s.at_end = true;
       s.decoder.finish(&s);
     }

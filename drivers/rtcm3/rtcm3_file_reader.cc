@@ -1,52 +1,19 @@
 #include "drivers/rtcm3/rtcm3_file_reader.h"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <deque>
-#include <filesystem>
-#include <fstream>
 
-#include "drivers/text/parse.h"
+#include "drivers/text/byte_file.h"
 
 namespace leonav {
 namespace {
 
-// The bytes of a file in chunks.
-class ByteFile {
- public:
-  explicit ByteFile(const std::string& path) : path_(path) {
-    if (std::filesystem::is_directory(path)) {
-      throw FileError(path, 0, "is a directory; name a file of RTCM 3 bytes");
-    }
-    errno = 0;
-    file_.open(path, std::ios::binary);
-    if (!file_) {
-      throw FileError(path, 0,
-                      std::string("cannot be opened (") + std::strerror(errno) +
-                          "); check the path and the permissions");
-    }
-  }
-
-  // Returns the next bytes; none at the end of the file.
-  std::span<const std::uint8_t> next() {
-    if (!file_) return {};
-    file_.read(chunk_.data(), chunk_.size());
-    if (file_.bad()) throw FileError(path_, 0, "cannot be read to its end; check the disk");
-    return {reinterpret_cast<const std::uint8_t*>(chunk_.data()),
-            static_cast<std::size_t>(file_.gcount())};
-  }
-
- private:
-  std::string path_;
-  std::ifstream file_;
-  std::array<char, 4096> chunk_;
-};
+constexpr const char* kWhat = "RTCM 3 bytes";
 
 }  // namespace
 
 struct Rtcm3FileReader::State : Rtcm3Handler {
-  State(const std::string& path, const Rtcm3Options& options) : file(path), decoder(options) {}
+  State(const std::string& path, const Rtcm3Options& options)
+      : file(path, kWhat), decoder(options) {}
 
   void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
@@ -88,7 +55,7 @@ bool Rtcm3FileReader::next(Rtcm3Output* output) {
 Rtcm3Counters Rtcm3FileReader::counters() const { return state_->decoder.counters(); }
 
 std::string first_antenna(const std::string& path) {
-  ByteFile file(path);
+  ByteFile file(path, kWhat);
   Rtcm3Framer framer;
   while (true) {
     std::span<const std::uint8_t> bytes = file.next();

@@ -1,19 +1,14 @@
 #include "drivers/ubx/ubx_file_reader.h"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <deque>
-#include <filesystem>
-#include <fstream>
 
-#include "drivers/text/parse.h"
+#include "drivers/text/byte_file.h"
 
 namespace leonav {
 
 struct UbxFileReader::State : UbxHandler {
-  State(const std::string& file_path, const RxmRawxOptions& options)
-      : path(file_path), decoder(options) {}
+  State(const std::string& path, const RxmRawxOptions& options)
+      : file(path, "u-blox bytes"), decoder(options) {}
 
   void on_epoch(const RawEpoch& epoch) override { outputs.emplace_back(epoch); }
   void on_ephemeris(const Ephemeris& ephemeris) override { outputs.emplace_back(ephemeris); }
@@ -22,38 +17,22 @@ struct UbxFileReader::State : UbxHandler {
   void on_page(const CorrectionPage& page) override { outputs.emplace_back(page); }
   void on_biases(const std::vector<SignalBias>& biases) override { outputs.emplace_back(biases); }
 
-  std::string path;
-  std::ifstream file;
+  ByteFile file;
   UbxDecoder decoder;
   std::deque<UbxOutput> outputs;  // of the last chunk
   bool at_end = false;
 };
 
 UbxFileReader::UbxFileReader(const std::string& path, const RxmRawxOptions& options)
-    : state_(std::make_unique<State>(path, options)) {
-  if (std::filesystem::is_directory(path)) {
-    throw FileError(path, 0, "is a directory; name a file of u-blox bytes");
-  }
-  errno = 0;
-  state_->file.open(path, std::ios::binary);
-  if (!state_->file) {
-    throw FileError(path, 0,
-                    std::string("cannot be opened (") + std::strerror(errno) +
-                        "); check the path and the permissions");
-  }
-}
-
+    : state_(std::make_unique<State>(path, options)) {}
 UbxFileReader::~UbxFileReader() = default;
 
 bool UbxFileReader::next(UbxOutput* output) {
   State& s = *state_;
   while (s.outputs.empty() && !s.at_end) {
-    std::array<char, 4096> chunk;
-    s.file.read(chunk.data(), chunk.size());
-    const auto count = static_cast<std::size_t>(s.file.gcount());
-    if (s.file.bad()) throw FileError(s.path, 0, "cannot be read to its end; check the disk");
-    s.decoder.feed({reinterpret_cast<const std::uint8_t*>(chunk.data()), count}, &s);
-    if (!s.file) {
+    const std::span<const std::uint8_t> bytes = s.file.next();
+    s.decoder.feed(bytes, &s);
+    if (bytes.empty()) {
       s.at_end = true;
       s.decoder.finish(&s);
     }
