@@ -20,6 +20,7 @@
 #include "tools/import/internal/antenna_source.h"
 #include "tools/import/internal/bias_source.h"
 #include "tools/import/internal/corrections.h"
+#include "tools/import/internal/delay_source.h"
 #include "tools/import/internal/observation_source.h"
 #include "tools/import/internal/oem7_file.h"
 #include "tools/import/internal/page_file.h"
@@ -60,7 +61,7 @@ class Import {
     antennas_ = load_antennas(dataset_, observations_.antenna(), start, &report_);
     LogOutput log(output, &report_);
     load_clocks(start);
-    biases_ = load_biases(dataset_.biases, start, options_.to, &report_);
+    schedule_biases(start);
     schedule(start);
     send_first(start, &log);
     while (send_next(&log)) show_progress();
@@ -71,7 +72,7 @@ class Import {
     long late_biases = 0;
     for (std::size_t i = next_bias_; i < biases_.size(); ++i)
       late_biases += static_cast<long>(biases_[i].biases.size());
-    report_.skip(dataset_.path, "bias that begins to hold after the end", late_biases);
+    report_.skip(dataset_.path, "bias that comes after the end", late_biases);
     warn_of_missing_ephemerides();
     log.commit();
     return report_;
@@ -89,6 +90,7 @@ class Import {
   std::vector<ImuSample> read_imu(const std::string& path);
   void load_corrections();
   void load_imu();
+  void schedule_biases(GpsTime start);
   void schedule(GpsTime start);
   void send_first(GpsTime start, LogOutput* log);
   bool send_next(LogOutput* log);
@@ -128,6 +130,7 @@ class Import {
   bool has_epoch_ = false;
   std::vector<ImuSample> imu_;
   std::vector<Ephemeris> navigation_;
+  std::vector<SignalBias> navigation_delays_;
   std::vector<OrbitEpoch> orbit_epochs_, clock_epochs_;
   std::vector<ScheduledEphemeris> ephemerides_;
   std::vector<ScheduledOrbitEpoch> orbits_;
@@ -140,12 +143,13 @@ class Import {
 
 // Observations of some formats bring ephemerides, so that this is known at the end.
 void Import::warn_of_missing_ephemerides() {
-  if (!dataset_.navigation.empty() || report_.ephemerides > 0) return;
+  if (report_.ephemerides > 0) return;
   report_.warnings.push_back(
       dataset_.orbits.empty()
-          ? "no navigation, no orbits and no ephemerides in the observations: no satellite has a "
-            "position and there will be no solution"
-          : "no navigation: no group delays and no ionosphere model, so single-frequency positions "
+          ? "no orbits, and no ephemerides in the navigation or the observations: no satellite has "
+            "a position and there will be no solution"
+          : "no ephemerides in the navigation or the observations: no group delays and no "
+            "ionosphere model, so single-frequency positions "
             "are off by metres, and satellites the orbits lack are not used");
 }
 
@@ -195,11 +199,13 @@ void Import::load_navigation() {
       report_.skip(path + ":" + std::to_string(skip.first_line), skip.reason, skip.count);
     }
     if (file.ephemerides.empty()) {
-      throw FileError(path, 0,
-                      "holds no usable ephemeris (" + std::to_string(file.counts.skipped_total()) +
-                          " records left out)");
+      const std::string what = "holds no usable ephemeris (" +
+                               std::to_string(file.counts.skipped_total()) + " records left out)";
+      if (!file.counts.all_skipped_by_design()) throw FileError(path, 0, what);
+      report_.warnings.push_back(path + " " + what);
     }
     navigation_.insert(navigation_.end(), file.ephemerides.begin(), file.ephemerides.end());
+    navigation_delays_.insert(navigation_delays_.end(), file.delays.begin(), file.delays.end());
     if (file.klobuchar.valid && !klobuchar_.valid) klobuchar_ = file.klobuchar;
   }
 }
@@ -297,6 +303,14 @@ void Import::load_imu() {
   report_.warn_if_most_lost(dataset_.path, "IMU samples", late, static_cast<long>(all.size()));
 }
 
+void Import::schedule_biases(GpsTime start) {
+  biases_ = load_biases(dataset_.biases, start, options_.to, &report_);
+  auto delays = schedule_delays(std::move(navigation_delays_), start, options_.to);
+  std::move(delays.begin(), delays.end(), std::back_inserter(biases_));
+  std::stable_sort(biases_.begin(), biases_.end(),
+                   [](const auto& a, const auto& b) { return a.arrival < b.arrival; });
+}
+
 void Import::schedule(GpsTime start) {
   EphemerisSchedule schedule = schedule_ephemerides(std::move(navigation_), start);
   ephemerides_ = std::move(schedule.items);
@@ -376,7 +390,7 @@ bool Import::send_next(LogOutput* log) {
     log->write(item.arrival, std::span<const SignalBias>(item.biases));
   } else if (ephemeris_arrival() <= std::min(data, correction_arrival())) {
     const ScheduledEphemeris& item = ephemerides_[next_ephemeris_++];
-    log->write(item.arrival, item.ephemeris);
+    if (!is_for_corrections_alone(item.ephemeris)) log->write(item.arrival, item.ephemeris);
     corrections_.add(item.ephemeris);
   } else if (correction_arrival() <= data) {
     corrections_.take(arriving_corrections_[next_correction_++], log);

@@ -102,7 +102,7 @@ TEST_CASE("biases arrive ahead of their validity, those that hold at the start f
   CHECK(seconds_between(run.biases[2].arrival, kFirstEpoch) == Approx(300.0 - 60.0).margin(1e-3));
   CHECK(run.biases[2].bias.valid_from == kFirstEpoch.plus_seconds(300.0));
   CHECK(left_out(run.report, "does not hold during the recording") == 1);
-  CHECK(left_out(run.report, "begins to hold after the end") == 1);
+  CHECK(left_out(run.report, "comes after the end") == 1);
 
   // The estimator's store, fed as the log comes, has at each instant the one that holds.
   SignalBiasStore store;

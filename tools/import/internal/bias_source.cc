@@ -1,7 +1,6 @@
 #include "tools/import/internal/bias_source.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/base/capacity.h"
 #include "drivers/bias_sinex/bias_sinex_reader.h"
@@ -42,6 +41,19 @@ void report_file(const std::string& path, const BiasSinexFile& file, ImportRepor
 
 }  // namespace
 
+std::vector<ScheduledBiases> in_messages(
+    const std::map<GpsTime, std::vector<SignalBias>>& by_arrival) {
+  std::vector<ScheduledBiases> scheduled;
+  for (const auto& [arrival, biases] : by_arrival) {
+    for (std::size_t i = 0; i < biases.size(); i += kMaxBiases) {
+      const auto begin = biases.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto count = static_cast<std::ptrdiff_t>(std::min(kMaxBiases, biases.size() - i));
+      scheduled.push_back({arrival, {begin, begin + count}});
+    }
+  }
+  return scheduled;
+}
+
 std::vector<ScheduledBiases> load_biases(const std::vector<std::string>& paths, GpsTime start,
                                          GpsTime end, ImportReport* report) {
   std::map<GpsTime, std::vector<SignalBias>> by_arrival;
@@ -65,15 +77,7 @@ std::vector<ScheduledBiases> load_biases(const std::vector<std::string>& paths, 
     report->skip(path, "bias that does not hold during the recording", outside);
     report->skip(path, "bias that no satellite can have", not_sane);
   }
-  std::vector<ScheduledBiases> scheduled;
-  for (const auto& [arrival, biases] : by_arrival) {
-    for (std::size_t i = 0; i < biases.size(); i += kMaxBiases) {
-      const auto begin = biases.begin() + static_cast<std::ptrdiff_t>(i);
-      const auto count = static_cast<std::ptrdiff_t>(std::min(kMaxBiases, biases.size() - i));
-      scheduled.push_back({arrival, {begin, begin + count}});
-    }
-  }
-  return scheduled;
+  return in_messages(by_arrival);
 }
 
 }  // namespace leonav

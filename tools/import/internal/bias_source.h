@@ -1,6 +1,7 @@
 // This unit collects the biases of satellites' signals that come with the precise products of a
 // recording.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct ScheduledBiases {
 // Throws FileError for a file that cannot be read.
 std::vector<ScheduledBiases> load_biases(const std::vector<std::string>& paths, GpsTime start,
                                          GpsTime end, ImportReport* report);
+
+// Returns the messages of biases that arrive together.
+std::vector<ScheduledBiases> in_messages(
+    const std::map<GpsTime, std::vector<SignalBias>>& by_arrival);
 
 // Longer than an epoch is late, and short against the validity of a bias: of each signal the store
 // keeps two.

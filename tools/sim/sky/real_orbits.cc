@@ -178,7 +178,7 @@ std::vector<RealOrbit> from_navigation(const std::string& path, System system,
                                        const OrbitSpan& span) {
   std::map<SatelliteId, std::map<GpsTime, Ephemeris>> issues;
   for (const Ephemeris& e : read_navigation(path).ephemerides) {
-    if (e.satellite.system != system) continue;
+    if (e.satellite.system != system || is_for_corrections_alone(e)) continue;
     auto& of_satellite = issues[e.satellite];
     // Only the first received of Galileo's two messages is used.
     if (of_satellite.empty() || of_satellite.begin()->second.message == e.message) {
