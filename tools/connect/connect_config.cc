@@ -19,9 +19,8 @@ bool is_receiver(const StreamConfig& stream) {
   return !stream.is_service && stream.format != FormatKind::kVectornav &&
          stream.format != FormatKind::kXsens && stream.format != FormatKind::kImuLine;
 }
-bool is_inertial(const StreamConfig& stream) {
-  return (!stream.is_service && !is_receiver(stream)) || stream.oem7.is_inertial ||
-         stream.sbf.is_inertial || stream.has_ubx_imu;
+bool gives_imu(const StreamConfig& stream) {
+  return (!stream.is_service && !is_receiver(stream)) || stream.is_inertial;
 }
 
 // Two senders on one channel would be one stream with twice the messages.
@@ -35,7 +34,7 @@ void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>&
       root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
     }
     receivers += is_receiver(stream);
-    inertial += is_inertial(stream);
+    inertial += gives_imu(stream);
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {

@@ -1,13 +1,13 @@
 // ConnectConfig is the configuration of leonav-connect.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/config/daemon_config.h"
 #include "drivers/imu_line/line_layout.h"
+#include "drivers/oem7/imu_scale.h"
 #include "drivers/ssr/correction_store.h"
-#include "tools/connect/formats/oem7_options.h"
-#include "tools/connect/formats/sbf_options.h"
 #include "tools/connect/formats/ubx_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
@@ -33,16 +33,15 @@ struct StreamConfig {
   SourceOptions source;
   FormatKind format = FormatKind::kUbx;
   LineLayout line;           // of kImuLine
-  Oem7StreamOptions oem7;    // of kOem7
-  SbfStreamOptions sbf;      // of kSbf
-  bool has_ubx_imu = false;  // of kUbx: the receiver's own inertial sensor is published
-  ImuStampOptions stamps;    // of inertial sensors
-  double repeat_s = 30.0;    // of a receiver: an ephemeris is sent again after so long; 0: never
-  GpsTime day;               // of kRtcm3 from a file: noon of the day it was recorded
-  bool is_service = false;   // of kRtcm3, kHas, kB2b: corrections, no receiver
-  bool uses_pages = false;   // of kUbx: the corrections of Galileo's E6-B are used
-  std::string record;        // file for every byte; empty: none
-  double silent_s = 3.0;     // a stream without bytes for so long is told
+  bool is_inertial = false;  // of kUbx, kOem7, kSbf: the receiver's own sensor is published too
+  std::optional<ImuScale> imu_scale;  // of kOem7: of a count; empty: as documented for its type
+  ImuStampOptions stamps;             // of inertial sensors
+  double repeat_s = 30.0;   // of a receiver: an ephemeris is sent again after so long; 0: never
+  GpsTime day;              // of kRtcm3 from a file: noon of the day it was recorded
+  bool is_service = false;  // of kRtcm3, kHas, kB2b: corrections, no receiver
+  bool uses_pages = false;  // of kUbx, kSbf: the corrections that the receiver gets are used
+  std::string record;       // file for every byte; empty: none
+  double silent_s = 3.0;    // a stream without bytes for so long is told
 };
 
 // Pulses of an inertial sensor at an input of the receiver.

@@ -113,7 +113,7 @@ std::unique_ptr<ByteSource> Connector::State::make_source(const StreamConfig& st
 }
 
 std::unique_ptr<StreamFormat> Connector::State::make_ubx_format(const StreamConfig& stream) {
-  const UbxStreamOptions options{stream.has_ubx_imu, stream.stamps, config.pulse.input,
+  const UbxStreamOptions options{stream.is_inertial, stream.stamps, config.pulse.input,
                                  stream.uses_pages};
   return std::make_unique<UbxFormat>(config.gnss_latency_s, stream.repeat_s, &gps, &output,
                                      corrections_of(stream), options,
@@ -129,11 +129,13 @@ std::unique_ptr<StreamFormat> Connector::State::make_format(const StreamConfig& 
       return std::make_unique<Rtcm3Format>(stream.day, stream.repeat_s, &gps, &output,
                                            stream.is_service, corrections_of(stream));
     case FormatKind::kOem7:
-      return std::make_unique<Oem7Format>(stream.oem7, config.gnss_latency_s, stream.repeat_s, &gps,
-                                          &output, corrections_of(stream));
+      return std::make_unique<Oem7Format>(Oem7StreamOptions{stream.is_inertial, stream.imu_scale},
+                                          config.gnss_latency_s, stream.repeat_s, &gps, &output,
+                                          corrections_of(stream));
     case FormatKind::kSbf:
-      return std::make_unique<SbfFormat>(stream.sbf, config.gnss_latency_s, stream.repeat_s, &gps,
-                                         &output, corrections_of(stream));
+      return std::make_unique<SbfFormat>(SbfStreamOptions{stream.is_inertial, stream.uses_pages},
+                                         config.gnss_latency_s, stream.repeat_s, &gps, &output,
+                                         corrections_of(stream));
     case FormatKind::kVectornav:
       return std::make_unique<VectornavFormat>(&gps, stream.stamps, &output, own_pulses);
     case FormatKind::kXsens:

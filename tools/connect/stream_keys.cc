@@ -102,16 +102,14 @@ void read_day(ConfigReader& group, StreamConfig* stream) {
   stream->day = *day;
 }
 
-// A SPAN receiver's own inertial sensor.
-void read_oem7(ConfigReader& group, Oem7StreamOptions* options) {
-  group.boolean("inertial", &options->is_inertial);
+void read_imu_scale(ConfigReader& group, std::optional<ImuScale>* imu_scale) {
   std::vector<double> scale;
   group.numbers("imu_scale", {0.0, 1.0}, &scale);
   if (scale.empty()) return;
   if (scale.size() != 2 || scale[0] <= 0.0 || scale[1] <= 0.0) {
     group.fail("imu_scale", "must be two numbers above 0: what a count stands for, in rad and m/s");
   }
-  options->imu_scale = ImuScale{scale[0], scale[1]};
+  *imu_scale = ImuScale{scale[0], scale[1]};
 }
 
 bool has_clock(const LineLayout& layout) {
@@ -152,19 +150,16 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
     read_day(group, stream);
     group.boolean("corrections", &stream->is_service);
   }
-  if (stream->format == FormatKind::kUbx) group.boolean("corrections", &stream->uses_pages);
   const bool has_pages = stream->format == FormatKind::kHas || stream->format == FormatKind::kB2b;
   if (has_pages) stream->is_service = true;
-  if (stream->format == FormatKind::kOem7) read_oem7(group, &stream->oem7);
-  if (stream->format == FormatKind::kSbf) {
-    group.boolean("inertial", &stream->sbf.is_inertial);
-    group.boolean("corrections", &stream->sbf.uses_pages);
-  }
-  if (stream->format == FormatKind::kUbx) {
-    group.boolean("inertial", &stream->has_ubx_imu);
-    if (stream->has_ubx_imu) {
-      group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
-    }
+  const bool is_ubx = stream->format == FormatKind::kUbx;
+  const bool is_oem7 = stream->format == FormatKind::kOem7;
+  const bool is_sbf = stream->format == FormatKind::kSbf;
+  if (is_ubx || is_sbf) group.boolean("corrections", &stream->uses_pages);
+  if (is_ubx || is_oem7 || is_sbf) group.boolean("inertial", &stream->is_inertial);
+  if (is_oem7) read_imu_scale(group, &stream->imu_scale);
+  if (is_ubx && stream->is_inertial) {
+    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
   }
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
       stream->format == FormatKind::kOem7 || stream->format == FormatKind::kSbf) {

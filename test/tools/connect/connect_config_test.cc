@@ -59,8 +59,8 @@ TEST_CASE("Pages come from a service as text, or from a receiver that is told to
   CHECK(config.streams.at(2).format == FormatKind::kB2b);
   CHECK(std::string(name_of(FormatKind::kHas)) == "has");
   const std::string septentrio = "name: a, source: tcp, host: h, port: 1, format: sbf";
-  CHECK_FALSE(load(stream(septentrio)).streams.at(0).sbf.uses_pages);
-  CHECK(load(stream(septentrio + ", corrections: true")).streams.at(0).sbf.uses_pages);
+  CHECK_FALSE(load(stream(septentrio)).streams.at(0).uses_pages);
+  CHECK(load(stream(septentrio + ", corrections: true")).streams.at(0).uses_pages);
   CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: has, latency_ms: 3")), ConfigError);
   CHECK_THROWS_AS(load(stream("name: b, source: stdin, format: vectornav, corrections: true")),
                   ConfigError);
@@ -81,13 +81,13 @@ TEST_CASE("A NovAtel stream is a receiver, and an inertial sensor where that is 
   const std::string receiver = "name: span, source: tcp, host: span, port: 3001, format: oem7";
   const StreamConfig plain = load(stream(receiver)).streams.at(0);
   CHECK(plain.format == FormatKind::kOem7);
-  CHECK_FALSE(plain.oem7.is_inertial);
-  CHECK_FALSE(plain.oem7.imu_scale);
+  CHECK_FALSE(plain.is_inertial);
+  CHECK_FALSE(plain.imu_scale);
   const StreamConfig span =
       load(stream(receiver + ", inertial: true, imu_scale: [1e-9, 2e-8]")).streams.at(0);
-  CHECK(span.oem7.is_inertial);
-  CHECK(span.oem7.imu_scale->angle_rad == 1e-9);
-  CHECK(span.oem7.imu_scale->velocity_m_s == 2e-8);
+  CHECK(span.is_inertial);
+  CHECK(span.imu_scale->angle_rad == 1e-9);
+  CHECK(span.imu_scale->velocity_m_s == 2e-8);
   for (const char* scale : {"[1e-9]", "[1e-9, 0]", "[1e-9, -1e-9]", "[1, 2]", "[a, b]", "7"}) {
     CHECK_THROWS_AS(load(stream(receiver + ", imu_scale: " + scale)), ConfigError);
   }
@@ -102,8 +102,8 @@ TEST_CASE("A Septentrio stream is a receiver, and an inertial sensor where that 
   const StreamConfig plain = load(stream(receiver)).streams.at(0);
   CHECK(plain.format == FormatKind::kSbf);
   CHECK(std::string(name_of(plain.format)) == "sbf");
-  CHECK_FALSE(plain.sbf.is_inertial);
-  CHECK(load(stream(receiver + ", inertial: true")).streams.at(0).sbf.is_inertial);
+  CHECK_FALSE(plain.is_inertial);
+  CHECK(load(stream(receiver + ", inertial: true")).streams.at(0).is_inertial);
   CHECK(load(stream(receiver + ", repeat_ephemerides_s: 5")).streams.at(0).repeat_s == 5.0);
   CHECK_THROWS_AS(load(stream(receiver + ", latency_ms: 5")), ConfigError);
   CHECK_THROWS_AS(load(stream(receiver + ", imu_scale: [1e-9, 2e-8]")), ConfigError);
@@ -192,10 +192,10 @@ TEST_CASE("A receiver with an inertial sensor is both, and pulses need who sends
           "[connect]") {
   const std::string receiver = "name: r, source: serial, device: /dev/x, format: ubx";
   const std::string imu = "  - {name: imu, source: serial, device: /dev/y, format: xsens}\n";
-  CHECK_FALSE(load(stream(receiver)).streams.at(0).has_ubx_imu);
+  CHECK_FALSE(load(stream(receiver)).streams.at(0).is_inertial);
   const StreamConfig own =
       load(stream(receiver + ", inertial: true, latency_ms: 10")).streams.at(0);
-  CHECK(own.has_ubx_imu);
+  CHECK(own.is_inertial);
   CHECK(own.stamps.latency_s == Approx(0.01));
   CHECK_THROWS_AS(load(stream(receiver + ", latency_ms: 10")), ConfigError);
   CHECK(load(stream(receiver) + imu).streams.at(1).format == FormatKind::kXsens);

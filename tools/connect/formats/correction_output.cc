@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/common/format.h"
+#include "tools/import/unused_corrections.h"
 
 namespace leonav {
 
@@ -30,7 +31,6 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
 std::string CorrectionOutput::detail() const {
   if (last_satellites_ == 0) return "";
   const CorrectionServices& services = shared_->services;
-  const CorrectionCounters c = services.counters(stream_);
   std::string text = format("corrections of %zu satellites, %s of %zu", last_satellites_,
                             services.services() > 1 ? "usable" : "used", last_usable_);
   if (services.services() > 1) {
@@ -41,19 +41,10 @@ std::string CorrectionOutput::detail() const {
                      static_cast<unsigned long long>(services.changes()));
     }
   }
-  const std::pair<const char*, std::uint64_t> reasons[] = {
-      {"without their ephemeris", c.without_ephemeris},
-      {"of BeiDou without their ephemeris of B-CNAV1 (turn on B1C)", c.without_bcnav1},
-      {"without orbit", c.without_orbit},
-      {"without clock", c.without_clock},
-      {"of two solutions", c.of_other_issue},
-      {"too old", c.too_old},
-      {"that the service does not vouch for", c.not_reliable},
-      {"in a regional frame", c.in_regional_frame}};
   const char* separator = "; not used since the start: ";
-  for (const auto& [reason, count] : reasons) {
-    if (count == 0) continue;
-    text += separator + std::to_string(count) + " " + reason;
+  for (const UnusedCorrections& unused : unused_corrections(services.counters(stream_))) {
+    if (unused.count == 0) continue;
+    text += separator + std::to_string(unused.count) + " " + unused.many;
     separator = ", ";
   }
   return text;

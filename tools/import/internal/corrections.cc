@@ -6,6 +6,7 @@
 #include "drivers/text/parse.h"
 #include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/product_schedule.h"
+#include "tools/import/unused_corrections.h"
 
 namespace leonav {
 namespace {
@@ -87,19 +88,8 @@ void Corrections::take(const ScheduledCorrection& from, const Ephemeris& ephemer
 }
 
 void Corrections::report(const std::string& where, ImportReport* report) const {
-  const CorrectionCounters c = services_.counters();
-  const std::pair<const char*, std::uint64_t> reasons[] = {
-      {"corrected clock of a satellite without corrected orbit", c.without_orbit},
-      {"corrected orbit of a satellite whose clock belongs to another issue", c.without_clock},
-      {"correction of a broadcast message that is not there", c.without_ephemeris},
-      {"correction of BeiDou whose ephemeris of B-CNAV1 is not there (let the receiver give B1C)",
-       c.without_bcnav1},
-      {"correction whose orbit and clock are of different solutions", c.of_other_issue},
-      {"correction that is too old", c.too_old},
-      {"correction that the service does not vouch for", c.not_reliable},
-      {"correction in a regional frame", c.in_regional_frame}};
-  for (const auto& [reason, count] : reasons) {
-    report->skip(where, reason, static_cast<long>(count));
+  for (const UnusedCorrections& unused : unused_corrections(services_.counters())) {
+    report->skip(where, unused.one, static_cast<long>(unused.count));
   }
   report->skip(where, "corrected state of a service while another one is in use",
                static_cast<long>(services_.left_out_states()));
