@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon/link/lcm_publisher.h"
+#include "daemon/link/service_manager.h"
 #include "drivers/transport/file_source.h"
 #include "drivers/transport/live_sources.h"
 #include "drivers/transport/ntrip_source.h"
@@ -86,6 +87,7 @@ struct Connector::State {
   asio::signal_set signals;
   asio::steady_timer second;
   std::vector<std::unique_ptr<Stream>> streams;
+  ServiceManager manager;
   std::uint64_t seconds = 0;
   bool was_stopped = false;
 };
@@ -177,6 +179,7 @@ void Connector::State::each_second() {
   ++seconds;
   for (const auto& stream : streams) stream->look();
   publish_status();
+  manager.feed_watchdog();  // the one thread that reads all streams is alive
   const auto interval = static_cast<std::uint64_t>(config.status_interval_s);
   if (interval == 0 || seconds % interval != 0) return;
   for (const auto& stream : streams) spdlog::info("{}", status_text(*stream, clock.now_ns()));
@@ -195,12 +198,15 @@ Connector::~Connector() = default;
 ConnectorEnd Connector::run() {
   State& s = *state_;
   std::signal(SIGPIPE, SIG_IGN);
+  if (!s.manager.problem().empty()) spdlog::warn("{}", s.manager.problem());
   s.wait_for_signal();
   for (const auto& stream : s.streams) stream->start();
   s.wait_a_second();
   spdlog::info("running; LCM {}, channels {}*, {} streams", s.config.lcm.url, s.config.lcm.prefix,
                s.streams.size());
+  s.manager.ready();
   s.io.run();
+  s.manager.stopping();
   bool failed = s.output.sent() == 0;
   for (const auto& stream : s.streams) {
     stream->finish();

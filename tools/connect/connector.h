@@ -19,7 +19,8 @@ class Connector {
   explicit Connector(const ConnectConfig& config);
   ~Connector();
 
-  // Runs until SIGTERM or SIGINT comes, or every stream has ended.
+  // Runs until SIGTERM or SIGINT comes, or every stream has ended. A service manager that asks for
+  // it is told of start, life and end (daemon/link/service_manager.h).
   ConnectorEnd run();
 
  private:

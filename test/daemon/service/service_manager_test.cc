@@ -1,5 +1,5 @@
 // The daemon beside a service manager, whose socket the test itself holds.
-#include "daemon/service/service_manager.h"
+#include "daemon/link/service_manager.h"
 
 #include <poll.h>
 

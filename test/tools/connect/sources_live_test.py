@@ -43,13 +43,13 @@ def recorded(path):
 class Run:
     """leonav-connect with one stream that is recorded."""
 
-    def __init__(self, work, name, keys):
+    def __init__(self, work, name, keys, **environment):
         self.record, self.text = work / f"{name}.leoraw", work / f"{name}.txt"
         config = work / f"{name}.yaml"
         config.write_text(f"streams:\n  - {{name: {name}, {keys}, format: rtcm3, record: {name}.leoraw}}\n")
         self.check = subprocess.run([BIN / "leonav-connect", "--check", config], stderr=subprocess.PIPE, check=False)
         with open(self.text, "wb") as text:
-            self.process = subprocess.Popen([BIN / "leonav-connect", config], stderr=text)
+            self.process = subprocess.Popen([BIN / "leonav-connect", config], stderr=text, env={**os.environ, **environment})
 
     def says(self, words):
         wait_for(f"'{words}'", lambda: words in self.text.read_text(encoding="utf-8"))
@@ -134,6 +134,26 @@ def udp(work):
     print(f"udp: {len(sent)} bytes of 50 datagrams, as they were sent")
 
 
+def service_manager(work):
+    """As systemd with Type=notify and a watchdog would hear it."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(str(work / "notify"))
+        manager.settimeout(60)
+        run = Run(work, "notified", f"source: udp, port: {free_port(socket.SOCK_DGRAM)}", NOTIFY_SOCKET=str(work / "notify"), WATCHDOG_USEC="10000000")
+        heard = [manager.recv(100) for _ in range(3)]
+        run.says("running; LCM")
+        run.finish()
+        manager.settimeout(0)
+        try:
+            while True:
+                heard.append(manager.recv(100))
+        except BlockingIOError:
+            pass
+    if heard[:3] != [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"] or heard[-1] != b"STOPPING=1":
+        fail(f"a service manager heard {heard}")
+    print("service manager: told of start, life and end")
+
+
 def main():
     global BIN
     if shutil.which("openssl") is None:
@@ -145,6 +165,7 @@ def main():
     ntrip(work)
     tcp_server(work)
     udp(work)
+    service_manager(work)
 
 
 if __name__ == "__main__":

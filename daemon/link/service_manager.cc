@@ -1,4 +1,4 @@
-#include "daemon/service/service_manager.h"
+#include "daemon/link/service_manager.h"
 
 #include <unistd.h>
 
