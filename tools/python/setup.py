@@ -1,6 +1,8 @@
 """Puts the message types of lcmtypes/ into the package that is built; the rest is in pyproject.toml."""
+import atexit
 import pathlib
 import shutil
+import tempfile
 
 from setuptools import setup
 from setuptools.command.build_py import build_py
@@ -22,4 +24,7 @@ class BuildWithTypes(build_py):
             shutil.copy(definition, target)
 
 
-setup(cmdclass={"build_py": BuildWithTypes})
+# What is built on the way does not stay in the tree.
+work = tempfile.mkdtemp(prefix="leonav-build-")
+atexit.register(shutil.rmtree, work, ignore_errors=True)
+setup(cmdclass={"build_py": BuildWithTypes}, options={"build": {"build_base": work}, "egg_info": {"egg_base": work}})

@@ -340,6 +340,26 @@ class Damage(unittest.TestCase):
                     self.assertTrue(mode == "raise" or data[:4] != self.data[:4])
 
 
+def namespace():
+    """The words that run a command in a network namespace of its own."""
+    for words in (["unshare", "-n"], ["unshare", "-rn"]):
+        if subprocess.run([*words, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+            return words
+    print("SKIPPED: no network namespace can be made here")
+    raise unittest.SkipTest("no namespace")
+
+
+class Route(unittest.TestCase):
+    def test_a_missing_multicast_route_is_told_with_what_mends_it(self):
+        listen = "import leonav; next(iter(leonav.subscribe(timeout_s=0.1)), None)"
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools" / "python")}
+        without = subprocess.run([*namespace(), sys.executable, "-c", listen], capture_output=True, text=True, check=False, env=environment)
+        self.assertIn("LeonavError", without.stderr)
+        route = re.findall("as root: (.*)", without.stderr)[-1]  # the message, behind the trace
+        there = subprocess.run([*namespace(), "sh", "-c", f"{route} && exec '{sys.executable}' -c '{listen}'"], check=False, env=environment)
+        self.assertEqual(there.returncode, 0)
+
+
 class Datagrams(unittest.TestCase):
     def fragments(self, data, size):
         parts = [data[start:start + size] for start in range(0, len(data), size)]
@@ -410,11 +430,7 @@ class Journal(unittest.TestCase):
         if shutil.which("lcm-logplayer") is None:
             print("SKIPPED: no lcm-logplayer (package liblcm-bin)")
             raise unittest.SkipTest("no lcm-logplayer")
-        enter = next((one for one in (["unshare", "-n"], ["unshare", "-rn"])
-                      if subprocess.run([*one, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0), None)
-        if enter is None:
-            print("SKIPPED: no network namespace can be made here")
-            raise unittest.SkipTest("no namespace")
+        enter = namespace()
         cls.journal, cls.tables, cls.log = WORK / "run.journal", WORK / "replay", WORK / "drive.lcmlog"
         subprocess.run([f"{BIN}/leonav-synthetic-drive", "--out", cls.log, "--truth", WORK / "truth.csv", "--duration", "60", "--carriers"],
                        check=True, stdout=subprocess.DEVNULL)

@@ -26,6 +26,7 @@ from generated_types import generated_types  # noqa: E402
 from live_program import enter_namespace, fail  # noqa: E402
 
 TIME_NS = ((2200 * 7 + 4) * 86400 + 61) * 10**9 + 500_000_000  # 2022-03-10 00:00:43.5 UTC
+DETAIL = "a long text, " * 20 + "its end"  # of a stream; a file gets it whole
 
 
 def publisher():
@@ -68,6 +69,7 @@ def messages(types):
     event.time_ns, event.schema, event.stage, event.kind, event.value = TIME_NS, 1, 2, 3, 0.25
     streams, stream = types.streams_t(), types.stream_t()
     stream.name, stream.state, stream.messages, stream.damaged, stream.message_age_s = "receiver", "good", 321, 2, 0.5
+    stream.detail = DETAIL
     streams.time_ns, streams.schema, streams.n, streams.streams = TIME_NS, 1, 1, [stream]
     corrected = [corrected_states(types, TIME_NS - 10 * 10**9, 0, ((5, 4.0, 20.0, 0.05), (7, 5.0, 20.0, 0.07))),
                  corrected_states(types, TIME_NS - 2 * 10**9, 1, ((11, 6.0, 29.5, 0.06),))]
@@ -134,7 +136,7 @@ def check_once(program, some):
             "horizontal 6.2 m, vertical -", "1 used of 2, gps 1   PDOP 1.8", "G05      29  57 45.0 ###############      used             precise, 15 s\n",
             "G09      29  57 45.0 ###############      low_elevation\n",
             "provider 258, solution 2, issue 5: 3 satellites (gps 2, galileo 1)   oldest: clock 15 s, orbit 32 s   1 sigma 0.06 m   last 0 s ago",
-            "satellites used: 3 by broadcast messages (oldest 1200 s), 9 by corrected or precise states (oldest 15 s)")
+            "satellites used: 3 by broadcast messages (oldest 1200 s), 9 by corrected or precise states (oldest 15 s)", DETAIL + "\n")
 
 
 def check_terminal(program, some):

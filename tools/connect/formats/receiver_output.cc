@@ -67,8 +67,10 @@ std::optional<DataTime> ReceiverOutput::data_time() const {
 
 std::string ReceiverOutput::detail() const {
   if (!last_epoch_.is_set() && ephemerides_ == 0) return "";
-  std::string text = format("%zu signals in the last epoch, %llu ephemerides", last_signals_,
-                            static_cast<unsigned long long>(ephemerides_));
+  // A service of corrections sends no epochs.
+  std::string text;
+  if (last_epoch_.is_set()) text = format("%zu signals in the last epoch, ", last_signals_);
+  text += format("%llu ephemerides", static_cast<unsigned long long>(ephemerides_));
   if (time_steps_ > 0) {
     text += format("; its time has stepped %llu times, the last by %.0f s",
                    static_cast<unsigned long long>(time_steps_), last_step_s_);

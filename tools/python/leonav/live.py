@@ -17,6 +17,7 @@ from .message import decode
 SHORT, FRAGMENT = struct.Struct(">4sI"), struct.Struct(">4sIIIHH")
 MOST_BYTES = 1 << 20  # of a message; leonav's longest has 40 KiB
 MOST_UNFINISHED = 16  # messages of which fragments are missing
+ROUTE = "ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo"
 BUFFER_BYTES = 2 << 20
 
 
@@ -106,7 +107,7 @@ def _join(url, group, port):
         receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + socket.inet_aton("0.0.0.0"))
     except (OSError, OverflowError) as error:
         receiver.close()
-        raise LeonavError(f"{url}: {error}; LCM needs a multicast route: ip route add 224.0.0.0/4 dev lo") from error
+        raise LeonavError(f"{url}: {error}; LCM needs a multicast route; as root: {ROUTE}") from error
     return receiver
 
 

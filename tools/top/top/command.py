@@ -54,7 +54,7 @@ def once(options):
         print(f"leonav-top: no message on {options.prefix}* within {options.wait:g} s; does leonavd run on this LCM network, with this "
               "prefix and URL?", file=sys.stderr)
         return 1
-    print("\n".join(picture(state, time.monotonic(), 200, 1000)))
+    print("\n".join(picture(state, time.monotonic())))  # whole: a terminal breaks long lines, a file has no width
     return 0
 
 

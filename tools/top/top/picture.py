@@ -50,9 +50,9 @@ def number(value, pattern, unit=""):
     return pattern % value + unit if math.isfinite(value) else "-"
 
 
-def safe(text, width=200):
-    """Text of a message without characters that would steer the terminal."""
-    return "".join(one if one.isprintable() else "?" for one in text)[:width]
+def safe(text, width=None):
+    """Text of a message without characters that would steer the terminal, at most `width` of them."""
+    return "".join(one if one.isprintable() else "?" for one in text[:width])
 
 
 def clock(time_ns):
@@ -145,7 +145,7 @@ def stream_lines(streams):
     for one in streams["streams"]:
         yield (f"{safe(one['name'], 16):16} {safe(one['state'], 12):12} published {one['messages']}, damaged {one['damaged']}, "
                f"refused {one['refused']}, failures {one['failures']}, last {number(one['message_age_s'], '%.1f', ' s')} ago   "
-               f"{safe(one['detail'], 80)}".rstrip())
+               f"{safe(one['detail'])}".rstrip())
 
 
 def event_lines(events):
@@ -162,8 +162,9 @@ SECTIONS = (
     ("corrections", "CORRECTED_STATES", correction_lines, True))
 
 
-def picture(state, now, width, height):
-    """Returns the lines of the picture: at most `height`, none longer than `width`. Satellites come last and fill what is left."""
+def picture(state, now, width=None, height=None):
+    """Returns the lines of the picture: at most `height`, none longer than `width`; None: no limit. Satellites come last and fill what
+    is left."""
     lines = []
     for title, channel, draw, optional in SECTIONS:
         if channel not in state.fields:

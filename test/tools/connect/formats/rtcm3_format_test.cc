@@ -195,7 +195,8 @@ TEST_CASE("Corrections of a service make states with a receiver's ephemerides", 
   const SatelliteState broadcast = broadcast_state(elements(77), state.time);
   CHECK((broadcast.p_e - state.p_e).norm() == Approx(1.0));
   CHECK(kSpeedOfLight * (state.clock_s - broadcast.clock_s) == Approx(0.5).margin(1e-6));
-  CHECK(service.counts().messages == 1);  // biases do not count
+  CHECK(service.counts().messages == 1);        // biases do not count
+  CHECK(receiver.detail() == "2 ephemerides");  // no word of signals, as there is no epoch
   CHECK(service.data_time()->nanoseconds == kTime.nanoseconds());
 }
 
