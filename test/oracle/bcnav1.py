@@ -15,18 +15,29 @@ import sys
 ELEMENTS = "A e M0 deln OMG0 OMGd i0 idot omg cuc cus crc crs cic cis af0 af1 af2 Adot delnd"
 
 
-def messages(path):
-    """Yields satellite, week, seconds and the 600 bits of each subframe 2."""
+def subframes(path, system, signals, words):
+    """Yields satellite, week, seconds and the words of each UBX-RXM-SFRBX of these, behind the first UBX-RXM-RAWX."""
     data = open(path, "rb").read()
     at, week, second = 0, None, None
     while (at := data.find(b"\xb5\x62\x02", at)) >= 0:
         size, = struct.unpack_from("<H", data, at + 4)
         if data[at + 3] == 0x15:
             second, week = struct.unpack_from("<dH", data, at + 6)
-        elif data[at + 3] == 0x13 and size == 8 + 4 * 19 and data[at + 6] == 3 and data[at + 8] in (5, 6) and week:
-            words = struct.unpack_from(">19I", b"".join(data[k:k + 4][::-1] for k in range(at + 14, at + 14 + 76, 4)))
-            yield data[at + 7], week, second, "".join(f"{word:032b}" for word in words)[:600]
+        elif data[at + 3] == 0x13 and size == 8 + 4 * words and data[at + 6] == system and data[at + 8] in signals and week:
+            yield data[at + 7], week, second, struct.unpack_from(f"<{words}I", data, at + 14)
         at += 3
+
+
+def messages(path):
+    """Yields satellite, week, seconds and the 600 bits of each subframe 2."""
+    for satellite, week, second, words in subframes(path, 3, (5, 6), 19):
+        yield satellite, week, second, "".join(f"{word:032b}" for word in words)[:600]
+
+
+def frame_of(bits):
+    """The frame that cssrlib takes."""
+    frame = bits + "00000011" + "000001" + "0" * 258 + "00000000"
+    return int(frame.ljust(912, "0"), 2).to_bytes(114, "big")
 
 
 def decoded(path):
@@ -36,9 +47,7 @@ def decoded(path):
 
     decoder = RawNav()
     for satellite, week, second, bits in messages(path):
-        frame = bits + "00000011" + "000001" + "0" * 258 + "00000000"
-        message = int(frame.ljust(912, "0"), 2).to_bytes(114, "big")
-        eph = decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), message)
+        eph = decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), frame_of(bits))
         if eph is None:
             continue
         position, clock = eph2pos(timeadd(eph.toe, 1000.0), eph)

@@ -12,21 +12,7 @@ differs from the one before.
 import struct
 import sys
 
-from bcnav1 import messages as bcnav1_messages
-
-
-def gps_cnav_messages(path):
-    """Yields satellite, week, seconds and the bytes of each CNAV message of L2C."""
-    data = open(path, "rb").read()
-    at, week, second = 0, None, None
-    while (at := data.find(b"\xb5\x62\x02", at)) >= 0:
-        size, = struct.unpack_from("<H", data, at + 4)
-        if data[at + 3] == 0x15:
-            second, week = struct.unpack_from("<dH", data, at + 6)
-        elif data[at + 3] == 0x13 and size == 8 + 4 * 10 and data[at + 6] == 0 and data[at + 8] in (3, 4) and week:
-            words = struct.unpack_from("<10I", data, at + 14)
-            yield data[at + 7], week, second, struct.pack(">10I", *words)
-        at += 3
+import bcnav1
 
 
 def ephemerides_of_bits(path):
@@ -34,12 +20,10 @@ def ephemerides_of_bits(path):
     from cssrlib.rawnav import RawNav
 
     decoder = RawNav()
-    for satellite, week, second, bits in bcnav1_messages(path):
-        frame = bits + "00000011" + "000001" + "0" * 258 + "00000000"
-        message = int(frame.ljust(912, "0"), 2).to_bytes(114, "big")
-        yield decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), message)
-    for satellite, week, second, message in gps_cnav_messages(path):
-        yield decoder.decode_gps_cnav(week, second, prn2sat(uGNSS.GPS, satellite), message)
+    for satellite, week, second, bits in bcnav1.messages(path):
+        yield decoder.decode_bds_b1c(week, second, prn2sat(uGNSS.BDS, satellite), bcnav1.frame_of(bits))
+    for satellite, week, second, words in bcnav1.subframes(path, 0, (3, 4), 10):  # CNAV on L2C
+        yield decoder.decode_gps_cnav(week, second, prn2sat(uGNSS.GPS, satellite), struct.pack(">10I", *words))
 
 
 def ephemerides_of_rinex(path):

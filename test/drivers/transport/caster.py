@@ -10,25 +10,17 @@ Prints "NAME PORT" for each of them: plain, and tls with a certificate for "loca
 Everything else is 404, or the source table for version 1. User and password are me and open:sesame. Each request is
 printed as "asked MOUNTPOINT VERSION".
 """
-import base64
 import pathlib
 import socket
-import ssl
-import subprocess
 import sys
 import threading
 import time
 
-AUTHORIZATION = "Authorization: Basic " + base64.b64encode(b"me:open:sesame").decode()
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support/python"))
+from crc24q import crc24q  # noqa: E402
+from ntrip_server import NOT_FOUND, STREAM_1, STREAM_2, authorization, chunk, mountpoint_of, read_request, tls_context  # noqa: E402
 
-
-def crc24q(data):
-    crc = 0
-    for byte in data:
-        crc ^= byte << 16
-        for _ in range(8):
-            crc = crc << 1 ^ (0x1864CFB if crc & 0x800000 else 0)
-    return crc & 0xFFFFFF
+AUTHORIZATION = authorization("me", "open:sesame")
 
 
 def message(number):
@@ -38,33 +30,15 @@ def message(number):
     return frame + crc24q(frame).to_bytes(3, "big")
 
 
-def openssl(*arguments):
-    subprocess.run(["openssl", *map(str, arguments)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def make_certificates(work):
-    key = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
-    for name in ("ca", "other"):
-        openssl("req", "-x509", *key, "-keyout", work / f"{name}.key", "-out", work / f"{name}.pem", "-days", 2, "-subj", f"/CN={name}")
-    openssl("req", *key, "-keyout", work / "caster.key", "-out", work / "caster.csr", "-subj", "/CN=localhost")
-    (work / "names").write_text("subjectAltName=DNS:localhost\n")
-    openssl("x509", "-req", "-in", work / "caster.csr", "-CA", work / "ca.pem", "-CAkey", work / "ca.key", "-CAcreateserial",
-            "-days", 2, "-extfile", work / "names", "-out", work / "caster.pem")
-
-
 def say(text):
     print(text, flush=True)
 
 
 def serve(peer):
-    request = b""
-    while b"\r\n\r\n" not in request:
-        piece = peer.recv(4096)
-        if not piece:
-            return
-        request += piece
-    lines = request.decode("latin-1").split("\r\n")
-    mountpoint, is_2 = lines[0].split()[1].lstrip("/"), "Ntrip-Version: Ntrip/2.0" in lines
+    lines = read_request(peer)
+    if not lines:
+        return
+    mountpoint, is_2 = mountpoint_of(lines), "Ntrip-Version: Ntrip/2.0" in lines
     say(f"asked {mountpoint} {2 if is_2 else 1}")
     if mountpoint == "V1ONLY" and is_2:
         return
@@ -77,12 +51,12 @@ def serve(peer):
         while True:
             peer.sendall(b"X-Garbage: " + b"z" * 90 + b"\r\n")
     elif mountpoint in ("ICY", "V1ONLY"):
-        peer.sendall(b"ICY 200 OK\r\n\r\n")
+        peer.sendall(STREAM_1)
         for number in range(1000):
             peer.sendall(message(number))
             time.sleep(0.02)
     elif mountpoint in ("CHUNKS", "DROP", "SILENT", "POSITION"):
-        peer.sendall(b"HTTP/1.1 200 OK\r\nNtrip-Version: Ntrip/2.0\r\nContent-Type: gnss/data\r\nTransfer-Encoding: chunked\r\n\r\n")
+        peer.sendall(STREAM_2)
         if mountpoint == "SILENT":
             time.sleep(60)
         for number in range(1 if mountpoint == "DROP" else 1000):
@@ -90,10 +64,10 @@ def serve(peer):
                 say("position " + peer.recv(200).decode().strip())
             data = message(number)
             for part in (data[:5], data[5:]):
-                peer.sendall(b"%x\r\n%s\r\n" % (len(part), part))
+                peer.sendall(chunk(part))
             time.sleep(0.02)
     elif is_2:
-        peer.sendall(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
+        peer.sendall(NOT_FOUND)
     else:
         peer.sendall(b"SOURCETABLE 200 OK\r\nContent-Type: text/plain\r\n\r\nSTR;ICY;here;RTCM 3\r\nENDSOURCETABLE\r\n")
 
@@ -119,11 +93,7 @@ def listen(name, context):
 
 
 def main():
-    work = pathlib.Path(sys.argv[1])
-    work.mkdir(parents=True, exist_ok=True)
-    make_certificates(work)
-    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-    context.load_cert_chain(work / "caster.pem", work / "caster.key")
+    context = tls_context(pathlib.Path(sys.argv[1]))
     listen("plain", None)
     listen("tls", context)
     sys.stdin.read()

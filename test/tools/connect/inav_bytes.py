@@ -4,14 +4,15 @@ Written from the interface documents alone, so that it is independent of leonav'
 (4.3.2 page layout, 4.3.3 sub-frame layout, 4.3.5 word types, 5.1.9.4 CRC, table 84 SISA) and u-blox ZED-F9P interface
 description UBX-22008968 (3.17.9 RXM-SFRBX: eight words, each half of a page in four).
 """
-import datetime
 import math
 import struct
 
-import ubx_bytes
+import ubx_bytes  # finds those of test/support/python
+import navigation_file
+from crc24q import crc24q_of_bits
+from galileo_accuracy import sisa_index
 from ubx_bytes import bits
 
-GPS_EPOCH = datetime.datetime(1980, 1, 6)
 WEEK_ZERO = 1024  # GPS week in which Galileo's weeks begin
 LEAP_SECONDS = 18
 SUBFRAME_S = 30
@@ -19,36 +20,11 @@ SUBFRAME_S = 30
 SECONDS_OF_WORD = {2: 1, 4: 3, 6: 5, 1: 21, 3: 23, 5: 25, 0: 27}
 
 
-def crc24q(bit_text):
-    crc = 0
-    for bit in bit_text:
-        crc = crc << 1 ^ (0x1864CFB if (crc >> 23 & 1) ^ (bit == "1") else 0)
-    return crc & 0xFFFFFF
-
-
 def records(path):
     """The I/NAV records of a RINEX 3 navigation file: (satellite number, time of clock, clock terms, 28 numbers)."""
-    with open(path, encoding="ascii") as file:
-        lines = iter(file.read().split("END OF HEADER")[1].splitlines()[1:])
-    number = lambda field: float(field.replace("D", "E")) if field.strip() else 0.0
-    for line in lines:
-        rest = [next(lines) for _ in range(7 if line[0] in "GEC" else 3)]
-        if line[0] != "E":
-            continue
-        orbit = [number(row[4 + 19 * i:23 + 19 * i]) for row in rest for i in range(4)]
-        if not int(orbit[17]) & 1:  # bit 0: I/NAV of E1-B
-            continue
-        toc = datetime.datetime(*(int(part) for part in line[4:23].split())) - GPS_EPOCH
-        clock = [number(line[23 + 19 * i:42 + 19 * i]) for i in range(3)]
-        yield int(line[1:3]), toc.days * 86400 + toc.seconds, clock, orbit
-
-
-def sisa_index(metres):
-    for first, step, base in ((0, 0.01, 0.0), (50, 0.02, 0.5), (75, 0.04, 1.0), (100, 0.16, 2.0)):
-        index = first + math.ceil((metres - base) / step - 1e-9)
-        if index < {0: 50, 50: 75, 75: 100, 100: 126}[first]:
-            return max(index, first)
-    return 255  # no accuracy prediction
+    for satellite, toc, clock, orbit in navigation_file.records(path):
+        if satellite[0] == "E" and int(orbit[17]) & 1:  # bit 0: I/NAV of E1-B
+            yield int(satellite[1:]), toc, clock, orbit
 
 
 def words(satellite, toc, clock, orbit, sent):
@@ -81,7 +57,7 @@ def page(word):
     assert len(word) == 128
     even = "00" + word[:112]
     odd = "10" + word[112:] + "0" * 40 + "0" * 22 + "00"
-    odd += format(crc24q(even + odd), "024b") + "0" * 8
+    odd += format(crc24q_of_bits(even + odd), "024b") + "0" * 8
     return [half.ljust(128, "0") for half in (even, odd)]
 
 

@@ -10,7 +10,6 @@ sees within what its clock shows. Runs in a network namespace of its own;
 exit 77: none can be made here.
 """
 import bisect
-import os
 import pathlib
 import random
 import re
@@ -20,32 +19,19 @@ import subprocess
 import sys
 import threading
 import time
-import tty
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-sys.path += [str(HERE), str(HERE.parent), str(ROOT / "test/oracle"), str(ROOT / "tools/scripts/lib")]
+sys.path += [str(HERE), str(HERE.parent), str(ROOT / "test/oracle"), str(ROOT / "test/support/python"), str(ROOT / "tools/scripts/lib")]
 import lcm_log  # noqa: E402
 import ubx_bytes  # noqa: E402
 import vectornav_bytes  # noqa: E402
 import xsens  # noqa: E402
 from live_program import enter_namespace, fail  # noqa: E402
+from serial_terminal import SerialTerminal  # noqa: E402
 
 SPEED = 4.0
 IMU = struct.Struct(">qqqiq6d")  # fingerprint, time, sequence, schema, interval, increments
-
-
-class Terminal:
-    """A pseudo-terminal whose other side a sensor would be."""
-
-    def __init__(self):
-        self.sensor, self.port = os.openpty()
-        tty.setraw(self.port)
-        self.name = os.ttyname(self.port)
-
-    def send(self, data):
-        while data:
-            data = data[os.write(self.sensor, data):]
 
 
 class Run:
@@ -156,7 +142,7 @@ def play(terminal, messages, noise, first_ns):
 
 
 def live(work, receiver, sensor, expected):
-    gnss, imu = Terminal(), Terminal()
+    gnss, imu = SerialTerminal(), SerialTerminal()
     run = Run(work, "live", f"""
 streams:
   - {{name: receiver, source: serial, device: {gnss.name}, baud: 460800, format: ubx, repeat_ephemerides_s: 0, record: receiver.leoraw}}

@@ -12,6 +12,7 @@ import sys
 
 import inav_bytes
 import ubx_bytes
+from crc24q import crc24q_of_bits
 
 # Of the 240 data bits of a GPS subframe, those that RINEX does not have: TLM and HOW, which change; the codes on L2 and the
 # reserved words of subframe 1; fit interval and AODO of subframe 2.
@@ -49,7 +50,7 @@ def check_galileo(messages, records):
             continue
         text = "".join(format(value, "032b") for value in values)
         word = text[2:114] + text[130:146]
-        if inav_bytes.crc24q(text[:114] + text[128:210]) != int(text[210:234], 2):
+        if crc24q_of_bits(text[:114] + text[128:210]) != int(text[210:234], 2):
             fail(f"the CRC of a page of E{satellite:02d} is not as it is computed here")
         pages += 1
         wanted = made.get((satellite, word[:16]))

@@ -5,10 +5,12 @@ to 3.5-108, 3.5.11 ephemerides, DF407 in table 3.5-76). Numbers are rounded as t
 
   rtcm3_bytes.py RUN.obs RUN.nav OUT.rtcm3
 """
-import datetime
 import sys
 
-from ubx_bytes import GPS_EPOCH, bits, epochs
+from ubx_bytes import bits, epochs  # finds those of test/support/python
+from crc24q import crc24q
+from galileo_accuracy import sisa_index
+from navigation_file import records
 
 C = 299792458.0
 MSM7 = {"G": 1077, "E": 1097, "C": 1127}
@@ -20,15 +22,6 @@ FREQUENCY = {"G1": 1575.42, "G2": 1227.60, "G5": 1176.45, "E1": 1575.42, "E5": 1
              "C1": 1575.42, "C2": 1561.098, "C5": 1176.45, "C6": 1268.52, "C7": 1207.14}
 SEMICIRCLE = 3.141592653589793
 ACCURACY = [2.4, 3.4, 4.85, 6.85, 9.65, 13.65, 24, 48, 96, 192, 384, 768, 1536, 3072, 6144]
-
-
-def crc24q(data):
-    crc = 0
-    for byte in data:
-        crc ^= byte << 16
-        for _ in range(8):
-            crc = crc << 1 ^ (0x1864CFB if crc & 0x800000 else 0)
-    return crc & 0xFFFFFF
 
 
 def frame(text):
@@ -132,23 +125,6 @@ class Receiver:
 
 # --- ephemerides ---
 
-def records(path):
-    """Records of GPS, Galileo and BeiDou of a RINEX 3 navigation file: (satellite, clock's time in its own system's count of
-    s since 1980-01-06, clock terms, 28 numbers)."""
-    with open(path, encoding="ascii") as file:
-        lines = file.read().split("END OF HEADER")[1].splitlines()[1:]
-    number = lambda field: float(field.replace("D", "E")) if field.strip() else 0.0
-    begins = [index for index, line in enumerate(lines) if line[:1].isalpha()] + [len(lines)]
-    for begin, end in zip(begins, begins[1:]):
-        line, rest = lines[begin], lines[begin + 1:end]
-        if line[0] not in MSM7 or len(rest) != 7:
-            continue
-        toc = datetime.datetime(*(int(part) for part in line[4:23].split())) - GPS_EPOCH
-        clock = [number(line[23 + 19 * i:42 + 19 * i]) for i in range(3)]
-        yield (line[:3].replace(" ", "0"), toc.days * 86400 + toc.seconds, clock,
-               [number(row[4 + 19 * i:23 + 19 * i]) for row in rest for i in range(4)])
-
-
 def orbit_bits(orbit, small, crs, toe_bits, toe_unit):
     """From Crs to the rate of the node: `small` is (bits, power) of the angles' corrections, `crs` of the radius'."""
     (_, c_rs, delta_n, m0, cuc, ecc, cus, sqrt_a, toe, cic, omega0, cis, i0, crc, omega, omega_dot) = orbit[:16]
@@ -160,14 +136,6 @@ def orbit_bits(orbit, small, crs, toe_bits, toe_unit):
 
 def accuracy_index(metres):
     return next((index for index, limit in enumerate(ACCURACY) if metres <= limit), 15)
-
-
-def sisa_index(metres):
-    """Galileo OS-SIS-ICD, table 89."""
-    for limit, first, start, step in ((0.5, 0, 0.0, 0.01), (1.0, 50, 0.5, 0.02), (2.0, 75, 1.0, 0.04), (6.0, 100, 2.0, 0.16)):
-        if metres < limit:
-            return first + round((metres - start) / step)
-    return 255
 
 
 def ephemeris(satellite, toc, clock, orbit):

@@ -7,10 +7,14 @@ description UBX-22008968 (3.2 frame, 3.17.5 RXM-RAWX, 3.17.9 RXM-SFRBX) and IS-G
   ubx_bytes.py RUN.obs RUN.nav OUT.ubx
 """
 import datetime
+import pathlib
 import struct
 import sys
 
-GPS_EPOCH = datetime.datetime(1980, 1, 6)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support/python"))
+import navigation_file  # noqa: E402
+from navigation_file import GPS_EPOCH  # noqa: E402
+
 # Such a receiver tracks L2 CL where the simulator has P(Y): 2W goes out as 2L.
 GNSS_IDS = {"G": 0, "E": 2, "C": 3}
 SIGNAL_IDS = {"G": {"1C": 0, "2W": 3, "2L": 3, "2S": 4, "5I": 6, "5Q": 7},
@@ -90,19 +94,10 @@ def rawx(time, satellites, locks, leap_seconds=18):
 # --- broadcast messages of GPS ---
 
 def records(path):
-    """The GPS records of a RINEX 3 navigation file: (satellite number, clock terms, 28 numbers)."""
-    with open(path, encoding="ascii") as file:
-        lines = iter(file.read().split("END OF HEADER")[1].splitlines()[1:])
-    number = lambda field: float(field.replace("D", "E")) if field.strip() else 0.0
-    for line in lines:
-        rest = [next(lines) for _ in range(7 if line[0] in "GEC" else 3)]
-        if line[0] != "G":
-            continue
-        year, month, day, hour, minute, second = (int(part) for part in line[4:23].split())
-        toc = datetime.datetime(year, month, day, hour, minute, second) - GPS_EPOCH
-        clock = [number(line[23 + 19 * i:42 + 19 * i]) for i in range(3)]
-        orbit = [number(row[4 + 19 * i:23 + 19 * i]) for row in rest for i in range(4)]
-        yield int(line[1:3]), toc.days * 86400 + toc.seconds, clock, orbit
+    """The GPS records of a RINEX 3 navigation file: (satellite number, time of clock, clock terms, 28 numbers)."""
+    for satellite, toc, clock, orbit in navigation_file.records(path):
+        if satellite[0] == "G":
+            yield int(satellite[1:]), toc, clock, orbit
 
 
 def bits(value, count, power=0, unit=1.0):

@@ -12,6 +12,12 @@ import argparse
 import bisect
 import collections
 import math
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "test/support/python"))
+from crc24q import crc24q  # noqa: E402
+from navigation_file import records  # noqa: E402
 
 C = 299792458.0
 OMEGA = 7.2921151467e-5
@@ -34,46 +40,27 @@ def stamp(words):
     return days(y, mo, d) * 86400 + h * 3600 + mi * 60 + float(words[5])
 
 
-def number(text):
-    return float(text.replace("D", "e").replace("d", "e")) if text.strip() else 0.0
-
-
 def read_nav(path):
     """RINEX 3: satellite -> list of sets."""
     sets = collections.defaultdict(list)
-    with open(path) as file:
-        for line in file:
-            if "END OF HEADER" in line:
-                break
-        lines = list(file)
-    i = 0
-    while i < len(lines):
-        system = lines[i][0]
-        rows = {"R": 4, "S": 4}.get(system, 8)
-        record = lines[i:i + rows]
-        i += rows
-        if system not in "GE" or len(record) < 8:
+    for satellite, toc, clock, orbit in records(path):
+        if satellite[0] not in "GE":
             continue
-        head = record[0]
-        values = [number(head[23 + 19 * k:42 + 19 * k]) for k in range(3)]
-        for row in record[1:]:
-            row = row.rstrip("\n").ljust(80)
-            values += [number(row[4 + 19 * k:23 + 19 * k]) for k in range(4)]
         keys = ("af0 af1 af2 iode crs deltan m0 cuc e cus sqrta toe cic omega0 cis i0 crc omega omegadot idot source week "
                 "l2p accuracy health tgd iodc sent").split()
-        s = dict(zip(keys, values))
+        s = dict(zip(keys, clock + orbit))
         if s["health"] != 0:
             continue
-        if system == "E" and not int(s["source"]) & 5:  # I/NAV: bits 0 and 2
+        if satellite[0] == "E" and not int(s["source"]) & 5:  # I/NAV: bits 0 and 2
             continue
-        s["system"] = system
-        s["toc"] = stamp(head[4:23].split())
+        s["system"] = satellite[0]
+        s["toc"] = float(toc)
         s["toe_s"] = s["toe"]
         s["toe"] = s["week"] * WEEK + s["toe"]
         s["sent"] = s["week"] * WEEK + s["sent"]
         if s["sent"] - s["toe"] > WEEK / 2:
             s["sent"] -= WEEK
-        sets[head[:3].replace(" ", "0")].append(s)
+        sets[satellite].append(s)
     for of in sets.values():
         of.sort(key=lambda s: s["sent"])
     return sets
@@ -209,17 +196,6 @@ class Bits:
     def bytes(self):
         pad = -self.length % 8
         return (self.value << pad).to_bytes((self.length + pad) // 8, "big")
-
-
-def crc24q(data):
-    crc = 0
-    for byte in data:
-        crc ^= byte << 16
-        for _ in range(8):
-            crc <<= 1
-            if crc & 0x1000000:
-                crc ^= 0x1864CFB
-    return crc
 
 
 def frame(message):

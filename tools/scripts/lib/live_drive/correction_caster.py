@@ -1,18 +1,15 @@
 """An NTRIP caster with TLS that sends a drive's corrections, asks for a password, and breaks off."""
-import base64
 import pathlib
 import socket
-import ssl
 import sys
 import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
-sys.path.append(str(ROOT / "test/drivers/transport"))
-import caster  # noqa: E402
+sys.path.append(str(ROOT / "test/support/python"))
+from ntrip_server import NOT_FOUND, STREAM_2, authorization, chunk, mountpoint_of, read_request, tls_context  # noqa: E402
 
 MOUNTPOINT, USER, PASSWORD = "SSR", "me", "open:sesame"
-ANSWER = b"HTTP/1.1 200 OK\r\nNtrip-Version: Ntrip/2.0\r\nContent-Type: gnss/data\r\nTransfer-Encoding: chunked\r\n\r\n"
 LATENCY_S = 3.4  # from a correction's time to its sending; never close to an epoch of whole seconds
 
 
@@ -20,10 +17,7 @@ class CorrectionCaster:
     """`drops`: [(s from the drive's start, s without service)]. A connection ends there in the middle of a message."""
 
     def __init__(self, folder, drops):
-        folder.mkdir(parents=True, exist_ok=True)
-        caster.make_certificates(folder)
-        self.context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-        self.context.load_cert_chain(folder / "caster.pem", folder / "caster.key")
+        self.context = tls_context(folder)
         self.drops, self.messages, self.pace = drops, [], None
         self.refused = self.served = self.broken = 0
         self.server = socket.create_server(("127.0.0.1", 0))
@@ -46,22 +40,17 @@ class CorrectionCaster:
             pass  # the client has gone
 
     def answer(self, peer):
-        request = b""
-        while b"\r\n\r\n" not in request:
-            piece = peer.recv(4096)
-            if not piece:
-                return
-            request += piece
-        expected = "Authorization: Basic " + base64.b64encode(f"{USER}:{PASSWORD}".encode()).decode()
-        lines = request.decode("latin-1").split("\r\n")
-        if expected not in lines:
+        lines = read_request(peer)
+        if not lines:
+            return
+        if authorization(USER, PASSWORD) not in lines:
             self.refused += 1
             peer.sendall(b"HTTP/1.1 401 Unauthorized\r\nWWW-Authenticate: Basic\r\nContent-Length: 0\r\n\r\n")
-        elif lines[0].split()[1] != "/" + MOUNTPOINT:
-            peer.sendall(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
+        elif mountpoint_of(lines) != MOUNTPOINT:
+            peer.sendall(NOT_FOUND)
         elif not self.is_down():
             self.served += 1
-            peer.sendall(ANSWER)
+            peer.sendall(STREAM_2)
             self.stream(peer)
 
     def since_start(self):
@@ -82,7 +71,7 @@ class CorrectionCaster:
             self.pace.wait_until(gps_ns, LATENCY_S)
             breaks = drop is not None and at >= drop
             part = data[:len(data) // 2] if breaks else data
-            peer.sendall(b"%x\r\n%s\r\n" % (len(part), part))
+            peer.sendall(chunk(part))
             if breaks:
                 self.broken += 1
                 return

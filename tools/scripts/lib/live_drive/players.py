@@ -1,8 +1,12 @@
 """Sends the bytes of a drive at their times on pseudo-terminals, and hears what is written to one."""
 import os
+import pathlib
+import sys
 import threading
 import time
-import tty
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[4] / "test/support/python"))
+from serial_terminal import SerialTerminal  # noqa: E402
 
 
 class Pace:
@@ -17,21 +21,19 @@ class Pace:
             time.sleep(left)
 
 
-class Terminal:
+class Terminal(SerialTerminal):
     """A pseudo-terminal on whose other side a sensor, or a chart program, is."""
 
     def __init__(self):
-        self.sensor, self.port = os.openpty()
-        tty.setraw(self.port)
-        self.name, self.heard = os.ttyname(self.port), b""
+        super().__init__()
+        self.heard = b""
 
     def play(self, messages, pace, latency_s):
         """Starts to send (GPS time in ns, bytes), each `latency_s` after its time; gives the thread."""
         def run():
             for gps_ns, data in messages:
                 pace.wait_until(gps_ns, latency_s)
-                while data:
-                    data = data[os.write(self.sensor, data):]
+                self.send(data)
         thread = threading.Thread(target=run, daemon=True)
         thread.start()
         return thread

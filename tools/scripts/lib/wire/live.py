@@ -7,36 +7,28 @@ import subprocess
 import sys
 import threading
 import time
-import tty
 
 from drive import LEAP_SECONDS, ROOT, UNIX_GPS_S
+
+sys.path.append(str(ROOT / "test/support/python"))
+from ntrip_server import STREAM_1, read_request  # noqa: E402
+from serial_terminal import SerialTerminal  # noqa: E402
 
 URL = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304"
 
 
-class Terminal:
-    """A serial port: a pseudo-terminal whose other side the sensor is."""
+class Terminal(SerialTerminal):
+    """A serial port whose other side the sensor is; it never waits for room."""
 
     def __init__(self):
-        self.sensor, self.port = os.openpty()
-        tty.setraw(self.port)
+        super().__init__()
         os.set_blocking(self.sensor, False)
-        self.lost = 0
 
     def keys(self):
-        return f"source: serial, device: {os.ttyname(self.port)}, baud: 460800"
+        return f"source: serial, device: {self.name}, baud: 460800"
 
     def send(self, data):
-        """What finds no room for a second is lost, as on a wire."""
-        until = time.monotonic() + 1
-        while data:
-            try:
-                data = data[os.write(self.sensor, data):]
-            except BlockingIOError:
-                if time.monotonic() > until:
-                    self.lost += len(data)
-                    return
-                time.sleep(0.001)
+        self.send_for(data, 1.0)
 
 
 class Caster:
@@ -66,13 +58,8 @@ class Caster:
         while True:
             try:
                 client = listener.accept()[0]
-                request = b""
-                while b"\r\n\r\n" not in request:
-                    piece = client.recv(4096)
-                    if not piece:
-                        break
-                    request += piece
-                client.sendall(b"ICY 200 OK\r\n\r\n")
+                read_request(client)
+                client.sendall(STREAM_1)
             except OSError:
                 return
             with self.lock:
