@@ -64,15 +64,21 @@ bool ArcJoiner::join_one(StateEstimate* estimate) {
         continue;
       const std::optional<CycleSearch> between = cycles_between(old, now, *estimate);
       if (!between) continue;
-      if (!now.compared && between->sharpness > kSharp) {
-        now.compared = true;
+      if (!now.share_before && between->sharpness > kSharp) {
+        now.share_before = whole_cycles_.share();
         whole_cycles_.learn(between->likelihood_ratio);
       }
-      if (!is_certain(*between)) continue;
+      if (!between->found) continue;
+      // What this pair of arcs has taught of the share must not count for itself once more.
+      const double whole = WholeCycles::probability(
+          between->likelihood_ratio, now.share_before.value_or(whole_cycles_.share()));
+      const double wrong = 1.0 - whole * (1.0 - between->wrong_probability);
+      if (!(wrong < config_.wrong_join_probability)) continue;
       estimate->join_ambiguities(from, to,
                                  between->length_m + now.cycles.repaired_measurement_m() -
                                      old.cycles.repaired_measurement_m(),
                                  std::hypot(old.sigma_m, now.sigma_m));
+      estimate->record_join(from, to, wrong, between->alternative_m);
       estimate->remove_ambiguity(from);
       return true;
     }
@@ -82,7 +88,8 @@ bool ArcJoiner::join_one(StateEstimate* estimate) {
 
 std::optional<CycleSearch> ArcJoiner::cycles_between(const Arc& old, const Arc& now,
                                                      const StateEstimate& estimate) const {
-  if (old.cycles.wavelength_m != now.cycles.wavelength_m || old.source != now.source ||
+  if (old.code != now.code || old.second_code != now.second_code ||
+      old.cycles.wavelength_m != now.cycles.wavelength_m || old.source != now.source ||
       old.orbit_issue != now.orbit_issue || old.antenna_issue != now.antenna_issue ||
       (!now.cycles.is_pair() && old.ionosphere_issue != now.ionosphere_issue))
     return std::nullopt;
@@ -118,12 +125,6 @@ std::optional<CycleSearch> ArcJoiner::cycles_between(const Arc& old, const Arc& 
   return search_cycles(equations);
 }
 
-bool ArcJoiner::is_certain(const CycleSearch& between) const {
-  return between.found && 1.0 - whole_cycles_.probability(between.likelihood_ratio) *
-                                      (1.0 - between.wrong_probability) <
-                              config_.wrong_join_probability;
-}
-
 void ArcJoiner::take(const Measurement& carrier, const SatelliteInView& satellite, GpsTime time,
                      bool direct) {
   const CarrierCycles& cycles = carrier.cycles;
@@ -134,6 +135,8 @@ void ArcJoiner::take(const Measurement& carrier, const SatelliteInView& satellit
     arc = &arcs_.back();
     arc->arc = carrier.arc;
     arc->satellite = satellite.satellite;
+    arc->code = carrier.code;
+    arc->second_code = carrier.second_code;
     arc->started = time;
     arc->always_direct = true;
     arc->first_geometry_free_m = cycles.geometry_free_m;
@@ -162,7 +165,7 @@ void ArcJoiner::observe(const MeasurementEpoch& epoch, const FilterMeasurements&
                              }),
               arcs_.end());
   for (const FilterMeasurement& used : measurements) {
-    if (used.ambiguity < 0) continue;
+    if (used.ambiguity < 0 || !(used.factor > 0.0)) continue;
     const Measurement& carrier = epoch.measurements[used.index];
     const std::size_t satellite = carrier.satellite_index;
     take(carrier, epoch.satellites[satellite], epoch.time,

@@ -24,19 +24,28 @@ namespace leonav {
 //
 // This is the repair of cycle slips (Blewitt 1990, GRL 17, 199; Zhang and Li 2012, GPS Solutions
 // 16, 207) with the filter's prediction as what is known of the range. Arcs of which a signal was
-// weaker than the direct one are not joined: a reflection has another way. A wrong join is found as
-// any slip is, by rejected carriers, which end the arc.
+// weaker than the direct one are not joined: a reflection has another way. Nor are arcs of other
+// signals, between which a receiver may leave a part of a cycle. The carriers that follow do not
+// contradict a wrong join, because position and ambiguities move together: codes and the change of
+// geometry do, slowly. Therefore the ambiguity keeps the probability of a wrong join, which the
+// protection levels allow for.
 class ArcJoiner {
  public:
   explicit ArcJoiner(const EkfConfig& config) : config_(config) {}
 
   // Forgets the arcs, but not what was learned of the receiver.
   void reset() { arcs_.clear(); }
+  // Forgets that too.
+  void forget() {
+    arcs_.clear();
+    whole_cycles_ = WholeCycles();
+  }
   // Returns whether any two arcs have been compared, and the share of arcs that differ by whole
   // cycles (WholeCycles).
   bool has_compared() const { return whole_cycles_.pairs() > 0; }
   double whole_cycles_share() const { return whole_cycles_.share(); }
-  // Returns whether an arc whose satellite has another one now may still be joined to that.
+  // Returns whether an arc whose satellite has another one now may still be joined to that or to a
+  // later one.
   bool keeps(std::uint32_t arc) const;
   // Joins what can be joined between two epochs; of arcs that are joined the earlier ambiguity is
   // removed. Returns the number of arcs joined.
@@ -52,6 +61,7 @@ class ArcJoiner {
     std::uint32_t arc = 0;
     SatelliteId satellite;
     GpsTime started, last;
+    SignalCode code, second_code;
     CarrierCycles cycles;
     double first_geometry_free_m = 0.0;
     GeometryFreeTrend geometry_free;
@@ -61,7 +71,8 @@ class ArcJoiner {
     std::uint32_t orbit_issue = 0, antenna_issue = 0, ionosphere_issue = 0;
     bool direct = false;         // the signal was not weaker than it has been, at the last use
     bool always_direct = false;  // nor at any before
-    bool compared = false;       // WholeCycles has learned from it
+    // The share of whole cycles (WholeCycles) before it has learned from this arc.
+    std::optional<double> share_before;
   };
   Arc* find(std::uint32_t arc);
   const Arc* find(std::uint32_t arc) const;
@@ -70,8 +81,6 @@ class ArcJoiner {
   // Returns the cycles between two arcs; nullopt: the arcs cannot be compared.
   std::optional<CycleSearch> cycles_between(const Arc& old, const Arc& now,
                                             const StateEstimate& estimate) const;
-  // Returns whether it is certain enough that two arcs differ by these cycles.
-  bool is_certain(const CycleSearch& between) const;
   bool join_one(StateEstimate* estimate);
 
   EkfConfig config_;

@@ -1,6 +1,7 @@
 #include "core/filter/cycle_search.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/base/square.h"
 
@@ -17,25 +18,38 @@ class Candidates {
     if (!search_.found || chi_square < search_.chi_square) {
       const double best = search_.found ? search_.chi_square : chi_square;
       others_ = search_.found ? (others_ + 1.0) * std::exp(0.5 * (chi_square - best)) : 0.0;
+      if (search_.found) note_second(search_.length_m, search_.chi_square);
       search_.found = true;
       search_.cycles = cycles;
       search_.length_m = length_m;
       search_.chi_square = chi_square;
     } else {
       others_ += std::exp(0.5 * (search_.chi_square - chi_square));
+      note_second(length_m, chi_square);
     }
   }
-  CycleSearch result(double sharpness) const {
+  CycleSearch result(double sharpness, double difference_sigma_m) const {
     CycleSearch search = search_;
     search.sharpness = sharpness;
     if (!search.found) return search;
+    search.alternative_m = second_chi_square_ < kNone ? std::abs(second_length_m_ - search.length_m)
+                                                      : 3.0 * difference_sigma_m;
     search.wrong_probability = others_ / (1.0 + others_);
     search.likelihood_ratio = sharpness * (1.0 + others_) * std::exp(-0.5 * search.chi_square);
     return search;
   }
 
  private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  void note_second(double length_m, double chi_square) {
+    if (chi_square >= second_chi_square_) return;
+    second_length_m_ = length_m;
+    second_chi_square_ = chi_square;
+  }
+
   CycleSearch search_;
+  double second_length_m_ = 0.0, second_chi_square_ = kNone;
   double others_ = 0.0;  // weights of all but the best, whose weight is one
 };
 
@@ -48,7 +62,8 @@ CycleSearch search_single(const CycleEquations& e) {
     const double length_m = n * e.wavelength_m[0];
     candidates.add({n, 0.0}, length_m, square((e.difference_m - length_m) / e.difference_sigma_m));
   }
-  return candidates.result(e.wavelength_m[0] / (std::sqrt(2.0 * M_PI) * e.difference_sigma_m));
+  return candidates.result(e.wavelength_m[0] / (std::sqrt(2.0 * M_PI) * e.difference_sigma_m),
+                           e.difference_sigma_m);
 }
 
 }  // namespace
@@ -79,7 +94,8 @@ CycleSearch search_cycles(const CycleEquations& e) {
   }
   // The equations have the determinant one: cells are as large in their left sides.
   return candidates.result(e.wavelength_m[0] * e.wavelength_m[1] /
-                           (2.0 * M_PI * e.difference_sigma_m * e.geometry_free_sigma_m));
+                               (2.0 * M_PI * e.difference_sigma_m * e.geometry_free_sigma_m),
+                           e.difference_sigma_m);
 }
 
 }  // namespace leonav

@@ -20,7 +20,10 @@ struct CycleEquations {
 struct CycleSearch {
   bool found = false;  // a candidate lies within five sigmas; too many candidates are none
   std::array<double, 2> cycles{};
-  double length_m = 0.0;    // what they are in the first equation
+  double length_m = 0.0;  // what they are in the first equation
+  // Distance of the next best candidate's length from it, m; where there is no other within five
+  // sigmas, three sigmas of the first equation.
+  double alternative_m = 0.0;
   double chi_square = 0.0;  // of the equations, with one degree of freedom each
   // Probability that other cycles are the true ones, if all whole numbers are equally likely
   // beforehand: the other candidates' share of the sum of exp(-chi_square / 2) over all. This is

@@ -80,6 +80,7 @@ void Ekf::reset() {
   propagator_.reset();
   estimate_.forget_clocks();
   assembler_.forget_errors();
+  arc_joiner_.forget();
   errors_unknown_ = learned_errors().learns();
   lasting_change_ = {};
   initialized_ = false;

@@ -471,6 +471,14 @@ void StateEstimate::remove_ambiguity(int index) {
   if (process_.continuous) process_.remove(state_.first_ambiguity() + index);
 }
 
+void StateEstimate::record_join(int from, int to, double wrong_probability, double wrong_m) {
+  const Ambiguity& old = state_.ambiguities[static_cast<std::size_t>(from)];
+  Ambiguity& now = state_.ambiguities[static_cast<std::size_t>(to)];
+  now.wrong_join_probability =
+      std::min(1.0, now.wrong_join_probability + old.wrong_join_probability + wrong_probability);
+  now.wrong_join_m = std::max({now.wrong_join_m, old.wrong_join_m, wrong_m});
+}
+
 void StateEstimate::join_ambiguities(int from, int to, double difference_m, double sigma_m) {
   EkfCorrection row = EkfCorrection::Zero(covariance_.rows());
   row(state_.first_ambiguity() + from) = -1.0;

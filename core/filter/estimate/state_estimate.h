@@ -139,6 +139,9 @@ class StateEstimate {
   void remove_ambiguity(int index);
   // Applies ambiguity `to` minus ambiguity `from` = difference_m, with an error of `sigma_m`.
   void join_ambiguities(int from, int to, double difference_m, double sigma_m);
+  // Notes with ambiguity `to` that its join to `from` is wrong with this probability, and by how
+  // much its value then changes; what `from` was joined to counts on.
+  void record_join(int from, int to, double wrong_probability, double wrong_m);
 
   // --- vehicle constants ---
   // Appends constants up to `constant` (kTravelYaw ... in ekf_index) before the ambiguities, each

@@ -75,6 +75,9 @@ struct Ambiguity {
   double random_walk = 0.0;  // m/sqrt(s)
   GpsTime started, last_used;
   int rejected = 0;  // in so many epochs in a row
+  // Where the arc was joined to earlier ones: the probability that one of the joins is wrong, and
+  // the change of the value if it is, m.
+  double wrong_join_probability = 0.0, wrong_join_m = 0.0;
 };
 // Index-parallel to the error state from FilterState::first_ambiguity() on.
 using Ambiguities = boost::container::static_vector<Ambiguity, kMaxArcs>;

@@ -1,9 +1,11 @@
 #include "core/navigator/monitors/satellite_fault_hypotheses.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
+#include "core/filter/state/ambiguities.h"
 #include "core/filter/update/fault_directions.h"
 #include "core/integrity/risk.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 // A separation within so many of its own sigmas may be chance.
 constexpr double kChance = 3.0;
+constexpr double kRare = 1e-3;  // probability
 
 // Returns the change of a carrier by a slip that its tests may miss, m; 0: the signal is not known.
 double missed_slip_m(const BandPlan& bands, System system, const Measurement& carrier) {
@@ -35,6 +38,7 @@ bool is_small(const FaultHypothesis& fault, const Eigen::Matrix3d& covariance_n)
 FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
                                            const MeasurementEpoch& epoch,
                                            const FilterMeasurements& measurements,
+                                           const Ambiguities& ambiguities,
                                            const PositionEstimate& estimate,
                                            const IntegrityConfig& config, const BandPlan& bands) {
   FaultHypotheses faults;
@@ -44,8 +48,8 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
     return fault_probability(rate_per_hour, config.fault_exposure_s, config.error_correlation_s);
   };
   const auto add = [&](const FaultHypothesis& fault) {
-    if (fault.probability > 0.0 && faults.size() < faults.capacity() &&
-        !is_small(fault, covariance_n))
+    const bool counts = fault.probability > kRare || !is_small(fault, covariance_n);
+    if (fault.probability > 0.0 && counts && faults.size() < faults.capacity())
       faults.push_back(fault);
   };
   std::array<FaultHypothesis, kSystemCount> systems{};
@@ -61,7 +65,15 @@ FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
     const Eigen::Vector3d per_metre_n = C_ne * directions.position_e(i);
     FaultHypothesis slip;
     slip.probability = probability(config.missed_slips_per_hour);
-    slip.separation_n = missed_slip_m(bands, satellite.system, measurement) * per_metre_n;
+    double slip_m = missed_slip_m(bands, satellite.system, measurement);
+    // A wrong join is as a slip that was missed, and by the larger of the two lengths.
+    const int ambiguity = find_ambiguity(ambiguities, measurement.arc);
+    if (ambiguity != kNoAmbiguity && slip.probability > 0.0) {
+      const Ambiguity& joined = ambiguities[static_cast<std::size_t>(ambiguity)];
+      slip.probability = std::min(1.0, slip.probability + joined.wrong_join_probability);
+      slip_m = std::max(slip_m, joined.wrong_join_m);
+    }
+    slip.separation_n = slip_m * per_metre_n;
     add(slip);
     const auto followed = monitor.followed_range(satellite, measurement.code);
     if (!followed) continue;

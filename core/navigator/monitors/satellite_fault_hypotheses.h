@@ -23,14 +23,13 @@ struct PositionEstimate {
 // followed of the suspect carriers (SatelliteFaultMonitor), times the change of position per metre
 // (FaultDirections); its variance is the same with what is usual of all carriers. A missed slip is
 // one cycle, of a pair one on both frequencies: c / (f_1 + f_2), the smallest that hides from the
-// difference of the two. A fault whose separation, three of its
-// sigmas added, is within one sigma of the estimate along every axis is left out: its probability
-// is so small that the level would hardly rise.
-FaultHypotheses satellite_fault_hypotheses(const SatelliteFaultMonitor& monitor,
-                                           const MeasurementEpoch& epoch,
-                                           const FilterMeasurements& measurements,
-                                           const PositionEstimate& estimate,
-                                           const IntegrityConfig& config,
-                                           const BandPlan& bands = {});
+// difference of the two. An arc that was joined to another (Ambiguity::wrong_join_probability) may
+// have a wrong join as well. A fault with a probability below a thousandth whose separation, three
+// of its sigmas added, is within one sigma of the estimate along every axis is left out: the level
+// would hardly rise.
+FaultHypotheses satellite_fault_hypotheses(
+    const SatelliteFaultMonitor& monitor, const MeasurementEpoch& epoch,
+    const FilterMeasurements& measurements, const Ambiguities& ambiguities,
+    const PositionEstimate& estimate, const IntegrityConfig& config, const BandPlan& bands = {});
 
 }  // namespace leonav

@@ -120,9 +120,11 @@ void LogGraph::add_process(const KeyframeInput& input, const LogKeyframe& before
     };
     const auto from = arc_of(join.from), to = arc_of(join.to);
     if (from == arcs_.end() || to == arcs_.end()) continue;
+    // A piece stands for its arc as it began, so the walk of both since then counts too.
+    const double walk = from->second.pending_variance + to->second.pending_variance;
     process.joins.push_back({from->second.piece, to->second.piece,
                              join.difference_m - (to->second.offset_m - from->second.offset_m),
-                             join.variance});
+                             join.variance + walk});
   }
   if (!input.process.has_information) return;
   process.information = selected(input.process.information, before.active, before.active);

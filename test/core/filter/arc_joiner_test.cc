@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
 constexpr double kGap_s = 20.0;
-constexpr double kOnePair = 0.3;  // of one pair of arcs alone no more is known
+constexpr double kOnePair = 0.5;  // of one pair of arcs alone no more is known
 const SatelliteId kSatellite{System::kGps, 7};
 
 // Two arcs of one satellite, parted by a gap and by 1000 and -400 cycles.
@@ -18,7 +18,9 @@ struct Scene {
   double cn0_before = 45.0, cn0_after = 45.0;
   double geometry_free_step_m = 0.0;
   bool half_cycle = false;
-  double repaired_m = 0.0;  // by the second arc, of the first signal
+  double repaired_m = 0.0;      // by the second arc, of the first signal
+  char second_attribute = 'W';  // of the second signal, in the second arc
+  double factor = 1.0;          // of its last carrier
 };
 
 double cycles_m() {
@@ -36,7 +38,9 @@ class Run {
     // Carriers are continuous over an arc: a half cycle found later was in it from the start.
     const double geometry_free_m =
         2.0 + 1000.0 * kC / kL1 + 400.0 * kC / kL2 + scene.geometry_free_step_m + scene.repaired_m;
+    second_attribute_ = scene.second_attribute;
     observe(2, 1.0 + kGap_s, scene.cn0_after, geometry_free_m, {}, scene.half_cycle);
+    factor_ = scene.factor;
     observe(2, 2.0 + kGap_s, scene.cn0_after, geometry_free_m, {scene.repaired_m, 0.0},
             scene.half_cycle);
     const double repaired = ionosphere_free(kL1, kL2).gamma1 * scene.repaired_m;
@@ -74,6 +78,8 @@ class Run {
     carrier.observable = Observable::kCarrier;
     carrier.sigma = 0.01;
     carrier.arc = arc;
+    carrier.code = {'1', 'C'};
+    carrier.second_code = {'2', second_attribute_};
     carrier.cycles.wavelength_m = {kC / kL1, kC / kL2};
     carrier.cycles.gamma = {pair.gamma1, pair.gamma2};
     carrier.cycles.geometry_free_m = geometry_free_m;
@@ -92,6 +98,7 @@ class Run {
     FilterMeasurement used;
     used.index = 1;
     used.observable = Observable::kCarrier;
+    used.factor = factor_;
     used.ambiguity = state().first_ambiguity() + find_ambiguity(state().ambiguities, arc);
     FilterMeasurements measurements;
     measurements.push_back(used);
@@ -99,6 +106,8 @@ class Run {
     joiner_.observe(epoch, measurements, errors_, false, state());
   }
 
+  char second_attribute_ = 'W';
+  double factor_ = 1.0;
   StateEstimate estimate_;
   ArcJoiner joiner_;
   LearnedErrors errors_{EkfConfig()};
@@ -115,6 +124,26 @@ TEST_CASE("arcs that differ by whole cycles are joined") {
   CHECK(run.state().ambiguities[0].value_m == Approx(cycles_m()).margin(0.01));
   CHECK(run.variance() < 0.025 * 0.025);
   CHECK(run.variance() > 0.015 * 0.015);
+}
+
+TEST_CASE("an ambiguity keeps what is known of a wrong join") {
+  const Run run{Scene{}};
+  REQUIRE(run.state().ambiguities.size() == 1);
+  CHECK(run.state().ambiguities[0].wrong_join_probability > 0.0);
+  CHECK(run.state().ambiguities[0].wrong_join_probability < kOnePair);
+  // The nearest other cycles that fit are one of each frequency away, or further.
+  const IonosphereFree pair = ionosphere_free(kL1, kL2);
+  CHECK(run.state().ambiguities[0].wrong_join_m >
+        0.9 * (pair.gamma1 * kC / kL1 + pair.gamma2 * kC / kL2));
+}
+
+TEST_CASE("arcs of other signals on the same frequencies are not joined") {
+  CHECK(Run(Scene{.second_attribute = 'L'}).joined == 0);
+}
+
+TEST_CASE("a carrier that an update has rejected says nothing of its arc") {
+  // The half cycle that is repaired at that epoch is not known without it.
+  CHECK(Run(Scene{.half_cycle = true, .factor = 0.0}).joined == 0);
 }
 
 TEST_CASE("half cycles repaired in an arc are not whole cycles of another") {

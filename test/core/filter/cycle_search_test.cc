@@ -37,6 +37,7 @@ TEST_CASE("the search finds what brute force over a big box finds") {
     e.difference_m += 0.15 * normal(random);
     e.geometry_free_m += 0.012 * normal(random);
     double best = INFINITY, best_1 = 0.0, best_2 = 0.0, sum = 0.0;
+    double second = INFINITY, best_m = 0.0, second_m = 0.0;
     for (int n1 = -300; n1 <= 300; ++n1)
       for (int n2 = -300; n2 <= 300; ++n2) {
         const double x = n1 * e.wavelength_m[0], y = n2 * e.wavelength_m[1];
@@ -44,7 +45,15 @@ TEST_CASE("the search finds what brute force over a big box finds") {
             square((e.difference_m - e.gamma[0] * x - e.gamma[1] * y) / e.difference_sigma_m) +
             square((e.geometry_free_m - x + y) / e.geometry_free_sigma_m);
         sum += std::exp(-0.5 * chi_square);
+        const double length_m = e.gamma[0] * x + e.gamma[1] * y;
+        if (chi_square >= best && chi_square < second) {
+          second = chi_square;
+          second_m = length_m;
+        }
         if (chi_square >= best) continue;
+        second = best;
+        second_m = best_m;
+        best_m = length_m;
         best = chi_square;
         best_1 = n1;
         best_2 = n2;
@@ -54,6 +63,9 @@ TEST_CASE("the search finds what brute force over a big box finds") {
     CHECK(search.cycles[0] == best_1);
     CHECK(search.cycles[1] == best_2);
     CHECK(search.chi_square == Approx(best).margin(1e-6));
+    CHECK(search.alternative_m > 0.0);
+    if (second < 20.0)  // within five sigmas of each equation
+      CHECK(search.alternative_m == Approx(std::abs(second_m - best_m)).margin(1e-6));
     // What lies outside five sigmas is not counted.
     CHECK(search.wrong_probability == Approx(1.0 - std::exp(-0.5 * best) / sum).margin(2e-5));
     CHECK(search.likelihood_ratio == Approx(search.sharpness * sum).epsilon(1e-4));

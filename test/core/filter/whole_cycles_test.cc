@@ -45,12 +45,23 @@ TEST_CASE("pairs of arcs that show nothing teach nothing") {
   WholeCycles cycles;
   for (int i = 0; i < 100; ++i) cycles.learn(1.0);
   CHECK(cycles.share() == Approx(0.5));
-  CHECK(cycles.probability(1.0) == Approx(0.5));
+  CHECK(WholeCycles::probability(1.0, cycles.share()) == Approx(0.5));
 }
 
-TEST_CASE("the share lasts however many pairs there are") {
+TEST_CASE("the share of a receiver is that of its last few hundred pairs, whatever came before") {
   WholeCycles cycles;
-  for (int i = 0; i < 100'000; ++i) cycles.learn(i % 10 == 0 ? 0.0 : 20.0);
+  const auto pairs = [&cycles](int count, int wrong_every) {
+    for (int i = 1; i <= count; ++i) cycles.learn(i % wrong_every == 0 ? 0.0 : 20.0);
+  };
+  pairs(100'000, 10);
   CHECK(cycles.share() == Approx(0.9).margin(0.03));
-  CHECK(cycles.probability(20.0) == Approx(180.0 / 181.0).margin(0.003));
+  // From an open road, where nearly all are whole, into a city and back.
+  pairs(2'000, 100);
+  CHECK(cycles.share() > 0.97);
+  pairs(100, 2);
+  CHECK(cycles.share() < 0.85);
+  pairs(600, 2);
+  CHECK(cycles.share() == Approx(0.5).margin(0.06));
+  pairs(1'000, 1'001);
+  CHECK(cycles.share() > 0.97);
 }

@@ -30,6 +30,7 @@ struct Update {
   std::unique_ptr<MeasurementEpoch> epoch = std::make_unique<MeasurementEpoch>();
   FilterMeasurements measurements;
   SatelliteFaultMonitor monitor;
+  Ambiguities ambiguities;
   PositionEstimate estimate;
   System second;  // beside GPS
 
@@ -88,7 +89,7 @@ struct Update {
            H.colPivHouseholderQr().solve(z).head<3>();
   }
   FaultHypotheses hypotheses(const IntegrityConfig& config = {}) const {
-    return satellite_fault_hypotheses(monitor, *epoch, measurements, estimate, config);
+    return satellite_fault_hypotheses(monitor, *epoch, measurements, ambiguities, estimate, config);
   }
 };
 
@@ -103,6 +104,23 @@ const FaultHypothesis* find(const FaultHypotheses& faults, const Eigen::Vector3d
     return (fault.separation_n - separation_n).norm() < 1e-3 * separation_n.norm();
   });
   return found == faults.end() ? nullptr : &*found;
+}
+
+TEST_CASE("an arc that was joined may have a wrong join, by its length and probability") {
+  Update update(std::vector<double>(kCarriers, 0.0));
+  update.epoch->measurements[3].arc = 17;
+  Ambiguity joined;
+  joined.arc = 17;
+  joined.wrong_join_probability = 0.02;
+  joined.wrong_join_m = 0.8;
+  const FaultHypotheses before = update.hypotheses();
+  update.ambiguities.push_back(joined);
+  const FaultHypotheses after = update.hypotheses();
+  CHECK(find(before, update.moved_n(3, 0.8)) == nullptr);
+  const FaultHypothesis* wrong = find(after, update.moved_n(3, 0.8));
+  REQUIRE(wrong != nullptr);
+  CHECK(wrong->probability >= 0.02);
+  CHECK(wrong->probability < 0.021);
 }
 
 TEST_CASE("the separation of a drifting satellite is what its carrier moves a fit by") {
