@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "daemon/config/internal/key_path.h"
 #include "daemon/config/load_config.h"
@@ -13,6 +14,16 @@ namespace leonav {
 namespace {
 
 constexpr std::size_t kMostBytes = 1'000'000;
+
+// One a line, each once.
+std::string all_of(const std::vector<std::string>& errors) {
+  std::string text;
+  std::set<std::string> seen;
+  for (const std::string& error : errors) {
+    if (seen.insert(error).second) text += (text.empty() ? "" : "\n") + error;
+  }
+  return text;
+}
 
 void apply_override(const std::string& text, YAML::Node root) {
   const auto equals = text.find('=');
@@ -91,8 +102,11 @@ void read_layers(const std::vector<ConfigLayer>& layers, ConfigSource* source,
     read(reader);
     reader.finish();
   } catch (const YAML::Exception& error) {
-    throw ConfigError(source->name + ": " + error.msg);
+    source->errors.push_back(source->name + ": " + error.msg);
+  } catch (const ConfigError& error) {
+    source->errors.emplace_back(error.what());
   }
+  if (!source->errors.empty()) throw ConfigError(all_of(source->errors));
 }
 
 void read_yaml(const std::string& text, const std::vector<std::string>& overrides,

@@ -134,9 +134,11 @@ void ConfigReader::number(const char* key, Bounds bounds, double* value, double 
   const Found found = find(key);
   ConfigKey& one = record(key, found, range_text(bounds), number_text(*value, unit));
   if (!found) return;
-  const double number = parse_number(key, *found, bounds);
-  *value = number * unit;
-  one.value = number_text(number);
+  attempt([&] {
+    const double number = parse_number(key, *found, bounds);
+    *value = number * unit;
+    one.value = number_text(number);
+  });
 }
 
 void ConfigReader::number(const char* key, Bounds bounds, std::optional<double>* value,
@@ -150,9 +152,11 @@ void ConfigReader::number(const char* key, Bounds bounds, std::optional<double>*
     one.value = "~";
     return;
   }
-  const double number = parse_number(key, *found, bounds);
-  *value = number * unit;
-  one.value = number_text(number);
+  attempt([&] {
+    const double number = parse_number(key, *found, bounds);
+    *value = number * unit;
+    one.value = number_text(number);
+  });
 }
 
 void ConfigReader::number_or(const char* key, Bounds bounds, double fallback, const char* from,
@@ -180,9 +184,11 @@ void ConfigReader::vector(const char* key, Bounds bounds, Eigen::Vector3d* value
   const Found found = find(key);
   ConfigKey& one = record(key, found, "each " + range_text(bounds), vector_text(*value, unit));
   if (!found) return;
-  const Eigen::Vector3d vector = parse_vector(key, *found, bounds);
-  one.value = vector_text(vector);
-  for (int i = 0; i < 3; ++i) (*value)[i] = vector[i] * unit;
+  attempt([&] {
+    const Eigen::Vector3d vector = parse_vector(key, *found, bounds);
+    one.value = vector_text(vector);
+    for (int i = 0; i < 3; ++i) (*value)[i] = vector[i] * unit;
+  });
 }
 
 void ConfigReader::vector_or(const char* key, Bounds bounds, const Eigen::Vector3d& fallback,
@@ -194,8 +200,10 @@ void ConfigReader::vector_or(const char* key, Bounds bounds, const Eigen::Vector
     fall_back(&one, from, vector_text(fallback));
     return;
   }
-  *value = parse_vector(key, *found, bounds);
-  one.value = vector_text(*value);
+  attempt([&] {
+    *value = parse_vector(key, *found, bounds);
+    one.value = vector_text(*value);
+  });
 }
 
 void ConfigReader::numbers(const char* key, Bounds bounds, std::vector<double>* values) {
@@ -203,20 +211,24 @@ void ConfigReader::numbers(const char* key, Bounds bounds, std::vector<double>* 
   ConfigKey& one = record(key, found, "list of numbers, each " + range_text(bounds),
                           numbers_text(values->data(), values->size()));
   if (!found) return;
-  if (!found->node.IsSequence()) fail_at(*found, key, "expected a list of numbers, as in [1, 2]");
-  values->clear();
-  for (const YAML::Node& element : found->node) {
-    values->push_back(parse_number(key, {found->layer, element}, bounds));
-  }
-  one.value = numbers_text(values->data(), values->size());
+  attempt([&] {
+    if (!found->node.IsSequence()) fail_at(*found, key, "expected a list of numbers, as in [1, 2]");
+    values->clear();
+    for (const YAML::Node& element : found->node) {
+      values->push_back(parse_number(key, {found->layer, element}, bounds));
+    }
+    one.value = numbers_text(values->data(), values->size());
+  });
 }
 
 void ConfigReader::integer(const char* key, int min, int max, int* value) {
   double number_value = *value;
   number(key, {static_cast<double>(min), static_cast<double>(max)}, &number_value);
   source_->keys.back().allowed.insert(0, "whole number, ");
-  if (number_value != std::floor(number_value)) fail(key, "must be a whole number");
-  *value = static_cast<int>(number_value);
+  attempt([&] {
+    if (number_value != std::floor(number_value)) fail(key, "must be a whole number");
+    *value = static_cast<int>(number_value);
+  });
 }
 
 void ConfigReader::boolean(const char* key, bool* value) {
@@ -238,8 +250,10 @@ void ConfigReader::text(const char* key, std::string* value, const std::string& 
   const Found found = find(key);
   ConfigKey& one = record(key, found, allowed, plain_text(*value));
   if (!found) return;
-  *value = found->node.IsNull() ? std::string() : scalar(key, *found, "a text");
-  one.value = plain_text(*value);
+  attempt([&] {
+    *value = found->node.IsNull() ? std::string() : scalar(key, *found, "a text");
+    one.value = plain_text(*value);
+  });
 }
 
 void ConfigReader::text(const char* key, std::optional<std::string>* value,
@@ -248,7 +262,9 @@ void ConfigReader::text(const char* key, std::optional<std::string>* value,
   ConfigKey& one = record(key, found, allowed, value->has_value() ? plain_text(**value) : "~");
   if (!found) return;
   value->reset();
-  if (!found->node.IsNull()) *value = scalar(key, *found, "a text");
+  attempt([&] {
+    if (!found->node.IsNull()) *value = scalar(key, *found, "a text");
+  });
   one.value = value->has_value() ? plain_text(**value) : "~";
 }
 
@@ -262,42 +278,51 @@ bool ConfigReader::list(const char* key, std::vector<std::string>* values,
   const Found found = find(key);
   ConfigKey& one = record(key, found, allowed, list_text(*values));
   if (!found) return false;
-  if (!found->node.IsSequence()) fail_at(*found, key, "expected a list, as in [a, b]");
-  values->clear();
-  for (const YAML::Node& element : found->node) {
-    values->push_back(scalar(key, {found->layer, element}, "a list of plain values"));
-  }
-  one.value = list_text(*values);
+  attempt([&] {
+    if (!found->node.IsSequence()) fail_at(*found, key, "expected a list, as in [a, b]");
+    values->clear();
+    for (const YAML::Node& element : found->node) {
+      values->push_back(scalar(key, {found->layer, element}, "a list of plain values"));
+    }
+    one.value = list_text(*values);
+  });
   return true;
 }
 
 void ConfigReader::group(const char* key, const std::function<void(ConfigReader&)>& read) {
   find(key);
-  std::vector<ConfigNode> parts;
-  for (const ConfigNode& one : nodes_) {
-    const ConfigNode part{one.layer, entry_of(one.node, key)};
-    if (!part.node.IsDefined()) continue;
-    if (part.layer->command_line && part.node.IsNull()) {
-      fail_at(part, key, "set one key at a time");
+  attempt([&] {
+    std::vector<ConfigNode> parts;
+    for (const ConfigNode& one : nodes_) {
+      const ConfigNode part{one.layer, entry_of(one.node, key)};
+      if (!part.node.IsDefined()) continue;
+      if (part.layer->command_line && part.node.IsNull()) {
+        fail_at(part, key, "set one key at a time");
+      }
+      parts.push_back(part);
     }
-    parts.push_back(part);
-  }
-  ConfigReader reader(source_, std::move(parts), path_of(key));
-  read(reader);
-  reader.finish();
+    ConfigReader reader(source_, std::move(parts), path_of(key));
+    read(reader);
+    reader.finish();
+  });
 }
 
 bool ConfigReader::groups(const char* key, const std::function<void(ConfigReader&)>& read) {
   const Found found = find(key);
   if (!found) return false;
-  if (!found->node.IsSequence()) {
-    fail_at(*found, key, "expected a list of groups (\"- key: value\" lines)");
-  }
+  attempt([&] {
+    if (!found->node.IsSequence()) {
+      fail_at(*found, key, "expected a list of groups (\"- key: value\" lines)");
+    }
+  });
+  if (!found->node.IsSequence()) return true;
   for (std::size_t i = 0; i < found->node.size(); ++i) {
-    ConfigReader reader(source_, {{found->layer, found->node[i]}},
-                        path_of(key) + "[" + std::to_string(i) + "]");
-    read(reader);
-    reader.finish();
+    attempt([&] {
+      ConfigReader reader(source_, {{found->layer, found->node[i]}},
+                          path_of(key) + "[" + std::to_string(i) + "]");
+      read(reader);
+      reader.finish();
+    });
   }
   return true;
 }
@@ -308,12 +333,16 @@ std::optional<std::size_t> ConfigReader::choice_index(const char* key,
   const Found found = find(key);
   ConfigKey& one = record(key, found, alternatives(names), built_in);
   if (!found) return std::nullopt;
-  one.value = scalar(key, *found, ("one of " + join(names)).c_str());
-  const auto name = std::find(names.begin(), names.end(), one.value);
-  if (name == names.end()) {
-    fail_at(*found, key, "'" + one.value + "' is not one of " + join(names));
-  }
-  return static_cast<std::size_t>(name - names.begin());
+  std::optional<std::size_t> index;
+  attempt([&] {
+    one.value = scalar(key, *found, ("one of " + join(names)).c_str());
+    const auto name = std::find(names.begin(), names.end(), one.value);
+    if (name == names.end()) {
+      fail_at(*found, key, "'" + one.value + "' is not one of " + join(names));
+    }
+    index = static_cast<std::size_t>(name - names.begin());
+  });
+  return index;
 }
 
 void ConfigReader::resolve(const char* key, const std::string& value, const char* origin) {
@@ -339,24 +368,35 @@ void ConfigReader::fail(const char* key, const std::string& message) const {
   throw ConfigError(where(key) + ": " + message);
 }
 
-void ConfigReader::finish() const {
+void ConfigReader::finish() {
   for (const ConfigNode& one : nodes_) {
     std::vector<std::string> seen;
     for (const auto& entry : one.node) {
       const ConfigNode at{one.layer, entry.first};
-      if (!entry.first.IsScalar()) fail_at(at, "", "a key must be a plain word");
-      const std::string key = entry.first.Scalar();
-      if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-        const auto near = nearest_word(key, known_);
-        fail_at(at, key,
-                near ? "unknown key; did you mean '" + *near + "'?"
-                     : "unknown key; known here: " + join(known_));
-      }
-      if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        fail_at(at, key, "given twice; remove one");
-      }
-      seen.push_back(key);
+      attempt([&] { check_key(at, &seen); });
     }
+  }
+}
+
+void ConfigReader::check_key(const ConfigNode& at, std::vector<std::string>* seen) const {
+  if (!at.node.IsScalar()) fail_at(at, "", "a key must be a plain word");
+  const std::string key = at.node.Scalar();
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+    const auto near = nearest_word(key, known_);
+    fail_at(at, key,
+            near ? "unknown key; did you mean '" + *near + "'?"
+                 : "unknown key; known here: " + join(known_));
+  }
+  if (std::find(seen->begin(), seen->end(), key) != seen->end())
+    fail_at(at, key, "given twice; remove one");
+  seen->push_back(key);
+}
+
+void ConfigReader::attempt(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const ConfigError& error) {
+    source_->errors.emplace_back(error.what());
   }
 }
 

@@ -2,7 +2,8 @@
 //
 // Each key is named once, where it is read: that line gives its type, unit and bounds, and the
 // field's value before the call is its default. Every key that is read is recorded with all of
-// these.
+// these. A value that cannot be used is noted in ConfigSource::errors and leaves the default, so
+// that all errors of a configuration are told at once.
 #pragma once
 #include <yaml-cpp/yaml.h>
 
@@ -41,9 +42,10 @@ struct ConfigNode {
 
 // State that all groups of one configuration share.
 struct ConfigSource {
-  std::string name;                     // for errors where no layer has the key
-  std::vector<std::string> given = {};  // keys and groups that are there
-  std::vector<ConfigKey> keys = {};     // every key that was read, in that order
+  std::string name;                      // for errors where no layer has the key
+  std::vector<std::string> given = {};   // keys and groups that are there
+  std::vector<ConfigKey> keys = {};      // every key that was read, in that order
+  std::vector<std::string> errors = {};  // what is wrong, in the order of reading
 };
 
 class ConfigReader {
@@ -98,14 +100,17 @@ class ConfigReader {
   // Where `key` stands, for errors that show later: "FILE:LINE: group.key", or "--set group.key".
   std::string where(const char* key) const;
 
-  // Throws ConfigError for `key`, at its line.
+  // Throws ConfigError for `key`, at its line; the rest of its group is then not read.
   [[noreturn]] void fail(const char* key, const std::string& message) const;
 
-  // Throws if the group has a key that was not asked for, or one twice.
-  void finish() const;
+  // Notes an error where the group has a key that was not asked for, or one twice.
+  void finish();
 
  private:
   using Found = std::optional<ConfigNode>;
+  // Notes the ConfigError that `read` throws, so that the keys behind it are read as well.
+  void attempt(const std::function<void()>& read);
+  void check_key(const ConfigNode& at, std::vector<std::string>* seen) const;
   // Returns the index in `names` of the key's value; throws, listing them, if it is none.
   std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names,
                                           const std::string& built_in);

@@ -8,6 +8,7 @@
 
 #include "drivers/text/nearest_word.h"
 #include "drivers/text/parse.h"
+#include "tools/common/day.h"
 
 namespace leonav {
 
@@ -120,7 +121,10 @@ GpsTime Arguments::time(const std::string& name) const {
                           *tow_s <= double{kSecondsPerWeek};
     if (in_range) return GpsTime::from_week_and_tow(*week, *tow_s);
   }
-  throw UsageError(name + " needs WEEK:SECONDS_OF_WEEK in GPS time, not '" + text + "'");
+  if (const auto instant = instant_of(text)) return *instant;
+  throw UsageError(name +
+                   " needs WEEK:SECONDS_OF_WEEK or YYYY-MM-DDThh:mm:ss, both in GPS time, not '" +
+                   text + "'");
 }
 
 std::string Arguments::required(const std::string& name) const {

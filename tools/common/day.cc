@@ -17,4 +17,20 @@ std::optional<GpsTime> noon_of(const std::string& text) {
   return noon;
 }
 
+std::optional<GpsTime> instant_of(const std::string& text) {
+  constexpr std::size_t kTime = 10, kMinute = 13, kSecond = 16;
+  const auto noon = text.size() > kMinute ? noon_of(text.substr(0, kTime)) : std::nullopt;
+  if (!noon || (text[kTime] != 'T' && text[kTime] != ' ') || text[kMinute] != ':')
+    return std::nullopt;
+  const auto hour = parse_int(text.substr(kTime + 1, 2)),
+             minute = parse_int(text.substr(kMinute + 1, 2));
+  std::optional<double> second = 0.0;
+  if (text.size() > kSecond)
+    second = text[kSecond] == ':' ? parse_double(text.substr(kSecond + 1)) : std::nullopt;
+  if (!hour || !minute || !second || *hour < 0 || *hour > 23 || *minute < 0 || *minute > 59 ||
+      !(*second >= 0.0 && *second < 60.0))
+    return std::nullopt;
+  return noon->plus_seconds((*hour - 12) * 3600.0 + *minute * 60.0 + *second);
+}
+
 }  // namespace leonav

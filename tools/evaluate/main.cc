@@ -2,7 +2,9 @@
 // measures the quality of a log's measurements.
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "drivers/csv/imu_csv.h"
@@ -20,7 +22,7 @@ using leonav::Arguments;
 int body(int argc, char** argv) {
   Arguments arguments(
       "leonav-eval",
-      "--truth truth.csv [options] [LABEL=]solution.csv ...\n"
+      "--truth truth.csv|--truth-point LAT,LON,H [options] [LABEL=]solution.csv ...\n"
       "       leonav-eval --integrity --truth truth.csv [--alert-limit-m 1,3,10] [--json FILE] "
       "[--plots DIR]\n"
       "               [LABEL=]solution.csv ...\n"
@@ -34,7 +36,10 @@ int body(int argc, char** argv) {
       "With --residuals: what the estimator left of its measurements, by system and elevation.\n"
       "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
       "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
-  arguments.option("--truth", "FILE", "truth.csv to judge by")
+  arguments.option("--truth", "FILE", "truth.csv or an RTKLIB .pos file to judge by")
+      .option("--truth-point", "LAT,LON,H",
+              "in place of --truth: a surveyed point that did not move, degrees and metres above "
+              "the ellipsoid")
       .option("--json", "FILE",
               "write the numbers as JSON too, with the CDF; with --integrity: with histograms")
       .option("--convergence-bound", "M",
@@ -50,8 +55,8 @@ int body(int argc, char** argv) {
               "imu.csv: also print how its gyros alone, fitted to the truth, follow the course: "
               "what an estimator can hope for")
       .option("--up-offset", "M", "added to the truth's height before comparing", "0")
-      .option("--from", "WEEK:TOW", "judge from this GPS time on")
-      .option("--to", "WEEK:TOW", "judge up to this GPS time")
+      .option("--from", "TIME", "judge from this GPS time on: WEEK:SECONDS or YYYY-MM-DDThh:mm:ss")
+      .option("--to", "TIME", "judge up to this GPS time")
       .option("--residuals", "FILE", "measurements.csv of leonav-replay; needs no truth")
       .flag("--quality", "judge the measurements of an LCM log instead of solutions")
       .option("--plots", "DIR",
@@ -94,8 +99,19 @@ int body(int argc, char** argv) {
   if (arguments.has("--to")) options.to = arguments.time("--to");
 
   leonav::SkippedRows skipped;
-  const leonav::Track truth = leonav::load_truth(arguments.required("--truth"), &skipped);
-  std::cout << leonav::to_string(skipped);
+  std::optional<leonav::TrackPoint> point;
+  leonav::Track truth;
+  if (arguments.has("--truth-point")) {
+    for (const char* other : {"--truth", "--imu"}) {
+      if (arguments.has(other))
+        throw leonav::UsageError(std::string(other) + " does not go with --truth-point");
+    }
+    point = leonav::surveyed_point(arguments.get("--truth-point"));
+    options.max_truth_gap_s = std::numeric_limits<double>::infinity();
+  } else {
+    truth = leonav::load_truth(arguments.required("--truth"), &skipped);
+    std::cout << leonav::to_string(skipped);
+  }
   std::vector<leonav::Evaluation> evaluations;
   for (const std::string& word : arguments.positional()) {
     const std::size_t equals = word.find('=');
@@ -103,6 +119,7 @@ int body(int argc, char** argv) {
     const std::string label = equals == std::string::npos ? word : word.substr(0, equals);
     leonav::SkippedRows of_solution;
     const leonav::Track solution = leonav::load_solution(path, &of_solution);
+    if (point) truth = leonav::standing_at(*point, solution);
     evaluations.push_back(
         leonav::evaluate(label, solution, truth, options, arguments.number("--convergence-bound")));
     evaluations.back().skipped = of_solution;

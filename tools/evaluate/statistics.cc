@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace leonav {
@@ -73,6 +74,27 @@ std::optional<double> share_within_three_sigma(const std::vector<ErrorSample>& e
   return static_cast<double>(within) / static_cast<double>(total);
 }
 
+std::string span_of(const Track& track) {
+  const auto text = [](GpsTime time) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%d:%.1f", time.week(), time.tow_s());
+    return std::string(buffer);
+  };
+  return text(track.front().time) + " to " + text(track.back().time);
+}
+
+// Solutions that have a time in common with the truth may all stand in holes of it.
+std::string why_no_errors(const Comparison& comparison, const Track& solution, const Track& truth,
+                          const ErrorOptions& options) {
+  if (comparison.solution_epochs == 0)
+    return "solution and truth have no common time: the solution is from " + span_of(solution) +
+           ", the truth from " + span_of(truth) + " (GPS week:seconds)";
+  char gap[32];
+  std::snprintf(gap, sizeof gap, "%g s", options.max_truth_gap_s);
+  return "no solution has truth on both sides within " + std::string(gap) +
+         "; raise --max-truth-gap if the truth is that sparse";
+}
+
 }  // namespace
 
 std::optional<double> settling_time_s(const std::vector<ErrorSample>& errors, double bound_m) {
@@ -89,7 +111,7 @@ Evaluation evaluate(const std::string& label, const Track& solution, const Track
   e.comparison = compare(solution, truth, options);
   const std::vector<ErrorSample>& errors = e.comparison.errors;
   if (errors.empty()) {
-    throw std::runtime_error(label + ": solution and truth have no common time");
+    throw std::runtime_error(label + ": " + why_no_errors(e.comparison, solution, truth, options));
   }
   auto component = [&](int i) {
     return column(errors, [i](const ErrorSample& s, auto* out) { out->push_back(s.neu[i]); });

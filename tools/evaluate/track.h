@@ -36,8 +36,15 @@ struct SkippedRows {
   std::string first_problem;   // FILE:LINE: what
 };
 
-// Reads truth.csv. Throws FileError.
+// Reads truth.csv, or RTKLIB's .pos, recognized by content. Throws FileError.
 Track load_truth(const std::string& path, SkippedRows* skipped = nullptr);
+
+// Returns a point from "LATITUDE,LONGITUDE,HEIGHT" (degrees, m above the ellipsoid), at rest.
+// Throws UsageError.
+TrackPoint surveyed_point(const std::string& text);
+
+// Returns the truth of a point that stands, over the time of a solution.
+Track standing_at(const TrackPoint& point, const Track& solution);
 
 // Reads solution.csv or RTKLIB's .pos (latitude, longitude, height or x, y, z), recognized by
 // content. Throws FileError, also if no row is usable.

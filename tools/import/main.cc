@@ -31,8 +31,9 @@ int body(int argc, char** argv) {
       "brdc.nav\n"
       "  imu: imu.csv");
   arguments.option("--out", "FILE", "the log to write; -o for short")
-      .option("--from", "WEEK:SECONDS", "leave out data before this GPS time")
-      .option("--to", "WEEK:SECONDS", "leave out data after this GPS time")
+      .option("--from", "TIME",
+              "leave out data before this GPS time: WEEK:SECONDS or YYYY-MM-DDThh:mm:ss")
+      .option("--to", "TIME", "leave out data after this GPS time")
       .option("--gnss-latency-ms", "MS", "a GNSS epoch arrives this long after its time", "50");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.positional().size() != 1) {

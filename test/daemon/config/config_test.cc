@@ -49,6 +49,17 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
   CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);
 }
 
+TEST_CASE("all errors of a configuration are told at once, each in a line and once") {
+  CHECK(
+      error_of("gnss:\n  elevation_mask_deg: high\n  cn0_mask: 3\nekf:\n  reset_epochs: 2.5\nlcm:\n"
+               "  prefix: 'A B'\njournal: [1]\n") ==
+      "car.yaml:2: gnss.elevation_mask_deg: 'high' is not a number\n"
+      "car.yaml:3: gnss.cn0_mask: unknown key; did you mean 'cn0_mask_dbhz'?\n"
+      "car.yaml:5: ekf.reset_epochs: must be a whole number\n"
+      "car.yaml:7: lcm.prefix: only letters, digits, '_' and '-' may be in it\n"
+      "car.yaml:8: journal: expected a group of keys (\"key: value\" lines)");
+}
+
 TEST_CASE("how LEO satellites stand is read by name") {
   const auto law = [](const std::string& name) {
     return load_config_text("gnss:\n  leo_attitude: " + name + "\n", "x")

@@ -64,3 +64,22 @@ TEST_CASE("a time is a week and its seconds, or what is wrong with it is reporte
   }
   CHECK_FALSE(sample().time("--rate").is_set());
 }
+
+TEST_CASE("a time is a week with seconds, or a date with hours, both of GPS time") {
+  const auto time_of = [](const char* text) {
+    Arguments a("tool", "", "Does a thing.");
+    a.option("--from", "TIME", "from");
+    const char* argv[] = {"tool", "--from", text};
+    a.parse(3, argv);
+    return a.time("--from");
+  };
+  const GpsTime noon = GpsTime::from_week_and_tow(2300, 0.0).plus_seconds(12 * 3600.0);
+  CHECK(time_of("2300:43200") == noon);
+  CHECK(time_of("2024-02-04T12:00:00") == noon);
+  CHECK(time_of("2024-02-04 12:00") == noon);
+  CHECK(time_of("2024-02-04T12:00:01.5") == noon.plus_seconds(1.5));
+  for (const char* wrong :
+       {"2024-02-04", "2024-02-30T00:00", "2024-02-04T24:00", "2024-02-04T12:60",
+        "2024-02-04T12:00:60", "2024-02-04T12.00", "2024-02-04T12:00x", "2300"})
+    CHECK_THROWS_AS(time_of(wrong), UsageError);
+}

@@ -4,6 +4,7 @@
 
 #include "core/earth/rotation.h"
 #include "support/catch.h"
+#include "tools/common/arguments.h"
 
 using namespace leonav;
 
@@ -141,4 +142,39 @@ TEST_CASE("settled is from where on the error never again exceeds the bound") {
   CHECK(*e.convergence_s == Approx(0.0));
   solution.back() = point(49.0, {49, 0.5, 0});
   CHECK_FALSE(evaluate("x", solution, truth, {}, 0.1).settled_s);
+}
+
+TEST_CASE("a surveyed point is a truth that stands for as long as the solution lasts") {
+  const TrackPoint surveyed = surveyed_point("40.107045659157525,-103.13240312354818,120.0");
+  Track solution = straight(11, 1.0, Eigen::Vector3d::Zero(), {0.3, -0.4, 1.2});
+  for (TrackPoint& row : solution) row.v_n = Eigen::Vector3d(0.1, 0.0, 0.0);
+  ErrorOptions options;
+  options.max_truth_gap_s = INFINITY;
+  const Evaluation e = evaluate("x", solution, standing_at(surveyed, solution), options, 3.0);
+  CHECK(e.north.mean == Approx(0.3).margin(1e-4));
+  CHECK(e.east.mean == Approx(-0.4).margin(1e-4));
+  CHECK(e.up.mean == Approx(1.2).margin(1e-4));
+  CHECK(e.comparison.solution_epochs == 11);
+  CHECK(e.comparison.without_truth == 0);
+  REQUIRE(e.speed);
+  CHECK(e.speed->mean == Approx(0.1).margin(1e-6));
+  for (const char* wrong : {"", "40", "40,-103", "91,0,0", "40,-103,x", "40,-103,1e9"})
+    CHECK_THROWS_AS(surveyed_point(wrong), UsageError);
+}
+
+TEST_CASE("why there is nothing to compare is said") {
+  const Track truth = straight(3, 10.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  const auto said = [&](const Track& solution) {
+    try {
+      evaluate("x", solution, truth, {}, 3.0);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Track within = {point(4.0, Eigen::Vector3d::Zero()), point(5.0, Eigen::Vector3d::Zero())};
+  CHECK(said(within).find("raise --max-truth-gap") != std::string::npos);
+  for (TrackPoint& row : within) row.time = row.time.plus_seconds(1000.0);
+  CHECK(said(within).find("no common time: the solution is from 2200:2004.0 to 2200:2005.0, the "
+                          "truth from 2200:1000.0 to 2200:1020.0") != std::string::npos);
 }

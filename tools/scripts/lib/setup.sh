@@ -38,10 +38,15 @@ build() {
   local preset=$1; shift
   local configure=("$@")
   mkdir -p "$leonav_root/build"
+  # One at a time: two that configure the same folder fail in each other's steps.
+  local lock
+  exec {lock}>"$leonav_root/build/$preset.lock"
+  flock --nonblock "$lock" || { say "Waiting for another build of $preset"; flock "$lock"; }
   say "Building ($preset)"
   cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
     { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
   ninja -C "$leonav_root/build/$preset" --quiet || fail "the build failed"
+  exec {lock}>&-
 }
 
 # in_namespace COMMAND...: in a network namespace of its own, with LCM's multicast route on loopback.
