@@ -51,8 +51,7 @@ using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
 
 // The last ones of these enumerations.
 inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::kFaulty) + 1;
-inline constexpr std::size_t kEventKindCount =
-    static_cast<std::size_t>(EventKind::kPredictionWidened) + 1;
+inline constexpr std::size_t kEventKindCount = static_cast<std::size_t>(EventKind::kCommand) + 1;
 
 struct EngineCounters {
   // io

@@ -304,6 +304,7 @@ DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {
     fault = InputFault::kOutOfRange;
   } else {
     *command = {static_cast<CommandKind>(message.kind), message.value, message.sigma};
+    command->sequence = static_cast<std::uint64_t>(std::max<std::int64_t>(message.sequence, 0));
   }
   return result_of(message, fault);
 }

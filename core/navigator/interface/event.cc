@@ -54,6 +54,8 @@ std::string_view to_string(EventKind kind) {
       return "satellite_fault";
     case EventKind::kPredictionWidened:
       return "prediction_widened";
+    case EventKind::kCommand:
+      return "command";
   }
   return "unknown";
 }

@@ -49,6 +49,14 @@ enum class EventKind : std::uint8_t {
   // Measurements agree with each other against the prediction, whose covariance was widened. code:
   // Observable; value: the 1 sigma added per axis, m, of Dopplers m/s.
   kPredictionWidened = 24,
+  // The answer to a command. code: CommandResult; value: the command's sequence number.
+  kCommand = 25,
+};
+
+// Codes of EventKind::kCommand. On the wire: append only.
+enum class CommandResult : std::uint8_t {
+  kDone = 0,              // a heading before there is a position is kept until there is one
+  kContradictsMotion = 1  // the vehicle drives in another direction, forward and in reverse
 };
 // Returns the name of a kind as outputs show it, for instance "filter_reset".
 std::string_view to_string(EventKind kind);

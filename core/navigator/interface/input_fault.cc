@@ -26,6 +26,8 @@ std::string_view to_string(InputFault fault) {
       return "too_far_ahead";
     case InputFault::kOverlap:
       return "overlap";
+    case InputFault::kTooOften:
+      return "too_often";
   }
   return "unknown";
 }

@@ -19,8 +19,9 @@ enum class InputFault : std::uint8_t {
   kNotSane = 8,        // the values cannot be right, for instance a dead sensor
   kTooFarAhead = 9,    // the stamp is far later than all other inputs
   kOverlap = 10,       // the interval overlaps the previous one
+  kTooOften = 11,      // more commands than anybody needs
 };
-inline constexpr std::size_t kInputFaultCount = 11;
+inline constexpr std::size_t kInputFaultCount = 12;
 // Returns the name of a fault as outputs show it, for instance "not_finite".
 std::string_view to_string(InputFault fault);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 #include "core/filter/ekf.h"
@@ -61,6 +62,8 @@ struct Command {
   double value = 0.0;                       // kSetHeading: heading, rad, clockwise from north
   double sigma = 0.0;                       // kSetHeading: its sigma, rad
   ResetCause cause = ResetCause::kCommand;  // kRestart: set by the Sequencer
+  // The sender's count; nullopt: not from outside, and not answered.
+  std::optional<std::uint64_t> sequence;
 };
 
 // The precise states of one message, with room for one of each satellite that has a name.

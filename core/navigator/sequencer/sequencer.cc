@@ -251,7 +251,10 @@ void Sequencer::on_signal_biases(const SignalBiases& biases) { push_good_ones(bi
 
 void Sequencer::on_command(const Command& command) {
   if (const InputFault fault = check(command); fault != InputFault::kNone) return reject(fault);
-  push_command({command.kind, command.value, command.sigma, ResetCause::kCommand});
+  if (!command_limit_.allows(now())) return reject(InputFault::kTooOften);
+  Command checked = command;
+  checked.cause = ResetCause::kCommand;
+  push_command(checked);
 }
 
 // Pushes a restart to both stages, so that it lies between the same two epochs in both.
@@ -293,8 +296,11 @@ void Sequencer::report_finding(const ConventionFinding& finding) {
 }
 
 void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
-  const GpsTime time = imu_.time().is_set() ? imu_.time() : epochs_.newest_time();
-  stages_->event(events_.next(kind, code, value, time));
+  stages_->event(events_.next(kind, code, value, now()));
+}
+
+GpsTime Sequencer::now() const {
+  return imu_.time().is_set() ? imu_.time() : epochs_.newest_time();
 }
 
 }  // namespace leonav

@@ -9,6 +9,7 @@
 #include "core/navigator/interface/event_source.h"
 #include "core/navigator/interface/navigator_config.h"
 #include "core/navigator/interface/stage_work.h"
+#include "core/navigator/sequencer/internal/command_limit.h"
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/epoch_queue.h"
 #include "core/navigator/sequencer/internal/imu_block_cutter.h"
@@ -139,6 +140,7 @@ class Sequencer {
   void reject(InputFault fault);
   void report_finding(const ConventionFinding& finding);
   void emit(EventKind kind, std::uint8_t code, double value);
+  GpsTime now() const;  // of the data; may be unset
 
   NavigatorConfig config_;
   StageInputs* stages_;
@@ -150,6 +152,7 @@ class Sequencer {
   EpochQueue epochs_;
   EmptyEpochSchedule empty_epochs_;
   OdometerQueue odometer_;
+  CommandLimit command_limit_;
   RefusedImuMonitor refused_imu_;
   StampOffsetMonitor stamp_offset_;
   std::uint64_t next_index_ = 1;

@@ -254,8 +254,17 @@ void GnssStage::push_keyframe(const EpochWork& work) {
 }
 
 void GnssStage::process_work(const Command& command) {
-  if (command.kind == CommandKind::kSetHeading) return set_heading(command.value, command.sigma);
-  reset(kCommandReset, last_epoch_time_, command.cause, 0.0);
+  CommandResult result = CommandResult::kDone;
+  const GpsTime time = last_epoch_time_;  // which a restart forgets
+  if (command.kind == CommandKind::kRestart)
+    reset(kCommandReset, last_epoch_time_, command.cause, 0.0);
+  else if (attitude_.contradicts_motion(command.value, command.sigma, ekf_))
+    result = CommandResult::kContradictsMotion;
+  else
+    set_heading(command.value, command.sigma);
+  if (command.sequence)
+    reporter_.emit(EventKind::kCommand, static_cast<std::uint8_t>(result),
+                   static_cast<double>(*command.sequence), time);
 }
 
 // Replaces only the attitude; position, velocity, clocks and IMU errors do not change.

@@ -1,6 +1,8 @@
 #include "core/navigator/stages/internal/attitude_initializer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
@@ -70,6 +72,21 @@ void AttitudeInitializer::start_heading_monitor(const Ekf& filter) {
 std::optional<AttitudeInitializer::CheckpointVerdict> AttitudeInitializer::discard_checkpoint() {
   if (!checkpoint_monitor_.pending()) return std::nullopt;
   return checkpoint_monitor_.not_needed();
+}
+
+bool AttitudeInitializer::contradicts_motion(double heading, double sigma,
+                                             const Ekf& filter) const {
+  constexpr double kSlow = 3.0;  // m/s
+  constexpr double kSigmas = 3.0, kTurn = std::numbers::pi / 4.0;
+  // A heading can be watched only where the vehicle drives along its axis.
+  if (!inertial_ || !config_.heading_watch || !filter.initialized()) return false;
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(filter.antenna_position_e()));
+  const Eigen::Vector2d velocity = (C_ne * filter.antenna_velocity_e()).head<2>();
+  const double speed = velocity.norm(), speed_sigma = velocity_sigma(filter);
+  if (!(speed > kSlow && speed > 10.0 * speed_sigma)) return false;
+  const double off = wrap_to_pi(heading - std::atan2(velocity.y(), velocity.x()));
+  const double from_axis = std::min(std::abs(off), std::numbers::pi - std::abs(off));
+  return from_axis > kTurn + kSigmas * std::hypot(sigma, speed_sigma / speed);
 }
 
 std::optional<AttitudeInitializer::TurnedAttitude> AttitudeInitializer::set_heading(

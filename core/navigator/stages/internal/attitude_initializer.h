@@ -53,6 +53,10 @@ class AttitudeInitializer {
     Eigen::Quaterniond q_eb;
     Eigen::Vector3d sigma_rpy;  // rad
   };
+  // Returns whether the vehicle drives in another direction than this heading, forward or in
+  // reverse, by more than 45 degrees and three sigmas. False while its velocity is not known, and
+  // for what may move in any direction.
+  bool contradicts_motion(double heading, double sigma, const Ekf& filter) const;
   // Takes a heading and its sigma, rad, from a command. If the filter has an attitude, it returns
   // that attitude turned to the heading; else it keeps the heading for the alignment and returns
   // nullopt.

@@ -49,6 +49,18 @@ TEST_CASE("hostile commands, ephemerides, antennas and precise states are counte
   CHECK(rig.stages.precise.empty());
 }
 
+TEST_CASE("of many commands at once five are taken, and five more ten seconds later") {
+  SequencerRig rig;
+  const auto command = [&] { rig.sequencer.on_command({CommandKind::kRestart, 0.0, 0.0}); };
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  for (int i = 0; i < 50; ++i) command();
+  CHECK(rig.stages.commands.size() == 5);
+  CHECK(rig.rejected(InputFault::kTooOften) == 45);
+  for (int s = 2; s <= 12; ++s) rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * s)));
+  command();
+  CHECK(rig.stages.commands.size() == 6);
+}
+
 TEST_CASE("coefficients of the ionosphere that no message can carry are dropped") {
   SequencerRig rig;
   const double nan = std::numeric_limits<double>::quiet_NaN();

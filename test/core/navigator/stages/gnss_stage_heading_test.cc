@@ -1,4 +1,8 @@
 // A heading from outside, by configuration or command.
+#include <numbers>
+#include <optional>
+#include <utility>
+
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "support/catch.h"
@@ -34,6 +38,34 @@ TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading sp
     CHECK(sink.epochs.back().solution.has_attitude);
     CHECK(worst_error(sink, drive, 75.0, 90.0) < 1.0);
   }
+}
+
+TEST_CASE("commands are answered; a heading across the motion is refused, a reversed one is not") {
+  const SyntheticDrive drive = drive_of(90.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  RecordingSink sink;
+  Navigator pipeline(config, &sink);
+  bool told = false;
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    const double t = seconds(raw.time);
+    if (told || t < 50.0) return;
+    told = true;
+    const double heading = heading_at(drive, t);
+    const auto command = [&](double value, std::optional<std::uint64_t> sequence) {
+      Command one{CommandKind::kSetHeading, value, 0.05};
+      one.sequence = sequence;
+      sequencer->on_command(one);
+    };
+    command(heading + 1.5, 7);
+    command(heading + 1.5, std::nullopt);  // refused as well, and nobody is told
+    command(heading + std::numbers::pi, 8);
+    command(heading, 9);
+  });
+  std::vector<std::pair<int, double>> answers;
+  for (const Event& event : sink.events)
+    if (event.kind == EventKind::kCommand) answers.emplace_back(event.code, event.value);
+  CHECK(answers == std::vector<std::pair<int, double>>{{1, 7.0}, {0, 8.0}, {0, 9.0}});
+  CHECK(worst_error(sink, drive, 60.0, 90.0) < 1.0);
 }
 
 // Restarts the filter at each of these times.
