@@ -63,7 +63,7 @@ struct Command {
   double sigma = 0.0;                       // kSetHeading: its sigma, rad
   ResetCause cause = ResetCause::kCommand;  // kRestart: set by the Sequencer
   // The sender's count; nullopt: not from outside, and not answered.
-  std::optional<std::uint64_t> sequence;
+  std::optional<std::uint64_t> sequence = std::nullopt;
 };
 
 // The precise states of one message, with room for one of each satellite that has a name.
