@@ -158,9 +158,9 @@ void GnssStage::test_satellites(const EpochWork& work, const EkfUpdateResult& up
   const FilterEvidence evidence = {work.time, update, front_end_.measurements(), ekf_};
   const auto fault = satellite_faults_.add(carrier_innovations(evidence), work.time);
   const PositionEstimate estimate = {ekf_.state().p_e, position_covariance_e(ekf_.covariance())};
-  fault_hypotheses_ = satellite_fault_hypotheses(satellite_faults_, front_end_.measurements(),
-                                                 ekf_.measurements(), ekf_.state().ambiguities,
-                                                 estimate, config_.integrity, config_.gnss.bands);
+  fault_hypotheses_ = satellite_fault_hypotheses(
+      satellite_faults_, front_end_.measurements(), ekf_.measurements(),
+      ekf_.filter_state().ambiguities, estimate, config_.integrity, config_.gnss.bands);
   if (!fault) return;
   ekf_.allow_for_fault(fault->satellite, fault->followed_m, front_end_.measurements());
   reporter_.emit(EventKind::kSatelliteFault, static_cast<std::uint8_t>(fault->satellite.system),
