@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "daemon/config/load_config.h"
+#include "drivers/lcm/decode.h"
 #include "support/catch.h"
 #include "support/drive_inputs.h"
 #include "support/temporary_file.h"
