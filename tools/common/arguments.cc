@@ -63,6 +63,10 @@ bool Arguments::parse(int argc, const char* const* argv) {
       std::cout << help();
       return false;
     }
+    if (word == "--version") {
+      std::cout << program_ << " " LEONAV_VERSION "\n";
+      return false;
+    }
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(0, equals);
     const Option* option = name == "-o" ? find("--out") : find(name);
@@ -136,7 +140,7 @@ std::string Arguments::required(const std::string& name) const {
 std::string Arguments::help() const {
   std::ostringstream text;
   text << "usage: " << program_ << ' ' << synopsis_ << "\n\n" << description_ << "\n\noptions:\n";
-  std::size_t width = 6;
+  std::size_t width = 9;  // of --version
   for (const Option& option : options_) {
     width = std::max(width, option.name.size() + 1 + option.value_name.size());
   }
@@ -148,6 +152,7 @@ std::string Arguments::help() const {
          option.help + (option.fallback.empty() ? "" : " [" + option.fallback + "]"));
   }
   line("--help", "print this and exit");
+  line("--version", "print the version and exit");
   return text.str();
 }
 

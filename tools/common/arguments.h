@@ -31,7 +31,7 @@ class Arguments {
   //
   // "--name VALUE" and "--name=VALUE" are equivalent, "--" ends the options, and an option may be
   // repeated. Throws UsageError, with the nearest known option for an unknown one. Returns false if
-  // --help was given and has been printed.
+  // --help or --version was given, which has then been printed.
   bool parse(int argc, const char* const* argv);
 
   // The first positional argument becomes the value of the option `name`.

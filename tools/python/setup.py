@@ -1,4 +1,4 @@
-"""Puts the message types of lcmtypes/ into the package that is built; the rest is in pyproject.toml."""
+"""Puts the message types of lcmtypes/ and the version into the package that is built; the rest is in pyproject.toml."""
 import atexit
 import pathlib
 import shutil
@@ -7,7 +7,9 @@ import tempfile
 from setuptools import setup
 from setuptools.command.build_py import build_py
 
-TYPES = pathlib.Path(__file__).resolve().parents[2] / "lcmtypes"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TYPES = ROOT / "lcmtypes"
+VERSION = ROOT / "VERSION"
 
 
 class BuildWithTypes(build_py):
@@ -22,9 +24,10 @@ class BuildWithTypes(build_py):
         target.mkdir(parents=True, exist_ok=True)
         for definition in definitions:
             shutil.copy(definition, target)
+        shutil.copy(VERSION, target.parent)
 
 
 # What is built on the way does not stay in the tree.
 work = tempfile.mkdtemp(prefix="leonav-build-")
 atexit.register(shutil.rmtree, work, ignore_errors=True)
-setup(cmdclass={"build_py": BuildWithTypes}, options={"build": {"build_base": work}, "egg_info": {"egg_base": work}})
+setup(version=VERSION.read_text(encoding="utf-8").strip(), cmdclass={"build_py": BuildWithTypes}, options={"build": {"build_base": work}, "egg_info": {"egg_base": work}})

@@ -67,6 +67,8 @@ def parser_of_words():
                         "(some 50 and 110 MB an hour of log)")
     parser.add_argument("--bin", metavar="DIR", help="folder of leonav-replay, leonav-eval and leonav-sim [where leonav-fleet is, else "
                         "build/release/bin]")
+    with open(os.path.join(ROOT, "VERSION"), encoding="utf-8") as file:
+        parser.add_argument("--version", action="version", version=f"%(prog)s {file.read().strip()}")
     only_logs = parser.add_argument_group("logs")
     only_logs.add_argument("--truth", metavar="FILE", help="truth.csv of every log, instead of the one beside it")
     only_logs.add_argument("--remove-offset", action="store_true", help="remove each run's mean error first (truths of unknown datum)")

@@ -10,8 +10,9 @@ from .errors import LeonavError, LeonavWarning
 from .event_log import Event, events
 from .live import Message, subscribe
 from .message import decode
+from .version import __version__
 
-__all__ = ["Event", "LeonavError", "LeonavWarning", "Message", "decode", "events", "read_log", "read_solution", "subscribe"]
+__all__ = ["Event", "LeonavError", "LeonavWarning", "Message", "__version__", "decode", "events", "read_log", "read_solution", "subscribe"]
 
 
 def __getattr__(name):

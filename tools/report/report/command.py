@@ -2,6 +2,7 @@
 import argparse
 import sys
 
+import leonav
 import numpy as np
 
 from . import accuracy_pictures, error_pictures, numbers, residual_pictures, timeline_picture
@@ -55,6 +56,7 @@ def arguments(words):
     parser.add_argument("--remove-offset", action="store_true", help="remove each run's mean error (a truth with an unknown datum)")
     parser.add_argument("--max-gap", type=float, default=2.0, metavar="S",
                         help="do not interpolate the truth over holes longer than this [2]")
+    parser.add_argument("--version", action="version", version=f"%(prog)s {leonav.__version__}")
     parser.add_argument("--prefix", default="LEONAV_", metavar="TEXT", help="lcm.prefix of the journal's configuration [LEONAV_]")
     return parser.parse_args(words)
 

@@ -38,6 +38,7 @@ def arguments(words):
                         help="with --once: for the other messages after the first; 3 unless given. Corrections come each 5 to 30 s")
     parser.add_argument("--prefix", default="LEONAV_", metavar="TEXT", help="lcm.prefix of the configuration; LEONAV_ unless given")
     parser.add_argument("--url", default="udpm://239.255.76.67:7667", metavar="URL", help="lcm.url of the configuration")
+    parser.add_argument("--version", action="version", version=f"%(prog)s {leonav.__version__}")
     return parser.parse_args(words)
 
 
