@@ -32,6 +32,7 @@ endfunction()
 # and of its internal/ but main.cc.
 function(leonav_library target folder)
   cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  set_property(GLOBAL PROPERTY leonav_folder_of_${target} ${folder})  # for cmake/install.cmake
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc
        ${CMAKE_SOURCE_DIR}/${folder}/internal/*.cc)
   list(FILTER sources EXCLUDE REGEX "/main\\.cc$")
@@ -57,6 +58,7 @@ function(leonav_program target folder)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   add_executable(${target} ${CMAKE_SOURCE_DIR}/${folder}/main.cc)
   target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
+  set_property(GLOBAL APPEND PROPERTY leonav_programs ${target})
 endfunction()
 
 # leonav_scripts(folder name...): interpreted tools, linked beside the programs.
@@ -65,6 +67,7 @@ function(leonav_scripts folder)
   foreach(name ${ARGN})
     if(EXISTS ${CMAKE_SOURCE_DIR}/${folder}/${name})
       file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder}/${name} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name} SYMBOLIC)
+      set_property(GLOBAL APPEND PROPERTY leonav_scripts ${folder}/${name})
     endif()
   endforeach()
 endfunction()

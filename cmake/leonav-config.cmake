@@ -1,0 +1,17 @@
+# find_package(leonav): the target leonav::leonav, with headers below <prefix>/include/leonav.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4 NO_MODULE)
+find_dependency(Boost)
+find_dependency(Ceres 2.1)
+find_dependency(yaml-cpp)
+find_library(leonav_lcm_library lcm)
+find_path(leonav_lcm_include_dir lcm/lcm-cpp.hpp)
+if(NOT leonav_lcm_library OR NOT leonav_lcm_include_dir)
+  set(leonav_FOUND FALSE)
+  set(leonav_NOT_FOUND_MESSAGE "LCM is missing; on Debian: apt-get install liblcm-dev")
+  return()
+endif()
+include(${CMAKE_CURRENT_LIST_DIR}/leonav-targets.cmake)
+set_property(TARGET leonav::leonav PROPERTY INTERFACE_LINK_LIBRARIES
+             Eigen3::Eigen Boost::headers Ceres::ceres yaml-cpp ${leonav_lcm_library})
+set_property(TARGET leonav::leonav APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${leonav_lcm_include_dir})
