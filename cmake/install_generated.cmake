@@ -3,6 +3,7 @@
 set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})
 set(share ${root}/share/leonav)
 
+file(MAKE_DIRECTORY ${root}/bin)
 # Interpreted programs find what they import beside themselves, behind the link too.
 foreach(script ${scripts})
   cmake_path(GET script FILENAME name)
@@ -38,36 +39,34 @@ else()
 endif()
 
 # Manuals and completions out of --help.
-find_program(help2man help2man NO_CACHE)
-if(NOT help2man)
-  message(STATUS "Left out: manuals (no help2man; install it: apt-get install help2man)")
-endif()
+find_program(python3 python3 NO_CACHE REQUIRED)
 file(STRINGS ${source}/packaging/summaries.txt summaries)
+file(MAKE_DIRECTORY ${root}/share/man/man1)
 foreach(program ${programs})
-  execute_process(COMMAND ${root}/bin/${program} --help OUTPUT_VARIABLE help RESULT_VARIABLE failed ERROR_VARIABLE why)
+  set(help ${build}/manuals/${program}.txt)
+  file(MAKE_DIRECTORY ${build}/manuals)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -E env COLUMNS=100 PYTHONDONTWRITEBYTECODE=1 ${root}/bin/${program} --help
+    OUTPUT_FILE ${help} RESULT_VARIABLE failed ERROR_VARIABLE why ERROR_STRIP_TRAILING_WHITESPACE)
   if(failed)
     message(STATUS "Left out: manual and completion of ${program} (${why})")
     continue()
   endif()
-  string(REGEX MATCHALL "\n  (-[a-z]( [A-Z]+)?, )?--[a-z][a-z0-9-]*" words "${help}")
+  file(READ ${help} text)
+  string(REGEX MATCHALL "\n  (-[a-zA-Z]( [A-Z]+)?, )?--[a-z][a-z0-9-]*" words "${text}")
   list(TRANSFORM words REPLACE ".*(--[a-z0-9-]+)$" "\\1")
   list(JOIN words " " words)
-  set(folder ${root}/share/bash-completion/completions)
-  file(WRITE ${folder}/${program} "# Made from ${program} --help.\ncomplete -o default -W '${words}' ${program}\n")
-  if(NOT help2man)
-    continue()
-  endif()
+  file(WRITE ${root}/share/bash-completion/completions/${program}
+       "# Made from ${program} --help.\ncomplete -o default -W '${words}' ${program}\n")
   set(summary ${summaries})
   list(FILTER summary INCLUDE REGEX "^${program}: ")
   if(NOT summary)
-    message(FATAL_ERROR "packaging/summaries.txt: no line of ${program}, the name of its manual; add one")
+    message(FATAL_ERROR "packaging/summaries.txt: no line of ${program}, the summary of its manual; add one")
   endif()
   string(REPLACE "${program}: " "" summary "${summary}")
   set(page ${root}/share/man/man1/${program}.1)
-  file(MAKE_DIRECTORY ${root}/share/man/man1)
   execute_process(
-    COMMAND ${help2man} --no-info --name=${summary} --manual=leonav --source=leonav\ ${version} --output=${page}
-            ${root}/bin/${program}
-    COMMAND_ERROR_IS_FATAL ANY)
+    COMMAND ${python3} ${source}/packaging/manual.py ${program} ${summary} ${version}
+    INPUT_FILE ${help} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND gzip -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

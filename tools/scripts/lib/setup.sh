@@ -31,7 +31,7 @@ leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-d
                        libyaml-cpp-dev libspdlog-dev libceres-dev libssl-dev)
 leonav_test_packages=(catch2)
 leonav_live_packages=(gpsd gpsd-clients openssl)
-leonav_package_packages=(lintian help2man dpkg-dev file default-jdk-headless liblcm-java
+leonav_package_packages=(lintian dpkg-dev file default-jdk-headless liblcm-java libjchart2d-java
                          python3-numpy python3-pandas python3-matplotlib python3-yaml python3-distributed)
 leonav_fleet_packages=(python3-distributed python3-dask python3-cryptography python3-numpy python3-yaml)
 
