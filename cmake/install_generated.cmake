@@ -1,7 +1,6 @@
 # Run by `cmake --install`: what depends on the prefix (links, units, configuration) and what the installed programs
 # make (manuals, completions). In: source, build, version, programs, scripts (paths below source).
-set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})
-set(share ${root}/share/leonav)
+set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})  # file(INSTALL) puts DESTDIR before its destination by itself
 
 file(MAKE_DIRECTORY ${root}/bin)
 # Interpreted programs find what they import beside themselves, behind the link too.
@@ -21,12 +20,12 @@ if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(leonav_etc /etc/leonav)
 endif()
 file(INSTALL ${source}/packaging/leonavd.yaml ${source}/config/connect.yaml ${source}/config/serve.yaml
-     DESTINATION $ENV{DESTDIR}${leonav_etc})
+     DESTINATION ${leonav_etc})
 foreach(unit leonavd leonav-connect leonav-serve leonav-multicast)
   configure_file(${source}/packaging/systemd/${unit}.service ${build}/units/${unit}.service @ONLY)
-  file(INSTALL ${build}/units/${unit}.service DESTINATION ${root}/lib/systemd/system)
+  file(INSTALL ${build}/units/${unit}.service DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/systemd/system)
 endforeach()
-file(INSTALL ${source}/packaging/systemd/sysusers.conf DESTINATION ${root}/lib/sysusers.d RENAME leonav.conf)
+file(INSTALL ${source}/packaging/systemd/sysusers.conf DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/sysusers.d RENAME leonav.conf)
 
 # The jar for lcm-spy, by the program that uses it.
 execute_process(
@@ -35,7 +34,7 @@ execute_process(
 if(failed)
   message(STATUS "Left out: the jar of message types (${why})")
 else()
-  file(INSTALL ${build}/spy/leonav-types.jar DESTINATION ${share}/lcmtypes)
+  file(INSTALL ${build}/spy/leonav-types.jar DESTINATION ${CMAKE_INSTALL_PREFIX}/share/leonav/lcmtypes)
 endif()
 
 # Manuals and completions out of --help.
