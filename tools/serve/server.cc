@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "daemon/link/open_lcm.h"
+#include "daemon/link/service_manager.h"
 #include "drivers/lcm/channels.h"
 #include "tools/serve/pty_outlet.h"
 #include "tools/serve/sentence_feed.h"
@@ -60,6 +61,7 @@ struct Server::State {
   asio::signal_set signals;
   asio::steady_timer second;
   std::vector<std::unique_ptr<Outlet>> outlets;
+  ServiceManager manager;
   std::uint64_t seconds = 0, batches = 0, silent_s = 0;
   std::uint64_t seen_solutions = 0, told_refused = 0;
   bool has_failed = false;
@@ -122,6 +124,7 @@ void Server::State::wait_a_second() {
 void Server::State::each_second() {
   constexpr std::uint64_t kSilent_s = 5;
   ++seconds;
+  manager.feed_watchdog();  // the one thread that writes to all outlets is alive
   const bool is_silent = feed.solutions() == seen_solutions;
   if (!is_silent && silent_s >= kSilent_s) spdlog::info("SOLUTION comes again");
   silent_s = is_silent ? silent_s + 1 : 0;
@@ -151,6 +154,7 @@ Server::~Server() = default;
 bool Server::run() {
   State& s = *state_;
   std::signal(SIGPIPE, SIG_IGN);
+  if (!s.manager.problem().empty()) spdlog::warn("{}", s.manager.problem());
   s.wait_for_signal();
   s.wait_for_messages();
   s.wait_a_second();
@@ -158,7 +162,9 @@ bool Server::run() {
                s.config.lcm.url, s.config.lcm.prefix,
                s.config.fix.geoid_separation_m == 0.0 ? "the ellipsoid: geoid_separation_m is 0"
                                                       : "the geoid by geoid_separation_m");
+  s.manager.ready();
   s.io.run();
+  s.manager.stopping();
   s.log_status();
   return !s.has_failed;
 }

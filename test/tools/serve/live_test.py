@@ -145,7 +145,11 @@ def check(name, data, published, all_of_them):
 
 def run(work, types, text):
     link = work / "nmea"
-    process = subprocess.Popen([BIN / "leonav-serve", "--tcp", str(PORT), "--pty", link, "--rate", str(RATE)], stderr=text)
+    manager = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)  # as systemd with Type=notify and a watchdog would hear it
+    manager.bind(str(work / "notify"))
+    manager.settimeout(60)
+    told = {**os.environ, "NOTIFY_SOCKET": str(work / "notify"), "WATCHDOG_USEC": "10000000"}
+    process = subprocess.Popen([BIN / "leonav-serve", "--tcp", str(PORT), "--pty", link, "--rate", str(RATE)], stderr=text, env=told)
     for _ in range(100):
         if "running" in (work / "serve.txt").read_text(encoding="utf-8"):
             break
@@ -187,6 +191,9 @@ def run(work, types, text):
         fail("leonav-serve did not end well")
     if link.is_symlink():
         fail("the link is still there")
+    heard = [manager.recv(100) for _ in range(3)]
+    if heard != [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"]:
+        fail(f"a service manager heard {heard}")
     return published, fast, late, pty
 
 
