@@ -18,14 +18,14 @@ set(scripts packaging/debian)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_NAME leonav)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_LEONAV_DESCRIPTION "navigation service for vehicles
- leonav finds where a vehicle is, how fast it moves and how it is oriented.
- The service leonavd fuses an IMU with raw GNSS measurements, and with ranging
- from low-Earth-orbit satellites where there is any. It talks LCM: measurements
- come in as messages, solutions and health go out as messages. Every run can
- write a journal that replays bit for bit.
- .
- The package holds the services for systemd, which the administrator enables,
- and the tools that import, simulate, replay, judge and show runs.")
+leonav finds where a vehicle is, how fast it moves and how it is oriented.
+The service leonavd fuses an IMU with raw GNSS measurements, and with ranging
+from low-Earth-orbit satellites where there is any. It talks LCM: measurements
+come in as messages, solutions and health go out as messages. Every run can
+write a journal that replays bit for bit.
+
+The package holds the services for systemd, which the administrator enables,
+and the tools that import, simulate, replay, judge and show runs.")
 # shlibdeps adds the libraries. Which Python modules a tool needs, it says itself.
 set(CPACK_DEBIAN_LEONAV_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_DEPENDS "python3, iproute2, systemd | systemd-standalone-sysusers")
@@ -38,8 +38,8 @@ set(CPACK_DEBIAN_LEONAV_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_LEONAV-DEV_PACKAGE_NAME leonav-dev)
 set(CPACK_DEBIAN_LEONAV-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_LEONAV-DEV_DESCRIPTION "library for programs that embed leonav's navigator
- Headers, a static library with its CMake configuration (find_package(leonav)),
- and the C++ types of leonav's LCM messages.")
+Headers, a static library with its CMake configuration (find_package(leonav)),
+and the C++ types of leonav's LCM messages.")
 set(CPACK_DEBIAN_LEONAV-DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libboost-dev, libceres-dev (>= 2.1), libyaml-cpp-dev, liblcm-dev")
 
 # What Debian's policy asks of both.
