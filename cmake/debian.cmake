@@ -14,7 +14,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
-set(scripts packaging/debian)
+set(scripts tools/packaging/debian)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_NAME leonav)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_LEONAV_DESCRIPTION "navigation service for vehicles
@@ -46,7 +46,7 @@ set(CPACK_DEBIAN_LEONAV-DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libboost-de
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 foreach(package leonav leonav-dev)
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
-  install(FILES packaging/debian/copyright DESTINATION ${doc} COMPONENT ${package})
+  install(FILES tools/packaging/debian/copyright DESTINATION ${doc} COMPONENT ${package})
   file(WRITE ${CMAKE_BINARY_DIR}/debian/${package}/changelog
     "leonav (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * Built from the sources of version ${PROJECT_VERSION}.\n\n"
     " -- ${LEONAV_MAINTAINER}  ${date}\n")

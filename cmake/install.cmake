@@ -1,5 +1,5 @@
 # What `cmake --install` installs, and the Debian packages of `cpack -G DEB`: the component leonav is what a vehicle
-# needs, the component leonav-dev what a program needs that embeds the navigator. packaging/README.md tells the rest.
+# needs, the component leonav-dev what a program needs that embeds the navigator. tools/packaging/README.md tells the rest.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME leonav)

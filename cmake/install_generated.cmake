@@ -19,13 +19,13 @@ set(leonav_etc ${CMAKE_INSTALL_PREFIX}/etc/leonav)
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(leonav_etc /etc/leonav)
 endif()
-file(INSTALL ${source}/packaging/leonavd.yaml ${source}/config/connect.yaml ${source}/config/serve.yaml
+file(INSTALL ${source}/tools/packaging/leonavd.yaml ${source}/config/connect.yaml ${source}/config/serve.yaml
      DESTINATION ${leonav_etc})
 foreach(unit leonavd leonav-connect leonav-serve leonav-multicast)
-  configure_file(${source}/packaging/systemd/${unit}.service ${build}/units/${unit}.service @ONLY)
+  configure_file(${source}/tools/packaging/systemd/${unit}.service ${build}/units/${unit}.service @ONLY)
   file(INSTALL ${build}/units/${unit}.service DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/systemd/system)
 endforeach()
-file(INSTALL ${source}/packaging/systemd/sysusers.conf DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/sysusers.d RENAME leonav.conf)
+file(INSTALL ${source}/tools/packaging/systemd/sysusers.conf DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/sysusers.d RENAME leonav.conf)
 
 # The jar for lcm-spy, by the program that uses it.
 execute_process(
@@ -39,7 +39,7 @@ endif()
 
 # Manuals and completions out of --help.
 find_program(python3 python3 NO_CACHE REQUIRED)
-file(STRINGS ${source}/packaging/summaries.txt summaries)
+file(STRINGS ${source}/tools/packaging/summaries.txt summaries)
 file(MAKE_DIRECTORY ${root}/share/man/man1)
 foreach(program ${programs})
   set(help ${build}/manuals/${program}.txt)
@@ -60,12 +60,12 @@ foreach(program ${programs})
   set(summary ${summaries})
   list(FILTER summary INCLUDE REGEX "^${program}: ")
   if(NOT summary)
-    message(FATAL_ERROR "packaging/summaries.txt: no line of ${program}, the summary of its manual; add one")
+    message(FATAL_ERROR "tools/packaging/summaries.txt: no line of ${program}, the summary of its manual; add one")
   endif()
   string(REPLACE "${program}: " "" summary "${summary}")
   set(page ${root}/share/man/man1/${program}.1)
   execute_process(
-    COMMAND ${python3} ${source}/packaging/manual.py ${program} ${summary} ${version}
+    COMMAND ${python3} ${source}/tools/packaging/manual.py ${program} ${summary} ${version}
     INPUT_FILE ${help} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND gzip -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

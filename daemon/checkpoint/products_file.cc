@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/decode.h"
@@ -35,6 +36,7 @@ void append_event(std::string_view channel, ByteSpan data, std::int64_t number, 
 }
 
 struct EventView {
+  EventHeader header;
   std::string_view channel;
   ByteSpan data;
 };
@@ -47,6 +49,7 @@ std::optional<EventView> take_event(std::string_view* text) {
   const auto header = decode_event_header(bytes);
   if (!header || !header->is_sane() || header->event_bytes() > text->size()) return std::nullopt;
   EventView event;
+  event.header = *header;
   event.channel = text->substr(bytes.size(), header->channel_bytes);
   const std::string_view data =
       text->substr(bytes.size() + header->channel_bytes, header->data_bytes);
@@ -68,8 +71,10 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-// Returns the text before its sum. Throws where the sum is not that of the text.
-std::string_view without_sum(std::string_view text, const std::string& path) {
+// Returns the text before its sum, and the number of events in it by the sum's header. Throws where
+// the sum is not that of the text.
+std::pair<std::string_view, std::int64_t> without_sum(std::string_view text,
+                                                      const std::string& path) {
   const std::size_t sum_bytes = kEventHeaderBytes + kSumChannel.size() + kSumBytes;
   if (text.size() < sum_bytes) throw ConfigError(path + ": is damaged: too short");
   std::string_view end = text.substr(text.size() - sum_bytes);
@@ -79,8 +84,9 @@ std::string_view without_sum(std::string_view text, const std::string& path) {
   if (!sum || sum->channel != kSumChannel || sum->data.size() != kSumBytes)
     throw ConfigError(path + ": is damaged: cut short");
   for (const std::uint8_t byte : sum->data) told = told << 8 | byte;
-  if (told != crc32(text)) throw ConfigError(path + ": is damaged: its sum is wrong");
-  return text;
+  if (told != crc32(text) || sum->header.timestamp_us != 0)
+    throw ConfigError(path + ": is damaged: its sum is wrong");
+  return {text, sum->header.number};
 }
 
 }  // namespace
@@ -93,12 +99,13 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return std::nullopt;
   const std::string text = read_file(path);
-  std::string_view rest = without_sum(text, path);
+  auto [rest, events] = without_sum(text, path);
   BroadcastProducts products;
   Decoder decoder;
   while (!rest.empty()) {
     const auto event = take_event(&rest);
     if (!event) throw ConfigError(path + ": is damaged: no event log");
+    --events;
     const auto channel = channel_from_name(event->channel);
     Ephemeris ephemeris;
     KlobucharModel ionosphere;
@@ -113,6 +120,7 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
       throw ConfigError(path + ": is of another version of leonav, or damaged");
     }
   }
+  if (events != 0) throw ConfigError(path + ": is damaged: events are missing");
   return products;
 }
 

@@ -23,7 +23,7 @@ constexpr std::size_t kGnssOutBytes = 1 << 20;
 Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks)
     : config_(config),
       hooks_(std::move(hooks)),
-      journal_(config, hooks_.before_disk_call),
+      journal_(config, hooks_.disk_call),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
       gnss_ring_(kGnssRing, &gnss_wakeup_),
       checkpoint_writer_(config.checkpoint),
@@ -58,7 +58,6 @@ std::vector<std::string> Engine::start() {
   }
   started_ = true;
   checkpoint_writer_.start();
-  journal_.start();
   refused.push_back(publisher_.start(threads.out));
   if (smoother_ != nullptr) refused.push_back(smoother_->start(threads.smoother));
   refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));

@@ -27,7 +27,7 @@ namespace leonav {
 struct EngineHooks {
   std::function<void(std::uint64_t epoch)> before_epoch;      // in `gnss`
   std::function<void(std::uint64_t epoch)> before_iteration;  // in `smoother`
-  std::function<int()> before_disk_call;  // in `journal`; an errno with which the call fails, or 0
+  DiskHook disk_call;                                         // in `journal`
 };
 
 // It is everything of the daemon but the LCM socket. Threads: the caller of receive() is `io`. The
@@ -41,9 +41,9 @@ class Engine final : private StageInputs {
   Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks hooks = {});
   ~Engine() override;
 
-  // Opens the journal and starts the threads. Throws EventLogError if the journal cannot be
-  // created; one that exists is left alone, see journal().path(). Returns what the system refused
-  // (priorities, ...); empty: nothing.
+  // Opens the journal and starts the threads. Throws EventLogError if the journal can never be
+  // created (Journal::open()); one that exists is left alone, see journal().path(). Returns what
+  // the system refused (priorities, ...); empty: nothing.
   std::vector<std::string> start();
 
   // An input as it came. One thread; waits while the stages are behind, drops nothing.
@@ -72,6 +72,7 @@ class Engine final : private StageInputs {
   WorkCount smoother_work() const { return smoother_ != nullptr ? smoother_->work() : WorkCount(); }
   WorkCount out_work() const { return publisher_.work(); }  // of all rings to `out`
   const Journal& journal() const { return journal_; }
+  Journal& journal() { return journal_; }
   // Any thread: what is journaled around now is worth keeping.
   void keep_journal() { journal_.keep(); }
   // What keeps the checkpoint's file from being written; empty: nothing.

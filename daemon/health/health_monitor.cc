@@ -23,6 +23,7 @@ constexpr std::int64_t kFewMeasurements = 50;
 constexpr std::int64_t kLastingError_cm = 100;
 constexpr std::int64_t kSeveralSatellites = 3;
 constexpr std::int64_t kFewPrecise = 4;
+constexpr int kSettledLooks = 30;
 constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
 // As the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
@@ -59,7 +60,10 @@ HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
       solution_{
           std::max(kShortestSolutionGap_s, kIntervalsTolerated * solution_interval(config)),
           std::max(kAnswerLife_s, kIntervalsUntilFault * solution_interval(config)),
-      } {}
+      },
+      any_imu_(imu_),
+      any_gnss_(gnss_),
+      any_odometer_(odometer_) {}
 
 std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view stalled_threads) {
   reasons_.begin(now_s);
@@ -71,7 +75,7 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view
   judge_measurements();
   judge_estimator();
   judge_time();
-  judge_disk();
+  judge_disk(now_s);
   HealthSummary summary;
   summary.sequence = ++sequence_;
   summary.status = status();
@@ -95,11 +99,13 @@ void HealthMonitor::Stream::look(std::int64_t now_number, double now_s) {
 void HealthMonitor::judge_answer(double now_s) {
   EngineCounters& counters = engine_->counters();
   const auto source = static_cast<Source>(counters.source.get());
+  fault_ = why_no_answer();
   if (source == Source::kNone)
     return reasons_.raise(HealthReason::kNoSolutionYet, why_no_solution());
   solution_.look(counters.solution_time_ns.get(), now_s);
   // Then the last source says nothing.
   if (solution_.has_ended) return reasons_.raise(HealthReason::kSolutionEnded);
+  fault_ = Fault::kNone;
   if (solution_.is_late) reasons_.raise(HealthReason::kSolutionLate);
   if (source == Source::kAligning) {
     // Between an attitude and the first answer with it nothing lacks any more.
@@ -119,11 +125,10 @@ std::string HealthMonitor::why_no_solution() const {
   };
   const std::int64_t measured = sum(counters.satellites_by_reason);
   if (counters.received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
-  if (counters.accepted_epochs.get() == 0) return "all GNSS epochs are rejected" + most_rejected();
+  if (counters.accepted_epochs.get() == 0) return "all GNSS epochs are rejected";
   if (expects_imu_ && counters.received[index_of(Channel::kImu)].get() == 0)
     return "no IMU sample has come";
-  if (expects_imu_ && counters.accepted_imu.get() == 0)
-    return "all IMU samples are rejected" + most_rejected();
+  if (expects_imu_ && counters.accepted_imu.get() == 0) return "all IMU samples are rejected";
   if (measured == 0) return "the GNSS epochs are without satellites";
   std::size_t most = 0;
   for (std::size_t i = 0; i < kReasonCount; ++i) {
@@ -138,15 +143,6 @@ std::string HealthMonitor::why_no_solution() const {
   if (reason == Reason::kNoEphemeris)
     return "most satellites have no ephemeris: see that they are sent";
   return "most satellites are left out as " + std::string(to_string(reason));
-}
-
-// Returns the fault by which inputs were rejected most often of late, as " as NAME"; "": none.
-std::string HealthMonitor::most_rejected() const {
-  const auto most = std::max_element(
-      rejected_.begin(), rejected_.end(),
-      [](const RecentGrowth& a, const RecentGrowth& b) { return a.get() < b.get(); });
-  if (most->get() == 0) return "";
-  return " as " + std::string(to_string(static_cast<InputFault>(most - rejected_.begin())));
 }
 
 // A solution that may be further off than its user allows. The level itself is a field of HEALTH:
@@ -170,7 +166,6 @@ void HealthMonitor::judge_levels() {
 
 void HealthMonitor::judge_inputs(double now_s) {
   EngineCounters& counters = engine_->counters();
-  for (std::size_t i = 0; i < rejected_.size(); ++i) rejected_[i].look(counters.rejected[i].get());
   std::string bad;
   for (const Channel channel : kInputChannels) {
     const std::size_t i = index_of(channel);
@@ -188,25 +183,26 @@ void HealthMonitor::judge_inputs(double now_s) {
         static_cast<double>(unused) >= kShare * static_cast<double>(received))
       append(std::string(name_of(channel)), &bad);
   }
-  if (!bad.empty()) reasons_.raise(HealthReason::kInputRejected, bad + most_rejected());
+  if (!bad.empty()) reasons_.raise(HealthReason::kInputRejected, bad);
   if (expects_imu_)
-    judge_stream(counters.accepted_imu.get(), now_s, Channel::kImu, HealthReason::kNoImu, &imu_);
+    judge_stream(counters.accepted_imu.get(), now_s, Channel::kImu, HealthReason::kNoImu, &imu_,
+                 &any_imu_);
   judge_stream(counters.accepted_epochs.get(), now_s, Channel::kGnssEpoch, HealthReason::kNoGnss,
-               &gnss_);
+               &gnss_, &any_gnss_);
   if (uses_odometer_ && counters.accepted_odometer.get() > 0)
     judge_stream(counters.accepted_odometer.get(), now_s, Channel::kOdometer,
-                 HealthReason::kNoOdometer, &odometer_);
+                 HealthReason::kNoOdometer, &odometer_, &any_odometer_);
   raise_if_grown(HealthReason::kInputLost, sum(counters.lost));
   raise_if_grown(HealthReason::kImuGaps, counters.imu_gaps.get());
 }
 
 void HealthMonitor::judge_stream(std::int64_t number, double now_s, Channel channel,
-                                 HealthReason reason, Stream* stream) {
+                                 HealthReason reason, Stream* stream, Stream* any) {
   stream->look(number, now_s);
+  any->look(engine_->counters().received[index_of(channel)].get(), now_s);
   if (!stream->is_late) return;
-  const bool comes = inputs_[index_of(channel)].received.get() > 0;
-  reasons_.raise(reason, comes ? "messages come, but are late or rejected" + most_rejected()
-                               : "nothing comes");
+  reasons_.raise(reason,
+                 any->is_late ? "nothing comes" : "messages come, but are late or rejected");
 }
 
 // A mistake in the configuration or in what feeds the daemon: it stays until somebody has put it
@@ -257,7 +253,12 @@ void HealthMonitor::judge_measurements() {
 
 void HealthMonitor::judge_estimator() {
   raise_if_grown(HealthReason::kFilterStartedOver, events(EventKind::kFilterReset));
-  raise_if_grown(HealthReason::kSolutionJumped, events(EventKind::kSolutionJump));
+  // While it begins, the solution jumps to where it belongs.
+  const auto source = static_cast<Source>(engine_->counters().source.get());
+  const bool answers = source == Source::kEkf || source == Source::kSmoother;
+  answering_looks_ = answers ? answering_looks_ + 1 : 0;
+  raise_if_grown(HealthReason::kSolutionJumped, engine_->counters().large_jumps.get(),
+                 answering_looks_ > kSettledLooks);
   raise_if_grown(HealthReason::kPredictionWidened, engine_->counters().widened_predictions.get());
   raise_if_grown(HealthReason::kImprobable, events(EventKind::kImprobable));
   raise_if_grown(HealthReason::kConstraintsLeftOut, events(EventKind::kConstraintsLeftOut));
@@ -274,22 +275,32 @@ void HealthMonitor::judge_time() {
   raise_if_grown(HealthReason::kQueueFull, static_cast<std::int64_t>(waits));
 }
 
+// Messages that are refused are no silence.
+Fault HealthMonitor::why_no_answer() const {
+  const bool is_silent = (any_imu_.is_late && expects_imu_) || any_gnss_.is_late;
+  return is_silent ? Fault::kSilence : Fault::kNavigation;
+}
+
 // The navigation needs no journal: what is missing in it is said, and the next piece may be whole.
-void HealthMonitor::judge_disk() {
-  const Journal& journal = engine_->journal();
-  const std::string failure = journal.failure();
-  if (!failure.empty()) reasons_.raise(HealthReason::kJournalFails, failure);
-  if (journal.is_stalled()) reasons_.raise(HealthReason::kJournalStalled);
-  raise_if_grown(HealthReason::kJournalLost, journal.counters().lost_others.get());
-  raise_if_grown(HealthReason::kJournalLeftOut, journal.counters().lost_solutions.get());
+void HealthMonitor::judge_disk(double now_s) {
+  journal_.look(engine_->journal(), now_s);
+  const auto tell = [&](JournalTrouble trouble, HealthReason reason) {
+    if (journal_.has(trouble)) reasons_.raise(reason);
+  };
+  if (journal_.has(JournalTrouble::kFails))
+    reasons_.raise(HealthReason::kJournalFails, journal_.last_failure());
+  tell(JournalTrouble::kStalls, HealthReason::kJournalStalled);
+  tell(JournalTrouble::kLoses, HealthReason::kJournalLost);
+  tell(JournalTrouble::kLeavesOut, HealthReason::kJournalLeftOut);
+  tell(JournalTrouble::kUnsynced, HealthReason::kJournalUnsynced);
   const std::string no_checkpoint = engine_->checkpoint_error();
   if (!no_checkpoint.empty()) reasons_.raise(HealthReason::kNoCheckpoint, no_checkpoint);
 }
 
 // Raised where the count has grown since the last look.
-void HealthMonitor::raise_if_grown(HealthReason reason, std::int64_t count) {
+void HealthMonitor::raise_if_grown(HealthReason reason, std::int64_t count, bool counts) {
   std::int64_t& last = last_counts_[static_cast<std::size_t>(reason)];
-  if (count > last) reasons_.raise(reason);
+  if (count > last && counts) reasons_.raise(reason);
   last = count;
 }
 

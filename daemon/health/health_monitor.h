@@ -10,6 +10,8 @@
 #include "daemon/engine/engine.h"
 #include "daemon/health/active_reasons.h"
 #include "daemon/health/internal/recent_growth.h"
+#include "daemon/health/journal_health.h"
+#include "daemon/health/keep_rule.h"
 
 namespace leonav {
 
@@ -31,6 +33,9 @@ class HealthMonitor {
   std::string why() const { return reasons_.text(); }
   // Inputs that break a convention, with the remedies; part of why(). Empty: none.
   const std::string& suspicions() const { return suspicions_; }
+  // Whether there was an answer at the last call; part of status().
+  Fault fault() const { return fault_; }
+  const JournalHealth& journal() const { return journal_; }
 
  private:
   // A stream is alive while a number of it changes.
@@ -52,28 +57,31 @@ class HealthMonitor {
   void judge_levels();
   void judge_inputs(double now_s);
   void judge_stream(std::int64_t number, double now_s, Channel channel, HealthReason reason,
-                    Stream* stream);
+                    Stream* stream, Stream* any);
   void judge_conventions();
   void judge_measurements();
   void judge_estimator();
   void judge_time();
-  void judge_disk();
+  void judge_disk(double now_s);
+  Fault why_no_answer() const;
   std::int64_t events(EventKind kind) const;
-  void raise_if_grown(HealthReason reason, std::int64_t count);
+  void raise_if_grown(HealthReason reason, std::int64_t count, bool counts = true);
   std::string why_no_solution() const;
-  std::string most_rejected() const;
 
   Engine* engine_;
   AlignmentConfig alignment_;
   double horizontal_alert_limit_m_, vertical_alert_limit_m_;  // 0: none
   bool expects_imu_, uses_odometer_;
   Stream imu_, gnss_, odometer_, solution_;
+  Stream any_imu_, any_gnss_, any_odometer_;  // usable or not
+  JournalHealth journal_;
+  Fault fault_ = Fault::kNone;
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
   std::array<InputRates, kInputChannels.size()> inputs_;
-  std::array<RecentGrowth, kInputFaultCount> rejected_;
   RecentGrowth measurements_, contradicting_;
   RecentGrowth satellite_faults_{600};
+  int answering_looks_ = 0;        // in a row with an answer of filter or smoother
   std::int64_t most_precise_ = 0;  // satellites by precise states since there were none
   std::array<std::int64_t, kHealthReasonCount> last_counts_{};
   ActiveReasons reasons_;

@@ -9,8 +9,8 @@ using enum HealthReason;
 using enum HealthStatus;
 
 // One look at HEALTH is a second: what happens at once in every few looks is held over them, so
-// that the status does not flap. Events of the estimator are held for a minute.
-constexpr double kAtOnce_s = 0.0, kLooks_s = 5.0, kEvent_s = 60.0, kDrift_s = 600.0;
+// that the status does not flap. Events of the estimator are held for half a minute.
+constexpr double kAtOnce_s = 0.0, kLooks_s = 5.0, kEvent_s = 30.0, kDrift_s = 600.0;
 
 constexpr std::array<HealthReasonEntry, kHealthReasonCount> kEntries = {{
     {kNoSolutionYet, kFault, "no solution yet", "", kAtOnce_s},
@@ -18,7 +18,7 @@ constexpr std::array<HealthReasonEntry, kHealthReasonCount> kEntries = {{
      kAtOnce_s},
     {kThreadHangs, kFault, "a thread hangs", "the watchdog of the service manager restarts leonavd",
      kAtOnce_s},
-    {kJournalFails, kFault, "journal", "look at space and permissions of its disk", kLooks_s},
+    {kJournalFails, kFault, "journal", "look at space and permissions of its disk", kAtOnce_s},
     {kSolutionLate, kDegraded, "no solution of late", "the reasons beside this one say why",
      kAtOnce_s},
     {kAligning, kDegraded, "aligning", "", kAtOnce_s},
@@ -64,11 +64,14 @@ constexpr std::array<HealthReasonEntry, kHealthReasonCount> kEntries = {{
     {kSmootherFailed, kDegraded, "smoother failed", "the filter answers meanwhile", kLooks_s},
     {kKeyframesSkipped, kDegraded, "keyframes skipped", "look at the machine's load", kLooks_s},
     {kQueueFull, kDegraded, "a queue was full", "look at the machine's load", kLooks_s},
-    {kJournalStalled, kDegraded, "journal: the disk does not answer", "look at the disk", kLooks_s},
+    {kJournalStalled, kDegraded, "journal: the disk does not answer", "look at the disk",
+     kAtOnce_s},
     {kJournalLost, kDegraded, "journal: messages are lost",
-     "use a faster disk or raise journal.buffer_mb", kLooks_s},
+     "use a faster disk or raise journal.buffer_mb", kAtOnce_s},
     {kJournalLeftOut, kDegraded, "journal: solutions are left out",
-     "use a faster disk, or set journal.outputs to thinned or none", kLooks_s},
+     "use a faster disk, or set journal.outputs to thinned or none", kAtOnce_s},
+    {kJournalUnsynced, kDegraded, "journal: the disk has not confirmed what was written",
+     "look at the disk's health and the kernel's log", kAtOnce_s},
     {kNoCheckpoint, kDegraded, "no checkpoint can be written", "look at checkpoint.path", kLooks_s},
 }};
 

@@ -53,9 +53,10 @@ enum class HealthReason : std::uint8_t {
   kJournalStalled,
   kJournalLost,
   kJournalLeftOut,
+  kJournalUnsynced,
   kNoCheckpoint,
 };
-inline constexpr std::size_t kHealthReasonCount = 35;
+inline constexpr std::size_t kHealthReasonCount = 36;
 
 struct HealthReasonEntry {
   HealthReason reason;

@@ -1,14 +1,20 @@
 #include "daemon/journal/journal.h"
 
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <utility>
 
+#include "daemon/journal/internal/journal_name.h"
 #include "daemon/journal/internal/journal_writer.h"
-#include "daemon/journal/internal/output_selection.h"
+#include "daemon/journal/internal/kept_names.h"
+#include "daemon/journal/internal/recorded_outputs.h"
+#include "daemon/messages/output_selection.h"
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
+#include "drivers/lcm/event_log.h"
 
 namespace leonav {
 namespace {
@@ -19,6 +25,12 @@ constexpr std::size_t kStackBytes = 256 << 10;
 // Shares of the ring at which outputs begin and cease to be left out.
 constexpr double kCrowded = 0.5, kRelaxed = 0.25;
 
+// What no disk that comes back mends, at the start.
+bool is_lasting(int error) {
+  return error == ENOTDIR || error == EISDIR || error == ENAMETOOLONG || error == ELOOP ||
+         error == EEXIST;
+}
+
 void sleep_ns(std::int64_t ns) {
   const timespec time{ns / kNanosecondsPerSecond, ns % kNanosecondsPerSecond};
   nanosleep(&time, nullptr);
@@ -28,10 +40,10 @@ void sleep_ns(std::int64_t ns) {
 
 // What the thread uses.
 struct Journal::State {
-  State(const DaemonConfig& config, std::function<int()> before_call)
+  State(const DaemonConfig& config, DiskHook hook)
       : ring(static_cast<std::size_t>(config.journal.buffer_mb * 1e6), &unused),
-        selection(config.journal.outputs),
-        writer(config, &counters, std::move(before_call)) {}
+        selection(recorded_outputs(config.journal.outputs)),
+        writer(config, &counters, &kept, std::move(hook)) {}
 
   void run() {
     for (;;) {
@@ -40,14 +52,15 @@ struct Journal::State {
       writer.write_from(&ring);
       sleep_ns(kLookNs);
     }
-    counters.complete.set(writer.finish(&ring, lost) ? 1 : 0);
+    counters.complete.set(writer.finish(&ring, lost, marks + 1) ? 1 : 0);
     ended.store(true, std::memory_order_release);
   }
 
   JournalCounters counters;
+  KeptNames kept;
   Wakeup unused;  // the thread looks by itself, so that who pushes makes no system call
   MessageRing ring;
-  // Of who pushes; the thread reads `lost` once there is nothing more.
+  // Of who pushes; the thread reads `lost` and `marks` once there is nothing more.
   OutputSelection selection;
   LostMessages lost;  // since the last mark
   std::uint64_t marks = 0;
@@ -55,12 +68,11 @@ struct Journal::State {
   std::atomic<bool> no_more{false}, ended{false};
   JournalWriter writer;
   RealtimeThread thread;
-  bool started = false;
   State* left_before = nullptr;
 };
 
-Journal::Journal(const DaemonConfig& config, std::function<int()> before_call)
-    : config_(config), before_call_(std::move(before_call)), path_(config.journal.path) {}
+Journal::Journal(const DaemonConfig& config, DiskHook hook)
+    : config_(config), hook_(std::move(hook)) {}
 
 // A thread that the disk holds goes on using its state, for as long as the process lives.
 Journal::~Journal() {
@@ -76,18 +88,24 @@ void Journal::leave(State* state) {
 
 void Journal::open() {
   if (config_.journal.path.empty()) return;
-  auto state = std::make_unique<State>(config_, before_call_);
-  state->writer.open();
-  path_ = state->writer.path();
-  state_ = std::move(state);
-}
-
-void Journal::start() {
-  if (state_ == nullptr) return;
+  auto state = std::make_unique<State>(config_, hook_);
   // Never real-time: it waits for the disk.
-  state_->thread.start(
-      "journal", ThreadConfig(), [state = state_.get()] { state->run(); }, kStackBytes);
-  state_->started = true;
+  state->thread.start(
+      "journal", ThreadConfig(), [state = state.get()] { state->run(); }, kStackBytes);
+  state_ = std::move(state);
+  const JournalCounters& counters = state_->counters;
+  const Stopwatch watch;
+  while (!has_file() && counters.last_error.get() == 0 &&
+         static_cast<double>(watch.nanoseconds()) * 1e-9 < kLongestOpening_s)
+    sleep_ns(1'000'000);
+  const auto error = static_cast<int>(counters.last_error.get());
+  if (has_file() || !is_lasting(error)) return;
+  finish();
+  throw EventLogError(path() +
+                      (error == EEXIST
+                           ? ": exists, and so do .1 to ." + std::to_string(kMostNumberedJournals) +
+                                 "; move the journals away"
+                           : std::string(": cannot be created: ") + std::strerror(error)));
 }
 
 void Journal::push(const MessageHeader& header, ByteSpan bytes) {
@@ -125,7 +143,7 @@ bool Journal::push_lost_mark() {
 }
 
 bool Journal::finish() {
-  if (state_ == nullptr || !state_->started || state_->no_more.load()) return complete_;
+  if (state_ == nullptr || state_->no_more.load()) return complete_;
   state_->no_more.store(true, std::memory_order_release);
   const Stopwatch watch;
   while (!state_->ended.load(std::memory_order_acquire) &&
@@ -134,16 +152,16 @@ bool Journal::finish() {
   if (!state_->ended.load(std::memory_order_acquire)) {
     abandoned_ = true;
     state_->thread.detach();
-    fail(path_ + ": the disk has not taken the end of the journal");
+    fail(path() + ": the disk has not taken the end of the journal");
     return complete_;
   }
   state_->thread.join();
   const std::int64_t lost = state_->counters.lost_others.get();
   if (state_->counters.complete.get() == 0) {
     const std::string reason = failure();
-    fail(reason.empty() ? path_ + ": cannot be written" : reason);
+    fail(reason.empty() ? path() + ": cannot be written" : reason);
   } else if (lost > 0) {
-    fail(path_ + ": " + std::to_string(lost) +
+    fail(path() + ": " + std::to_string(lost) +
          " messages are missing, which the disk did not take in time");
   }
   return complete_;
@@ -166,11 +184,25 @@ RingStatistics Journal::ring() const {
   return state_ == nullptr ? RingStatistics() : state_->ring.statistics();
 }
 
-std::string Journal::failure() const {
-  if (state_ == nullptr) return {};
-  const auto error = static_cast<int>(state_->counters.error.get());
+std::string Journal::path() const {
+  const std::int64_t number = counters().name.get() - 1;
+  return config_.journal.path + (number > 0 ? "." + std::to_string(number) : "");
+}
+
+std::optional<std::string> Journal::take_kept() {
+  if (state_ == nullptr) return std::nullopt;
+  const auto name = state_->kept.take();
+  if (!name) return std::nullopt;
+  return std::filesystem::path(config_.journal.path).replace_filename(*name).string();
+}
+
+std::string Journal::failure() const { return text_of(counters().error.get()); }
+
+std::string Journal::last_failure() const { return text_of(counters().last_error.get()); }
+
+std::string Journal::text_of(std::int64_t error) const {
   if (error == 0) return {};
-  return path_ + ": cannot be written: " + std::strerror(error);
+  return path() + ": cannot be written: " + std::strerror(static_cast<int>(error));
 }
 
 bool Journal::is_stalled() const {

@@ -1,10 +1,11 @@
 // The Journal takes the messages of a run without ever waiting, and writes them in its own thread.
 #pragma once
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "daemon/config/daemon_config.h"
+#include "daemon/journal/disk_call.h"
 #include "daemon/journal/journal_counters.h"
 #include "daemon/threads/message_ring.h"
 
@@ -18,25 +19,28 @@ namespace leonav {
 // Without a journal (no path configured) every call does nothing.
 class Journal {
  public:
-  // `before_call`: for tests, see JournalFile.
-  explicit Journal(const DaemonConfig& config, std::function<int()> before_call = {});
+  // `hook`: for tests, see DiskCall.
+  explicit Journal(const DaemonConfig& config, DiskHook hook = {});
   // As finish().
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Claims the first piece. Throws EventLogError if it cannot be created; a file that exists is
-  // left alone, see claim_journal_path().
+  // Starts the thread, which finds the folder, tidies it and begins the first piece; a file that
+  // exists is left alone, see claim_journal(). Whatever the disk does, this waits
+  // kLongestOpening_s at most, and the journal begins as soon as that can be done. Throws
+  // EventLogError if it has turned out meanwhile that the path can never be written, and
+  // std::runtime_error if no thread can be made.
   void open();
-  // After open(); throws std::runtime_error if no thread can be made.
-  void start();
+  static constexpr double kLongestOpening_s = 1.0;
   bool is_open() const { return state_ != nullptr; }
 
   // One thread; never waits.
   void push(const MessageHeader& header, ByteSpan bytes);
 
-  // After the last push(): writes what is left and the end mark. It waits kLongestEnd_s at most; a
-  // thread that the disk still holds is then left to itself. False: the journal is incomplete.
+  // After open() and the last push(): writes what is left and the end mark. It waits kLongestEnd_s
+  // at most; a thread that the disk still holds is then left to itself. False: the journal is
+  // incomplete.
   bool finish();
   static constexpr double kLongestEnd_s = 5.0;
 
@@ -47,10 +51,15 @@ class Journal {
   // Any thread, after open().
   const JournalCounters& counters() const;
   RingStatistics ring() const;
-  // Where the first piece is; empty: there is no journal.
-  const std::string& path() const { return path_; }
+  // Where the first piece is, or until has_file(), where it is to be; empty: there is no journal.
+  std::string path() const;
+  bool has_file() const { return counters().name.get() > 0; }
+  // One thread: the path under which a piece was kept, each once; nullopt: there is no other.
+  std::optional<std::string> take_kept();
   // Why nothing is written at present, with the file; empty: it is.
   std::string failure() const;
+  // The same of the last failure, though it may be over.
+  std::string last_failure() const;
   // Whether a call to the disk has not returned for seconds.
   bool is_stalled() const;
   // After finish(): why the journal is incomplete; empty: it is complete.
@@ -60,12 +69,12 @@ class Journal {
   struct State;
   static void leave(State* state);
   void fail(const std::string& reason);
+  std::string text_of(std::int64_t error) const;
   void count_lost(Channel channel);
   bool push_lost_mark();
 
   DaemonConfig config_;
-  std::function<int()> before_call_;
-  std::string path_;
+  DiskHook hook_;
   JournalCounters none_;
   std::unique_ptr<State> state_;
   bool complete_ = true, abandoned_ = false;

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <ctime>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -21,6 +23,7 @@
 #include "daemon/health/answer_monitor.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
+#include "daemon/journal/journal_check.h"
 #include "daemon/link/channel_lock.h"
 #include "daemon/link/lcm_publisher.h"
 #include "daemon/link/service_manager.h"
@@ -105,48 +108,78 @@ class CheckpointLog {
   std::string last_error_;
 };
 
-// Each once: that the disk fails, what was lost, and that the journal goes on.
+// Each once: where the journal is, what has begun and ceased to be wrong with it, and what is kept
+// of it.
 class JournalLog {
  public:
-  void look(const Journal& journal) {
-    const JournalCounters& counters = journal.counters();
-    const std::int64_t lost = counters.lost_others.get(), left_out = counters.lost_solutions.get();
-    const std::int64_t piece = counters.piece_number.get();
-    const bool loses = lost != last_lost_ || left_out != last_left_out_;
-    // At the end of a loss, when its size is known.
-    if (lost_ && !loses) {
-      spdlog::warn(
-          "journal: {} messages and {} solutions are missing so far; the disk was too slow", lost,
-          left_out);
+  explicit JournalLog(std::string path) : path_(std::move(path)) {}
+
+  void look(Journal* journal, const JournalHealth& health) {
+    if (!named_ && journal->has_file()) {
+      named_ = true;
+      if (journal->path() != path_)
+        spdlog::warn("journal {} exists and is kept; writing {}", path_, journal->path());
     }
-    lost_ = loses;
-    last_lost_ = lost;
-    last_left_out_ = left_out;
-    const std::string failure = journal.failure();
-    if (last_failure_.empty() && !failure.empty())
-      spdlog::error("journal: {}; a new piece is begun as soon as that can be done", failure);
-    if (!last_failure_.empty() && failure.empty())
-      spdlog::info("journal: written again, in piece {}", piece);
-    last_failure_ = failure;
+    const JournalCounters& counters = journal->counters();
+    if (const auto fails = fails_.change(health.has(JournalTrouble::kFails))) {
+      if (*fails)
+        spdlog::error("{}; a new piece is begun as soon as that can be done",
+                      health.text(JournalTrouble::kFails));
+      else
+        spdlog::info("journal: written again, in piece {}", counters.piece_number.get());
+    }
+    const bool loses = health.has(JournalTrouble::kLoses) || health.has(JournalTrouble::kLeavesOut);
+    if (const auto change = loses_.change(loses)) {
+      if (*change)
+        spdlog::warn("journal: messages are left out, because the disk is too slow");
+      else
+        spdlog::warn(
+            "journal: nothing is left out any more; {} messages and {} solutions are missing so "
+            "far, because the disk was too slow",
+            counters.lost_others.get(), counters.lost_solutions.get());
+    }
+    if (unsynced_.change(health.has(JournalTrouble::kUnsynced)).value_or(false))
+      spdlog::error("{}; a power cut now may cost it", health.text(JournalTrouble::kUnsynced));
+    if (undeletable_.change(health.has(JournalTrouble::kUndeletable)).value_or(false))
+      spdlog::warn("{}; look at the owner and the attributes of the files beside {}",
+                   health.text(JournalTrouble::kUndeletable), journal->path());
+    tell_kept(journal);
+  }
+
+  static void tell_kept(Journal* journal) {
+    while (const auto kept = journal->take_kept()) spdlog::info("journal: {} is kept", *kept);
   }
 
  private:
-  std::int64_t last_lost_ = 0, last_left_out_ = 0;
-  bool lost_ = false;
-  std::string last_failure_;
+  class Switch {
+   public:
+    // The new position, where it has changed.
+    std::optional<bool> change(bool on) {
+      if (std::exchange(on_, on) == on) return std::nullopt;
+      return on;
+    }
+
+   private:
+    bool on_ = false;
+  };
+  std::string path_;
+  bool named_ = false;
+  Switch fails_, loses_, unsynced_, undeletable_;
 };
 
 // Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
 // feeds the watchdog unless a thread hangs or the answer stands still.
 void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
-               bool expects_imu, const std::atomic<bool>& io_failed) {
+               const DaemonConfig& config, const std::atomic<bool>& io_failed) {
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
   ThreadMonitor watch(engine);
   AnswerMonitor answer(engine);
   CheckpointLog checkpoint_log;
-  JournalLog journal_log;
-  bool had_answer = false, stood_still = false;
+  JournalLog journal_log(config.journal.path);
+  KeepRule keep_rule;
+  const bool expects_imu = config.navigator.motion == MotionModel::kInertial;
+  bool stood_still = false;
   std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
@@ -164,10 +197,8 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
       spdlog::warn("not as it should be: {}", health->suspicions());
     last_suspicions = health->suspicions();
     checkpoint_log.look(engine);
-    journal_log.look(engine->journal());
-    // What led up to a fault is worth keeping; that there is no answer yet is none.
-    if (had_answer && health->status() == HealthStatus::kFault) engine->keep_journal();
-    had_answer = health->status() != HealthStatus::kFault;
+    journal_log.look(&engine->journal(), health->journal());
+    if (keep_rule.look(health->fault())) engine->keep_journal();
     const bool stands_still = answer.stands_still(expects_imu);
     if (stalled_threads.empty() && !stands_still) manager.feed_watchdog();
     if (stands_still && !stood_still) spdlog::error("no answer for a minute, though inputs come");
@@ -236,15 +267,10 @@ int run(const DaemonConfig& config) {
   if (!refused.empty()) spdlog::warn("{}", refused);
   spdlog::info("running; LCM {}, channels {}*, journal {}", config.lcm.url, config.lcm.prefix,
                engine.journal().path().empty() ? "off" : engine.journal().path());
-  if (engine.journal().path() != config.journal.path) {
-    spdlog::warn("journal {} exists and is kept; writing {}", config.journal.path,
-                 engine.journal().path());
-  }
 
   HealthMonitor health(&engine, config.navigator);
   manager.ready();
-  supervise(&engine, &health, manager, config.navigator.motion == MotionModel::kInertial,
-            io_failed);
+  supervise(&engine, &health, manager, config, io_failed);
   manager.stopping();
 
   std::signal(SIGTERM, SIG_DFL);
@@ -253,7 +279,9 @@ int run(const DaemonConfig& config) {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // from here on a second signal kills
   stop.store(true);
   io.join();
-  if (!engine.finish()) {
+  const bool complete = engine.finish();
+  JournalLog::tell_kept(&engine.journal());
+  if (!complete) {
     spdlog::error("{}", engine.journal().error());
     return kExitJournal;
   }
@@ -279,7 +307,9 @@ DaemonConfig configuration(const Arguments& arguments) {
   if (arguments.has("--journal")) {
     overrides.push_back(text_override("journal.path", arguments.get("--journal")));
   }
-  return load_configuration(arguments, overrides);
+  DaemonConfig config = load_configuration(arguments, overrides);
+  require_journal(config);
+  return config;
 }
 
 // Throws ConfigError where the configuration is wrong.

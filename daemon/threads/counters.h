@@ -89,6 +89,7 @@ struct EngineCounters {
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage
   std::array<Gauge, kEventKindCount> events;  // that were published, by EventKind
+  Gauge large_jumps;                          // of the solution, above a metre
   // Events of each Convention, and a thousand times the value of the last.
   std::array<Gauge, kConventionCount> conventions, convention_milli;
   // main

@@ -16,17 +16,28 @@ namespace {
 
 // Further than any run counts; sums stay far from the end of the range.
 constexpr std::int64_t kMostEvents = std::numeric_limits<std::int64_t>::max() / 4;
+constexpr std::int64_t kUnknownSize = std::numeric_limits<std::int64_t>::max();
+
+// A pipe has no known size.
+std::int64_t size_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? kUnknownSize : static_cast<std::int64_t>(size);
+}
+
+// Files with holes may claim any size.
+std::int64_t sum_of_sizes(std::int64_t a, std::int64_t b) {
+  return a > kUnknownSize - b ? kUnknownSize : a + b;
+}
 
 }  // namespace
 
 EventFileReader::EventFileReader(const std::string& path) : path_(path) {
-  std::error_code error;
   file_.reset(std::fopen(path.c_str(), "rb"));
   if (file_ == nullptr) {
     throw EventLogError(path + ": cannot be opened: " + std::strerror(errno));
   }
-  size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (error) size_ = std::numeric_limits<std::int64_t>::max();  // a pipe has no known size
+  size_ = size_of(path);
   if (size_ == 0) throw EventLogError(path + ": is empty; expected an LCM log");
 }
 
@@ -66,24 +77,20 @@ bool EventFileReader::next(LogEvent* event) {
     truncated_ = true;
     return false;
   }
+  before_ = position_;
   position_ = end;
   return true;
 }
 
-void EventFileReader::damaged(const std::string& what) const {
-  throw EventLogError(path_ + ": byte " + std::to_string(position_) + ": " + what);
+void EventFileReader::damaged_at(std::int64_t position, const std::string& what) const {
+  throw EventLogError(path_ + ": byte " + std::to_string(position) + ": " + what);
 }
 
 EventLogReader::EventLogReader(const std::string& path) {
   LogFiles files = journal_pieces(path);
   paths_ = std::move(files.paths);
   first_piece_ = files.first_piece;
-  std::error_code error;
-  for (const std::string& one : paths_) {
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(one, error));
-    size_ = error ? std::numeric_limits<std::int64_t>::max() : size_ + size;
-    if (error) break;
-  }
+  for (const std::string& one : paths_) size_ = sum_of_sizes(size_, size_of(one));
   open_next_file();
 }
 
@@ -91,7 +98,27 @@ bool EventLogReader::open_next_file() {
   if (opened_ == paths_.size()) return false;
   if (file_ != nullptr) passed_ += file_->position_bytes();
   file_ = std::make_unique<EventFileReader>(paths_[opened_++]);
+  numbers_ = {};
   return true;
+}
+
+// In a piece each event has the number behind that of the event before it; behind the mark PIECE
+// stands the one that the mark names, or where a program has copied the log, the next one.
+void EventLogReader::check_number(const LogEvent& event) {
+  const auto is = [&](Channel channel) { return event.channel.ends_with(name_of(channel)); };
+  if (numbers_.copied >= 0 && event.number == numbers_.copied) numbers_.next = event.number;
+  numbers_.copied = -1;
+  if (event.number != numbers_.next || event.number > kMostEvents) {
+    file_->refuse_last("event with the number " + std::to_string(event.number) + " instead of " +
+                       std::to_string(numbers_.next) + "; the log is damaged");
+  }
+  ++numbers_.next;
+  if (numbers_.began || is(Channel::kConfig)) return;
+  numbers_.began = true;
+  const auto piece = decode_piece(event.data);
+  if (!is(Channel::kPiece) || !piece) return;
+  numbers_.copied = numbers_.next;
+  numbers_.next = piece->first;
 }
 
 bool EventLogReader::next(LogEvent* event) {
@@ -101,10 +128,7 @@ bool EventLogReader::next(LogEvent* event) {
       continue;
     }
     if (!first_piece_) return true;
-    if (event->number < 0 || event->number > kMostEvents) {
-      throw EventLogError(paths_[opened_ - 1] + ": event with the number " +
-                          std::to_string(event->number) + "; the log is damaged");
-    }
+    check_number(*event);
     // What a piece repeats: its beginning, and what a failing disk had taken after all.
     if (event->number < next_number_) continue;
     missing_ += event->number - next_number_;

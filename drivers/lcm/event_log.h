@@ -54,13 +54,16 @@ class EventFileReader {
   // unknown: the largest integer.
   std::int64_t size_bytes() const { return size_; }
   std::int64_t position_bytes() const { return position_; }
+  // Throws EventLogError: the last event read is damaged.
+  [[noreturn]] void refuse_last(const std::string& why) const { damaged_at(before_, why); }
 
  private:
-  [[noreturn]] void damaged(const std::string& what) const;
+  [[noreturn]] void damaged(const std::string& what) const { damaged_at(position_, what); }
+  [[noreturn]] void damaged_at(std::int64_t position, const std::string& what) const;
 
   std::string path_;
   FileHandle file_;
-  std::int64_t size_ = 0, position_ = 0;
+  std::int64_t size_ = 0, position_ = 0, before_ = 0;  // before_: where the last event begins
   bool truncated_ = false;
 };
 
@@ -72,7 +75,8 @@ class EventLogReader {
   // empty.
   explicit EventLogReader(const std::string& path);
 
-  // Reads the next event, as EventFileReader does. The pieces of a journal give each event once.
+  // Reads the next event, as EventFileReader does. The pieces of a journal give each event once; an
+  // event whose number does not follow in its file is damage.
   bool next(LogEvent* event);
 
   // Whether the last file ends with an event that is cut short.
@@ -87,12 +91,19 @@ class EventLogReader {
   std::int64_t position_bytes() const { return passed_ + file_->position_bytes(); }
 
  private:
+  // Numbers in the open file.
+  struct Numbers {
+    std::int64_t next = 0, copied = -1;  // copied: allowed beside `next`
+    bool began = false;                  // its mark PIECE was read
+  };
   bool open_next_file();
+  void check_number(const LogEvent& event);
 
   std::vector<std::string> paths_;
   std::optional<PieceInfo> first_piece_;
   std::size_t opened_ = 0;  // of paths_
   std::unique_ptr<EventFileReader> file_;
+  Numbers numbers_;
   std::int64_t size_ = 0, passed_ = 0;  // bytes of all files, of those before the open one
   std::int64_t next_number_ = 0, missing_ = 0;
 };

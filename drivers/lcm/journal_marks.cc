@@ -65,7 +65,8 @@ std::optional<PieceInfo> decode_piece(ByteSpan bytes) {
   piece_t message{};
   if (!read(bytes, kPieceBytes, &message)) return std::nullopt;
   if (message.sequence < 1 || !is_count(message.sequence) || !is_count(message.first) ||
-      message.outputs < 0 || message.outputs > static_cast<int>(RecordedOutputs::kNone))
+      message.run < 0 || message.run > kGreatestRun || message.outputs < 0 ||
+      message.outputs > static_cast<int>(RecordedOutputs::kNone))
     return std::nullopt;
   return PieceInfo{message.run, message.sequence, message.first,
                    static_cast<RecordedOutputs>(message.outputs)};

@@ -21,11 +21,17 @@ enum class RecordedOutputs : std::uint8_t {
 // A piece of a journal. The events of a run are numbered over all of its pieces; each piece begins
 // with the events 0 (CONFIG) and 1 (PIECE) again.
 struct PieceInfo {
-  std::int64_t run = 0;     // the same in all pieces of a run, later in later runs
+  // The same in all pieces of a run, greater in later runs of a journal: microseconds since 1970 at
+  // the start, or where a clock went back, one more than in the run before.
+  std::int64_t run = 0;
   std::int64_t number = 1;  // of the piece, from 1
   std::int64_t first = 0;   // number of the first event behind the mark
   RecordedOutputs outputs = RecordedOutputs::kAll;
 };
+
+// The greatest run that is believed: the year 2200. No clock of a vehicle is there, and runs that
+// count up from it would never come to an end that can be written.
+inline constexpr std::int64_t kGreatestRun = 7'258'118'400'000'000;
 
 // Input messages of one channel that were refused as they came, for one reason.
 struct RefusedInputs {

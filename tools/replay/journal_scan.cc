@@ -50,9 +50,11 @@ std::vector<std::string> JournalScan::losses() const {
   std::vector<std::string> list;
   const auto count = [](auto number) { return std::to_string(number); };
   if (first_piece > 1) {
-    list.push_back("the journal begins with piece " + count(first_piece) +
-                   ": the pieces before it are gone, and so is the state in which it begins. The "
-                   "replay begins as the service would that is started there");
+    list.push_back("the log begins with piece " + count(first_piece) +
+                   " of its run, and no piece can be replayed as it ran without those before it: "
+                   "the state in which it begins follows from them. The replay begins as the "
+                   "service would that is started there. Where the first piece is still there, "
+                   "give that one");
   }
   if (missing > 0)
     list.push_back(count(missing) + " messages are missing with pieces that are gone");

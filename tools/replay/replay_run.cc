@@ -81,7 +81,7 @@ void ReplayRun::take(Channel channel, ByteSpan bytes) {
   const auto group = output_group(channel, bytes);
   if (!group) return;
   digest_.add(*group, bytes);
-  if (verifier_ != nullptr) verifier_->compare(*group, bytes);
+  if (verifier_ != nullptr) verifier_->compare(channel, *group, bytes);
 }
 
 void ReplayRun::print_summary(std::ostream& out) {

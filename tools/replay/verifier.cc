@@ -17,9 +17,7 @@ std::string hex(std::uint8_t byte) {
 }  // namespace
 
 Verifier::Verifier(const std::string& journal, const std::string& prefix, const JournalScan& scan)
-    : prefix_(prefix),
-      outputs_(scan.outputs),
-      thinned_(scan.outputs != RecordedOutputs::kAll || scan.lost.solutions > 0) {
+    : prefix_(prefix), selection_(scan.outputs) {
   for (Group& group : groups_) group.log = std::make_unique<EventLogReader>(journal);
 }
 
@@ -35,6 +33,7 @@ bool Verifier::next_recorded(std::size_t group) {
     if (!channel) continue;
     if (*channel == Channel::kLost) {
       const auto lost = decode_lost(state.event.data);
+      if (lost && group == kSolutionGroup) state.left_out += lost->solutions;
       state.ended = lost && lost->others > 0;
     }
     if (output_group(*channel, state.event.data) != group) continue;
@@ -45,29 +44,21 @@ bool Verifier::next_recorded(std::size_t group) {
   return false;
 }
 
-// With journal.outputs: none.
-bool Verifier::is_absent(std::size_t group) const {
-  return outputs_ == RecordedOutputs::kNone &&
-         (group == kSolutionGroup || group == kEpochGroup || group == kSmoothedGroup);
+// A mark stands behind those that it counts and before the next SOLUTION that is recorded.
+bool Verifier::was_left_out(std::size_t group) {
+  next_recorded(group);
+  if (groups_[group].left_out == 0) return false;
+  --groups_[group].left_out;
+  return true;
 }
 
-// Which SOLUTION the next recorded one is, is known by its number.
-bool Verifier::was_left_out(std::size_t group, ByteSpan regenerated) {
-  if (group != kSolutionGroup || !thinned_ || !next_recorded(group)) return false;
-  const auto number = [](ByteSpan bytes) {
-    return bytes.size() < wire::kSchemaOffset ? 0 : wire::read_int64(bytes, wire::kSequenceOffset);
-  };
-  return number(regenerated) < number(groups_[group].event.data);
-}
-
-void Verifier::compare(std::size_t group, ByteSpan regenerated) {
-  if (is_absent(group) || was_left_out(group, regenerated)) {
+void Verifier::compare(Channel channel, std::size_t group, ByteSpan regenerated) {
+  if (!selection_.contains(channel, regenerated) || was_left_out(group)) {
     ++unrecorded_;
     return;
   }
   if (!next_recorded(group)) {
-    // Behind the last one that was recorded.
-    ++(group == kSolutionGroup && thinned_ ? unrecorded_ : beyond_end_);
+    ++beyond_end_;  // behind the last one that was recorded
     return;
   }
   ++compared_;
@@ -91,6 +82,11 @@ void Verifier::finish(bool complete) {
   for (std::size_t group = 0; group < groups_.size(); ++group) {
     for (; next_recorded(group); groups_[group].waits = false)
       differ(group, "recorded, but not regenerated");
+    if (groups_[group].left_out > 0 && complete) {
+      differ(group,
+             "is the last, and " + std::to_string(groups_[group].left_out) +
+                 " more were left out of the journal, as its marks say, but not regenerated");
+    }
   }
   if (beyond_end_ > 0 && complete) {
     differences_ += beyond_end_;

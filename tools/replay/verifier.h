@@ -7,6 +7,7 @@
 #include <string>
 
 #include "daemon/messages/output_groups.h"
+#include "daemon/messages/output_selection.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/replay/journal_scan.h"
 
@@ -16,12 +17,13 @@ namespace leonav {
 // for runs of any length.
 class Verifier {
  public:
-  // `scan`: of the journal. Groups that it holds in part are compared as far as it holds them, and
-  // nothing behind the first place where something is missing that a replay needs.
+  // `scan`: of the journal. Outputs that it was not to hold are passed over, and so are as many
+  // SOLUTION as a mark LOST says were left out before it; nothing is compared behind the first
+  // place where something is missing that a replay needs.
   Verifier(const std::string& journal, const std::string& prefix, const JournalScan& scan);
 
-  // Compares the next output of a group with the journal.
-  void compare(std::size_t group, ByteSpan regenerated);
+  // Compares the next output of a group, which `channel` belongs to, with the journal.
+  void compare(Channel channel, std::size_t group, ByteSpan regenerated);
   // Ends the comparison after the last output. `complete`: the journal was stopped cleanly, so that
   // it must hold all outputs.
   void finish(bool complete);
@@ -41,19 +43,18 @@ class Verifier {
     std::unique_ptr<EventLogReader> log;
     std::uint64_t count = 0;
     bool ended = false;
-    LogEvent event;      // the next one, where `waits`
-    bool waits = false;  // read, and not compared as yet
+    LogEvent event;              // the next one, where `waits`
+    bool waits = false;          // read, and not compared as yet
+    std::uint64_t left_out = 0;  // before the next one, as marks say
   };
-  bool is_absent(std::size_t group) const;
-  bool was_left_out(std::size_t group, ByteSpan regenerated);
+  bool was_left_out(std::size_t group);
   // Reads the next recorded message of the group, unless one waits; false if there is none.
   bool next_recorded(std::size_t group);
   void differ(std::size_t group, const std::string& what);
 
   std::string prefix_;
   std::array<Group, kOutputGroups.size()> groups_;
-  RecordedOutputs outputs_;
-  bool thinned_;  // SOLUTION may be missing
+  OutputSelection selection_;
   std::uint64_t compared_ = 0, differences_ = 0, beyond_end_ = 0, unrecorded_ = 0;
   std::string first_difference_;
 };

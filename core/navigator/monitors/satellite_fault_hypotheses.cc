@@ -14,7 +14,7 @@ namespace {
 
 // A separation within so many of its own sigmas may be chance.
 constexpr double kChance = 3.0;
-constexpr double kRare = 1e-3;  // probability
+constexpr double kRare = 0.005;  // probability
 
 // Returns the change of a carrier by a slip that its tests may miss, m; 0: the signal is not known.
 double missed_slip_m(const BandPlan& bands, System system, const Measurement& carrier) {

@@ -24,7 +24,7 @@ struct PositionEstimate {
 // (FaultDirections); its variance is the same with what is usual of all carriers. A missed slip is
 // one cycle, of a pair one on both frequencies: c / (f_1 + f_2), the smallest that hides from the
 // difference of the two. An arc that was joined to another (Ambiguity::wrong_join_probability) may
-// have a wrong join as well. A fault with a probability below a thousandth whose separation, three
+// have a wrong join as well. A fault with a probability below 0.005 whose separation, three
 // of its sigmas added, is within one sigma of the estimate along every axis is left out: the level
 // would hardly rise.
 FaultHypotheses satellite_fault_hypotheses(

@@ -94,6 +94,7 @@ void StageSink::on_epoch(const EpochReport& report) {
 
 void StageSink::on_event(const Event& event) {
   counters_->events[static_cast<std::size_t>(event.kind)].add(1);
+  if (event.kind == EventKind::kSolutionJump && event.value > 1.0) counters_->large_jumps.add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

@@ -59,9 +59,11 @@ void add_journal_counts(const Journal& journal, health_t* message) {
   add_count("journal lost", counters.lost_others.get(), message);
   add_count("journal solutions left out", counters.lost_solutions.get(), message);
   add_count("journal failures", counters.failures.get(), message);
+  add_count("journal unconfirmed", counters.unsynced.get(), message);
   add_count("journal pieces", counters.pieces.get(), message);
   add_count("journal pieces deleted", counters.deleted.get(), message);
   add_count("journal pieces kept", counters.kept.get(), message);
+  add_count("journal pieces undeletable", counters.undeletable.get(), message);
   add_count("journal memory %", static_cast<std::int64_t>(journal.ring().high_water_percent),
             message);
 }

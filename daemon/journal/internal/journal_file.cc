@@ -5,49 +5,43 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-
-#include "daemon/threads/wall_clock.h"
+#include <utility>
 
 namespace leonav {
 namespace {
 
 constexpr mode_t kMode = 0666;
 
-}  // namespace
-
-template <typename Call>
-long JournalFile::wait_for(Call&& call) {
-  counters_->waiting_since_ns.set(monotonic_ns());
-  error_ = before_call_ ? before_call_() : 0;
-  long result = -1;
-  if (error_ == 0) {
-    do {
-      result = call();
-    } while (result < 0 && errno == EINTR);
-    if (result < 0) error_ = errno;
-  }
-  counters_->waiting_since_ns.set(0);
-  return result;
+void close_one(int* descriptor) {
+  const int number = std::exchange(*descriptor, -1);
+  if (number >= 0) ::close(number);
 }
 
+}  // namespace
+
 bool JournalFile::open(int folder, const char* name, bool create) {
-  close();
+  drop();
   const int flags = O_WRONLY | O_CLOEXEC | (create ? O_CREAT | O_EXCL : 0);
-  descriptor_ = static_cast<int>(wait_for([&] { return openat(folder, name, flags, kMode); }));
+  descriptor_ = static_cast<int>(
+      (*disk_)(DiskCall::kOpen, [&] { return openat(folder, name, flags, kMode); }));
   if (descriptor_ < 0) return false;
   struct stat status {};
   regular_ = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  if (regular_) flock(descriptor_, LOCK_EX | LOCK_NB);  // a file system without locks is no failure
+  inode_ = status.st_ino;
+  // Another daemon holds a new file while it looks whether it is in use, and no longer. A file
+  // system without locks is no failure.
+  const int lock = create ? LOCK_EX : LOCK_EX | LOCK_NB;
+  if (regular_) (*disk_)(DiskCall::kLook, [&] { return flock(descriptor_, lock); });
   return true;
 }
 
 std::size_t JournalFile::write(std::span<const std::uint8_t> bytes) {
   std::size_t written = 0;
   while (written < bytes.size()) {
-    const long count = wait_for(
-        [&] { return ::write(descriptor_, bytes.data() + written, bytes.size() - written); });
-    if (count == 0) error_ = EIO;
+    const long count = (*disk_)(DiskCall::kWrite, [&] {
+      return ::write(descriptor_, bytes.data() + written, bytes.size() - written);
+    });
+    if (count == 0) disk_->set_error(EIO);
     if (count <= 0) break;
     written += static_cast<std::size_t>(count);
   }
@@ -55,19 +49,39 @@ std::size_t JournalFile::write(std::span<const std::uint8_t> bytes) {
 }
 
 void JournalFile::truncate(std::int64_t size) {
-  if (!regular_ || ftruncate(descriptor_, size) != 0) return;
+  if (!regular_) return;
+  if ((*disk_)(DiskCall::kWrite, [&] { return ftruncate(descriptor_, size); }) != 0) return;
   lseek(descriptor_, size, SEEK_SET);
 }
 
 bool JournalFile::sync() {
-  if (wait_for([&] { return fsync(descriptor_); }) == 0) return true;
+  if ((*disk_)(DiskCall::kSync, [&] { return fdatasync(descriptor_); }) == 0) return true;
   // Pipes and special files cannot be synchronized; that is no error.
-  return error_ == EINVAL || error_ == EROFS;
+  return disk_->error() == EINVAL || disk_->error() == EROFS;
 }
 
+bool JournalFile::is_in_place(int folder, const char* name) {
+  struct stat mine {
+  }, there{};
+  return (*disk_)(DiskCall::kLook, [&] { return fstat(descriptor_, &mine); }) == 0 &&
+         (*disk_)(DiskCall::kLook,
+                  [&] { return fstatat(folder, name, &there, AT_SYMLINK_NOFOLLOW); }) == 0 &&
+         mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+}
+
+void JournalFile::end() {
+  if (!is_open()) return;
+  close_one(&ended_);
+  ended_ = std::exchange(descriptor_, -1);
+}
+
+void JournalFile::drop() { close_one(&descriptor_); }
+
+void JournalFile::release_earlier() { close_one(&ended_); }
+
 void JournalFile::close() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
+  drop();
+  release_earlier();
 }
 
 }  // namespace leonav

@@ -1,16 +1,13 @@
 // The JournalWriter writes messages to the pieces of a journal, whatever the disk does meanwhile.
 #pragma once
-#include <array>
 #include <atomic>
-#include <functional>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/config/daemon_config.h"
 #include "daemon/journal/internal/event_buffer.h"
-#include "daemon/journal/internal/journal_file.h"
-#include "daemon/journal/internal/piece_folder.h"
+#include "daemon/journal/internal/piece_sequence.h"
 #include "daemon/journal/journal_counters.h"
 #include "daemon/threads/message_ring.h"
 
@@ -18,21 +15,18 @@ namespace leonav {
 
 // A piece that fails ends with the last message that was written whole. What the disk has not taken
 // stays in memory and goes to the next piece, which is begun as soon as that can be done: a failure
-// alone loses nothing, while there is room. After open(): one thread; nothing is allocated.
+// alone loses nothing, while there is room. The same holds for the first piece, which is begun by
+// the first call. One thread; nothing is allocated after construction.
 class JournalWriter {
  public:
-  // `before_call`: see JournalFile.
-  JournalWriter(const DaemonConfig& config, JournalCounters* counters,
-                std::function<int()> before_call);
-
-  // Claims the first piece; throws EventLogError where it cannot be created.
-  void open();
-  const std::string& path() const { return path_; }
+  JournalWriter(const DaemonConfig& config, JournalCounters* counters, KeptNames* kept,
+                DiskHook hook);
 
   // Writes what waits in the ring, as far as the disk takes it.
   void write_from(MessageRing* ring);
   // The same for the last time, with the end mark; returns whether all of it is on the disk.
-  bool finish(MessageRing* ring, const LostMessages& lost);
+  // `lost`: what no mark counts as yet; `sequence`: of the mark that counts it.
+  bool finish(MessageRing* ring, const LostMessages& lost, std::uint64_t sequence);
   // Asks, in any thread, that the present piece and the one before it are kept.
   void keep() { keep_requested_.store(true, std::memory_order_relaxed); }
 
@@ -42,13 +36,13 @@ class JournalWriter {
   bool persist(Attempt&& attempt);
   bool is_ready(bool at_once);
   bool begin_piece();
-  bool open_piece();
   bool write_beginning();
   void end_piece();
-  void note_ended_piece();
   void append(const MessageHeader& header, ByteSpan bytes);
   bool flush();
   bool write_through(std::span<const std::uint8_t> bytes);
+  void secure();
+  bool sync();
   void fail(int error);
   bool is_piece_full() const;
   void apply_keep();
@@ -58,24 +52,19 @@ class JournalWriter {
 
   JournalConfig config_;
   JournalCounters* counters_;
-  std::string path_;  // of the first piece
-  std::string name_;  // the same without folder
   std::vector<std::string> channel_names_;
   std::vector<std::uint8_t> configuration_;  // message CONFIG; empty: there is none
-  std::unique_ptr<PieceFolder> folder_;
-  JournalFile file_;
+  DiskCalls disk_;
+  PieceSequence pieces_;
   EventBuffer beginning_, buffer_;
-  PieceInfo piece_;
-  std::array<char, 256> piece_name_{}, last_piece_name_{};
-  bool begun_ = false;        // its beginning is written
-  bool first_begun_ = false;  // the same of the first piece
-  std::int64_t size_ = 0;     // bytes of the piece that are written, whole messages
+  bool begun_ = false;     // the piece's beginning is written, or is being written
+  std::int64_t size_ = 0;  // bytes of the piece that are written, whole messages
+  std::int64_t synced_size_ = 0;
   std::int64_t beginning_bytes_ = 0;
   std::int64_t next_number_ = 0;
-  Stopwatch since_flush_, since_begin_;
+  Stopwatch since_flush_, since_begin_, since_sync_;
   std::int64_t failed_at_ns_ = 0, retry_after_ns_ = 0;  // retry_after_ns_ 0: nothing has failed
   std::atomic<bool> keep_requested_{false};
-  bool keeps_piece_ = false;
   bool is_crowded_ = false;  // much waits in the ring
   bool made_room_ = false;   // the last failure has deleted a piece
 };

@@ -43,7 +43,7 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
   CHECK(error_of("lcm:\n  url: \"tcpq://host\"\n").find("car.yaml:2: lcm.url") == 0);
   CHECK(error_of("gnss:\n  gps: [\n").find("car.yaml:") == 0);
   CHECK(error_of("gnss:\n  elevation_mask_deg: 9\n---\nlcm:\n  prefix: A_\n")
-            .find("car.yaml:4: a second document begins here") == 0);
+            .find("car.yaml:3: a second document begins here") == 0);
   CHECK(error_of("").find("empty") != std::string::npos);
   CHECK_THROWS_AS(load_config("absent.yaml"), ConfigError);
   CHECK_THROWS_AS(load_config(LEONAV_SOURCE_DIR), ConfigError);
@@ -51,10 +51,11 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
 
 TEST_CASE("all errors of a configuration are told at once, each in a line and once") {
   CHECK(
-      error_of("gnss:\n  elevation_mask_deg: high\n  cn0_mask: 3\nekf:\n  reset_epochs: 2.5\nlcm:\n"
-               "  prefix: 'A B'\njournal: [1]\n") ==
+      error_of(
+          "gnss:\n  elevation_mask_deg: high\n  cn0_mask_dbh: 3\nekf:\n  reset_epochs: 2.5\nlcm:\n"
+          "  prefix: 'A B'\njournal: [1]\n") ==
       "car.yaml:2: gnss.elevation_mask_deg: 'high' is not a number\n"
-      "car.yaml:3: gnss.cn0_mask: unknown key; did you mean 'cn0_mask_dbhz'?\n"
+      "car.yaml:3: gnss.cn0_mask_dbh: unknown key; did you mean 'cn0_mask_dbhz'?\n"
       "car.yaml:5: ekf.reset_epochs: must be a whole number\n"
       "car.yaml:7: lcm.prefix: only letters, digits, '_' and '-' may be in it\n"
       "car.yaml:8: journal: expected a group of keys (\"key: value\" lines)");

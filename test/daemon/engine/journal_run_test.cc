@@ -11,6 +11,8 @@
 #include "daemon/engine/engine.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
+#include "drivers/lcm/event_log.h"
+#include "drivers/lcm/run_configuration.h"
 #include "engine_runs.h"
 #include "support/program_run.h"
 
@@ -53,22 +55,61 @@ bool has(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
+// The events of the journal of a drive.
+std::vector<LogEvent> recorded(const test::TemporaryFile& folder,
+                               const std::vector<std::string>& overrides) {
+  const std::string path = folder.beside("run.journal");
+  std::filesystem::remove(path);
+  {
+    Collector published;
+    Engine engine(journaled(path, overrides), &published);
+    engine.start();
+    feed(&engine, 20.0, [] {});
+    REQUIRE(engine.finish());
+  }
+  std::vector<LogEvent> events;
+  EventLogReader log(path);
+  for (LogEvent event; log.next(&event);) events.push_back(event);
+  return events;
+}
+
+std::vector<std::size_t> places(const std::vector<LogEvent>& events, Channel channel) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (channel_from_name(events[i].channel) == channel) list.push_back(i);
+  return list;
+}
+
+auto at(std::vector<LogEvent>* events, std::size_t place) {
+  return events->begin() + static_cast<std::ptrdiff_t>(place);
+}
+
+// Replays the events as a journal, whose end mark counts them.
+test::ProgramRun verify(const test::TemporaryFile& folder, const std::vector<LogEvent>& list) {
+  EventLogWriter changed(folder.beside("changed"));
+  for (const LogEvent& event : list) {
+    const auto end = encode_journal_end(changed.events());
+    const bool is_end = channel_from_name(event.channel) == Channel::kEnd;
+    REQUIRE(changed.write(event.timestamp_us, event.channel, is_end ? ByteSpan(end) : event.data));
+  }
+  REQUIRE(changed.flush());
+  return replay(folder, folder.beside("changed"));
+}
+
 }  // namespace
 
 TEST_CASE("while the disk blocks, SOLUTION and HEALTH go on, and no thread counts as hanging") {
   const test::TemporaryFile folder("unused", "");
   std::mutex mutex;
   std::condition_variable changed;
-  bool blocked = true;
+  bool blocked = false;
   EngineHooks hooks;
-  hooks.before_disk_call = [&] {
+  hooks.disk_call = [&](DiskCall) {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return !blocked; });
     return 0;
   };
   const DaemonConfig config = journaled(folder.beside("run.journal"), {"journal.buffer_mb=1"});
-  // The journal's first call to the disk is in start(), to which nobody waits as yet.
-  blocked = false;
   Collector outputs;
   Engine engine(config, &outputs, hooks);
   engine.start();
@@ -93,7 +134,9 @@ TEST_CASE("while the disk blocks, SOLUTION and HEALTH go on, and no thread count
   CHECK(engine.counters().unpublished.get() == 0);
   CHECK(hanging.find("out") == std::string::npos);
   CHECK(engine.journal().counters().lost_others.get() > 0);
-  CHECK(told);
+  // The last ones may have been lost since the last look.
+  health.next(now_s += 1.0);
+  CHECK((told || has(health.why(), "journal: messages are lost")));
   while (!engine.journal().is_stalled()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   health.next(now_s += 1.0);
   CHECK(has(health.why(), "journal: the disk does not answer"));
@@ -155,7 +198,8 @@ TEST_CASE("pieces replay byte for byte as one journal, with any of journal.outpu
     // From a later piece on: an answer, and what it is worth.
     const auto late = replay(folder, path + ".part0003");
     CHECK(late.exit_code == 1);
-    CHECK(has(late.err, "the journal begins with piece 3: the pieces before it are gone"));
+    CHECK(has(late.err,
+              "the log begins with piece 3 of its run, and no piece can be replayed as it ran"));
     CHECK(has(late.err, "nothing to verify: the journal lacks the beginning of its run"));
     // A piece that is gone in the middle.
     std::filesystem::remove(path + ".part0003");
@@ -167,41 +211,56 @@ TEST_CASE("pieces replay byte for byte as one journal, with any of journal.outpu
   }
 }
 
-TEST_CASE("a difference in a thinned journal is found, and one SOLUTION too many as well") {
+TEST_CASE("a difference in a thinned journal is found, and one SOLUTION too many or too few") {
   if (!test::have_programs("leonav-replay")) return;
   const test::TemporaryFile folder("unused", "");
-  const std::string path = folder.beside("run.journal");
-  {
-    Collector published;
-    Engine engine(journaled(path, {"journal.outputs=thinned"}), &published);
-    engine.start();
-    feed(&engine, 20.0, [] {});
-    REQUIRE(engine.finish());
-  }
-  std::vector<LogEvent> events;
-  EventLogReader log(path);
-  for (LogEvent event; log.next(&event);) events.push_back(event);
-  std::vector<std::size_t> solutions;
-  for (std::size_t i = 0; i < events.size(); ++i)
-    if (channel_from_name(events[i].channel) == Channel::kSolution) solutions.push_back(i);
+  const std::vector<LogEvent> events = recorded(folder, {"journal.outputs=thinned"});
+  const std::vector<std::size_t> solutions = places(events, Channel::kSolution);
   REQUIRE(solutions.size() >= 15);
   REQUIRE(solutions.size() <= 21);
-  const auto verify = [&](const std::vector<LogEvent>& list) {
-    EventLogWriter changed(folder.beside("changed"));
-    for (const LogEvent& event : list)
-      REQUIRE(changed.write(event.timestamp_us, event.channel, event.data));
-    REQUIRE(changed.flush());
-    return replay(folder, folder.beside("changed"));
-  };
-  CHECK(verify(events).exit_code == 0);
+  CHECK(verify(folder, events).exit_code == 0);
   auto other = events;
   other[solutions[9]].data[60] ^= 1;
-  const auto differs = verify(other);
+  const auto differs = verify(folder, other);
   CHECK(differs.exit_code == 1);
   CHECK(has(differs.err, "SOLUTION message 10 at byte 60"));
   other = events;
-  other.insert(other.begin() + static_cast<std::ptrdiff_t>(solutions[9]), events[solutions[9]]);
-  CHECK(verify(other).exit_code == 1);
+  other.insert(at(&other, solutions[9]), events[solutions[9]]);
+  CHECK(verify(folder, other).exit_code == 1);
+  other = events;
+  other.erase(at(&other, solutions[9]));
+  CHECK(verify(folder, other).exit_code == 1);
+}
+
+TEST_CASE("as many SOLUTION may be missing as the marks LOST say, where they say it") {
+  if (!test::have_programs("leonav-replay")) return;
+  const test::TemporaryFile folder("unused", "");
+  for (const std::string outputs : {"all", "thinned"}) {
+    INFO(outputs);
+    const std::vector<LogEvent> events = recorded(folder, {"journal.outputs=" + outputs});
+    const std::vector<std::size_t> solutions = places(events, Channel::kSolution);
+    const auto mark = [&](std::uint64_t lost, std::uint64_t sequence) {
+      const auto bytes = encode_lost({lost, 0}, sequence);
+      return LogEvent{0, 1, "LEONAV_LOST", Bytes(bytes.begin(), bytes.end())};
+    };
+    // Without SOLUTION `first` to `first` + 2, and a mark before the next one, or before the end.
+    const auto without = [&](std::size_t first, std::uint64_t lost) {
+      auto some = events;
+      const std::size_t behind =
+          first + 3 < solutions.size() ? solutions[first + 3] : events.size() - 1;
+      some.insert(at(&some, behind), mark(lost, behind == events.size() - 1 ? 0 : 1));
+      for (const std::size_t one : {2, 1, 0}) some.erase(at(&some, solutions[first + one]));
+      return verify(folder, some);
+    };
+    for (const std::size_t first : {std::size_t{8}, solutions.size() - 3}) {
+      const auto right = without(first, 3);
+      INFO(first << ": " << right.out << right.err);
+      CHECK(right.exit_code == 0);
+      CHECK(has(right.out, " 0 differences"));
+      for (const std::uint64_t wrong : {0, 2, 4}) CHECK(without(first, wrong).exit_code == 1);
+    }
+    CHECK(has(without(solutions.size() - 3, 4).err, "1 more were left out of the journal"));
+  }
 }
 
 TEST_CASE(

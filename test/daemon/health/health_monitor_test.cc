@@ -1,13 +1,17 @@
 // What HEALTH says when an input falls silent, whatever came before it.
 #include "daemon/health/health_monitor.h"
 
+#include <atomic>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <leonav/health_t.hpp>
 #include <thread>
+#include <utility>
 
 #include "support/catch.h"
 #include "support/drive_inputs.h"
+#include "support/temporary_file.h"
 
 namespace {
 
@@ -20,14 +24,17 @@ struct Discard final : MessageTarget {
 // An engine and its health, fed in step.
 class Watched {
  public:
-  explicit Watched(MotionModel motion, bool odometer = false,
-                   const IntegrityConfig& integrity = {}) {
+  explicit Watched(MotionModel motion, bool odometer = false, const IntegrityConfig& integrity = {},
+                   const std::string& journal = "", DiskHook hook = {}) {
     DaemonConfig config = test::drive_config();
+    config.journal.path = journal;
     config.navigator.integrity = integrity;
     config.navigator.vehicle.motion.constraints.odometer = odometer;
     config.navigator.motion = motion;
     REQUIRE(config.navigator.realtime.epoch_interval_s == 1.0);
-    engine_ = std::make_unique<Engine>(config, &target_);
+    EngineHooks hooks;
+    hooks.disk_call = std::move(hook);
+    engine_ = std::make_unique<Engine>(config, &target_, std::move(hooks));
     engine_->start();
     health_ = std::make_unique<HealthMonitor>(engine_.get(), config.navigator);
   }
@@ -57,6 +64,8 @@ class Watched {
   }
 
   const health_t& message() const { return message_; }  // of the last at()
+  Fault fault() const { return health_->fault(); }
+  Engine* engine() { return engine_.get(); }
 
  private:
   Discard target_;
@@ -91,25 +100,23 @@ TEST_CASE("GNSS alone that dies: degraded after 2.5 intervals, a fault after 10"
   watched.feed(all_but_imu);
   CHECK(watched.at(60.0) == "OK: ");
   CHECK(watched.at(62.4) == "OK: ");
-  // Within ten looks of the last message it is late, not gone.
-  const std::string late =
-      "no usable GNSS (messages come, but are late or rejected): look at its sender and the "
-      "antenna";
-  CHECK(watched.at(62.6) == "DEGRADED: " + kLate + "; " + late);
-  for (double now_s = 63.0; now_s < 70.0; now_s += 1.0) watched.at(now_s);
+  CHECK(watched.at(62.6) == "DEGRADED: " + kLate + "; " + kNoGnss);
   CHECK(watched.at(70.0) == "DEGRADED: " + kLate + "; " + kNoGnss);
   CHECK(watched.message().source == "ekf");
+  CHECK(watched.fault() == Fault::kNone);
   CHECK(watched.at(71.0) == "FAULT: " + kEnded + "; " + kNoGnss);
+  CHECK(watched.fault() == Fault::kSilence);
   CHECK(watched.message().source == "none");
   // Damaged messages are no sign of life, and are told.
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 20; ++i)
     watched.receive(Channel::kGnssEpoch, std::vector<std::uint8_t>(40, 0x55));
   CHECK(
       watched.at(72.0) ==
       "FAULT: " + kEnded +
-          "; no usable GNSS (messages come, but are late or rejected as undecodable): look at its "
-          "sender and the antenna; a tenth or more of an input is rejected (GNSS_EPOCH as "
-          "undecodable): look at its sender and the events rejected_input");
+          "; no usable GNSS (messages come, but are late or rejected): look at its sender and the "
+          "antenna; a tenth or more of an input is rejected (GNSS_EPOCH): look at its sender and "
+          "the events rejected_input");
+  CHECK(watched.fault() == Fault::kNavigation);
 }
 
 TEST_CASE("an IMU that dies: degraded after a second, a fault when the answer is too old") {
@@ -195,6 +202,26 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
     CHECK(watched.at(60.0) == "DEGRADED: " + started_over);
     CHECK(watched.message().source == "ekf");
   }
+}
+
+TEST_CASE("a journal that cannot be written is a FAULT in HEALTH, and none of the answer") {
+  const test::TemporaryFile folder("unused", "");
+  std::atomic<bool> fails{true};
+  const std::string path = folder.beside("run.journal");
+  Watched watched(MotionModel::kConstantVelocity, false, {}, path,
+                  [&](DiskCall) { return fails ? EROFS : 0; });
+  watched.feed(all_but_imu);
+  CHECK(watched.at(60.0) == "FAULT: journal (" + path +
+                                ": cannot be written: Read-only file system): look at space and "
+                                "permissions of its disk");
+  CHECK(watched.fault() == Fault::kNone);
+  fails = false;
+  while (!watched.engine()->journal().failure().empty()) std::this_thread::yield();
+  // It stays for a while.
+  CHECK(watched.at(61.0).starts_with("FAULT: journal ("));
+  watched.receive(Channel::kCommand, Encoder().encode(Command(), test::kSkyEpoch, 1));
+  watched.at(62.0);
+  CHECK(watched.fault() == Fault::kNavigation);
 }
 
 TEST_CASE("levels are in HEALTH, and those above their alert limits degrade it") {
@@ -289,7 +316,7 @@ TEST_CASE("junk beside good inputs degrades HEALTH for as long as it comes, and 
     return true;
   });
   const std::string reason =
-      "a tenth or more of an input is rejected (ODOMETER as undecodable): look at its sender and "
+      "a tenth or more of an input is rejected (ODOMETER): look at its sender and "
       "the events rejected_input";
   CHECK(with_junk == "DEGRADED: " + reason);
   CHECK(soon_after == "DEGRADED: " + reason);

@@ -3,169 +3,28 @@
 
 #include <atomic>
 #include <cerrno>
-#include <chrono>
-#include <condition_variable>
+#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <set>
-#include <thread>
+#include <fstream>
 
 #include "core/navigator/interface/event.h"
-#include "daemon/journal/journal.h"
-#include "drivers/lcm/event_log.h"
-#include "drivers/lcm/journal_marks.h"
+#include "daemon/threads/wall_clock.h"
+#include "drivers/lcm/event_header.h"
 #include "drivers/lcm/piece_file.h"
-#include "drivers/lcm/run_configuration.h"
-#include "drivers/lcm/wire.h"
-#include "support/catch.h"
+#include "journal/journal_rig.h"
 #include "support/drive_inputs.h"
 #include "support/program_run.h"
 #include "support/temporary_file.h"
 #include "tools/common/allocations/allocation_counter.h"
 
-namespace {
-
 using namespace leonav;
-namespace fs = std::filesystem;
-
-// The disk, as the journal's thread meets it. Who calls it may outlive the test.
-class Disk {
- public:
-  std::function<int()> hook() {
-    return [shared = shared_] {
-      std::unique_lock lock(shared->mutex);
-      ++shared->waiting;
-      shared->changed.notify_all();
-      shared->changed.wait(lock, [&] { return !shared->blocked; });
-      --shared->waiting;
-      return shared->error;
-    };
-  }
-  void block(bool blocked) {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->blocked = blocked;
-    shared_->changed.notify_all();
-  }
-  void fail_with(int error) {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->error = error;
-  }
-  // Waits until the journal waits.
-  void await_call() {
-    std::unique_lock lock(shared_->mutex);
-    shared_->changed.wait(lock, [this] { return shared_->waiting > 0; });
-  }
-
- private:
-  struct Shared {
-    std::mutex mutex;
-    std::condition_variable changed;
-    bool blocked = false;
-    int error = 0, waiting = 0;
-  };
-  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
-};
-
-DaemonConfig small_pieces(const std::string& path) {
-  DaemonConfig config;
-  config.journal.path = path;
-  config.journal.flush_interval_s = 0.0;
-  config.journal.buffer_mb = 1.0;
-  config.journal.piece_mb = 0.1;
-  config.journal.total_mb = 0.0;
-  return config;
-}
-
-constexpr std::size_t kMessageBytes = 1000;
-
-// Pushes messages whose first bytes are their number, as slowly as the disk takes them.
-class Sender {
- public:
-  explicit Sender(Journal* journal) : journal_(journal) {}
-  void push(int count, Channel channel = Channel::kImu) {
-    for (int i = 0; i < count; ++i) {
-      std::vector<std::uint8_t> bytes(kMessageBytes);
-      const std::uint64_t number = sent_++;
-      for (int k = 0; k < 8; ++k) bytes[16 + k] = static_cast<std::uint8_t>(number >> (56 - 8 * k));
-      journal_->push({1, static_cast<std::uint32_t>(bytes.size()), channel}, bytes);
-    }
-  }
-  void push_slowly(int count) {
-    for (int i = 0; i < count; ++i) {
-      push(1);
-      if (i % 20 == 19) settle();
-    }
-  }
-  // Waits until all that was pushed is with the operating system.
-  void settle() const {
-    while (journal_->counters().journaled.get() <
-           static_cast<std::int64_t>(sent_) - journal_->counters().lost_others.get())
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  std::uint64_t sent() const { return sent_; }
-
- private:
-  Journal* journal_;
-  std::uint64_t sent_ = 0;
-};
-
-struct Contents {
-  std::vector<std::uint64_t> numbers;  // of the sender's messages
-  std::vector<LostMessages> lost;
-  std::size_t number_at_loss = 0;  // messages before the first mark
-  std::int64_t missing = 0;
-  bool ended = false;
-};
-
-Contents contents(const std::string& path) {
-  EventLogReader log(path);
-  Contents found;
-  LogEvent event;
-  std::int64_t before = 0;
-  for (; log.next(&event); ++before) {
-    const auto channel = channel_from_name(event.channel);
-    REQUIRE(channel.has_value());
-    if (*channel == Channel::kImu || *channel == Channel::kSolution)
-      found.numbers.push_back(static_cast<std::uint64_t>(wire::read_int64(event.data, 16)));
-    if (*channel == Channel::kLost) {
-      if (found.lost.empty()) found.number_at_loss = found.numbers.size();
-      found.lost.push_back(decode_lost(event.data).value());
-    }
-    found.ended = *channel == Channel::kEnd && decode_journal_end(event.data) == before;
-  }
-  found.missing = log.missing();
-  CHECK_FALSE(log.truncated());
-  return found;
-}
-
-void check_all(const std::string& path, std::uint64_t sent) {
-  const Contents found = contents(path);
-  CHECK(found.ended);
-  CHECK(found.missing == 0);
-  CHECK(found.lost.empty());
-  REQUIRE(found.numbers.size() == sent);
-  for (std::uint64_t i = 0; i < sent; ++i) REQUIRE(found.numbers[i] == i);
-}
-
-std::set<std::string> names(const std::string& beside) {
-  std::set<std::string> list;
-  for (const auto& entry : fs::directory_iterator(fs::path(beside).parent_path()))
-    list.insert(entry.path().filename());
-  list.erase("unused");
-  return list;
-}
-
-}  // namespace
+using namespace leonav::test;
 
 TEST_CASE("pieces are begun by size, and read as one journal from the first piece or the folder") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   const std::string path = folder.beside("run.journal");
   Journal journal(small_pieces(path));
   journal.open();
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(1000);  // 1 MB
   CHECK(journal.finish());
@@ -184,13 +43,12 @@ TEST_CASE("pieces are begun by size, and read as one journal from the first piec
 }
 
 TEST_CASE("pieces are begun by time") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   config.journal.piece_s = 0.05;
   config.journal.piece_mb = 100.0;
   Journal journal(config);
   journal.open();
-  journal.start();
   Sender sender(&journal);
   while (journal.counters().pieces.get() < 3) {
     sender.push(1);
@@ -201,16 +59,15 @@ TEST_CASE("pieces are begun by time") {
 }
 
 TEST_CASE("the oldest pieces make room, of earlier runs first; no other file is touched") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   {
     Journal journal(config);
     journal.open();
-    journal.start();
     Sender(&journal).push_slowly(300);
     REQUIRE(journal.finish());
   }
-  const std::string piece = test::text_of(folder.beside("run.journal.part0002"));
+  const std::string piece = text_of(folder.beside("run.journal.part0002"));
   // Named as pieces, but none: a log of an older version, and something else. Pieces, but of
   // another name.
   {
@@ -227,8 +84,8 @@ TEST_CASE("the oldest pieces make room, of earlier runs first; no other file is 
   config.journal.total_mb = 0.5;
   Journal journal(config);
   journal.open();
+  REQUIRE(await([&] { return journal.has_file(); }));
   REQUIRE(journal.path() == folder.beside("run.journal.1"));
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(1500);
   REQUIRE(journal.finish());
@@ -254,12 +111,11 @@ TEST_CASE("the oldest pieces make room, of earlier runs first; no other file is 
 }
 
 TEST_CASE("a disk that blocks costs what the memory does not hold, and a mark says how much") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   Journal journal(config, disk.hook());
   journal.open();
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(50);
   disk.block(true);
@@ -290,12 +146,11 @@ TEST_CASE("a disk that blocks costs what the memory does not hold, and a mark sa
 }
 
 TEST_CASE("where the memory is half full SOLUTION is left out, and nothing else") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   Journal journal(config, disk.hook());
   journal.open();
-  journal.start();
   Sender sender(&journal);
   disk.block(true);
   sender.push(1, Channel::kSolution);
@@ -320,13 +175,12 @@ TEST_CASE("where the memory is half full SOLUTION is left out, and nothing else"
 
 TEST_CASE(
     "a disk that fails for a while loses nothing that the memory holds; a new piece is begun") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   config.journal.piece_mb = 100.0;
   Journal journal(config, disk.hook());
   journal.open();
-  journal.start();
   Sender sender(&journal);
   for (const int error : {EIO, EROFS}) {
     sender.push_slowly(50);
@@ -348,28 +202,26 @@ TEST_CASE(
 }
 
 TEST_CASE("a disk that fails from the first byte on, and never comes back, is told at the end") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   Journal journal(config, disk.hook());
-  journal.open();
   disk.fail_with(ENOSPC);
-  journal.start();
+  journal.open();
   Sender sender(&journal);
   sender.push(10);
   CHECK_FALSE(journal.finish());
   CHECK(journal.error() == config.journal.path + ": cannot be written: No space left on device");
-  CHECK(names(folder.path()) == std::set<std::string>{"run.journal"});
+  CHECK(names(folder.path()).empty());
 }
 
 TEST_CASE("a disk that fails before anything is written and comes back has one piece, whole") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   Journal journal(config, disk.hook());
-  journal.open();
   disk.fail_with(EIO);
-  journal.start();
+  journal.open();
   Sender sender(&journal);
   sender.push(10);
   while (journal.counters().failures.get() < 2)
@@ -382,13 +234,12 @@ TEST_CASE("a disk that fails before anything is written and comes back has one p
 }
 
 TEST_CASE("a disk that never returns holds up no end") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   {
     DaemonConfig config = small_pieces(folder.beside("run.journal"));
     Journal journal(config, disk.hook());
     journal.open();
-    journal.start();
     disk.block(true);
     Sender(&journal).push(10);
     disk.await_call();
@@ -405,13 +256,12 @@ TEST_CASE("a disk that never returns holds up no end") {
 }
 
 TEST_CASE("what led up to a fault is kept beyond the limit of all, within one of its own") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   config.journal.total_mb = 0.3;
   config.journal.kept_mb = 0.5;
   Journal journal(config);
   journal.open();
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(150);  // in the second piece
   journal.keep();
@@ -447,10 +297,11 @@ TEST_CASE("what led up to a fault is kept beyond the limit of all, within one of
 
 TEST_CASE(
     "a disk that is full for a while costs no piece; where it stays full, the oldest make room") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   // A disk of 0.45 MB with a foreign file on it.
   std::atomic<std::uintmax_t> foreign{0};
-  const auto small_disk = [&] {
+  const auto small_disk = [&](DiskCall call) {
+    if (call != DiskCall::kWrite) return 0;
     std::uintmax_t used = foreign;
     for (const std::string& name : names(folder.path())) {
       std::error_code gone;
@@ -462,7 +313,6 @@ TEST_CASE(
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   Journal journal(config, small_disk);
   journal.open();
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(300);
   foreign = 1'000'000;
@@ -494,22 +344,19 @@ TEST_CASE(
 }
 
 TEST_CASE("the end of a run that crashed is kept at the next start; a piece in use is left alone") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   config.journal.kept_mb = 10.0;
-  const auto start = [&](Journal* journal) {
-    journal->open();
-    journal->start();
-  };
   Disk disk;
   Journal running(config, disk.hook());
-  start(&running);
+  running.open();
   Sender sender(&running);
   sender.push_slowly(150);
   {
     // While the first daemon runs, its pieces are not those of a crash.
     Journal second(config);
-    start(&second);
+    second.open();
+    REQUIRE(await([&] { return second.has_file(); }));
     CHECK(second.counters().kept.get() == 0);
     REQUIRE(second.finish());
   }
@@ -522,15 +369,366 @@ TEST_CASE("the end of a run that crashed is kept at the next start; a piece in u
   fs::remove(config.journal.path + ".1");
   fs::resize_file(last, fs::file_size(last) - 20);
   Journal next(config);
-  start(&next);
+  next.open();
+  REQUIRE(await([&] { return next.has_file(); }));
   CHECK(next.counters().kept.get() == 2);
   CHECK(fs::exists(last + ".kept"));
   CHECK(fs::exists(config.journal.path + ".kept"));
   REQUIRE(next.finish());
 }
 
+TEST_CASE("a disk that is full, read-only, absent or stalled at the start delays nobody") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("later/run.journal");
+  SECTION("its folder comes later") {
+    Journal journal(small_pieces(path));
+    journal.open();
+    CHECK(journal.failure() == path + ": cannot be written: No such file or directory");
+    Sender sender(&journal);
+    sender.push(100);
+    fs::create_directory(folder.beside("later"));
+    REQUIRE(await([&] { return journal.failure().empty(); }));
+    CHECK(journal.finish());
+    check_all(path, sender.sent());
+  }
+  fs::create_directories(folder.beside("later"));
+  Disk disk;
+  Journal journal(small_pieces(path), disk.hook());
+  SECTION("it is read-only") {
+    disk.fail_with(EROFS);
+    journal.open();
+    CHECK(journal.failure() == path + ": cannot be written: Read-only file system");
+    CHECK(journal.path() == path);
+    CHECK_FALSE(journal.has_file());
+    Sender sender(&journal);
+    sender.push(100);
+    disk.fail_with(0);
+    REQUIRE(await([&] { return journal.failure().empty(); }));
+    CHECK(journal.finish());
+    check_all(path, sender.sent());
+  }
+  SECTION("it does not answer") {
+    disk.block(true);
+    const Stopwatch watch;
+    journal.open();
+    CHECK(watch.nanoseconds() < 3 * kNanosecondsPerSecond);
+    Sender sender(&journal);
+    sender.push(100);
+    CHECK(await([&] { return journal.is_stalled(); }));
+    disk.block(false);
+    REQUIRE(await([&] { return journal.has_file(); }));
+    CHECK(journal.finish());
+    check_all(path, sender.sent());
+  }
+}
+
+TEST_CASE("a path that can never be a journal ends the start") {
+  const TemporaryFile file("file", "");
+  const auto open = [](const std::string& path) { Journal(small_pieces(path)).open(); };
+  CHECK_THROWS_WITH(open(file.path() + "/run.journal"),
+                    file.path() + "/run.journal: cannot be created: Not a directory");
+  fs::create_directory(file.beside("folder"));
+  CHECK_THROWS_WITH(open(file.beside("folder")),
+                    file.beside("folder") + ": cannot be created: Is a directory");
+  CHECK_THROWS_WITH(open(file.beside(std::string(300, 'x'))),
+                    Catch::Matchers::Contains("cannot be created: File name too long"));
+  CHECK(names(file.path()) == std::set<std::string>{"file", "folder"});
+}
+
+TEST_CASE("an empty first file that cannot be deleted is used when the disk comes back") {
+  const TemporaryFile folder("unused", "");
+  const bool deleted = GENERATE(false, true);  // by somebody else, meanwhile
+  std::atomic<bool> fails{true}, looks_fail{false};
+  const auto hook = [&](DiskCall call) {
+    const bool hit = call == DiskCall::kWrite || call == DiskCall::kDelete ||
+                     (looks_fail && call == DiskCall::kLook);
+    return fails && hit ? EIO : 0;
+  };
+  Journal journal(small_pieces(folder.beside("run.journal")), hook);
+  journal.open();
+  Sender sender(&journal);
+  sender.push(10);
+  REQUIRE(await([&] { return journal.counters().failures.get() >= 3; }));
+  looks_fail = true;
+  REQUIRE(await([&] { return journal.counters().failures.get() >= 4; }));
+  CHECK(names(folder.path()) == std::set<std::string>{"run.journal"});
+  if (deleted) fs::remove(folder.beside("run.journal"));
+  fails = false;
+  REQUIRE(await([&] { return journal.failure().empty(); }));
+  CHECK(journal.finish());
+  CHECK(names(folder.path()) == std::set<std::string>{"run.journal"});
+  check_all(folder.beside("run.journal"), sender.sent());
+}
+
+TEST_CASE("a folder that is moved away, or deleted, is found again under its path") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("journals/run.journal");
+  fs::create_directory(folder.beside("journals"));
+  Journal journal(small_pieces(path));
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(20);
+  const bool deleted = GENERATE(false, true);
+  if (deleted) {
+    fs::remove_all(folder.beside("journals"));
+  } else {
+    fs::rename(folder.beside("journals"), folder.beside("old"));
+    fs::create_directory(folder.beside("journals"));
+  }
+  REQUIRE(await([&] { return journal.counters().pieces.get() == 2; }));
+  sender.push_slowly(20);
+  CHECK(journal.finish());
+  CHECK(contents(path + ".part0002").numbers.size() == 20);
+  if (!deleted) CHECK(contents(folder.beside("old/run.journal")).numbers.size() == 20);
+}
+
+TEST_CASE("a file that is deleted while it is written is followed by the next piece") {
+  const TemporaryFile folder("unused", "");
+  Journal journal(small_pieces(folder.beside("run.journal")));
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(20);
+  fs::remove(folder.beside("run.journal"));
+  REQUIRE(await([&] { return journal.counters().pieces.get() == 2; }));
+  sender.push_slowly(20);
+  CHECK(journal.finish());
+  CHECK(names(folder.path()) == std::set<std::string>{"run.journal.part0002"});
+}
+
+TEST_CASE("what is written goes to the disk every few seconds; a disk that refuses is told") {
+  const TemporaryFile folder("unused", "");
+  Disk disk;
+  disk.choose(DiskCall::kSync);
+  Journal journal(small_pieces(folder.beside("run.journal")), disk.hook());
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(20);
+  REQUIRE(await([&] { return disk.calls(DiskCall::kSync) >= 2; }));  // the file, and its name
+  CHECK(journal.counters().unsynced.get() == 0);
+  // At the end of a piece.
+  disk.fail_with(EIO);
+  sender.push_slowly(200);
+  CHECK(journal.counters().unsynced.get() >= 2);
+  CHECK(journal.failure().empty());
+  disk.fail_with(0);
+  CHECK(journal.finish());
+  check_all(folder.beside("run.journal"), sender.sent());
+}
+
+TEST_CASE("runs follow one another, whatever the clock was before") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  const auto run_of = [&](const std::string& journal) {
+    return EventLogReader(journal).first_piece().value().run;
+  };
+  const auto write = [&] {
+    Journal journal(small_pieces(path));
+    journal.open();
+    Sender(&journal).push_slowly(5);
+    REQUIRE(journal.finish());
+    return run_of(journal.path());
+  };
+  const std::int64_t first = write();
+  CHECK(std::abs(first - wall_clock_us()) < 60'000'000);
+  // Of a clock that was ten years ahead, and one that is not believed.
+  const auto set_run = [&](const std::string& journal, std::int64_t run) {
+    std::string bytes = text_of(journal);
+    const auto mark = encode_piece({run, 1, 1, RecordedOutputs::kAll});
+    bytes.replace(kEventHeaderBytes + std::string("LEONAV_PIECE").size(), mark.size(),
+                  std::string(mark.begin(), mark.end()));
+    std::ofstream(journal, std::ios::binary) << bytes;
+  };
+  const std::int64_t ahead = first + 315'360'000'000'000;
+  set_run(path, ahead);
+  CHECK(write() == ahead + 1);
+  set_run(path + ".1", kGreatestRun);
+  CHECK(write() == ahead + 1);
+  CHECK(write() == ahead + 2);
+}
+
+TEST_CASE("a piece that cannot be deleted does not save the others") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  DaemonConfig config = small_pieces(path);
+  config.journal.total_mb = 0.5;
+  // The first two deletions fail, each time the limits are applied those of the oldest.
+  std::atomic<int> deletions{0};
+  std::atomic<int> left{4};
+  Journal journal(config, [&](DiskCall call) {
+    if (call != DiskCall::kDelete) return 0;
+    ++deletions;
+    return left-- > 0 ? EPERM : 0;
+  });
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(1000);
+  REQUIRE(journal.finish());
+  CHECK(journal.counters().undeletable.get() == 4);
+  CHECK(journal.counters().deleted.get() >= 4);
+  CHECK(journal.counters().deleted.get() + 4 == deletions);
+  std::uintmax_t total = 0;
+  for (const std::string& name : names(path)) total += fs::file_size(folder.beside(name));
+  CHECK(total <= 500'000);
+}
+
+TEST_CASE("pieces that end by failures are limited as well") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  Disk disk;
+  DaemonConfig config = small_pieces(path);
+  config.journal.total_mb = 0.3;
+  Journal journal(config, disk.hook());
+  disk.choose(DiskCall::kWrite);
+  journal.open();
+  Sender sender(&journal);
+  for (int piece = 1; piece <= 8; ++piece) {
+    sender.push_slowly(80);  // less than a piece holds
+    disk.fail_with(EIO);
+    sender.push(1);
+    REQUIRE(await([&] { return !journal.failure().empty(); }));
+    disk.fail_with(0);
+    REQUIRE(await([&] { return journal.failure().empty(); }));
+  }
+  REQUIRE(journal.finish());
+  std::uintmax_t total = 0;
+  for (const std::string& name : names(path)) total += fs::file_size(folder.beside(name));
+  CHECK(total <= 300'000);
+  CHECK(journal.counters().deleted.get() >= 5);
+}
+
+TEST_CASE("with kept_mb 0 nothing is kept, and what was kept earlier stays") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  DaemonConfig config = small_pieces(path);
+  config.journal.kept_mb = 0.5;
+  {
+    Journal journal(config);
+    journal.open();
+    Sender sender(&journal);
+    sender.push_slowly(50);
+    journal.keep();
+    sender.push_slowly(10);
+    REQUIRE(journal.finish());
+    CHECK(journal.take_kept() == path + ".kept");
+    CHECK_FALSE(journal.take_kept());
+  }
+  config.journal.kept_mb = 0.0;
+  config.journal.total_mb = 0.3;
+  std::atomic<bool> full{false};
+  Journal journal(config,
+                  [&](DiskCall call) { return full && call == DiskCall::kWrite ? ENOSPC : 0; });
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(500);
+  journal.keep();
+  sender.push_slowly(200);
+  CHECK(journal.counters().kept.get() == 0);
+  // Not even where the disk has no room.
+  full = true;
+  sender.push(700);
+  REQUIRE(await([&] { return journal.counters().failures.get() >= 4; }));
+  full = false;
+  journal.finish();
+  CHECK(fs::exists(path + ".kept"));
+}
+
+TEST_CASE("a disk that does not answer while a piece is deleted or renamed counts as stalled") {
+  const TemporaryFile folder("unused", "");
+  Disk disk;
+  DaemonConfig config = small_pieces(folder.beside("run.journal"));
+  config.journal.total_mb = 0.2;
+  const DiskCall call = GENERATE(DiskCall::kDelete, DiskCall::kRename, DiskCall::kLook);
+  disk.choose(call);
+  Journal journal(config, disk.hook());
+  journal.open();
+  REQUIRE(await([&] { return journal.counters().pieces.get() == 1; }));
+  disk.block(true);
+  journal.keep();
+  Sender(&journal).push(500);
+  CHECK(await([&] { return journal.is_stalled(); }));
+  disk.block(false);
+  CHECK(journal.finish());
+  CHECK_FALSE(journal.is_stalled());
+}
+
+TEST_CASE("a piece that has ended looks in use until the next one has begun") {
+  const TemporaryFile folder("unused", "");
+  Disk disk;
+  DaemonConfig config = small_pieces(folder.beside("run.journal"));
+  config.journal.kept_mb = 10.0;
+  Journal journal(config, disk.hook());
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(50);
+  disk.fail_with(EIO);
+  sender.push(1);
+  REQUIRE(await([&] { return !journal.failure().empty(); }));
+  // Its only file has no end mark and is written by nobody at present.
+  Journal second(config);
+  second.open();
+  REQUIRE(await([&] { return second.has_file(); }));
+  CHECK(second.counters().kept.get() == 0);
+  CHECK(second.finish());
+  disk.fail_with(0);
+  CHECK(journal.finish());
+  check_all(folder.beside("run.journal"), sender.sent());
+}
+
+TEST_CASE("files with holes count as what they take of the disk, and overflow no sum") {
+  if (!fs::exists("/dev/shm")) return;
+  std::string name = "/dev/shm/leonav-test-XXXXXX";
+  REQUIRE(::mkdtemp(name.data()) != nullptr);
+  DaemonConfig config = small_pieces(name + "/run.journal");
+  const auto write = [&](int messages) {
+    Journal journal(config);
+    journal.open();
+    Sender(&journal).push_slowly(messages);
+    CHECK(journal.finish());
+    return journal.counters().deleted.get();
+  };
+  for (int i = 0; i < 3; ++i) write(10);
+  std::error_code error;
+  for (const char* one : {"/run.journal", "/run.journal.1", "/run.journal.2"})
+    fs::resize_file(name + one, std::uintmax_t{1} << 62, error);
+  config.journal.total_mb = 0.3;
+  if (!error) {
+    CHECK(write(10) == 0);
+    CHECK(write(1000) > 3);
+    CHECK_FALSE(fs::exists(name + "/run.journal"));  // the oldest first, as ever
+  }
+  fs::remove_all(name);
+}
+
+TEST_CASE("the last mark of what is lost has the next number") {
+  const TemporaryFile folder("unused", "");
+  Disk disk;
+  Journal journal(small_pieces(folder.beside("run.journal")), disk.hook());
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(5);
+  for (int mark = 1; mark <= 2; ++mark) {
+    disk.block(true);
+    sender.push(1);
+    disk.await_call();
+    sender.push(2000);
+    disk.block(false);
+    if (mark == 1) {
+      REQUIRE(await([&] { return journal.ring().high_water_percent > 90 && sender.rests(); }));
+      sender.push(1);
+      sender.settle();
+    }
+  }
+  CHECK_FALSE(journal.finish());
+  EventLogReader log(folder.beside("run.journal"));
+  std::vector<std::int64_t> sequences;
+  for (LogEvent event; log.next(&event);)
+    if (channel_from_name(event.channel) == Channel::kLost)
+      sequences.push_back(wire::read_int64(event.data, wire::kSequenceOffset));
+  CHECK(sequences == std::vector<std::int64_t>{1, 2});
+}
+
 TEST_CASE("the journal's thread allocates nothing, whatever the disk does") {
-  const test::TemporaryFile folder("unused", "");
+  const TemporaryFile folder("unused", "");
   Disk disk;
   DaemonConfig config = small_pieces(folder.beside("run.journal"));
   config.journal.total_mb = 0.3;
@@ -538,7 +736,6 @@ TEST_CASE("the journal's thread allocates nothing, whatever the disk does") {
   const auto before = thread_allocations();
   Journal journal(config, disk.hook());
   journal.open();
-  journal.start();
   Sender sender(&journal);
   sender.push_slowly(500);
   journal.keep();

@@ -91,6 +91,49 @@ TEST_CASE("a restarted daemon keeps the journal; the journal holds what the comm
   CHECK(effective_text(load_preset("phone_imu").source).find("preset:") == std::string::npos);
 }
 
+TEST_CASE("the log names the pieces that are kept of a run that crashed") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  {
+    test::DaemonProgram daemon({"--journal", path});
+    REQUIRE(daemon.says("no solution yet"));
+    daemon.signal(SIGKILL);
+    CHECK(daemon.stop() == 128 + SIGKILL);
+  }
+  test::DaemonProgram daemon({"--journal", path});
+  CHECK(daemon.says("journal: " + path + ".kept is kept"));
+  CHECK(daemon.says("journal " + path + " exists and is kept; writing " + path + ".1"));
+  CHECK(daemon.stop() == 0);
+}
+
+TEST_CASE("a service whose journal cannot be written starts, and says so") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("later/run.journal");
+  test::DaemonProgram daemon({"--journal", path});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  CHECK(daemon.says("journal (" + path + ": cannot be written: No such file"));
+  std::filesystem::create_directory(folder.beside("later"));
+  CHECK(daemon.says("journal: written again, in piece 1"));
+  CHECK(daemon.stop() == 0);
+  CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("a journal that can never be written is told at once") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("file", "");
+  const auto start = [&](const std::string& path) {
+    return test::run_program("leonavd", kConfig + "--lcm-url memq:// --journal '" + path + "'");
+  };
+  const auto inside = start(file.path() + "/run.journal");
+  CHECK(inside.exit_code == 5);
+  CHECK(inside.err.find("run.journal: cannot be created: Not a directory") != std::string::npos);
+  const auto kept = start(file.beside("run.kept"));
+  CHECK(kept.exit_code == 3);
+  CHECK(kept.err.find("--set journal.path: 'run.kept' is the name of") != std::string::npos);
+}
+
 TEST_CASE("leonavd --check prints the effective configuration, or says what is wrong") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile file("vehicle.yaml",

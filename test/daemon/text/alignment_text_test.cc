@@ -15,13 +15,13 @@ TEST_CASE("what an alignment lacks, in words") {
   CHECK(to_text({Lacking::kGravity}, config) ==
         "no level yet: the IMU is shaken, or its specific force is not of gravity's length");
   CHECK(to_text({Lacking::kNorth, 11.2}, config) ==
-        "standing: the gyros need 12 s more to find north");
+        "standing: the gyros need up to 20 s more to find north");
   CHECK(to_text({Lacking::kDriving}, config) ==
         "no heading: drive faster than 2 m/s for 6 s, or set_heading");
   config.confirming_s = 3.0;
   CHECK(to_text({Lacking::kDriving}, config) ==
         "no heading: drive faster than 2 m/s for 9 s, or set_heading");
-  CHECK(to_text({Lacking::kCourse, 3.0}, config) == "no heading yet: drive on for 3 s more");
+  CHECK(to_text({Lacking::kCourse, 3.0}, config) == "no heading yet: drive on for up to 5 s more");
   CHECK(to_text({Lacking::kGear}, config) ==
         "no heading: forward or in reverse? speed up, turn, or drive faster than 5 m/s");
 }

@@ -2,10 +2,13 @@
 #include "drivers/lcm/journal_pieces.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "drivers/lcm/event_header.h"
 #include "drivers/lcm/event_log.h"
@@ -65,29 +68,26 @@ std::vector<std::int64_t> from_to(std::int64_t first, std::int64_t last) {
 
 }  // namespace
 
-TEST_CASE("names of pieces are taken apart and put together") {
-  const auto check = [](const char* text, const char* journal, std::int64_t number, bool kept) {
-    INFO(text);
+TEST_CASE("names of pieces are taken apart by the rule of the table, and put together") {
+  std::ifstream table(LEONAV_SOURCE_DIR "/test/drivers/lcm/piece_names.txt");
+  int names = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.starts_with("#")) continue;
+    INFO(line);
+    std::istringstream words(line);
+    std::string text, journal, kept;
+    std::int64_t number = 0;
+    REQUIRE(words >> text >> journal >> number >> kept);
     const PieceName name = parse_piece_name(text);
     CHECK(name.journal == journal);
     CHECK(name.number == number);
-    CHECK(name.kept == kept);
+    CHECK(name.kept == (kept == "yes"));
     char again[64];
     REQUIRE(format_piece_name(name, again));
-    CHECK(std::string(again) == text);
-  };
-  check("a", "a", 1, false);
-  check("a.1", "a.1", 1, false);
-  check("a.part0002", "a", 2, false);
-  check("a.1.part12345.kept", "a.1", 12345, true);
-  check("a.kept", "a", 1, true);
-  // No endings of ours.
-  check("a.part0001", "a.part0001", 1, false);
-  check("a.part2", "a.part2", 1, false);
-  check("a.part00x2", "a.part00x2", 1, false);
-  check("a.part9999999999", "a.part9999999999", 1, false);
-  check(".part0002", ".part0002", 1, false);
-  check(".kept", ".kept", 1, false);
+    if (text != "a.part00002") CHECK(std::string(again) == text);  // which is not written so
+    ++names;
+  }
+  CHECK(names == 22);
   char small[8];
   CHECK_FALSE(format_piece_name({"journal", 2}, small));
 }
@@ -111,6 +111,9 @@ TEST_CASE("marks of a journal come through bytes and back; damaged ones are refu
   CHECK(lost->solutions == 5);
   CHECK(lost->others == 9);
   CHECK_FALSE(decode_piece(encode_piece({1, 0, 0, RecordedOutputs::kAll})));
+  CHECK(decode_piece(encode_piece({kGreatestRun, 1, 0, RecordedOutputs::kAll})));
+  for (const std::int64_t run : {std::int64_t{-1}, kGreatestRun + 1})
+    CHECK_FALSE(decode_piece(encode_piece({run, 1, 0, RecordedOutputs::kAll})));
   CHECK_FALSE(decode_piece(encode_piece({1, 1, -1, RecordedOutputs::kAll})));
   CHECK_FALSE(decode_piece(encode_piece({1, 1, 1, static_cast<RecordedOutputs>(3)})));
   CHECK_FALSE(decode_refused(encode_refused({Channel::kSolution, InputFault::kTooMany, 1}, 1)));
@@ -194,11 +197,61 @@ TEST_CASE("a folder without pieces, or with the same piece twice, is refused wit
   write_piece(journal + ".part0002.kept", {5, 2}, 10, 19);
   CHECK_THROWS_WITH(EventLogReader(journal),
                     Catch::Matchers::Contains("is the same piece of a journal as"));
-  fs::remove(journal + ".part0002.kept");
-  std::ofstream file(journal, std::ios::binary | std::ios::app);
-  write_event(&file, std::numeric_limits<std::int64_t>::max(), "X_IMU", kByte);
-  file.close();
-  CHECK_THROWS_WITH(read(journal), Catch::Matchers::Contains("the log is damaged"));
+}
+
+TEST_CASE("a damaged event number inside a piece is damage, named with its byte") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string journal = folder.beside("run");
+  // Where a piece's beginning ends, and the length of an event behind it.
+  write_piece(journal, {5, 1}, 2, 1);
+  const auto beginning = static_cast<std::streamoff>(fs::file_size(journal));
+  const std::streamoff length = kEventHeaderBytes + 5 + 1;
+  const auto read_with = [&](std::streamoff event, std::int64_t number) {
+    write_piece(journal, {5, 1}, 2, 9);
+    write_piece(journal + ".part0002", {5, 2}, 8, 15);
+    std::fstream file(journal + ".part0002", std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(beginning + event * length);
+    const EventHeaderBytes header = encode_event_header({number, 1, 5, 1});
+    file.write(reinterpret_cast<const char*>(header.data()), header.size());
+    file.close();
+    return read(journal).list;
+  };
+  CHECK(read_with(5, 13) == from_to(0, 15));
+  for (const std::int64_t number :
+       {std::int64_t{-1}, std::int64_t{3}, std::int64_t{12}, std::int64_t{14}, std::int64_t{1000},
+        std::numeric_limits<std::int64_t>::max()}) {
+    INFO(number);
+    CHECK_THROWS_WITH(read_with(5, number),
+                      journal + ".part0002: byte " + std::to_string(beginning + 5 * length) +
+                          ": event with the number " + std::to_string(number) +
+                          " instead of 13; the log is damaged");
+  }
+  // Behind the mark too; the number behind its own is that of a log that a program has copied.
+  CHECK_THROWS_WITH(read_with(0, 9), Catch::Matchers::Contains(" 9 instead of 8; "));
+  write_piece(journal, {5, 4}, 100, 99);
+  std::ofstream copied(journal, std::ios::binary | std::ios::app);
+  for (std::int64_t i = 2; i <= 5; ++i) write_event(&copied, i, "X_IMU", kByte);
+  copied.close();
+  fs::remove(journal + ".part0002");
+  CHECK(read(journal).list == from_to(0, 5));
+}
+
+TEST_CASE("sizes of files with holes do not overflow their sum") {
+  if (!fs::exists("/dev/shm")) return;
+  std::string name = "/dev/shm/leonav-test-XXXXXX";
+  REQUIRE(::mkdtemp(name.data()) != nullptr);
+  const std::string journal = name + "/run";
+  write_piece(journal, {5, 1}, 2, 9);
+  bool made = true;
+  for (int number = 2; number <= 4; ++number) {
+    const std::string path = journal + ".part000" + std::to_string(number);
+    write_piece(path, {5, number}, 10, 9);
+    std::error_code error;
+    fs::resize_file(path, std::uintmax_t{1} << 62, error);
+    made = made && !error;
+  }
+  if (made) CHECK(EventLogReader(journal).size_bytes() == std::numeric_limits<std::int64_t>::max());
+  fs::remove_all(name);
 }
 
 TEST_CASE("the end mark is seen at the end of a file alone") {

@@ -280,7 +280,7 @@ TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
   CHECK_THAT(message("imu: {a: b}\n", good), Contains("set.yaml:1"));
   CHECK_THAT(message("name: s\nname: t\n", good), Contains("set.yaml:2") && Contains("twice"));
   CHECK_THAT(message("name: s\n---\nobservations: a.obs\n", good),
-             Contains("set.yaml:3") && Contains("second document"));
+             Contains("set.yaml:2") && Contains("second document"));
   CHECK_THAT(message("observations: b.obs\n", good), Contains("b.obs"));
   CHECK_THAT(message("observations: a.obs\n", kObservations), Contains("no usable epoch"));
   CHECK_THAT(message("observations: [a.obs, a.obs]\nnavigation: a.obs\n", good),

@@ -31,7 +31,7 @@ except ImportError as missing:
 import lcm_log  # noqa: E402
 from generated_types import generated_types  # noqa: E402
 import leonav  # noqa: E402
-from leonav import event_log, gps_time, lcm_types, names  # noqa: E402
+from leonav import event_log, gps_time, lcm_types, names, pieces  # noqa: E402
 from leonav.live import Assembler  # noqa: E402
 
 BIN = None
@@ -251,6 +251,42 @@ class Pieces(unittest.TestCase):
         self.assertIn("1 messages are missing with pieces that are gone", self.counts("run")[3][0])
         os.remove(self.folder / "run.part0002.kept")
         self.assertIn("7 messages are missing", self.counts("run")[3][0])
+
+    def test_names_are_taken_apart_by_the_rule_of_the_table(self):
+        table = (ROOT / "test/drivers/lcm/piece_names.txt").read_text().splitlines()
+        for name, journal, number, kept in (line.split() for line in table if not line.startswith("#")):
+            found = pieces.NAME.fullmatch(name)
+            with self.subTest(name):
+                self.assertEqual((found["journal"], int(found["number"] or 1), bool(found["kept"])), (journal, int(number), kept == "yes"))
+
+    def test_a_damaged_event_number_is_damage(self):
+        self.write("run", 5, 1, 2, 9)
+        self.write("run.part0002", 5, 2, 8, 15)
+        part = self.folder / "run.part0002"
+        whole, length = part.read_bytes(), event_log.HEADER.size + len("X_IMU") + 1
+        at = len(whole) - 3 * length
+        for number in (-1, 3, 12, 14, 1 << 62):
+            part.write_bytes(whole[:at + 4] + struct.pack(">q", number) + whole[at + 12:])
+            with self.assertRaisesRegex(leonav.LeonavError, f"run.part0002: byte {at}: an event with the number {number} instead of 13"):
+                self.counts("run")
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                read = [event.channel for event in leonav.events(self.folder / "run", "skip")]
+            self.assertEqual(read.count("X_IMU"), 13)
+            self.assertIn("1 events whose numbers are wrong are left out", str(told[0].message))
+
+    def test_a_log_from_a_later_piece_on_says_that_it_replays_as_another_run(self):
+        self.write("run", 5, 1, 2, 9)
+        self.write("run.part0002", 5, 2, 10, 19)
+        self.assertIn("the log begins with piece 2 of its run; a replay of it is another run", self.counts("run.part0002")[3][0])
+        self.assertEqual(self.counts("run")[3], [])
+
+    def test_a_run_that_no_clock_gives_is_no_piece(self):
+        self.write("run", 5, 1, 2, 9)
+        for run in (-1, pieces.GREATEST_RUN + 1):
+            self.write("run.part0002", run, 2, 10, 19)
+            self.assertIsNone(pieces.piece_of(self.folder / "run.part0002"))
+        self.assertIsNotNone(pieces.piece_of(self.folder / "run"))
 
     def test_several_runs_in_a_folder_are_told_apart(self):
         self.write("run", 5, 1, 2, 9)

@@ -46,9 +46,12 @@ def events(path, damaged="raise") -> Iterator[Event]:
         for _, event in _events_of(path, damaged):
             yield event
         return
+    if pieces[0].number > 1:
+        warnings.warn(f"{path}: the log begins with piece {pieces[0].number} of its run; a replay of it is another run, because the state "
+                      "in which it begins follows from the pieces before it. Give the first piece", LeonavWarning, stacklevel=2)
     following, missing = 0, 0
     for piece in pieces:
-        for number, event in _events_of(piece.path, damaged, is_last=piece == pieces[-1]):
+        for number, event in _numbered(piece, damaged, is_last=piece == pieces[-1]):
             if number < following:  # the beginning of a piece again, or what a failing disk had taken after all
                 continue
             missing += number - following
@@ -56,6 +59,30 @@ def events(path, damaged="raise") -> Iterator[Event]:
             yield event
     if missing:
         warnings.warn(f"{path}: {missing} messages are missing with pieces that are gone", LeonavWarning, stacklevel=2)
+
+
+def _numbered(piece, damaged, is_last):
+    """Yields the events of a piece with their numbers, of which each follows on the one before; another number is damage.
+
+    Behind the mark PIECE stands the number that it names, or where a program has copied the log, the next one. With damaged="skip" an event whose number cannot be is left out. Where bytes were left out before it, it can be a later one.
+    """
+    expected, copied, end, left_out, first_damage = 0, None, 0, 0, None
+    for number, event in _events_of(piece.path, damaged, is_last):
+        most = expected + max(0, event.offset - end) // (HEADER.size + 1)  # behind as many events as were left out
+        end = event.offset + HEADER.size + len(event.channel.encode(errors="replace")) + len(event.data)
+        if not expected <= number <= most and number != copied:
+            if damaged == "raise":
+                raise LeonavError(f"{piece.path}: byte {event.offset}: an event with the number {number} instead of {expected}; the log is "
+                                  "damaged; read what is good with damaged='skip'")
+            first_damage = event.offset if first_damage is None else first_damage
+            left_out, expected, copied = left_out + 1, expected + 1, None
+            continue
+        is_mark = number <= 1 and event.channel.endswith("PIECE")
+        expected, copied = (piece.first, number + 1) if is_mark else (number + 1, None)
+        yield number, event
+    if left_out:
+        warnings.warn(f"{piece.path}: byte {first_damage}: the log is damaged; {left_out} events whose numbers are wrong are left out",
+                      LeonavWarning, stacklevel=5)
 
 
 def _events_of(path, damaged, is_last=True):

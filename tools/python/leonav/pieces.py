@@ -10,7 +10,9 @@ HEADER = struct.Struct(">4sqqII")
 SYNC = b"\xed\xa1\xda\x01"
 MOST_CHANNEL_BYTES = 999
 PIECE = struct.Struct(">8xqqiqqb")  # piece_t behind its fingerprint: time, number, schema, run, first event, outputs
-NAME = re.compile(r"(?P<journal>.+?)(\.part(?P<number>[0-9]{4,9}))?(\.kept)?", re.DOTALL)
+GREATEST_RUN = 7_258_118_400_000_000  # the year 2200, as in drivers/lcm/journal_marks.h
+# As parse_piece_name of drivers/lcm: a number is 2 or more, and what is no ending belongs to the journal's name.
+NAME = re.compile(r"(?P<journal>.+?)(\.part(?P<number>(?!0*[01](?![0-9]))[0-9]{4,9}))?(?P<kept>\.kept)?", re.DOTALL)
 
 
 class Piece(NamedTuple):
@@ -19,6 +21,7 @@ class Piece(NamedTuple):
     number: int  # from 1
     path: str
     run: int  # the same in all pieces of a run
+    first: int  # number of the first event behind its mark
 
 
 def piece_of(path):
@@ -39,8 +42,9 @@ def piece_of(path):
                     data = file.read(data_bytes) if data_bytes == PIECE.size else b""
                     if len(data) != PIECE.size:
                         return None
-                    _, number, _, run, _, _ = PIECE.unpack(data)
-                    return Piece(number, os.fspath(path), run) if number > 0 else None
+                    _, number, _, run, first, _ = PIECE.unpack(data)
+                    good = number > 0 and first >= 0 and 0 <= run <= GREATEST_RUN
+                    return Piece(number, os.fspath(path), run, first) if good else None
                 if not channel.endswith(b"CONFIG"):
                     return None
                 file.seek(data_bytes, os.SEEK_CUR)

@@ -120,7 +120,7 @@ TEST_CASE("an arc that was joined may have a wrong join, by its length and proba
   const FaultHypothesis* wrong = find(after, update.moved_n(3, 0.8));
   REQUIRE(wrong != nullptr);
   CHECK(wrong->probability >= 0.02);
-  CHECK(wrong->probability < 0.021);
+  CHECK(wrong->probability < 0.0225);  // with that of a missed slip
 }
 
 TEST_CASE("the separation of a drifting satellite is what its carrier moves a fit by") {

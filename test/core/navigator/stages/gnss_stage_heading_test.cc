@@ -42,7 +42,8 @@ TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading sp
 
 TEST_CASE("commands are answered; a heading across the motion is refused, a reversed one is not") {
   const SyntheticDrive drive = drive_of(90.0);
-  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.alignment.heading_watch = true;  // it drives along its axis
   RecordingSink sink;
   Navigator pipeline(config, &sink);
   bool told = false;

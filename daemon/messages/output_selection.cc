@@ -1,4 +1,4 @@
-#include "daemon/journal/internal/output_selection.h"
+#include "daemon/messages/output_selection.h"
 
 #include "core/base/gps_time.h"
 #include "drivers/lcm/wire.h"
@@ -6,10 +6,10 @@
 namespace leonav {
 
 bool OutputSelection::contains(Channel channel, ByteSpan bytes) {
-  const bool thinned = outputs_ == JournalOutputs::kThinned;
+  const bool thinned = outputs_ == RecordedOutputs::kThinned;
   switch (channel) {
     case Channel::kSolution: {
-      if (outputs_ == JournalOutputs::kAll) return true;
+      if (outputs_ == RecordedOutputs::kAll) return true;
       if (!thinned || bytes.size() < wire::kTimeOffset + 8) return false;
       const auto second = wire::read_int64(bytes, wire::kTimeOffset) / kNanosecondsPerSecond;
       if (second == last_second_) return false;
@@ -19,7 +19,7 @@ bool OutputSelection::contains(Channel channel, ByteSpan bytes) {
     case Channel::kEpoch:
     case Channel::kConstraints:
     case Channel::kSmoothed:
-      return outputs_ != JournalOutputs::kNone;
+      return outputs_ != RecordedOutputs::kNone;
     default:
       return true;
   }

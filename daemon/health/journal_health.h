@@ -1,0 +1,48 @@
+// JournalHealth judges once a second whether the journal is written, and does not flap.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "daemon/journal/journal.h"
+
+namespace leonav {
+
+enum class JournalTrouble : std::uint8_t {
+  kFails,       // cannot be written
+  kStalls,      // the disk does not answer
+  kLoses,       // messages are lost
+  kLeavesOut,   // solutions are left out
+  kUnsynced,    // the disk has not confirmed what was written
+  kUndeletable  // a piece cannot be deleted
+};
+inline constexpr std::size_t kJournalTroubles = 6;
+
+// What has been wrong is told until it has not been seen for kCalm_s: a disk that is barely fast
+// enough is in trouble every other second.
+class JournalHealth {
+ public:
+  // `now_s`: of a clock that never goes back.
+  void look(const Journal& journal, double now_s);
+
+  bool has(JournalTrouble trouble) const { return states_[static_cast<std::size_t>(trouble)].is; }
+  const std::string& last_failure() const { return failure_; }
+  // For the log, with the file and the reason where it cannot be written.
+  std::string text(JournalTrouble trouble) const;
+  static constexpr double kCalm_s = 10.0;
+
+ private:
+  struct State {
+    bool is = false;
+    double last_s = 0.0;  // when it was last seen
+  };
+  void note(JournalTrouble trouble, bool seen, double now_s);
+  void note_growth(JournalTrouble trouble, std::int64_t count, double now_s);
+
+  std::array<State, kJournalTroubles> states_;
+  std::array<std::int64_t, kJournalTroubles> counts_{};
+  std::string failure_;
+};
+
+}  // namespace leonav

@@ -1,0 +1,53 @@
+#include "daemon/journal/journal_check.h"
+
+#include <climits>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "daemon/config/load_config.h"
+#include "drivers/lcm/piece_name.h"
+
+namespace leonav {
+namespace {
+
+// The longest that may stand behind journal.path (journal_name.h, piece_name.h).
+constexpr std::size_t kLongestEnding = std::string_view(".9999.part999999999.kept").size();
+constexpr double kShortestPiece_s = 10.0;
+
+[[noreturn]] void refuse(const DaemonConfig& config, const std::string& key,
+                         const std::string& why) {
+  std::string where;
+  for (const ConfigKey& one : config.source.keys)
+    if (one.path == key && one.given) where = one.origin + (one.origin == "--set" ? " " : ": ");
+  throw ConfigError(where + key + ": " + why);
+}
+
+}  // namespace
+
+void require_journal(const DaemonConfig& config) {
+  const std::string& path = config.journal.path;
+  if (path.empty()) return;
+  const std::string name = std::filesystem::path(path).filename();
+  const PieceName piece = parse_piece_name(name);
+  if (piece.kept || piece.number > 1) {
+    refuse(config, "journal.path",
+           "'" + name + "' is the name of a later or a kept piece of '" +
+               std::string(piece.journal) + "'; give a name that does not end in " +
+               (piece.kept ? ".kept" : ".part and digits"));
+  }
+  if (name.size() + kLongestEnding > NAME_MAX || path.size() + kLongestEnding >= PATH_MAX) {
+    const bool is_name = name.size() + kLongestEnding > NAME_MAX;
+    const std::size_t most = is_name ? NAME_MAX : PATH_MAX - 1;
+    refuse(config, "journal.path",
+           std::string("the ") + (is_name ? "name" : "path") +
+               " is too long, because its pieces have up to " + std::to_string(kLongestEnding) +
+               " characters more; at most " + std::to_string(most - kLongestEnding) +
+               " characters are possible, these are " +
+               std::to_string(is_name ? name.size() : path.size()));
+  }
+  if (config.journal.piece_s > 0.0 && config.journal.piece_s < kShortestPiece_s)
+    refuse(config, "journal.piece_s", "must be at least 10, or 0 for pieces of any age");
+}
+
+}  // namespace leonav
