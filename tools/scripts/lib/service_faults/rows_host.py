@@ -1,0 +1,227 @@
+"""Faults of the machine that leonavd runs on: disks, memory, clock, network, processes, configuration."""
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import threading
+import time
+
+from service_faults import disks, stream
+from service_faults.row import Expected, Row, fault
+from service_faults.run import ROUTE
+
+ANY = "."
+
+
+def kill_and_start(run):
+    run.daemon.process.send_signal(signal.SIGKILL)
+    run.daemon.codes.append(run.daemon.process.wait())
+    run.daemon.start(wait=False)
+
+
+def first_answers(run, outputs, result):
+    """From when the second one listens on: the first SOLUTION, the first HEALTH without FAULT, the errors of the first 5 s."""
+    found = re.search(r"(\d\d):(\d\d):(\d\d\.\d+) \w+: running; LCM", run.daemon.said())
+    local = time.localtime(run.begin_wall_s)
+    begin_day_s = local.tm_hour * 3600 + local.tm_min * 60 + local.tm_sec + run.begin_wall_s % 1
+    listens = (int(found[1]) * 3600 + int(found[2]) * 60 + float(found[3]) - begin_day_s) % 86400 if found else math.inf
+    solution = outputs.first_after(listens)
+    health = next((one.t for one in outputs.health if one.t >= listens and one.status != "FAULT"), math.inf)
+    error, sigma, _, sigmas = outputs.worst(solution, solution + 5)
+    run.notes.append(f"listens after {listens - run.row.begin_s:.1f} s, first SOLUTION {solution - listens:.1f} s later, HEALTH without FAULT "
+                     f"{health - listens:.1f} s later; first 5 s: {error:.2f} m ({sigma:.2f}), {sigmas:.1f} sigmas")
+    result.at_most("listens", listens - run.row.begin_s, 5)
+    result.at_most("first SOLUTION after it listens", solution - listens, 2)
+    result.at_most("HEALTH without FAULT after it listens", health - listens, 3)
+    result.at_most("error / sigma of the first 5 s", sigmas, 5, "")
+
+
+def start_second(run):
+    run.second = subprocess.Popen([str(word) for word in run.daemon.command()], stderr=subprocess.PIPE, text=True)
+    run.second_s = time.monotonic()
+
+    def wait():
+        run.second_text = run.second.communicate()[1]
+        run.second_s = time.monotonic() - run.second_s
+    run.second_thread = threading.Thread(target=wait, daemon=True)
+    run.second_thread.start()
+
+
+def second_is_refused(run, outputs, result):
+    run.second_thread.join(timeout=1)
+    code = run.second.poll()
+    result.must(code == 4, f"exit code of the second {code}")
+    if code is None:
+        run.second.kill()
+        return
+    result.at_most("the second ends", run.second_s, 5)
+    result.must("another leonavd" in run.second_text, f"the second said: {run.second_text.strip()[-200:]}")
+    run.notes.append(f"exit code {code} after {run.second_s:.1f} s")
+
+
+def delete_route(run):
+    subprocess.run(["ip", "route", "del", "224.0.0.0/4"], check=True)
+
+
+def restore_route(run):
+    subprocess.run(ROUTE, check=True)
+
+
+def damage_checkpoints(run):
+    run.folder.joinpath("checkpoint.yaml").write_bytes(b"leonav: [\x00\xff, {position:\n" * 40)
+    run.folder.joinpath("checkpoint.yaml.products").write_bytes(b"\xed\xa1\xda\x01" + bytes(range(256)) * 40)
+
+
+def damage_is_told(run, outputs, result):
+    for words in ("checkpoint ignored", "broadcast products ignored"):
+        line = run.daemon.has_said(words)
+        result.must(line, f"leonavd did not say '{words}'")
+        result.must(not line or "warn" in line, f"no warning: {line}")
+
+
+def stop_under_load(run):
+    def stop():
+        run.stopped = run.daemon.stop()
+    run.stopper = threading.Thread(target=stop, daemon=True)
+    run.stopper.start()
+
+
+def stops_in_time(run, outputs, result):
+    run.stopper.join(timeout=30)
+    took, code = run.stopped
+    run.notes.append(f"exit code {code} after {took:.1f} s")
+    result.at_most("end after SIGTERM", took, 5)
+
+
+def starts_and_ends(run, options, limit_s, memory_mb=None):
+    """(exit code, s, what it said) of a leonavd that should end by itself; None: it runs, and ended well after SIGTERM."""
+    daemon = run.make_daemon(memory_mb=memory_mb)
+    daemon.options += options
+    daemon.starts = run.starts = getattr(run, "starts", 0)
+    daemon.start(wait=False)
+    run.starts += 1
+    begin = time.monotonic()
+    while time.monotonic() < begin + limit_s and daemon.process.poll() is None and "running; LCM" not in daemon.said():
+        time.sleep(0.02)
+    took, code = time.monotonic() - begin, daemon.process.poll()
+    if code is None:
+        code = None if "running; LCM" in daemon.said() and daemon.stop()[1] == 0 else math.nan
+    daemon.kill()
+    return code, took, daemon.said()
+
+
+def no_route(run, result):
+    code, took, text = starts_and_ends(run, [], 10)
+    result.must(code == 4, f"exit code {code}")
+    result.at_most("it ends", took, 5)
+    result.must("ip route add 224.0.0.0/4 dev lo" in text, f"no remedy: {text.strip()[-200:]}")
+    run.notes.append(f"exit code {code} after {took:.1f} s")
+
+
+def comma(run, result):
+    config = run.folder / "comma.yaml"
+    config.write_text(", preset: urban\nvehicle:\n  kind: car\n")
+    daemon = run.make_daemon()
+    begin = time.monotonic()
+    command = f"ulimit -v {2 << 20}; exec {daemon.bin}/leonavd --config {config}"
+    try:
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False, timeout=30)
+        code, text = done.returncode, done.stderr
+    except subprocess.TimeoutExpired:
+        code, text = None, "it did not end within 30 s"
+    took = time.monotonic() - begin
+    result.must(code == 3, f"exit code {code}: {text.strip()[-200:]}")
+    result.at_most("it ends", took, 5)
+    result.must("comma.yaml" in text, f"the file is not named: {text.strip()[-200:]}")
+    run.notes.append(f"exit code {code} after {took:.1f} s: `{(text.strip().splitlines() or ['nothing'])[-1].split('leonavd')[-1][-120:]}`")
+
+
+MEMORY_MB = (16, 32, 64, 128, 192, 256, 384, 512, 1024)
+
+
+def little_memory(run, result):
+    words = []
+    for memory in MEMORY_MB:
+        code, took, text = starts_and_ends(run, [], 20, memory)
+        last = (text.strip().splitlines() or [""])[-1]
+        words.append(f"{memory} MB: " + ("runs" if code is None else f"exit code {code}"))
+        if code is None:
+            continue
+        result.must(code in (1, 3, 4, 5, 127), f"{memory} MB: exit code {code}: {last[-100:]}")
+        result.must(last, f"{memory} MB: it says nothing")
+        result.must(re.search("memory|alloc|thread|map", text), f"{memory} MB: memory is not named: {last[-160:]}")
+    result.must(words[-1].endswith("runs"), f"{words[-1]}")
+    run.notes.append(", ".join(words))
+
+
+FAKETIME = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1"
+
+
+def faketime_library():
+    return next((str(path) for path in (FAKETIME, FAKETIME.replace("x86_64", "aarch64")) if os.path.exists(path)), None)
+
+
+def why_no_faketime():
+    return "" if faketime_library() else "the library libfaketime is missing (Debian: faketime); a time namespace has no clock of day"
+
+
+def clock_file(run):
+    return run.folder / "clock.txt"
+
+
+def fake_clock(run):
+    clock_file(run).write_text("+0\n")
+    run.row.daemon["environment"] = {
+        "LD_PRELOAD": faketime_library(), "FAKETIME_TIMESTAMP_FILE": str(clock_file(run)), "FAKETIME_NO_CACHE": "1",
+        "FAKETIME_DONT_FAKE_MONOTONIC": "1", "DONT_FAKE_MONOTONIC": "1"}
+
+
+def step_clock(run):
+    clock_file(run).write_text("+3600\n")
+
+
+def clock_has_stepped(run, outputs, result):
+    """Else the row would show nothing."""
+    lines = re.findall(r"(\d\d):(\d\d):\d\d\.\d+ \w+:", run.daemon.said())
+    minutes = [int(hour) * 60 + int(minute) for hour, minute in lines]
+    stepped = any(55 <= (b - a) % 1440 <= 65 for a, b in zip(minutes, minutes[1:]))
+    run.notes.append("its log has stepped by an hour" if stepped else "its log has not stepped")
+    result.must(stepped, "the clock did not step")
+
+
+def much_junk(row, messages):
+    return stream.junk(40, row.duration_s, 10)(messages)
+
+
+
+ROWS = [
+    Row("disk-full", "journal's disk full for 20 s", end_s=80, after_s=40, daemon={"journal_folder": "disk"}, skipped=disks.why_no_tmpfs,
+        before=disks.mount_tmpfs, actions=((60, disks.fill), (80, disks.free)), expected=fault("FAULT", reason="journal", ok_s=20), quick=True),
+    Row("disk-stalled", "journal's disk does not answer for 30 s", end_s=90, after_s=40, daemon={"journal_folder": "disk"},
+        skipped=disks.why_no_freeze, before=disks.mount_loop, actions=((60, disks.freeze), (90, disks.thaw)), after=disks.thaw,
+        expected=fault("DEGRADED", reason="the disk does not answer", told_s=10, ok_s=15)),
+    Row("folder-removed", "journal's folder removed, and made again after 30 s", end_s=90, after_s=40,
+        actions=((60, disks.remove), (90, disks.make_again)), expected=fault("DEGRADED", "FAULT", reason="journal", told_s=10, ok_s=20, replays=False)),
+    Row("kill-restart", "kill -9 in motion, started at once, no orbits sent again", begin_s=120, end_s=120, after_s=100, knows_heading=False,
+        change=lambda row, messages: stream.products_stop(row.begin_s)(messages), actions=((120, kill_and_start),),
+        judge=first_answers, expected=fault("DEGRADED", "FAULT", reason="no solution yet|aligning", gap_s=7, worst_m=6, ok_s=90, back_s=7,
+                                            exit_codes=(-9, 0))),
+    Row("second-instance", "a second leonavd on the same channels", after_s=20, actions=((60, start_second),), judge=second_is_refused,
+        expected=Expected(), quick=True),
+    Row("no-route", "no multicast route at the start", has_route=False, check=no_route, quick=True),
+    Row("route-removed", "multicast route removed for 15 s", end_s=75, after_s=100, actions=((60, delete_route), (75, restore_route)),
+        health_by_log=True, expected=fault("DEGRADED", "FAULT", reason="no usable (IMU|GNSS)", gap_s=18, ok_s=90, back_s=3, worst_m=8)),
+    Row("host-clock", "host clock steps by an hour", after_s=40, skipped=why_no_faketime, before=fake_clock, actions=((60, step_clock),),
+        judge=clock_has_stepped, expected=Expected()),
+    Row("smoother-late", "smoother late at every third epoch (drill)", begin_s=0, end_s=120, after_s=0,
+        options=("--set", "drill.late_solve_every=3"), expected=fault("DEGRADED", reason="smoother late", told_s=60, ok_s=None)),
+    Row("comma", "configuration begins with a comma, 2 GB of memory", check=comma, quick=True),
+    Row("checkpoint-damaged", "checkpoint and ephemerides are junk at the start", begin_s=0, end_s=0, after_s=60, before=damage_checkpoints,
+        judge=damage_is_told, expected=Expected(allowed=ANY, ok_s=45, back_s=10), quick=True),
+    Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
+    Row("sigterm-under-load", "SIGTERM while junk comes at ten times the nominal rate", after_s=30, until_stopped=True, change=much_junk,
+        actions=((60, stop_under_load),), judge=stops_in_time,
+        expected=Expected(allowed=ANY, ok_s=None, gap_s=None, back_s=None), quick=True),
+]

@@ -1,0 +1,53 @@
+"""Faults of satellites, their orbits, and the antenna."""
+import math
+
+from service_faults import stream
+from service_faults.row import Expected, Row, fault
+
+MEDIUM = ("gps", "galileo", "beidou")
+FREQUENT_NODES = tuple(f"satellites.{system}.node_interval_s=30" for system in MEDIUM)
+NO_GNSS = "no usable GNSS|INS only"
+# Of the simulator's sky at this time: high all the time, as stream.strongest finds.
+SATELLITE = "G01"
+
+
+def script(kind, begin, end, **keys):
+    words = ", ".join(f"{key}: {value}" for key, value in {"kind": kind, "from_s": begin, "to_s": end, **keys}.items())
+    return (f"faults=[{{{words}}}]",)
+
+
+def all_measured(begin, end):
+    return script("outage", begin, end)
+
+
+def satellite_fault(run, outputs, result):
+    found = next((event.t - run.row.begin_s for event in outputs.events if event.kind == 23), math.inf)
+    run.notes.append(f"event `satellite_fault` after {found:.0f} s" if math.isfinite(found) else "no event `satellite_fault`")
+
+
+CONTRADICTS = "contradict|off by a metre|drift away"
+ROWS = [
+    Row("gnss-lost-60s", "no satellite for 60 s", end_s=120, after_s=100, scenario=all_measured(60, 120),
+        expected=fault("DEGRADED", reason=NO_GNSS, worst_m=10, ok_s=80)),
+    Row("gnss-lost-5min", "no satellite for 5 min", begin_s=120, end_s=420, after_s=100, scenario=all_measured(120, 420),
+        expected=fault("DEGRADED", reason=NO_GNSS, worst_m=60, ok_s=90)),
+    Row("leo-lost", "no LEO satellite for 60 s", end_s=120, after_s=40, scenario=script("outage", 60, 120, systems="[leo]"),
+        expected=Expected()),
+    Row("orbits-stale", "precise orbits and clocks stop coming for 2 min", end_s=180, after_s=60, scenario=FREQUENT_NODES,
+        change=lambda row, messages: stream.orbits_stop(row.begin_s, row.end_s)(messages),
+        expected=fault("DEGRADED", reason="no precise orbit or correction", told_s=100, worst_m=4, ok_s=30)),
+    Row("orbits-off", "precise orbits of all systems 15 m off along for 60 s", end_s=120, after_s=100,
+        scenario=(*FREQUENT_NODES, *script("bad_orbit", 60, 120, along_m=15)),
+        expected=fault("DEGRADED", reason=CONTRADICTS, told_s=60, worst_m=8, ok_s=90)),
+    Row("clock-jump", "one satellite's clock jumps by 100 m", end_s=120, after_s=40,
+        scenario=script("satellite_clock", 60, 120, satellites=f"[{SATELLITE}]", jump_m=100), judge=satellite_fault, expected=Expected()),
+    Row("spoofed-satellite", "one satellite spoofed by 1 m/s for 60 s", end_s=120, after_s=40,
+        scenario=script("spoofing", 60, 120, satellites=f"[{SATELLITE}]", pull_m_s=1, pull_time_s=1), judge=satellite_fault,
+        expected=Expected()),
+    Row("spoofed-system", "Galileo spoofed by 0.5 m/s for 60 s", end_s=120, after_s=100,
+        scenario=script("spoofing", 60, 120, systems="[galileo]", pull_m_s=0.5, pull_time_s=1), judge=satellite_fault,
+        expected=fault("DEGRADED", reason=CONTRADICTS, told_s=30, worst_m=4, ok_s=None)),
+    Row("lever-arm", "antenna 2 m behind the configured place", begin_s=0, end_s=240, after_s=0,
+        options=("--set", "vehicle.lever_arm_b_m=[2, 0, -1.2]"),
+        expected=fault("DEGRADED", reason="lever arm", told_s=200, worst_m=4, sigmas=None, ok_s=None, back_s=None)),
+]
