@@ -102,7 +102,8 @@ class Recorder:
         self.log = folder / "outputs.lcmlog"
         self.log.unlink(missing_ok=True)
         self.text = open(folder / "lcm-logger.txt", "w", encoding="utf-8")
-        self.process = subprocess.Popen(["lcm-logger", "-f", "-q", "--flush-interval=100", "-l", URL, "-c", OUTPUTS, str(self.log)],
+        self.process = subprocess.Popen(["lcm-logger", "-f", "-q", "--flush-interval=100", f"--lcm-url={URL}", "-c", OUTPUTS,
+                                         str(self.log)],
                                         stdout=self.text, stderr=self.text)
         time.sleep(0.3)
 

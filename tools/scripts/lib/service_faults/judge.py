@@ -3,6 +3,7 @@ import math
 import re
 import subprocess
 
+from service_faults import said
 from service_faults.recorded import Outputs, Truth
 
 SETTLED_BEFORE_S = 10  # errors and gaps count from so long before the fault on
@@ -29,9 +30,9 @@ class Judgement:
 
 
 def first_reason(why):
-    """Without its remedy."""
+    """Without its remedy, which stands behind the last colon."""
     reason = why.split("; ")[0]
-    return re.sub(r"(?<=[a-z)]): (?!the disk|messages|solutions|/)[^:]*$", "", reason) if ": " in reason else reason
+    return reason if reason.endswith(")") else reason.rsplit(": ", 1)[0]
 
 
 def judge_health(row, outputs, result):
@@ -103,6 +104,8 @@ def replay(row, run, result):
 def judged(row, run):
     result = Judgement()
     outputs = Outputs(run.folder / "outputs.lcmlog", Truth(run.drive.truth), run.begin_wall_s)
+    if row.health_by_log:
+        outputs.health = said.health_of(run.daemon.said(), run.begin_wall_s, run.last_s)
     judge_health(row, outputs, result)
     judge_solution(row, outputs, result, run.last_s)
     expected_codes = row.expected.exit_codes

@@ -18,6 +18,11 @@ LIB = pathlib.Path(__file__).resolve().parents[1]
 ROOT = LIB.parents[2]
 sys.path[:0] = [str(LIB), str(ROOT / "tools/python"), str(ROOT / "test/tools")]
 from live_program import namespace_command  # noqa: E402
+try:
+    import numpy  # noqa: F401
+except ImportError:
+    print("SKIPPED: the Debian package python3-numpy is missing")
+    sys.exit(77)
 from service_faults import judge, rows_host, rows_inputs, rows_satellites  # noqa: E402
 from service_faults.drive import Drive  # noqa: E402
 from service_faults.row import Row  # noqa: E402
