@@ -96,7 +96,8 @@ def replay(row, run, result):
         equal = done.returncode == 0 and found is not None
         words.append("equal" if equal else "differs")
         if row.expected.replays:
-            result.must(equal, f"replay of {journal.name}: " + (found[0] if found else (done.stderr.strip().splitlines() or ["nothing"])[-1]))
+            said_of_it = found[0] if found else (done.stderr.strip().splitlines() or ["nothing"])[-1]
+            result.must(equal, f"replay of {journal.name}: {said_of_it}")
     result.must(words or not row.expected.replays, "there is no journal")
     result.numbers["replay"] = ", ".join(words) or "-"
 

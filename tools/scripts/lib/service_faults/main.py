@@ -79,8 +79,8 @@ def run_alone(row, words, namespace):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "result.json").unlink(missing_ok=True)
     with open(folder / "run.txt", "w", encoding="utf-8") as text:
-        subprocess.run([*namespace, "-m", sys.executable, "-B", __file__, words.bin, words.out, "--one", row.name], stdout=text, stderr=text,
-                       check=False)
+        subprocess.run([*namespace, "-m", sys.executable, "-B", __file__, words.bin, words.out, "--one", row.name],
+                       stdout=text, stderr=text, check=False)
     try:
         return json.loads((folder / "result.json").read_text())
     except OSError:

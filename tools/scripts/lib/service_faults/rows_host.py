@@ -27,8 +27,8 @@ def first_answers(run, outputs, result):
     solution = outputs.first_after(listens)
     health = next((one.t for one in outputs.health if one.t >= listens and one.status != "FAULT"), math.inf)
     error, sigma, _, sigmas = outputs.worst(solution, solution + 5)
-    run.notes.append(f"listens after {listens - run.row.begin_s:.1f} s, first SOLUTION {solution - listens:.1f} s later, HEALTH without FAULT "
-                     f"{health - listens:.1f} s later; first 5 s: {error:.2f} m ({sigma:.2f}), {sigmas:.1f} sigmas")
+    run.notes.append(f"listens after {listens - run.row.begin_s:.1f} s, first SOLUTION {solution - listens:.1f} s later, HEALTH without "
+                     f"FAULT {health - listens:.1f} s later; first 5 s: {error:.2f} m ({sigma:.2f}), {sigmas:.1f} sigmas")
     result.at_most("listens", listens - run.row.begin_s, 5)
     result.at_most("first SOLUTION after it listens", solution - listens, 2)
     result.at_most("HEALTH without FAULT after it listens", health - listens, 3)
@@ -194,16 +194,18 @@ def much_junk(row, messages):
 
 ROWS = [
     Row("disk-full", "journal's disk full for 20 s", end_s=80, after_s=40, daemon={"journal_folder": "disk"}, skipped=disks.why_no_tmpfs,
-        before=disks.mount_tmpfs, actions=((60, disks.fill), (80, disks.free)), expected=fault("FAULT", reason="journal", ok_s=20), quick=True),
+        before=disks.mount_tmpfs, actions=((60, disks.fill), (80, disks.free)),
+        expected=fault("FAULT", reason="journal", ok_s=20), quick=True),
     Row("disk-stalled", "journal's disk does not answer for 30 s", end_s=90, after_s=40, daemon={"journal_folder": "disk"},
         skipped=disks.why_no_freeze, before=disks.mount_loop, actions=((60, disks.freeze), (90, disks.thaw)), after=disks.thaw,
         expected=fault("DEGRADED", reason="the disk does not answer", told_s=10, ok_s=15)),
     Row("folder-removed", "journal's folder removed, and made again after 30 s", end_s=90, after_s=40,
-        actions=((60, disks.remove), (90, disks.make_again)), expected=fault("DEGRADED", "FAULT", reason="journal", told_s=10, ok_s=20, replays=False)),
-    Row("kill-restart", "kill -9 in motion, started at once, no orbits sent again", begin_s=120, end_s=120, after_s=100, knows_heading=False,
-        change=lambda row, messages: stream.products_stop(row.begin_s)(messages), actions=((120, kill_and_start),),
-        judge=first_answers, expected=fault("DEGRADED", "FAULT", reason="no solution yet|aligning", gap_s=7, worst_m=6, ok_s=90, back_s=7,
-                                            exit_codes=(-9, 0))),
+        actions=((60, disks.remove), (90, disks.make_again)),
+        expected=fault("DEGRADED", "FAULT", reason="journal", told_s=10, ok_s=20, replays=False)),
+    Row("kill-restart", "kill -9 in motion, started at once, no orbits sent again", begin_s=120, end_s=120, after_s=100,
+        knows_heading=False, change=lambda row, messages: stream.products_stop(row.begin_s)(messages),
+        actions=((120, kill_and_start),), judge=first_answers,
+        expected=fault("DEGRADED", "FAULT", reason="no solution yet|aligning", gap_s=7, worst_m=6, ok_s=90, back_s=7, exit_codes=(-9, 0))),
     Row("second-instance", "a second leonavd on the same channels", after_s=20, actions=((60, start_second),), judge=second_is_refused,
         expected=Expected(), quick=True),
     Row("no-route", "no multicast route at the start", has_route=False, check=no_route, quick=True),

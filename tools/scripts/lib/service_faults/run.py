@@ -26,8 +26,9 @@ class Run:
 
     def clear(self):
         self.folder.mkdir(parents=True, exist_ok=True)
-        for old in (*self.folder.glob("leonavd*.txt"), *self.folder.glob("checkpoint*"), *self.folder.glob("journal/*"), *self.folder.glob("disk/*")):
-            old.unlink()
+        for pattern in ("leonavd*.txt", "checkpoint*", "journal/*", "disk/*"):
+            for old in self.folder.glob(pattern):
+                old.unlink()
 
     def make_drive(self):
         self.drive = Drive(self.bin, self.drives, self.row.duration_s, self.row.scenario)
@@ -35,7 +36,8 @@ class Run:
 
     def make_daemon(self, **keys):
         row = self.row
-        self.daemon = Daemon(self.bin, self.folder, row.options, heading_deg=self.drive.heading_deg() if row.knows_heading else None, **row.daemon, **keys)
+        heading_deg = self.drive.heading_deg() if self.drive and row.knows_heading else None
+        self.daemon = Daemon(self.bin, self.folder, row.options, heading_deg=heading_deg, **row.daemon, **keys)
         return self.daemon
 
     def journals(self):
