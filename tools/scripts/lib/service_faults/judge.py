@@ -8,6 +8,8 @@ from service_faults.recorded import Outputs, Truth
 
 SETTLED_BEFORE_S = 10  # errors and gaps count from so long before the fault on
 
+LATE_S = 0.3  # a message that leaves later than this is a fault that the row does not mean
+
 
 class Judgement:
     """Numbers of the table, and what was not as expected."""
@@ -107,6 +109,7 @@ def judged(row, run):
     outputs = Outputs(run.folder / "outputs.lcmlog", Truth(run.drive.truth), run.begin_wall_s)
     if row.health_by_log:
         outputs.health = said.health_of(run.daemon.said(), run.begin_wall_s, run.last_s)
+    outputs.health = [one for one in outputs.health if one.t <= run.last_s]  # behind it nothing comes any more
     judge_health(row, outputs, result)
     judge_solution(row, outputs, result, run.last_s)
     expected_codes = row.expected.exit_codes
@@ -114,5 +117,5 @@ def judged(row, run):
     replay(row, run, result)
     if row.judge:
         row.judge(run, outputs, result)
-    result.numbers["late_s"] = run.late_s
+    result.must(run.late_s < LATE_S, f"this machine was too slow: messages left up to {run.late_s:.1f} s late")
     return result
