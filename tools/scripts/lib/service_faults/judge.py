@@ -54,6 +54,8 @@ def judge_health(row, outputs, result):
     shown = told or (bad[0] if bad else None)
     result.numbers["told"] = f"{shown.status}: {first_reason(matching(shown.why, expected.reason))}" if shown else "OK"
     result.numbers["told_s"] = shown.t - begin if shown else None
+    at_end = [one for one in since if one.t < end]
+    result.must(not expected.stays or (at_end and at_end[-1].status != "OK"), "HEALTH is OK while the fault lasts")
     # From its end on, for good.
     late = [one for one in outputs.health if one.t >= end]
     last_bad = max((k for k, one in enumerate(late) if one.status != "OK"), default=-1)

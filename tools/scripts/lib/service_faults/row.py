@@ -14,6 +14,7 @@ class Expected:
     worst_m: float = 2.0
     sigmas: float = 5.0
     back_s: float = 2.0
+    stays: bool = False  # HEALTH is not OK at the fault's end
     replays: bool = True
     exit_codes: tuple = (0,)
 

@@ -23,6 +23,7 @@ class Run:
         self.sender, self.notes = Sender(), []
         self.drive = self.daemon = None
         self.begin_wall_s = self.last_s = self.late_s = 0.0
+        self.starts = 0  # of the daemon, where a row has several
 
     def clear(self):
         self.folder.mkdir(parents=True, exist_ok=True)

@@ -2,7 +2,7 @@
 import random
 import struct
 
-from service_faults.drive import EPOCH, IMU, ORBITS, PREFIX, PRODUCTS, stamp_ns, stamped
+from service_faults.drive import EPOCH, IMU, ORBITS, PREFIX, PRODUCTS, START_NS, stamp_ns, stamped
 
 IMU_FORMAT = struct.Struct(">8sqqiq6d")  # fingerprint, time, sequence, schema, interval, increments of angle and velocity
 OBSERVATION = struct.Struct(">bhbbdddffb")  # system, number, band, attribute, code, carrier, Doppler, C/N0, lock, flags
@@ -78,8 +78,14 @@ def imu_repeated(begin, end):
     return changed(IMU, begin, end, repeated)
 
 
-def orbits_stop(begin, end):
-    return without(ORBITS, begin, end)
+def orbits_stop(last_s, end):
+    """Orbits and clocks of times behind `last_s` do not come; at `end` all come that should have come by then."""
+    def result(messages):
+        late = [(t, name, data) for t, name, data in messages if name == ORBITS and stamp_ns(data) > START_NS + last_s * S and t < end]
+        gone = {id(data) for _, _, data in late}
+        kept = [message for message in messages if id(message[2]) not in gone]
+        return added(kept, [(end + 0.01 * k, name, data) for k, (_, name, data) in enumerate(late)])
+    return result
 
 
 def products_stop(begin):
