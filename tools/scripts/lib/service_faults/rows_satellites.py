@@ -69,6 +69,6 @@ ROWS = [
         expected=Expected(allowed=CONTRADICTS, ok_s=None)),
     Row("lever-arm", "antenna 2 m behind the configured place", begin_s=0, end_s=240, after_s=0,
         options=("--set", "vehicle.lever_arm_b_m=[2, 0, -1.2]"),
-        expected=fault("DEGRADED", reason="lever_arm_b_m", told_s=240, stays=True, worst_m=4, sigmas=None, ok_s=None,
+        expected=fault("DEGRADED", reason="lever.arm", told_s=200, stays=True, worst_m=4, sigmas=None, ok_s=None,
                        back_s=None)),
 ]
