@@ -14,9 +14,15 @@ namespace leonav {
 namespace {
 
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-constexpr double kImuSilence_s = 0.9;           // next() comes once a second
-constexpr double kOdometerSilence_s = 2.5;      // an increment lasts a second at most
-constexpr double kIntervalsTolerated = 2.5;     // as until the answer counts as INS only
+constexpr double kImuSilence_s = 0.9;        // next() comes once a second
+constexpr double kOdometerSilence_s = 2.5;   // an increment lasts a second at most
+constexpr double kIntervalsTolerated = 2.5;  // as until the answer counts as INS only
+constexpr double kShare = 0.1;               // of an input, that is rejected
+constexpr std::int64_t kFewMessages = 5;     // fewer say nothing about a share
+constexpr std::int64_t kFewMeasurements = 50;
+constexpr std::int64_t kLastingError_cm = 100;
+constexpr std::int64_t kSeveralSatellites = 3;
+constexpr std::int64_t kFewPrecise = 4;
 constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
 // As the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
@@ -33,6 +39,10 @@ std::int64_t sum(const auto& gauges) {
   return total;
 }
 
+void append(const std::string& text, std::string* list) {
+  *list += (list->empty() ? "" : ", ") + text;
+}
+
 }  // namespace
 
 // An input that ends is a fault by its consequence only: without GNSS the inertial answer goes on.
@@ -43,64 +53,165 @@ HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
       vertical_alert_limit_m_(config.integrity.vertical_alert_limit_m),
       expects_imu_(config.motion == MotionModel::kInertial),
       uses_odometer_(expects_imu_ && config.vehicle.motion.constraints.odometer),
-      imu_{"usable IMU", kImuSilence_s, kNever_s},
-      gnss_{"usable GNSS", kIntervalsTolerated * config.realtime.epoch_interval_s, kNever_s},
-      odometer_{"usable odometer", kOdometerSilence_s, kNever_s},
+      imu_{kImuSilence_s, kNever_s},
+      gnss_{kIntervalsTolerated * config.realtime.epoch_interval_s, kNever_s},
+      odometer_{kOdometerSilence_s, kNever_s},
       solution_{
-          "solution",
           std::max(kShortestSolutionGap_s, kIntervalsTolerated * solution_interval(config)),
           std::max(kAnswerLife_s, kIntervalsUntilFault * solution_interval(config)),
       } {}
 
-std::span<const std::uint8_t> HealthMonitor::next(double now_s) {
-  evaluate(now_s);
-  const auto last_source = static_cast<Source>(engine_->counters().source.get());
+std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view stalled_threads) {
+  reasons_.begin(now_s);
+  if (!stalled_threads.empty())
+    reasons_.raise(HealthReason::kThreadHangs, std::string(stalled_threads));
+  judge_inputs(now_s);
+  judge_conventions();
+  judge_answer(now_s);
+  judge_measurements();
+  judge_estimator();
+  judge_time();
+  judge_disk();
   HealthSummary summary;
   summary.sequence = ++sequence_;
-  summary.status = status_;
-  summary.why = why_;
-  summary.source = solution_.dead ? Source::kNone : last_source;
+  summary.status = status();
+  summary.why = why();
+  summary.source =
+      solution_.has_ended ? Source::kNone : static_cast<Source>(engine_->counters().source.get());
   summary.uptime_s = now_s;
   encode_health(summary, engine_, &bytes_);
   return bytes_;
 }
 
-void HealthMonitor::evaluate(double now_s) {
-  status_ = "OK";
-  why_.clear();
-  EngineCounters& counters = engine_->counters();
-  evaluate_journal();
-  evaluate_solution(now_s);
-  if (expects_imu_) evaluate_stream(counters.accepted_imu.get(), now_s, &imu_);
-  evaluate_stream(counters.accepted_epochs.get(), now_s, &gnss_);
-  evaluate_conventions();
-  if (uses_odometer_ && counters.accepted_odometer.get() > 0)
-    evaluate_stream(counters.accepted_odometer.get(), now_s, &odometer_);
-  const std::uint64_t waits =
-      engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
-  evaluate_count(counters.misses.get(), "deadline missed", &last_misses_);
-  evaluate_count(counters.smoother_misses.get(), "smoother late", &last_smoother_misses_);
-  evaluate_count(counters.smoother_failures.get(), "smoother failed", &last_smoother_failures_);
-  evaluate_count(counters.keyframes_skipped.get(), "keyframes skipped", &last_keyframes_skipped_);
-  evaluate_count(sum(counters.lost), "inputs lost before they got here", &last_lost_);
-  evaluate_count(static_cast<std::int64_t>(waits), "a queue was full", &last_waits_);
+void HealthMonitor::Stream::look(std::int64_t now_number, double now_s) {
+  if (now_number != number) {
+    number = now_number;
+    last_s = now_s;
+  }
+  is_late = now_s - last_s > degraded_after_s;
+  has_ended = now_s - last_s > fault_after_s;
 }
 
-// The navigation needs no journal: what is missing in it is said, and the next piece may be whole.
-void HealthMonitor::evaluate_journal() {
-  const Journal& journal = engine_->journal();
-  const std::string failure = journal.failure();
-  if (!failure.empty()) worsen("FAULT", "journal: " + failure);
-  if (journal.is_stalled()) worsen("DEGRADED", "journal: the disk does not answer");
-  evaluate_count(journal.counters().lost_others.get(), "journal: messages are lost",
-                 &last_lost_journal_);
-  evaluate_count(journal.counters().lost_solutions.get(), "journal: solutions are left out",
-                 &last_left_out_);
+void HealthMonitor::judge_answer(double now_s) {
+  EngineCounters& counters = engine_->counters();
+  const auto source = static_cast<Source>(counters.source.get());
+  if (source == Source::kNone)
+    return reasons_.raise(HealthReason::kNoSolutionYet, why_no_solution());
+  solution_.look(counters.solution_time_ns.get(), now_s);
+  // Then the last source says nothing.
+  if (solution_.has_ended) return reasons_.raise(HealthReason::kSolutionEnded);
+  if (solution_.is_late) reasons_.raise(HealthReason::kSolutionLate);
+  if (source == Source::kAligning) {
+    // Between an attitude and the first answer with it nothing lacks any more.
+    reasons_.raise(HealthReason::kAligning,
+                   to_text(unpack_alignment_need(counters.alignment_need.get()), alignment_));
+  }
+  if (source == Source::kInsOnly)
+    reasons_.raise(expects_imu_ ? HealthReason::kInsOnly : HealthReason::kPredictionOnly);
+  judge_levels();
+}
+
+// Returns what the first position waits for.
+std::string HealthMonitor::why_no_solution() const {
+  const EngineCounters& counters = engine_->counters();
+  const auto satellites = [&](Reason reason) {
+    return counters.satellites_by_reason[static_cast<std::size_t>(reason)].get();
+  };
+  const std::int64_t measured = sum(counters.satellites_by_reason);
+  if (counters.received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
+  if (counters.accepted_epochs.get() == 0) return "all GNSS epochs are rejected" + most_rejected();
+  if (expects_imu_ && counters.received[index_of(Channel::kImu)].get() == 0)
+    return "no IMU sample has come";
+  if (expects_imu_ && counters.accepted_imu.get() == 0)
+    return "all IMU samples are rejected" + most_rejected();
+  if (measured == 0) return "the GNSS epochs are without satellites";
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < kReasonCount; ++i) {
+    if (is_used(static_cast<Reason>(i)) || i == static_cast<std::size_t>(Reason::kNotSolved))
+      continue;
+    if (counters.satellites_by_reason[i].get() > counters.satellites_by_reason[most].get())
+      most = i;
+  }
+  const auto reason = static_cast<Reason>(most);
+  if (reason == Reason::kUsed || 2 * satellites(reason) < measured)
+    return "too few satellites with good codes so far";
+  if (reason == Reason::kNoEphemeris)
+    return "most satellites have no ephemeris: see that they are sent";
+  return "most satellites are left out as " + std::string(to_string(reason));
+}
+
+// Returns the fault by which inputs were rejected most often of late, as " as NAME"; "": none.
+std::string HealthMonitor::most_rejected() const {
+  const auto most = std::max_element(
+      rejected_.begin(), rejected_.end(),
+      [](const RecentGrowth& a, const RecentGrowth& b) { return a.get() < b.get(); });
+  if (most->get() == 0) return "";
+  return " as " + std::string(to_string(static_cast<InputFault>(most - rejected_.begin())));
+}
+
+// A solution that may be further off than its user allows. The level itself is a field of HEALTH:
+// in the reason it would change, and be logged, every second.
+void HealthMonitor::judge_levels() {
+  const EngineCounters& counters = engine_->counters();
+  std::string detail;
+  const auto compare = [&](const std::string& name, const Gauge& level, double limit_m) {
+    if (limit_m == 0.0) return;
+    const std::int64_t micro = level.get();
+    if (micro < 0) return append(name + " unknown", &detail);
+    if (static_cast<double>(micro) * 1e-6 <= limit_m) return;
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%.2f m", limit_m);
+    append(name + " above its alert limit of " + limit, &detail);
+  };
+  compare("horizontal", counters.horizontal_protection_micro, horizontal_alert_limit_m_);
+  compare("vertical", counters.vertical_protection_micro, vertical_alert_limit_m_);
+  if (!detail.empty()) reasons_.raise(HealthReason::kLevelAboveLimit, detail);
+}
+
+void HealthMonitor::judge_inputs(double now_s) {
+  EngineCounters& counters = engine_->counters();
+  for (std::size_t i = 0; i < rejected_.size(); ++i) rejected_[i].look(counters.rejected[i].get());
+  std::string bad;
+  for (const Channel channel : kInputChannels) {
+    const std::size_t i = index_of(channel);
+    InputRates& rates = inputs_[i];
+    rates.received.look(counters.received[i].get());
+    rates.refused.look(counters.refused[i].get());
+    std::int64_t unused = rates.refused.get();
+    // Of the streams it is known what the Sequencer has taken.
+    if (channel == Channel::kImu) rates.accepted.look(counters.accepted_imu.get());
+    if (channel == Channel::kGnssEpoch) rates.accepted.look(counters.accepted_epochs.get());
+    if (channel == Channel::kImu || channel == Channel::kGnssEpoch)
+      unused = std::max(unused, rates.received.get() - rates.accepted.get());
+    const std::int64_t received = rates.received.get();
+    if (received >= kFewMessages &&
+        static_cast<double>(unused) >= kShare * static_cast<double>(received))
+      append(std::string(name_of(channel)), &bad);
+  }
+  if (!bad.empty()) reasons_.raise(HealthReason::kInputRejected, bad + most_rejected());
+  if (expects_imu_)
+    judge_stream(counters.accepted_imu.get(), now_s, Channel::kImu, HealthReason::kNoImu, &imu_);
+  judge_stream(counters.accepted_epochs.get(), now_s, Channel::kGnssEpoch, HealthReason::kNoGnss,
+               &gnss_);
+  if (uses_odometer_ && counters.accepted_odometer.get() > 0)
+    judge_stream(counters.accepted_odometer.get(), now_s, Channel::kOdometer,
+                 HealthReason::kNoOdometer, &odometer_);
+  raise_if_grown(HealthReason::kInputLost, sum(counters.lost));
+  raise_if_grown(HealthReason::kImuGaps, counters.imu_gaps.get());
+}
+
+void HealthMonitor::judge_stream(std::int64_t number, double now_s, Channel channel,
+                                 HealthReason reason, Stream* stream) {
+  stream->look(number, now_s);
+  if (!stream->is_late) return;
+  const bool comes = inputs_[index_of(channel)].received.get() > 0;
+  reasons_.raise(reason, comes ? "messages come, but are late or rejected" + most_rejected()
+                               : "nothing comes");
 }
 
 // A mistake in the configuration or in what feeds the daemon: it stays until somebody has put it
 // right and started anew.
-void HealthMonitor::evaluate_conventions() {
+void HealthMonitor::judge_conventions() {
   EngineCounters& counters = engine_->counters();
   suspicions_.clear();
   for (std::size_t i = 0; i < kConventionCount; ++i) {
@@ -109,69 +220,81 @@ void HealthMonitor::evaluate_conventions() {
     const std::string text = convention_text(static_cast<Convention>(i), value);
     suspicions_ += (suspicions_.empty() ? "" : "; ") + text;
   }
-  if (!suspicions_.empty()) worsen("DEGRADED", suspicions_);
+  if (!suspicions_.empty()) reasons_.raise(HealthReason::kConvention, suspicions_);
 }
 
-// Degraded where it has grown since the last look.
-void HealthMonitor::evaluate_count(std::int64_t count, const char* reason, std::int64_t* last) {
-  if (count > *last) worsen("DEGRADED", reason);
-  *last = count;
-}
-
-void HealthMonitor::evaluate_solution(double now_s) {
+void HealthMonitor::judge_measurements() {
   EngineCounters& counters = engine_->counters();
-  const auto source = static_cast<Source>(counters.source.get());
-  if (source == Source::kNone) {
-    worsen("FAULT", "no solution yet");
-    return;
-  }
-  evaluate_stream(counters.solution_time_ns.get(), now_s, &solution_);
-  if (solution_.dead) return;  // then the last source says nothing
-  if (source == Source::kAligning) {
-    // Between an attitude and the first answer with it nothing lacks any more.
-    const std::string lacks =
-        to_text(unpack_alignment_need(counters.alignment_need.get()), alignment_);
-    worsen("DEGRADED", lacks.empty() ? "aligning" : "aligning: " + lacks);
-  }
-  if (source == Source::kInsOnly) {
-    worsen("DEGRADED", expects_imu_ ? "INS only" : "prediction without GNSS");
-  }
-  evaluate_levels();
-}
-
-// A solution that may be further off than its user allows. The level itself is a field of HEALTH:
-// in the reason it would change, and be logged, every second.
-void HealthMonitor::evaluate_levels() {
-  const EngineCounters& counters = engine_->counters();
-  const auto compare = [&](const std::string& name, const Gauge& level, double limit_m) {
-    if (limit_m == 0.0) return;
-    const std::int64_t micro = level.get();
-    if (micro < 0) return worsen("DEGRADED", name + " protection level unknown");
-    if (static_cast<double>(micro) * 1e-6 <= limit_m) return;
-    char limit[32];
-    std::snprintf(limit, sizeof limit, "%.2f m", limit_m);
-    worsen("DEGRADED", name + " protection level above its alert limit of " + limit);
+  const auto satellites = [&](Reason reason) {
+    return counters.satellites_by_reason[static_cast<std::size_t>(reason)].get();
   };
-  compare("horizontal", counters.horizontal_protection_micro, horizontal_alert_limit_m_);
-  compare("vertical", counters.vertical_protection_micro, vertical_alert_limit_m_);
-}
+  const bool had_answer = static_cast<Source>(counters.source.get()) != Source::kNone;
+  const std::int64_t without =
+      satellites(Reason::kNoEphemeris) + satellites(Reason::kEphemerisTooOld);
+  if (had_answer && 2 * without > sum(counters.satellites_by_reason))
+    reasons_.raise(HealthReason::kWithoutOrbit);
 
-void HealthMonitor::evaluate_stream(std::int64_t number, double now_s, Stream* stream) {
-  if (number != stream->number) {
-    stream->number = number;
-    stream->last_s = now_s;
+  const std::int64_t precise = counters.satellites_by_source[1].get();
+  most_precise_ = std::max(most_precise_, precise);
+  if (most_precise_ >= kFewPrecise && precise == 0 && counters.satellites_by_source[0].get() > 0)
+    reasons_.raise(HealthReason::kPreciseEnded);
+
+  measurements_.look(counters.measurements.get());
+  contradicting_.look(counters.contradicting_measurements.get());
+  if (measurements_.get() >= kFewMeasurements && 2 * contradicting_.get() > measurements_.get())
+    reasons_.raise(HealthReason::kMostRejected);
+
+  std::string lasting;
+  for (const System system : kSystems) {
+    if (counters.lasting_cm[index_of(system)].get() >= kLastingError_cm)
+      append(std::string(to_string(system)), &lasting);
   }
-  const double silent_s = now_s - stream->last_s;
-  stream->dead = silent_s > stream->fault_after_s;
-  if (silent_s <= stream->degraded_after_s) return;
-  worsen(stream->dead ? "FAULT" : "DEGRADED",
-         "no " + std::string(stream->name) + " for " +
-             std::to_string(static_cast<std::int64_t>(std::llround(silent_s))) + " s");
+  if (!lasting.empty()) reasons_.raise(HealthReason::kLastingErrors, lasting);
+
+  satellite_faults_.look(events(EventKind::kSatelliteFault));
+  if (satellite_faults_.get() >= kSeveralSatellites) reasons_.raise(HealthReason::kSatellitesDrift);
 }
 
-void HealthMonitor::worsen(const char* status, const std::string& reason) {
-  if (status_ != "FAULT") status_ = status;
-  why_ += (why_.empty() ? "" : "; ") + reason;
+void HealthMonitor::judge_estimator() {
+  raise_if_grown(HealthReason::kFilterStartedOver, events(EventKind::kFilterReset));
+  raise_if_grown(HealthReason::kSolutionJumped, events(EventKind::kSolutionJump));
+  raise_if_grown(HealthReason::kPredictionWidened, engine_->counters().widened_predictions.get());
+  raise_if_grown(HealthReason::kImprobable, events(EventKind::kImprobable));
+  raise_if_grown(HealthReason::kConstraintsLeftOut, events(EventKind::kConstraintsLeftOut));
+}
+
+void HealthMonitor::judge_time() {
+  EngineCounters& counters = engine_->counters();
+  raise_if_grown(HealthReason::kDeadlineMissed, counters.misses.get());
+  raise_if_grown(HealthReason::kSmootherLate, counters.smoother_misses.get());
+  raise_if_grown(HealthReason::kSmootherFailed, counters.smoother_failures.get());
+  raise_if_grown(HealthReason::kKeyframesSkipped, counters.keyframes_skipped.get());
+  const std::uint64_t waits =
+      engine_->inertial_ring().waits + engine_->gnss_ring().waits + engine_->out_ring().waits;
+  raise_if_grown(HealthReason::kQueueFull, static_cast<std::int64_t>(waits));
+}
+
+// The navigation needs no journal: what is missing in it is said, and the next piece may be whole.
+void HealthMonitor::judge_disk() {
+  const Journal& journal = engine_->journal();
+  const std::string failure = journal.failure();
+  if (!failure.empty()) reasons_.raise(HealthReason::kJournalFails, failure);
+  if (journal.is_stalled()) reasons_.raise(HealthReason::kJournalStalled);
+  raise_if_grown(HealthReason::kJournalLost, journal.counters().lost_others.get());
+  raise_if_grown(HealthReason::kJournalLeftOut, journal.counters().lost_solutions.get());
+  const std::string no_checkpoint = engine_->checkpoint_error();
+  if (!no_checkpoint.empty()) reasons_.raise(HealthReason::kNoCheckpoint, no_checkpoint);
+}
+
+// Raised where the count has grown since the last look.
+void HealthMonitor::raise_if_grown(HealthReason reason, std::int64_t count) {
+  std::int64_t& last = last_counts_[static_cast<std::size_t>(reason)];
+  if (count > last) reasons_.raise(reason);
+  last = count;
+}
+
+std::int64_t HealthMonitor::events(EventKind kind) const {
+  return engine_->counters().events[static_cast<std::size_t>(kind)].get();
 }
 
 }  // namespace leonav

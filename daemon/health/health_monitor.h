@@ -1,48 +1,67 @@
 // The HealthMonitor evaluates once a second whether the daemon works, and why not.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/engine/engine.h"
+#include "daemon/health/active_reasons.h"
+#include "daemon/health/internal/recent_growth.h"
 
 namespace leonav {
 
 // It runs in `main` and reads the engine's counters; their differences between two calls are what
-// happened since.
+// happened since. docs/operations/health.md has every reason.
 class HealthMonitor {
  public:
   HealthMonitor(Engine* engine, const NavigatorConfig& config);
 
   // The encoded message; valid until the next call. `now_s`: of a clock that never goes back, 0 at
   // construction. Silence is measured with it and not with data time, which stands still when all
-  // inputs end.
-  std::span<const std::uint8_t> next() { return next(uptime_s()); }
-  std::span<const std::uint8_t> next(double now_s);
-  // "OK", "DEGRADED" or "FAULT", and the reasons, at the last call.
-  const std::string& status() const { return status_; }
-  const std::string& why() const { return why_; }
+  // inputs end. `stalled_threads`: by the ThreadMonitor.
+  std::span<const std::uint8_t> next(std::string_view stalled_threads = {}) {
+    return next(uptime_s(), stalled_threads);
+  }
+  std::span<const std::uint8_t> next(double now_s, std::string_view stalled_threads = {});
+  // The status and its reasons at the last call.
+  HealthStatus status() const { return reasons_.status(); }
+  std::string why() const { return reasons_.text(); }
   // Inputs that break a convention, with the remedies; part of why(). Empty: none.
   const std::string& suspicions() const { return suspicions_; }
 
  private:
   // A stream is alive while a number of it changes.
   struct Stream {
-    const char* name;
     double degraded_after_s, fault_after_s;
     std::int64_t number = 0;
     double last_s = 0.0;  // when the number was last seen to change
-    bool dead = false;    // silent for longer than fault_after_s
+    bool is_late = false, has_ended = false;
+
+    void look(std::int64_t now_number, double now_s);
   };
+  // What became of the messages of an input channel over the last looks.
+  struct InputRates {
+    RecentGrowth received, accepted, refused;
+  };
+
   double uptime_s() const { return static_cast<double>(uptime_.nanoseconds()) * 1e-9; }
-  void evaluate(double now_s);
-  void evaluate_solution(double now_s);
-  void evaluate_stream(std::int64_t number, double now_s, Stream* stream);
-  void evaluate_levels();
-  void evaluate_journal();
-  void evaluate_conventions();
-  void evaluate_count(std::int64_t count, const char* reason, std::int64_t* last);
-  void worsen(const char* status, const std::string& reason);
+  void judge_answer(double now_s);
+  void judge_levels();
+  void judge_inputs(double now_s);
+  void judge_stream(std::int64_t number, double now_s, Channel channel, HealthReason reason,
+                    Stream* stream);
+  void judge_conventions();
+  void judge_measurements();
+  void judge_estimator();
+  void judge_time();
+  void judge_disk();
+  std::int64_t events(EventKind kind) const;
+  void raise_if_grown(HealthReason reason, std::int64_t count);
+  std::string why_no_solution() const;
+  std::string most_rejected() const;
 
   Engine* engine_;
   AlignmentConfig alignment_;
@@ -51,10 +70,14 @@ class HealthMonitor {
   Stream imu_, gnss_, odometer_, solution_;
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
-  std::int64_t last_misses_ = 0, last_smoother_misses_ = 0, last_smoother_failures_ = 0,
-               last_keyframes_skipped_ = 0, last_lost_ = 0, last_waits_ = 0, last_lost_journal_ = 0,
-               last_left_out_ = 0;
-  std::string status_ = "OK", why_, suspicions_;
+  std::array<InputRates, kInputChannels.size()> inputs_;
+  std::array<RecentGrowth, kInputFaultCount> rejected_;
+  RecentGrowth measurements_, contradicting_;
+  RecentGrowth satellite_faults_{600};
+  std::int64_t most_precise_ = 0;  // satellites by precise states since there were none
+  std::array<std::int64_t, kHealthReasonCount> last_counts_{};
+  ActiveReasons reasons_;
+  std::string suspicions_;
   std::vector<std::uint8_t> bytes_;
 };
 

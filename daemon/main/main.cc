@@ -16,6 +16,7 @@
 #include "daemon/config/presets.h"
 #include "daemon/engine/engine.h"
 #include "daemon/engine/solve_time.h"
+#include "daemon/health/answer_monitor.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
 #include "daemon/link/lcm_publisher.h"
@@ -123,23 +124,27 @@ class JournalLog {
 };
 
 // Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
-// feeds the watchdog unless a thread hangs.
+// feeds the watchdog unless a thread hangs or the answer stands still.
 void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
-               const std::atomic<bool>& io_failed) {
+               bool expects_imu, const std::atomic<bool>& io_failed) {
   const sigset_t set = stop_signals();
   const timespec second{1, 0};
   ThreadMonitor watch(engine);
+  AnswerMonitor answer(engine);
   CheckpointLog checkpoint_log;
   JournalLog journal_log;
-  bool had_answer = false;
+  bool had_answer = false, stood_still = false;
   std::string last, last_suspicions, last_hanging;
   while (!io_failed.load()) {
     if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
       spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
       return;
     }
-    engine->publish(Channel::kHealth, health->next());
-    const std::string now = health->status() + (health->why().empty() ? "" : ": " + health->why());
+    const std::string stalled_threads = watch.stalled_threads();
+    engine->publish(Channel::kHealth, health->next(stalled_threads));
+    const std::string why = health->why();
+    const std::string now =
+        std::string(to_string(health->status())) + (why.empty() ? "" : ": ") + why;
     if (now != last) spdlog::info("{}", now);
     last = now;
     if (health->suspicions() != last_suspicions)
@@ -148,10 +153,12 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
     checkpoint_log.look(engine);
     journal_log.look(engine->journal());
     // What led up to a fault is worth keeping; that there is no answer yet is none.
-    if (had_answer && health->status() == "FAULT") engine->keep_journal();
-    had_answer = health->status() != "FAULT";
-    const std::string stalled_threads = watch.stalled_threads();
-    if (stalled_threads.empty()) manager.feed_watchdog();
+    if (had_answer && health->status() == HealthStatus::kFault) engine->keep_journal();
+    had_answer = health->status() != HealthStatus::kFault;
+    const bool stands_still = answer.stands_still(expects_imu);
+    if (stalled_threads.empty() && !stands_still) manager.feed_watchdog();
+    if (stands_still && !stood_still) spdlog::error("no answer for a minute, though inputs come");
+    stood_still = stands_still;
     if (!stalled_threads.empty() && stalled_threads != last_hanging)
       spdlog::error("thread hangs: {}", stalled_threads);
     last_hanging = stalled_threads;
@@ -221,7 +228,8 @@ int run(const DaemonConfig& config) {
 
   HealthMonitor health(&engine, config.navigator);
   manager.ready();
-  supervise(&engine, &health, manager, io_failed);
+  supervise(&engine, &health, manager, config.navigator.motion == MotionModel::kInertial,
+            io_failed);
   manager.stopping();
 
   std::signal(SIGTERM, SIG_DFL);
@@ -284,10 +292,15 @@ int daemon_main(int argc, char** argv) {
             "run nothing: print the effective value of every key and where it is from, or what is "
             "wrong")
       .flag("--changes", "with --check: print only the keys that differ from the defaults")
-      .flag("--reference", "print every key with its default, its range and its meaning");
+      .flag("--reference", "print every key with its default, its range and its meaning")
+      .flag("--reasons", "print every reason of HEALTH with what to do, as a table in Markdown");
   if (!arguments.parse(argc, argv)) return 0;
   if (arguments.has("--reference")) {
     std::cout << reference_text();
+    return 0;
+  }
+  if (arguments.has("--reasons")) {
+    std::cout << health_reasons_as_markdown();
     return 0;
   }
   const bool checks = arguments.has("--check");

@@ -19,10 +19,18 @@ std::string number(double value) {
 
 std::string whole(double seconds) { return number(std::ceil(std::max(0.0, seconds))); }
 
+// In steps of a factor of about two, so that the text is not another one every second.
+std::string at_most(double seconds) {
+  for (const double step : {2.0, 5.0, 10.0, 20.0, 30.0, 60.0, 120.0, 300.0, 600.0}) {
+    if (seconds <= step) return "up to " + number(step) + " s more";
+  }
+  return "more than 600 s more";
+}
+
 }  // namespace
 
 std::string to_text(const AlignmentNeed& need, const AlignmentConfig& config) {
-  const std::string more = whole(need.seconds) + " s more";
+  const std::string more = at_most(need.seconds);
   switch (need.lacking) {
     case Lacking::kNothing:
       return "";

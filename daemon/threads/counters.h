@@ -6,8 +6,10 @@
 #include <cstdint>
 
 #include "core/filter/error_model/learned_summary.h"
+#include "core/gnss/measurement/measurement.h"
 #include "core/gnss/signals/satellite.h"
 #include "core/installation_checks/convention.h"
+#include "core/navigator/interface/event.h"
 #include "drivers/lcm/channels.h"
 
 namespace leonav {
@@ -65,7 +67,11 @@ struct EngineCounters {
   std::array<Gauge, kSystemCount> ephemeris_age_ms;  // -1: none in use
   // The same by source of the orbit: broadcast, precise.
   std::array<Gauge, 2> satellites_by_source, age_by_source_ms;
-  Gauge orbit_fallbacks, orbit_returns, satellite_faults, widened_predictions, arcs_joined;
+  // Satellites of the last epoch that had any, by Reason.
+  std::array<Gauge, kReasonCount> satellites_by_reason;
+  // Of all epochs: measurements, and those of them that robust weights exclude or weaken by half.
+  Gauge measurements, contradicting_measurements;
+  Gauge orbit_fallbacks, orbit_returns, widened_predictions, arcs_joined;
   // Learned errors of codes and Dopplers: over all classes, then by kLearnedClassNames.
   std::array<LearnedGauges, 2> learned;
   std::array<Gauge, kSystemCount> lasting_cm;  // LastingErrors; 0: none
@@ -78,7 +84,7 @@ struct EngineCounters {
   // smoother
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage
-  Gauge resets;
+  std::array<Gauge, kEventKindCount> events;  // that were published, by EventKind
   // Events of each Convention, and a thousand times the value of the last.
   std::array<Gauge, kConventionCount> conventions, convention_milli;
   // main

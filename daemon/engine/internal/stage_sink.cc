@@ -23,6 +23,23 @@ void count_learned(const ObservableErrors& errors, LearnedGauges* to) {
   }
 }
 
+void count_reasons(const EpochReport& report, EngineCounters* counters) {
+  constexpr double kHalf = 0.5;  // of the full weight
+  if (!report.satellites.empty()) {
+    std::array<std::int64_t, kReasonCount> satellites{};
+    for (const SatelliteReport& satellite : report.satellites)
+      ++satellites[static_cast<std::size_t>(satellite.reason)];
+    for (std::size_t i = 0; i < satellites.size(); ++i)
+      counters->satellites_by_reason[i].set(satellites[i]);
+  }
+  const auto contradicts = [](const AidingReport& aiding) {
+    return aiding.reason == Reason::kOutlier || aiding.weight_factor < kHalf;
+  };
+  counters->measurements.add(static_cast<std::int64_t>(report.aiding.size()));
+  counters->contradicting_measurements.add(
+      std::count_if(report.aiding.begin(), report.aiding.end(), contradicts));
+}
+
 }  // namespace
 
 void StageSink::on_solution(const Solution& solution) {
@@ -67,6 +84,7 @@ void StageSink::on_epoch(const EpochReport& report) {
     for (std::size_t i = 0; i < kSystemCount; ++i)
       counters_->lasting_cm[i].set(std::llround(report.learned_errors.lasting_m[i] * 1e2));
   }
+  count_reasons(report, counters_);
   counters_->widened_predictions.add(report.widened_predictions);
   counters_->arcs_joined.add(report.arcs_joined);
   counters_->alignment_need.set(pack_alignment_need(report.alignment));
@@ -75,8 +93,7 @@ void StageSink::on_epoch(const EpochReport& report) {
 }
 
 void StageSink::on_event(const Event& event) {
-  if (event.kind == EventKind::kFilterReset) counters_->resets.add(1);
-  if (event.kind == EventKind::kSatelliteFault) counters_->satellite_faults.add(1);
+  counters_->events[static_cast<std::size_t>(event.kind)].add(1);
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

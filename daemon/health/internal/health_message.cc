@@ -66,6 +66,10 @@ void add_journal_counts(const Journal& journal, health_t* message) {
             message);
 }
 
+std::int64_t event_count(const EngineCounters& counters, EventKind kind) {
+  return counters.events[static_cast<std::size_t>(kind)].get();
+}
+
 void add_counts(EngineCounters* counters, health_t* message) {
   for (const Channel channel : kInputChannels) {
     const std::string name(name_of(channel));
@@ -85,7 +89,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
   add_count("orbit returns", counters->orbit_returns.get(), message);
-  add_count("satellite faults", counters->satellite_faults.get(), message);
+  add_count("satellite faults", event_count(*counters, EventKind::kSatelliteFault), message);
   add_count("widened predictions", counters->widened_predictions.get(), message);
   add_count("arcs joined", counters->arcs_joined.get(), message);
   add_learned("learned code", counters->learned[0], message);
@@ -93,7 +97,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   for (const System system : kSystems)
     add_count("lasting code error cm " + std::string(to_string(system)),
               counters->lasting_cm[index_of(system)].get(), message);
-  add_count("filter resets", counters->resets.get(), message);
+  add_count("filter resets", event_count(*counters, EventKind::kFilterReset), message);
   add_count("checkpoints used", counters->checkpoints_used.get(), message);
   add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);
   add_count("commits", counters->commits.get(), message);
@@ -113,7 +117,7 @@ void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std
   message.time_ns = counters.solution_time_ns.get();
   message.sequence = static_cast<std::int64_t>(summary.sequence);
   message.schema = wire::kHealthSchema;
-  message.status = summary.status;
+  message.status = std::string(to_string(summary.status));
   message.why = summary.why;
   message.source = std::string(to_string(summary.source));
   message.ekf_misses = counters.misses.get();

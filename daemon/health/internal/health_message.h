@@ -6,13 +6,15 @@
 
 #include "core/navigator/interface/solution.h"
 #include "daemon/engine/engine.h"
+#include "daemon/health/health_reason.h"
 
 namespace leonav {
 
 // The result of the HealthMonitor's evaluation.
 struct HealthSummary {
   std::uint64_t sequence = 0;
-  std::string status, why;
+  HealthStatus status = HealthStatus::kOk;
+  std::string why;
   Source source = Source::kNone;
   double uptime_s = 0.0;
 };

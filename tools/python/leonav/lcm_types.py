@@ -27,10 +27,10 @@ class Member(NamedTuple):
 
 
 class MessageType:
-    """One struct of lcmtypes/."""
+    """One struct of lcmtypes/. `constants` has its numbers with a meaning by name: {"KIND_IMU_GAP": 4, ...}."""
 
-    def __init__(self, name, members, types):
-        self.name, self.members, self._types = name, members, types
+    def __init__(self, name, members, types, constants=None):
+        self.name, self.members, self._types, self.constants = name, members, types, constants or {}
         self._dtype = False  # not known yet
 
     @property
@@ -144,13 +144,16 @@ def parse(text, types):
     """Adds the structs of a definition's text to `types`, by name."""
     text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
     for name, body in re.findall(r"\bstruct\s+(\w+)\s*\{(.*?)\}", text, flags=re.S):
-        members = []
+        members, constants = [], {}
         for statement in filter(None, (part.strip() for part in body.split(";"))):
             type_name, names = statement.split(None, 1)
+            if type_name == "const":
+                constants.update((one, int(value)) for one, value in re.findall(r"(\w+)\s*=\s*(-?\d+)", names))
+                continue
             for one in names.split(","):
                 dimensions = tuple(int(size) if size.isdigit() else size for size in re.findall(r"\[\s*(\w+)\s*\]", one))
                 members.append(Member(type_name, one.split("[")[0].strip(), dimensions))
-        types[name] = MessageType(name, members, types)
+        types[name] = MessageType(name, members, types, constants)
 
 
 def load():

@@ -1,0 +1,26 @@
+// The AnswerMonitor finds a daemon whose threads work and whose answer stands still all the same.
+#pragma once
+#include <cstdint>
+
+#include "daemon/engine/engine.h"
+
+namespace leonav {
+
+// Nothing in leonavd is known that would bring it there. If it happens, only a restart helps: then
+// the watchdog is not fed.
+class AnswerMonitor {
+ public:
+  explicit AnswerMonitor(Engine* engine) : engine_(engine) {}
+
+  // Returns whether there has been an answer, inputs of each kind that it needs are accepted,
+  // satellites are used, and yet no new SOLUTION has come for a minute. Call it once a second.
+  bool stands_still(bool expects_imu);
+
+ private:
+  static constexpr int kMostLooks = 60;
+  Engine* engine_;
+  std::int64_t solution_ns_ = 0, imu_ = 0, epochs_ = 0;
+  int looks_ = 0;  // without a new solution although inputs came
+};
+
+}  // namespace leonav
