@@ -1,10 +1,6 @@
 #include "daemon/checkpoint/checkpoint_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +8,7 @@
 #include <sstream>
 
 #include "core/navigator/sequencer/input_validation.h"
+#include "daemon/checkpoint/internal/replace_file.h"
 #include "daemon/config/config_file.h"
 #include "daemon/config/load_config.h"
 
@@ -21,10 +18,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDegreePerHour = kDegree / 3600.0;
 constexpr std::uintmax_t kMostBytes = 4096;
-
-std::string failure(const std::string& path, const char* what) {
-  return path + ": " + what + ": " + std::strerror(errno);
-}
 
 std::string text_of(const Checkpoint& checkpoint) {
   std::ostringstream out;
@@ -80,26 +73,6 @@ Checkpoint parse(const std::string& text, const std::string& path) {
   return checkpoint;
 }
 
-bool write_all(int descriptor, const std::string& text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t n = write(descriptor, text.data() + written, text.size() - written);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    written += static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-// A new name is on the disk only once its folder is. Some file systems cannot: no harm.
-void sync_folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
-}
-
 }  // namespace
 
 std::optional<Checkpoint> load_checkpoint(const std::string& path) {
@@ -114,28 +87,14 @@ std::optional<Checkpoint> load_checkpoint(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(size, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(size)))
-    throw ConfigError(failure(path, "cannot be read"));
+    throw ConfigError(path + ": cannot be read: " + std::strerror(errno));
   return parse(text, path);
 }
 
 std::string save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  const std::string beside = path + ".tmp";
-  const int descriptor =
-      open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
-  if (descriptor < 0) return failure(beside, "cannot be made");
-  const bool written = write_all(descriptor, text_of(checkpoint)) && fsync(descriptor) == 0;
-  std::string problem = written ? "" : failure(beside, "cannot be written");
-  close(descriptor);
-  if (!problem.empty()) return problem;
-  if (std::rename(beside.c_str(), path.c_str()) != 0) return failure(path, "cannot be replaced");
-  sync_folder_of(path);
-  return {};
+  return replace_file(path, text_of(checkpoint));
 }
 
-std::string remove_checkpoint(const std::string& path) {
-  if (unlink(path.c_str()) != 0) return errno == ENOENT ? "" : failure(path, "cannot be removed");
-  sync_folder_of(path);
-  return {};
-}
+std::string remove_checkpoint(const std::string& path) { return remove_file(path); }
 
 }  // namespace leonav

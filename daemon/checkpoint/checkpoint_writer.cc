@@ -5,11 +5,15 @@
 
 #include "core/navigator/sequencer/input_validation.h"
 #include "daemon/checkpoint/checkpoint_file.h"
+#include "daemon/checkpoint/internal/replace_file.h"
+#include "daemon/checkpoint/products_file.h"
 
 namespace leonav {
 namespace {
 
 constexpr std::chrono::seconds kLook(1);
+
+double seconds(const Stopwatch& watch) { return static_cast<double>(watch.nanoseconds()) * 1e-9; }
 
 }  // namespace
 
@@ -46,23 +50,42 @@ void CheckpointWriter::run() {
 }
 
 void CheckpointWriter::write_if_due(bool at_end) {
+  write_checkpoint_if_due(at_end);
+  write_products_if_due(at_end);
+  const std::lock_guard lock(mutex_);
+  error_ = checkpoint_problem_.empty() ? products_problem_ : checkpoint_problem_;
+}
+
+void CheckpointWriter::write_checkpoint_if_due(bool at_end) {
   unwritten_ = latest_.take(&newest_) || unwritten_;
   if (!unwritten_) return;
-  std::string problem;
   if (check(newest_) == InputFault::kNone) {
     const bool changed = !written_ || written_->standing != newest_.standing;
-    const double passed_s = static_cast<double>(since_written_.nanoseconds()) * 1e-9;
-    if (!at_end && !changed && passed_s < config_.interval_s) return;
-    problem = save_checkpoint(config_.path, newest_);
-    if (problem.empty()) written_ = newest_;
+    if (!at_end && !changed && seconds(since_written_) < config_.interval_s) return;
+    checkpoint_problem_ = save_checkpoint(config_.path, newest_);
+    if (checkpoint_problem_.empty()) written_ = newest_;
     since_written_ = Stopwatch();
   } else if (!newest_.standing) {
-    problem = remove_checkpoint(config_.path);
+    checkpoint_problem_ = remove_checkpoint(config_.path);
     written_.reset();
+  } else {
+    checkpoint_problem_.clear();
   }
-  unwritten_ = !problem.empty();
-  const std::lock_guard lock(mutex_);
-  error_ = problem;
+  unwritten_ = !checkpoint_problem_.empty();
+}
+
+// Senders repeat what has not changed, which is not written again.
+void CheckpointWriter::write_products_if_due(bool at_end) {
+  if (!at_end && seconds(since_products_written_) < config_.interval_s) return;
+  unwritten_products_ = products_.take(&newest_products_) || unwritten_products_;
+  if (!unwritten_products_) return;
+  since_products_written_ = Stopwatch();
+  const std::string text = products_text(newest_products_);
+  if (text != written_products_) {
+    products_problem_ = replace_file(products_path(config_.path), text);
+    if (products_problem_.empty()) written_products_ = text;
+  }
+  unwritten_products_ = !products_problem_.empty();
 }
 
 }  // namespace leonav

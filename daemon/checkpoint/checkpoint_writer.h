@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/navigator/interface/checkpoint.h"
+#include "daemon/checkpoint/product_store.h"
 #include "daemon/config/daemon_config.h"
 #include "daemon/threads/counters.h"
 #include "daemon/threads/latest_value.h"
@@ -16,7 +17,7 @@ namespace leonav {
 // The thread may wait for the disk. It writes at every interval, and at once where the vehicle has
 // stopped or set off, so that the file after a power cut never states a moving vehicle as parked.
 // Where there is no usable heading, the file stays while the vehicle stands, and is removed as soon
-// as it moves.
+// as it moves. The products are written beside it, whether there is a heading or not.
 class CheckpointWriter {
  public:
   explicit CheckpointWriter(const CheckpointConfig& config) : config_(config) {}
@@ -26,6 +27,8 @@ class CheckpointWriter {
   void start();
   // One thread sets the newest checkpoint here, as often as it has one.
   LatestValue<Checkpoint>* latest() { return &latest_; }
+  // One thread keeps broadcast products here, as they come.
+  ProductStore* products() { return &products_; }
   // Writes the last one and ends the thread.
   void finish();
   // Why the last write failed; empty: it did not. Any thread.
@@ -34,9 +37,12 @@ class CheckpointWriter {
  private:
   void run();
   void write_if_due(bool at_end);
+  void write_checkpoint_if_due(bool at_end);
+  void write_products_if_due(bool at_end);
 
   CheckpointConfig config_;
   LatestValue<Checkpoint> latest_;
+  ProductStore products_;
   RealtimeThread thread_;
   bool started_ = false;
   mutable std::mutex mutex_;  // protects stop_ and error_
@@ -47,7 +53,11 @@ class CheckpointWriter {
   Checkpoint newest_;
   bool unwritten_ = false;
   std::optional<Checkpoint> written_;
-  Stopwatch since_written_;
+  BroadcastProducts newest_products_;
+  bool unwritten_products_ = false;
+  std::string written_products_;
+  std::string checkpoint_problem_, products_problem_;  // of the last attempt
+  Stopwatch since_written_, since_products_written_;
 };
 
 }  // namespace leonav

@@ -4,13 +4,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "daemon/config/internal/key_path.h"
 #include "daemon/config/load_config.h"
+#include "drivers/yaml/one_document.h"
 
 namespace leonav {
 namespace {
+
+constexpr std::size_t kMostBytes = 1'000'000;
 
 void apply_override(const std::string& text, YAML::Node root) {
   const auto equals = text.find('=');
@@ -54,20 +56,18 @@ std::string read_config_file(const std::string& path) {
     throw ConfigError(path + ": cannot be opened: " + std::strerror(errno) +
                       "; a configuration may be one line, \"preset: car\"");
   }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  // One byte more than any configuration has, so that a device without an end is refused as well.
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMostBytes)
+    throw ConfigError(path + ": is longer than a megabyte, which no configuration is");
+  return text;
 }
 
 ConfigLayer text_layer(const std::string& text, const std::string& name) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw ConfigError(
-          name + ":" + std::to_string(documents[1].Mark().line + 1) +
-          ": a second document begins here ('---'), which would not be read; keep one");
-    }
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
+    const YAML::Node root = load_one_document(text);
     if (root.IsNull()) throw ConfigError(name + ": is empty");
     if (!root.IsMap()) throw ConfigError(name + ":1: expected groups of keys");
     return {name, root};

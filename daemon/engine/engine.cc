@@ -74,10 +74,20 @@ void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us)
     // Before it is dealt with: what a stage does must never be in the journal without its cause.
     if (journal_.is_open()) io_sink_.ring().push(channel, timestamp_us, bytes);
     dispatch_.accept();
+    keep_product(channel);
   } else {
     refuse(channel, fault, timestamp_us);
   }
   copy_input_counters(dispatch_, sequencer_, &counters_);
+}
+
+// For the next start. What no filter would take is not worth keeping.
+void Engine::keep_product(Channel channel) {
+  if (config_.checkpoint.path.empty()) return;
+  const Ephemeris& ephemeris = dispatch_.ephemeris();
+  if (channel == Channel::kEphemeris && is_valid(ephemeris.satellite) && is_sane(ephemeris))
+    checkpoint_writer_.products()->keep(ephemeris);
+  if (channel == Channel::kIonosphere) checkpoint_writer_.products()->keep(dispatch_.ionosphere());
 }
 
 // The journal need only know the number where the next one is an event: before it.

@@ -83,6 +83,7 @@ class Engine final : private StageInputs {
   void push_gnss(const GnssWork& work) override { gnss_ring_.push(work); }
   void event(const Event& event) override { io_sink_.on_event(event); }
 
+  void keep_product(Channel channel);
   void refuse(Channel channel, InputFault fault, std::int64_t timestamp_us);
   void write_refusals(InputFault fault, std::int64_t timestamp_us);
   void run_inertial();

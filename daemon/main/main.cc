@@ -11,14 +11,17 @@
 #include <utility>
 
 #include "daemon/checkpoint/checkpoint_file.h"
+#include "daemon/checkpoint/products_file.h"
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
 #include "daemon/config/presets.h"
 #include "daemon/engine/engine.h"
+#include "daemon/engine/saved_inputs.h"
 #include "daemon/engine/solve_time.h"
 #include "daemon/health/answer_monitor.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
+#include "daemon/link/channel_lock.h"
 #include "daemon/link/lcm_publisher.h"
 #include "daemon/link/service_manager.h"
 #include "daemon/service/lcm_link.h"
@@ -55,14 +58,24 @@ void take_stop_signals_in_this_thread() {
   std::signal(SIGINT, pass_to_main_thread);
 }
 
-// As an input, before any other: so it is in the journal, and a replay needs no file.
+void begin_from_products(const std::string& path, Engine* engine) {
+  try {
+    const auto products = load_products(path);
+    if (!products) return;
+    receive_saved(*products, engine);
+    spdlog::info("{}: {} ephemerides read", path, products->ephemerides.size());
+  } catch (const ConfigError& error) {
+    spdlog::warn("broadcast products ignored: {}", error.what());
+  }
+}
+
 void begin_from_checkpoint(const std::string& path, Engine* engine) {
   if (path.empty()) return;
+  begin_from_products(products_path(path), engine);
   try {
     const auto checkpoint = load_checkpoint(path);
     if (!checkpoint) return spdlog::info("no checkpoint {} to begin from", path);
-    Encoder encoder;
-    engine->receive(Channel::kCheckpoint, encoder.encode(*checkpoint, 1), wall_clock_us());
+    receive_saved(*checkpoint, engine);
     spdlog::info("checkpoint {} read", path);
   } catch (const ConfigError& error) {
     spdlog::warn("checkpoint ignored: {}", error.what());
@@ -193,6 +206,7 @@ void check_solve_time(const NavigatorConfig& config) {
 }
 
 int run(const DaemonConfig& config) {
+  const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
   take_stop_signals_in_this_thread();
   std::signal(SIGPIPE, SIG_IGN);
@@ -202,7 +216,8 @@ int run(const DaemonConfig& config) {
   if (!manager.problem().empty()) spdlog::warn("{}", manager.problem());
   LcmPublisher publisher(config.lcm);
   Engine engine(config, &publisher, drill_hooks(config.drill));
-  LcmReceiver receiver(config.lcm, &engine);
+  LcmReceiver receiver(config.lcm, config.threads.io, &engine);
+  if (!receiver.refused().empty()) spdlog::warn("{}", receiver.refused());
   for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
 
   begin_from_checkpoint(config.checkpoint.path, &engine);

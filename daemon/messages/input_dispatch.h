@@ -24,6 +24,9 @@ class InputDispatch {
   // input.
   InputFault decode(Channel channel, ByteSpan bytes);
   void accept();
+  // What the last message that decode() took held, where it was of that kind.
+  const Ephemeris& ephemeris() const { return ephemeris_; }
+  const KlobucharModel& ionosphere() const { return ionosphere_; }
 
   // Counts messages that were refused by decode(), now or when a journal was written.
   void refuse(const RefusedInputs& refused);

@@ -1,9 +1,13 @@
 #include "daemon/service/lcm_link.h"
 
+#include "daemon/threads/process_threads.h"
+
 namespace leonav {
 
-LcmReceiver::LcmReceiver(const LcmConfig& config, Engine* engine)
-    : engine_(engine), prefix_(config.prefix), lcm_(open_lcm(config.url)) {
+LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine)
+    : engine_(engine), prefix_(config.prefix) {
+  const std::set<pid_t> before = threads_of_process();
+  lcm_ = open_lcm(config.url);
   for (const Channel channel : kInputChannels) {
     const std::string name = channel_name(channel, prefix_);
     lcm::Subscription* subscription = lcm_->subscribe(name, &LcmReceiver::on_message, this);
@@ -11,6 +15,9 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, Engine* engine)
       throw LcmError("LCM cannot subscribe to " + name + " at '" + config.url + "'");
     }
     subscription->setQueueCapacity(config.receive_queue);
+  }
+  for (const pid_t thread : threads_of_process()) {
+    if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
   }
 }
 

@@ -13,7 +13,12 @@ namespace leonav {
 // Runs in the thread `io`, with an LCM instance of its own.
 class LcmReceiver {
  public:
-  LcmReceiver(const LcmConfig& config, Engine* engine);  // throws LcmError
+  // liblcm starts a thread that takes messages from the socket; it gets the priority of `io`, for
+  // which it works. Throws LcmError.
+  LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine);
+
+  // The settings of that thread that the system refused, as a text; empty: none.
+  const std::string& refused() const { return refused_; }
 
   // Passes the messages received within `timeout_ms` to the engine. False: the link is broken.
   bool receive(int timeout_ms);
@@ -22,7 +27,7 @@ class LcmReceiver {
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& name);
 
   Engine* engine_;
-  std::string prefix_;
+  std::string prefix_, refused_;
   std::unique_ptr<lcm::LCM> lcm_;
 };
 

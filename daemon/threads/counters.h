@@ -49,6 +49,11 @@ struct LearnedGauge {
 };
 using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
 
+// The last ones of these enumerations.
+inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::kFaulty) + 1;
+inline constexpr std::size_t kEventKindCount =
+    static_cast<std::size_t>(EventKind::kPredictionWidened) + 1;
+
 struct EngineCounters {
   // io
   Gauge io_rounds;  // polls for messages, with or without one

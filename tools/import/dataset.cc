@@ -10,6 +10,7 @@
 #include "drivers/text/line_reader.h"
 #include "drivers/text/nearest_word.h"
 #include "drivers/text/parse.h"
+#include "drivers/yaml/one_document.h"
 #include "tools/common/day.h"
 
 namespace leonav {
@@ -182,12 +183,7 @@ Dataset load_dataset(const std::string& path) {
   std::string text;
   for (std::string_view line; lines.next(line);) text.append(line).push_back('\n');
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw FileError(path, line_of(documents[1].Mark()),
-                      "a second document begins here ('---'), which would not be read; keep one");
-    }
-    return DatasetParser(path).parse(documents.empty() ? YAML::Node() : documents[0]);
+    return DatasetParser(path).parse(load_one_document(text));
   } catch (const YAML::Exception& error) {
     throw FileError(path, line_of(error.mark), "is not readable as YAML: " + error.msg);
   }

@@ -36,7 +36,6 @@ enum class Reason : std::uint8_t {
   kNotSolved = 14,      // epoch had too few satellites for a solution
   kFaulty = 15,         // its carrier has drifted away from the others'
 };
-inline constexpr std::size_t kReasonCount = 16;
 std::string_view to_string(Reason reason);  // "used", "no_ephemeris", ...
 constexpr bool is_used(Reason reason) {
   return reason == Reason::kUsed || reason == Reason::kDownweighted;

@@ -50,7 +50,6 @@ enum class EventKind : std::uint8_t {
   // Observable; value: the 1 sigma added per axis, m, of Dopplers m/s.
   kPredictionWidened = 24,
 };
-inline constexpr std::size_t kEventKindCount = 25;
 // Returns the name of a kind as outputs show it, for instance "filter_reset".
 std::string_view to_string(EventKind kind);
 

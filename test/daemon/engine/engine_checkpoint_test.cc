@@ -4,7 +4,9 @@
 
 #include "core/earth/rotation.h"
 #include "daemon/checkpoint/checkpoint_file.h"
+#include "daemon/checkpoint/products_file.h"
 #include "daemon/engine/engine.h"
+#include "daemon/engine/saved_inputs.h"
 #include "engine_runs.h"
 #include "support/program_run.h"
 #include "support/temporary_file.h"
@@ -40,8 +42,11 @@ bool run_engine(const DaemonConfig& config, const std::vector<test::Input>& list
   (*engine)->start();
   std::optional<Checkpoint> checkpoint;
   if (!config.checkpoint.path.empty()) checkpoint = load_checkpoint(config.checkpoint.path);
-  Encoder encoder;
-  if (checkpoint) (*engine)->receive(Channel::kCheckpoint, encoder.encode(*checkpoint, 1), 1);
+  if (!config.checkpoint.path.empty()) {
+    if (const auto products = load_products(products_path(config.checkpoint.path)))
+      receive_saved(*products, engine->get());
+  }
+  if (checkpoint) receive_saved(*checkpoint, engine->get());
   for (const test::Input& input : list) {
     (*engine)->receive(input.channel, input.bytes, 1);
     while (!(*engine)->idle()) std::this_thread::yield();
@@ -152,4 +157,42 @@ TEST_CASE("without checkpoint.path nothing is written") {
     ++files;
   CHECK(files == 1);
   CHECK(counters->checkpoints_used.get() + counters->checkpoints_ignored.get() == 0);
+}
+
+TEST_CASE("a run that is started again needs nobody to repeat the ephemerides") {
+  std::vector<test::Input> with, without;
+  test::feed_messages(test::synthetic_drive(test::noisy_drive(20.0)),
+                      [&](Channel channel, ByteSpan bytes) {
+                        with.push_back({channel, test::Bytes(bytes.begin(), bytes.end())});
+                        if (channel != Channel::kEphemeris) without.push_back(with.back());
+                      });
+  const test::TemporaryFile folder("unused", "");
+  DaemonConfig config = test::drive_config();
+  config.checkpoint.path = folder.beside("checkpoint.yaml");
+  std::unique_ptr<Engine> engine;
+  EngineCounters* counters = nullptr;
+  const auto used = [&] {
+    std::int64_t satellites = 0;
+    for (const Gauge& of_system : counters->satellites_used) satellites += of_system.get();
+    return satellites;
+  };
+  // Nobody has saved anything yet.
+  test::Collector none, first, second;
+  run_engine(config, without, &none, &counters, &engine);
+  CHECK(used() == 0);
+  CHECK_FALSE(load_products(products_path(config.checkpoint.path)));
+  run_engine(config, with, &first, &counters, &engine);
+  const std::int64_t satellites = used();
+  CHECK(satellites > 4);
+  REQUIRE(load_products(products_path(config.checkpoint.path)));
+  config.journal.path = folder.beside("run.journal");
+  run_engine(config, without, &second, &counters, &engine);
+  CHECK(used() == satellites);
+  CHECK(counters->lost[index_of(Channel::kEphemeris)].get() == 0);
+  if (!test::have_programs("leonav-replay")) return;
+  const auto run = test::run_program(
+      "leonav-replay", "--out " + folder.beside("replay") + " --verify " + config.journal.path);
+  INFO(run.out << run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.find(" 0 differences") != std::string::npos);
 }

@@ -1,0 +1,12 @@
+// These functions give an engine what an earlier run has saved, before any other input.
+#pragma once
+#include "daemon/checkpoint/product_store.h"
+#include "daemon/engine/engine.h"
+
+namespace leonav {
+
+// As inputs that came now: so they are in the journal, and a replay needs no file.
+void receive_saved(const BroadcastProducts& products, Engine* engine);
+void receive_saved(const Checkpoint& checkpoint, Engine* engine);
+
+}  // namespace leonav

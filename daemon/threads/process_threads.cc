@@ -1,0 +1,33 @@
+#include "daemon/threads/process_threads.h"
+
+#include <sched.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+
+namespace leonav {
+
+std::set<pid_t> threads_of_process() {
+  std::set<pid_t> threads;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry("/proc/self/task", error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    pid_t thread = 0;
+    if (std::from_chars(name.data(), name.data() + name.size(), thread).ec == std::errc())
+      threads.insert(thread);
+  }
+  return threads;
+}
+
+std::string set_priority(pid_t thread, const std::string& name, const ThreadConfig& config) {
+  if (config.priority <= 0) return "";
+  sched_param parameters{};
+  parameters.sched_priority = config.priority;
+  if (sched_setscheduler(thread, SCHED_FIFO, &parameters) == 0) return "";
+  return "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(errno);
+}
+
+}  // namespace leonav

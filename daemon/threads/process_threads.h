@@ -1,0 +1,18 @@
+// These functions find the threads that a library has started, and give them a priority.
+#pragma once
+#include <sys/types.h>
+
+#include <set>
+#include <string>
+
+#include "daemon/config/daemon_config.h"
+
+namespace leonav {
+
+// Returns the threads of this process; empty where /proc cannot be read.
+std::set<pid_t> threads_of_process();
+
+// Returns the settings that the system refused, as a text; empty: none. `name`: for that text.
+std::string set_priority(pid_t thread, const std::string& name, const ThreadConfig& config);
+
+}  // namespace leonav
