@@ -205,8 +205,8 @@ void HealthMonitor::judge_stream(std::int64_t number, double now_s, Channel chan
                  any->is_late ? "nothing comes" : "messages come, but are late or rejected");
 }
 
-// A mistake in the configuration or in what feeds the daemon: it stays until somebody has put it
-// right and started anew.
+// A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
+// mended and the daemon is started again.
 void HealthMonitor::judge_conventions() {
   EngineCounters& counters = engine_->counters();
   suspicions_.clear();

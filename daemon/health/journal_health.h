@@ -19,8 +19,8 @@ enum class JournalTrouble : std::uint8_t {
 };
 inline constexpr std::size_t kJournalTroubles = 6;
 
-// What has been wrong is told until it has not been seen for kCalm_s: a disk that is barely fast
-// enough is in trouble every other second.
+// A trouble counts until kCalm_s have passed without it, because a disk that is barely fast enough
+// is in trouble every other second.
 class JournalHealth {
  public:
   // `now_s`: of a clock that never goes back.
