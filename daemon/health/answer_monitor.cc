@@ -1,5 +1,6 @@
 #include "daemon/health/answer_monitor.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace leonav {
@@ -7,16 +8,18 @@ namespace leonav {
 bool AnswerMonitor::stands_still(bool expects_imu) {
   EngineCounters& counters = engine_->counters();
   const std::int64_t solution_ns = counters.solution_time_ns.get();
-  if (std::exchange(solution_ns_, solution_ns) != solution_ns || solution_ns == 0) looks_ = 0;
   const std::int64_t imu = counters.accepted_imu.get(), epochs = counters.accepted_epochs.get();
+  const bool is_new = std::exchange(solution_ns_, solution_ns) != solution_ns;
   const bool has_imu = std::exchange(imu_, imu) != imu || !expects_imu;
   const bool has_epoch = std::exchange(epochs_, epochs) != epochs;
-  bool uses_satellites = false;
-  for (const Gauge& used : counters.satellites_used)
-    uses_satellites = uses_satellites || used.get() > 0;
-  // A look without an epoch says nothing: they may come more rarely than once a second.
-  if (solution_ns == 0 || !has_imu || !uses_satellites) looks_ = 0;
-  if (solution_ns != 0 && has_imu && has_epoch && uses_satellites) ++looks_;
+  const bool uses_satellites =
+      std::any_of(counters.satellites_used.begin(), counters.satellites_used.end(),
+                  [](const Gauge& used) { return used.get() > 0; });
+  if (is_new || solution_ns == 0 || !has_imu || !uses_satellites) {
+    looks_ = 0;
+  } else if (has_epoch) {  // a look without says nothing: epochs may come more rarely than looks
+    ++looks_;
+  }
   return looks_ >= kMostLooks;
 }
 
