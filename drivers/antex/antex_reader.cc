@@ -174,10 +174,9 @@ std::string antenna_name(std::string_view text) {
     type = trim(whole.substr(0, blank));
     radome = whole.substr(blank + 1);
   }
-  std::string name(type);
-  name.resize(kTypeWidth, ' ');
-  name += radome;
-  name.resize(kTypeWidth + 4, ' ');
+  std::string name(kTypeWidth + 4, ' ');
+  type.copy(name.data(), kTypeWidth);
+  radome.copy(name.data() + kTypeWidth, 4);
   return name;
 }
 

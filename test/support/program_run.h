@@ -45,8 +45,9 @@ inline constexpr const char* kProgramTimeout = "timeout 60 '";
 inline ProgramRun run_program(const std::string& name, const std::string& arguments) {
   const TemporaryFile place("unused", "");
   const std::string out = place.beside("out"), err = place.beside("err");
-  const std::string command = std::string(kProgramTimeout) + LEONAV_BIN_DIR "/" + name + "' " +
-                              arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+  std::string command = kProgramTimeout;
+  command += LEONAV_BIN_DIR "/" + name + "' " + arguments;
+  command += " >'" + out + "' 2>'" + err + "' </dev/null";
   const int status = std::system(command.c_str());
   ProgramRun run;
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

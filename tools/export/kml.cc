@@ -78,8 +78,10 @@ class KmlGeometry {
 }  // namespace
 
 void write_kml(const MapTrack& track, OutputFile* file) {
-  file->write(std::string(kHead) + "<name>" + xml_text(track.name) + "</name>\n" +
-              std::string(kStyles) + schema_of(track.rows.front()));
+  file->write(kHead);
+  file->write("<name>" + xml_text(track.name) + "</name>\n");
+  file->write(kStyles);
+  file->write(schema_of(track.rows.front()));
   const KmlGeometry geometry(track.geoid_separation_m);
   file->write("<Folder><name>track</name>\n");
   for (const TrackPart& part : track.parts) {

@@ -41,13 +41,13 @@ struct Observer final : MessageTarget {
       if (!decision.committed) missed.insert(decision.epoch);
       last_decided = decision.epoch;
     } else if (channel == Channel::kEvent) {
-      event_t event;
+      event_t event{};
       if (event.decode(bytes.data(), 0, size) != size) std::abort();
       if (event.kind == static_cast<int>(EventKind::kDeadlineMiss)) {
         missed_by_event.insert(static_cast<std::uint64_t>(event.value));
       }
     } else if (channel == Channel::kSolution) {
-      solution_t solution;
+      solution_t solution{};
       if (solution.decode(bytes.data(), 0, size) != size) std::abort();
       solution_times.push_back(solution.time_ns);
     }

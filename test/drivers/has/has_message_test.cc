@@ -105,7 +105,7 @@ TEST_CASE("The examples of the interface document decode to their contents") {
     for (const SsrSatellite& satellite : message.satellites) {
       const auto& [name, row] = clock_rows[i++];
       REQUIRE(to_string(satellite.satellite) == name);
-      REQUIRE(satellite.clock.has_value() == row[0] > -10.24);
+      REQUIRE(satellite.clock.has_value() == (row[0] > -10.24));
       if (satellite.clock) {
         CHECK(satellite.clock->c0_m == Approx(multiplier * row[0]).margin(1e-9));
       }

@@ -94,7 +94,7 @@ print("at most", *(f"{levels.at_most(k):.4f}" for k in (0, 1, 2, 10)))
 TEST_CASE("Events are blocks beyond the level of each risk; replays of a log count as one",
           "[tools][fleet]") {
   if (!have_fleet()) return;
-  const std::string said = fleet_python(std::string(kRuns) + R"(
+  const std::string said = fleet_python(kRuns + std::string(R"(
 for line in levels.groups_of(runs)[0].lines():
     print(f"{line.risk_per_hour:g} {line.stated} {line.multiple:.3f} hours {line.hours:g} epochs {line.epochs} events {line.events} runs {line.runs}",
           f"allowed {line.allowed():g} one {line.confidence():.6f} independent {line.confidence_if_independent():.6f} rate {line.rate():.4f}",
@@ -105,7 +105,7 @@ sums = levels.summed(r for _, r in runs)["horizontal"]
 print(sums.epochs, sums.misleading, sums.largest_ratio, sums.available(1), dict(sums.diagram))
 print(levels.diagrams(runs))
 print(levels.availability([r for _, r in runs]))
-)");
+)"));
   INFO(said);
   // 0.6 h. 11.88, 10.27, 8.38 and 7.27 sigma at 1e-7, 1e-5, 1e-3 and 1e-2; 7.2 counts for 7.27.
   CHECK(has(said,
@@ -128,7 +128,7 @@ print(levels.availability([r for _, r in runs]))
 
 TEST_CASE("The report judges runs of different configurations apart", "[tools][fleet]") {
   if (!have_fleet()) return;
-  const std::string said = fleet_python(std::string(kRuns) + R"(
+  const std::string said = fleet_python(kRuns + std::string(R"(
 other = dict(told, risk_per_hour=1e-3, error_correlation_s=60.0)
 runs.append(("a", result([[3, 720, 12]], model=other)))
 runs.append(("c", result([[3, 720, 12]], model=None)))
@@ -136,7 +136,7 @@ parts = [(("city", "GPS"), [runs[0][1]]), (("all scenes", "all together"), [r fo
 print("\n".join(levels.section(runs, ["scene", "systems"], parts)))
 print("[none]", levels.section([("a", {"integrity": None})], ["scene"], []), levels.plain([]))
 print(levels.without_lists(runs[0][1])["integrity"]["horizontal"].keys())
-)");
+)"));
   INFO(said);
   CHECK(
       has(said,

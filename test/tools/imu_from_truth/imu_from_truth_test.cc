@@ -28,8 +28,8 @@ std::string scratch(const std::string& name) {
 
 // Exit status of the tool; its words go to `output`.
 int run(const std::string& arguments, const std::string& output = "/dev/null") {
-  const std::string command = std::string(LEONAV_BIN_DIR) + "/leonav-imu-from-truth " + arguments +
-                              " > " + output + " 2>&1";
+  const std::string command =
+      LEONAV_BIN_DIR "/leonav-imu-from-truth " + arguments + " > " + output + " 2>&1";
   const int status = std::system(command.c_str());
   return status < 0 ? -1 : status >> 8;
 }

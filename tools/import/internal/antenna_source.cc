@@ -44,9 +44,9 @@ std::vector<AntennaPattern> load_antennas(const Dataset& dataset, const std::str
   const std::string name =
       antenna_name(dataset.receiver_antenna.empty() ? header_antenna : dataset.receiver_antenna);
   if (name.empty()) {
-    warn(std::string("no receiver antenna named (observation header: ANT # / TYPE; dataset: "
-                     "receiver_antenna)") +
-         kWithoutReceiver);
+    std::string text =
+        "no receiver antenna named (observation header: ANT # / TYPE; dataset: receiver_antenna)";
+    warn(text += kWithoutReceiver);
   }
   std::vector<AntennaPattern> receiver, satellites;
   std::set<SatelliteId> known;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <string>
+#include <string_view>
 
 #include "drivers/csv/imu_csv.h"
 #include "tools/sim/export/antex_writer.h"
@@ -118,17 +120,21 @@ void Export::finish(std::span<const TruthPoint> truth) {
 
 void Export::write_dataset() const {
   TextFile file(path(kDataset));
+  const auto entry = [&](std::string_view key, std::string_view value) {
+    std::string text(key);
+    file.line(text.append(": ").append(value));
+  };
   file.line("# Written by leonav-sim.");
-  file.line("name: simulated");
-  file.line(std::string("observations: ") + kObservations);
-  if (has_navigation_) file.line(std::string("navigation: ") + kNavigation);
+  entry("name", "simulated");
+  entry("observations", kObservations);
+  if (has_navigation_) entry("navigation", kNavigation);
   std::string orbits;
   for (const std::string& name : orbit_files_) orbits += (orbits.empty() ? "" : ", ") + name;
-  if (!orbits.empty()) file.line("orbits: [" + orbits + "]");
-  if (has_clocks_) file.line(std::string("clocks: ") + kClocks);
-  file.line(std::string("antenna_models: ") + kAntennas);
-  if (!imu_.empty()) file.line(std::string("imu: ") + kImu);
-  file.line(std::string("truth: ") + kTruth);
+  if (!orbits.empty()) entry("orbits", "[" + orbits + "]");
+  if (has_clocks_) entry("clocks", kClocks);
+  entry("antenna_models", kAntennas);
+  if (!imu_.empty()) entry("imu", kImu);
+  entry("truth", kTruth);
   file.close();
 }
 

@@ -1,0 +1,178 @@
+"""Runs leonavd on a simulated drive at real speed while stress-ng keeps every processor busy.
+
+  load.py BIN OUT [--minutes M]
+
+Once with the real-time priorities of the preset and locked memory, once with ordinary scheduling. Prints how long after its IMU
+message each SOLUTION came, which are missing or out of order, and the memory. The sender's and the recorder's own delays do not
+count where they may have real-time priority: both get a higher one than leonavd. Exit code 1: a bound of the first run does not hold.
+"""
+import argparse
+import multiprocessing
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+LIB = pathlib.Path(__file__).resolve().parents[1]
+ROOT = LIB.parents[2]
+sys.path[:0] = [str(LIB), str(ROOT / "tools/python"), str(ROOT / "test/tools")]
+from live_program import enter_namespace  # noqa: E402
+import numpy as np  # noqa: E402
+
+import leonav  # noqa: E402
+import lcm_log  # noqa: E402
+from leonav.lcm_types import TYPES  # noqa: E402
+from service_faults.daemon import Daemon, Recorder  # noqa: E402
+from service_faults.datagrams import Sender  # noqa: E402
+from service_faults.drive import IMU, PREFIX, STANDING_S, Drive, stamp_ns  # noqa: E402
+
+OUR_PRIORITY = 80
+WARM_UP_S = STANDING_S + 50  # the window is full, and every buffer has been used
+REAL_TIME = ["--set", "realtime.lock_memory=true"]
+ORDINARY = [word for thread in ("io", "ins", "gnss", "smoother", "out") for word in ("--set", f"realtime.{thread}.priority=0")]
+# Of the run with real-time priorities.
+MOST_99_MS, MOST_999_MS = 1.0, 5.0
+
+
+def first_in_line(process_id=0):
+    """The scheduler takes this process before leonavd; False where that is not allowed."""
+    try:
+        os.sched_setscheduler(process_id, os.SCHED_FIFO, os.sched_param(OUR_PRIORITY))
+    except PermissionError:
+        return False
+    return True
+
+
+def status_kb(process_id, name):
+    for line in pathlib.Path(f"/proc/{process_id}/status").read_text(encoding="ascii").splitlines():
+        if line.startswith(name + ":"):
+            return int(line.split()[1])
+    return 0
+
+
+def watch(process_id, path):
+    """A line a second: resident and locked memory in kB, open files."""
+    os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+    with open(path, "w", encoding="ascii") as file:
+        while True:
+            try:
+                files = len(os.listdir(f"/proc/{process_id}/fd"))
+                print(time.time(), status_kb(process_id, "VmRSS"), status_kb(process_id, "VmLck"), files, file=file, flush=True)
+            except OSError:
+                return
+            time.sleep(1.0)
+
+
+def play(messages):
+    """Sends each message when it is due; returns (stamp, ns of the wall clock just before it was sent) of each IMU sample."""
+    sender, sent = Sender(), []
+    begin = time.monotonic() + 0.05
+    for t, channel, data in messages:
+        wait = begin + t - time.monotonic()
+        if wait > 0:
+            time.sleep(wait)
+        if channel == IMU:
+            sent.append((stamp_ns(data), time.time_ns()))
+        sender.send(channel, data)
+    return np.array(sent, dtype=np.int64)
+
+
+def outputs(log):
+    """(stamps, arrivals in ns) of SOLUTION, and the last HEALTH."""
+    stamps, arrivals, health = [], [], None
+    for wall, channel, data in lcm_log.messages(log):
+        if channel == PREFIX + "SOLUTION":
+            stamps.append(stamp_ns(data))
+            arrivals.append(round(wall * 1e9))
+        elif channel == PREFIX + "HEALTH":
+            health = data
+    return np.array(stamps, dtype=np.int64), np.array(arrivals, dtype=np.int64), leonav.decode(health)[1] if health else None
+
+
+def run(words, name, options):
+    folder = words.out / name.replace(" ", "-")
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in [*folder.glob("journal/*"), *folder.glob("leonavd*.txt")]:
+        old.unlink()
+    drive = Drive(words.bin, words.out / "drives", WARM_UP_S + round(60 * words.minutes))
+    daemon = Daemon(words.bin, folder, options, heading_deg=drive.heading_deg())
+    messages = drive.messages()
+    load = subprocess.Popen(["stress-ng", "--quiet", "--cpu", "0", "--vm", "1", "--vm-bytes", "256M"])
+    try:
+        daemon.start()
+        watcher = multiprocessing.Process(target=watch, args=(daemon.process.pid, folder / "memory.txt"))
+        watcher.start()
+        recorder = Recorder(folder)
+        privileged = first_in_line() and all(first_in_line(int(thread))
+                                             for thread in os.listdir(f"/proc/{recorder.process.pid}/task"))
+        begin = time.time()
+        sent = play(messages)
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        time.sleep(0.5)
+        _, code = daemon.stop()
+        recorder.stop()
+        watcher.join()
+    finally:
+        load.terminate()
+        load.wait()
+        daemon.kill()
+    return judged(folder, recorder.log, sent, begin, code, privileged)
+
+
+def judged(folder, log, sent, begin, code, privileged):
+    stamps, arrivals, health = outputs(log)
+    counted = sent[sent[:, 1] >= (begin + WARM_UP_S) * 1e9]
+    sent_at = dict(counted)
+    delays = np.array([arrival - sent_at[stamp] for stamp, arrival in zip(stamps.tolist(), arrivals.tolist())
+                       if stamp in sent_at]) * 1e-6
+    memory = np.loadtxt(folder / "memory.txt", ndmin=2)
+    memory = memory[(memory[:, 0] >= begin + WARM_UP_S) & (memory[:, 1] > 0)]
+    return {"samples": len(counted), "missing": int(len(np.setdiff1d(counted[:, 0], stamps))),
+            "out_of_order": int(np.count_nonzero(np.diff(stamps) <= 0)), "delays_ms": delays,
+            "resident_kb": memory[:, 1], "locked_kb": memory[-1, 2], "files": memory[:, 3], "code": code, "privileged": privileged,
+            "misses": (int(health["ekf_misses"]), int(health["smoother_misses"])) if health else None}
+
+
+def row(name, r):
+    q = np.quantile(r["delays_ms"], [0.5, 0.99, 0.999, 1.0]) if len(r["delays_ms"]) else [np.nan] * 4
+    ekf, smoother = r["misses"] or ("-", "-")
+    return (f"| {name} | {r['samples']} | {r['missing']} | {r['out_of_order']} | " + " | ".join(f"{v:.2f}" for v in q) +
+            f" | {ekf} / {smoother} | {r['resident_kb'][0] / 1024:.2f} | {r['resident_kb'].max() - r['resident_kb'].min():.0f} "
+            f"| {r['locked_kb'] / 1024:.1f} |")
+
+
+def failures(r):
+    q99, q999 = np.quantile(r["delays_ms"], [0.99, 0.999])
+    bounds = {f"{r['missing']} solutions are missing": r["missing"] > 0, f"{r['out_of_order']} are out of order": r["out_of_order"] > 0,
+              f"99 % of delays are below {q99:.2f} ms only": q99 > MOST_99_MS,
+              f"99.9 % of delays are below {q999:.2f} ms only": q999 > MOST_999_MS,
+              "resident memory changes": r["resident_kb"].max() > r["resident_kb"].min(),
+              f"exit code {r['code']}": r["code"] != 0}
+    return [text for text, broken in bounds.items() if broken]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bin", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("out", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("--minutes", type=float, default=10.0)
+    words = parser.parse_args()
+    enter_namespace()
+    words.out.mkdir(parents=True, exist_ok=True)
+    print("| scheduling | IMU samples | without SOLUTION | out of order | delay, ms: median | 99 % | 99.9 % | largest "
+          "| misses of filter / smoother | resident, MB | its change, kB | locked, MB |\n|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
+    real_time = run(words, "real time", REAL_TIME)
+    print(row("real-time priorities, memory locked", real_time), flush=True)
+    print(row("ordinary", run(words, "ordinary", ORDINARY)), flush=True)
+    if not real_time["privileged"]:
+        print("\nReal-time priorities are not allowed here: the delays are also those of the sender and of the recorder.")
+        return 0
+    broken = failures(real_time)
+    for text in broken:
+        print(f"bound: {text}")
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
