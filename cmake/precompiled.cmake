@@ -18,8 +18,11 @@ function(leonav_precompiled kind)
   target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
-function(leonav_precompile target kind)
-  if(LEONAV_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+# Not where LCM's types may be used: these need -fno-strict-aliasing (targets.cmake), which gcc
+# forgets, without a word, behind a header that was precompiled without it.
+function(leonav_precompile target kind folder)
+  if(LEONAV_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND
+     folder MATCHES "^(test/)?core/|^drivers/" AND NOT folder STREQUAL drivers/lcm)
     target_precompile_headers(${target} REUSE_FROM leonav_precompiled_${kind})
   endif()
 endfunction()

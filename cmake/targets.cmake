@@ -42,7 +42,7 @@ function(leonav_library target folder)
   else()
     add_library(${target} STATIC ${sources})
     target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
-    leonav_precompile(${target} library)
+    leonav_precompile(${target} library ${folder})
   endif()
   leonav_expose(${target} ${folder})
 endfunction()
@@ -146,7 +146,7 @@ function(leonav_test target folder)
   # Helpers of one chapter's tests lie at the top of its folder.
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test ${CMAKE_SOURCE_DIR}/${folder})
   target_link_libraries(${target} PRIVATE catch2_with_main)
-  leonav_precompile(${target} test)
+  leonav_precompile(${target} test ${folder})
   target_compile_definitions(${target} PRIVATE
     LEONAV_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data"
     LEONAV_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
