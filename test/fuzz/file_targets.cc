@@ -1,0 +1,143 @@
+// The readers of files, each to the end of the file.
+#include <utility>
+
+#include "drivers/antex/antex_reader.h"
+#include "drivers/bias_sinex/bias_sinex_reader.h"
+#include "drivers/blq/blq_reader.h"
+#include "drivers/clk/clock_reader.h"
+#include "drivers/csv/imu_csv.h"
+#include "drivers/csv/solution_csv.h"
+#include "drivers/csv/truth_csv.h"
+#include "drivers/rinex/navigation_reader.h"
+#include "drivers/rinex/observation_reader.h"
+#include "drivers/rtklib_pos/pos_reader.h"
+#include "drivers/sp3/sp3_reader.h"
+#include "drivers/text/parse.h"
+#include "test/fuzz/memory_file.h"
+#include "test/fuzz/target_groups.h"
+#include "tools/import/dataset.h"
+
+namespace leonav::test {
+namespace {
+
+// FileError is what every reader documents for a file that it cannot use.
+template <typename Read>
+void run_reader(FuzzBytes bytes, Read read) {
+  try {
+    read(path_of_file_with(bytes));
+  } catch (const FileError&) {
+  }
+}
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw Finding(what);
+}
+
+template <typename Rows, typename TimeOf>
+void expect_order(const Rows& rows, TimeOf time_of) {
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    expect(time_of(rows[i - 1]) < time_of(rows[i]), "times do not increase");
+  }
+}
+
+void read_observations(const std::string& path) {
+  ObservationReader reader(path);
+  RawEpoch epoch;
+  while (reader.next(&epoch)) {
+    expect(epoch.time.is_set(), "an epoch without a time");
+    expect(!epoch.observations.empty(), "an epoch without an observation");
+    for (std::size_t i = 1; i < epoch.observations.size(); ++i) {
+      expect(comes_before(epoch.observations[i - 1], epoch.observations[i]),
+             "observations are not sorted");
+    }
+  }
+}
+
+void read_clocks(const std::string& path) {
+  ClockReader reader(path);
+  ClockEpoch epoch;
+  while (reader.next(&epoch)) expect(!epoch.states.empty(), "an epoch without a clock");
+}
+
+void read_loading(const std::string& path) {
+  for (const char* station : {"", "ONSALA", "2"}) {
+    try {
+      static_cast<void>(ocean_loading(read_blq(path, station).rows));
+    } catch (const FileError&) {
+    }
+  }
+}
+
+void read_antennas(const std::string& path) {
+  for (const auto& time : {GpsTime(), GpsTime::from_week_and_tow(2200, 0.0)}) {
+    try {
+      const AntexFile file = read_antex(path, {time, antenna_name("TRM59800.00 NONE")});
+      for (const AntennaPattern& one : file.satellites) {
+        expect(is_storable(one), "a satellite's pattern that no store takes");
+      }
+      for (const AntennaPattern& one : file.receiver) {
+        expect(is_storable(one), "a receiver's pattern that no store takes");
+      }
+    } catch (const FileError&) {
+    }
+  }
+}
+
+void read_biases(const std::string& path) {
+  for (SignalBias bias : read_bias_sinex(path).biases) {
+    bias.time = GpsTime::from_week_and_tow(2200, 0.0);  // of the reception, which is the caller's
+    expect(is_sane(bias), "a bias that is not sane");
+  }
+}
+
+void read_orbits(const std::string& path) {
+  expect_order(read_sp3(path).epochs, [](const Sp3Epoch& one) { return one.time; });
+}
+
+void read_samples(const std::string& path) {
+  const ImuCsv file = read_imu_csv(path);
+  expect(file.samples.size() >= 2, "fewer than two samples");
+  expect_order(file.samples, [](const ImuSample& one) { return one.time; });
+  for (const ImuSample& one : file.samples) {
+    expect(one.interval_ns > 0, "an interval that is not positive");
+    expect(one.delta_theta_b.allFinite() && one.delta_velocity_b.allFinite(), "not finite");
+  }
+}
+
+void read_trajectory(const std::string& path) {
+  const TruthCsv file = read_truth_csv(path);
+  expect(!file.points.empty(), "no point");
+  expect_order(file.points, [](const TruthPoint& one) { return one.time; });
+}
+
+void read_solution(const std::string& path) {
+  expect_order(read_solution_csv(path).rows, [](const SolutionRow& row) { return row.pva.time; });
+}
+
+void read_positions(const std::string& path) {
+  static_cast<void>(looks_like_pos(path));
+  expect(!read_pos(path).rows.empty(), "no solution");
+}
+
+}  // namespace
+
+std::vector<FuzzTarget> file_targets() {
+  return {
+      {"rinex_observation", [](FuzzBytes b) { run_reader(b, read_observations); }},
+      {"rinex_navigation",
+       [](FuzzBytes b) { run_reader(b, [](const std::string& p) { read_navigation(p); }); }},
+      {"sp3", [](FuzzBytes b) { run_reader(b, read_orbits); }},
+      {"clk", [](FuzzBytes b) { run_reader(b, read_clocks); }},
+      {"antex", [](FuzzBytes b) { run_reader(b, read_antennas); }},
+      {"bias_sinex", [](FuzzBytes b) { run_reader(b, read_biases); }},
+      {"blq", [](FuzzBytes b) { run_reader(b, read_loading); }},
+      {"imu_csv", [](FuzzBytes b) { run_reader(b, read_samples); }},
+      {"truth_csv", [](FuzzBytes b) { run_reader(b, read_trajectory); }},
+      {"solution_csv", [](FuzzBytes b) { run_reader(b, read_solution); }},
+      {"rtklib_pos", [](FuzzBytes b) { run_reader(b, read_positions); }},
+      {"dataset",
+       [](FuzzBytes b) { run_reader(b, [](const std::string& p) { load_dataset(p); }); }},
+  };
+}
+
+}  // namespace leonav::test

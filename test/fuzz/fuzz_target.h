@@ -1,0 +1,31 @@
+// A fuzz target takes any bytes from outside through one reader of leonav.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace leonav::test {
+
+using FuzzBytes = std::span<const std::uint8_t>;
+
+// A target throws it where a result cannot be right; what() says which. Every other exception that
+// leaves a target is a finding as well: targets catch the errors that a reader documents.
+class Finding : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+struct FuzzTarget {
+  std::string_view name;  // of its folder in test/fuzz/corpus
+  void (*run)(FuzzBytes bytes) = nullptr;
+};
+
+// All targets, in the order in which they run.
+const std::vector<FuzzTarget>& fuzz_targets();
+// Returns the target with this name, or nullptr.
+const FuzzTarget* find_fuzz_target(std::string_view name);
+
+}  // namespace leonav::test

@@ -1,0 +1,151 @@
+#include "test/fuzz/good_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/navigator/sequencer/input_validation.h"
+#include "test/fuzz/fuzz_target.h"
+
+namespace leonav::test {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000, kSecond = 1'000 * kMs, kDay = 86'400 * kSecond;
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw Finding(what);
+}
+
+// How long the Sequencer may need, from its rules: an accepted stamp lies so far ahead.
+int recovery_seconds(const NavigatorConfig& config) {
+  return static_cast<int>(std::ceil(std::max(10.0, 3.0 * config.realtime.epoch_interval_s))) + 3;
+}
+
+}  // namespace
+
+void CheckedStages::open_epoch(std::uint64_t index) {
+  expect(index == last_index_ + 1, "an epoch is opened out of turn");
+  opened_ = index;
+}
+
+void CheckedStages::push_inertial(const InertialWork& work) {
+  if (std::holds_alternative<Restart>(work)) {
+    if (std::get<Restart>(work).cause == ResetCause::kTimeBase) last_sample_ = GpsTime();
+  } else if (const auto* issued = std::get_if<EpochIssued>(&work)) {
+    expect(issued->index == opened_, "an epoch is issued that was not opened");
+  } else {
+    const auto& sample = std::get<ImuSample>(work);
+    expect(sample.interval_ns > 0, "a sample's interval is not positive");
+    expect(sample.delta_theta_b.allFinite() && sample.delta_velocity_b.allFinite(),
+           "a sample is not finite");
+    expect(!last_sample_.is_set() || sample.start() >= last_sample_, "samples overlap");
+    last_sample_ = sample.time;
+  }
+}
+
+void CheckedStages::push_gnss(const GnssWork& work) {
+  if (const auto* epoch = std::get_if<EpochWork>(&work)) check_epoch(*epoch);
+  const auto* command = std::get_if<Command>(&work);
+  if (command == nullptr) return;
+  expect(check(*command) == InputFault::kNone, "a command that is refused");
+  if (command->kind == CommandKind::kRestart && command->cause == ResetCause::kTimeBase)
+    last_epoch_ = GpsTime();
+}
+
+void CheckedStages::check_epoch(const EpochWork& work) {
+  expect(work.index == last_index_ + 1, "an epoch's index does not follow");
+  last_index_ = work.index;
+  expect(is_plausible(work.time), "an epoch at an impossible time");
+  expect(!last_epoch_.is_set() || work.time > last_epoch_, "epochs do not increase");
+  expect(work.raw.time == work.time, "an epoch with two times");
+  expect(!work.empty || work.raw.observations.empty(), "an empty epoch with observations");
+  GpsTime end = last_epoch_;
+  for (const ImuSample& sample : work.block) {
+    expect(sample.interval_ns > 0, "a block's interval is not positive");
+    expect(!end.is_set() || sample.start() >= end, "blocks overlap");
+    end = sample.time;
+  }
+  expect(work.block.empty() || end <= work.time, "a block ends behind its epoch");
+  for (const OdometerIncrement& one : work.odometer) {
+    expect(one.time <= work.time, "an odometer increment ends behind its epoch");
+  }
+  for (std::size_t i = 1; i < work.raw.observations.size(); ++i) {
+    expect(comes_before(work.raw.observations[i - 1], work.raw.observations[i]),
+           "observations are not sorted");
+  }
+  last_epoch_ = work.time;
+  if (work.empty || work.raw.observations.empty()) return;
+  // The block reaches up to the epoch: its samples have come.
+  if (!work.block.empty() && end != work.time) return;
+  last_good_epoch_ = work.block.empty() ? GpsTime() : work.time;
+  good_epochs_ += work.block.empty() ? 0 : 1;
+}
+
+void CheckedStages::event(const Event& event) {
+  expect(event.sequence > last_event_, "events' numbers do not increase");
+  last_event_ = event.sequence;
+}
+
+void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, CheckedStages* stages,
+                      GpsTime base) {
+  const int seconds = recovery_seconds(config);
+  const bool inertial = config.motion == MotionModel::kInertial;
+  std::uint64_t good_before = 0, epochs_before = 0;
+  for (int second = 1; second <= seconds; ++second) {
+    if (second == seconds - 1) {
+      good_before = stages->good_epochs();
+      epochs_before = sequencer->counters().epochs;
+    }
+    const GpsTime begin = base.plus_nanoseconds((second - 1) * kSecond);
+    for (int k = 1; k <= 200; ++k) {
+      sequencer->on_imu(sample_ending_at(begin.plus_nanoseconds(k * 5 * kMs)));
+    }
+    sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
+  }
+  // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
+  for (int k = 1; k <= 100; ++k) {
+    const GpsTime end = base.plus_nanoseconds(seconds * kSecond);
+    sequencer->on_imu(sample_ending_at(end.plus_nanoseconds(k * 5 * kMs)));
+  }
+  const std::uint64_t good =
+      inertial ? stages->good_epochs() - good_before : sequencer->counters().epochs - epochs_before;
+  if (good >= 2) return;
+  throw Finding("a dead end: after " + std::to_string(seconds) + " s of good input " +
+                std::to_string(good) + " of the last two epochs reached the stages");
+}
+
+GpsTime hidden_base(GpsTime now, std::uint64_t hash) {
+  constexpr std::array<std::int64_t, 10> kMoves = {
+      kSecond, 0,         7 * kSecond,   -7 * kSecond, 3'600 * kSecond,
+      -kDay,   21 * kDay, -3'000 * kDay, 5 * kDay,     3'000 * kDay};
+  const auto fraction = static_cast<std::int64_t>(hash / kMoves.size() % 1000) * kMs;
+  return now.plus_nanoseconds(kMoves[hash % kMoves.size()] + fraction);
+}
+
+ImuSample sample_ending_at(GpsTime time, std::int64_t interval_ns) {
+  ImuSample sample;
+  sample.time = time;
+  sample.interval_ns = interval_ns;
+  const double dt = sample.interval_s();
+  sample.delta_theta_b << 0.01 * dt, -0.02 * dt, 0.03 * dt;
+  sample.delta_velocity_b << 0.5 * dt, 0.1 * dt, -9.8 * dt;
+  return sample;
+}
+
+RawEpoch epoch_of(GpsTime time, std::size_t satellites) {
+  RawEpoch raw;
+  raw.time = time;
+  for (std::size_t i = 0; i < std::min(satellites, raw.observations.capacity()); ++i) {
+    SignalObservation observation;
+    const auto system = i < 63 ? System::kGps : i < 113 ? System::kGalileo : System::kLeo;
+    const std::size_t first = i < 63 ? 0 : i < 113 ? 63 : 113;
+    observation.satellite = {system, static_cast<std::uint16_t>(i - first + 1)};
+    observation.code = {'1', 'C'};
+    observation.pseudorange_m = 2.2e7 + 1000.0 * static_cast<double>(i);
+    raw.observations.push_back(observation);
+  }
+  return raw;
+}
+
+}  // namespace leonav::test

@@ -1,0 +1,26 @@
+// After any inputs good ones bring epochs with IMU samples to the stages: there is no dead end.
+#include "test/fuzz/byte_script.h"
+#include "test/fuzz/good_input.h"
+#include "test/fuzz/sequencer_script.h"
+#include "test/fuzz/target_groups.h"
+
+namespace leonav::test {
+namespace {
+
+void run_script(FuzzBytes bytes) {
+  const SequencerScript script = script_from(bytes);
+  CheckedStages stages;
+  Sequencer sequencer(script.config, &stages);
+  try {
+    const GpsTime end = play(script, &sequencer);
+    require_recovery(script.config, &sequencer, &stages, hidden_base(end, hash_of(bytes)));
+  } catch (const Finding& finding) {
+    throw Finding(std::string(finding.what()) + "\n" + text_of(script));
+  }
+}
+
+}  // namespace
+
+std::vector<FuzzTarget> sequencer_targets() { return {{"sequencer", run_script}}; }
+
+}  // namespace leonav::test
