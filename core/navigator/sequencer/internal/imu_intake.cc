@@ -26,7 +26,7 @@ ImuIntake::ImuIntake(const NavigatorConfig& config)
 
 ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
   ImuSample sample = received;
-  sample.time = received.time.plus_nanoseconds(offset_ns_);
+  if (is_plausible(received.time)) sample.time = received.time.plus_nanoseconds(offset_ns_);
   return sample;
 }
 

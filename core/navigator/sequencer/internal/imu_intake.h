@@ -27,7 +27,8 @@ class ImuIntake {
 
   explicit ImuIntake(const NavigatorConfig& config);
 
-  // Returns the sample with the configured time offset added to its stamp.
+  // Returns the sample with the configured time offset added to its stamp. An impossible stamp
+  // stays as it is: the offset must not make it a possible one, and its sum may not exist.
   ImuSample shift_stamp(const ImuSample& received) const;
   // Checks the values of the sample by itself, regardless of earlier samples.
   static InputFault check(const ImuSample& sample);

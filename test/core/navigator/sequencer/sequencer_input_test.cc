@@ -25,6 +25,19 @@ TEST_CASE("observations that no receiver can have made are left out, the rest is
   CHECK(rig.rejected(InputFault::kNotSane) == 1);
 }
 
+TEST_CASE("an IMU sample with an impossible stamp is refused whatever the time offset") {
+  for (const double offset_s : {-1.0, 0.0, 1.0}) {
+    NavigatorConfig config;
+    config.imu_time_offset_s = offset_s;
+    SequencerRig rig(config);
+    for (const std::int64_t stamp_ns : {std::int64_t{0}, std::int64_t{-1}, INT64_MIN, INT64_MAX}) {
+      rig.sequencer.on_imu(sample_until(GpsTime::from_nanoseconds(stamp_ns)));
+    }
+    CHECK(rig.rejected(InputFault::kOutOfRange) == 4);
+    CHECK(rig.stages.samples.empty());
+  }
+}
+
 TEST_CASE("hostile commands, ephemerides, antennas and precise states are counted and dropped") {
   SequencerRig rig;
   const double nan = std::numeric_limits<double>::quiet_NaN();
