@@ -63,7 +63,9 @@ enum class SequencerCapacity : std::uint8_t {
 //   restarts in the new time.
 // - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
 //   intervals where those are longer. While IMU samples arrive between epochs, GNSS does not change
-//   the time: "ahead" is counted from the IMU alone.
+//   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
+//   time only after more of them than the IMU may miss without an end of the answer
+//   (EpochQueue::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
 // - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
 //   of IMU samples so far behind them restarts everything in the time of the IMU.
 // - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an

@@ -1,6 +1,7 @@
 #include "core/navigator/sequencer/internal/epoch_queue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"
@@ -8,9 +9,19 @@
 
 namespace leonav {
 
+namespace {
+
+// An interval of 0 is taken for 50 ms, as interval_in_nanoseconds() does.
+int epochs_within(double duration_s, double epoch_interval_s) {
+  return static_cast<int>(std::floor(duration_s / std::max(epoch_interval_s, 0.05)));
+}
+
+}  // namespace
+
 EpochQueue::EpochQueue(double epoch_interval_s)
     : max_ahead_ns_(std::max(kMaxStampAheadNs,
                              interval_in_nanoseconds(kMaxAheadIntervals * epoch_interval_s))),
+      run_with_imu_(std::max(kRunWithImu, epochs_within(kImuSilence_s, epoch_interval_s) + 2)),
       time_monitor_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
       held_(std::make_unique<RawEpoch>()) {
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
@@ -24,7 +35,8 @@ StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
   if (!reference.is_set()) return {};
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
   if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
-    if (!time_monitor_.reject(time)) {
+    const bool is_run = time_monitor_.reject(time);
+    if (!is_run || (imu_time.is_set() && time_monitor_.run() < run_with_imu_)) {
       return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
     }
     return {InputFault::kNone, true, seconds_between(time, reference)};

@@ -20,6 +20,10 @@ class EpochQueue {
   static constexpr double kMaxAheadIntervals = 3.0;
   static constexpr double kMaxStepS = 3600.0;  // longest interval in a run of epochs in a new time
   static constexpr int kRunToRestart = 5;      // epochs that must agree on a new time
+  // Where the IMU has kept time, a run must be longer than the silence of the IMU over which the
+  // inertial answer goes on: at least so many epochs, and more than such a silence has.
+  static constexpr int kRunWithImu = 12;
+  static constexpr double kImuSilence_s = 10.0;
   // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
   // kMaxImuLatencyNs later.
   static constexpr std::size_t kMinPending = 4;
@@ -75,6 +79,7 @@ class EpochQueue {
   bool is_known(GpsTime time) const;
 
   std::int64_t max_ahead_ns_;
+  int run_with_imu_;
   TimeStepMonitor time_monitor_;
   std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1> pending_;  // the first count_
   std::size_t count_ = 0;

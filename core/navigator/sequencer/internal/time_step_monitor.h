@@ -19,6 +19,9 @@ class TimeStepMonitor {
   // Ends the run, because a stamp was accepted.
   void clear() { run_ = 0; }
 
+  // Returns the length of the run so far.
+  int run() const { return run_; }
+
   // Adds a stamp that does not fit. Returns true if it completes a run and is to be accepted.
   bool reject(GpsTime stamp) {
     const std::int64_t step = nanoseconds_between(stamp, last_);

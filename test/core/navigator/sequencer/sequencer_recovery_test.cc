@@ -40,12 +40,44 @@ struct Rig : SequencerRig {
   }
 };
 
+TEST_CASE("a burst of epochs of another time between two IMU samples costs nothing") {
+  for (const std::int64_t ahead_ms :
+       {-86'400'000LL, -60'000LL, 12'000LL, 60'000LL, 3'600'000LL, 86'400'000LL}) {
+    for (const double interval_s : {0.1, 1.0}) {
+      CAPTURE(ahead_ms, interval_s);
+      NavigatorConfig config;
+      config.realtime.epoch_interval_s = interval_s;
+      const int burst = interval_s < 1.0 ? 100 : EpochQueue::kRunWithImu - 1;
+      Rig rig(config);
+      rig.drive(5);
+      for (int k = 0; k < burst; ++k)
+        rig.epoch(rig.now_ms + ahead_ms + static_cast<std::int64_t>(1000 * interval_s) * k);
+      rig.drive(5);
+      if (interval_s == 1.0) CHECK(rig.good_epochs(10) == 10);
+      CHECK(rig.stages.commands.empty());
+      CHECK(rig.rejected() == static_cast<std::uint64_t>(burst));
+    }
+  }
+}
+
+TEST_CASE("GNSS that goes on in another time while the IMU stays silent is followed") {
+  for (const std::int64_t ahead_ms : {-3'600'000LL, 60'000LL, 3'600'000LL}) {
+    CAPTURE(ahead_ms);
+    Rig rig;
+    rig.drive(5);
+    for (int k = 0; k < 40; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
+    REQUIRE(rig.stages.commands.size() == 1);
+    CHECK(rig.stages.commands[0].cause == ResetCause::kTimeBase);
+    CHECK(rig.rejected() == EpochQueue::kRunWithImu - 1);
+  }
+}
+
 TEST_CASE("epochs stamped in the future while no IMU sample comes do not end navigation") {
   for (const std::int64_t ahead_ms : {11'000LL, 60'000LL, 3'600'000LL, 86'400'000LL}) {
     CAPTURE(ahead_ms);
     Rig rig;
     rig.drive(5);
-    for (int k = 0; k < 5; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
+    for (int k = 0; k < 30; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
     rig.drive(5);
     CHECK(rig.good_epochs(3) == 3);
   }

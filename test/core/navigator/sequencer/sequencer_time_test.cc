@@ -141,9 +141,9 @@ TEST_CASE("power off for a minute: both streams are back after a tenth of a seco
   slow_imu.drive(0.0, 10.0);
   slow_imu.epochs(70.0, 1.0, 20);
   slow_imu.drive(90.0, 100.0);
-  CHECK(slow_imu.rejected() == EpochQueue::kRunToRestart - 1);
+  CHECK(slow_imu.rejected() == EpochQueue::kRunWithImu - 1);
   CHECK(slow_imu.last_s() == Approx(100.0));
-  CHECK(slow_imu.sequencer.counters().epochs == 40 - (EpochQueue::kRunToRestart - 1));
+  CHECK(slow_imu.sequencer.counters().epochs == 40 - (EpochQueue::kRunWithImu - 1));
 }
 
 TEST_CASE("an IMU that starts late takes over the time GNSS has kept") {
