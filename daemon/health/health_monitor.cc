@@ -70,6 +70,7 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view
   if (!stalled_threads.empty())
     reasons_.raise(HealthReason::kThreadHangs, std::string(stalled_threads));
   judge_inputs(now_s);
+  judge_starts();
   judge_conventions();
   judge_answer(now_s);
   judge_measurements();
@@ -117,6 +118,32 @@ void HealthMonitor::judge_answer(double now_s) {
   judge_levels();
 }
 
+// Returns " as ..." with the fault by which most inputs of the channel are rejected; "": none is.
+std::string HealthMonitor::as_what(Channel channel) const {
+  const InputFault fault = faults_.most_frequent(channel);
+  return fault == InputFault::kNone ? "" : " as " + std::string(to_string(fault));
+}
+
+// Returns why no epoch gets to the filter; "": they do.
+std::string HealthMonitor::why_no_epoch() const {
+  const EngineCounters& counters = engine_->counters();
+  const bool had_imu = counters.accepted_imu.get() > 0;
+  if (counters.received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
+  if (counters.accepted_epochs.get() == 0)
+    return "all GNSS epochs are rejected" + as_what(Channel::kGnssEpoch);
+  if (expects_imu_ && counters.received[index_of(Channel::kImu)].get() == 0)
+    return "no IMU sample has come";
+  if (expects_imu_ && !had_imu) return "all IMU samples are rejected" + as_what(Channel::kImu);
+  if (expects_imu_ && imu_.is_late) return "no IMU sample is used any more";
+  if (!gnss_.is_late) return "";
+  const InputFault fault = faults_.most_frequent(Channel::kGnssEpoch);
+  const bool wrong_time = fault == InputFault::kTimeBackwards || fault == InputFault::kTooFarAhead;
+  if (wrong_time && expects_imu_)
+    return "the GNSS epochs are rejected" + as_what(Channel::kGnssEpoch) +
+           ", their time is not that of the IMU: compare the two clocks";
+  return "no GNSS epoch is used any more";
+}
+
 // Returns what the first position waits for.
 std::string HealthMonitor::why_no_solution() const {
   const EngineCounters& counters = engine_->counters();
@@ -124,11 +151,10 @@ std::string HealthMonitor::why_no_solution() const {
     return counters.satellites_by_reason[static_cast<std::size_t>(reason)].get();
   };
   const std::int64_t measured = sum(counters.satellites_by_reason);
-  if (counters.received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
-  if (counters.accepted_epochs.get() == 0) return "all GNSS epochs are rejected";
-  if (expects_imu_ && counters.received[index_of(Channel::kImu)].get() == 0)
-    return "no IMU sample has come";
-  if (expects_imu_ && counters.accepted_imu.get() == 0) return "all IMU samples are rejected";
+  if (const std::string inputs = why_no_epoch(); !inputs.empty()) return inputs;
+  // The satellites are those of the epoch before; the first new one may be on its way.
+  if (starts_ > 0 && counters.accepted_epochs.get() <= epochs_at_start_ + 1)
+    return "the filter has started over and waits for the next GNSS epoch";
   if (measured == 0) return "the GNSS epochs are without satellites";
   std::size_t most = 0;
   for (std::size_t i = 0; i < kReasonCount; ++i) {
@@ -166,6 +192,7 @@ void HealthMonitor::judge_levels() {
 
 void HealthMonitor::judge_inputs(double now_s) {
   EngineCounters& counters = engine_->counters();
+  faults_.look(counters);
   std::string bad;
   for (const Channel channel : kInputChannels) {
     const std::size_t i = index_of(channel);
@@ -181,7 +208,7 @@ void HealthMonitor::judge_inputs(double now_s) {
     const std::int64_t received = rates.received.get();
     if (received >= kFewMessages &&
         static_cast<double>(unused) >= kShare * static_cast<double>(received))
-      append(std::string(name_of(channel)), &bad);
+      append(std::string(name_of(channel)) + as_what(channel), &bad);
   }
   if (!bad.empty()) reasons_.raise(HealthReason::kInputRejected, bad);
   if (expects_imu_)
@@ -201,8 +228,10 @@ void HealthMonitor::judge_stream(std::int64_t number, double now_s, Channel chan
   stream->look(number, now_s);
   any->look(engine_->counters().received[index_of(channel)].get(), now_s);
   if (!stream->is_late) return;
-  reasons_.raise(reason,
-                 any->is_late ? "nothing comes" : "messages come, but are late or rejected");
+  const std::string rejected = as_what(channel);
+  if (any->is_late) return reasons_.raise(reason, "nothing comes");
+  reasons_.raise(reason, rejected.empty() ? "messages come, but too late"
+                                          : "messages come, but are rejected" + rejected);
 }
 
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
@@ -251,8 +280,14 @@ void HealthMonitor::judge_measurements() {
   if (satellite_faults_.get() >= kSeveralSatellites) reasons_.raise(HealthReason::kSatellitesDrift);
 }
 
+void HealthMonitor::judge_starts() {
+  const std::int64_t starts = events(EventKind::kFilterReset);
+  if (starts != starts_) epochs_at_start_ = engine_->counters().accepted_epochs.get();
+  starts_ = starts;
+  raise_if_grown(HealthReason::kFilterStartedOver, starts);
+}
+
 void HealthMonitor::judge_estimator() {
-  raise_if_grown(HealthReason::kFilterStartedOver, events(EventKind::kFilterReset));
   // While it begins, the solution jumps to where it belongs.
   const auto source = static_cast<Source>(engine_->counters().source.get());
   const bool answers = source == Source::kEkf || source == Source::kSmoother;

@@ -9,6 +9,7 @@
 
 #include "daemon/engine/engine.h"
 #include "daemon/health/active_reasons.h"
+#include "daemon/health/internal/recent_faults.h"
 #include "daemon/health/internal/recent_growth.h"
 #include "daemon/health/journal_health.h"
 #include "daemon/health/keep_rule.h"
@@ -58,6 +59,7 @@ class HealthMonitor {
   void judge_inputs(double now_s);
   void judge_stream(std::int64_t number, double now_s, Channel channel, HealthReason reason,
                     Stream* stream, Stream* any);
+  void judge_starts();
   void judge_conventions();
   void judge_measurements();
   void judge_estimator();
@@ -67,6 +69,8 @@ class HealthMonitor {
   std::int64_t events(EventKind kind) const;
   void raise_if_grown(HealthReason reason, std::int64_t count, bool counts = true);
   std::string why_no_solution() const;
+  std::string why_no_epoch() const;
+  std::string as_what(Channel channel) const;
 
   Engine* engine_;
   AlignmentConfig alignment_;
@@ -79,9 +83,11 @@ class HealthMonitor {
   Stopwatch uptime_;
   std::uint64_t sequence_ = 0;
   std::array<InputRates, kInputChannels.size()> inputs_;
+  RecentFaults faults_;
   RecentGrowth measurements_, contradicting_;
   RecentGrowth satellite_faults_{600};
-  int answering_looks_ = 0;        // in a row with an answer of filter or smoother
+  std::int64_t starts_ = 0, epochs_at_start_ = 0;  // of the filter; accepted ones until then
+  int answering_looks_ = 0;                        // in a row with an answer of filter or smoother
   std::int64_t most_precise_ = 0;  // satellites by precise states since there were none
   std::array<std::int64_t, kHealthReasonCount> last_counts_{};
   ActiveReasons reasons_;

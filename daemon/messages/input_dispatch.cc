@@ -55,6 +55,7 @@ void InputDispatch::accept() {
 void InputDispatch::refuse(const RefusedInputs& refused) {
   counters_.received[index_of(refused.channel)] += refused.count;
   counters_.refused[index_of(refused.channel)] += refused.count;
+  counters_.refused_as[index_of(refused.channel)] = refused.fault;
   sequencer_->on_refused(refused.fault, refused.count);
 }
 

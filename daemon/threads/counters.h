@@ -53,12 +53,17 @@ using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
 inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::kFaulty) + 1;
 inline constexpr std::size_t kEventKindCount = static_cast<std::size_t>(EventKind::kCommand) + 1;
 
+// Channels of which it is known what became of each message.
+inline constexpr std::array kStreams = {Channel::kImu, Channel::kGnssEpoch, Channel::kOdometer};
+
 struct EngineCounters {
   // io
   Gauge io_rounds;  // polls for messages, with or without one
   std::array<Gauge, kInputChannels.size()> received, refused, lost;
-  std::array<Gauge, 16> rejected;  // by InputFault
-  Gauge odometer_age_ms;           // -1: none came
+  std::array<Gauge, kInputChannels.size()> refused_as;  // InputFault of the last one
+  std::array<Gauge, 16> rejected;                       // by InputFault
+  std::array<std::array<Gauge, 16>, kStreams.size()> rejected_of_stream;  // of these, the same
+  Gauge odometer_age_ms;                                                  // -1: none came
   Gauge accepted_odometer, late_odometer;
   Gauge accepted_imu, accepted_epochs, empty_epochs, late_epochs, imu_gaps, imu_smoothed,
       epochs_without_imu;

@@ -22,12 +22,12 @@ void Sequencer::on_imu(const ImuSample& received) {
   const ImuSample sample = imu_.shift_stamp(received);
   const InputFault fault = ImuIntake::check(sample);
   if (inertial_) monitor_conventions(sample, fault);
-  if (fault != InputFault::kNone) return reject(fault);
+  if (fault != InputFault::kNone) return reject_imu(fault);
   if (const auto leapt = imu_.release_held()) {
     if (sample.time > leapt->time)
       accept_imu(*leapt);
     else
-      reject(InputFault::kTooFarAhead);
+      reject_imu(InputFault::kTooFarAhead);
   }
   if (imu_.leaps(sample))
     imu_.hold(sample);
@@ -49,9 +49,9 @@ void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
   const StampDecision stamp =
       imu_.evaluate_stamp(sample, epochs_.newest_time(), epochs_.max_ahead_ns());
-  if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
+  if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
-  if (!lay_on_timeline(&sample)) return reject(InputFault::kTimeBackwards);
+  if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);
 
   ++counters_.imu;
   imu_.accept(sample);
@@ -94,7 +94,7 @@ void Sequencer::append_to_block(const ImuSample& sample) {
 }
 
 void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
-  if (!is_plausible(epoch.time)) return reject(InputFault::kOutOfRange);
+  if (!is_plausible(epoch.time)) return reject_epoch(InputFault::kOutOfRange);
   if (inertial_) report_finding(stamp_offset_.add_epoch(epoch.time));
   if (epochs_.has_held()) resolve_held_epoch(epoch.time);
   if (!hold(epoch)) accept_epoch(epoch);
@@ -110,8 +110,8 @@ bool Sequencer::hold(const RawEpoch& epoch) {
 
 void Sequencer::resolve_held_epoch(GpsTime next) {
   const RawEpoch& held = epochs_.release_held();
-  if (next < held.time) return reject(InputFault::kTooFarAhead);
-  if (next == held.time) return reject(InputFault::kDuplicate);  // `next` is used instead
+  if (next < held.time) return reject_epoch(InputFault::kTooFarAhead);
+  if (next == held.time) return reject_epoch(InputFault::kDuplicate);  // `next` is used instead
   ++counters_.epochs;
   queue_epoch(held);
   issue_ready_epochs();
@@ -120,7 +120,7 @@ void Sequencer::resolve_held_epoch(GpsTime next) {
 void Sequencer::accept_epoch(const RawEpoch& epoch) {
   const StampDecision stamp = epochs_.evaluate(epoch.time, imu_.time());
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
-  if (stamp.fault != InputFault::kNone) return reject(stamp.fault);
+  if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
   if (epochs_.is_late(epoch.time)) return drop_late(epoch.time);
   epochs_.clear_rejected_run();
   ++counters_.epochs;
@@ -208,7 +208,10 @@ void Sequencer::open_at_inertial_stage(const EpochWork& work) {
 
 void Sequencer::on_odometer(const OdometerIncrement& increment) {
   const InputFault fault = odometer_.add(increment, imu_.time(), epochs_.last_time());
-  if (fault != InputFault::kNone) return reject(fault);
+  if (fault != InputFault::kNone) {
+    ++counters_.rejected_odometer[static_cast<std::size_t>(fault)];
+    return reject(fault);
+  }
   ++counters_.odometer;
   counters_.late_odometer = odometer_.late();
 }
@@ -288,6 +291,16 @@ void Sequencer::reject(InputFault fault) {
   if (is_event_due(++counters_.rejected[index])) {
     emit(EventKind::kRejectedInput, static_cast<std::uint8_t>(fault), 0.0);
   }
+}
+
+void Sequencer::reject_imu(InputFault fault) {
+  ++counters_.rejected_imu[static_cast<std::size_t>(fault)];
+  reject(fault);
+}
+
+void Sequencer::reject_epoch(InputFault fault) {
+  ++counters_.rejected_epochs[static_cast<std::size_t>(fault)];
+  reject(fault);
 }
 
 void Sequencer::report_finding(const ConventionFinding& finding) {

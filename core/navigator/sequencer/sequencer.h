@@ -108,6 +108,8 @@ class Sequencer {
     std::uint64_t imu_smoothed = 0;  // samples of a stream whose stamps jitter (ImuTimeline)
     std::array<std::uint64_t, 16> rejected{};  // by InputFault
     std::array<std::uint64_t, 16> refused{};   // of on_refused(), the same
+    // Of `rejected`, what came as a stream.
+    std::array<std::uint64_t, 16> rejected_imu{}, rejected_epochs{}, rejected_odometer{};
   };
   const Counters& counters() const { return counters_; }
   // Returns the end of the last accepted IMU sample; may be unset.
@@ -140,6 +142,8 @@ class Sequencer {
   void start_new_time(double jump_s);
   void push_command(const Command& command);
   void reject(InputFault fault);
+  void reject_imu(InputFault fault);
+  void reject_epoch(InputFault fault);
   void report_finding(const ConventionFinding& finding);
   void emit(EventKind kind, std::uint8_t code, double value);
   GpsTime now() const;  // of the data; may be unset

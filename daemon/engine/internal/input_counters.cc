@@ -1,6 +1,7 @@
 #include "daemon/engine/internal/input_counters.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace leonav {
 namespace {
@@ -19,11 +20,18 @@ void copy_input_counters(const InputDispatch& dispatch, const Sequencer& sequenc
   for (std::size_t i = 0; i < kInputChannels.size(); ++i) {
     counters->received[i].set(static_cast<std::int64_t>(inputs.received[i]));
     counters->refused[i].set(static_cast<std::int64_t>(inputs.refused[i]));
+    counters->refused_as[i].set(static_cast<std::int64_t>(inputs.refused_as[i]));
     counters->lost[i].set(static_cast<std::int64_t>(inputs.lost[i]));
   }
   const Sequencer::Counters& from = sequencer.counters();
   for (std::size_t i = 0; i < from.rejected.size(); ++i) {
     counters->rejected[i].set(static_cast<std::int64_t>(from.rejected[i] + from.refused[i]));
+  }
+  const auto* streams[] = {&from.rejected_imu, &from.rejected_epochs, &from.rejected_odometer};
+  static_assert(std::size(streams) == kStreams.size());
+  for (std::size_t stream = 0; stream < kStreams.size(); ++stream) {
+    for (std::size_t i = 0; i < streams[stream]->size(); ++i)
+      counters->rejected_of_stream[stream][i].set(static_cast<std::int64_t>((*streams[stream])[i]));
   }
   counters->accepted_imu.set(static_cast<std::int64_t>(from.imu));
   counters->accepted_epochs.set(static_cast<std::int64_t>(from.epochs));

@@ -110,12 +110,11 @@ TEST_CASE("GNSS alone that dies: degraded after 2.5 intervals, a fault after 10"
   // Damaged messages are no sign of life, and are told.
   for (int i = 0; i < 20; ++i)
     watched.receive(Channel::kGnssEpoch, std::vector<std::uint8_t>(40, 0x55));
-  CHECK(
-      watched.at(72.0) ==
-      "FAULT: " + kEnded +
-          "; no usable GNSS (messages come, but are late or rejected): look at its sender and the "
-          "antenna; a tenth or more of an input is rejected (GNSS_EPOCH): look at its sender and "
-          "the events rejected_input");
+  CHECK(watched.at(72.0) ==
+        "FAULT: " + kEnded +
+            "; no usable GNSS (messages come, but are rejected as undecodable): look at its sender "
+            "and the antenna; a tenth or more of an input is rejected (GNSS_EPOCH as undecodable): "
+            "look at its sender and the events rejected_input");
   CHECK(watched.fault() == Fault::kNavigation);
 }
 
@@ -316,9 +315,57 @@ TEST_CASE("junk beside good inputs degrades HEALTH for as long as it comes, and 
     return true;
   });
   const std::string reason =
-      "a tenth or more of an input is rejected (ODOMETER): look at its sender and "
+      "a tenth or more of an input is rejected (ODOMETER as undecodable): look at its sender and "
       "the events rejected_input";
   CHECK(with_junk == "DEGRADED: " + reason);
   CHECK(soon_after == "DEGRADED: " + reason);
   CHECK(long_after == "OK: ");
+}
+
+// Feeds the drive with its IMU samples changed from 30 s on, looks once a second until 45 s, and
+// returns what HEALTH said then.
+template <typename Change>
+static std::string said_with_imu(Watched* watched, Change change) {
+  Decoder decoder;
+  Encoder encoder;
+  const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
+  int samples = 0;
+  std::string said;
+  test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
+    if (samples > 45 * 200) return;
+    if (channel != Channel::kImu) return watched->receive(channel, bytes);
+    ImuSample sample;
+    const DecodeResult result = decoder.decode(bytes, &sample);
+    REQUIRE(result.fault == InputFault::kNone);
+    ++samples;
+    if (samples > 30 * 200) change(&sample);
+    watched->receive(channel, encoder.encode(sample, result.sequence));
+    if (samples % 200 == 0) said = watched->at(samples / 200);
+  });
+  return said;
+}
+
+TEST_CASE("a dead IMU is named with its own fault, whatever else is rejected more often") {
+  Watched watched(MotionModel::kInertial);
+  const std::vector<std::uint8_t> junk(60, 0x55);
+  const std::string said = said_with_imu(&watched, [&](ImuSample* sample) {
+    sample->delta_theta_b.setZero();
+    sample->delta_velocity_b.setZero();
+    for (int i = 0; i < 3; ++i) watched.receive(Channel::kOdometer, junk);
+  });
+  CAPTURE(said);
+  CHECK(said.find("no usable IMU (messages come, but are rejected as not_sane): ") !=
+        std::string::npos);
+  CHECK(said.find("is rejected (IMU as not_sane, ODOMETER as undecodable): ") != std::string::npos);
+}
+
+TEST_CASE("an IMU whose clock was set an hour ahead: HEALTH says that the two times differ") {
+  Watched watched(MotionModel::kInertial);
+  const std::string said = said_with_imu(
+      &watched, [](ImuSample* sample) { sample->time = sample->time.plus_seconds(3600.0); });
+  CAPTURE(said);
+  CHECK(said.find("FAULT: no solution yet (the GNSS epochs are rejected as time_backwards, their "
+                  "time is not that of the IMU: compare the two clocks); ") == 0);
+  CHECK(said.find("no usable GNSS (messages come, but are rejected as time_backwards): ") !=
+        std::string::npos);
 }
