@@ -20,7 +20,7 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
 
 void Sequencer::on_imu(const ImuSample& received) {
   const ImuSample sample = imu_.shift_stamp(received);
-  const InputFault fault = ImuIntake::check(sample);
+  const InputFault fault = imu_.check(sample);
   if (inertial_) monitor_conventions(sample, fault);
   if (fault != InputFault::kNone) return reject_imu(fault);
   if (const auto leapt = imu_.release_held()) {

@@ -53,8 +53,9 @@ enum class SequencerCapacity : std::uint8_t {
 // - An epoch not later than the last issued one is late: it is counted, dropped and reported. One
 //   that is only out of order takes its place among those waiting.
 // - IMU stamps are shifted by the configured time offset before anything else is done.
-// - IMU samples must be finite, in range and increasing (kTimeBackwards). Where their stamps
-//   jitter, ImuTimeline lays them end to end: increments stay, intervals change.
+// - IMU samples must be finite, in range and increasing (kTimeBackwards). A sensor that repeats its
+//   values is frozen (kNotSane, FrozenImuMonitor): until they change, there is a gap. Where their
+//   stamps jitter, ImuTimeline lays them end to end: increments stay, intervals change.
 // - A gap in the IMU stream is reported and remains a gap. After one longer than
 //   ImuIntake::kLeapNs, the first sample is held until the next one: if that is later, the gap is
 //   real, else the stamp was wrong.

@@ -32,7 +32,9 @@ ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
 
 InputFault ImuIntake::check(const ImuSample& sample) {
   const ImuLimits limits{kMaxRotationRate, kMaxSpecificForce, kMaxIntervalNs};
-  return leonav::check(sample, limits);
+  const InputFault fault = leonav::check(sample, limits);
+  if (fault != InputFault::kNone) return fault;
+  return frozen_.add(sample) ? InputFault::kNotSane : InputFault::kNone;
 }
 
 bool ImuIntake::leaps(const ImuSample& sample) const {

@@ -6,6 +6,7 @@
 
 #include "core/inertial/strapdown/imu.h"
 #include "core/navigator/interface/navigator_config.h"
+#include "core/navigator/sequencer/internal/frozen_imu_monitor.h"
 #include "core/navigator/sequencer/internal/imu_timeline.h"
 #include "core/navigator/sequencer/internal/stamp_decision.h"
 #include "core/navigator/sequencer/internal/time_step_monitor.h"
@@ -30,8 +31,8 @@ class ImuIntake {
   // Returns the sample with the configured time offset added to its stamp. An impossible stamp
   // stays as it is: the offset must not make it a possible one, and its sum may not exist.
   ImuSample shift_stamp(const ImuSample& received) const;
-  // Checks the values of the sample by itself, regardless of earlier samples.
-  static InputFault check(const ImuSample& sample);
+  // Checks the values of the sample, whatever its stamp; kNotSane also for a sensor that is frozen.
+  InputFault check(const ImuSample& sample);
 
   // Returns whether the stamp lies so far ahead that it follows a gap or is wrong. The next sample
   // decides which.
@@ -61,7 +62,8 @@ class ImuIntake {
  private:
   Eigen::Matrix3d C_b_imu_;  // IMU axes to body axes
   bool mounting_is_identity_;
-  std::int64_t offset_ns_;  // is added to the stamps
+  std::int64_t offset_ns_;   // is added to the stamps
+  FrozenImuMonitor frozen_;  // outlives a time step
   ImuTimeline timeline_;
   TimeStepMonitor time_monitor_{kRunToRestart, kMaxStepNs};
   std::optional<ImuSample> held_;
