@@ -1,12 +1,9 @@
 #include "daemon/engine/engine.h"
 
-#include <sys/mman.h>
-
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "daemon/engine/internal/input_counters.h"
+#include "daemon/threads/process_memory.h"
 #include "daemon/threads/wall_clock.h"
 
 namespace leonav {
@@ -15,7 +12,7 @@ namespace {
 constexpr std::size_t kInertialRing = 4096;  // 20 s at 200 Hz
 constexpr std::size_t kGnssRing = 32;        // an element can hold 140 kB
 constexpr std::size_t kInputRingBytes = 1 << 20;
-constexpr std::size_t kInertialOutBytes = 4 << 20;  // 50 s of SOLUTION at 200 Hz
+constexpr std::size_t kInertialOutBytes = 1 << 20;  // 12 s of SOLUTION at 200 Hz
 constexpr std::size_t kGnssOutBytes = 1 << 20;
 
 }  // namespace
@@ -53,14 +50,17 @@ std::vector<std::string> Engine::start() {
   std::vector<std::string> refused;
   journal_.open();
   const ThreadsConfig& threads = config_.threads;
-  if (threads.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    refused.push_back(std::string("memory is not locked: ") + std::strerror(errno));
+  if (threads.lock_memory) {
+    const SmootherConfig& smoother = config_.navigator.smoother;
+    refused.push_back(
+        lock_memory(smoother_ != nullptr && smoother.solver == SmootherSolver::kCeres));
   }
   started_ = true;
   checkpoint_writer_.start();
   refused.push_back(publisher_.start(threads.out));
   if (smoother_ != nullptr) refused.push_back(smoother_->start(threads.smoother));
-  refused.push_back(gnss_thread_.start("gnss", threads.gnss, [this] { run_gnss(); }));
+  refused.push_back(gnss_thread_.start(
+      "gnss", threads.gnss, [this] { run_gnss(); }, RealtimeThread::kEstimatorStackBytes));
   refused.push_back(inertial_thread_.start("ins", threads.ins, [this] { run_inertial(); }));
   std::erase(refused, std::string());
   return refused;

@@ -24,7 +24,7 @@ class LcmReceiver {
   bool receive(int timeout_ms);
 
  private:
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& name);
+  static void on_message(const lcm_recv_buf_t* buffer, const char* name, void* self);
 
   Engine* engine_;
   std::string prefix_, refused_;

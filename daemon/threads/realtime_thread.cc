@@ -23,7 +23,9 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
   const int failure = pthread_create(&thread_, &attributes, entry, this);
   pthread_attr_destroy(&attributes);
   if (failure != 0) {
-    throw std::runtime_error("cannot start thread " + name + ": " + std::strerror(failure));
+    throw std::runtime_error("cannot start thread " + name + ": " + std::strerror(failure) +
+                             "; give it more memory or threads (MemoryMax= and TasksMax= of its "
+                             "unit, ulimit -v and -u)");
   }
   running_ = true;
   std::string refused;

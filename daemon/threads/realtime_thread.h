@@ -24,9 +24,16 @@ class RealtimeThread {
   // Leaves the thread to itself. This object must then live as long as the thread.
   void detach();
 
-  // Locked memory counts whole stacks, so they are no larger than they must be; the GNSS stage
-  // keeps matrices of some hundred kilobytes on its own.
-  static constexpr std::size_t kStackBytes = 4U << 20;
+  // Locked memory counts whole stacks, so they are no larger than they must be: some twice what is
+  // used (docs/validation/service.md). The estimators keep matrices of some hundred kilobytes on
+  // theirs.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static constexpr std::size_t kStackScale = 4;
+#else
+  static constexpr std::size_t kStackScale = 1;
+#endif
+  static constexpr std::size_t kStackBytes = kStackScale * (512 << 10);
+  static constexpr std::size_t kEstimatorStackBytes = kStackScale * (2 << 20);
 
  private:
   std::function<void()> body_;

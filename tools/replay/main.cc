@@ -7,6 +7,7 @@
 
 #include "daemon/config/effective_config.h"
 #include "tools/common/configuration_options.h"
+#include "tools/common/one_blas_thread.h"
 #include "tools/replay/configuration.h"
 #include "tools/replay/journal_scan.h"
 #include "tools/replay/replay_run.h"
@@ -14,6 +15,10 @@
 namespace {
 
 using namespace leonav;
+
+// As leonavd does, whose journals come again bit for bit.
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    start_with_one_blas_thread;
 
 constexpr const char* kCutShort = ": its last message is cut short; replaying what is whole\n";
 

@@ -7,7 +7,7 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kKeyframeRing = 8;
+constexpr std::size_t kKeyframeRing = 4;  // each is 0.7 MB
 constexpr std::size_t kOutBytes = 128 << 10;
 
 }  // namespace
@@ -24,7 +24,8 @@ SmootherWorker::SmootherWorker(const NavigatorConfig& config, Wakeup* out, Engin
 
 std::string SmootherWorker::start(const ThreadConfig& config) {
   if (!inertial_) return {};
-  return thread_.start("smoother", config, [this] { run(); });
+  return thread_.start(
+      "smoother", config, [this] { run(); }, RealtimeThread::kEstimatorStackBytes);
 }
 
 void SmootherWorker::finish() {

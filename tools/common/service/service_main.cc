@@ -2,9 +2,14 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
+#include <cstring>
 #include <exception>
+#include <new>
 #include <string>
+#include <tuple>
 
 #include "daemon/config/load_config.h"
 #include "daemon/link/open_lcm.h"
@@ -22,15 +27,44 @@ int exit_code_of(const std::exception& error) {
   return kExitFailure;
 }
 
+const char* text_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return "out of memory: give it more (MemoryMax= and LimitAS= of its unit, ulimit -v), or leave "
+           "it more on this machine";
+  return error.what();
+}
+
+void write_text(const char* text) { std::ignore = write(STDERR_FILENO, text, std::strlen(text)); }
+
+// Memory may be short, so nothing here allocates. Destructors would wait for threads that may wait
+// for this one.
+[[noreturn]] void end_at_once() {
+  char thread[16] = {};
+  prctl(PR_GET_NAME, thread);
+  write_text("error: thread ");
+  write_text(thread);
+  write_text(": ");
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::exception& error) {
+    write_text(text_of(error));
+  } catch (...) {
+    write_text("ended without a reason");
+  }
+  write_text("\n");
+  _exit(kExitFailure);
+}
+
 }  // namespace
 
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv)) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
   spdlog::set_pattern(std::string(name) + " %H:%M:%S.%e %l: %v");
+  std::set_terminate(end_at_once);
   try {
     return body(argc, argv);
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error("{}", text_of(error));
     return exit_code_of(error);
   }
 }

@@ -9,7 +9,8 @@ inline constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm
 
 // Logs to standard error under the program's `name` and returns what `body` returns. Of an
 // exception it logs the text and returns the exit code of its kind: UsageError, ConfigError,
-// LcmError, EventLogError, else kExitFailure.
+// LcmError, EventLogError, else kExitFailure. An exception that nobody catches, in any thread, ends
+// the process at once, with its text and kExitFailure: what is on the disk by then remains.
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv));
 
 }  // namespace leonav

@@ -1,0 +1,68 @@
+#include "daemon/threads/process_memory.h"
+
+#include <link.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "daemon/threads/realtime_thread.h"
+
+namespace leonav {
+namespace {
+
+constexpr int kLargeBlockBytes = 128 << 10;
+
+// Ceres' libraries, and those that only they need.
+constexpr std::array<std::string_view, 13> kOfCeres = {
+    "blas",    "lapack", "gfortran", "quadmath",    "gomp",   "cholmod", "metis",
+    "colamd.", "amd.",   "cxsparse", "suitesparse", "gflags", "glog"};
+
+bool is_of_ceres(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  for (const std::string_view part : kOfCeres)
+    if (name.find(part) != name.npos) return true;
+  return false;
+}
+
+// What is not written is still in the file, from where it comes back if it is ever used.
+int unlock_if_of_ceres(dl_phdr_info* library, std::size_t, void*) {
+  if (!is_of_ceres(library->dlpi_name)) return 0;
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  for (int i = 0; i < library->dlpi_phnum; ++i) {
+    const auto& segment = library->dlpi_phdr[i];
+    if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) != 0) continue;
+    const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
+    const std::uintptr_t end = library->dlpi_addr + segment.p_vaddr + segment.p_memsz;
+    void* const address = reinterpret_cast<void*>(begin);
+    if (munlock(address, end - begin) == 0) madvise(address, end - begin, MADV_DONTNEED);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void prepare_memory() {
+  mallopt(M_MMAP_THRESHOLD, kLargeBlockBytes);
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, RealtimeThread::kStackBytes);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
+
+std::string lock_memory(bool uses_ceres) {
+  malloc_trim(0);
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+    return std::string("memory is not locked: ") + std::strerror(errno);
+  if (!uses_ceres) dl_iterate_phdr(unlock_if_of_ceres, nullptr);
+  return {};
+}
+
+}  // namespace leonav

@@ -1,0 +1,16 @@
+// This function keeps OpenBLAS, which Ceres brings, from starting threads of its own.
+#pragma once
+
+namespace leonav {
+
+// OpenBLAS starts its threads before main() and asks only the environment how many. Where that says
+// nothing, the program is started once more, in the same process, with OPENBLAS_NUM_THREADS=1. Its
+// threads would never be used, hold 140 MB that is locked with the rest, take signals that are
+// meant for main(), and hang at the end where memory is short; and with another number of them the
+// sums of Ceres may have other bits.
+//
+// To be called before the libraries begin, by an entry in the program's .preinit_array. (Valgrind
+// follows with --trace-children=yes, or where the variable is set already.)
+void start_with_one_blas_thread(int argc, char** argv, char** environment);
+
+}  // namespace leonav
