@@ -273,6 +273,13 @@ void read_journal(ConfigReader& group, JournalConfig* config) {
     group.fail("kept_mb", "must be at least twice piece_mb, or 0");
 }
 
+void read_log(ConfigReader& group, LogConfig* config) {
+  group.choice<LogLevel>(
+      "level",
+      {{"info", LogLevel::kInfo}, {"warning", LogLevel::kWarning}, {"error", LogLevel::kError}},
+      &config->level);
+}
+
 void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator) {
   group.text("path", &config->path);
   group.number("interval_s", {1.0, 3600.0}, &config->interval_s);

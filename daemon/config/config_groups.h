@@ -26,6 +26,7 @@ void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfi
 void read_drill(ConfigReader& group, DrillConfig* config);
 void read_lcm(ConfigReader& group, LcmConfig* config);
 void read_journal(ConfigReader& group, JournalConfig* config);
+void read_log(ConfigReader& group, LogConfig* config);
 // The navigator gets the greatest age of a checkpoint.
 void read_checkpoint(ConfigReader& group, CheckpointConfig* config, NavigatorConfig* navigator);
 

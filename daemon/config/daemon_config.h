@@ -53,6 +53,15 @@ struct CheckpointConfig {
   bool operator==(const CheckpointConfig&) const = default;
 };
 
+// What the daemon's log tells.
+enum class LogLevel : std::uint8_t { kInfo, kWarning, kError };
+
+struct LogConfig {
+  LogLevel level = LogLevel::kInfo;
+
+  bool operator==(const LogConfig&) const = default;
+};
+
 struct ThreadConfig {
   int priority = 0;  // SCHED_FIFO priority 1-99; 0: the ordinary scheduler
   int cpu = -1;      // pinned to this processor; -1: any
@@ -80,6 +89,7 @@ struct DaemonConfig {
   CheckpointConfig checkpoint;
   ThreadsConfig threads;
   DrillConfig drill;
+  LogConfig log;
   ConfigOrigin source;
 };
 

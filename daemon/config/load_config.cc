@@ -53,6 +53,7 @@ DaemonConfig read_root(ConfigReader& root) {
   root.group("journal", [&](ConfigReader& r) { read_journal(r, &config.journal); });
   root.group("checkpoint",
              [&](ConfigReader& r) { read_checkpoint(r, &config.checkpoint, &navigator); });
+  root.group("log", [&](ConfigReader& r) { read_log(r, &config.log); });
   return config;
 }
 

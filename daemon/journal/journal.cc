@@ -176,6 +176,10 @@ void Journal::keep() {
   if (state_ != nullptr) state_->writer.keep();
 }
 
+void Journal::set_limits(const JournalLimits& limits) {
+  if (state_ != nullptr) state_->writer.set_limits(limits);
+}
+
 const JournalCounters& Journal::counters() const {
   return state_ == nullptr ? none_ : state_->counters;
 }

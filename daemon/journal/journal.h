@@ -7,6 +7,7 @@
 #include "daemon/config/daemon_config.h"
 #include "daemon/journal/disk_call.h"
 #include "daemon/journal/journal_counters.h"
+#include "daemon/journal/journal_limits.h"
 #include "daemon/threads/message_ring.h"
 
 namespace leonav {
@@ -47,6 +48,8 @@ class Journal {
   // Any thread: something is wrong with the navigation; the present piece and the one before it
   // are to be kept (journal.kept_mb).
   void keep();
+  // One thread, after open(): these limits hold from now on, for the piece that is written too.
+  void set_limits(const JournalLimits& limits);
 
   // Any thread, after open().
   const JournalCounters& counters() const;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <optional>
 
 namespace leonav {
@@ -75,6 +76,13 @@ void ServiceManager::read_watchdog() {
   } else if (*interval_us < kShortestWatchdog_us) {
     problem_ = "WATCHDOG_USEC " + interval + ": fed once a second only; use WatchdogSec=2 or more";
   }
+}
+
+void ServiceManager::reloading() const {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // of the same clock as the service manager's
+  const std::int64_t now_us = std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000;
+  notify("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(now_us));
 }
 
 void ServiceManager::notify(std::string_view message) const {

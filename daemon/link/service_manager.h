@@ -23,6 +23,8 @@ class ServiceManager {
 
   // None of these blocks; a message that finds no room is lost.
   void ready() const { notify("READY=1"); }
+  // What follows is a reload, until ready().
+  void reloading() const;
   void stopping() const { notify("STOPPING=1"); }
   void feed_watchdog() const {
     if (watchdog_) notify("WATCHDOG=1");

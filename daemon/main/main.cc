@@ -1,19 +1,25 @@
 // leonavd: the navigation daemon. Exit codes: 0 stopped cleanly; 1 failure while running; 2 wrong
 // command line; 3 configuration; 4 LCM or network; 5 journal.
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <ctime>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 
+#include "core/base/gps_time.h"
 #include "daemon/checkpoint/checkpoint_file.h"
 #include "daemon/checkpoint/products_file.h"
+#include "daemon/config/config_changes.h"
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
 #include "daemon/config/presets.h"
@@ -27,39 +33,32 @@
 #include "daemon/link/channel_lock.h"
 #include "daemon/link/lcm_publisher.h"
 #include "daemon/link/service_manager.h"
+#include "daemon/process/process_signals.h"
 #include "daemon/service/lcm_link.h"
 #include "daemon/text/checkpoint_text.h"
+#include "daemon/threads/process_memory.h"
+#include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
 #include "tools/common/configuration_options.h"
+#include "tools/common/one_blas_thread.h"
 #include "tools/common/service/service_main.h"
 
 namespace {
 
 using namespace leonav;
 
-// Blocked in every thread of leonavd; `main` takes them one at a time. A second one ends the
-// process at once.
-sigset_t stop_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, SIGINT);
-  return set;
+// Of which the journal may take Journal::kLongestEnd_s. A service manager waits for 20 s.
+constexpr unsigned kLongestEnd_s = 15;
+
+extern "C" void end_at_once(int) {
+  constexpr char kText[] = "leonavd: error: a thread does not end; ended without it\n";
+  std::ignore = write(STDERR_FILENO, kText, sizeof kText - 1);
+  _exit(kExitFailure);
 }
 
-pthread_t main_thread;
-
-// Libraries have threads that were there before main() and block nothing (OpenBLAS). A signal that
-// the kernel gives to one of them goes on to the main thread instead of ending the process.
-extern "C" void pass_to_main_thread(int signal) { pthread_kill(main_thread, signal); }
-
-void take_stop_signals_in_this_thread() {
-  const sigset_t set = stop_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread is started: all inherit it
-  main_thread = pthread_self();
-  std::signal(SIGTERM, pass_to_main_thread);
-  std::signal(SIGINT, pass_to_main_thread);
-}
+// OpenBLAS would have started its threads by main().
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    start_with_one_blas_thread;
 
 void begin_from_products(const std::string& path, Engine* engine) {
   try {
@@ -167,12 +166,73 @@ class JournalLog {
   Switch fails_, loses_, unsynced_, undeletable_;
 };
 
+// Reads the configuration again, and takes over what can change while the daemon runs.
+class Reload {
+ public:
+  // `running` is changed with what is taken over.
+  Reload(std::function<DaemonConfig()> load, DaemonConfig* running, Engine* engine)
+      : load_(std::move(load)), running_(running), engine_(engine) {}
+
+  // A configuration that is wrong changes nothing.
+  void operator()() {
+    try {
+      const DaemonConfig read = load_();
+      const auto changes = changes_between(running_->source, read.source);
+      // Told at the level that holds or at the one that will, whichever tells more.
+      set_log_level(std::min(running_->log.level, read.log.level));
+      spdlog::info("SIGHUP: {} read again{}", read.source.name,
+                   changes.empty() ? ", nothing has changed" : "");
+      for (const ConfigChange& change : changes) tell(change);
+      take_over(read, running_);
+      engine_->journal().set_limits(limits_of(running_->journal));
+      set_log_level(running_->log.level);
+    } catch (const std::exception& error) {
+      spdlog::error("SIGHUP: the configuration is not taken over, nothing has changed: {}",
+                    error.what());
+    }
+  }
+
+  static void set_log_level(LogLevel level) {
+    spdlog::set_level(level == LogLevel::kError     ? spdlog::level::err
+                      : level == LogLevel::kWarning ? spdlog::level::warn
+                                                    : spdlog::level::info);
+  }
+
+ private:
+  static void tell(const ConfigChange& change) {
+    spdlog::log(change.takes_over ? spdlog::level::info : spdlog::level::warn, "{}: {} -> {}: {}",
+                change.path, change.before, change.after,
+                change.takes_over ? "taken over" : "needs a restart");
+  }
+
+  std::function<DaemonConfig()> load_;
+  DaemonConfig* running_;
+  Engine* engine_;
+};
+
+// Waits a second. True: the daemon is to stop.
+bool wait_for_stop(ProcessSignals* signals, const ServiceManager& manager, Reload* reload) {
+  const std::int64_t until_ns = monotonic_ns() + kNanosecondsPerSecond;
+  for (;;) {
+    switch (signals->wait_until(until_ns)) {
+      case SignalRequest::kNone:
+        return false;
+      case SignalRequest::kStop:
+        spdlog::info("{}: finishing", signals->name());
+        return true;
+      case SignalRequest::kReload:
+        manager.reloading();
+        (*reload)();
+        manager.ready();
+    }
+  }
+}
+
 // Once a second, until a signal comes or `io` fails: publishes HEALTH and logs its changes, and
 // feeds the watchdog unless a thread hangs or the answer stands still.
 void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& manager,
-               const DaemonConfig& config, const std::atomic<bool>& io_failed) {
-  const sigset_t set = stop_signals();
-  const timespec second{1, 0};
+               const DaemonConfig& config, const std::atomic<bool>& io_failed,
+               ProcessSignals* signals, Reload* reload) {
   ThreadMonitor watch(engine);
   AnswerMonitor answer(engine);
   CheckpointLog checkpoint_log;
@@ -181,11 +241,7 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   const bool expects_imu = config.navigator.motion == MotionModel::kInertial;
   bool stood_still = false;
   std::string last, last_suspicions, last_hanging;
-  while (!io_failed.load()) {
-    if (const int signal = sigtimedwait(&set, nullptr, &second); signal > 0) {
-      spdlog::info("{}: finishing", signal == SIGTERM ? "SIGTERM" : "SIGINT");
-      return;
-    }
+  while (!io_failed.load() && !wait_for_stop(signals, manager, reload)) {
     const std::string stalled_threads = watch.stalled_threads();
     engine->publish(Channel::kHealth, health->next(stalled_threads));
     const std::string why = health->why();
@@ -225,7 +281,12 @@ EngineHooks drill_hooks(const DrillConfig& drill) {
 // Throws ConfigError where the smoother cannot keep its deadline on this machine.
 void check_solve_time(const NavigatorConfig& config) {
   if (config.estimator != Estimator::kSmoother || config.motion != MotionModel::kInertial) return;
-  const SolveTime time = measure_solve_time(config);
+  SolveTime time;
+  RealtimeThread thread;  // whose stack is given back, unlike that of `main`
+  thread.start(
+      "measure", ThreadConfig(), [&] { time = measure_solve_time(config); },
+      RealtimeThread::kEstimatorStackBytes);
+  thread.join();
   if (time.solved < kMeasuredSolves)
     return spdlog::warn("the smoother's time could not be measured");
   require_in_time(config, time);
@@ -236,10 +297,13 @@ void check_solve_time(const NavigatorConfig& config) {
       config.realtime.deadline_smoother_s * 1e3);
 }
 
-int run(const DaemonConfig& config) {
+// `load` reads the configuration anew.
+int run(const std::function<DaemonConfig()>& load) {
+  DaemonConfig config = load();
+  Reload::set_log_level(config.log.level);
+  prepare_memory();
   const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
-  take_stop_signals_in_this_thread();
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a failure of a write
 
@@ -247,6 +311,8 @@ int run(const DaemonConfig& config) {
   if (!manager.problem().empty()) spdlog::warn("{}", manager.problem());
   LcmPublisher publisher(config.lcm);
   Engine engine(config, &publisher, drill_hooks(config.drill));
+  // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
+  std::optional<ProcessSignals> signals(std::in_place);
   LcmReceiver receiver(config.lcm, config.threads.io, &engine);
   if (!receiver.refused().empty()) spdlog::warn("{}", receiver.refused());
   for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
@@ -270,13 +336,13 @@ int run(const DaemonConfig& config) {
 
   HealthMonitor health(&engine, config.navigator);
   manager.ready();
-  supervise(&engine, &health, manager, config, io_failed);
+  Reload reload(load, &config, &engine);
+  supervise(&engine, &health, manager, config, io_failed, &*signals, &reload);
   manager.stopping();
 
-  std::signal(SIGTERM, SIG_DFL);
-  std::signal(SIGINT, SIG_DFL);
-  const sigset_t set = stop_signals();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // from here on a second signal kills
+  signals.reset();  // from here on a second signal kills
+  std::signal(SIGALRM, end_at_once);
+  alarm(kLongestEnd_s);
   stop.store(true);
   io.join();
   const bool complete = engine.finish();
@@ -298,8 +364,8 @@ int run(const DaemonConfig& config) {
 }
 
 // The configuration with everything the command line changes in it, so that a journal holds it
-// all.
-DaemonConfig configuration(const Arguments& arguments) {
+// all. A reload reads a file only, because a pipe could hold it up.
+DaemonConfig configuration(const Arguments& arguments, bool is_reload = false) {
   std::vector<std::string> overrides;
   if (arguments.has("--lcm-url")) {
     overrides.push_back(text_override("lcm.url", arguments.get("--lcm-url")));
@@ -307,6 +373,10 @@ DaemonConfig configuration(const Arguments& arguments) {
   if (arguments.has("--journal")) {
     overrides.push_back(text_override("journal.path", arguments.get("--journal")));
   }
+  const std::string file = arguments.has("--config") ? arguments.get("--config") : "";
+  std::error_code error;
+  if (is_reload && !file.empty() && !std::filesystem::is_regular_file(file, error))
+    throw ConfigError(file + ": is no file that can be read again; restart leonavd");
   DaemonConfig config = load_configuration(arguments, overrides);
   require_journal(config);
   return config;
@@ -326,7 +396,10 @@ int daemon_main(int argc, char** argv) {
       "leonavd", "--config FILE [options]\n       leonavd --check [--config] FILE [options]",
       "The navigation daemon: takes IMU and GNSS from LCM, publishes position, velocity and "
       "attitude.\nSIGTERM and SIGINT end it cleanly, with the journal complete; a second one at "
-      "once.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
+      "once.\nSIGHUP reads the configuration again: the log tells of each changed key whether it "
+      "is "
+      "taken over\n(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or "
+      "needs a restart.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
       "configuration, 4 LCM, 5 journal.");
   add_configuration_options(&arguments);
   arguments.option("--lcm-url", "URL", "instead of lcm.url")
@@ -355,7 +428,10 @@ int daemon_main(int argc, char** argv) {
                      "' (leonavd --help)");
   }
   if (arguments.has("--changes") && !checks) throw UsageError("--changes goes with --check");
-  return checks ? check(arguments) : run(configuration(arguments));
+  if (checks) return check(arguments);
+  return run([&, is_reload = false]() mutable {
+    return configuration(arguments, std::exchange(is_reload, true));
+  });
 }
 
 }  // namespace

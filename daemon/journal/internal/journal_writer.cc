@@ -46,7 +46,7 @@ bool is_fault(Channel channel, ByteSpan bytes) {
 
 JournalWriter::JournalWriter(const DaemonConfig& config, JournalCounters* counters, KeptNames* kept,
                              DiskHook hook)
-    : config_(config.journal),
+    : limits_(limits_of(config.journal)),
       counters_(counters),
       configuration_(configuration_of(config)),
       disk_(counters, std::move(hook)),
@@ -60,6 +60,7 @@ JournalWriter::JournalWriter(const DaemonConfig& config, JournalCounters* counte
 }
 
 void JournalWriter::write_from(MessageRing* ring) {
+  if (new_limits_.take(&limits_)) pieces_.set_limits(limits_);
   is_crowded_ = ring->waiting() > kCrowded;
   if (!is_ready(false)) return;
   const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
@@ -70,7 +71,7 @@ void JournalWriter::write_from(MessageRing* ring) {
     end_piece();
     if (!begin_piece()) return;
   }
-  if (static_cast<double>(since_flush_.nanoseconds()) * 1e-9 >= config_.flush_interval_s) flush();
+  if (static_cast<double>(since_flush_.nanoseconds()) * 1e-9 >= limits_.flush_interval_s) flush();
   if (since_sync_.nanoseconds() >= kSyncNs) secure();
   apply_keep();
 }
@@ -228,9 +229,9 @@ void JournalWriter::fail(int error) {
 bool JournalWriter::is_piece_full() const {
   if (!begun_ || !pieces_.has_pieces() || buffer_.empty()) return false;
   const auto size = size_ + static_cast<std::int64_t>(buffer_.bytes().size());
-  return size >= bytes_of(config_.piece_mb) ||
-         (config_.piece_s > 0.0 &&
-          static_cast<double>(since_begin_.nanoseconds()) * 1e-9 >= config_.piece_s);
+  return size >= bytes_of(limits_.piece_mb) ||
+         (limits_.piece_s > 0.0 &&
+          static_cast<double>(since_begin_.nanoseconds()) * 1e-9 >= limits_.piece_s);
 }
 
 void JournalWriter::apply_keep() {

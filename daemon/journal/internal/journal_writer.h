@@ -9,6 +9,8 @@
 #include "daemon/journal/internal/event_buffer.h"
 #include "daemon/journal/internal/piece_sequence.h"
 #include "daemon/journal/journal_counters.h"
+#include "daemon/journal/journal_limits.h"
+#include "daemon/threads/latest_value.h"
 #include "daemon/threads/message_ring.h"
 
 namespace leonav {
@@ -29,6 +31,8 @@ class JournalWriter {
   bool finish(MessageRing* ring, const LostMessages& lost, std::uint64_t sequence);
   // Asks, in any thread, that the present piece and the one before it are kept.
   void keep() { keep_requested_.store(true, std::memory_order_relaxed); }
+  // Sets, in one other thread, the limits that hold from the next write_from() on.
+  void set_limits(const JournalLimits& limits) { new_limits_.set(limits); }
 
  private:
   bool write_all_of(MessageRing* ring);
@@ -50,7 +54,8 @@ class JournalWriter {
     return channel_names_[index_of(channel)];
   }
 
-  JournalConfig config_;
+  JournalLimits limits_;
+  LatestValue<JournalLimits> new_limits_;
   JournalCounters* counters_;
   std::vector<std::string> channel_names_;
   std::vector<std::uint8_t> configuration_;  // message CONFIG; empty: there is none

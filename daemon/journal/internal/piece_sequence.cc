@@ -23,7 +23,7 @@ std::int64_t bytes_of(double megabytes) { return static_cast<std::int64_t>(megab
 
 PieceSequence::PieceSequence(const JournalConfig& config, DiskCalls* disk,
                              JournalCounters* counters, KeptNames* kept)
-    : config_(config),
+    : limits_(limits_of(config)),
       name_(std::filesystem::path(config.path).filename()),
       disk_(disk),
       counters_(counters),
@@ -59,7 +59,7 @@ bool PieceSequence::prepare() {
   if (is_stream_) return true;
   // A clock that has gone back must not put this run before an earlier one.
   info_.run = std::clamp<std::int64_t>(wall_clock_us(), pieces_.greatest_run() + 1, kGreatestRun);
-  if (config_.kept_mb > 0.0) pieces_.keep_crashed_run();
+  if (limits_.kept_mb > 0.0) pieces_.keep_crashed_run();
   apply_limits();
   return true;
 }
@@ -121,9 +121,14 @@ void PieceSequence::note_begun() {
 
 // All others leave room for the piece that is written.
 void PieceSequence::apply_limits() {
-  if (config_.kept_mb > 0.0) pieces_.limit(true, bytes_of(config_.kept_mb));
-  if (config_.total_mb > 0.0)
-    pieces_.limit(false, bytes_of(config_.total_mb) - bytes_of(config_.piece_mb));
+  if (limits_.kept_mb > 0.0) pieces_.limit(true, bytes_of(limits_.kept_mb));
+  if (limits_.total_mb > 0.0)
+    pieces_.limit(false, bytes_of(limits_.total_mb) - bytes_of(limits_.piece_mb));
+}
+
+void PieceSequence::set_limits(const JournalLimits& limits) {
+  limits_ = limits;
+  if (first_begun_ && !is_stream_ && folder_.is_open()) apply_limits();
 }
 
 void PieceSequence::end(bool complete) {
@@ -136,7 +141,7 @@ void PieceSequence::end(bool complete) {
     last_name_ = piece_name_;
   keeps_piece_ = false;
   // For the one that is about to be written: a disk smaller than the limits.
-  if (complete && folder_.free_bytes() < bytes_of(config_.piece_mb)) make_room();
+  if (complete && folder_.free_bytes() < bytes_of(limits_.piece_mb)) make_room();
 }
 
 void PieceSequence::discard() {
@@ -163,7 +168,7 @@ bool PieceSequence::is_in_place() {
 }
 
 void PieceSequence::keep() {
-  if (config_.kept_mb <= 0.0 || is_stream_) return;
+  if (limits_.kept_mb <= 0.0 || is_stream_) return;
   keeps_piece_ = true;
   if (last_name_[0] != '\0') pieces_.keep(last_name_.data());
   last_name_ = {};
@@ -172,7 +177,7 @@ void PieceSequence::keep() {
 
 // With journal.kept_mb 0 the kept pieces that are there are not the journal's to delete.
 bool PieceSequence::make_room() {
-  return !is_stream_ && folder_.is_open() && pieces_.delete_oldest(config_.kept_mb > 0.0);
+  return !is_stream_ && folder_.is_open() && pieces_.delete_oldest(limits_.kept_mb > 0.0);
 }
 
 }  // namespace leonav

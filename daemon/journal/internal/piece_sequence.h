@@ -7,6 +7,7 @@
 #include "daemon/journal/internal/journal_file.h"
 #include "daemon/journal/internal/journal_folder.h"
 #include "daemon/journal/internal/piece_folder.h"
+#include "daemon/journal/journal_limits.h"
 
 namespace leonav {
 
@@ -37,6 +38,9 @@ class PieceSequence {
   // Deletes the oldest piece; false: there is none.
   bool make_room();
 
+  // These hold from now on.
+  void set_limits(const JournalLimits& limits);
+
   JournalFile& file() { return file_; }
   // Of the piece that is open, without its first event.
   const PieceInfo& info() const { return info_; }
@@ -50,7 +54,7 @@ class PieceSequence {
   bool reopen();
   void apply_limits();
 
-  JournalConfig config_;
+  JournalLimits limits_;
   std::string name_;  // of journal.path, without folder
   DiskCalls* disk_;
   JournalCounters* counters_;
