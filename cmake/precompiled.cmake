@@ -16,25 +16,38 @@ function(leonav_precompiled kind)
   add_library(${target} OBJECT ${source})
   target_link_libraries(${target} PRIVATE Eigen3::Eigen Boost::headers)
   target_precompile_headers(${target} PRIVATE ${ARGN})
+  if(kind MATCHES "_with_lcm$")
+    target_compile_options(${target} PRIVATE -fno-strict-aliasing)
+  endif()
 endfunction()
 
-# Not where LCM's types may be used: these need -fno-strict-aliasing (targets.cmake), which gcc
-# forgets, without a word, behind a header that was precompiled without it.
+# LCM's types need -fno-strict-aliasing (targets.cmake), which gcc forgets, without a word, behind a
+# header that was precompiled without it. So every target outside the core and the formats, whether
+# it uses them or not, is compiled with it and has a precompiled header of its own kind.
 function(leonav_precompile target kind folder)
-  if(LEONAV_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND
-     folder MATCHES "^(test/)?core/|^drivers/" AND NOT folder STREQUAL drivers/lcm)
-    target_precompile_headers(${target} REUSE_FROM leonav_precompiled_${kind})
+  if(NOT LEONAV_PRECOMPILE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    return()
   endif()
+  if(NOT folder MATCHES "^(test/)?core/|^drivers/" OR folder STREQUAL drivers/lcm)
+    target_compile_options(${target} PRIVATE -fno-strict-aliasing)
+    string(APPEND kind _with_lcm)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM leonav_precompiled_${kind})
 endfunction()
 
 if(LEONAV_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(common <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <optional> <span>
       <string> <string_view> <utility> <variant> <vector> <boost/container/static_vector.hpp>)
-  leonav_precompiled(library ${common} <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky>)
+  set(library ${common} <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky>)
+  leonav_precompiled(library ${library})
+  leonav_precompiled(library_with_lcm ${library})
   if(BUILD_TESTING)
-    leonav_precompiled(test ${common} <filesystem> <fstream> <iostream> <random> <sstream> <Eigen/Dense>
-                       ${CMAKE_SOURCE_DIR}/test/support/catch.h)
     find_package(Catch2 REQUIRED)
-    target_link_libraries(leonav_precompiled_test PRIVATE Catch2::Catch2)
+    set(test ${common} <filesystem> <fstream> <iostream> <random> <sstream> <Eigen/Dense>
+        ${CMAKE_SOURCE_DIR}/test/support/catch.h)
+    foreach(kind test test_with_lcm)
+      leonav_precompiled(${kind} ${test})
+      target_link_libraries(leonav_precompiled_${kind} PRIVATE Catch2::Catch2)
+    endforeach()
   endif()
 endif()

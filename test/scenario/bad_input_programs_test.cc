@@ -155,6 +155,16 @@ TEST_CASE("epochs without an ephemeris give no position: said with the satellite
   CHECK_THAT(run.err, Contains("of 20 epochs gave no position") || Contains("epochs gave no"));
   CHECK_THAT(run.err, Contains("no_ephemeris 1"));
   CHECK_THAT(text_of(place.beside("out") + "/summary.txt"), Contains("failure: "));
+
+  // What the tables have in their first lines, whatever came of the run, --columns prints.
+  const ProgramRun columns = run_program("leonav-replay", "--columns");
+  CHECK(columns.exit_code == 0);
+  for (const std::string name : {"solution", "epochs", "satellites", "measurements", "events"}) {
+    const std::string table = text_of(place.beside("out") + "/" + name + ".csv");
+    REQUIRE(table.find('\n') != std::string::npos);
+    CHECK_THAT(columns.out, Contains(": " + table.substr(0, table.find('\n') + 1)));
+    CHECK_THAT(columns.out, Contains(name + ".csv"));
+  }
 }
 
 }  // namespace

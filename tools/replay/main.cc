@@ -11,6 +11,7 @@
 #include "tools/replay/configuration.h"
 #include "tools/replay/journal_scan.h"
 #include "tools/replay/replay_run.h"
+#include "tools/replay/result_files.h"
 
 namespace {
 
@@ -42,7 +43,8 @@ Arguments declare() {
       .option("--rate", "HZ",
               "rows of solution.csv from the continuous solution at this rate "
               "instead of one per epoch")
-      .flag("--verify", "compare every output with those in the journal, byte for byte");
+      .flag("--verify", "compare every output with those in the journal, byte for byte")
+      .flag("--columns", "print the columns of every table and exit");
   return arguments;
 }
 
@@ -120,6 +122,10 @@ void write_text(const std::string& path, const std::string& text) {
 int replay(int argc, char** argv) {
   Arguments arguments = declare();
   if (!arguments.parse(argc, argv)) return 0;
+  if (arguments.has("--columns")) {
+    std::cout << table_columns();
+    return 0;
+  }
   if (arguments.positional().size() != 1)
     throw UsageError("expected one log, or one folder with the pieces of a journal");
   ReplayRun::Options options;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/gnss/signals/satellite.h"
 
@@ -64,6 +65,20 @@ double elevation_of(const EpochReport& report, SatelliteId satellite) {
 }
 
 }  // namespace
+
+std::string table_columns() {
+  constexpr std::pair<std::string_view, std::string_view> kTables[] = {
+      {"solution.csv, smoothed.csv, filter.csv", kSolutionCsvHeader},
+      {"epochs.csv", kEpochsHeader},
+      {"satellites.csv", kSatellitesHeader},
+      {"measurements.csv", kMeasurementsHeader},
+      {"events.csv", kEventsHeader},
+      {"constraints.csv", kConstraintsHeader}};
+  std::string text;
+  for (const auto& [name, columns] : kTables)
+    text.append(name).append(": ").append(columns).append("\n");
+  return text;
+}
 
 ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_hz)
     : solution_(folder + "/solution.csv"),

@@ -17,6 +17,10 @@
 
 namespace leonav {
 
+// Returns the columns of each table, a line each: "epochs.csv: gps_week,gps_tow_s,...". The unit is
+// the end of a column's name.
+std::string table_columns();
+
 // ResultFiles opens its files when it is constructed.
 class ResultFiles {
  public:

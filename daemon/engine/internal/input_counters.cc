@@ -1,7 +1,7 @@
 #include "daemon/engine/internal/input_counters.h"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 namespace leonav {
 namespace {
@@ -27,8 +27,8 @@ void copy_input_counters(const InputDispatch& dispatch, const Sequencer& sequenc
   for (std::size_t i = 0; i < from.rejected.size(); ++i) {
     counters->rejected[i].set(static_cast<std::int64_t>(from.rejected[i] + from.refused[i]));
   }
-  const auto* streams[] = {&from.rejected_imu, &from.rejected_epochs, &from.rejected_odometer};
-  static_assert(std::size(streams) == kStreams.size());
+  const std::array streams = {&from.rejected_imu, &from.rejected_epochs, &from.rejected_odometer};
+  static_assert(streams.size() == kStreams.size());
   for (std::size_t stream = 0; stream < kStreams.size(); ++stream) {
     for (std::size_t i = 0; i < streams[stream]->size(); ++i)
       counters->rejected_of_stream[stream][i].set(static_cast<std::int64_t>((*streams[stream])[i]));

@@ -3,7 +3,7 @@
   load.py BIN OUT [--minutes M]
 
 Once with the real-time priorities of the preset and locked memory, once with ordinary scheduling. Prints how long after its IMU
-message each SOLUTION came, which are missing or out of order, and the memory. The sender's and the recorder's own delays do not
+message each SOLUTION came (each one is in OUT/*/delays.csv), which are missing or out of order, and the memory. The sender's and the recorder's own delays do not
 count where they may have real-time priority: both get a higher one than leonavd. Exit code 1: a bound of the first run does not hold.
 """
 import argparse
@@ -124,8 +124,10 @@ def judged(folder, log, sent, begin, code, privileged):
     stamps, arrivals, health = outputs(log)
     counted = sent[sent[:, 1] >= (begin + WARM_UP_S) * 1e9]
     sent_at = dict(counted)
-    delays = np.array([arrival - sent_at[stamp] for stamp, arrival in zip(stamps.tolist(), arrivals.tolist())
-                       if stamp in sent_at]) * 1e-6
+    answered = [(stamp, arrival - sent_at[stamp]) for stamp, arrival in zip(stamps.tolist(), arrivals.tolist()) if stamp in sent_at]
+    delays = np.array([delay for _, delay in answered]) * 1e-6
+    np.savetxt(folder / "delays.csv", np.array([(stamp * 1e-9, delay * 1e-6) for stamp, delay in answered]).reshape(-1, 2),
+               fmt=["%.3f", "%.4f"], delimiter=",", header="gps_s,delay_ms", comments="")
     memory = np.loadtxt(folder / "memory.txt", ndmin=2)
     memory = memory[(memory[:, 0] >= begin + WARM_UP_S) & (memory[:, 1] > 0)]
     return {"samples": len(counted), "missing": int(len(np.setdiff1d(counted[:, 0], stamps))),
@@ -143,6 +145,8 @@ def row(name, r):
 
 
 def failures(r):
+    if not len(r["delays_ms"]):
+        return ["no solution came"]
     q99, q999 = np.quantile(r["delays_ms"], [0.99, 0.999])
     bounds = {f"{r['missing']} solutions are missing": r["missing"] > 0, f"{r['out_of_order']} are out of order": r["out_of_order"] > 0,
               f"99 % of delays are below {q99:.2f} ms only": q99 > MOST_99_MS,
