@@ -1,11 +1,12 @@
 #include "daemon/checkpoint/checkpoint_file.h"
 
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <locale>
-#include <sstream>
+#include <string_view>
 
 #include "core/navigator/sequencer/input_validation.h"
 #include "daemon/checkpoint/internal/replace_file.h"
@@ -19,26 +20,47 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDegreePerHour = kDegree / 3600.0;
 constexpr std::uintmax_t kMostBytes = 4096;
 
-std::string text_of(const Checkpoint& checkpoint) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(13);  // micrometres on the Earth
-  const auto vector = [&out](const char* key, const Eigen::Vector3d& v) {
-    out << key << ": [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
-  };
+// The text of a file, which allocates nothing: the daemon writes it while it runs.
+class FileText {
+ public:
+  FileText& operator<<(std::string_view text) {
+    size_ += text.copy(bytes_.data() + size_, bytes_.size() - size_);
+    return *this;
+  }
+  FileText& operator<<(double value) {
+    constexpr int kDigits = 13;  // micrometres on the Earth
+    char* const begin = bytes_.data() + size_;
+    const auto done = std::to_chars(begin, bytes_.data() + bytes_.size(), value,
+                                    std::chars_format::general, kDigits);
+    size_ += static_cast<std::size_t>(done.ptr - begin);
+    return *this;
+  }
+  FileText& operator<<(const Eigen::Vector3d& v) {
+    return *this << "[" << v.x() << ", " << v.y() << ", " << v.z() << "]";
+  }
+  std::string_view text() const { return {bytes_.data(), size_}; }
+
+ private:
+  std::array<char, kMostBytes> bytes_;
+  std::size_t size_ = 0;
+};
+
+FileText text_of(const Checkpoint& checkpoint) {
+  FileText out;
   out << "# Where leonavd was last sure of its heading, for its next start. It may be deleted.\n"
-      << "gps_week: " << checkpoint.time.week() << "\ngps_tow_s: " << checkpoint.time.tow_s()
-      << "\nstanding: " << (checkpoint.standing ? "true" : "false") << "\n";
-  vector("antenna_p_e_m", checkpoint.antenna_p_e);
-  out << "antenna_sigma_m: " << checkpoint.antenna_sigma
+      << "gps_week: " << static_cast<double>(checkpoint.time.week())
+      << "\ngps_tow_s: " << checkpoint.time.tow_s()
+      << "\nstanding: " << (checkpoint.standing ? "true" : "false")
+      << "\nantenna_p_e_m: " << checkpoint.antenna_p_e
+      << "\nantenna_sigma_m: " << checkpoint.antenna_sigma
       << "\nheading_deg: " << checkpoint.heading / kDegree
-      << "\nheading_sigma_deg: " << checkpoint.heading_sigma / kDegree << "\n";
-  vector("gyro_bias_b_deg_per_h", checkpoint.gyro_bias_b / kDegreePerHour);
-  out << "gyro_bias_sigma_deg_per_h: " << checkpoint.gyro_bias_sigma / kDegreePerHour
+      << "\nheading_sigma_deg: " << checkpoint.heading_sigma / kDegree
+      << "\ngyro_bias_b_deg_per_h: " << Eigen::Vector3d(checkpoint.gyro_bias_b / kDegreePerHour)
+      << "\ngyro_bias_sigma_deg_per_h: " << checkpoint.gyro_bias_sigma / kDegreePerHour
       << "\ncode_sigma_factor: " << checkpoint.code_sigma_factor
       << "\ndoppler_sigma_factor: " << checkpoint.doppler_sigma_factor
       << "\ncomplete: true\n";  // last: what was cut lacks it
-  return out.str();
+  return out;
 }
 
 Checkpoint parse(const std::string& text, const std::string& path) {
@@ -92,7 +114,7 @@ std::optional<Checkpoint> load_checkpoint(const std::string& path) {
 }
 
 std::string save_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  return replace_file(path, text_of(checkpoint));
+  return replace_file(path, text_of(checkpoint).text());
 }
 
 std::string remove_checkpoint(const std::string& path) { return remove_file(path); }

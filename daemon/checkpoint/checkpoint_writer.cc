@@ -12,6 +12,8 @@ namespace leonav {
 namespace {
 
 constexpr std::chrono::seconds kLook(1);
+// Of some 300 satellites; no limit.
+constexpr std::size_t kProductsBytes = 64 << 10;
 
 double seconds(const Stopwatch& watch) { return static_cast<double>(watch.nanoseconds()) * 1e-9; }
 
@@ -19,6 +21,9 @@ double seconds(const Stopwatch& watch) { return static_cast<double>(watch.nanose
 
 void CheckpointWriter::start() {
   if (config_.path.empty()) return;
+  products_path_ = products_path(config_.path);
+  newest_products_.ephemerides.reserve(ProductStore::kMostEphemerides);
+  written_products_.reserve(kProductsBytes);
   thread_.start("file", ThreadConfig(), [this] { run(); });
   started_ = true;
 }
@@ -80,9 +85,9 @@ void CheckpointWriter::write_products_if_due(bool at_end) {
   unwritten_products_ = products_.take(&newest_products_) || unwritten_products_;
   if (!unwritten_products_) return;
   since_products_written_ = Stopwatch();
-  const std::string text = products_text(newest_products_);
+  const std::string& text = products_text_.of(newest_products_);
   if (text != written_products_) {
-    products_problem_ = replace_file(products_path(config_.path), text);
+    products_problem_ = replace_file(products_path_, text);
     if (products_problem_.empty()) written_products_ = text;
   }
   unwritten_products_ = !products_problem_.empty();

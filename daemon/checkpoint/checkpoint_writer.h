@@ -7,6 +7,7 @@
 
 #include "core/navigator/interface/checkpoint.h"
 #include "daemon/checkpoint/product_store.h"
+#include "daemon/checkpoint/products_file.h"
 #include "daemon/config/daemon_config.h"
 #include "daemon/threads/counters.h"
 #include "daemon/threads/latest_value.h"
@@ -55,7 +56,8 @@ class CheckpointWriter {
   std::optional<Checkpoint> written_;
   BroadcastProducts newest_products_;
   bool unwritten_products_ = false;
-  std::string written_products_;
+  ProductsText products_text_;
+  std::string products_path_, written_products_;
   std::string checkpoint_problem_, products_problem_;  // of the last attempt
   Stopwatch since_written_, since_products_written_;
 };

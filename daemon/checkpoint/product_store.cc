@@ -30,7 +30,6 @@ void ProductStore::keep(const KlobucharModel& ionosphere) {
 }
 
 bool ProductStore::take(BroadcastProducts* products) {
-  products->ephemerides.reserve(kMostEphemerides);
   const std::lock_guard lock(mutex_);
   if (!std::exchange(changed_, false)) return false;
   *products = products_;

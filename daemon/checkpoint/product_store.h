@@ -24,7 +24,7 @@ class ProductStore {
   // Never waits: what comes while the other thread copies is left out, as senders repeat it.
   void keep(const Ephemeris& ephemeris);
   void keep(const KlobucharModel& ionosphere);
-  // Copies what there is. False: nothing has come since the last call.
+  // Copies what there is; `products` should have room. False: nothing has come since the last call.
   bool take(BroadcastProducts* products);
 
  private:

@@ -19,6 +19,7 @@ namespace {
 constexpr std::string_view kSumChannel = "CRC32";
 constexpr std::size_t kSumBytes = 4;
 constexpr std::uintmax_t kMostBytes = 1'000'000;
+constexpr std::size_t kUsualBytes = 64 << 10;  // of some 300 satellites
 
 std::uint32_t crc32(std::string_view bytes) {
   boost::crc_32_type crc;
@@ -124,22 +125,27 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
   return products;
 }
 
-std::string products_text(const BroadcastProducts& products) {
-  std::string text;
-  Encoder encoder;
+ProductsText::ProductsText()
+    : ephemeris_channel_(channel_name(Channel::kEphemeris)),
+      ionosphere_channel_(channel_name(Channel::kIonosphere)) {
+  text_.reserve(kUsualBytes);
+}
+
+const std::string& ProductsText::of(const BroadcastProducts& products) {
+  text_.clear();
   std::int64_t number = 0;
   for (const Ephemeris& ephemeris : products.ephemerides)
-    append_event(channel_name(Channel::kEphemeris), encoder.encode(ephemeris, 0), number++, &text);
+    append_event(ephemeris_channel_, encoder_.encode(ephemeris, 0), number++, &text_);
   if (products.ionosphere) {
-    const ByteSpan bytes = encoder.encode(*products.ionosphere, GpsTime(), 0);
-    append_event(channel_name(Channel::kIonosphere), bytes, number++, &text);
+    const ByteSpan bytes = encoder_.encode(*products.ionosphere, GpsTime(), 0);
+    append_event(ionosphere_channel_, bytes, number++, &text_);
   }
-  const std::uint32_t sum = crc32(text);
+  const std::uint32_t sum = crc32(text_);
   std::array<std::uint8_t, kSumBytes> bytes{};
   for (std::size_t i = 0; i < kSumBytes; ++i)
     bytes[i] = static_cast<std::uint8_t>(sum >> (8 * (kSumBytes - 1 - i)));
-  append_event(kSumChannel, bytes, number, &text);
-  return text;
+  append_event(kSumChannel, bytes, number, &text_);
+  return text_;
 }
 
 }  // namespace leonav

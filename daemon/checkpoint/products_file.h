@@ -8,6 +8,7 @@
 #include <string>
 
 #include "daemon/checkpoint/product_store.h"
+#include "drivers/lcm/encode.h"
 
 namespace leonav {
 
@@ -18,7 +19,19 @@ std::string products_path(const std::string& checkpoint_path);
 // or is damaged in any way: half of what it held would be used without a word.
 std::optional<BroadcastProducts> load_products(const std::string& path);
 
-// Returns the content of the file for these products.
-std::string products_text(const BroadcastProducts& products);
+// Makes the content of the file, time and again: its memory is taken at construction, and more of
+// it only where a content is longer than any before.
+class ProductsText {
+ public:
+  ProductsText();
+
+  // Returns the content for these products; valid until the next call.
+  const std::string& of(const BroadcastProducts& products);
+
+ private:
+  std::string ephemeris_channel_, ionosphere_channel_;
+  Encoder encoder_;
+  std::string text_;
+};
 
 }  // namespace leonav

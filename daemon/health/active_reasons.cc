@@ -1,12 +1,25 @@
 #include "daemon/health/active_reasons.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace leonav {
+namespace {
 
-void ActiveReasons::raise(HealthReason reason, std::string detail) {
-  cases_[static_cast<std::size_t>(reason)] = {true, now_s_, std::move(detail)};
+// Of what a run meets; no limits.
+constexpr std::size_t kDetailBytes = 256, kTextBytes = 2048;
+
+}  // namespace
+
+ActiveReasons::ActiveReasons() {
+  for (Case& one : cases_) one.detail.reserve(kDetailBytes);
+  text_.reserve(kTextBytes);
+}
+
+void ActiveReasons::raise(HealthReason reason, std::string_view detail) {
+  Case& one = cases_[static_cast<std::size_t>(reason)];
+  one.was_raised = true;
+  one.last_s = now_s_;
+  one.detail.assign(detail);
 }
 
 bool ActiveReasons::is_active(const HealthReasonEntry& entry) const {
@@ -22,20 +35,23 @@ HealthStatus ActiveReasons::status() const {
   return worst;
 }
 
-std::string ActiveReasons::text() const {
-  std::string text;
+const std::string& ActiveReasons::text() {
+  text_.clear();
   for (const HealthStatus status : {HealthStatus::kFault, HealthStatus::kDegraded}) {
     for (const HealthReasonEntry& entry : health_reasons()) {
       if (entry.status != status || !is_active(entry)) continue;
       const std::string& detail = cases_[static_cast<std::size_t>(entry.reason)].detail;
-      std::string sentence(entry.text);
+      if (!text_.empty()) text_ += "; ";
+      text_ += entry.text;
       // A reason without a text of its own is its detail.
-      if (!detail.empty()) sentence += sentence.empty() ? detail : " (" + detail + ")";
-      if (!entry.remedy.empty()) sentence += ": " + std::string(entry.remedy);
-      text += (text.empty() ? "" : "; ") + sentence;
+      if (entry.text.empty())
+        text_ += detail;
+      else if (!detail.empty())
+        text_.append(" (").append(detail).append(")");
+      if (!entry.remedy.empty()) text_.append(": ").append(entry.remedy);
     }
   }
-  return text;
+  return text_;
 }
 
 }  // namespace leonav

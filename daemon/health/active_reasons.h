@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "daemon/health/health_reason.h"
 
@@ -9,18 +10,21 @@ namespace leonav {
 
 // begin(), then raise() for each reason that is the case, once a second. A reason stays for its
 // hold after it was last raised, so that a status that comes and goes does not flap. The text names
-// those of the worst status first.
+// those of the worst status first. Memory is taken at construction; more of it is only taken where
+// a text is longer than any before.
 class ActiveReasons {
  public:
+  ActiveReasons();
+
   // `now_s`: of a clock that never goes back.
   void begin(double now_s) { now_s_ = now_s; }
   // `detail`: what tells this case from others of the same reason. It must not change while the
   // case does not: no ages, no counts.
-  void raise(HealthReason reason, std::string detail = {});
+  void raise(HealthReason reason, std::string_view detail = {});
 
   HealthStatus status() const;
-  // "" if OK. Sentences "text (detail): remedy", with "; " between them.
-  std::string text() const;
+  // "" if OK. Sentences "text (detail): remedy", with "; " between them. Valid until the next call.
+  const std::string& text();
 
  private:
   struct Case {
@@ -32,6 +36,7 @@ class ActiveReasons {
 
   double now_s_ = 0.0;
   std::array<Case, kHealthReasonCount> cases_;
+  std::string text_;
 };
 
 }  // namespace leonav

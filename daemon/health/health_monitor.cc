@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "core/navigator/interface/solution.h"
 #include "daemon/health/internal/health_message.h"
@@ -28,6 +29,7 @@ constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not co
 // As the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
+constexpr std::size_t kDetailBytes = 256;
 
 double solution_interval(const NavigatorConfig& config) {
   if (config.motion != MotionModel::kInertial) return config.realtime.epoch_interval_s;
@@ -40,8 +42,9 @@ std::int64_t sum(const auto& gauges) {
   return total;
 }
 
-void append(const std::string& text, std::string* list) {
-  *list += (list->empty() ? "" : ", ") + text;
+void append(std::string_view text, std::string* list) {
+  if (!list->empty()) *list += ", ";
+  *list += text;
 }
 
 }  // namespace
@@ -63,12 +66,16 @@ HealthMonitor::HealthMonitor(Engine* engine, const NavigatorConfig& config)
       },
       any_imu_(imu_),
       any_gnss_(gnss_),
-      any_odometer_(odometer_) {}
+      any_odometer_(odometer_),
+      message_(std::make_unique<HealthMessage>()) {
+  detail_.reserve(kDetailBytes);
+}
+
+HealthMonitor::~HealthMonitor() = default;
 
 std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view stalled_threads) {
   reasons_.begin(now_s);
-  if (!stalled_threads.empty())
-    reasons_.raise(HealthReason::kThreadHangs, std::string(stalled_threads));
+  if (!stalled_threads.empty()) reasons_.raise(HealthReason::kThreadHangs, stalled_threads);
   judge_inputs(now_s);
   judge_starts();
   judge_conventions();
@@ -84,8 +91,7 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view
   summary.source =
       solution_.has_ended ? Source::kNone : static_cast<Source>(engine_->counters().source.get());
   summary.uptime_s = now_s;
-  encode_health(summary, engine_, &bytes_);
-  return bytes_;
+  return message_->encode(summary, engine_);
 }
 
 void HealthMonitor::Stream::look(std::int64_t now_number, double now_s) {
@@ -110,48 +116,55 @@ void HealthMonitor::judge_answer(double now_s) {
   if (solution_.is_late) reasons_.raise(HealthReason::kSolutionLate);
   if (source == Source::kAligning) {
     // Between an attitude and the first answer with it nothing lacks any more.
-    reasons_.raise(HealthReason::kAligning,
-                   to_text(unpack_alignment_need(counters.alignment_need.get()), alignment_));
+    const AlignmentNeed need = unpack_alignment_need(counters.alignment_need.get());
+    const AlignmentText text = to_text(need, alignment_);
+    reasons_.raise(HealthReason::kAligning, {text.data(), text.size()});
   }
   if (source == Source::kInsOnly)
     reasons_.raise(expects_imu_ ? HealthReason::kInsOnly : HealthReason::kPredictionOnly);
   judge_levels();
 }
 
-// Returns " as ..." with the fault by which most inputs of the channel are rejected; "": none is.
-std::string HealthMonitor::as_what(Channel channel) const {
+// Adds " as ..." with the fault by which most inputs of the channel are rejected.
+void HealthMonitor::append_fault(Channel channel) {
   const InputFault fault = faults_.most_frequent(channel);
-  return fault == InputFault::kNone ? "" : " as " + std::string(to_string(fault));
+  if (fault != InputFault::kNone) detail_.append(" as ").append(to_string(fault));
+}
+
+std::string_view HealthMonitor::with_fault(std::string_view text, Channel channel) {
+  detail_.assign(text);
+  append_fault(channel);
+  return detail_;
 }
 
 // Returns why no epoch gets to the filter; "": they do.
-std::string HealthMonitor::why_no_epoch() const {
+std::string_view HealthMonitor::why_no_epoch() {
   const EngineCounters& counters = engine_->counters();
   const bool had_imu = counters.accepted_imu.get() > 0;
   if (counters.received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
   if (counters.accepted_epochs.get() == 0)
-    return "all GNSS epochs are rejected" + as_what(Channel::kGnssEpoch);
+    return with_fault("all GNSS epochs are rejected", Channel::kGnssEpoch);
   if (expects_imu_ && counters.received[index_of(Channel::kImu)].get() == 0)
     return "no IMU sample has come";
-  if (expects_imu_ && !had_imu) return "all IMU samples are rejected" + as_what(Channel::kImu);
+  if (expects_imu_ && !had_imu) return with_fault("all IMU samples are rejected", Channel::kImu);
   if (expects_imu_ && imu_.is_late) return "no IMU sample is used any more";
   if (!gnss_.is_late) return "";
   const InputFault fault = faults_.most_frequent(Channel::kGnssEpoch);
   const bool wrong_time = fault == InputFault::kTimeBackwards || fault == InputFault::kTooFarAhead;
-  if (wrong_time && expects_imu_)
-    return "the GNSS epochs are rejected" + as_what(Channel::kGnssEpoch) +
-           ", their time is not that of the IMU: compare the two clocks";
-  return "no GNSS epoch is used any more";
+  if (!wrong_time || !expects_imu_) return "no GNSS epoch is used any more";
+  with_fault("the GNSS epochs are rejected", Channel::kGnssEpoch);
+  detail_ += ", their time is not that of the IMU: compare the two clocks";
+  return detail_;
 }
 
 // Returns what the first position waits for.
-std::string HealthMonitor::why_no_solution() const {
+std::string_view HealthMonitor::why_no_solution() {
   const EngineCounters& counters = engine_->counters();
   const auto satellites = [&](Reason reason) {
     return counters.satellites_by_reason[static_cast<std::size_t>(reason)].get();
   };
   const std::int64_t measured = sum(counters.satellites_by_reason);
-  if (const std::string inputs = why_no_epoch(); !inputs.empty()) return inputs;
+  if (const std::string_view inputs = why_no_epoch(); !inputs.empty()) return inputs;
   // The satellites are those of the epoch before; the first new one may be on its way.
   if (starts_ > 0 && counters.accepted_epochs.get() <= epochs_at_start_ + 1)
     return "the filter has started over and waits for the next GNSS epoch";
@@ -168,32 +181,38 @@ std::string HealthMonitor::why_no_solution() const {
     return "too few satellites with good codes so far";
   if (reason == Reason::kNoEphemeris)
     return "most satellites have no ephemeris: see that they are sent";
-  return "most satellites are left out as " + std::string(to_string(reason));
+  detail_ = "most satellites are left out as ";
+  detail_ += to_string(reason);
+  return detail_;
 }
 
 // A solution that may be further off than its user allows. The level itself is a field of HEALTH:
 // in the reason it would change, and be logged, every second.
 void HealthMonitor::judge_levels() {
   const EngineCounters& counters = engine_->counters();
-  std::string detail;
-  const auto compare = [&](const std::string& name, const Gauge& level, double limit_m) {
+  detail_.clear();
+  const auto compare = [&](std::string_view name, const Gauge& level, double limit_m) {
     if (limit_m == 0.0) return;
     const std::int64_t micro = level.get();
-    if (micro < 0) return append(name + " unknown", &detail);
-    if (static_cast<double>(micro) * 1e-6 <= limit_m) return;
-    char limit[32];
-    std::snprintf(limit, sizeof limit, "%.2f m", limit_m);
-    append(name + " above its alert limit of " + limit, &detail);
+    if (micro >= 0 && static_cast<double>(micro) * 1e-6 <= limit_m) return;
+    append(name, &detail_);
+    if (micro < 0) {
+      detail_ += " unknown";
+      return;
+    }
+    char limit[64];
+    std::snprintf(limit, sizeof limit, " above its alert limit of %.2f m", limit_m);
+    detail_ += limit;
   };
   compare("horizontal", counters.horizontal_protection_micro, horizontal_alert_limit_m_);
   compare("vertical", counters.vertical_protection_micro, vertical_alert_limit_m_);
-  if (!detail.empty()) reasons_.raise(HealthReason::kLevelAboveLimit, detail);
+  if (!detail_.empty()) reasons_.raise(HealthReason::kLevelAboveLimit, detail_);
 }
 
 void HealthMonitor::judge_inputs(double now_s) {
   EngineCounters& counters = engine_->counters();
   faults_.look(counters);
-  std::string bad;
+  detail_.clear();
   for (const Channel channel : kInputChannels) {
     const std::size_t i = index_of(channel);
     InputRates& rates = inputs_[i];
@@ -206,11 +225,13 @@ void HealthMonitor::judge_inputs(double now_s) {
     if (channel == Channel::kImu || channel == Channel::kGnssEpoch)
       unused = std::max(unused, rates.received.get() - rates.accepted.get());
     const std::int64_t received = rates.received.get();
-    if (received >= kFewMessages &&
-        static_cast<double>(unused) >= kShare * static_cast<double>(received))
-      append(std::string(name_of(channel)) + as_what(channel), &bad);
+    if (received < kFewMessages ||
+        static_cast<double>(unused) < kShare * static_cast<double>(received))
+      continue;
+    append(name_of(channel), &detail_);
+    append_fault(channel);
   }
-  if (!bad.empty()) reasons_.raise(HealthReason::kInputRejected, bad);
+  if (!detail_.empty()) reasons_.raise(HealthReason::kInputRejected, detail_);
   if (expects_imu_)
     judge_stream(counters.accepted_imu.get(), now_s, Channel::kImu, HealthReason::kNoImu, &imu_,
                  &any_imu_);
@@ -228,22 +249,28 @@ void HealthMonitor::judge_stream(std::int64_t number, double now_s, Channel chan
   stream->look(number, now_s);
   any->look(engine_->counters().received[index_of(channel)].get(), now_s);
   if (!stream->is_late) return;
-  const std::string rejected = as_what(channel);
   if (any->is_late) return reasons_.raise(reason, "nothing comes");
-  reasons_.raise(reason, rejected.empty() ? "messages come, but too late"
-                                          : "messages come, but are rejected" + rejected);
+  const bool rejected = faults_.most_frequent(channel) != InputFault::kNone;
+  reasons_.raise(reason, rejected ? with_fault("messages come, but are rejected", channel)
+                                  : "messages come, but too late");
 }
 
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
 // mended and the daemon is started again.
 void HealthMonitor::judge_conventions() {
   EngineCounters& counters = engine_->counters();
-  suspicions_.clear();
+  std::array<std::optional<std::int64_t>, kConventionCount> milli;
   for (std::size_t i = 0; i < kConventionCount; ++i) {
-    if (counters.conventions[i].get() == 0) continue;
-    const double value = static_cast<double>(counters.convention_milli[i].get()) * 1e-3;
-    const std::string text = convention_text(static_cast<Convention>(i), value);
-    suspicions_ += (suspicions_.empty() ? "" : "; ") + text;
+    if (counters.conventions[i].get() != 0) milli[i] = counters.convention_milli[i].get();
+  }
+  if (std::exchange(suspected_, milli) != milli) {
+    suspicions_.clear();
+    for (std::size_t i = 0; i < kConventionCount; ++i) {
+      if (!milli[i]) continue;
+      const double value = static_cast<double>(*milli[i]) * 1e-3;
+      const std::string text = convention_text(static_cast<Convention>(i), value);
+      suspicions_ += (suspicions_.empty() ? "" : "; ") + text;
+    }
   }
   if (!suspicions_.empty()) reasons_.raise(HealthReason::kConvention, suspicions_);
 }
@@ -269,12 +296,12 @@ void HealthMonitor::judge_measurements() {
   if (measurements_.get() >= kFewMeasurements && 2 * contradicting_.get() > measurements_.get())
     reasons_.raise(HealthReason::kMostRejected);
 
-  std::string lasting;
+  detail_.clear();
   for (const System system : kSystems) {
     if (counters.lasting_cm[index_of(system)].get() >= kLastingError_cm)
-      append(std::string(to_string(system)), &lasting);
+      append(to_string(system), &detail_);
   }
-  if (!lasting.empty()) reasons_.raise(HealthReason::kLastingErrors, lasting);
+  if (!detail_.empty()) reasons_.raise(HealthReason::kLastingErrors, detail_);
 
   satellite_faults_.look(events(EventKind::kSatelliteFault));
   if (satellite_faults_.get() >= kSeveralSatellites) reasons_.raise(HealthReason::kSatellitesDrift);

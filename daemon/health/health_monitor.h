@@ -2,10 +2,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "daemon/engine/engine.h"
 #include "daemon/health/active_reasons.h"
@@ -16,11 +17,16 @@
 
 namespace leonav {
 
+class HealthMessage;
+
 // It runs in `main` and reads the engine's counters; their differences between two calls are what
 // happened since. docs/operations/health.md has every reason.
 class HealthMonitor {
  public:
   HealthMonitor(Engine* engine, const NavigatorConfig& config);
+  ~HealthMonitor();
+  HealthMonitor(const HealthMonitor&) = delete;
+  HealthMonitor& operator=(const HealthMonitor&) = delete;
 
   // The encoded message; valid until the next call. `now_s`: of a clock that never goes back, 0 at
   // construction. Silence is measured with it and not with data time, which stands still when all
@@ -31,7 +37,7 @@ class HealthMonitor {
   std::span<const std::uint8_t> next(double now_s, std::string_view stalled_threads = {});
   // The status and its reasons at the last call.
   HealthStatus status() const { return reasons_.status(); }
-  std::string why() const { return reasons_.text(); }
+  const std::string& why() { return reasons_.text(); }
   // Inputs that break a convention, with the remedies; part of why(). Empty: none.
   const std::string& suspicions() const { return suspicions_; }
   // Whether there was an answer at the last call; part of status().
@@ -68,9 +74,11 @@ class HealthMonitor {
   Fault why_no_answer() const;
   std::int64_t events(EventKind kind) const;
   void raise_if_grown(HealthReason reason, std::int64_t count, bool counts = true);
-  std::string why_no_solution() const;
-  std::string why_no_epoch() const;
-  std::string as_what(Channel channel) const;
+  // These are valid until the next one.
+  std::string_view why_no_solution();
+  std::string_view why_no_epoch();
+  std::string_view with_fault(std::string_view text, Channel channel);
+  void append_fault(Channel channel);
 
   Engine* engine_;
   AlignmentConfig alignment_;
@@ -92,7 +100,10 @@ class HealthMonitor {
   std::array<std::int64_t, kHealthReasonCount> last_counts_{};
   ActiveReasons reasons_;
   std::string suspicions_;
-  std::vector<std::uint8_t> bytes_;
+  // The values that suspicions_ tells, in thousandths.
+  std::array<std::optional<std::int64_t>, kConventionCount> suspected_;
+  std::string detail_;  // of the reason that is judged
+  std::unique_ptr<HealthMessage> message_;
 };
 
 }  // namespace leonav

@@ -11,49 +11,68 @@ constexpr std::int64_t kKinds = 16;
 constexpr double kMostSeconds = 1e6;
 
 // As people write it: 2, 0.5.
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+void append(double value, AlignmentText* text) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g", value);
+  text->append(number);
 }
 
-std::string whole(double seconds) { return number(std::ceil(std::max(0.0, seconds))); }
-
 // In steps of a factor of about two, so that the text is not another one every second.
-std::string at_most(double seconds) {
+void append_at_most(double seconds, AlignmentText* text) {
   for (const double step : {2.0, 5.0, 10.0, 20.0, 30.0, 60.0, 120.0, 300.0, 600.0}) {
-    if (seconds <= step) return "up to " + number(step) + " s more";
+    if (seconds > step) continue;
+    text->append("up to ");
+    append(step, text);
+    text->append(" s more");
+    return;
   }
-  return "more than 600 s more";
+  text->append("more than 600 s more");
 }
 
 }  // namespace
 
-std::string to_text(const AlignmentNeed& need, const AlignmentConfig& config) {
-  const std::string more = at_most(need.seconds);
+AlignmentText to_text(const AlignmentNeed& need, const AlignmentConfig& config) {
+  AlignmentText text;
   switch (need.lacking) {
     case Lacking::kNothing:
-      return "";
+      break;
     case Lacking::kPosition:
-      return "no position";
+      text = "no position";
+      break;
     case Lacking::kLevelling:
-      return "no level yet: " + more + " of specific force";
+      text = "no level yet: ";
+      append_at_most(need.seconds, &text);
+      text.append(" of specific force");
+      break;
     case Lacking::kGravity:
-      return "no level yet: the IMU is shaken, or its specific force is not of gravity's length";
+      text = "no level yet: the IMU is shaken, or its specific force is not of gravity's length";
+      break;
     case Lacking::kNorth:
-      return "standing: the gyros need " + more + " to find north";
+      text = "standing: the gyros need ";
+      append_at_most(need.seconds, &text);
+      text.append(" to find north");
+      break;
     case Lacking::kDriving:
-      return "no heading: drive faster than " + number(config.min_course_speed_m_s) + " m/s for " +
-             whole(config.course_window_s + config.confirming_s) + " s, or set_heading";
+      text = "no heading: drive faster than ";
+      append(config.min_course_speed_m_s, &text);
+      text.append(" m/s for ");
+      append(std::ceil(std::max(0.0, config.course_window_s + config.confirming_s)), &text);
+      text.append(" s, or set_heading");
+      break;
     case Lacking::kCourse:
-      return "no heading yet: drive on for " + more;
+      text = "no heading yet: drive on for ";
+      append_at_most(need.seconds, &text);
+      break;
     case Lacking::kGear:
-      return "no heading: forward or in reverse? speed up, turn, or drive faster than " +
-             number(config.max_reverse_speed_m_s) + " m/s";
+      text = "no heading: forward or in reverse? speed up, turn, or drive faster than ";
+      append(config.max_reverse_speed_m_s, &text);
+      text.append(" m/s");
+      break;
     case Lacking::kAgreement:
-      return "no heading: course and IMU do not agree, drive on straight";
+      text = "no heading: course and IMU do not agree, drive on straight";
+      break;
   }
-  return "";
+  return text;
 }
 
 std::int64_t pack_alignment_need(const AlignmentNeed& need) {

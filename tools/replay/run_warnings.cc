@@ -68,8 +68,9 @@ std::vector<std::string> run_warnings(const InputDispatch::Counters& received,
     warnings.push_back("convention_suspect " + std::string(to_string(suspicion.convention)) + " " +
                        after + convention_text(suspicion.convention, suspicion.value));
   }
-  const std::string lacks = to_text(statistics.alignment(), alignment);
-  if (!lacks.empty()) warnings.push_back("the run ends while aligning: " + lacks);
+  const AlignmentText lacks = to_text(statistics.alignment(), alignment);
+  if (!lacks.empty())
+    warnings.push_back("the run ends while aligning: " + std::string(lacks.data(), lacks.size()));
   return warnings;
 }
 

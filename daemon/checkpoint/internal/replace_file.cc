@@ -3,16 +3,23 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
+#include <string_view>
 
 namespace leonav {
 namespace {
 
-std::string failure(const std::string& path, const char* what) {
-  return path + ": " + what + ": " + std::strerror(errno);
+constexpr std::string_view kEnding = ".tmp";
+
+using Path = std::array<char, PATH_MAX>;
+
+std::string failure(std::string_view path, const char* what) {
+  return std::string(path) + ": " + what + ": " + std::strerror(errno);
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -28,8 +35,10 @@ bool write_all(int descriptor, std::string_view text) {
 
 // A new name is on the disk only once its folder is. Some file systems cannot: no harm.
 void sync_folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+  Path folder{'.'};
+  const std::size_t end = path.rfind('/');
+  if (end != path.npos) path.copy(folder.data(), std::clamp<std::size_t>(end, 1, PATH_MAX - 1));
+  const int descriptor = open(folder.data(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
   fsync(descriptor);
   close(descriptor);
@@ -38,15 +47,20 @@ void sync_folder_of(const std::string& path) {
 }  // namespace
 
 std::string replace_file(const std::string& path, std::string_view content) {
-  const std::string beside = path + ".tmp";
+  Path beside{};
+  if (path.size() + kEnding.size() >= beside.size()) {
+    errno = ENAMETOOLONG;
+    return failure(path, "cannot be made");
+  }
+  kEnding.copy(beside.data() + path.copy(beside.data(), path.size()), kEnding.size());
   const int descriptor =
-      open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
-  if (descriptor < 0) return failure(beside, "cannot be made");
+      open(beside.data(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (descriptor < 0) return failure(beside.data(), "cannot be made");
   const bool written = write_all(descriptor, content) && fsync(descriptor) == 0;
-  std::string problem = written ? "" : failure(beside, "cannot be written");
+  std::string problem = written ? "" : failure(beside.data(), "cannot be written");
   close(descriptor);
   if (!problem.empty()) return problem;
-  if (std::rename(beside.c_str(), path.c_str()) != 0) return failure(path, "cannot be replaced");
+  if (std::rename(beside.data(), path.c_str()) != 0) return failure(path, "cannot be replaced");
   sync_folder_of(path);
   return {};
 }

@@ -1,8 +1,12 @@
 #include "daemon/health/internal/health_message.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <initializer_list>
 #include <leonav/health_t.hpp>
 #include <limits>
 
@@ -12,22 +16,42 @@
 namespace leonav {
 namespace {
 
+constexpr std::size_t kMostCounts = 256;  // more would be taken, and more memory with it
+constexpr std::size_t kNameBytes = 48, kWhyBytes = 2048, kMessageBytes = 16 << 10;
+
 double resident_megabytes() {
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0.0;
-  long total = 0, resident = 0;
-  const int fields = std::fscanf(file, "%ld %ld", &total, &resident);
-  std::fclose(file);
-  return fields == 2 ? static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6 : 0.0;
+  const int descriptor = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return 0.0;
+  std::array<char, 128> text{};
+  const ssize_t size = read(descriptor, text.data(), text.size());
+  close(descriptor);
+  const char* const end = text.data() + std::max<ssize_t>(size, 0);
+  const char* const second = std::find(static_cast<const char*>(text.data()), end, ' ');
+  long pages = 0;
+  if (second != end) std::from_chars(second + 1, end, pages);
+  return static_cast<double>(pages * sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-void add_count(const std::string& name, std::int64_t value, health_t* message) {
-  if (value == 0) return;
-  count_t count;
-  count.name = name;
-  count.value = value;
-  message->counts.push_back(count);
-}
+// The counts of a message. A name is given in parts, which are joined in its place.
+class Counts {
+ public:
+  explicit Counts(std::vector<count_t>* counts) : counts_(counts) {}
+
+  void add(std::initializer_list<std::string_view> name, std::int64_t value) {
+    if (value == 0) return;
+    if (used_ == counts_->size()) counts_->emplace_back();
+    count_t& count = (*counts_)[used_++];
+    count.name.clear();
+    for (const std::string_view part : name) count.name += part;
+    count.value = value;
+  }
+  void add(std::string_view name, std::int64_t value) { add({name}, value); }
+  std::size_t used() const { return used_; }
+
+ private:
+  std::vector<count_t>* counts_;
+  std::size_t used_ = 0;
+};
 
 // Returns the value of a gauge in its unit; NaN for the -1 of "none".
 double scaled(const Gauge& gauge, double unit) {
@@ -45,83 +69,96 @@ void add_levels(const EngineCounters& counters, Source source, health_t* message
 }
 
 // What is learned about the errors of one observable, over all classes and by class.
-void add_learned(const std::string& observable, const LearnedGauges& gauges, health_t* message) {
+void add_learned(std::string_view observable, const LearnedGauges& gauges, Counts* counts) {
   for (std::size_t i = 0; i < gauges.size(); ++i) {
-    const std::string of = i == 0 ? "" : " " + std::string(kLearnedClassNames[i - 1]);
-    add_count(observable + " sigma %" + of, gauges[i].sigma_percent.get(), message);
-    add_count(observable + " time ms" + of, gauges[i].time_ms.get(), message);
+    const std::string_view space = i == 0 ? "" : " ", of = i == 0 ? "" : kLearnedClassNames[i - 1];
+    counts->add({observable, " sigma %", space, of}, gauges[i].sigma_percent.get());
+    counts->add({observable, " time ms", space, of}, gauges[i].time_ms.get());
   }
 }
 
-void add_journal_counts(const Journal& journal, health_t* message) {
-  const JournalCounters& counters = journal.counters();
-  add_count("journaled", counters.journaled.get(), message);
-  add_count("journal lost", counters.lost_others.get(), message);
-  add_count("journal solutions left out", counters.lost_solutions.get(), message);
-  add_count("journal failures", counters.failures.get(), message);
-  add_count("journal unconfirmed", counters.unsynced.get(), message);
-  add_count("journal pieces", counters.pieces.get(), message);
-  add_count("journal pieces deleted", counters.deleted.get(), message);
-  add_count("journal pieces kept", counters.kept.get(), message);
-  add_count("journal pieces undeletable", counters.undeletable.get(), message);
-  add_count("journal memory %", static_cast<std::int64_t>(journal.ring().high_water_percent),
-            message);
+void add_journal_counts(const Journal& journal, Counts* counts) {
+  const JournalCounters& of = journal.counters();
+  counts->add("journaled", of.journaled.get());
+  counts->add("journal lost", of.lost_others.get());
+  counts->add("journal solutions left out", of.lost_solutions.get());
+  counts->add("journal failures", of.failures.get());
+  counts->add("journal unconfirmed", of.unsynced.get());
+  counts->add("journal pieces", of.pieces.get());
+  counts->add("journal pieces deleted", of.deleted.get());
+  counts->add("journal pieces kept", of.kept.get());
+  counts->add("journal pieces undeletable", of.undeletable.get());
+  counts->add("journal memory %", static_cast<std::int64_t>(journal.ring().high_water_percent));
 }
 
 std::int64_t event_count(const EngineCounters& counters, EventKind kind) {
   return counters.events[static_cast<std::size_t>(kind)].get();
 }
 
-void add_counts(EngineCounters* counters, health_t* message) {
+void add_counts(const EngineCounters& of, Counts* counts) {
   for (const Channel channel : kInputChannels) {
-    const std::string name(name_of(channel));
-    add_count("received " + name, counters->received[index_of(channel)].get(), message);
-    add_count("refused " + name, counters->refused[index_of(channel)].get(), message);
-    add_count("lost " + name, counters->lost[index_of(channel)].get(), message);
+    const std::string_view name = name_of(channel);
+    counts->add({"received ", name}, of.received[index_of(channel)].get());
+    counts->add({"refused ", name}, of.refused[index_of(channel)].get());
+    counts->add({"lost ", name}, of.lost[index_of(channel)].get());
   }
-  for (std::size_t i = 0; i < counters->rejected.size(); ++i) {
-    const std::string name(to_string(static_cast<InputFault>(i)));
-    add_count("rejected " + name, counters->rejected[i].get(), message);
+  for (std::size_t i = 0; i < of.rejected.size(); ++i) {
+    const std::string_view name = to_string(static_cast<InputFault>(i));
+    counts->add({"rejected ", name}, of.rejected[i].get());
   }
-  add_count("empty epochs", counters->empty_epochs.get(), message);
-  add_count("late epochs", counters->late_epochs.get(), message);
-  add_count("epochs without imu", counters->epochs_without_imu.get(), message);
-  add_count("late odometer increments", counters->late_odometer.get(), message);
-  add_count("imu gaps", counters->imu_gaps.get(), message);
-  add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
-  add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
-  add_count("orbit returns", counters->orbit_returns.get(), message);
-  add_count("satellite faults", event_count(*counters, EventKind::kSatelliteFault), message);
-  add_count("widened predictions", counters->widened_predictions.get(), message);
-  add_count("arcs joined", counters->arcs_joined.get(), message);
-  add_learned("learned code", counters->learned[0], message);
-  add_learned("learned doppler", counters->learned[1], message);
+  counts->add("empty epochs", of.empty_epochs.get());
+  counts->add("late epochs", of.late_epochs.get());
+  counts->add("epochs without imu", of.epochs_without_imu.get());
+  counts->add("late odometer increments", of.late_odometer.get());
+  counts->add("imu gaps", of.imu_gaps.get());
+  counts->add("imu stamps smoothed", of.imu_smoothed.get());
+  counts->add("orbit fallbacks", of.orbit_fallbacks.get());
+  counts->add("orbit returns", of.orbit_returns.get());
+  counts->add("satellite faults", event_count(of, EventKind::kSatelliteFault));
+  counts->add("widened predictions", of.widened_predictions.get());
+  counts->add("arcs joined", of.arcs_joined.get());
+  add_learned("learned code", of.learned[0], counts);
+  add_learned("learned doppler", of.learned[1], counts);
   for (const System system : kSystems)
-    add_count("lasting code error cm " + std::string(to_string(system)),
-              counters->lasting_cm[index_of(system)].get(), message);
-  add_count("filter resets", event_count(*counters, EventKind::kFilterReset), message);
-  add_count("checkpoints used", counters->checkpoints_used.get(), message);
-  add_count("checkpoints ignored", counters->checkpoints_ignored.get(), message);
-  add_count("commits", counters->commits.get(), message);
-  add_count("smoother commits", counters->smoother_commits.get(), message);
-  add_count("smoother failures", counters->smoother_failures.get(), message);
-  add_count("smoother iterations", counters->smoother_iterations.get(), message);
-  add_count("keyframes skipped", counters->keyframes_skipped.get(), message);
-  add_count("published", counters->published.get(), message);
-  add_count("health dropped", counters->unpublished.get(), message);
+    counts->add({"lasting code error cm ", to_string(system)},
+                of.lasting_cm[index_of(system)].get());
+  counts->add("filter resets", event_count(of, EventKind::kFilterReset));
+  counts->add("checkpoints used", of.checkpoints_used.get());
+  counts->add("checkpoints ignored", of.checkpoints_ignored.get());
+  counts->add("commits", of.commits.get());
+  counts->add("smoother commits", of.smoother_commits.get());
+  counts->add("smoother failures", of.smoother_failures.get());
+  counts->add("smoother iterations", of.smoother_iterations.get());
+  counts->add("keyframes skipped", of.keyframes_skipped.get());
+  counts->add("published", of.published.get());
+  counts->add("health dropped", of.unpublished.get());
 }
 
 }  // namespace
 
-void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std::uint8_t>* bytes) {
-  EngineCounters& counters = engine->counters();
+struct HealthMessage::Content {
   health_t message{};
+};
+
+HealthMessage::HealthMessage() : content_(std::make_unique<Content>()) {
+  health_t& message = content_->message;
+  message.counts.resize(kMostCounts);
+  for (count_t& count : message.counts) count.name.reserve(kNameBytes);
+  message.why.reserve(kWhyBytes);
+  bytes_.reserve(kMessageBytes);
+}
+
+HealthMessage::~HealthMessage() = default;
+
+std::span<const std::uint8_t> HealthMessage::encode(const HealthSummary& summary, Engine* engine) {
+  EngineCounters& counters = engine->counters();
+  health_t& message = content_->message;
   message.time_ns = counters.solution_time_ns.get();
   message.sequence = static_cast<std::int64_t>(summary.sequence);
   message.schema = wire::kHealthSchema;
-  message.status = std::string(to_string(summary.status));
+  message.status = to_string(summary.status);
   message.why = summary.why;
-  message.source = std::string(to_string(summary.source));
+  message.source = to_string(summary.source);
   message.ekf_misses = counters.misses.get();
   message.smoother_misses = counters.smoother_misses.get();
   message.worst_solve_ms = static_cast<double>(counters.worst_solve_ns.take()) * 1e-6;
@@ -144,11 +181,13 @@ void encode_health(const HealthSummary& summary, Engine* engine, std::vector<std
   message.memory_mb = resident_megabytes();
   message.uptime_s = summary.uptime_s;
   add_levels(counters, summary.source, &message);
-  add_counts(&counters, &message);
-  add_journal_counts(engine->journal(), &message);
-  message.n_counts = static_cast<std::int32_t>(message.counts.size());
-  bytes->resize(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes->data(), 0, static_cast<int>(bytes->size()));
+  Counts counts(&message.counts);
+  add_counts(counters, &counts);
+  add_journal_counts(engine->journal(), &counts);
+  message.n_counts = static_cast<std::int32_t>(counts.used());
+  bytes_.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes_.data(), 0, static_cast<int>(bytes_.size()));
+  return bytes_;
 }
 
 }  // namespace leonav

@@ -28,6 +28,11 @@ BroadcastProducts some_products() {
   return products;
 }
 
+std::string text_of_file(const BroadcastProducts& products) {
+  static ProductsText text;  // as for a file that is written again
+  return text.of(products);
+}
+
 void write(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
@@ -40,7 +45,7 @@ TEST_CASE("products are read as they were written") {
   CHECK_FALSE(load_products(path));
   const BroadcastProducts products = some_products();
   REQUIRE(products.ephemerides.size() > 4);
-  const std::string text = products_text(products);
+  const std::string text = text_of_file(products);
   write(path, text);
   const auto read = load_products(path);
   REQUIRE(read);
@@ -48,7 +53,7 @@ TEST_CASE("products are read as they were written") {
   CHECK(read->ephemerides[2].satellite == products.ephemerides[2].satellite);
   CHECK(read->ephemerides[2].m0 == products.ephemerides[2].m0);
   CHECK(read->ionosphere->alpha[0] == 1e-8);
-  CHECK(products_text(*read) == text);
+  CHECK(text_of_file(*read) == text);
 }
 
 TEST_CASE("a file with any byte changed, cut anywhere, or too long is refused as a whole") {
@@ -56,7 +61,7 @@ TEST_CASE("a file with any byte changed, cut anywhere, or too long is refused as
   const std::string path = folder.beside("c.products");
   BroadcastProducts few = some_products();
   few.ephemerides.resize(2);
-  const std::string text = products_text(few);
+  const std::string text = text_of_file(few);
   std::size_t refused = 0, tried = 0;
   const auto attempt = [&](const std::string& damaged) {
     write(path, damaged);

@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <sys/prctl.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -13,14 +14,16 @@
 namespace leonav {
 namespace {
 std::atomic<bool> counting{false};
-std::atomic<std::size_t> allocations{0}, inertial{0}, gnss{0}, journal{0};
+std::atomic<std::size_t> allocations{0};
+constexpr std::array kThreads = {"leonav-ins",     "leonav-gnss", "leonav-smoother", "leonav-out",
+                                 "leonav-journal", "leonav-file", "leonav-io",       "leonav-main"};
+std::array<std::atomic<std::size_t>, kThreads.size()> by_thread{};
 void note() {
   if (counting.load(std::memory_order_relaxed)) allocations.fetch_add(1);
   char name[16] = {};
   prctl(PR_GET_NAME, name);  // a system call, because nothing here may allocate
-  if (std::strcmp(name, "leonav-ins") == 0) inertial.fetch_add(1);
-  if (std::strcmp(name, "leonav-gnss") == 0) gnss.fetch_add(1);
-  if (std::strcmp(name, "leonav-journal") == 0) journal.fetch_add(1);
+  for (std::size_t i = 0; i < kThreads.size(); ++i)
+    if (std::strcmp(name, kThreads[i]) == 0) by_thread[i].fetch_add(1);
 }
 }  // namespace
 
@@ -35,7 +38,10 @@ std::size_t stop_counting_allocations() {
   return allocations;
 }
 
-ThreadAllocations thread_allocations() { return {inertial, gnss, journal}; }
+ThreadAllocations thread_allocations() {
+  const auto& by = by_thread;
+  return {by[0], by[1], by[2], by[3], by[4], by[5], by[6], by[7]};
+}
 
 }  // namespace leonav
 
