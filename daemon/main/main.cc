@@ -33,6 +33,7 @@
 #include "daemon/link/channel_lock.h"
 #include "daemon/link/lcm_publisher.h"
 #include "daemon/link/service_manager.h"
+#include "daemon/process/one_blas_thread.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/service/lcm_link.h"
 #include "daemon/text/checkpoint_text.h"
@@ -40,7 +41,6 @@
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
 #include "tools/common/configuration_options.h"
-#include "tools/common/one_blas_thread.h"
 #include "tools/common/service/service_main.h"
 
 namespace {
@@ -239,16 +239,18 @@ void supervise(Engine* engine, HealthMonitor* health, const ServiceManager& mana
   JournalLog journal_log(config.journal.path);
   KeepRule keep_rule;
   const bool expects_imu = config.navigator.motion == MotionModel::kInertial;
-  bool stood_still = false;
-  std::string last, last_suspicions, last_hanging;
+  bool stood_still = false, is_first = true;
+  HealthStatus last_status = HealthStatus::kOk;
+  std::string last_why, last_suspicions, last_hanging;
   while (!io_failed.load() && !wait_for_stop(signals, manager, reload)) {
     const std::string stalled_threads = watch.stalled_threads();
     engine->publish(Channel::kHealth, health->next(stalled_threads));
-    const std::string why = health->why();
-    const std::string now =
-        std::string(to_string(health->status())) + (why.empty() ? "" : ": ") + why;
-    if (now != last) spdlog::info("{}", now);
-    last = now;
+    const std::string& why = health->why();
+    if (health->status() != last_status || why != last_why || is_first)
+      spdlog::info("{}{}{}", to_string(health->status()), why.empty() ? "" : ": ", why);
+    is_first = false;
+    last_status = health->status();
+    last_why = why;
     if (health->suspicions() != last_suspicions)
       spdlog::warn("not as it should be: {}", health->suspicions());
     last_suspicions = health->suspicions();
@@ -282,10 +284,12 @@ EngineHooks drill_hooks(const DrillConfig& drill) {
 void check_solve_time(const NavigatorConfig& config) {
   if (config.estimator != Estimator::kSmoother || config.motion != MotionModel::kInertial) return;
   SolveTime time;
-  RealtimeThread thread;  // whose stack is given back, unlike that of `main`
+  // Not in `main`, whose stack would stay as large. That of the thread goes to `gnss`: it is too
+  // large for the threads before it (glibc gives no stack of more than four times the size).
+  RealtimeThread thread;
   thread.start(
       "measure", ThreadConfig(), [&] { time = measure_solve_time(config); },
-      RealtimeThread::kEstimatorStackBytes);
+      RealtimeThread::kEstimatorStackBytes + RealtimeThread::kStackBytes);
   thread.join();
   if (time.solved < kMeasuredSolves)
     return spdlog::warn("the smoother's time could not be measured");

@@ -7,7 +7,6 @@
 
 #include "daemon/config/effective_config.h"
 #include "tools/common/configuration_options.h"
-#include "tools/common/one_blas_thread.h"
 #include "tools/replay/configuration.h"
 #include "tools/replay/journal_scan.h"
 #include "tools/replay/replay_run.h"
@@ -16,10 +15,6 @@
 namespace {
 
 using namespace leonav;
-
-// As leonavd does, whose journals come again bit for bit.
-__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
-    start_with_one_blas_thread;
 
 constexpr const char* kCutShort = ": its last message is cut short; replaying what is whole\n";
 

@@ -5,9 +5,8 @@ namespace leonav {
 
 // OpenBLAS starts its threads before main() and asks only the environment how many. Where that says
 // nothing, the program is started once more, in the same process, with OPENBLAS_NUM_THREADS=1. Its
-// threads would never be used, hold 140 MB that is locked with the rest, take signals that are
-// meant for main(), and hang at the end where memory is short; and with another number of them the
-// sums of Ceres may have other bits.
+// threads are of no use here, hold 140 MB that are locked with the rest, take signals that are
+// meant for main(), and hang at the end where memory is short.
 //
 // To be called before the libraries begin, by an entry in the program's .preinit_array. (Valgrind
 // follows with --trace-children=yes, or where the variable is set already.)

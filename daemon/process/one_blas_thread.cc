@@ -1,4 +1,4 @@
-#include "tools/common/one_blas_thread.h"
+#include "daemon/process/one_blas_thread.h"
 
 #include <unistd.h>
 
