@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,14 @@ namespace leonav::test {
 
 class DaemonProgram {
  public:
-  // `environment`: "NAME=value", added to that of the test. Its LCM stays inside the process.
+  // `environment`: "NAME=value", added to that of the test. Its LCM stays inside the process. The
+  // configuration is the preset phone_imu, unless --config is among the arguments.
   explicit DaemonProgram(std::vector<std::string> arguments,
                          std::vector<std::string> environment = {}) {
-    std::vector<std::string> words = {
-        LEONAV_BIN_DIR "/leonavd",   "--preset", "phone_imu", "--lcm-url", "memq://", "--set",
-        "realtime.lock_memory=false"};
+    std::vector<std::string> words = {LEONAV_BIN_DIR "/leonavd", "--lcm-url", "memq://", "--set",
+                                      "realtime.lock_memory=false"};
+    if (std::find(arguments.begin(), arguments.end(), "--config") == arguments.end())
+      words.insert(words.end(), {"--preset", "phone_imu"});
     words.insert(words.end(), arguments.begin(), arguments.end());
     for (char** one = environ; *one != nullptr; ++one) environment.emplace_back(*one);
     posix_spawn_file_actions_t actions;
@@ -48,11 +51,14 @@ class DaemonProgram {
     return !ended_;
   }
 
+  bool says_by_now(const std::string& words) const {
+    return text().find(words) != std::string::npos;
+  }
   // Waits, a minute at most, until what it has said on standard error holds `words`.
   bool says(const std::string& words) {
     for (int i = 0; i < 6000; ++i) {
       const bool was_running = running();
-      if (text().find(words) != std::string::npos) return true;
+      if (says_by_now(words)) return true;
       if (!was_running) return false;
       usleep(10'000);
     }

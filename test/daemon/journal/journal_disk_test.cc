@@ -727,6 +727,31 @@ TEST_CASE("the last mark of what is lost has the next number") {
   CHECK(sequences == std::vector<std::int64_t>{1, 2});
 }
 
+TEST_CASE("limits that are set while it is written hold at once, for the pieces that are there") {
+  const TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  const DaemonConfig config = small_pieces(path);
+  Journal journal(config);
+  journal.open();
+  Sender sender(&journal);
+  sender.push_slowly(1000);
+  REQUIRE(names(path).size() >= 10);
+  JournalLimits limits = limits_of(config.journal);
+  limits.total_mb = 0.3;
+  journal.set_limits(limits);
+  CHECK(await([&] { return names(path).size() <= 3; }));  // without a message more
+  limits.piece_mb = 100.0;
+  limits.total_mb = 0.0;
+  journal.set_limits(limits);
+  const std::int64_t pieces = journal.counters().pieces.get();
+  sender.push(1);
+  sender.settle();
+  sender.push_slowly(1000);
+  REQUIRE(journal.finish());
+  CHECK(journal.counters().pieces.get() <= pieces + 1);
+  CHECK(contents(fs::path(path).parent_path()).numbers.back() == sender.sent() - 1);
+}
+
 TEST_CASE("the journal's thread allocates nothing, whatever the disk does") {
   const TemporaryFile folder("unused", "");
   Disk disk;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "daemon/health/thread_monitor.h"
+#include "daemon/threads/wall_clock.h"
 #include "support/catch.h"
 #include "support/daemon_program.h"
 #include "support/drive_inputs.h"
@@ -95,6 +96,22 @@ TEST_CASE("leonavd notifies a service manager of its start, its life and its end
     for (std::string one = manager.next(0); !one.empty(); one = manager.next(0)) last = one;
     CHECK(last == "STOPPING=1");
   }
+}
+
+TEST_CASE("a reload is told to a service manager") {
+  if (!test::have_programs("leonavd")) return;
+  const ManagerSocket manager(abstract_name());
+  test::DaemonProgram daemon({}, {"NOTIFY_SOCKET=" + abstract_name()});
+  CHECK(manager.next(60'000) == "READY=1");
+  REQUIRE(daemon.says("running; LCM"));
+  const std::int64_t before_us = monotonic_ns() / 1000;
+  daemon.signal(SIGHUP);
+  const std::string reloading = manager.next(60'000);
+  const std::string head = "RELOADING=1\nMONOTONIC_USEC=";
+  REQUIRE(reloading.find(head) == 0);
+  CHECK(std::stoll(reloading.substr(head.size())) >= before_us);
+  CHECK(manager.next(60'000) == "READY=1");
+  CHECK(daemon.stop() == 0);
 }
 
 TEST_CASE("the watchdog is fed only where it is asked for, and what cannot be obeyed is reported") {

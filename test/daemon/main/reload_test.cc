@@ -1,0 +1,77 @@
+// SIGHUP: leonavd reads its configuration again while it runs.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "support/catch.h"
+#include "support/daemon_program.h"
+
+namespace {
+
+using namespace leonav;
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::trunc) << text;
+}
+
+}  // namespace
+
+TEST_CASE("SIGHUP takes over what can change, and names what needs a restart") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("vehicle.yaml", "preset: phone_imu\n");
+  test::DaemonProgram daemon({"--config", file.path(), "--set", "journal.piece_mb=100"});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says("info: SIGHUP: " + file.path() + " read again, nothing has changed"));
+
+  // The command line goes on to stand above the file.
+  write(file.path(),
+        "preset: phone_imu\ngnss: {elevation_mask_deg: 7}\n"
+        "journal: {piece_mb: 50, piece_s: 60}\n");
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says("info: journal.piece_s: 3600 -> 60: taken over"));
+  CHECK(daemon.says("warning: gnss.elevation_mask_deg: "));
+  CHECK(daemon.says(" -> 7: needs a restart"));
+  CHECK(daemon.text().find("journal.piece_mb") == std::string::npos);
+
+  // What is taken over is told once; what waits for a restart, each time.
+  write(file.path(), "preset: phone_imu\njournal: {piece_s: 60}\nlog: {level: error}\n");
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says("info: log.level: info -> error: taken over"));
+  const std::string text = daemon.text();
+  CHECK(text.find("piece_s: 60 ->") == std::string::npos);
+  CHECK(daemon.stop() == 0);
+  CHECK(daemon.text().find("finishing", text.size()) == std::string::npos);  // no news any more
+}
+
+TEST_CASE("a configuration with errors changes nothing and says all of them") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("vehicle.yaml", "preset: phone_imu\n");
+  test::DaemonProgram daemon({"--config", file.path()});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  write(file.path(),
+        "preset: phone_imu\njournal:\n  piece_s: -1\nlog: {level: error}\nvehicle: {kind: cart}\n");
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says("error: SIGHUP: the configuration is not taken over, nothing has changed: "));
+  CHECK(daemon.says(file.path() + ":3: journal.piece_s: "));
+  CHECK(daemon.says("'cart' is not one of car, "));
+  std::filesystem::remove(file.path());
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says(file.path() + ": is no file that can be read again; restart leonavd"));
+  CHECK(daemon.running());
+  CHECK(daemon.stop() == 0);
+  CHECK(daemon.text().find("SIGTERM: finishing") != std::string::npos);  // the level is as it was
+}
+
+TEST_CASE("signals without end neither stop leonavd nor silence it") {
+  if (!test::have_programs("leonavd")) return;
+  test::DaemonProgram daemon({});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  for (int i = 0; i < 3000 && !daemon.says_by_now("no solution yet"); ++i) {
+    daemon.signal(SIGHUP);
+    usleep(1000);
+  }
+  CHECK(daemon.says("no solution yet"));
+  CHECK(daemon.stop() == 0);
+}
