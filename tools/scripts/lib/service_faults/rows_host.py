@@ -191,6 +191,51 @@ def clock_has_stepped(run, outputs, result):
     result.must(stepped, "the clock did not step")
 
 
+def memory_kb(run):
+    """What is resident and what is locked, by the kernel."""
+    text = open(f"/proc/{run.daemon.process.pid}/status", encoding="ascii").read()
+    return {name: int(re.search(rf"^{name}:\s+(\d+) kB", text, re.M)[1]) for name in ("VmRSS", "VmLck", "VmSize")}
+
+
+def mapped_kb(run):
+    """Resident memory by what is mapped."""
+    sums, name = {}, ""
+    with open(f"/proc/{run.daemon.process.pid}/smaps", encoding="utf-8") as file:
+        for line in file:
+            words = line.split()
+            if re.match(r"[0-9a-f]+-[0-9a-f]+ ", line):
+                name = "blocks and stacks" if len(words) < 6 else words[5].strip("[]").rsplit("/", 1)[-1]
+            elif words[0] == "Rss:":
+                sums[name] = sums.get(name, 0) + int(words[1])
+    return sorted(sums.items(), key=lambda one: -one[1])
+
+
+def measure_memory(run):
+    run.memory = getattr(run, "memory", []) + [(memory_kb(run), mapped_kb(run))]
+
+
+MOST_RESIDENT_MB, MOST_GROWTH_KB = 88, 1024
+
+
+def memory_is_small(run, outputs, result):
+    (first, _), (last, mapped) = run.memory[0], run.memory[-1]
+    result.at_most("resident", last["VmRSS"] / 1024, MOST_RESIDENT_MB, "MB")
+    result.at_most("grown", last["VmRSS"] - first["VmRSS"], MOST_GROWTH_KB, "kB")
+    if last["VmLck"] == 0:
+        run.notes.append("the system locks no memory here")
+    words = [f"{name} {kb / 1024:.1f}" for name, kb in mapped[:8]]
+    run.notes.append(f"resident {first['VmRSS'] / 1024:.1f} MB at the start, {last['VmRSS'] / 1024:.1f} MB after a minute, locked "
+                     f"{last['VmLck'] / 1024:.1f} MB; " + ", ".join(words))
+
+
+def reload(run):
+    run.daemon.process.send_signal(signal.SIGHUP)
+
+
+def reload_is_told(run, outputs, result):
+    result.must(run.daemon.has_said("SIGHUP: .* read again, nothing has changed"), "leonavd did not say that it has read its configuration")
+
+
 def much_junk(row, messages):
     return stream.junk(row.begin_s, row.duration_s, 10)(messages)
 
@@ -224,6 +269,9 @@ ROWS = [
     Row("comma", "configuration begins with a comma, 2 GB of memory", check=comma, quick=True),
     Row("checkpoint-damaged", "checkpoint and ephemerides are junk at the start", begin_s=0, end_s=0, after_s=60, before=damage_checkpoints,
         judge=damage_is_told, expected=Expected(allowed=ANY, ok_s=45, back_s=10), quick=True),
+    Row("memory", "none: what is resident, everything locked", begin_s=5, end_s=65, after_s=5,
+        actions=((5, measure_memory), (65, measure_memory)), judge=memory_is_small, expected=Expected(allowed=ANY)),
+    Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
     Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
     Row("sigterm-under-load", "SIGTERM after 20 s of junk at ten times the nominal rate", begin_s=40, after_s=30, until_stopped=True,
         change=much_junk, actions=((60, stop_under_load),), judge=stops_in_time,
