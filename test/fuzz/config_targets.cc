@@ -60,10 +60,11 @@ void run_products(FuzzBytes bytes) {
   run_load(content, [](FuzzBytes all) {
     const auto products = load_products(path_of_file_with(all));
     if (!products) throw Finding("a file that is there is not");
-    const std::string text = products_text(*products);
+    ProductsText texts;
+    const std::string text = texts.of(*products);
     const auto again = load_products(
         path_of_file_with({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
-    if (!again || products_text(*again) != text) throw Finding("products change when saved");
+    if (!again || texts.of(*again) != text) throw Finding("products change when saved");
   });
 }
 
