@@ -72,9 +72,9 @@ void write_state_seeds(SeedWriter* writer) {
   BroadcastProducts products;
   products.ephemerides = {walker_ephemerides(gps_walker()).front(),
                           walker_ephemerides(galileo_walker()).front()};
-  writer->write("products", "ephemerides", Seed().byte(0).text(products_text(products)));
+  writer->write("products", "ephemerides", Seed().byte(0).text(ProductsText().of(products)));
   products.ionosphere = KlobucharModel{{1e-8, 0, 0, 0}, {1e5, 0, 0, 0}, true};
-  writer->write("products", "ionosphere", Seed().byte(0).text(products_text(products)));
+  writer->write("products", "ionosphere", Seed().byte(0).text(ProductsText().of(products)));
 }
 
 }  // namespace leonav::test
