@@ -33,6 +33,10 @@ ProcessSignals::~ProcessSignals() {
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGHUP, SIG_IGN);
+  // A request may come twice at a time: timeout of coreutils sends to the process and to its group.
+  const timespec now{};
+  while (sigtimedwait(&set_, nullptr, &now) > 0) {
+  }
   pthread_sigmask(SIG_UNBLOCK, &set_, nullptr);
 }
 

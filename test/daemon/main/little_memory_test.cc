@@ -1,4 +1,5 @@
 // Whatever memory leonavd is given, it runs or it says why not, and SIGTERM ends it.
+#include <iostream>
 #include <regex>
 #include <string>
 
@@ -23,7 +24,7 @@ TEST_CASE("a leonavd without enough memory says so and ends; SIGTERM ends every 
     const std::string err = place.beside("err");
     // SIGTERM after 3 s, SIGKILL 20 s later.
     const std::string command = "ulimit -v " + std::to_string(megabytes * 1024) +
-                                "; timeout -k 20 --preserve-status 3 '" LEONAV_BIN_DIR
+                                "; timeout --foreground -k 20 --preserve-status 3 '" LEONAV_BIN_DIR
                                 "/leonavd' --preset urban --lcm-url memq:// --set "
                                 "vehicle.kind=car --set estimator=smoother --journal '" +
                                 place.beside("run.journal") + "' 2>'" + err + "'";

@@ -1,4 +1,4 @@
-// SIGHUP: leonavd reads its configuration again while it runs.
+// Signals to leonavd: SIGHUP, by which it reads its configuration again, and those that end it.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -73,5 +73,17 @@ TEST_CASE("signals without end neither stop leonavd nor silence it") {
     usleep(1000);
   }
   CHECK(daemon.says("no solution yet"));
+  CHECK(daemon.stop() == 0);
+}
+
+TEST_CASE("a stop that is asked for twice at a time ends leonavd cleanly") {
+  if (!test::have_programs("leonavd")) return;
+  test::DaemonProgram daemon({});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  daemon.signal(SIGSTOP);  // both wait for it then
+  daemon.signal(SIGINT);
+  daemon.signal(SIGTERM);
+  daemon.signal(SIGCONT);
+  CHECK(daemon.says("stopped; "));
   CHECK(daemon.stop() == 0);
 }
