@@ -90,6 +90,7 @@ void add_counts(EngineCounters* counters, health_t* message) {
   add_count("imu gaps", counters->imu_gaps.get(), message);
   add_count("imu stamps smoothed", counters->imu_smoothed.get(), message);
   add_count("orbit fallbacks", counters->orbit_fallbacks.get(), message);
+  add_count("orbits refused", counters->orbits_refused.get(), message);
   add_count("orbit returns", counters->orbit_returns.get(), message);
   add_count("satellite faults", event_count(*counters, EventKind::kSatelliteFault), message);
   add_count("widened predictions", counters->widened_predictions.get(), message);
