@@ -112,8 +112,8 @@ TEST_CASE("GNSS alone that dies: degraded after 2.5 intervals, a fault after 10"
     watched.receive(Channel::kGnssEpoch, std::vector<std::uint8_t>(40, 0x55));
   CHECK(watched.at(72.0) ==
         "FAULT: " + kEnded +
-            "; no usable GNSS (messages come, but are rejected as undecodable): look at its sender "
-            "and the antenna; a tenth or more of an input is rejected (GNSS_EPOCH as undecodable): "
+            "; no usable GNSS (messages come, but are rejected as too_many): look at its sender "
+            "and the antenna; a tenth or more of an input is rejected (GNSS_EPOCH as too_many): "
             "look at its sender and the events rejected_input");
   CHECK(watched.fault() == Fault::kNavigation);
 }
