@@ -104,7 +104,7 @@ def main():
     (folder / "journal").mkdir(parents=True)
     print("\n| hours | resident, MB | open files | journal, MB |\n|---|---|---|---|", flush=True)
     looks, most_bytes, code = run(words, log, folder)
-    replay = subprocess.run([words.bin / "leonav-replay", folder / "all", "--verify"], capture_output=True, text=True, check=False)
+    replay = subprocess.run([words.bin / "leonav-replay", folder / "all", "--out", folder / "replay", "--verify"], capture_output=True, text=True, check=False)
     (folder / "replay.txt").write_text(replay.stdout + replay.stderr)
     counts = [subprocess.run([LIB / "input-counts", *paths], capture_output=True, text=True, check=False).stdout
               for paths in ([log], (folder / "all").iterdir())]
