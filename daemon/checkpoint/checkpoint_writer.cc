@@ -12,8 +12,6 @@ namespace leonav {
 namespace {
 
 constexpr std::chrono::seconds kLook(1);
-// Of some 300 satellites; no limit.
-constexpr std::size_t kProductsBytes = 64 << 10;
 
 double seconds(const Stopwatch& watch) { return static_cast<double>(watch.nanoseconds()) * 1e-9; }
 
@@ -23,7 +21,7 @@ void CheckpointWriter::start() {
   if (config_.path.empty()) return;
   products_path_ = products_path(config_.path);
   newest_products_.ephemerides.reserve(ProductStore::kMostEphemerides);
-  written_products_.reserve(kProductsBytes);
+  written_products_.reserve(ProductsText::kUsualBytes);
   thread_.start("file", ThreadConfig(), [this] { run(); });
   started_ = true;
 }

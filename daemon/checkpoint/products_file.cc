@@ -19,7 +19,6 @@ namespace {
 constexpr std::string_view kSumChannel = "CRC32";
 constexpr std::size_t kSumBytes = 4;
 constexpr std::uintmax_t kMostBytes = 1'000'000;
-constexpr std::size_t kUsualBytes = 64 << 10;  // of some 300 satellites
 
 std::uint32_t crc32(std::string_view bytes) {
   boost::crc_32_type crc;

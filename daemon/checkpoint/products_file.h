@@ -23,6 +23,8 @@ std::optional<BroadcastProducts> load_products(const std::string& path);
 // it only where a content is longer than any before.
 class ProductsText {
  public:
+  static constexpr std::size_t kUsualBytes = 64 << 10;  // of some 300 satellites; no limit
+
   ProductsText();
 
   // Returns the content for these products; valid until the next call.

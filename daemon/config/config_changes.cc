@@ -8,13 +8,13 @@
 namespace leonav {
 namespace {
 
-// No answer depends on them, so that a journal replays whenever they have changed.
-constexpr std::array<std::string_view, 6> kTakenOver = {
+// No answer depends on these keys, so that a journal replays whenever they were changed.
+constexpr std::array<std::string_view, 6> kReloadable = {
     "journal.flush_interval_s", "journal.piece_mb", "journal.piece_s",
     "journal.total_mb",         "journal.kept_mb",  "log.level"};
 
-bool takes_over(const std::string& path) {
-  return std::find(kTakenOver.begin(), kTakenOver.end(), path) != kTakenOver.end();
+bool is_reloadable(const std::string& path) {
+  return std::find(kReloadable.begin(), kReloadable.end(), path) != kReloadable.end();
 }
 
 std::map<std::string_view, std::string_view> values_of(const ConfigOrigin& source) {
@@ -34,7 +34,7 @@ std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const Con
   std::vector<ConfigChange> changes;
   const auto compare = [&](const std::string& path) {
     const std::string was = value(before, path), is = value(after, path);
-    if (was != is) changes.push_back({path, was, is, takes_over(path)});
+    if (was != is) changes.push_back({path, was, is, is_reloadable(path)});
   };
   for (const ConfigKey& key : read.keys) compare(key.path);
   for (const ConfigKey& key : running.keys)
@@ -42,7 +42,7 @@ std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const Con
   return changes;
 }
 
-void take_over(const DaemonConfig& read, DaemonConfig* running) {
+void reload(const DaemonConfig& read, DaemonConfig* running) {
   running->journal.flush_interval_s = read.journal.flush_interval_s;
   running->journal.piece_mb = read.journal.piece_mb;
   running->journal.piece_s = read.journal.piece_s;
@@ -52,7 +52,7 @@ void take_over(const DaemonConfig& read, DaemonConfig* running) {
   for (ConfigKey& key : running->source.keys) {
     const auto now = std::find_if(read.source.keys.begin(), read.source.keys.end(),
                                   [&](const ConfigKey& one) { return one.path == key.path; });
-    if (takes_over(key.path) && now != read.source.keys.end()) key = *now;
+    if (is_reloadable(key.path) && now != read.source.keys.end()) key = *now;
   }
 }
 

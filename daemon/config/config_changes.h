@@ -10,7 +10,7 @@ namespace leonav {
 // A key whose effective value has changed.
 struct ConfigChange {
   std::string path, before, after;  // values in YAML; empty: the key is not there
-  bool takes_over = false;          // without a restart
+  bool is_reloadable = false;       // in effect without a restart
 
   bool operator==(const ConfigChange&) const = default;
 };
@@ -19,7 +19,7 @@ struct ConfigChange {
 // reference.
 std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const ConfigOrigin& read);
 
-// Sets in `running` the keys, with their origins, that take over.
-void take_over(const DaemonConfig& read, DaemonConfig* running);
+// Sets the reloadable keys of `running`, and where they come from, to those of `read`.
+void reload(const DaemonConfig& read, DaemonConfig* running);
 
 }  // namespace leonav

@@ -166,10 +166,10 @@ class JournalLog {
   Switch fails_, loses_, unsynced_, undeletable_;
 };
 
-// Reads the configuration again, and takes over what can change while the daemon runs.
+// Reads the configuration again, and puts its reloadable keys into effect.
 class Reload {
  public:
-  // `running` is changed with what is taken over.
+  // `running` gets the reloadable keys.
   Reload(std::function<DaemonConfig()> load, DaemonConfig* running, Engine* engine)
       : load_(std::move(load)), running_(running), engine_(engine) {}
 
@@ -183,12 +183,11 @@ class Reload {
       spdlog::info("SIGHUP: {} read again{}", read.source.name,
                    changes.empty() ? ", nothing has changed" : "");
       for (const ConfigChange& change : changes) tell(change);
-      take_over(read, running_);
+      reload(read, running_);
       engine_->journal().set_limits(limits_of(running_->journal));
       set_log_level(running_->log.level);
     } catch (const std::exception& error) {
-      spdlog::error("SIGHUP: the configuration is not taken over, nothing has changed: {}",
-                    error.what());
+      spdlog::error("SIGHUP: the configuration has errors, nothing is changed: {}", error.what());
     }
   }
 
@@ -200,9 +199,9 @@ class Reload {
 
  private:
   static void tell(const ConfigChange& change) {
-    spdlog::log(change.takes_over ? spdlog::level::info : spdlog::level::warn, "{}: {} -> {}: {}",
-                change.path, change.before, change.after,
-                change.takes_over ? "taken over" : "needs a restart");
+    spdlog::log(change.is_reloadable ? spdlog::level::info : spdlog::level::warn,
+                "{}: {} -> {}: {}", change.path, change.before, change.after,
+                change.is_reloadable ? "in effect" : "needs a restart");
   }
 
   std::function<DaemonConfig()> load_;
@@ -301,7 +300,7 @@ void check_solve_time(const NavigatorConfig& config) {
       config.realtime.deadline_smoother_s * 1e3);
 }
 
-// `load` reads the configuration anew.
+// `load` reads the configuration from the command line and its file, each time it is called.
 int run(const std::function<DaemonConfig()>& load) {
   DaemonConfig config = load();
   Reload::set_log_level(config.log.level);
@@ -400,10 +399,10 @@ int daemon_main(int argc, char** argv) {
       "leonavd", "--config FILE [options]\n       leonavd --check [--config] FILE [options]",
       "The navigation daemon: takes IMU and GNSS from LCM, publishes position, velocity and "
       "attitude.\nSIGTERM and SIGINT end it cleanly, with the journal complete; a second one at "
-      "once.\nSIGHUP reads the configuration again: the log tells of each changed key whether it "
-      "is "
-      "taken over\n(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or "
-      "needs a restart.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
+      "once.\nSIGHUP reads the configuration again: the log says of each changed key whether it "
+      "is in effect\n(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) "
+      "or needs a restart.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command "
+      "line, 3 "
       "configuration, 4 LCM, 5 journal.");
   add_configuration_options(&arguments);
   arguments.option("--lcm-url", "URL", "instead of lcm.url")

@@ -65,9 +65,14 @@ class DaemonProgram {
     return false;
   }
 
-  // SIGTERM; the exit code, or 128 and the signal that ended it; -1: still running after a minute.
+  // SIGTERM, and wait().
   int stop() {
     if (running()) signal(SIGTERM);
+    return wait();
+  }
+  // Waits for its end: the exit code, or 128 and the signal that ended it; -1: still running after
+  // a minute.
+  int wait() {
     for (int i = 0; i < 6000 && running(); ++i) usleep(10'000);
     if (!ended_) return -1;
     return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);

@@ -1,4 +1,4 @@
-// What a configuration that is read again changes, and which of it a daemon takes over.
+// What a configuration that is read again changes, and what is in effect without a restart.
 #include "daemon/config/config_changes.h"
 
 #include "daemon/config/load_config.h"
@@ -24,7 +24,7 @@ TEST_CASE("changes are told in the order of the reference, by their effective va
   REQUIRE(changes.size() == 3);
   CHECK(changes[0].path == "gnss.elevation_mask_deg");
   CHECK(changes[0].after == "7");
-  CHECK_FALSE(changes[0].takes_over);
+  CHECK_FALSE(changes[0].is_reloadable);
   CHECK(changes[1] == ConfigChange{"journal.piece_mb", "100", "50", true});
   CHECK(changes[2] == ConfigChange{"log.level", "info", "error", true});
 }
@@ -33,24 +33,24 @@ TEST_CASE("a default that follows from the vehicle's kind is a change where the 
   const auto changes = changes_between(read("vehicle:\n  kind: car\n").source,
                                        read("vehicle:\n  kind: boat\n").source);
   REQUIRE(changes.size() > 1);
-  for (const ConfigChange& change : changes) CHECK_FALSE(change.takes_over);
+  for (const ConfigChange& change : changes) CHECK_FALSE(change.is_reloadable);
 }
 
-TEST_CASE("what is taken over is no change any more, and nothing else is taken over") {
+TEST_CASE("a reload changes the reloadable keys, and no others") {
   const DaemonConfig before = read("preset: car\n");
   const DaemonConfig after = read(
       "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\n"
       "journal: {outputs: none, flush_interval_s: 2, piece_mb: 50, piece_s: 60, total_mb: 400, "
       "kept_mb: 300}\n");
   DaemonConfig running = before;
-  take_over(after, &running);
+  reload(after, &running);
   const auto changes = changes_between(running.source, after.source);
   REQUIRE(changes.size() == 2);
   CHECK(changes[0].path == "gnss.elevation_mask_deg");
   CHECK(changes[1].path == "journal.outputs");
   CHECK(running.log.level == LogLevel::kWarning);
   CHECK(running.journal.kept_mb == 300.0);
-  // Each key that takes over is in both: in the values and in what is told of them.
+  // A reloadable key changes in both: in the typed value and in the list of keys.
   DaemonConfig expected = before;
   expected.log = after.log;
   expected.journal = after.journal;

@@ -17,7 +17,7 @@ void write(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("SIGHUP takes over what can change, and names what needs a restart") {
+TEST_CASE("SIGHUP puts reloadable keys into effect, and names those that need a restart") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile file("vehicle.yaml", "preset: phone_imu\n");
   test::DaemonProgram daemon({"--config", file.path(), "--set", "journal.piece_mb=100"});
@@ -30,15 +30,15 @@ TEST_CASE("SIGHUP takes over what can change, and names what needs a restart") {
         "preset: phone_imu\ngnss: {elevation_mask_deg: 7}\n"
         "journal: {piece_mb: 50, piece_s: 60}\n");
   daemon.signal(SIGHUP);
-  CHECK(daemon.says("info: journal.piece_s: 3600 -> 60: taken over"));
+  CHECK(daemon.says("info: journal.piece_s: 3600 -> 60: in effect"));
   CHECK(daemon.says("warning: gnss.elevation_mask_deg: "));
   CHECK(daemon.says(" -> 7: needs a restart"));
   CHECK(daemon.text().find("journal.piece_mb") == std::string::npos);
 
-  // What is taken over is told once; what waits for a restart, each time.
+  // A key in effect is logged once; one that needs a restart, at each SIGHUP.
   write(file.path(), "preset: phone_imu\njournal: {piece_s: 60}\nlog: {level: error}\n");
   daemon.signal(SIGHUP);
-  CHECK(daemon.says("info: log.level: info -> error: taken over"));
+  CHECK(daemon.says("info: log.level: info -> error: in effect"));
   const std::string text = daemon.text();
   CHECK(text.find("piece_s: 60 ->") == std::string::npos);
   CHECK(daemon.stop() == 0);
@@ -53,7 +53,7 @@ TEST_CASE("a configuration with errors changes nothing and says all of them") {
   write(file.path(),
         "preset: phone_imu\njournal:\n  piece_s: -1\nlog: {level: error}\nvehicle: {kind: cart}\n");
   daemon.signal(SIGHUP);
-  CHECK(daemon.says("error: SIGHUP: the configuration is not taken over, nothing has changed: "));
+  CHECK(daemon.says("error: SIGHUP: the configuration has errors, nothing is changed: "));
   CHECK(daemon.says(file.path() + ":3: journal.piece_s: "));
   CHECK(daemon.says("'cart' is not one of car, "));
   std::filesystem::remove(file.path());
@@ -84,6 +84,6 @@ TEST_CASE("a stop that is asked for twice at a time ends leonavd cleanly") {
   daemon.signal(SIGINT);
   daemon.signal(SIGTERM);
   daemon.signal(SIGCONT);
-  CHECK(daemon.says("stopped; "));
-  CHECK(daemon.stop() == 0);
+  CHECK(daemon.wait() == 0);
+  CHECK(daemon.says_by_now("stopped; "));
 }

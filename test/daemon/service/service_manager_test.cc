@@ -98,7 +98,7 @@ TEST_CASE("leonavd notifies a service manager of its start, its life and its end
   }
 }
 
-TEST_CASE("a reload is told to a service manager") {
+TEST_CASE("a reload is announced to the service manager (RELOADING, READY)") {
   if (!test::have_programs("leonavd")) return;
   const ManagerSocket manager(abstract_name());
   test::DaemonProgram daemon({}, {"NOTIFY_SOCKET=" + abstract_name()});

@@ -1,7 +1,6 @@
 #include "core/navigator/sequencer/internal/epoch_queue.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"
@@ -9,19 +8,12 @@
 
 namespace leonav {
 
-namespace {
-
-// An interval of 0 is taken for 50 ms, as interval_in_nanoseconds() does.
-int epochs_within(double duration_s, double epoch_interval_s) {
-  return static_cast<int>(std::floor(duration_s / std::max(epoch_interval_s, 0.05)));
-}
-
-}  // namespace
-
 EpochQueue::EpochQueue(double epoch_interval_s)
     : max_ahead_ns_(std::max(kMaxStampAheadNs,
                              interval_in_nanoseconds(kMaxAheadIntervals * epoch_interval_s))),
-      run_with_imu_(std::max(kRunWithImu, epochs_within(kImuSilence_s, epoch_interval_s) + 2)),
+      run_with_imu_(std::max(
+          kRunWithImu,
+          static_cast<int>(kImuSilenceNs / interval_in_nanoseconds(epoch_interval_s)) + 2)),
       time_monitor_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
       held_(std::make_unique<RawEpoch>()) {
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();

@@ -23,7 +23,7 @@ class EpochQueue {
   // Where the IMU has kept time, a run must be longer than the silence of the IMU over which the
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
-  static constexpr double kImuSilence_s = 10.0;
+  static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
   // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
   // kMaxImuLatencyNs later.
   static constexpr std::size_t kMinPending = 4;
