@@ -47,7 +47,7 @@ build() {
   say "Building ($preset)"
   cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
     { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
-  ninja -C "$leonav_root/build/$preset" --quiet || fail "the build failed"
+  (cd "$leonav_root" && cmake --build --preset "$preset" -- --quiet) || fail "the build failed"
   exec {lock}>&-
 }
 

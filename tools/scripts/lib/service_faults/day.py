@@ -18,7 +18,7 @@ sys.path[:0] = [str(LIB), str(ROOT / "tools/python"), str(ROOT / "test/tools")]
 from live_program import enter_namespace  # noqa: E402
 from service_faults.daemon import Daemon  # noqa: E402
 from service_faults.datagrams import URL  # noqa: E402
-from service_faults.load import status_kb  # noqa: E402
+from service_faults.process_status import status_kb  # noqa: E402
 
 PIECE_MB, TOTAL_MB, KEPT_MB = 50, 500, 100
 SETTINGS = ["gnss.systems=[gps, galileo, leo]", f"journal.piece_mb={PIECE_MB}", f"journal.total_mb={TOTAL_MB}",

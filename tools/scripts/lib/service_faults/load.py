@@ -26,6 +26,7 @@ from leonav.lcm_types import TYPES  # noqa: E402
 from service_faults.daemon import Daemon, Recorder  # noqa: E402
 from service_faults.datagrams import Sender  # noqa: E402
 from service_faults.drive import IMU, PREFIX, STANDING_S, Drive, stamp_ns  # noqa: E402
+from service_faults.process_status import status_kb  # noqa: E402
 
 OUR_PRIORITY = 80
 WARM_UP_S = STANDING_S + 50  # the window is full, and every buffer has been used
@@ -42,13 +43,6 @@ def first_in_line(process_id=0):
     except PermissionError:
         return False
     return True
-
-
-def status_kb(process_id, name):
-    for line in pathlib.Path(f"/proc/{process_id}/status").read_text(encoding="ascii").splitlines():
-        if line.startswith(name + ":"):
-            return int(line.split()[1])
-    return 0
 
 
 def watch(process_id, path):

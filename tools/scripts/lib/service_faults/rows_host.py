@@ -8,6 +8,7 @@ import threading
 import time
 
 from service_faults import disks, said, stream
+from service_faults.process_status import status_kb
 from service_faults.row import Expected, Row, fault
 from service_faults.run import ROUTE
 
@@ -191,12 +192,6 @@ def clock_has_stepped(run, outputs, result):
     result.must(stepped, "the clock did not step")
 
 
-def memory_kb(run):
-    """What is resident and what is locked, by the kernel."""
-    text = open(f"/proc/{run.daemon.process.pid}/status", encoding="ascii").read()
-    return {name: int(re.search(rf"^{name}:\s+(\d+) kB", text, re.M)[1]) for name in ("VmRSS", "VmLck", "VmSize")}
-
-
 def mapped_kb(run):
     """Resident memory by what is mapped."""
     sums, name = {}, ""
@@ -211,10 +206,11 @@ def mapped_kb(run):
 
 
 def measure_memory(run):
-    run.memory = getattr(run, "memory", []) + [(memory_kb(run), mapped_kb(run))]
+    status = {name: status_kb(run.daemon.process.pid, name) for name in ("VmRSS", "VmLck")}
+    run.memory = getattr(run, "memory", []) + [(status, mapped_kb(run))]
 
 
-MOST_RESIDENT_MB, MOST_GROWTH_KB = 88, 1024
+MOST_RESIDENT_MB, MOST_GROWTH_KB = 64, 1024
 
 
 def memory_is_small(run, outputs, result):
