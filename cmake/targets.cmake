@@ -153,7 +153,7 @@ function(leonav_test target folder)
     LEONAV_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
   add_test(NAME ${target} COMMAND ${target})
-  set(limit_s 900)
+  set(limit_s 1800)  # for what hangs; the longest takes five to fifteen minutes
   if(LEONAV_SANITIZE)
     set(limit_s 3600)
   endif()

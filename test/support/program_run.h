@@ -34,14 +34,11 @@ bool have_programs(const Names&... names) {
   return true;
 }
 
-// Sanitized programs take several times as long.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// For a program that hangs, and not for one that is slow: the machine may be busy.
 inline constexpr const char* kProgramTimeout = "timeout 600 '";
-#else
-inline constexpr const char* kProgramTimeout = "timeout 60 '";
-#endif
 
-// `arguments` as in a shell. A program that does not end within a minute is ended: exit code 124.
+// `arguments` as in a shell. A program that does not end within ten minutes is ended: exit code
+// 124.
 inline ProgramRun run_program(const std::string& name, const std::string& arguments) {
   const TemporaryFile place("unused", "");
   const std::string out = place.beside("out"), err = place.beside("err");
