@@ -291,6 +291,8 @@ void HealthMonitor::judge_measurements() {
   if (most_precise_ >= kFewPrecise && precise == 0 && counters.satellites_by_source[0].get() > 0)
     reasons_.raise(HealthReason::kPreciseEnded);
 
+  if (counters.orbits_refused.get() > 0) reasons_.raise(HealthReason::kOrbitsRefused);
+
   measurements_.look(counters.measurements.get());
   contradicting_.look(counters.contradicting_measurements.get());
   if (measurements_.get() >= kFewMeasurements && 2 * contradicting_.get() > measurements_.get())

@@ -41,6 +41,8 @@ constexpr std::array<HealthReasonEntry, kHealthReasonCount> kEntries = {{
      "look at the source of ephemerides", kLooks_s},
     {kPreciseEnded, kDegraded, "no precise orbit or correction is in use any more",
      "look at the source of corrections", kLooks_s},
+    {kOrbitsRefused, kDegraded, "precise orbits contradict the broadcast ones",
+     "the broadcast ones are used; look at the source of corrections and of ephemerides", kLooks_s},
     {kMostRejected, kDegraded, "more than half of the measurements contradict the solution",
      "check antenna, orbits, IMU axes and time stamps if it stays; among houses it passes",
      kLooks_s},

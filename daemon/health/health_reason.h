@@ -34,6 +34,7 @@ enum class HealthReason : std::uint8_t {
   // measurements
   kWithoutOrbit,
   kPreciseEnded,
+  kOrbitsRefused,
   kMostRejected,
   kLastingErrors,
   kSatellitesDrift,
@@ -56,7 +57,7 @@ enum class HealthReason : std::uint8_t {
   kJournalUnsynced,
   kNoCheckpoint,
 };
-inline constexpr std::size_t kHealthReasonCount = 36;
+inline constexpr std::size_t kHealthReasonCount = 37;
 
 struct HealthReasonEntry {
   HealthReason reason;

@@ -51,7 +51,8 @@ using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
 
 // The last ones of these enumerations.
 inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::kFaulty) + 1;
-inline constexpr std::size_t kEventKindCount = static_cast<std::size_t>(EventKind::kCommand) + 1;
+inline constexpr std::size_t kEventKindCount =
+    static_cast<std::size_t>(EventKind::kOrbitRefused) + 1;
 
 // Channels of which it is known what became of each message.
 inline constexpr std::array kStreams = {Channel::kImu, Channel::kGnssEpoch, Channel::kOdometer};
@@ -80,6 +81,7 @@ struct EngineCounters {
   std::array<Gauge, kReasonCount> satellites_by_reason;
   // Of all epochs: measurements, and those of them that robust weights exclude or weaken by half.
   Gauge measurements, contradicting_measurements;
+  Gauge orbits_refused;  // of the last epoch's satellites
   Gauge orbit_fallbacks, orbit_returns, widened_predictions, arcs_joined;
   // Learned errors of codes and Dopplers: over all classes, then by kLearnedClassNames.
   std::array<LearnedGauges, 2> learned;

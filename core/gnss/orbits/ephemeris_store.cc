@@ -22,6 +22,8 @@ struct SatelliteProducts {
   InterpolationTable<OrbitNode, kMaxOrbitNodes> orbit;
   InterpolationTable<ClockNode, kMaxClockNodes> clock;  // from clock files
   CorrectedState corrected;                             // time unset: none
+  GpsTime compared_at;         // when corrected or precise states were compared with broadcast ones
+  bool orbit_refused = false;  // they differ
 };
 
 bool is_same_issue(const Ephemeris& a, const Ephemeris& b) {
@@ -156,6 +158,26 @@ bool find_precise(const SatelliteProducts& products, System system, GpsTime time
   return true;
 }
 
+bool find_any_precise(const SatelliteProducts& products, System system, GpsTime time,
+                      const EphemerisConfig& options, SatelliteState* state) {
+  return options.use_precise && (find_corrected(products, time, options, state) ||
+                                 find_precise(products, system, time, options, state));
+}
+
+// Largest difference of good orbits, centre of mass against antenna included. GPS up to two hours
+// from toe differs by 5.3 m at most and Galileo up to four by 7.2 m (docs/validation/orbits.md). It
+// is not measured of satellites that are geosynchronous, which are known less well.
+constexpr double kMaxOrbitDifference_m = 10.0;
+constexpr double kMaxGeosynchronousDifference_m = 30.0;
+constexpr double kGeosynchronousRadius_m = 4e7;
+constexpr double kMaxComparedAge_s = 14400.0;  // of the broadcast elements
+constexpr double kCompareInterval_s = 1.0;
+
+double max_difference_m(const SatelliteState& broadcast) {
+  return broadcast.p_e.norm() < kGeosynchronousRadius_m ? kMaxOrbitDifference_m
+                                                        : kMaxGeosynchronousDifference_m;
+}
+
 }  // namespace
 
 struct EphemerisStore::Storage {
@@ -235,12 +257,8 @@ LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, Satel
   if (best != nullptr && (!is_healthy(*best) || newest_is_unhealthy(products, time, options))) {
     return LookupStatus::kUnhealthy;
   }
-  if (options.use_precise && find_corrected(products, time, options, state)) {
+  if (!products.orbit_refused && find_any_precise(products, satellite.system, time, options, state))
     return LookupStatus::kOk;
-  }
-  if (options.use_precise && find_precise(products, satellite.system, time, options, state)) {
-    return LookupStatus::kOk;
-  }
   if (best == nullptr) {
     return products.ephemerides.empty() && !options.use_precise ? LookupStatus::kNoEphemeris
                                                                 : LookupStatus::kTooOld;
@@ -249,6 +267,34 @@ LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, Satel
   state->issue = issue_of(*best);
   if (ephemeris != nullptr) *ephemeris = best;
   return LookupStatus::kOk;
+}
+
+bool EphemerisStore::refuse_wrong_orbit(SatelliteId satellite, GpsTime time) {
+  if (!is_valid(satellite) || time.nanoseconds() <= 0) return false;
+  if (satellite.system == System::kLeo) return false;
+  const EphemerisConfig& options = storage_->options;
+  SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
+  const bool is_due = !products.compared_at.is_set() ||
+                      std::abs(seconds_between(time, products.compared_at)) >= kCompareInterval_s;
+  if (!is_due) return false;
+  SatelliteState precise;
+  const bool was_refused = products.orbit_refused;
+  if (!find_any_precise(products, satellite.system, time, options, &precise)) {
+    products.orbit_refused = false;
+    return false;
+  }
+  const Ephemeris* best = best_ephemeris(products, time, options);
+  if (best == nullptr) return false;
+  const SatelliteState broadcast = broadcast_state(*best, time);
+  if (broadcast.age_s > kMaxComparedAge_s) return false;
+  products.compared_at = time;
+  const double limit_m = (was_refused ? 0.5 : 1.0) * max_difference_m(broadcast);
+  products.orbit_refused = (precise.p_e - broadcast.p_e).norm() > limit_m;
+  return products.orbit_refused && !was_refused;
+}
+
+bool EphemerisStore::is_orbit_refused(SatelliteId satellite) const {
+  return is_valid(satellite) && storage_->products_of[table_index_of(satellite)].orbit_refused;
 }
 
 const Ephemeris* EphemerisStore::ephemeris_at(SatelliteId satellite, GpsTime time) const {

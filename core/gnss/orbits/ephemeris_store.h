@@ -79,6 +79,15 @@ class EphemerisStore {
   LookupStatus state_at(SatelliteId satellite, GpsTime time, SatelliteState* state,
                         const Ephemeris** ephemeris = nullptr) const;
 
+  // Compares the corrected or precise orbit of a satellite with its broadcast elements, where there
+  // are both, at most once a second. Where they differ by more than such products do, state_at()
+  // gives the broadcast state from then on, until a comparison finds less than half of that; the
+  // clocks are not compared, because each product has its own reference. LEO satellites are not
+  // compared either: how good their broadcast elements are depends on the constellation. Returns
+  // true where this begins.
+  bool refuse_wrong_orbit(SatelliteId satellite, GpsTime time);
+  bool is_orbit_refused(SatelliteId satellite) const;
+
   // Returns the broadcast elements for `time` whatever their health, or nullptr; a precise clock
   // needs their group delays. The pointer is valid until the next add().
   const Ephemeris* ephemeris_at(SatelliteId satellite, GpsTime time) const;

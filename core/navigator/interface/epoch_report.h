@@ -73,6 +73,7 @@ struct EpochReport {
   boost::container::static_vector<AidingReport, kMaxMeasurements> aiding;
   LearnedSummary learned_errors;  // not on the wire
   int widened_predictions = 0;    // observables whose prediction was widened; not on the wire
+  int orbits_refused = 0;         // satellites seen whose precise orbit is wrong; not on the wire
   int arcs_joined = 0;            // carrier arcs joined to the one before; not on the wire
   // Faults that the protection levels allow for, beside none. Not on the wire.
   FaultHypotheses fault_hypotheses;

@@ -56,6 +56,8 @@ std::string_view to_string(EventKind kind) {
       return "prediction_widened";
     case EventKind::kCommand:
       return "command";
+    case EventKind::kOrbitRefused:
+      return "orbit_refused";
   }
   return "unknown";
 }

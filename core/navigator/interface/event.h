@@ -51,6 +51,9 @@ enum class EventKind : std::uint8_t {
   kPredictionWidened = 24,
   // The answer to a command. code: CommandResult; value: the command's sequence number.
   kCommand = 25,
+  // A satellite's precise orbit is metres from its broadcast elements, which replace it. code:
+  // System, value: its number.
+  kOrbitRefused = 26,
 };
 
 // Codes of EventKind::kCommand. On the wire: append only.

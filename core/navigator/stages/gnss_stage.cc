@@ -102,6 +102,9 @@ void GnssStage::predict(const EpochWork& work) {
 }
 
 void GnssStage::use_measurements(const EpochWork& work) {
+  RefusedOrbits begun;
+  const int refused = front_end_.compare_orbits(work.raw, &begun);
+  reporter_.report_refused_orbits(refused, {begun.data(), begun.size()}, work.time);
   front_end_.exclude(satellite_faults_.excluded(work.time));
   front_end_.combine_codes(code_combination_.combination());
   if (!ekf_.initialized())

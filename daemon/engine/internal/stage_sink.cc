@@ -85,6 +85,7 @@ void StageSink::on_epoch(const EpochReport& report) {
       counters_->lasting_cm[i].set(std::llround(report.learned_errors.lasting_m[i] * 1e2));
   }
   count_reasons(report, counters_);
+  if (!report.empty) counters_->orbits_refused.set(report.orbits_refused);
   counters_->widened_predictions.add(report.widened_predictions);
   counters_->arcs_joined.add(report.arcs_joined);
   counters_->alignment_need.set(pack_alignment_need(report.alignment));

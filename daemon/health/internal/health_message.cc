@@ -113,6 +113,7 @@ void add_counts(const EngineCounters& of, Counts* counts) {
   counts->add("imu gaps", of.imu_gaps.get());
   counts->add("imu stamps smoothed", of.imu_smoothed.get());
   counts->add("orbit fallbacks", of.orbit_fallbacks.get());
+  counts->add("orbits refused", of.orbits_refused.get());
   counts->add("orbit returns", of.orbit_returns.get());
   counts->add("satellite faults", event_count(of, EventKind::kSatelliteFault));
   counts->add("widened predictions", of.widened_predictions.get());

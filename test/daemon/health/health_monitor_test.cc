@@ -1,6 +1,7 @@
 // What HEALTH says when an input falls silent, whatever came before it.
 #include "daemon/health/health_monitor.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <leonav/health_t.hpp>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "support/catch.h"
 #include "support/drive_inputs.h"
@@ -289,6 +291,32 @@ TEST_CASE("an input that does not follow a convention stays a reason, with the r
     CHECK(said.find("DEGRADED: ") == 0);
     CHECK(said.find("accelerations in g; multiply them by 9.80665") != std::string::npos);
   }
+}
+
+TEST_CASE("precise orbits 15 m off the broadcast ones degrade HEALTH, and are counted") {
+  Watched watched(MotionModel::kInertial);
+  Encoder encoder;
+  const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
+  std::uint64_t sequence = 0;
+  for (int s = -300; s <= 360; s += 30) {
+    std::vector<PreciseState> nodes;
+    for (const Ephemeris& e : drive.ephemerides) {
+      if (e.satellite.system == System::kLeo) continue;
+      nodes.push_back(test::product_node(e, test::kSkyEpoch.plus_seconds(s)));
+      nodes.back().p_e += 15.0 * nodes.back().p_e.unitOrthogonal();
+    }
+    watched.receive(Channel::kOrbitClock, encoder.encode(nodes, ++sequence));
+  }
+  watched.feed(everything);
+  CHECK(watched.at(60.0) ==
+        "DEGRADED: precise orbits contradict the broadcast ones: the broadcast ones are used; look "
+        "at the source of corrections and of ephemerides");
+  const auto& counts = watched.message().counts;
+  const auto refused = std::find_if(counts.begin(), counts.end(), [](const count_t& count) {
+    return count.name == "orbits refused";
+  });
+  REQUIRE(refused != counts.end());
+  CHECK(refused->value >= 5);
 }
 
 TEST_CASE("a daemon without ephemerides says so instead of only `no solution yet`") {

@@ -15,7 +15,8 @@ SLIP_CAUSES = ("gap", "signal_changed", "loss_of_lock", "lock_time", "geometry_f
 EVENTS = ("rejected_input", "deadline_miss", "filter_reset", "aligned", "imu_gap", "late_epoch", "empty_epoch", "solution_jump",
           "capacity", "improbable", "orbit_fallback", "orbit_return", "clock_step", "none_usable", "clock_fallback",
           "clock_return", "smoother_failed", "source_change", "constraints_left_out", "convention_suspect", "outage_over",
-          "reconverged", "checkpoint", "satellite_fault", "prediction_widened", "command")  # core/navigator/interface/event.cc
+          "reconverged", "checkpoint", "satellite_fault", "prediction_widened", "command",
+          "orbit_refused")  # core/navigator/interface/event.cc
 # tools/replay/result_files.cc
 STAGES = ("sequencer", "inertial", "gnss", "smoother")
 ORBIT_SOURCES = ("none", "broadcast", "precise")

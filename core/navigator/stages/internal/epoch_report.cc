@@ -82,6 +82,7 @@ void start_report(std::uint64_t index, GpsTime time, bool empty, EpochReport* re
   report->solution = Solution();
   report->learned_errors = {};
   report->widened_predictions = 0;
+  report->orbits_refused = 0;
   report->arcs_joined = 0;
   report->solution.time = time;
   report->satellites_used = 0;

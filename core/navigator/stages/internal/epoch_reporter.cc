@@ -169,6 +169,16 @@ void EpochReporter::report_orbit_changes() {
   }
 }
 
+void EpochReporter::report_refused_orbits(int refused, std::span<const SatelliteId> begun,
+                                          GpsTime time) {
+  report_->orbits_refused = refused;
+  for (const SatelliteId satellite : begun) {
+    if (!is_event_due(++orbits_refused_)) continue;
+    emit(EventKind::kOrbitRefused, static_cast<std::uint8_t>(satellite.system), satellite.number,
+         time);
+  }
+}
+
 void EpochReporter::report_skipped_keyframe(const EpochWork& work) {
   Decision skipped;
   skipped.sequence = next_decision_++;

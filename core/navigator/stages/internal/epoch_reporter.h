@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/filter/ekf.h"
 #include "core/navigator/interface/event_source.h"
@@ -73,6 +74,9 @@ class EpochReporter {
   // Emits events for satellites of this report whose orbit or clock comes from another source than
   // before.
   void report_orbit_changes();
+  // Adds how many satellites have a precise orbit that is refused, and emits an event for each of
+  // which this begins.
+  void report_refused_orbits(int refused, std::span<const SatelliteId> begun, GpsTime time);
   // Records the decision that a keyframe was due but had no room.
   void report_skipped_keyframe(const EpochWork& work);
 
@@ -84,7 +88,7 @@ class EpochReporter {
   OrbitSourceMonitor orbit_source_monitor_;
   UsabilityMonitor usability_monitor_;
   OutageMonitor outage_monitor_;
-  std::uint64_t clock_steps_ = 0, widened_predictions_ = 0;
+  std::uint64_t orbits_refused_ = 0, clock_steps_ = 0, widened_predictions_ = 0;
   std::array<std::uint64_t, 5> orbit_changes_{};  // occurrences per OrbitChange
 };
 

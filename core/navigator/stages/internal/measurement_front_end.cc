@@ -103,6 +103,20 @@ void MeasurementFrontEnd::add(const SignalBiases& biases) {
   }
 }
 
+// The observations are sorted by satellite.
+int MeasurementFrontEnd::compare_orbits(const RawEpoch& raw, RefusedOrbits* begun) {
+  int refused = 0;
+  SatelliteId last;
+  for (const SignalObservation& observation : raw.observations) {
+    const SatelliteId satellite = observation.satellite;
+    if (satellite == last) continue;
+    last = satellite;
+    if (ephemeris_store_.refuse_wrong_orbit(satellite, raw.time)) begun->push_back(satellite);
+    if (ephemeris_store_.is_orbit_refused(satellite)) ++refused;
+  }
+  return refused;
+}
+
 // What is estimated beyond the model, or contains an error of it, follows the model.
 void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
   const KlobucharModel before = ephemeris_store_.klobuchar();

@@ -2,6 +2,7 @@
 // of the same epoch.
 #pragma once
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 #include <memory>
 #include <optional>
 
@@ -21,6 +22,8 @@
 
 namespace leonav {
 
+using RefusedOrbits = boost::container::static_vector<SatelliteId, kMaxSatellites>;
+
 // MeasurementFrontEnd holds the orbits, the antenna patterns, the receiver's code biases, and the
 // state of the carriers from epoch to epoch. The filter's measurements and those of a point
 // solution have separate buffers. It only reads the filter. Positions are the antenna's, ECEF, m.
@@ -39,6 +42,10 @@ class MeasurementFrontEnd {
   void exclude(const ExcludedSatellites& satellites) { excluded_ = satellites; }
   // Sets how measure() and solve() use codes of two frequencies from now on.
   void combine_codes(CodeCombination combination) { gnss_.code_combination = combination; }
+
+  // Compares the precise orbits of the satellites seen with the broadcast ones, before either is
+  // used. Returns how many are refused, and appends those that are refused from now on.
+  int compare_orbits(const RawEpoch& raw, RefusedOrbits* begun);
 
   // Preprocesses the epoch at the filter's predicted position and tests the carriers against the
   // prediction. If the prediction is too uncertain to correct carriers, the position of a point

@@ -73,4 +73,49 @@ TEST_CASE("a satellite's way to broadcast orbits and back is told, the first six
   CHECK(to_string(EventKind::kOrbitReturn) == "orbit_return");
 }
 
+TEST_CASE("a precise orbit 15 m off is told once, and its satellite has its broadcast orbit") {
+  const SyntheticDrive drive = drive_of(20.0, 0.0, false);
+  const auto wrong = std::find_if(drive.ephemerides.begin(), drive.ephemerides.end(), [](auto& e) {
+    return e.satellite.system == System::kGps && e.satellite.number > 1;
+  });
+  REQUIRE(wrong != drive.ephemerides.end());
+  RecordingSink sink;
+  Navigator pipeline(drive_navigator_config(drive.options, MotionModel::kConstantVelocity), &sink);
+  Sequencer& sequencer = pipeline.sequencer();
+  for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
+  for (int s = -300; s <= 360; s += 30) {
+    PreciseStates nodes;
+    for (const Ephemeris& e : drive.ephemerides) {
+      if (e.satellite.system != System::kGps) continue;
+      nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(s)));
+      if (e.satellite == wrong->satellite)
+        nodes.back().p_e += 15.0 * nodes.back().p_e.unitOrthogonal();
+    }
+    sequencer.on_precise_states(nodes);
+  }
+  for (const RawEpoch& raw : drive.epochs) sequencer.on_raw_epoch(raw);
+  int seen = 0, precise = 0;
+  for (const EpochReport& report : sink.epochs) {
+    for (const SatelliteReport& satellite : report.satellites) {
+      if (satellite.satellite == wrong->satellite) {
+        ++seen;
+        CHECK(satellite.source == OrbitSource::kBroadcast);
+        CHECK(report.orbits_refused == 1);
+      } else if (satellite.source == OrbitSource::kPrecise) {
+        ++precise;
+      }
+    }
+  }
+  REQUIRE(seen > 5);
+  CHECK(precise > 2 * seen);
+  int told = 0;
+  for (const Event& event : sink.events) {
+    if (event.kind != EventKind::kOrbitRefused) continue;
+    ++told;
+    CHECK(event.code == static_cast<std::uint8_t>(System::kGps));
+    CHECK(event.value == wrong->satellite.number);
+  }
+  CHECK(told == 1);
+}
+
 }  // namespace leonav::test
