@@ -1,6 +1,7 @@
 #include "core/smoother/rts_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/smoother/internal/definite_inverse.h"
@@ -18,8 +19,13 @@ using BorderVector = BoundedVector<static_cast<int>(kMaxArcs)>;
 using WalkRows = BoundedMatrix<static_cast<int>(kMaxArcs), kMaxSize>;
 using BorderMatrix = BoundedMatrix<static_cast<int>(kMaxArcs), static_cast<int>(kMaxArcs)>;
 
+// A matrix of a step in the step's storage, with the properties of `Matrix` in Eigen's eyes.
+template <typename Matrix>
+using View = Eigen::Map<Matrix, Eigen::internal::traits<Matrix>::Alignment>;
+
 // Replaces the matrix by its Cholesky root; false if a pivot is not positive.
-bool factorize(EkfCovariance* matrix) {
+template <typename Matrix>
+bool factorize(Matrix* matrix) {
   const LowerRoot root(*matrix);
   return root.info() == Eigen::Success && matrix->diagonal().allFinite();
 }
@@ -118,21 +124,57 @@ struct RtsSolver::Reduced {
 };
 
 // What the backward pass needs of the forward one; names as in the header.
+//
+// The matrices lie end to end in one storage, because not all can be large at once. With m and m'
+// moved states, k kept and w <= k walking ones, m + k and m' + k at most n, they have
+//   m^2 + m m' + m'^2 + (m + m') k + w^2 + w (m' + k) <= 3 n^2 - 3 n k + 2 k^2 <= 3 n^2
+// elements.
 struct RtsSolver::Step {
   Partition partition;
-  EkfCovariance root;       // L
-  EkfCovariance spread;     // X
-  EkfCovariance predicted;  // W
-  Border border;            // Y
-  Border predicted_border;  // Z
-  // Of the ambiguities that walk:
-  BorderMatrix walk_root;    // T
-  WalkRows walk_rows;        // V
   BorderVector walk_weight;  // diagonal of Q^-1
   // The offset of the process, by state of the later keyframe.
   EkfCorrection offset;
   Reduced<EkfCorrection> gradient;
   Reduced<Columns> units;
+
+  // L, X, W, Y and Z
+  View<EkfCovariance> root() const { return at<EkfCovariance>(0, moved_before(), moved_before()); }
+  View<EkfCovariance> spread() const { return at<EkfCovariance>(1, moved_before(), moved()); }
+  View<EkfCovariance> predicted() const { return at<EkfCovariance>(2, moved(), moved()); }
+  View<Border> border() const { return at<Border>(3, moved_before(), kept()); }
+  View<Border> predicted_border() const { return at<Border>(4, moved(), kept()); }
+  // T and V of the ambiguities that walk
+  View<BorderMatrix> walk_root() const { return at<BorderMatrix>(5, walking(), walking()); }
+  View<WalkRows> walk_rows() const { return at<WalkRows>(6, walking(), moved() + kept()); }
+
+  // Lays the matrices out for the partition.
+  void lay_out() {
+    const std::array<Index, kMatrices> sizes = {
+        moved_before() * moved_before(), moved_before() * moved(), moved() * moved(),
+        moved_before() * kept(),         moved() * kept(),         walking() * walking(),
+        walking() * (moved() + kept())};
+    Index end = 0;
+    for (std::size_t i = 0; i < kMatrices; ++i) {
+      begins_[i] = end;
+      end += (sizes[i] + 1) / 2 * 2;  // each is aligned to 16 bytes
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMatrices = 7;
+  static constexpr std::size_t kElements = 3u * kMaxSize * kMaxSize + kMatrices;
+
+  template <typename Matrix>
+  View<Matrix> at(std::size_t matrix, Index rows, Index columns) const {
+    return View<Matrix>(elements_.get() + begins_[matrix], rows, columns);
+  }
+  Index moved_before() const { return static_cast<Index>(partition.moved_before.size()); }
+  Index moved() const { return static_cast<Index>(partition.moved.size()); }
+  Index kept() const { return static_cast<Index>(partition.kept.size()); }
+  Index walking() const { return static_cast<Index>(partition.walking.size()); }
+
+  std::array<Index, kMatrices> begins_{};
+  std::unique_ptr<double[]> elements_ = std::make_unique<double[]>(kElements);
 };
 
 RtsSolver::RtsSolver(int capacity)
@@ -161,41 +203,45 @@ bool RtsSolver::move_on(const Window& window, int i, Step* step) {
   const LinearProcessFactor& process = *process_factor_;
   Partition& parts = step->partition;
   parts.of(process, before.active.core_size(), keyframe.active.core_size());
+  step->lay_out();
 
-  gather(information_, parts.moved_before, parts.moved_before, &step->root);
-  if (!factorize(&step->root)) return false;
-  const auto lower = step->root.triangularView<Eigen::Lower>();
-  gather(information_, parts.moved_before, parts.kept_before, &step->border);
-  lower.solveInPlace(step->border);
-  step->spread.resize(static_cast<Index>(parts.moved_before.size()),
-                      static_cast<Index>(parts.moved.size()));
+  auto root = step->root();
+  gather(information_, parts.moved_before, parts.moved_before, &root);
+  if (!factorize(&root)) return false;
+  const auto lower = root.triangularView<Eigen::Lower>();
+  auto border = step->border();
+  gather(information_, parts.moved_before, parts.kept_before, &border);
+  lower.solveInPlace(border);
+  auto spread = step->spread();
   for (std::size_t j = 0; j < parts.moved.size(); ++j)
     for (std::size_t k = 0; k < parts.moved_before.size(); ++k)
-      step->spread(static_cast<Index>(k), static_cast<Index>(j)) =
+      spread(static_cast<Index>(k), static_cast<Index>(j)) =
           process.F(parts.moved[j], parts.moved_before[k]);
-  lower.solveInPlace(step->spread);
+  lower.solveInPlace(spread);
 
   EkfCovariance covariance;
   gather(process.noise, parts.moved, parts.moved, &covariance);
-  covariance.selfadjointView<Eigen::Lower>().rankUpdate(step->spread.transpose());
+  covariance.selfadjointView<Eigen::Lower>().rankUpdate(spread.transpose());
   covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
-  if (!invert(covariance, &step->predicted)) return false;
-  step->predicted_border.noalias() = step->spread.transpose() * step->border;
+  auto predicted = step->predicted();
+  if (!invert(covariance, &predicted)) return false;
+  auto predicted_border = step->predicted_border();
+  predicted_border.noalias() = spread.transpose() * border;
   step->offset = process.offset;
 
   BorderMatrix kept;  // S, then A'_bb
   gather(information_, parts.kept_before, parts.kept_before, &kept);
-  kept.selfadjointView<Eigen::Lower>().rankUpdate(step->border.transpose(), -1.0);
+  kept.selfadjointView<Eigen::Lower>().rankUpdate(border.transpose(), -1.0);
   Border coupling;  // A'_xb
-  coupling.noalias() = step->predicted * step->predicted_border;
+  coupling.noalias() = predicted * predicted_border;
   BorderMatrix added;
-  added.noalias() = step->predicted_border.transpose() * coupling;
+  added.noalias() = predicted_border.transpose() * coupling;
   kept.triangularView<Eigen::StrictlyUpper>() = kept.transpose();
   kept += added;
 
   const Index size = keyframe.active.size();
   information_.resize(size, size);
-  scatter(step->predicted, parts.moved, parts.moved, &information_);
+  scatter(predicted, parts.moved, parts.moved, &information_);
   scatter(kept, parts.kept, parts.kept, &information_);
   scatter(coupling, parts.moved, parts.kept, &information_);
   scatter(coupling.transpose(), parts.kept, parts.moved, &information_);
@@ -209,23 +255,23 @@ void RtsSolver::forward(const Step& step, const EkfCorrection& offset, Rhs* rhs,
                         Reduced<Rhs>* reduced) const {
   const Partition& parts = step.partition;
   gather_rows(*rhs, parts.moved_before, &reduced->moved);
-  step.root.triangularView<Eigen::Lower>().solveInPlace(reduced->moved);
+  step.root().triangularView<Eigen::Lower>().solveInPlace(reduced->moved);
   Rhs kept;
   gather_rows(*rhs, parts.kept_before, &kept);
-  kept.noalias() -= step.border.transpose() * reduced->moved;
-  reduced->predicted.noalias() = step.spread.transpose() * reduced->moved;
+  kept.noalias() -= step.border().transpose() * reduced->moved;
+  reduced->predicted.noalias() = step.spread().transpose() * reduced->moved;
   if (offset.size() > 0)
     for (std::size_t i = 0; i < parts.moved.size(); ++i)
       reduced->predicted.row(static_cast<Index>(i)).array() -= offset(parts.moved[i]);
-  const Rhs moved = step.predicted * reduced->predicted;
-  kept.noalias() += step.predicted_border.transpose() * moved;
+  const Rhs moved = step.predicted() * reduced->predicted;
+  kept.noalias() += step.predicted_border().transpose() * moved;
   rhs->resize(static_cast<Index>(parts.moved.size() + parts.kept.size()), rhs->cols());
   scatter_rows(moved, parts.moved, rhs);
   scatter_rows(kept, parts.kept, rhs);
   if (parts.walking.empty()) return;
   gather_rows(*rhs, parts.walking, &reduced->walking);
-  step.walk_root.triangularView<Eigen::Lower>().solveInPlace(reduced->walking);
-  rhs->noalias() -= step.walk_rows.transpose() * reduced->walking;
+  step.walk_root().triangularView<Eigen::Lower>().solveInPlace(reduced->walking);
+  rhs->noalias() -= step.walk_rows().transpose() * reduced->walking;
 }
 
 // Leads a solution at the later keyframe back to the earlier one.
@@ -237,10 +283,10 @@ void RtsSolver::backward(const Step& step, const Reduced<Rhs>& reduced, Rhs* sol
     gather_rows(*solution, parts.walking, &walked);
     for (const int walking : parts.walking) solution->row(walking).setZero();
     walked = step.walk_weight.asDiagonal() * walked;
-    step.walk_root.triangularView<Eigen::Lower>().solveInPlace(walked);
+    step.walk_root().triangularView<Eigen::Lower>().solveInPlace(walked);
     walked += reduced.walking;
-    walked.noalias() -= step.walk_rows * *solution;
-    step.walk_root.transpose().triangularView<Eigen::Upper>().solveInPlace(walked);
+    walked.noalias() -= step.walk_rows() * *solution;
+    step.walk_root().transpose().triangularView<Eigen::Upper>().solveInPlace(walked);
     scatter_rows(walked, parts.walking, solution);
   }
   Rhs kept;
@@ -248,12 +294,12 @@ void RtsSolver::backward(const Step& step, const Reduced<Rhs>& reduced, Rhs* sol
   Rhs unexplained;  // x' minus its mean given b
   gather_rows(*solution, parts.moved, &unexplained);
   unexplained -= reduced.predicted;
-  unexplained.noalias() += step.predicted_border * kept;
+  unexplained.noalias() += step.predicted_border() * kept;
   Rhs moved = reduced.moved;
-  moved.noalias() -= step.border * kept;
-  const Rhs weighed = step.predicted * unexplained;
-  moved.noalias() += step.spread * weighed;
-  step.root.transpose().triangularView<Eigen::Upper>().solveInPlace(moved);
+  moved.noalias() -= step.border() * kept;
+  const Rhs weighed = step.predicted() * unexplained;
+  moved.noalias() += step.spread() * weighed;
+  step.root().transpose().triangularView<Eigen::Upper>().solveInPlace(moved);
   solution->resize(moved.rows() + kept.rows(), solution->cols());
   scatter_rows(moved, parts.moved_before, solution);
   scatter_rows(kept, parts.kept_before, solution);
@@ -264,22 +310,22 @@ bool RtsSolver::walk(const EkfCovariance& noise, Step* step) {
   const Indices& walking = step->partition.walking;
   if (walking.empty()) return true;
   const auto count = static_cast<Index>(walking.size());
-  step->walk_root.resize(count, count);
-  step->walk_rows.resize(count, information_.cols());
+  auto walk_root = step->walk_root();
+  auto walk_rows = step->walk_rows();
   step->walk_weight.resize(count);
   for (Index i = 0; i < count; ++i) {
     const int row = walking[static_cast<std::size_t>(i)];
     for (Index j = 0; j < count; ++j)
-      step->walk_root(i, j) = information_(row, walking[static_cast<std::size_t>(j)]);
+      walk_root(i, j) = information_(row, walking[static_cast<std::size_t>(j)]);
     step->walk_weight(i) = 1.0 / noise(row, row);
-    step->walk_root(i, i) += step->walk_weight(i);
-    step->walk_rows.row(i) = information_.row(row);
+    walk_root(i, i) += step->walk_weight(i);
+    walk_rows.row(i) = information_.row(row);
   }
-  const Eigen::LLT<Eigen::Ref<BorderMatrix>, Eigen::Lower> root(step->walk_root);
+  const Eigen::LLT<Eigen::Ref<BorderMatrix>, Eigen::Lower> root(walk_root);
   if (root.info() != Eigen::Success) return false;
-  const auto lower = step->walk_root.triangularView<Eigen::Lower>();
-  lower.solveInPlace(step->walk_rows);
-  information_.selfadjointView<Eigen::Lower>().rankUpdate(step->walk_rows.transpose(), -1.0);
+  const auto lower = walk_root.triangularView<Eigen::Lower>();
+  lower.solveInPlace(walk_rows);
+  information_.selfadjointView<Eigen::Lower>().rankUpdate(walk_rows.transpose(), -1.0);
   information_.triangularView<Eigen::StrictlyUpper>() = information_.transpose();
   return true;
 }
