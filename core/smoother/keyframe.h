@@ -21,15 +21,15 @@ namespace leonav {
 
 // One measurement of a keyframe; its weight is factor / gain_variance.
 struct KeyframeMeasurement {
-  Measurement measurement;  // satellite_index: into the keyframe's satellites
-  int ambiguity = -1;       // index among the state's ambiguities; -1: none
-  double variance = 0.0;    // of the measurement alone, for its test
+  MeasuredRange measurement;  // satellite_index: into the keyframe's satellites
+  int ambiguity = -1;         // index among the state's ambiguities; -1: none
+  double variance = 0.0;      // of the measurement alone, for its test
   double gain_variance = 0.0;
   double factor = 1.0;    // IGG-III: first the filter's, later the window's
   double residual = 0.0;  // at the estimate where the window decided the factor, m or m/s
 };
 using KeyframeMeasurements = boost::container::static_vector<KeyframeMeasurement, kMaxMeasurements>;
-using KeyframeSatellites = boost::container::static_vector<SatelliteInView, kMaxMeasurements>;
+using KeyframeSatellites = boost::container::static_vector<SatelliteGeometry, kMaxMeasurements>;
 
 // Two ambiguities of a keyframe whose arcs the filter has joined since: `to` minus `from` is
 // difference_m, with the variance given in m^2.
@@ -77,7 +77,8 @@ ArcJoins joins_of(const KeyframeInput& input);
 // The states that are estimated: the core states (before the ambiguities) whose variance is not
 // zero, in order, and all ambiguities.
 struct ActiveStates {
-  boost::container::static_vector<int, ekf_index::kSize + ekf_index::kMaxVehicle> core;
+  static constexpr int kMaxCore = ekf_index::kSize + ekf_index::kMaxVehicle;
+  boost::container::static_vector<int, kMaxCore> core;
   // number of core states, including those not estimated
   int before_ambiguities = ekf_index::kSize;
   int ambiguities = 0;
@@ -96,8 +97,9 @@ struct ProcessFactor {
   EkfCovariance noise;  // N; zero for a state that the process does not change
   // Motion constraints between the two keyframes were applied. They give additional information
   // about the previous one: the cost 0.5 e^T information e - gradient^T e with e = x_before - from.
+  // They concern its core states alone: `information` has their rows and columns only.
   bool has_information = false;
-  EkfCovariance information;
+  BoundedMatrix<ActiveStates::kMaxCore, ActiveStates::kMaxCore> information;
   EkfCorrection gradient;
   ArcJoins joins;  // of ambiguities of the previous keyframe
 };

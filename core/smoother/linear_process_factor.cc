@@ -12,14 +12,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Expands 0.5 (x - at)^T at_information (x - at) - at_gradient^T (x - at) about the keyframe's
-// estimate.
+// Expands 0.5 (x - at)^T information (x - at) - gradient^T (x - at) about the keyframe's estimate,
+// in place.
 void linearize_quadratic(const Keyframe& keyframe, const FilterState& at,
-                         const EkfCovariance& at_information, const EkfCorrection& at_gradient,
                          EkfCovariance* information, EkfCorrection* gradient) {
   const EkfCorrection moved = active_part(keyframe.active, difference(keyframe.state, at));
-  *information = at_information;
-  *gradient = at_gradient;
   turn_to_errors(attitude_jacobian(keyframe.active, keyframe.state, at), moved, information,
                  gradient);
 }
@@ -89,18 +86,20 @@ void linearize_process_factor(const Keyframe& before, const Keyframe& keyframe,
 
 void linearize_prior(const Window& window, EkfCovariance* information, EkfCorrection* gradient) {
   const WindowPrior& prior = window.prior();
-  linearize_quadratic(window.at(0), prior.at, prior.information, prior.gradient, information,
-                      gradient);
+  *information = prior.information;
+  *gradient = prior.gradient;
+  linearize_quadratic(window.at(0), prior.at, information, gradient);
 }
 
 void add_process_information(const Keyframe& before, const ProcessFactor& process_factor,
                              EkfCovariance* information, EkfCorrection* gradient) {
   add_joins(before, process_factor.joins, information, gradient);
   if (!process_factor.has_information) return;
-  EkfCovariance added;
-  EkfCorrection slope;
-  linearize_quadratic(before, process_factor.from, process_factor.information,
-                      process_factor.gradient, &added, &slope);
+  EkfCovariance added = EkfCovariance::Zero(before.active.size(), before.active.size());
+  const Eigen::Index core = before.active.core_size();
+  added.topLeftCorner(core, core) = process_factor.information;
+  EkfCorrection slope = process_factor.gradient;
+  linearize_quadratic(before, process_factor.from, &added, &slope);
   *information += added;
   *gradient += slope;
 }

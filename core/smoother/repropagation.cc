@@ -10,7 +10,7 @@ using Eigen::Index;
 // Information of motion constraints about the inertial states before; they concern no others.
 void take_information(const FilterProcess& process, const ActiveStates& active,
                       ProcessFactor* process_factor) {
-  process_factor->information.setZero(active.size(), active.size());
+  process_factor->information.setZero(active.core_size(), active.core_size());
   process_factor->gradient.setZero(active.size());
   if (!process.has_information) return;
   for (Index i = 0; i < active.core_size(); ++i) {

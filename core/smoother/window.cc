@@ -66,14 +66,15 @@ bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* key
   }
   process_factor.has_information = input.process.has_information;
   if (process_factor.has_information) {
-    process_factor.information.resize(columns.size(), columns.size());
+    const Index core = columns.core_size();
+    process_factor.information.resize(core, core);
     process_factor.gradient.resize(columns.size());
-    for (Index i = 0; i < columns.size(); ++i) {
-      const Index row = whole_index(columns, i);
-      process_factor.gradient(i) = input.process.gradient(row);
-      for (Index j = 0; j < columns.size(); ++j)
-        process_factor.information(i, j) = input.process.information(row, whole_index(columns, j));
-    }
+    for (Index i = 0; i < columns.size(); ++i)
+      process_factor.gradient(i) = input.process.gradient(whole_index(columns, i));
+    for (Index i = 0; i < core; ++i)
+      for (Index j = 0; j < core; ++j)
+        process_factor.information(i, j) =
+            input.process.information(whole_index(columns, i), whole_index(columns, j));
     if (!process_factor.information.allFinite() || !process_factor.gradient.allFinite())
       return false;
   }

@@ -54,7 +54,7 @@ void write_residuals(const std::string& path, const LogGraph& graph) {
   for (int k = 0; k < graph.size(); ++k) {
     const LogKeyframe& keyframe = graph.at(k);
     for (const LogMeasurement& measurement : keyframe.measurements) {
-      const SatelliteInView& satellite =
+      const SatelliteGeometry& satellite =
           keyframe.satellites[measurement.measurement.satellite_index];
       std::string signals = to_string(measurement.measurement.code);
       if (measurement.measurement.second_code.is_set())

@@ -84,8 +84,8 @@ void add_by_antenna(const RowVector3d& by_p, const RowVector3d& by_v, const Ante
 
 }  // namespace
 
-MeasurementPrediction predict_measurement(const Measurement& measurement,
-                                          const SatelliteInView& satellite,
+MeasurementPrediction predict_measurement(const MeasuredRange& measurement,
+                                          const SatelliteGeometry& satellite,
                                           const AntennaMotion& antenna, const ClockState& clocks,
                                           double wet_delay_m, double carrier_clock_m,
                                           double ionosphere_m) {

@@ -49,14 +49,21 @@ struct CodeVariances {
   double ionosphere = 0.0;    // of the single frequencies: what the model leaves
 };
 
-// One satellite at one epoch. Vectors are in the ECEF frame of the instant of reception: the
-// Earth's rotation during the flight of the signal has been applied.
-struct SatelliteInView {
+// What the prediction of a measurement needs of a satellite at one epoch. Vectors are in the ECEF
+// frame of the instant of reception: the Earth's rotation during the flight of the signal has been
+// applied.
+struct SatelliteGeometry {
   SatelliteId satellite;
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  // m, at transmission
   Eigen::Vector3d v_e =
       Eigen::Vector3d::Zero();  // m/s, at transmission, relative to rotating Earth
-  double clock_m = 0.0;         // satellite clock times c
+  double elevation = 0.0;       // rad, at the approximate position; 0 if there is none
+  double wet_mapping = 0.0;  // wet mapping function, for a zenith wet delay beyond the modelled one
+};
+
+// One satellite at one epoch.
+struct SatelliteInView : SatelliteGeometry {
+  double clock_m = 0.0;  // satellite clock times c
   double clock_drift_m_s = 0.0;
   double orbit_sigma_m = 0.0;
   double orbit_sigma_change_m = 0.0;  // as in SatelliteState
@@ -68,13 +75,11 @@ struct SatelliteInView {
   OrbitSource source = OrbitSource::kNone;
   bool at_antenna = false;       // as in SatelliteState
   bool clock_from_file = false;  // as in SatelliteState
-  double elevation = 0.0;        // rad, at the approximate position; 0 if there is none
   double azimuth = 0.0;          // rad
   double troposphere_m = 0.0;    // slant delay applied
-  double wet_mapping = 0.0;  // wet mapping function, for a zenith wet delay beyond the modelled one
-  double path_m = 0.0;       // other lengthening of the path of all signals: gravity, tides
-  double wind_up_cycles = 0.0;  // of the carrier
-  double antenna_m = 0.0;       // lengthening of the carrier's path by the antenna patterns
+  double path_m = 0.0;           // other lengthening of the path of all signals: gravity, tides
+  double wind_up_cycles = 0.0;   // of the carrier
+  double antenna_m = 0.0;        // lengthening of the carrier's path by the antenna patterns
   // Identity of these patterns; a new one means another correction.
   std::uint32_t antenna_issue = 0;
   double ionosphere_l1_m = 0.0;  // slant delay on L1 by the model; 0 for ionosphere-free use
@@ -106,7 +111,9 @@ struct IonosphereError {
 // The satellite clock, group delay, troposphere and ionosphere are already removed. Code and
 // carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one, and a code of one
 // frequency ionosphere.mapping of a zenith ionosphere delay beyond the modelled one.
-struct Measurement {
+//
+// MeasuredRange is the part that a prediction and tests of the residual need.
+struct MeasuredRange {
   std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
   Observable observable = Observable::kCode;
   SignalCode code;         // first signal
@@ -114,13 +121,22 @@ struct Measurement {
   double value = 0.0;
   double sigma = 0.0;
   // Code only: the part of sigma that is correlated from epoch to epoch (orbit, clock, modelled
-  // ionosphere), and its correlation time.
+  // ionosphere).
   double correlated_sigma = 0.0;
-  double correlation_time_s = 0.0;
+  IonosphereError ionosphere;  // of a code of one frequency
+
+  // Return the variance, and its part that is correlated from epoch to epoch, without what the
+  // satellites have of the ionosphere in common, which a filter estimates.
+  double own_variance() const { return sigma * sigma - ionosphere.variance; }
+  double own_correlated_variance() const {
+    return correlated_sigma * correlated_sigma - ionosphere.variance;
+  }
+};
+struct Measurement : MeasuredRange {
+  double correlation_time_s = 0.0;  // code only: of correlated_sigma
   // Code only, m^2: the part of sigma^2 that lasts for minutes, without what the satellites have of
   // the ionosphere in common: orbit, clock, antenna, ionosphere, group delay, band, troposphere.
   double lasting_variance = 0.0;
-  IonosphereError ionosphere;  // of a code of one frequency
   // Carrier only.
   std::uint32_t arc = 0;     // identity of the uninterrupted arc; 0: none
   double random_walk = 0.0;  // m/sqrt(s): random walk of the ambiguity
@@ -129,13 +145,6 @@ struct Measurement {
   double disturbance_m = 0.0;
   CarrierCycles cycles;
   Reason reason = Reason::kUsed;
-
-  // Return the variance, and its part that is correlated from epoch to epoch, without what the
-  // satellites have of the ionosphere in common, which a filter estimates.
-  double own_variance() const { return sigma * sigma - ionosphere.variance; }
-  double own_correlated_variance() const {
-    return correlated_sigma * correlated_sigma - ionosphere.variance;
-  }
 };
 
 // All satellites and measurements of one epoch.

@@ -6,7 +6,7 @@
 
 namespace leonav {
 
-RangePrediction predict_range(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
+RangePrediction predict_range(const SatelliteGeometry& satellite, const Eigen::Vector3d& p_a_e) {
   const Eigen::Vector3d line = satellite.p_e - p_a_e;
   RangePrediction prediction;
   prediction.range_m = line.norm();
@@ -17,7 +17,7 @@ RangePrediction predict_range(const SatelliteInView& satellite, const Eigen::Vec
 // With the range rho = c tau, satellite and antenna in inertial space: rho = |x_s(t - tau) -
 // x_a(t)|, hence rho' = u.(V_s (1 - rho'/c) - V_a). Solving for rho' gives the divisor. The Earth's
 // rotation cancels in the numerator because omega x (x_s - x_a) is perpendicular to u.
-RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
+RangeRatePrediction predict_range_rate(const SatelliteGeometry& satellite,
                                        const Eigen::Vector3d& p_a_e, const Eigen::Vector3d& v_a_e) {
   const Eigen::Vector3d line = satellite.p_e - p_a_e;
   const double range = line.norm();
@@ -37,7 +37,7 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
   return prediction;
 }
 
-double line_of_sight_rate(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e) {
+double line_of_sight_rate(const SatelliteGeometry& satellite, const Eigen::Vector3d& p_a_e) {
   const Eigen::Vector3d line = satellite.p_e - p_a_e;
   return line.cross(satellite.v_e).norm() / line.squaredNorm();
 }

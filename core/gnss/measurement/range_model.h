@@ -27,11 +27,11 @@ struct RangeRatePrediction {
 };
 
 // Predicts the range rho of an antenna at `p_a_e` (ECEF, m).
-RangePrediction predict_range(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e);
+RangePrediction predict_range(const SatelliteGeometry& satellite, const Eigen::Vector3d& p_a_e);
 
 // Predicts the range rate rho', the derivative of the range as the receiver's Doppler measures it.
 // The divisor is the light-time term: 2 mm/s for GNSS, above 0.1 m/s for LEO.
-RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
+RangeRatePrediction predict_range_rate(const SatelliteGeometry& satellite,
                                        const Eigen::Vector3d& p_a_e, const Eigen::Vector3d& v_a_e);
 
 // Returns the ratio of this satellite's correlation time to that of a satellite in medium orbit.
@@ -39,6 +39,6 @@ RangeRatePrediction predict_range_rate(const SatelliteInView& satellite,
 // orbit error), so the ratio is 1 for the slower satellites and about 1/50 for LEO overhead.
 double correlation_time_ratio(double line_of_sight_rate);
 // Returns how fast the direction of the satellite turns as seen from the antenna, rad/s.
-double line_of_sight_rate(const SatelliteInView& satellite, const Eigen::Vector3d& p_a_e);
+double line_of_sight_rate(const SatelliteGeometry& satellite, const Eigen::Vector3d& p_a_e);
 
 }  // namespace leonav

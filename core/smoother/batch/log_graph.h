@@ -28,7 +28,7 @@ struct AmbiguityPiece {
 
 // One measurement of a keyframe; its weight is factor / gain_variance.
 struct LogMeasurement {
-  Measurement measurement;          // satellite_index: into the keyframe's satellites
+  MeasuredRange measurement;        // satellite_index: into the keyframe's satellites
   int piece = -1;                   // of LogGraph::pieces(); -1: no carrier
   double ambiguity_offset_m = 0.0;  // the carrier's ambiguity minus the piece's value
   double variance = 0.0;            // of the measurement alone, for its test
@@ -76,7 +76,7 @@ struct LogKeyframe {
   Eigen::Vector3d measured_rate_b = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_e = Eigen::Vector3d::Zero();
   Eigen::Vector3d vertical_antenna_offset_e = Eigen::Vector3d::Zero();
-  std::vector<SatelliteInView> satellites;
+  std::vector<SatelliteGeometry> satellites;
   std::vector<LogMeasurement> measurements;
   std::vector<int> pieces;  // ambiguities under way, ascending
   std::vector<ImuSample> block;
