@@ -16,11 +16,17 @@ inline constexpr std::size_t kMaxEphemerisSatellites = 575;  // every satellite 
 // ahead: Galileo has a set of each of its two messages every ten minutes, and the set in force must
 // stay.
 inline constexpr std::size_t kMaxEphemeridesPerSatellite = 16;
+// Of all satellites together: what 256 satellites may keep, and seven for each that has a name.
+inline constexpr std::size_t kMaxEphemerides = 4096;
 inline constexpr std::size_t kMaxOrbitNodes = 32;        // precise states kept per satellite
 inline constexpr std::size_t kMaxClockNodes = 64;        // precise clocks kept per satellite
 inline constexpr std::size_t kMaxCorrectedStates = 128;  // corrected states of one message
 inline constexpr std::size_t kMaxBiases = 2048;          // signal biases of one message
 inline constexpr std::size_t kMaxSignalBiases = 24;      // signal biases kept per satellite
+// Of all satellites together: twelve for each that has a name, six of those against the broadcast
+// clock. A product has up to twelve a satellite, of which some 130 are not in low orbits.
+inline constexpr std::size_t kMaxProductBiases = 12 * kMaxEphemerisSatellites;
+inline constexpr std::size_t kMaxBroadcastBiases = 6 * kMaxEphemerisSatellites;
 inline constexpr std::size_t kMaxImuBlock = 1536;    // IMU samples between two epochs: 500 Hz, 3 s
 inline constexpr std::size_t kMaxImuHistory = 4096;  // IMU samples kept for re-propagation
 // Raw epochs that wait for an IMU which is late: 2 s at 20 Hz.
@@ -52,5 +58,8 @@ inline constexpr std::size_t kMaxNadirValues = 41;
 inline constexpr std::size_t kMaxSatelliteAntennaBands = 8;
 inline constexpr std::size_t kMaxReceiverAntennaBands = 24;  // all systems together
 inline constexpr std::size_t kMaxAntennaIntervals = 2;       // validity intervals kept at once
+// Patterns of all satellites together: four for each that has a name. The IGS' file has some three
+// to eight bands of each of some 130 satellites.
+inline constexpr std::size_t kMaxSatelliteAntennas = 4 * kMaxEphemerisSatellites;
 
 }  // namespace leonav

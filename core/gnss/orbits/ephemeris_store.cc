@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/container/static_vector.hpp>
 #include <cmath>
 
 #include "core/base/capacity.h"
+#include "core/base/pooled_lists.h"
 #include "core/gnss/orbits/internal/interpolation_table.h"
 #include "core/gnss/orbits/precise_orbit.h"
 
@@ -17,8 +17,11 @@ struct StoredEphemeris {
   std::uint64_t arrival = 0;
 };
 
+using Ephemerides =
+    PooledLists<StoredEphemeris, kMaxEphemerisSatellites, kMaxEphemeridesPerSatellite>;
+
+// Precise and corrected states.
 struct SatelliteProducts {
-  boost::container::static_vector<StoredEphemeris, kMaxEphemeridesPerSatellite> ephemerides;
   InterpolationTable<OrbitNode, kMaxOrbitNodes> orbit;
   InterpolationTable<ClockNode, kMaxClockNodes> clock;  // from clock files
   CorrectedState corrected;                             // time unset: none
@@ -78,10 +81,10 @@ bool is_in_age(const Ephemeris& ephemeris, GpsTime time, const EphemerisConfig& 
          max_age_s(ephemeris.satellite.system, options);
 }
 
-const Ephemeris* best_ephemeris(const SatelliteProducts& products, GpsTime time,
+const Ephemeris* best_ephemeris(const Ephemerides& ephemerides, SatelliteId satellite, GpsTime time,
                                 const EphemerisConfig& options) {
   const StoredEphemeris* best = nullptr;
-  for (const StoredEphemeris& stored : products.ephemerides) {
+  for (const StoredEphemeris& stored : ephemerides[table_index_of(satellite)]) {
     if (!is_in_age(stored.ephemeris, time, options)) continue;
     if (best == nullptr || is_better(stored, *best, time, options)) best = &stored;
   }
@@ -90,16 +93,32 @@ const Ephemeris* best_ephemeris(const SatelliteProducts& products, GpsTime time,
 
 // The health is the last one transmitted up to `time`: an older issue may be nearer in toe and
 // carry an outdated health.
-bool newest_is_unhealthy(const SatelliteProducts& products, GpsTime time,
+bool newest_is_unhealthy(const Ephemerides& ephemerides, SatelliteId satellite, GpsTime time,
                          const EphemerisConfig& options) {
   const Ephemeris* newest = nullptr;
-  for (const StoredEphemeris& stored : products.ephemerides) {
+  for (const StoredEphemeris& stored : ephemerides[table_index_of(satellite)]) {
     const Ephemeris& e = stored.ephemeris;
     if (!e.transmission_time.is_set() || e.transmission_time > time) continue;
     if (!is_in_age(e, time, options)) continue;
     if (newest == nullptr || e.transmission_time >= newest->transmission_time) newest = &e;
   }
   return newest != nullptr && !is_healthy(*newest);
+}
+
+// Returns the slot for an ephemeris: that of the same issue, a free one, or that of the satellite's
+// that arrived first.
+StoredEphemeris& slot_for(const Ephemeris& ephemeris, Ephemerides* ephemerides) {
+  const std::size_t satellite = table_index_of(ephemeris.satellite);
+  const auto stored = (*ephemerides)[satellite];
+  const auto same =
+      std::find_if(stored.begin(), stored.end(), [&](const StoredEphemeris& candidate) {
+        return is_same_issue(candidate.ephemeris, ephemeris);
+      });
+  if (same != stored.end()) return *same;
+  if (!ephemerides->is_full(satellite)) return ephemerides->append(satellite);
+  return *std::min_element(
+      stored.begin(), stored.end(),
+      [](const StoredEphemeris& a, const StoredEphemeris& b) { return a.arrival < b.arrival; });
 }
 
 bool is_sane_node(const PreciseState& state) {
@@ -185,6 +204,7 @@ struct EphemerisStore::Storage {
   KlobucharModel klobuchar;
   std::uint32_t klobuchar_issue = 0;
   std::uint64_t arrivals = 0;
+  Ephemerides ephemerides{kMaxEphemerides};
   std::array<SatelliteProducts, kMaxEphemerisSatellites> products_of;
 };
 
@@ -198,20 +218,7 @@ EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
 
 bool EphemerisStore::add(const Ephemeris& ephemeris) {
   if (!is_sane(ephemeris) || is_for_corrections_alone(ephemeris)) return false;
-  auto& stored = storage_->products_of[table_index_of(ephemeris.satellite)].ephemerides;
-  auto slot = std::find_if(stored.begin(), stored.end(), [&](const StoredEphemeris& s) {
-    return is_same_issue(s.ephemeris, ephemeris);
-  });
-  if (slot == stored.end() && stored.size() < stored.capacity()) {
-    stored.emplace_back();
-    slot = stored.end() - 1;
-  }
-  if (slot == stored.end()) {
-    slot = std::min_element(
-        stored.begin(), stored.end(),
-        [](const StoredEphemeris& a, const StoredEphemeris& b) { return a.arrival < b.arrival; });
-  }
-  *slot = {ephemeris, ++storage_->arrivals};
+  slot_for(ephemeris, &storage_->ephemerides) = {ephemeris, ++storage_->arrivals};
   return true;
 }
 
@@ -248,20 +255,23 @@ LookupStatus EphemerisStore::state_at(SatelliteId satellite, GpsTime time, Satel
   if (ephemeris != nullptr) *ephemeris = nullptr;
   if (!is_valid(satellite) || time.nanoseconds() <= 0) return LookupStatus::kNoEphemeris;
   const EphemerisConfig& options = storage_->options;
+  const Ephemerides& ephemerides = storage_->ephemerides;
   const SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
-  if (products.ephemerides.empty() && products.orbit.empty() && !products.corrected.time.is_set()) {
+  const bool has_ephemerides = !ephemerides[table_index_of(satellite)].empty();
+  if (!has_ephemerides && products.orbit.empty() && !products.corrected.time.is_set()) {
     return LookupStatus::kNoEphemeris;
   }
 
-  const Ephemeris* best = best_ephemeris(products, time, options);
-  if (best != nullptr && (!is_healthy(*best) || newest_is_unhealthy(products, time, options))) {
+  const Ephemeris* best = best_ephemeris(ephemerides, satellite, time, options);
+  if (best != nullptr &&
+      (!is_healthy(*best) || newest_is_unhealthy(ephemerides, satellite, time, options))) {
     return LookupStatus::kUnhealthy;
   }
   if (!products.orbit_refused && find_any_precise(products, satellite.system, time, options, state))
     return LookupStatus::kOk;
   if (best == nullptr) {
-    return products.ephemerides.empty() && !options.use_precise ? LookupStatus::kNoEphemeris
-                                                                : LookupStatus::kTooOld;
+    return !has_ephemerides && !options.use_precise ? LookupStatus::kNoEphemeris
+                                                    : LookupStatus::kTooOld;
   }
   *state = broadcast_state(*best, time);
   state->issue = issue_of(*best);
@@ -299,13 +309,13 @@ bool EphemerisStore::is_orbit_refused(SatelliteId satellite) const {
 
 const Ephemeris* EphemerisStore::ephemeris_at(SatelliteId satellite, GpsTime time) const {
   if (!is_valid(satellite) || time.nanoseconds() <= 0) return nullptr;
-  return best_ephemeris(storage_->products_of[table_index_of(satellite)], time, storage_->options);
+  return best_ephemeris(storage_->ephemerides, satellite, time, storage_->options);
 }
 
 const Ephemeris* EphemerisStore::ephemeris_of_issue(SatelliteId satellite,
                                                     std::uint32_t issue) const {
   if (!is_valid(satellite)) return nullptr;
-  for (const StoredEphemeris& stored : storage_->products_of[table_index_of(satellite)].ephemerides)
+  for (const StoredEphemeris& stored : storage_->ephemerides[table_index_of(satellite)])
     if (issue_of(stored.ephemeris) == issue) return &stored.ephemeris;
   return nullptr;
 }

@@ -5,6 +5,8 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 
+#include "core/base/pooled_lists.h"
+
 namespace leonav {
 namespace {
 
@@ -33,7 +35,7 @@ struct ReceiverBand {
 };
 
 constexpr std::size_t kMaxEntries = kMaxSatelliteAntennaBands * kMaxAntennaIntervals;
-using SatelliteBands = boost::container::static_vector<SatelliteBand, kMaxEntries>;
+using SatelliteBands = PooledLists<SatelliteBand, kMaxEphemerisSatellites, kMaxEntries>;
 
 bool is_same(const SatelliteBand& a, const SatelliteBand& b) {
   return a.band == b.band && a.valid_from == b.valid_from && a.valid_until == b.valid_until &&
@@ -66,24 +68,24 @@ SatelliteBand compact(const AntennaPattern& pattern, std::uint64_t arrival) {
 // Returns the slot for a pattern of this band and start of validity: the same pattern's, a free
 // one, or that of the oldest of its band. Returns nullptr where there are too many bands.
 SatelliteBand* slot_for(const AntennaPattern& pattern, SatelliteBands* bands) {
+  const std::size_t satellite = table_index_of(pattern.satellite);
   SatelliteBand* oldest = nullptr;
   std::size_t of_band = 0;
-  for (SatelliteBand& entry : *bands) {
+  for (SatelliteBand& entry : (*bands)[satellite]) {
     if (entry.band != pattern.band) continue;
     if (entry.valid_from == pattern.valid_from) return &entry;
     ++of_band;
     if (oldest == nullptr || entry.arrival < oldest->arrival) oldest = &entry;
   }
   if (of_band >= kMaxAntennaIntervals) return oldest;
-  if (bands->size() == bands->capacity()) return nullptr;
-  return &bands->emplace_back();
+  return bands->is_full(satellite) ? nullptr : &bands->append(satellite);
 }
 
 }  // namespace
 
 struct AntennaPatternStore::Storage {
   BandPlan bands;
-  std::array<SatelliteBands, kMaxEphemerisSatellites> satellites;
+  SatelliteBands satellites{kMaxSatelliteAntennas};
   boost::container::static_vector<ReceiverBand, kMaxReceiverAntennaBands> receiver;
   std::uint64_t arrivals = 0;
   Counters counters;
@@ -93,7 +95,7 @@ struct AntennaPatternStore::Storage {
   }
 
   bool add_satellite(const AntennaPattern& pattern) {
-    SatelliteBand* slot = slot_for(pattern, &satellites[table_index_of(pattern.satellite)]);
+    SatelliteBand* slot = slot_for(pattern, &satellites);
     if (slot == nullptr) return false;
     const SatelliteBand entry = compact(pattern, arrivals + 1);
     if (is_same(*slot, entry)) return true;

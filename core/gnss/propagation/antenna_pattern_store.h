@@ -43,6 +43,8 @@ class AntennaPatternStore {
   // pattern replaces the one of the same antenna, band and start of validity; an identical one
   // changes nothing, not even the revision. Where kMaxAntennaIntervals other intervals are stored,
   // it replaces the one that arrived first. There is one receiver antenna; its validity is ignored.
+  // Beyond kMaxSatelliteAntennas patterns, the satellite with most loses the one that arrived
+  // first.
   bool add(const AntennaPattern& pattern);
 
   // Compute satellite_antenna_range_m and receiver_antenna_range_m with the pattern for the

@@ -1,11 +1,10 @@
 #include "core/gnss/propagation/signal_bias_store.h"
 
 #include <algorithm>
-#include <array>
-#include <boost/container/static_vector.hpp>
 #include <cmath>
 
 #include "core/base/capacity.h"
+#include "core/base/pooled_lists.h"
 #include "core/gnss/measurement/weighting.h"
 
 namespace leonav {
@@ -25,8 +24,8 @@ struct Stored {
   std::uint64_t arrival = 0;
 };
 
-template <std::size_t capacity>
-using Biases = boost::container::static_vector<Stored, capacity>;
+template <std::size_t kLongest>
+using Biases = PooledLists<Stored, kMaxEphemerisSatellites, kLongest>;
 
 bool has_ended(const Stored& stored, GpsTime time) {
   return stored.valid_until.is_set() && time >= stored.valid_until;
@@ -38,44 +37,50 @@ bool holds(const Stored& stored, GpsTime time) {
   return std::abs(seconds_between(time, stored.time)) <= kLongestBiasAge_s;
 }
 
-template <std::size_t capacity>
-const Stored* find(const Biases<capacity>& biases, SignalCode code, GpsTime time) {
+template <std::size_t kLongest>
+const Stored* find(const Biases<kLongest>& biases, SatelliteId satellite, SignalCode code,
+                   GpsTime time) {
   const Stored* newest = nullptr;
-  for (const Stored& stored : biases) {
+  for (const Stored& stored : biases[table_index_of(satellite)]) {
     if (stored.code != code || !holds(stored, time)) continue;
     if (newest == nullptr || stored.arrival > newest->arrival) newest = &stored;
   }
   return newest;
 }
 
-template <std::size_t capacity>
-void keep(const SignalBias& bias, std::uint64_t arrival, Biases<capacity>* biases) {
-  auto slot = std::find_if(biases->begin(), biases->end(), [&](const Stored& stored) {
-    return stored.code == bias.code && stored.valid_from == bias.valid_from;
+// Returns the slot for a bias: that of the same signal and beginning, a free one, or one of another
+// bias.
+template <std::size_t kLongest>
+Stored& slot_for(const SignalBias& bias, Biases<kLongest>* biases) {
+  const std::size_t satellite = table_index_of(bias.satellite);
+  const auto stored = (*biases)[satellite];
+  const auto same = std::find_if(stored.begin(), stored.end(), [&](const Stored& s) {
+    return s.code == bias.code && s.valid_from == bias.valid_from;
   });
-  if (slot == biases->end() && biases->size() < biases->capacity()) {
-    biases->emplace_back();
-    slot = biases->end() - 1;
-  }
-  if (slot == biases->end()) {
-    slot = std::min_element(biases->begin(), biases->end(), [&](const Stored& a, const Stored& b) {
-      const bool a_ended = has_ended(a, bias.time), b_ended = has_ended(b, bias.time);
-      return a_ended != b_ended ? a_ended : a.arrival < b.arrival;
-    });
-  }
-  *slot = {bias.code, bias.time, bias.valid_from, bias.valid_until, bias.bias_m, arrival};
+  if (same != stored.end()) return *same;
+  if (!biases->is_full(satellite)) return biases->append(satellite);
+  return *std::min_element(stored.begin(), stored.end(), [&](const Stored& a, const Stored& b) {
+    const bool a_ended = has_ended(a, bias.time), b_ended = has_ended(b, bias.time);
+    return a_ended != b_ended ? a_ended : a.arrival < b.arrival;
+  });
 }
 
-template <std::size_t capacity>
-std::optional<GroupDelay> delay_of(const Biases<capacity>& biases, const BandPlan& bands,
-                                   System system, GpsTime time, double sigma, SignalCode first,
-                                   SignalCode second) {
-  const Stored* a = find(biases, first, time);
+template <std::size_t kLongest>
+void keep(const SignalBias& bias, std::uint64_t arrival, Biases<kLongest>* biases) {
+  slot_for(bias, biases) = {bias.code,        bias.time,   bias.valid_from,
+                            bias.valid_until, bias.bias_m, arrival};
+}
+
+template <std::size_t kLongest>
+std::optional<GroupDelay> delay_of(const Biases<kLongest>& biases, const BandPlan& bands,
+                                   SatelliteId satellite, GpsTime time, double sigma,
+                                   SignalCode first, SignalCode second) {
+  const Stored* a = find(biases, satellite, first, time);
   if (a == nullptr) return std::nullopt;
   if (!second.is_set()) return GroupDelay{a->bias_m, sigma};
-  const Stored* b = find(biases, second, time);
-  const double f1 = bands.frequency_hz(system, first.band);
-  const double f2 = bands.frequency_hz(system, second.band);
+  const Stored* b = find(biases, satellite, second, time);
+  const double f1 = bands.frequency_hz(satellite.system, first.band);
+  const double f2 = bands.frequency_hz(satellite.system, second.band);
   if (b == nullptr || !(f1 > 0.0) || !(f2 > 0.0) || f1 == f2) return std::nullopt;
   const IonosphereFree pair = ionosphere_free(f1, f2);
   return GroupDelay{pair.gamma1 * a->bias_m + pair.gamma2 * b->bias_m,
@@ -85,13 +90,10 @@ std::optional<GroupDelay> delay_of(const Biases<capacity>& biases, const BandPla
 }  // namespace
 
 struct SignalBiasStore::Storage {
-  struct Satellite {
-    Biases<kMaxIntervals * kMaxSignalBiases> product;
-    Biases<kMaxSignalBiases> broadcast;
-  };
   BandPlan bands;
   std::uint64_t arrivals = 0;
-  std::array<Satellite, kMaxEphemerisSatellites> of;
+  Biases<kMaxIntervals * kMaxSignalBiases> product{kMaxProductBiases};
+  Biases<kMaxSignalBiases> broadcast{kMaxBroadcastBiases};
 };
 
 SignalBiasStore::SignalBiasStore(const BandPlan& bands) : storage_(std::make_unique<Storage>()) {
@@ -111,13 +113,12 @@ bool is_sane(const SignalBias& bias) {
 
 bool SignalBiasStore::add(const SignalBias& bias) {
   if (!is_sane(bias)) return false;
-  Storage::Satellite& satellite = storage_->of[table_index_of(bias.satellite)];
   switch (bias.kind) {
     case BiasKind::kCode:
-      keep(bias, ++storage_->arrivals, &satellite.product);
+      keep(bias, ++storage_->arrivals, &storage_->product);
       break;
     case BiasKind::kBroadcastCode:
-      keep(bias, ++storage_->arrivals, &satellite.broadcast);
+      keep(bias, ++storage_->arrivals, &storage_->broadcast);
       break;
     case BiasKind::kPhase:
       break;
@@ -127,9 +128,9 @@ bool SignalBiasStore::add(const SignalBias& bias) {
 
 bool SignalBiasStore::has(const SignalBias& bias) const {
   if (!is_valid(bias.satellite) || bias.kind == BiasKind::kPhase) return true;
-  const Storage::Satellite& satellite = storage_->of[table_index_of(bias.satellite)];
-  return bias.kind == BiasKind::kCode ? find(satellite.product, bias.code, bias.time) != nullptr
-                                      : find(satellite.broadcast, bias.code, bias.time) != nullptr;
+  return bias.kind == BiasKind::kCode
+             ? find(storage_->product, bias.satellite, bias.code, bias.time) != nullptr
+             : find(storage_->broadcast, bias.satellite, bias.code, bias.time) != nullptr;
 }
 
 std::size_t SignalBiasStore::count_in_system(const SignalBias& bias) const {
@@ -146,16 +147,15 @@ std::size_t SignalBiasStore::count_in_system(const SignalBias& bias) const {
 std::optional<GroupDelay> SignalBiasStore::code_delay(SatelliteId satellite, GpsTime time,
                                                       SignalCode first, SignalCode second) const {
   if (!is_valid(satellite)) return std::nullopt;
-  return delay_of(storage_->of[table_index_of(satellite)].product, storage_->bands,
-                  satellite.system, time, kBiasSigma, first, second);
+  return delay_of(storage_->product, storage_->bands, satellite, time, kBiasSigma, first, second);
 }
 
 std::optional<GroupDelay> SignalBiasStore::broadcast_delay(SatelliteId satellite, GpsTime time,
                                                            SignalCode first,
                                                            SignalCode second) const {
   if (!is_valid(satellite)) return std::nullopt;
-  return delay_of(storage_->of[table_index_of(satellite)].broadcast, storage_->bands,
-                  satellite.system, time, kBroadcastSigma, first, second);
+  return delay_of(storage_->broadcast, storage_->bands, satellite, time, kBroadcastSigma, first,
+                  second);
 }
 
 }  // namespace leonav

@@ -54,7 +54,8 @@ class SignalBiasStore {
   // Returns false (and changes nothing) if the bias is not sane. A bias replaces that of the same
   // signal and beginning of validity, so that those of the next day can come ahead. Where a
   // satellite has kMaxIntervals * kMaxSignalBiases others, it replaces one whose end has passed at
-  // the bias' time, else the one that arrived first.
+  // the bias' time, else the one that arrived first. Beyond kMaxProductBiases of all satellites, or
+  // kMaxBroadcastBiases of the others, the satellite with most loses the one that arrived first.
   bool add(const SignalBias& bias);
   static constexpr std::size_t kMaxIntervals = 2;
 

@@ -1,0 +1,98 @@
+// PooledLists holds many short lists whose elements lie in one pool: any of them may be long, but
+// not all at once.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <vector>
+
+namespace leonav {
+
+// `T` has a member `arrival`, which is larger the later an element has come. No element is removed
+// but where the pool is used up. Allocates when constructed, not after.
+template <typename T, std::size_t kLists, std::size_t kLongest>
+class PooledLists {
+ public:
+  // `elements`: of all lists together, at least kLists.
+  explicit PooledLists(std::size_t elements) : pool_(elements) {}
+
+  // The elements of a list in the order in which they were appended.
+  template <typename Element>
+  class Range {
+   public:
+    class Iterator {
+     public:
+      using iterator_category = std::forward_iterator_tag;
+      using value_type = T;
+      using difference_type = std::ptrdiff_t;
+      using pointer = Element*;
+      using reference = Element&;
+
+      Iterator(Element* pool, const std::uint16_t* slot) : pool_(pool), slot_(slot) {}
+      Element& operator*() const { return pool_[*slot_]; }
+      Iterator& operator++() {
+        ++slot_;
+        return *this;
+      }
+      Iterator operator++(int) { return {pool_, slot_++}; }
+      friend bool operator==(const Iterator&, const Iterator&) = default;
+
+     private:
+      Element* pool_;
+      const std::uint16_t* slot_;
+    };
+
+    Range(Element* pool, std::span<const std::uint16_t> slots) : pool_(pool), slots_(slots) {}
+    Iterator begin() const { return {pool_, slots_.data()}; }
+    Iterator end() const { return {pool_, slots_.data() + slots_.size()}; }
+    bool empty() const { return slots_.empty(); }
+
+   private:
+    Element* pool_;
+    std::span<const std::uint16_t> slots_;
+  };
+  Range<T> operator[](std::size_t list) { return {pool_.data(), of(list)}; }
+  Range<const T> operator[](std::size_t list) const { return {pool_.data(), of(list)}; }
+  bool is_full(std::size_t list) const { return lists_[list].size == kLongest; }
+
+  // Appends an element and returns it as T(). Where the pool is used up, the longest list loses the
+  // element that arrived first. Precondition: the list is not full.
+  T& append(std::size_t list) {
+    const std::uint16_t slot = used_ < pool_.size() ? static_cast<std::uint16_t>(used_++) : freed();
+    List& to = lists_[list];
+    to.slots[to.size++] = slot;
+    return pool_[slot] = T();
+  }
+
+ private:
+  struct List {
+    std::array<std::uint16_t, kLongest> slots;
+    std::uint16_t size = 0;
+  };
+
+  std::span<const std::uint16_t> of(std::size_t list) const {
+    return std::span(lists_[list].slots).first(lists_[list].size);
+  }
+
+  std::uint16_t freed() {
+    List& longest = *std::max_element(lists_.begin(), lists_.end(),
+                                      [](const List& a, const List& b) { return a.size < b.size; });
+    const auto end = longest.slots.begin() + longest.size;
+    const auto first = std::min_element(
+        longest.slots.begin(), end,
+        [this](std::uint16_t a, std::uint16_t b) { return pool_[a].arrival < pool_[b].arrival; });
+    const std::uint16_t slot = *first;
+    std::copy(first + 1, end, first);
+    --longest.size;
+    return slot;
+  }
+
+  std::vector<T> pool_;
+  std::size_t used_ = 0;
+  std::array<List, kLists> lists_{};
+};
+
+}  // namespace leonav

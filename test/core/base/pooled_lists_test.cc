@@ -1,0 +1,57 @@
+#include "core/base/pooled_lists.h"
+
+#include <vector>
+
+#include "support/catch.h"
+
+using namespace leonav;
+
+namespace {
+
+struct Element {
+  int value = 0;
+  std::uint64_t arrival = 0;
+};
+using Lists = PooledLists<Element, 3, 4>;
+
+void append(std::size_t list, int value, Lists* lists) {
+  lists->append(list) = {value, std::uint64_t(value)};
+}
+
+std::vector<int> values(const Lists& lists, std::size_t list) {
+  std::vector<int> values;
+  for (const Element& element : lists[list]) values.push_back(element.value);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("Lists in one pool keep their elements apart and in order", "[pooled_lists]") {
+  Lists lists(6);
+  for (const int value : {1, 2, 3}) append(1, value, &lists);
+  for (const int value : {4, 5}) append(2, value, &lists);
+  CHECK(values(lists, 0).empty());
+  CHECK(values(lists, 1) == std::vector{1, 2, 3});
+  CHECK(values(lists, 2) == std::vector{4, 5});
+  CHECK_FALSE(lists.is_full(1));
+  append(1, 6, &lists);
+  CHECK(lists.is_full(1));
+  for (Element& element : lists[2]) ++element.value;
+  CHECK(values(lists, 2) == std::vector{5, 6});
+}
+
+TEST_CASE("Where the pool is used up, the longest list loses what arrived first",
+          "[pooled_lists]") {
+  Lists lists(5);
+  for (const int value : {3, 2, 7, 4}) append(1, value, &lists);
+  append(2, 5, &lists);
+  append(0, 8, &lists);
+  CHECK(values(lists, 0) == std::vector{8});
+  CHECK(values(lists, 1) == std::vector{3, 7, 4});
+  CHECK(values(lists, 2) == std::vector{5});
+  // A list that is the longest itself makes its own room.
+  append(1, 9, &lists);
+  CHECK(values(lists, 1) == std::vector{7, 4, 9});
+  // What was lost leaves nothing behind.
+  CHECK(lists.append(0).value == 0);
+}
