@@ -10,10 +10,10 @@ namespace leonav {
 namespace {
 
 constexpr std::size_t kInertialRing = 4096;  // 20 s at 200 Hz
-constexpr std::size_t kGnssRing = 32;        // an element can hold 140 kB
-constexpr std::size_t kInputRingBytes = 1 << 20;
-constexpr std::size_t kInertialOutBytes = 1 << 20;  // 12 s of SOLUTION at 200 Hz
-constexpr std::size_t kGnssOutBytes = 1 << 20;
+// `out` waits for no disk: it is behind by no more than what the system keeps it from running.
+constexpr std::size_t kInputRingBytes = 512 << 10;
+constexpr std::size_t kInertialOutBytes = 512 << 10;  // 6 s of SOLUTION at 200 Hz
+constexpr std::size_t kGnssOutBytes = 512 << 10;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
       hooks_(std::move(hooks)),
       journal_(config, hooks_.disk_call),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
-      gnss_ring_(kGnssRing, &gnss_wakeup_),
+      gnss_ring_(&gnss_wakeup_),
       checkpoint_writer_(config.checkpoint),
       io_sink_(kInputRingBytes, &out_wakeup_, &counters_),
       inertial_sink_(kInertialOutBytes, &out_wakeup_, &counters_),

@@ -11,6 +11,7 @@
 #include "core/navigator/stages/inertial_navigator.h"
 #include "daemon/checkpoint/checkpoint_writer.h"
 #include "daemon/config/daemon_config.h"
+#include "daemon/engine/internal/gnss_ring.h"
 #include "daemon/engine/internal/output_publisher.h"
 #include "daemon/engine/internal/refusals.h"
 #include "daemon/engine/internal/smoother_worker.h"
@@ -96,7 +97,7 @@ class Engine final : private StageInputs {
   Journal journal_;
   Wakeup inertial_wakeup_, gnss_wakeup_, out_wakeup_;
   WorkRing<InertialWork> inertial_ring_;
-  WorkRing<GnssWork> gnss_ring_;
+  GnssRing gnss_ring_;
   CheckpointWriter checkpoint_writer_;
   StageSink io_sink_, inertial_sink_, gnss_sink_;
   TimedMailbox<Anchor> ekf_mailbox_;
