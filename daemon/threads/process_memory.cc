@@ -8,8 +8,11 @@
 
 #include <array>
 #include <cerrno>
+#include <cinttypes>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 
 #include "daemon/threads/realtime_thread.h"
@@ -46,6 +49,18 @@ int unlock_if_of_ceres(dl_phdr_info* library, std::size_t, void*) {
   return 0;
 }
 
+// Brings in what is locked, so that no use of it has to wait.
+void bring_in(std::ifstream* maps) {
+  for (std::string line; std::getline(*maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    char permissions[5] = {};
+    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " %4s", &begin, &end, permissions) != 3)
+      continue;
+    if (is_of_ceres(line) && permissions[1] != 'w') continue;
+    mlock(reinterpret_cast<void*>(begin), end - begin);  // fails for what is the system's own
+  }
+}
+
 }  // namespace
 
 void prepare_memory() {
@@ -59,9 +74,15 @@ void prepare_memory() {
 
 std::string lock_memory(bool uses_ceres) {
   malloc_trim(0);
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+  std::ifstream maps("/proc/self/maps");
+  const bool in_parts = !uses_ceres && maps;
+  // In parts: what is there is locked but not brought in, or Ceres' libraries would be too.
+  if (mlockall(MCL_CURRENT | MCL_FUTURE | (in_parts ? MCL_ONFAULT : 0)) != 0)
     return std::string("memory is not locked: ") + std::strerror(errno);
   if (!uses_ceres) dl_iterate_phdr(unlock_if_of_ceres, nullptr);
+  if (!in_parts) return {};
+  bring_in(&maps);
+  mlockall(MCL_FUTURE);  // what comes is brought in at once
   return {};
 }
 
