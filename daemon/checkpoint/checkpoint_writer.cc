@@ -22,7 +22,8 @@ void CheckpointWriter::start() {
   products_path_ = products_path(config_.path);
   newest_products_.ephemerides.reserve(ProductStore::kMostEphemerides);
   written_products_.reserve(ProductsText::kUsualBytes);
-  thread_.start("file", ThreadConfig(), [this] { run(); });
+  thread_.start(
+      "file", ThreadConfig(), [this] { run(); }, RealtimeThread::kSmallStackBytes);
   started_ = true;
 }
 

@@ -21,7 +21,6 @@ namespace {
 
 constexpr std::int64_t kLookNs = 20'000'000;  // how often the thread looks for messages
 constexpr std::int64_t kStalledNs = 2 * kNanosecondsPerSecond;
-constexpr std::size_t kStackBytes = 256 << 10;
 // Shares of the ring at which outputs begin and cease to be left out.
 constexpr double kCrowded = 0.5, kRelaxed = 0.25;
 
@@ -91,7 +90,8 @@ void Journal::open() {
   auto state = std::make_unique<State>(config_, hook_);
   // Never real-time: it waits for the disk.
   state->thread.start(
-      "journal", ThreadConfig(), [state = state.get()] { state->run(); }, kStackBytes);
+      "journal", ThreadConfig(), [state = state.get()] { state->run(); },
+      RealtimeThread::kSmallStackBytes);
   state_ = std::move(state);
   const JournalCounters& counters = state_->counters;
   const Stopwatch watch;

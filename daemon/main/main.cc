@@ -284,11 +284,11 @@ void check_solve_time(const NavigatorConfig& config) {
   if (config.estimator != Estimator::kSmoother || config.motion != MotionModel::kInertial) return;
   SolveTime time;
   // Not in `main`, whose stack would stay as large. That of the thread goes to `gnss`: it is too
-  // large for the threads before it (glibc gives no stack of more than four times the size).
+  // large for the threads before it.
   RealtimeThread thread;
   thread.start(
       "measure", ThreadConfig(), [&] { time = measure_solve_time(config); },
-      RealtimeThread::kEstimatorStackBytes + RealtimeThread::kStackBytes);
+      RealtimeThread::kLargestStackBytes);
   thread.join();
   if (time.solved < kMeasuredSolves)
     return spdlog::warn("the smoother's time could not be measured");

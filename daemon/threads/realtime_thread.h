@@ -26,14 +26,19 @@ class RealtimeThread {
 
   // Locked memory counts whole stacks, so they are no larger than they must be: some twice what is
   // used (docs/validation/service.md). The estimators keep matrices of some hundred kilobytes on
-  // theirs.
+  // theirs, `io` an epoch. Those that only pass values or bytes on have small ones.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static constexpr std::size_t kStackScale = 4;
+#elif !defined(__OPTIMIZE__)
+  static constexpr std::size_t kStackScale = 2;
 #else
   static constexpr std::size_t kStackScale = 1;
 #endif
   static constexpr std::size_t kStackBytes = kStackScale * (512 << 10);
-  static constexpr std::size_t kEstimatorStackBytes = kStackScale * (2 << 20);
+  static constexpr std::size_t kSmallStackBytes = kStackScale * (256 << 10);
+  static constexpr std::size_t kEstimatorStackBytes = kStackScale * (1536 << 10);
+  // Larger than what glibc would reuse for a thread with kStackBytes: four times that.
+  static constexpr std::size_t kLargestStackBytes = kStackScale * (2304 << 10);
 
  private:
   std::function<void()> body_;

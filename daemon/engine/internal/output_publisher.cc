@@ -21,7 +21,8 @@ OutputPublisher::OutputPublisher(const OutputRings& rings, Wakeup* wakeup, Messa
       counters_(counters) {}
 
 std::string OutputPublisher::start(const ThreadConfig& config) {
-  return thread_.start("out", config, [this] { run(); });
+  return thread_.start(
+      "out", config, [this] { run(); }, RealtimeThread::kSmallStackBytes);
 }
 
 void OutputPublisher::finish() {
