@@ -18,7 +18,7 @@ class EncodingSink : public OutputSink {
  public:
   // `schema`: the version of the messages; an older one to compare with an older journal.
   explicit EncodingSink(MessageTarget* target, OutputSchema schema = OutputSchema::kNewest)
-      : target_(target), schema_(schema), encoder_(schema) {}
+      : target_(target), schema_(schema), encoder_(schema, Encoder::Room::kOutputs) {}
   void on_solution(const Solution& solution) override {
     target_->take(Channel::kSolution, encoder_.encode(solution));
   }

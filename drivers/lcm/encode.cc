@@ -263,18 +263,22 @@ struct Encoder::Storage {
   }
 };
 
-Encoder::Encoder(OutputSchema schema) : storage_(std::make_unique<Storage>()) {
+Encoder::Encoder(OutputSchema schema, Room room) : storage_(std::make_unique<Storage>()) {
   storage_->schema = schema;
+  if (schema == OutputSchema::kFirst) {
+    storage_->epoch_v1.satellites.reserve(kMaxSatellites);
+    storage_->epoch_v1.aiding.reserve(kMaxMeasurements);
+  } else {
+    storage_->epoch.satellites.reserve(kMaxSatellites);
+    storage_->epoch.aiding.reserve(kMaxMeasurements);
+  }
+  storage_->constraints.components.reserve(kMaxConstraintReports);
+  if (room == Room::kOutputs) return;
   storage_->gnss_epoch.observations.reserve(kMaxObservations);
   storage_->orbit_clock.states.reserve(kMaxEphemerisSatellites);
   storage_->corrected_states.states.reserve(kMaxCorrectedStates);
   storage_->biases.biases.reserve(kMaxBiases);
   storage_->antenna.values_m.reserve(kMaxAntennaValues);
-  storage_->epoch.satellites.reserve(kMaxSatellites);
-  storage_->epoch.aiding.reserve(kMaxMeasurements);
-  storage_->epoch_v1.satellites.reserve(kMaxSatellites);
-  storage_->epoch_v1.aiding.reserve(kMaxMeasurements);
-  storage_->constraints.components.reserve(kMaxConstraintReports);
 }
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;

@@ -25,8 +25,13 @@ using ByteSpan = std::span<const std::uint8_t>;
 // unchecked: do not encode values that the Decoder would refuse.
 class Encoder {
  public:
+  // What there is room for from the beginning; the memory of other messages is taken when the first
+  // is encoded.
+  enum class Room : std::uint8_t { kInputsAndOutputs, kOutputs };
+
   // `schema`: the version of the outputs SOLUTION, EPOCH and SMOOTHER.
-  explicit Encoder(OutputSchema schema = OutputSchema::kNewest);
+  explicit Encoder(OutputSchema schema = OutputSchema::kNewest,
+                   Room room = Room::kInputsAndOutputs);
   ~Encoder();
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;
