@@ -20,6 +20,8 @@ bool OutputSelection::contains(Channel channel, ByteSpan bytes) {
     case Channel::kConstraints:
     case Channel::kSmoothed:
       return outputs_ != RecordedOutputs::kNone;
+    case Channel::kCommandNonce:
+      return false;  // a replay needs none
     default:
       return true;
   }

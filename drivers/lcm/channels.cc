@@ -4,10 +4,14 @@ namespace leonav {
 namespace {
 
 constexpr std::array<std::string_view, kChannelCount> kNames = {
-    "IMU",    "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE", "ANTENNA", "CORRECTED_STATES",
-    "BIASES", "COMMAND",    "ODOMETER",  "CHECKPOINT",  "SOLUTION",   "EPOCH",   "CONSTRAINTS",
-    "EVENT",  "DECISION",   "SMOOTHER",  "SMOOTHED",    "HEALTH",     "CONFIG",  "END",
-    "PIECE",  "REFUSED",    "LOST"};
+    "IMU", "GNSS_EPOCH", "EPHEMERIS", "ORBIT_CLOCK", "IONOSPHERE", "ANTENNA", "CORRECTED_STATES",
+    "BIASES", "COMMAND", "ODOMETER", "CHECKPOINT",
+    // outputs
+    "SOLUTION", "EPOCH", "CONSTRAINTS", "EVENT", "DECISION", "SMOOTHER", "SMOOTHED", "HEALTH",
+    // in journals only
+    "CONFIG", "END", "PIECE", "REFUSED", "LOST",
+    // in no journal
+    "COMMAND_NONCE"};
 
 }  // namespace
 

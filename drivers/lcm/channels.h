@@ -39,8 +39,10 @@ enum class Channel : std::uint8_t {
   kPiece,    // behind the configuration: which piece of which journal this is
   kRefused,  // inputs that are counted, not held
   kLost,     // messages are missing here
+  // an output that is in no journal
+  kCommandNonce,
 };
-inline constexpr std::size_t kChannelCount = 24;
+inline constexpr std::size_t kChannelCount = 25;
 inline constexpr std::array<Channel, 11> kInputChannels = {
     Channel::kImu,        Channel::kGnssEpoch, Channel::kEphemeris,       Channel::kOrbitClock,
     Channel::kIonosphere, Channel::kAntenna,   Channel::kCorrectedStates, Channel::kBiases,

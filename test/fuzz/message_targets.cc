@@ -6,6 +6,7 @@
 #include "drivers/lcm/decode_output.h"
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/journal_marks.h"
+#include "drivers/lcm/signed_command.h"
 #include "test/fuzz/byte_script.h"
 #include "test/fuzz/good_input.h"
 #include "test/fuzz/target_groups.h"
@@ -83,6 +84,16 @@ void decode_marks(FuzzBytes bytes) {
   static_cast<void>(decode_lost(bytes));
 }
 
+void decode_signed(FuzzBytes bytes) {
+  static_cast<void>(decode_command_nonce(bytes));
+  SignedCommand command;
+  if (decode_signed_command(bytes, &command) != InputFault::kNone) return;
+  const auto sent = encode_signed_command(command);
+  SignedCommand again;
+  if (decode_signed_command(sent, &again) != InputFault::kNone || again.mac != command.mac)
+    throw Finding("a signed command changes when it is sent again");
+}
+
 // The first byte is the channel.
 void run_decoder(FuzzBytes input) {
   ByteScript script(input);
@@ -118,6 +129,8 @@ void run_decoder(FuzzBytes input) {
     case Channel::kRefused:
     case Channel::kLost:
       return decode_marks(bytes);
+    case Channel::kCommandNonce:
+      return decode_signed(bytes);
     default:
       return decode_outputs(bytes);
   }

@@ -28,6 +28,8 @@ std::string_view to_string(InputFault fault) {
       return "overlap";
     case InputFault::kTooOften:
       return "too_often";
+    case InputFault::kUnauthenticated:
+      return "unauthenticated";
   }
   return "unknown";
 }
