@@ -1,4 +1,4 @@
-# Outside packages, all from Debian. LCM ships no CMake config, so it is found by hand.
+# Outside packages, all from Debian. LCM and Nettle ship no CMake config, so they are found by hand.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost REQUIRED)
 find_package(OpenSSL 3.0 REQUIRED)
@@ -13,3 +13,11 @@ find_program(LCM_GEN lcm-gen REQUIRED)
 add_library(lcm INTERFACE)
 target_include_directories(lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
 target_link_libraries(lcm INTERFACE ${LCM_LIBRARY})
+
+# Static, because leonavd locks whole libraries in memory (daemon/commands/README.md).
+find_path(NETTLE_INCLUDE_DIR nettle/hmac.h REQUIRED)
+find_library(NETTLE_LIBRARY libnettle.a REQUIRED)
+
+add_library(nettle INTERFACE)
+target_include_directories(nettle SYSTEM INTERFACE ${NETTLE_INCLUDE_DIR})
+target_link_libraries(nettle INTERFACE ${NETTLE_LIBRARY})

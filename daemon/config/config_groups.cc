@@ -253,6 +253,10 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
   }
 }
 
+void read_commands(ConfigReader& group, CommandsConfig* config) {
+  group.text("key_file", &config->key_file);
+}
+
 void read_journal(ConfigReader& group, JournalConfig* config) {
   group.text("path", &config->path);
   group.choice<JournalOutputs>("outputs",

@@ -25,6 +25,7 @@ void read_integrity(ConfigReader& group, IntegrityConfig* config);
 void read_realtime(ConfigReader& group, NavigatorConfig* navigator, ThreadsConfig* threads);
 void read_drill(ConfigReader& group, DrillConfig* config);
 void read_lcm(ConfigReader& group, LcmConfig* config);
+void read_commands(ConfigReader& group, CommandsConfig* config);
 void read_journal(ConfigReader& group, JournalConfig* config);
 void read_log(ConfigReader& group, LogConfig* config);
 // The navigator gets the greatest age of a checkpoint.

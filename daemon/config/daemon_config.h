@@ -33,6 +33,13 @@ enum class JournalOutputs : std::uint8_t {
   kNone,     // none of SOLUTION, EPOCH, CONSTRAINTS, SMOOTHED
 };
 
+// Who may send commands.
+struct CommandsConfig {
+  std::string key_file;  // empty: whoever can send to the channels
+
+  bool operator==(const CommandsConfig&) const = default;
+};
+
 struct JournalConfig {
   std::string path;  // empty: no journal
   JournalOutputs outputs = JournalOutputs::kAll;
@@ -85,6 +92,7 @@ struct ConfigOrigin {
 struct DaemonConfig {
   NavigatorConfig navigator;
   LcmConfig lcm;
+  CommandsConfig commands;
   JournalConfig journal;
   CheckpointConfig checkpoint;
   ThreadsConfig threads;

@@ -50,6 +50,7 @@ DaemonConfig read_root(ConfigReader& root) {
     read_lcm(r, &config.lcm);
     check_prefix(r, config.lcm.prefix);
   });
+  root.group("commands", [&](ConfigReader& r) { read_commands(r, &config.commands); });
   root.group("journal", [&](ConfigReader& r) { read_journal(r, &config.journal); });
   root.group("checkpoint",
              [&](ConfigReader& r) { read_checkpoint(r, &config.checkpoint, &navigator); });

@@ -71,14 +71,11 @@ std::vector<std::string> Engine::start() {
 void Engine::receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us) {
   bytes = limit_length(bytes);
   const InputFault fault = dispatch_.decode(channel, bytes);
-  if (fault == InputFault::kNone) {
-    // Before it is dealt with: what a stage does must never be in the journal without its cause.
-    if (journal_.is_open()) io_sink_.ring().push(channel, timestamp_us, bytes);
-    dispatch_.accept();
-    keep_product(channel);
-  } else {
-    refuse(channel, fault, timestamp_us);
-  }
+  if (fault != InputFault::kNone) return refuse(channel, fault, timestamp_us);
+  // Before it is dealt with: what a stage does must never be in the journal without its cause.
+  if (journal_.is_open()) io_sink_.ring().push(channel, timestamp_us, bytes);
+  dispatch_.accept();
+  keep_product(channel);
   copy_input_counters(dispatch_, sequencer_, &counters_);
 }
 
@@ -96,6 +93,7 @@ void Engine::refuse(Channel channel, InputFault fault, std::int64_t timestamp_us
   refusals_.add(channel, fault);
   if (sequencer_.is_refusal_due(fault)) write_refusals(fault, timestamp_us);
   dispatch_.refuse({channel, fault, 1});
+  copy_input_counters(dispatch_, sequencer_, &counters_);
 }
 
 void Engine::write_refusals(InputFault fault, std::int64_t timestamp_us) {

@@ -50,6 +50,15 @@ class Engine final : private StageInputs {
   // An input as it came. One thread; waits while the stages are behind, drops nothing.
   void receive(Channel channel, ByteSpan bytes, std::int64_t timestamp_us);
 
+  // An input that the same thread refuses by itself. It is counted and reported as one that
+  // receive() refuses.
+  void refuse(Channel channel, InputFault fault, std::int64_t timestamp_us);
+
+  // An output of the same thread. Where `out` is stuck the message is dropped.
+  void publish_from_io(Channel channel, ByteSpan bytes, std::int64_t timestamp_us) {
+    io_sink_.ring().try_push(channel, timestamp_us, bytes);
+  }
+
   // A message of the daemon itself (HEALTH). One thread. Where `out` is stuck the message is
   // dropped and counted, so that `main` stays able to take a signal.
   void publish(Channel channel, ByteSpan bytes) { publisher_.publish(channel, bytes); }
@@ -86,7 +95,6 @@ class Engine final : private StageInputs {
   void event(const Event& event) override { io_sink_.on_event(event); }
 
   void keep_product(Channel channel);
-  void refuse(Channel channel, InputFault fault, std::int64_t timestamp_us);
   void write_refusals(InputFault fault, std::int64_t timestamp_us);
   void run_inertial();
   void run_gnss();

@@ -19,6 +19,7 @@
 #include "core/base/gps_time.h"
 #include "daemon/checkpoint/checkpoint_file.h"
 #include "daemon/checkpoint/products_file.h"
+#include "daemon/commands/command_gate.h"
 #include "daemon/config/config_changes.h"
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
@@ -40,6 +41,7 @@
 #include "daemon/threads/process_memory.h"
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
+#include "drivers/text/parse.h"
 #include "tools/common/configuration_options.h"
 #include "tools/common/service/service_main.h"
 
@@ -300,10 +302,22 @@ void check_solve_time(const NavigatorConfig& config) {
       config.realtime.deadline_smoother_s * 1e3);
 }
 
+// nullopt: commands need no key. Throws ConfigError where its file cannot be used.
+std::optional<CommandGate> command_gate(const DaemonConfig& config) {
+  const std::string& path = config.commands.key_file;
+  if (path.empty()) return std::nullopt;
+  try {
+    return CommandGate(CommandKey::from_file(path));
+  } catch (const FileError& error) {
+    throw ConfigError(config.source.name + ": commands.key_file: " + error.what());
+  }
+}
+
 // `load` reads the configuration from the command line and its file, each time it is called.
 int run(const std::function<DaemonConfig()>& load) {
   DaemonConfig config = load();
   Reload::set_log_level(config.log.level);
+  std::optional<CommandGate> gate = command_gate(config);
   prepare_memory();
   const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
@@ -316,7 +330,7 @@ int run(const std::function<DaemonConfig()>& load) {
   Engine engine(config, &publisher, drill_hooks(config.drill));
   // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
   std::optional<ProcessSignals> signals(std::in_place);
-  LcmReceiver receiver(config.lcm, config.threads.io, &engine);
+  LcmReceiver receiver(config.lcm, config.threads.io, &engine, std::move(gate));
   if (!receiver.refused().empty()) spdlog::warn("{}", receiver.refused());
   for (const std::string& refused : engine.start()) spdlog::warn("{}", refused);
 
@@ -336,6 +350,8 @@ int run(const std::function<DaemonConfig()>& load) {
   if (!refused.empty()) spdlog::warn("{}", refused);
   spdlog::info("running; LCM {}, channels {}*, journal {}", config.lcm.url, config.lcm.prefix,
                engine.journal().path().empty() ? "off" : engine.journal().path());
+  if (!config.commands.key_file.empty())
+    spdlog::info("commands: only those signed with the key of {}", config.commands.key_file);
 
   HealthMonitor health(&engine, config.navigator);
   manager.ready();
@@ -388,6 +404,7 @@ DaemonConfig configuration(const Arguments& arguments, bool is_reload = false) {
 // Throws ConfigError where the configuration is wrong.
 int check(const Arguments& arguments) {
   const DaemonConfig config = configuration(arguments);
+  std::ignore = command_gate(config);
   const bool changes = arguments.has("--changes");
   std::cout << effective_text(config.source, changes ? Extent::kChanges : Extent::kAllKeys);
   spdlog::info("{}: good", config.source.name);

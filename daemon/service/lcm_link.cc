@@ -1,39 +1,68 @@
 #include "daemon/service/lcm_link.h"
 
+#include <utility>
+
 #include "daemon/threads/process_threads.h"
+#include "daemon/threads/wall_clock.h"
 
 namespace leonav {
+namespace {
 
-LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine)
-    : engine_(engine), prefix_(config.prefix) {
+ByteSpan bytes_of(const lcm_recv_buf_t* buffer) {
+  return {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size};
+}
+
+}  // namespace
+
+LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
+                         std::optional<CommandGate> gate)
+    : engine_(engine), gate_(std::move(gate)), prefix_(config.prefix) {
   const std::set<pid_t> before = threads_of_process();
   lcm_ = open_lcm(config.url);
-  for (const Channel channel : kInputChannels) {
-    const std::string name = channel_name(channel, prefix_);
-    // The C++ interface would allocate the channel's name for each message, and crash where liblcm
-    // cannot start its thread, which it does with the first subscription.
-    lcm_subscription_t* subscription =
-        lcm_subscribe(lcm_->getUnderlyingLCM(), name.c_str(), &LcmReceiver::on_message, this);
-    if (subscription == nullptr)
-      throw LcmError("LCM at '" + config.url +
-                     "' starts no thread that receives; see the message above; give it more memory "
-                     "or threads (MemoryMax= and TasksMax= of its unit, ulimit -v and -u)");
-    lcm_subscription_set_queue_capacity(subscription, config.receive_queue);
-  }
+  for (const Channel channel : kInputChannels) subscribe(config, name_of(channel), &on_message);
+  if (gate_) subscribe(config, kSignedCommandChannel, &on_signed_command);
   for (const pid_t thread : threads_of_process()) {
     if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
   }
 }
 
-bool LcmReceiver::receive(int timeout_ms) { return lcm_->handleTimeout(timeout_ms) >= 0; }
+void LcmReceiver::subscribe(const LcmConfig& config, std::string_view channel, Handler handler) {
+  const std::string name = prefix_ + std::string(channel);
+  // The C++ interface would allocate the channel's name for each message, and crash where liblcm
+  // cannot start its thread, which it does with the first subscription.
+  lcm_subscription_t* subscription =
+      lcm_subscribe(lcm_->getUnderlyingLCM(), name.c_str(), handler, this);
+  if (subscription == nullptr)
+    throw LcmError("LCM at '" + config.url +
+                   "' starts no thread that receives; see the message above; give it more memory "
+                   "or threads (MemoryMax= and TasksMax= of its unit, ulimit -v and -u)");
+  lcm_subscription_set_queue_capacity(subscription, config.receive_queue);
+}
+
+bool LcmReceiver::receive(int timeout_ms) {
+  if (gate_) {
+    if (const auto nonce = gate_->due_nonce(monotonic_ns()))
+      engine_->publish_from_io(Channel::kCommandNonce, *nonce, wall_clock_us());
+  }
+  return lcm_->handleTimeout(timeout_ms) >= 0;
+}
 
 void LcmReceiver::on_message(const lcm_recv_buf_t* buffer, const char* name, void* self) {
   const auto* receiver = static_cast<const LcmReceiver*>(self);
   const auto channel = channel_from_name(name, receiver->prefix_);
   if (!channel) return;
-  receiver->engine_->receive(*channel,
-                             {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
-                             buffer->recv_utime);
+  if (*channel == Channel::kCommand && receiver->gate_)
+    return receiver->engine_->refuse(*channel, InputFault::kUnauthenticated, buffer->recv_utime);
+  receiver->engine_->receive(*channel, bytes_of(buffer), buffer->recv_utime);
+}
+
+void LcmReceiver::on_signed_command(const lcm_recv_buf_t* buffer, const char*, void* self) {
+  auto* receiver = static_cast<LcmReceiver*>(self);
+  CommandGate& gate = *receiver->gate_;
+  const InputFault fault = gate.judge(bytes_of(buffer), monotonic_ns());
+  if (fault != InputFault::kNone)
+    return receiver->engine_->refuse(Channel::kCommand, fault, buffer->recv_utime);
+  receiver->engine_->receive(Channel::kCommand, gate.command(), buffer->recv_utime);
 }
 
 }  // namespace leonav

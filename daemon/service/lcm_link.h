@@ -2,8 +2,11 @@
 #pragma once
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "daemon/commands/command_gate.h"
 #include "daemon/config/daemon_config.h"
 #include "daemon/engine/engine.h"
 #include "daemon/link/open_lcm.h"
@@ -14,19 +17,26 @@ namespace leonav {
 class LcmReceiver {
  public:
   // liblcm starts a thread that takes messages from the socket; it gets the priority of `io`, for
-  // which it works. Throws LcmError.
-  LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine);
+  // which it works. With a gate, commands come on the channel SIGNED_COMMAND and through it, and
+  // what comes on COMMAND is refused. Throws LcmError.
+  LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
+              std::optional<CommandGate> gate = std::nullopt);
 
   // The settings of that thread that the system refused, as a text; empty: none.
   const std::string& refused() const { return refused_; }
 
-  // Passes the messages received within `timeout_ms` to the engine. False: the link is broken.
+  // Passes the messages received within `timeout_ms` to the engine, and publishes COMMAND_NONCE
+  // where it is due. False: the link is broken.
   bool receive(int timeout_ms);
 
  private:
+  using Handler = void (*)(const lcm_recv_buf_t* buffer, const char* name, void* self);
+  void subscribe(const LcmConfig& config, std::string_view channel, Handler handler);
   static void on_message(const lcm_recv_buf_t* buffer, const char* name, void* self);
+  static void on_signed_command(const lcm_recv_buf_t* buffer, const char* name, void* self);
 
   Engine* engine_;
+  std::optional<CommandGate> gate_;
   std::string prefix_, refused_;
   std::unique_ptr<lcm::LCM> lcm_;
 };

@@ -28,7 +28,7 @@ install_packages() {
 }
 
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
-                       libyaml-cpp-dev libspdlog-dev libceres-dev libssl-dev)
+                       libyaml-cpp-dev libspdlog-dev libceres-dev libssl-dev nettle-dev)
 leonav_test_packages=(catch2)
 leonav_live_packages=(gpsd gpsd-clients openssl)
 leonav_package_packages=(lintian dpkg-dev file default-jdk-headless liblcm-java libjchart2d-java
