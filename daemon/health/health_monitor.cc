@@ -30,6 +30,8 @@ constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not co
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
 constexpr std::size_t kDetailBytes = 256;
+constexpr std::string_view kWaitsForEpoch =
+    "the filter has started over and waits for the next GNSS epoch";
 
 double solution_interval(const NavigatorConfig& config) {
   if (config.motion != MotionModel::kInertial) return config.realtime.epoch_interval_s;
@@ -152,6 +154,9 @@ std::string_view HealthMonitor::why_no_epoch() {
   const InputFault fault = faults_.most_frequent(Channel::kGnssEpoch);
   const bool wrong_time = fault == InputFault::kTimeBackwards || fault == InputFault::kTooFarAhead;
   if (!wrong_time || !expects_imu_) return "no GNSS epoch is used any more";
+  // What was rejected before the start was compared with a time of the IMU that holds no more.
+  if (starts_ > 0 && counters.received[index_of(Channel::kGnssEpoch)].get() <= received_at_start_)
+    return kWaitsForEpoch;
   with_fault("the GNSS epochs are rejected", Channel::kGnssEpoch);
   detail_ += ", their time is not that of the IMU: compare the two clocks";
   return detail_;
@@ -166,8 +171,7 @@ std::string_view HealthMonitor::why_no_solution() {
   const std::int64_t measured = sum(counters.satellites_by_reason);
   if (const std::string_view inputs = why_no_epoch(); !inputs.empty()) return inputs;
   // The satellites are those of the epoch before; the first new one may be on its way.
-  if (starts_ > 0 && counters.accepted_epochs.get() <= epochs_at_start_ + 1)
-    return "the filter has started over and waits for the next GNSS epoch";
+  if (starts_ > 0 && counters.accepted_epochs.get() <= epochs_at_start_ + 1) return kWaitsForEpoch;
   if (measured == 0) return "the GNSS epochs are without satellites";
   std::size_t most = 0;
   for (std::size_t i = 0; i < kReasonCount; ++i) {
@@ -311,7 +315,11 @@ void HealthMonitor::judge_measurements() {
 
 void HealthMonitor::judge_starts() {
   const std::int64_t starts = events(EventKind::kFilterReset);
-  if (starts != starts_) epochs_at_start_ = engine_->counters().accepted_epochs.get();
+  if (starts != starts_) {
+    const EngineCounters& counters = engine_->counters();
+    epochs_at_start_ = counters.accepted_epochs.get();
+    received_at_start_ = counters.received[index_of(Channel::kGnssEpoch)].get();
+  }
   starts_ = starts;
   raise_if_grown(HealthReason::kFilterStartedOver, starts);
 }

@@ -94,8 +94,9 @@ class HealthMonitor {
   RecentFaults faults_;
   RecentGrowth measurements_, contradicting_;
   RecentGrowth satellite_faults_{600};
-  std::int64_t starts_ = 0, epochs_at_start_ = 0;  // of the filter; accepted ones until then
-  int answering_looks_ = 0;                        // in a row with an answer of filter or smoother
+  std::int64_t starts_ = 0;                                   // of the filter
+  std::int64_t epochs_at_start_ = 0, received_at_start_ = 0;  // accepted and received until then
+  int answering_looks_ = 0;        // in a row with an answer of filter or smoother
   std::int64_t most_precise_ = 0;  // satellites by precise states since there were none
   std::array<std::int64_t, kHealthReasonCount> last_counts_{};
   ActiveReasons reasons_;

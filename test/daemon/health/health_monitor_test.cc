@@ -397,3 +397,24 @@ TEST_CASE("an IMU whose clock was set an hour ahead: HEALTH says that the two ti
   CHECK(said.find("no usable GNSS (messages come, but are rejected as time_backwards): ") !=
         std::string::npos);
 }
+
+TEST_CASE("inputs that come back after 16 s: HEALTH waits for an epoch before it compares clocks") {
+  Watched watched(MotionModel::kInertial);
+  int samples = 0;
+  std::string back, all;
+  watched.feed([&](Channel channel) {
+    if (channel == Channel::kImu) ++samples;
+    // The epoch of 46 s comes before the IMU's new time is believed, that of 47 s after the look.
+    if (channel == Channel::kImu && samples % 200 == 60) {
+      const std::string said = watched.at(samples / 200.0);
+      all += said + "\n";
+      if (samples / 200 == 46) back = said;
+    }
+    return samples <= 30 * 200 || samples > 46 * 200;
+  });
+  CAPTURE(all);
+  CHECK(back.find("FAULT: no solution yet (the filter has started over and waits for the next GNSS "
+                  "epoch)") == 0);
+  CHECK(back.find("rejected as too_far_ahead") != std::string::npos);
+  CHECK(all.find("compare the two clocks") == std::string::npos);
+}
