@@ -15,39 +15,44 @@ namespace {
 constexpr std::size_t kLongestEnding = std::string_view(".9999.part999999999.kept").size();
 constexpr double kShortestPiece_s = 10.0;
 
-[[noreturn]] void refuse(const DaemonConfig& config, const std::string& key,
-                         const std::string& why) {
+// Adds what is wrong with a key as a line of its own.
+void add(const DaemonConfig& config, const std::string& key, const std::string& why,
+         std::string* wrong) {
   std::string where;
   for (const ConfigKey& one : config.source.keys)
     if (one.path == key && one.given) where = one.origin + (one.origin == "--set" ? " " : ": ");
-  throw ConfigError(where + key + ": " + why);
+  *wrong += (wrong->empty() ? "" : "\n") + where + key + ": " + why;
+}
+
+// Returns why the path cannot be a journal's; "": it can.
+std::string why_no_path(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename();
+  const PieceName piece = parse_piece_name(name);
+  if (piece.kept || piece.number > 1) {
+    return "'" + name + "' is the name of a later or a kept piece of '" +
+           std::string(piece.journal) + "'; give a name that does not end in " +
+           (piece.kept ? ".kept" : ".part and digits");
+  }
+  const bool is_name = name.size() + kLongestEnding > NAME_MAX;
+  if (!is_name && path.size() + kLongestEnding < PATH_MAX) return "";
+  const std::size_t most = is_name ? NAME_MAX : PATH_MAX - 1;
+  return std::string("the ") + (is_name ? "name" : "path") +
+         " is too long, because its pieces have up to " + std::to_string(kLongestEnding) +
+         " characters more; at most " + std::to_string(most - kLongestEnding) +
+         " characters are possible, these are " +
+         std::to_string(is_name ? name.size() : path.size());
 }
 
 }  // namespace
 
 void require_journal(const DaemonConfig& config) {
-  const std::string& path = config.journal.path;
-  if (path.empty()) return;
-  const std::string name = std::filesystem::path(path).filename();
-  const PieceName piece = parse_piece_name(name);
-  if (piece.kept || piece.number > 1) {
-    refuse(config, "journal.path",
-           "'" + name + "' is the name of a later or a kept piece of '" +
-               std::string(piece.journal) + "'; give a name that does not end in " +
-               (piece.kept ? ".kept" : ".part and digits"));
-  }
-  if (name.size() + kLongestEnding > NAME_MAX || path.size() + kLongestEnding >= PATH_MAX) {
-    const bool is_name = name.size() + kLongestEnding > NAME_MAX;
-    const std::size_t most = is_name ? NAME_MAX : PATH_MAX - 1;
-    refuse(config, "journal.path",
-           std::string("the ") + (is_name ? "name" : "path") +
-               " is too long, because its pieces have up to " + std::to_string(kLongestEnding) +
-               " characters more; at most " + std::to_string(most - kLongestEnding) +
-               " characters are possible, these are " +
-               std::to_string(is_name ? name.size() : path.size()));
-  }
+  if (config.journal.path.empty()) return;
+  std::string wrong;
+  const std::string no_path = why_no_path(config.journal.path);
+  if (!no_path.empty()) add(config, "journal.path", no_path, &wrong);
   if (config.journal.piece_s > 0.0 && config.journal.piece_s < kShortestPiece_s)
-    refuse(config, "journal.piece_s", "must be at least 10, or 0 for pieces of any age");
+    add(config, "journal.piece_s", "must be at least 10, or 0 for pieces of any age", &wrong);
+  if (!wrong.empty()) throw ConfigError(wrong);
 }
 
 }  // namespace leonav

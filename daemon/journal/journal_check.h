@@ -4,9 +4,9 @@
 
 namespace leonav {
 
-// Throws ConfigError with key and remedy where the path cannot be a journal's, or where pieces
-// would hold next to nothing. Only what writes a journal asks for it: a replay takes the
-// configuration of any journal as it is.
+// Throws ConfigError where the path cannot be a journal's, or where pieces would hold next to
+// nothing; each of the two is a line with key and remedy. Only what writes a journal asks for it: a
+// replay takes the configuration of any journal as it is.
 void require_journal(const DaemonConfig& config);
 
 }  // namespace leonav

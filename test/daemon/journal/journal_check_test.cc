@@ -48,3 +48,11 @@ TEST_CASE(
   CHECK_NOTHROW(require_journal(with("{path: run, piece_s: 10}")));
   CHECK_NOTHROW(require_journal(with("{path: run, piece_s: 0}")));
 }
+
+TEST_CASE("a path and an age that no journal can have are told at once, each in its line") {
+  CHECK_THROWS_WITH(
+      require_journal(with("path: run.kept\n  piece_s: 9")),
+      "vehicle.yaml:2: journal.path: 'run.kept' is the name of a later or a kept piece of 'run'; "
+      "give a name that does not end in .kept\n"
+      "vehicle.yaml:3: journal.piece_s: must be at least 10, or 0 for pieces of any age");
+}

@@ -162,6 +162,34 @@ TEST_CASE("leonavd --check prints the effective configuration, or says what is w
   CHECK(test::run_program("leonavd", "--changes --preset car").exit_code == 2);
 }
 
+TEST_CASE("leonavd --check refuses a journal that cannot be written, at its lines") {
+  if (!test::have_programs("leonavd")) return;
+  const auto check = [](const std::string& journal) {
+    const test::TemporaryFile file("vehicle.yaml", "preset: car\njournal:\n" + journal);
+    return test::run_program("leonavd", "--check '" + file.path() + "'");
+  };
+  const auto bad = check("  path: run.kept\n  piece_s: 9\n");
+  CHECK(bad.exit_code == 3);
+  CHECK(bad.out.empty());
+  CHECK(bad.err.find("vehicle.yaml:3: journal.path: 'run.kept' is the name of a later or a kept "
+                     "piece of 'run'; give a name that does not end in .kept\n") !=
+        std::string::npos);
+  CHECK(bad.err.find("vehicle.yaml:4: journal.piece_s: must be at least 10, or 0 for ") !=
+        std::string::npos);
+  const auto later = check("  path: run.part0002\n");
+  CHECK(later.exit_code == 3);
+  CHECK(later.err.find("give a name that does not end in .part and digits") != std::string::npos);
+  const auto long_name = check("  path: " + std::string(232, 'x') + "\n");
+  CHECK(long_name.exit_code == 3);
+  CHECK(long_name.err.find("the name is too long") != std::string::npos);
+  // Without a journal its other keys are not judged, and a check creates none.
+  CHECK(check("  piece_s: 9\n").exit_code == 0);
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  CHECK(check("  path: " + path + "\n").exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(path));
+}
+
 TEST_CASE("leonavd --reference prints every key") {
   if (!test::have_programs("leonavd")) return;
   const auto run = test::run_program("leonavd", "--reference");
