@@ -9,6 +9,11 @@ namespace {
 
 constexpr std::string_view kRequired = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::string_view kPrediction = "prediction";
+
+bool is_prediction(Source source, bool has_attitude) {
+  return source == Source::kInsOnly && !has_attitude;
+}
 
 void write_vector(CsvWriter& writer, const std::optional<Eigen::Vector3d>& vector, double unit,
                   int decimals) {
@@ -24,11 +29,12 @@ std::optional<double> known(double level) {
 
 Source read_source(CsvRows& rows, int column) {
   if (rows.blank(column)) return Source::kNone;
+  if (rows.text(column) == kPrediction) return Source::kInsOnly;
   for (const Source source :
        {Source::kNone, Source::kAligning, Source::kInsOnly, Source::kEkf, Source::kSmoother}) {
     if (rows.text(column) == to_string(source)) return source;
   }
-  rows.mark_bad("source is none of none, aligning, ins, ekf, smoother");
+  rows.mark_bad("source is none of none, aligning, ins, prediction, ekf, smoother");
   return Source::kNone;
 }
 
@@ -49,12 +55,21 @@ SolutionRow to_solution_row(const Solution& solution, std::optional<int> satelli
     row.sigma_rpy = solution.sigma_rpy;
   }
   row.source = solution.source;
+  row.is_prediction = is_prediction(solution.source, solution.has_attitude);
   row.satellites = satellites;
   row.pdop = pdop;
   row.horizontal_protection_m = known(solution.horizontal_protection_m);
   row.vertical_protection_m = known(solution.vertical_protection_m);
   row.heading_protection = known(solution.heading_protection);
   return row;
+}
+
+std::string_view source_name(Source source, bool has_attitude) {
+  return is_prediction(source, has_attitude) ? kPrediction : to_string(source);
+}
+
+std::string_view source_name(const SolutionRow& row) {
+  return row.is_prediction ? kPrediction : to_string(row.source);
 }
 
 SolutionCsvWriter::SolutionCsvWriter(const std::string& path) : writer_(path, kSolutionCsvHeader) {}
@@ -64,7 +79,7 @@ void SolutionCsvWriter::write(const SolutionRow& row) {
   write_vector(writer_, row.sigma_p_n, 1.0, 4);
   write_vector(writer_, row.sigma_v_n, 1.0, 4);
   write_vector(writer_, row.sigma_rpy, kDegree, 6);
-  writer_.text(to_string(row.source));
+  writer_.text(source_name(row));
   writer_.text(row.satellites ? std::to_string(*row.satellites) : std::string());
   writer_.number(row.pdop, 2);
   writer_.number(row.horizontal_protection_m, 4);
@@ -99,6 +114,7 @@ SolutionCsv read_solution_csv(const std::string& path) {
     row.sigma_rpy = read_vector(rows, sigma[6], sigma[7], sigma[8]);
     if (row.sigma_rpy) *row.sigma_rpy *= kDegree;
     row.source = read_source(rows, source);
+    row.is_prediction = rows.text(source) == kPrediction;
     row.satellites = parse_int(rows.text(satellites));
     if (!row.satellites && !rows.blank(satellites)) rows.mark_bad("satellites is no whole number");
     row.pdop = rows.number(pdop);

@@ -26,6 +26,7 @@ struct SolutionRow {
   std::optional<Eigen::Vector3d> sigma_v_n;  // m/s
   std::optional<Eigen::Vector3d> sigma_rpy;  // rad
   Source source = Source::kNone;
+  bool is_prediction = false;  // without recent GNSS and without an IMU that carries it on
   std::optional<int> satellites;
   std::optional<double> pdop;
   std::optional<double> horizontal_protection_m, vertical_protection_m;
@@ -35,6 +36,12 @@ struct SolutionRow {
 // Converts a solution to a row; satellites and pdop come from the epoch on which it is based.
 SolutionRow to_solution_row(const Solution& solution, std::optional<int> satellites,
                             std::optional<double> pdop);
+
+// Returns the name of a source in tables and exports: that of to_string(), but "prediction" and not
+// "ins" where no attitude says that an IMU carries the answer on.
+std::string_view source_name(Source source, bool has_attitude);
+// The same of a row.
+std::string_view source_name(const SolutionRow& row);
 
 // Writes the digits of truth.csv; sigmas and protection levels 1e-4 m and m/s, 1e-6 deg;
 // pdop 1e-2.

@@ -29,8 +29,8 @@ std::string line_of(const std::string& name, std::span<const SolutionRow> rows) 
 std::string point_of(const SolutionRow& row) {
   std::string text = "{\"type\":\"Feature\",\"geometry\":{\"type\":\"Point\",\"coordinates\":" +
                      coordinates_of(row) + "},\"properties\":{\"time\":\"" +
-                     utc_text(row.pva.time) + "\",\"source\":\"" +
-                     std::string(to_string(row.source)) + "\"";
+                     utc_text(row.pva.time) + "\",\"source\":\"" + std::string(source_name(row)) +
+                     "\"";
   for (const PointAttribute& one : attributes_of(row)) {
     text += ",\"" + std::string(one.name) +
             "\":" + (one.value ? decimal(*one.value, one.decimals) : "null");

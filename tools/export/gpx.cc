@@ -10,7 +10,7 @@ namespace {
 
 std::string extensions_of(const SolutionRow& row) {
   std::string text =
-      "<extensions><leonav:source>" + std::string(to_string(row.source)) + "</leonav:source>";
+      "<extensions><leonav:source>" + std::string(source_name(row)) + "</leonav:source>";
   for (const PointAttribute& one : attributes_of(row)) {
     if (!one.value) continue;
     const std::string name(one.name);

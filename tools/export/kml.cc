@@ -34,7 +34,7 @@ std::string schema_of(const SolutionRow& row) {
 std::string data_of(const SolutionRow& row) {
   std::string text =
       "<ExtendedData><SchemaData schemaUrl=\"#solution\"><SimpleData name=\"source\">" +
-      std::string(to_string(row.source)) + "</SimpleData>";
+      std::string(source_name(row)) + "</SimpleData>";
   for (const PointAttribute& one : attributes_of(row)) {
     if (!one.value) continue;
     text += "<SimpleData name=\"" + std::string(one.name) + "\">" +

@@ -202,7 +202,7 @@ std::optional<std::string> odometry(const SolutionRow& row, const Geodetic& orig
 }
 
 std::string source_text(const SolutionRow& row) {
-  return CdrWriter().text(to_string(row.source)).bytes();
+  return CdrWriter().text(source_name(row)).bytes();
 }
 
 }  // namespace leonav

@@ -39,7 +39,7 @@ std::string nav_sat_fix(const SolutionRow& row);
 std::optional<std::string> odometry(const SolutionRow& row, const Geodetic& origin);
 inline constexpr double kUnknownVariance = 1e9;
 
-// The name of the source: "aligning", "ins", "ekf" or "smoother".
+// The name of the source: "aligning", "ins", "prediction", "ekf" or "smoother".
 std::string source_text(const SolutionRow& row);
 
 }  // namespace leonav

@@ -110,7 +110,7 @@ void ResultFiles::add(const EpochReport& report) {
   epochs_.time(report.time)
       .number(static_cast<double>(report.index), 0)
       .number(report.empty ? 1.0 : 0.0, 0)
-      .text(to_string(report.solution.source))
+      .text(source_name(report.solution.source, report.solution.has_attitude))
       .number(report.satellites_used, 0)
       .number(report.pdop, 2)
       .number(report.hdop, 2)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "drivers/csv/solution_csv.h"
+
 namespace leonav {
 namespace {
 
@@ -17,7 +19,7 @@ void print_map(std::ostream& out, const std::string& title,
 
 void RunStatistics::add(const Solution& solution) {
   ++solutions_;
-  ++solutions_by_source_[std::string(to_string(solution.source))];
+  ++solutions_by_source_[std::string(source_name(solution.source, solution.has_attitude))];
   largest_jump_m_ = std::max(largest_jump_m_, solution.jump_m);
 }
 

@@ -190,6 +190,7 @@ TEST_CASE("solution.csv: written and read again", "[csv]") {
   writer.close();
 
   const SolutionCsv again = read_solution_csv(path_of("solution"));
+  CHECK(again.report.skipped == 0);
   REQUIRE(again.rows.size() == 2);
   const SolutionRow& row = again.rows[0];
   CHECK(row.pva.time == GpsTime::from_week_and_tow(2381, 408'640.965));
@@ -211,6 +212,29 @@ TEST_CASE("solution.csv: written and read again", "[csv]") {
   CHECK_FALSE(again.rows[1].satellites);
   CHECK(again.rows[1].source == Source::kAligning);
   CHECK(content(path_of("solution")).starts_with(std::string(kSolutionCsvHeader) + "\n2381,"));
+}
+
+TEST_CASE("solution.csv: what no IMU carries on is a prediction and not ins", "[csv]") {
+  Solution solution;
+  solution.time = GpsTime::from_week_and_tow(2381, 408'640.0);
+  solution.source = Source::kInsOnly;
+  SolutionCsvWriter writer(path_of("prediction"));
+  for (const bool has_attitude : {false, true}) {
+    solution.has_attitude = has_attitude;
+    writer.write(to_solution_row(solution, std::nullopt, std::nullopt));
+    solution.time = solution.time.plus_seconds(1.0);
+    CHECK(source_name(solution.source, has_attitude) == (has_attitude ? "ins" : "prediction"));
+    CHECK(source_name(Source::kEkf, has_attitude) == "ekf");
+  }
+  writer.close();
+  const std::string text = content(path_of("prediction"));
+  CHECK(text.find(",prediction,") < text.find(",ins,"));
+  const SolutionCsv again = read_solution_csv(path_of("prediction"));
+  CHECK(again.report.skipped == 0);
+  REQUIRE(again.rows.size() == 2);
+  for (const SolutionRow& row : again.rows) CHECK(row.source == Source::kInsOnly);
+  CHECK(source_name(again.rows[0]) == "prediction");
+  CHECK(source_name(again.rows[1]) == "ins");
 }
 
 TEST_CASE("A full disk is an error", "[csv]") {

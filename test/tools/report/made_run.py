@@ -155,6 +155,7 @@ def journal(types):
             row = solution_rows[epoch]
             solution.source, solution.latitude_rad, solution.longitude_rad, solution.height_m = sources[row[11]], *np.radians(
                 row[2:4]), row[4]
+            solution.has_attitude = True  # an IMU carries the answer on where there is no GNSS
             solution.v_n, solution.sigma_p_n = list(row[5:8]), list(row[8:11])
             solution.horizontal_protection_m, solution.vertical_protection_m = row[14:16]
             put(time_ns, "SOLUTION", solution)

@@ -13,6 +13,7 @@ import pathlib
 import random
 import re
 import shutil
+import struct
 import sys
 import tempfile
 import unittest
@@ -31,8 +32,9 @@ matplotlib.use("Agg")
 import lcm_log  # noqa: E402
 import made_run  # noqa: E402
 from generated_types import generated_types  # noqa: E402
-from report import (accuracy_pictures, command, error_pictures, map_marks, map_view, numbers, residual_pictures, sky, style,  # noqa: E402
-                    timeline)
+from report import (accuracy_pictures, command, error_pictures, map_marks, map_picture, map_view, numbers,  # noqa: E402
+                    residual_pictures, sky, style, timeline)
+from report.errors import ReportError  # noqa: E402
 from report.gaps import gaps  # noqa: E402
 from report.local_frame import LocalFrame  # noqa: E402
 from report.map_picture import draw_map  # noqa: E402
@@ -300,6 +302,36 @@ class Numbers(unittest.TestCase):
         add_journal(theirs, str(journal()), "LEONAV_", quiet)
         self.assertEqual((theirs.missing, len(theirs.health), len(theirs.solution)), ([], 600, 588))
 
+    def test_a_journal_in_pieces_is_one_run_by_its_folder_and_by_its_first_piece(self):
+        events = list(lcm_log.messages(journal()))
+        folder = WORK / "pieces"
+        folder.mkdir()
+
+        def write(name, run, piece, first, last):
+            mark = struct.pack(">8xqqiqqb", 0, piece, 1, run, first, 0)
+            numbered = [(0, 0.0, "LEONAV_CONFIG", b""), (1, 0.0, "LEONAV_PIECE", mark)] + [(k + 2, *events[k]) for k in range(first - 2, last)]
+            with open(folder / name, "wb") as log:
+                for number, wall_s, channel, data in numbered:
+                    log.write(lcm_log.HEADER.pack(0xEDA1DA01, number, round(wall_s * 1e6), len(channel), len(data)) + channel.encode() + data)
+        half = len(events) // 2
+        write("run", 5, 1, 2, half)
+        write("run.part0002.kept", 5, 2, half + 2, len(events))
+        (folder / "notes.txt").write_text("no log")
+        whole = read_run(str(journal()), "LEONAV_", quiet)
+        gaps_of_whole = numbers.gap_table(whole, whole.solution.time[0])
+        for path in (folder, folder / "run"):
+            run = read_run(str(path), "LEONAV_", quiet)
+            self.assertEqual((run.missing, len(run.solution), len(run.health)), ([], len(whole.solution), len(whole.health)))
+            self.assertEqual(numbers.gap_table(run, run.solution.time[0]), gaps_of_whole)
+        self.assertEqual(read_run(str(folder), "LEONAV_", quiet).label, "pieces")
+        tables = read_run(str(WORK), "LEONAV_", quiet)
+        add_journal(tables, str(folder), "LEONAV_", quiet)
+        self.assertEqual((tables.missing, len(tables.health)), ([], 600))
+        (folder / "run").rename(folder / "run.kept")  # as after a fault: it is still found under its name
+        self.assertEqual(len(read_run(str(folder / "run"), "LEONAV_", quiet).solution), len(whole.solution))
+        write("other", 6, 1, 2, 20)
+        self.assertRaisesRegex(ReportError, "several runs; give the first piece", read_run, str(folder), "LEONAV_", quiet)
+
     def test_a_span_ends_where_the_value_changes_or_the_series_pauses(self):
         spans = timeline.spans_of(np.array([0.0, 1.0, 2.0, 3.0, 20.0, 21.0]), np.array(["a", "a", "b", "b", "b", "a"], dtype=object),
                                   {"a": "red", "b": "blue"}, 2.5)
@@ -480,9 +512,33 @@ class Page(unittest.TestCase):
         self.assertEqual((code, err), (0, ""))
         reader, text = self.read(alone / "r.html")
         self.assertEqual(len(reader.sources), 3)  # map, satellites, timeline
-        for sentence in ("no sky plot: no satellites.csv beside", "no residuals: no measurements.csv", "give it with --journal FILE"):
+        for sentence in ("no sky plot: no satellites.csv beside", "no residuals: no measurements.csv", "give it with --journal PATH"):
             self.assertIn(sentence, text)
 
+
+    def test_what_is_only_predicted_is_a_gap_and_no_track(self):
+        folder = WORK / "predicted"
+        folder.mkdir()
+        text = (WORK / "solution.csv").read_text()
+        self.assertEqual(text.count(",ins,"), 20)
+        (folder / "solution.csv").write_text(text.replace(",ins,", ",prediction,"))
+        run, with_imu = read_run(str(folder), "LEONAV_", quiet), read_run(str(WORK), "LEONAV_", quiet)
+        start, no_offset = run.solution.time[0], np.zeros((3, 1))
+        tracks = [map_picture.Track(one, no_offset, LocalFrame(with_imu.solution)) for one in (run, with_imu)]
+        everywhere = (-1e9, 1e9, -1e9, 1e9)
+        rows = [track.segments(everywhere)[1] for track in tracks]
+        self.assertEqual(len(rows[1]) - len(rows[0]), 20)
+        self.assertNotIn("prediction", set(run.solution["source"][rows[0]]))
+        # From the last epoch before the gap to the first one that is no prediction.
+        self.assertEqual([track.gaps[0][1] - track.gaps[0][0] for track in tracks], [33.0, 13.0])
+        self.assertEqual(numbers.gap_table(run, start)[1][0][2], "33 s")
+        self.assertIn("prediction 3 %", timeline.answer_rows(run)[0].note)
+        code, _, err = run_report(folder, "--truth", WORK / "truth.csv", "-o", folder / "r.html")
+        self.assertEqual((code, err), (0, ""))
+        # A run of nothing else is shown all the same.
+        (folder / "solution.csv").write_text(re.sub(",(ins|ekf|smoother),", ",prediction,", text))
+        code, _, err = run_report(folder, "-o", folder / "r.html")
+        self.assertEqual((code, err), (0, ""))
 
     def test_what_leonav_smooth_wrote_is_a_run_with_its_own_sigmas(self):
         smoothed = WORK / "smoothed"
@@ -524,10 +580,13 @@ class Refusals(unittest.TestCase):
             self.assertIn(expected, self.refused(self.made(name, data)))
         self.assertIn("absent: No such file or directory; check the path", self.refused(WORK / "absent"))
         (WORK / "empty").mkdir()
-        self.assertIn("no solution.csv in this folder; give the folder that leonav-replay", self.refused(WORK / "empty"))
+        self.assertIn("neither solution.csv nor a journal's pieces in this folder; give the folder that leonav-replay",
+                      self.refused(WORK / "empty"))
         self.assertIn("have no common time; is this the truth", self.refused(
             WORK, "--truth", self.made("t.csv", header + "2100,1,45,7,0\n")))
-        self.assertIn("this is no LCM log; give --journal the journal", self.refused(WORK, "--journal", WORK / "solution.csv"))
+        self.assertIn("this is no LCM log, and no folder with the pieces of one; give --journal the journal",
+                      self.refused(WORK, "--journal", WORK / "solution.csv"))
+        self.assertIn("no folder with the pieces of one", self.refused(WORK, "--journal", WORK / "empty"))
 
     def test_an_output_that_cannot_be_written_is_an_error(self):
         self.made("file", "x")

@@ -34,6 +34,12 @@ def _spread(columns, pattern, array, suffixes, scale=1.0):
         columns[pattern.format(suffix)] = column if scale == 1.0 else column * scale
 
 
+def _sources(solutions):
+    """Names as in solution.csv: what no IMU carries on over a time without GNSS, and so has no attitude, is a prediction."""
+    named, attitude = names.named(solutions["source"], names.SOURCES), np.asarray(solutions["has_attitude"]) != 0
+    return np.where((named == "ins") & ~attitude, "prediction", named)
+
+
 def _solution_columns(m):
     """Columns of solution.csv, without satellites and PDOP, which SOLUTION does not have; then the other fields."""
     attitude = np.asarray(m["has_attitude"]) != 0
@@ -44,7 +50,7 @@ def _solution_columns(m):
     _spread(columns, "std_{}_m", m["sigma_p_n"], AXES_NED)
     _spread(columns, "std_v_{}_m_s", m["sigma_v_n"], AXES_NED)
     _spread(columns, "std_{}_deg", np.where(attitude[:, None], m["sigma_rpy"], np.nan), ANGLES, DEGREES)
-    columns["source"] = names.named(m["source"], names.SOURCES)
+    columns["source"] = _sources(m)
     has_levels = "horizontal_protection_m" in m.dtype.names  # not in journals of older versions
     columns["protection_horizontal_m"] = _native(m["horizontal_protection_m"]) if has_levels else np.nan
     columns["protection_vertical_m"] = _native(m["vertical_protection_m"]) if has_levels else np.nan
@@ -134,7 +140,7 @@ def epoch(messages):
     time_ns = _gather(messages, "time_ns")
     solutions = np.array([m["solution"] for m in messages])
     columns = {"epoch": _gather(messages, "index"), "empty": _gather(messages, "empty") != 0,
-               "source": names.named(solutions["source"], names.SOURCES), "satellites": _gather(messages, "satellites_used")}
+               "source": _sources(solutions), "satellites": _gather(messages, "satellites_used")}
     for name in ("pdop", "hdop", "vdop"):
         columns[name] = _gather(messages, name)
     _spread(columns, "clock_{}_m", _gather(messages, "clock_m"), names.SYSTEMS)

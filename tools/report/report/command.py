@@ -34,9 +34,10 @@ def arguments(words):
         description="Shows one or several runs: a map with gaps and what lies outside, errors against a truth, satellites and dilution\n"
                     "of precision, sigma and protection levels; of each run a sky plot, residuals by kind and by satellite, and what\n"
                     "happened when: HEALTH, who answered, late results, gaps of inputs, events. Needs no display and no network.",
-        epilog="A RUN is a journal of leonavd, or what leonav-replay or leonav-smooth wrote: the folder, or its solution.csv, beside which\n"
-               "satellites.csv, measurements.csv and events.csv are read where they are; or RTKLIB's .pos file. What a run does not hold is\n"
-               "left out, and the page says so. Journals need python3-pandas.\n\n"
+        epilog="A RUN is a journal of leonavd (its first piece, or the folder with its pieces, stands for all of them), or what leonav-replay\n"
+               "or leonav-smooth wrote: the folder, or its solution.csv, beside which satellites.csv, measurements.csv and events.csv are read\n"
+               "where they are; or RTKLIB's .pos file. What a run does not hold is left out, and the page says so. Journals need\n"
+               "python3-pandas.\n\n"
                "  leonav-report run.journal -o report.html\n"
                "  leonav-report --truth truth.csv smoother=result filter=result/filter.csv -o plots\n"
                "  leonav-report result --journal run.journal --color sigma -o report.html\n\n"
@@ -50,7 +51,7 @@ def arguments(words):
     help="a file NAME.html that holds everything, or a folder for PNG files and "
     "an index.html; made if needed")
     parser.add_argument("--truth", metavar="FILE", help="truth.csv; without it there are no errors")
-    parser.add_argument("--journal", metavar="FILE", help="journal of the first RUN, for what its tables do not hold")
+    parser.add_argument("--journal", metavar="PATH", help="journal of the first RUN, or the folder with its pieces, for what its tables do not hold")
     parser.add_argument("--color", choices=COLORS_BY, default="source", help="what colours the first run on the map: who gave the answer, "
                                                                              "horizontal sigma, or speed [source]")
     parser.add_argument("--remove-offset", action="store_true", help="remove each run's mean error (a truth with an unknown datum)")

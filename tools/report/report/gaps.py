@@ -9,6 +9,16 @@ def usual_interval(time):
     return float(np.median(np.diff(time))) if len(time) > 2 else float("nan")
 
 
+def was_answered(table):
+    """Which rows of a solution rest on something: a prediction without GNSS and without an IMU is the course of before."""
+    return table["source"] != "prediction"
+
+
+def solution_gaps(table):
+    """The gaps of a solution, in which there was no answer or only a prediction."""
+    return gaps(table.time[was_answered(table)])
+
+
 def gaps(time, shortest_s=0.0):
     """Returns the rows [begin, end] of times between which the series pauses: for longer than 2.5 usual intervals and `shortest_s`."""
     if len(time) < 3:

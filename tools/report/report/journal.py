@@ -1,10 +1,12 @@
 """Takes what a report needs out of a journal, with the Python package of leonav."""
+import os
 import warnings
 
 import numpy as np
+from leonav import pieces
 
 from .errors import ReportError
-from .gaps import gaps
+from .gaps import solution_gaps
 from .tables import POSITION, SOLUTION, Table
 
 SYNC = b"\xed\xa1\xda\x01"
@@ -13,8 +15,15 @@ OUTPUTS = ("SOLUTION", "EPOCH", "EVENT", "DECISION", "HEALTH")
 SHOWN_HZ = 10.0  # of a solution at the IMU's rate; no picture has more pixels
 
 
-def is_log(path):
-    """Whether a file begins as an LCM event log does."""
+def name_of(path):
+    """The path under which a journal is: its first piece is renamed where it is kept after a fault."""
+    return pieces.name_of(path)
+
+
+def is_journal(path):
+    """Whether a file begins as an LCM event log does, or a folder holds such pieces of a journal."""
+    if os.path.isdir(path):
+        return any(pieces.piece_of(os.path.join(path, name)) is not None for name in sorted(os.listdir(path)))
     try:
         with open(path, "rb") as file:
             return file.read(len(SYNC)) == SYNC
@@ -71,7 +80,7 @@ def _read_solution(run, stream):
     stream = stream.rows((stream["source"] != "none") & np.isfinite(stream[POSITION[2]] + stream[POSITION[3]] + stream[POSITION[4]]))
     if not len(stream):
         return
-    run.solution_gaps, run.continuous = gaps(stream.time), True
+    run.solution_gaps, run.continuous = solution_gaps(stream), True
     slot, source = np.floor(stream.time * SHOWN_HZ), stream["source"]
     first = np.concatenate([[True], (slot[1:] != slot[:-1]) | (source[1:] != source[:-1])])
     if len(run.solution_gaps):

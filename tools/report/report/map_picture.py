@@ -7,7 +7,7 @@ from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from matplotlib.lines import Line2D
 
 from . import style
-from .gaps import gaps
+from .gaps import gaps, was_answered
 from .labels import Labels
 from .map_marks import draw_graticule, draw_scale_and_arrow
 from .map_view import extent, horizontal_sigma, speed
@@ -25,7 +25,11 @@ class Track:
     def __init__(self, run, offset, frame):
         self.run, self.label, self.table = run, run.label, run.solution
         self.north, self.east = frame.of(run.solution)[:2] - offset[:2]
-        ok = np.isfinite(self.north + self.east)
+        finite = np.isfinite(self.north + self.east)
+        ok = finite & was_answered(run.solution)  # what was only predicted is no track, but a gap
+        if not ok.any():
+            ok = finite
+        self.north, self.east = np.where(ok, self.north, np.nan), np.where(ok, self.east, np.nan)
         self.ok, self.time = ok, run.solution.time
         found = run.solution_gaps if run.continuous else gaps(self.time[ok])
         self.gaps = [(begin, end) for begin, end in found if end - begin > SHORTEST_GAP_S]
@@ -225,7 +229,7 @@ def _length(track, box):
     v = speed(track.table)
     if np.isfinite(v).any():
         step = np.diff(track.time)
-        usable = np.isfinite(v[1:]) & (step < 5.0)
+        usable = np.isfinite(v[1:]) & (step < 5.0) & track.ok[1:] & track.ok[:-1]
         return float(np.sum(v[1:][usable] * step[usable]))
     segments, _ = track.segments(box)
     return float(np.sum(np.hypot(*(segments[:, 1] - segments[:, 0]).T)))

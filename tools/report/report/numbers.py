@@ -4,7 +4,7 @@ import collections
 import numpy as np
 
 from . import style
-from .gaps import gaps
+from .gaps import solution_gaps
 from .map_view import horizontal_sigma
 from .residuals import KINDS, counts, kinds_of, tried
 from .timeline import gap_note, miss_rows, shares
@@ -27,7 +27,7 @@ def summary(runs, errors):
         put("start", style.utc_text(table.time[0]))
         put("duration", style.duration(table.time[-1] - table.time[0]))
         put("solutions", f"{len(table)}" + (" shown, thinned" if run.continuous else ""))
-        put("gaps of the solution", gap_note(run.solution_gaps if run.continuous else gaps(table.time)))
+        put("gaps of the solution", gap_note(run.solution_gaps if run.continuous else solution_gaps(table)))
         put("answered by", shares(table["source"], style.SOURCE_NAMES) or "-")
         sigma = horizontal_sigma(table)
         put("horizontal 1 sigma, median", _metres(np.nanmedian(sigma)) if np.isfinite(sigma).any() else "-")
@@ -49,7 +49,7 @@ def summary(runs, errors):
 
 def gap_table(run, start):
     """The longest gaps of the solution."""
-    found = run.solution_gaps if run.continuous else gaps(run.solution.time)
+    found = run.solution_gaps if run.continuous else solution_gaps(run.solution)
     found = found[np.argsort(found[:, 0] - found[:, 1], kind="stable")][:MOST_ROWS]
     hours = run.solution.time[-1] - start >= 3600
     return ["from", "to", "duration"], [[style.clock_text(begin -

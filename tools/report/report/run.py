@@ -12,7 +12,7 @@ MEASUREMENTS = ("gps_week", "gps_tow_s", "satellite", "observable", "signals", "
 SMOOTHED_RESIDUALS = ("gps_week", "gps_tow_s", "satellite", "observable", "signals", "residual", "sigma", "weight_factor")
 EVENTS = ("gps_week", "gps_tow_s", "event")
 # What no table of a replay holds.
-ONLY_IN_JOURNAL = "HEALTH, misses by their decisions, and gaps of the inputs stand in a journal only; give it with --journal FILE"
+ONLY_IN_JOURNAL = "HEALTH, misses by their decisions, and gaps of the inputs stand in a journal only; give it with --journal PATH"
 
 
 class Run:
@@ -36,13 +36,15 @@ def read_run(word, prefix, tell):
     label, equals, path = word.partition("=")
     if not equals or os.path.exists(word):
         label, path = None, word
+    path = journal.name_of(path)
     folder = path if os.path.isdir(path) else os.path.dirname(os.path.abspath(path))
-    if os.path.isdir(path):
+    if os.path.isdir(path) and os.path.exists(os.path.join(path, "solution.csv")):
         path = os.path.join(path, "solution.csv")
-        if not os.path.exists(path):
-            raise ReportError(f"{folder}: no solution.csv in this folder; give the folder that leonav-replay --out wrote, or a journal")
-    if journal.is_log(path):
-        run = Run(label or os.path.basename(path), path)
+    elif os.path.isdir(path) and not journal.is_journal(path):
+        raise ReportError(f"{folder}: neither solution.csv nor a journal's pieces in this folder; give the folder that leonav-replay --out "
+                          "wrote, or a journal")
+    if journal.is_journal(path):
+        run = Run(label or os.path.basename(os.path.abspath(path)), path)
         journal.read_into(run, path, prefix, tell)
         if run.solution is None:
             raise ReportError(f"{path}: no SOLUTION with a position in this log; replay it with leonav-replay --out FOLDER, and give FOLDER")
@@ -53,7 +55,7 @@ def read_run(word, prefix, tell):
         _read_siblings(run, folder, tell)
     else:
         run.missing.append(f"{os.path.basename(path)} has positions alone; satellites, residuals and events stand beside a solution.csv "
-                           "or in a journal (--journal FILE)")
+                           "or in a journal (--journal PATH)")
     if run.health is None:
         run.missing.append(ONLY_IN_JOURNAL)
     return run
@@ -61,8 +63,9 @@ def read_run(word, prefix, tell):
 
 def add_journal(run, path, prefix, tell):
     """Adds what only a journal holds, and what its tables lack, to a run."""
-    if not journal.is_log(path):
-        raise ReportError(f"{path}: this is no LCM log; give --journal the journal of leonavd")
+    path = journal.name_of(path)
+    if not journal.is_journal(path):
+        raise ReportError(f"{path}: this is no LCM log, and no folder with the pieces of one; give --journal the journal of leonavd")
     run.missing.clear()
     journal.read_into(run, path, prefix, tell)
 
@@ -82,7 +85,7 @@ def _read_siblings(run, folder, tell):
     for what, found, name in (("sky plot", run.satellites, "satellites.csv"), ("residuals", run.measurements, "measurements.csv"),
                               ("events", run.events, "events.csv")):
         if found is None:
-            run.missing.append(f"no {what}: no {name} beside {run.path}; give a folder of leonav-replay --out, or --journal FILE")
+            run.missing.append(f"no {what}: no {name} beside {run.path}; give a folder of leonav-replay --out, or --journal PATH")
 
 
 def _has_rows(path):

@@ -4,7 +4,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import style
-from .gaps import GAP_INTERVALS, gaps, usual_interval
+from .gaps import GAP_INTERVALS, gaps, solution_gaps, usual_interval
 
 INPUT_NAMES = {
     "IMU": "IMU",
@@ -67,7 +67,7 @@ def health_row(run):
 def answer_rows(run):
     """Who answered, and the gaps of the solution."""
     table = run.solution
-    found = run.solution_gaps if run.continuous else gaps(table.time)
+    found = run.solution_gaps if run.continuous else solution_gaps(table)
     longest = GAP_INTERVALS * usual_interval(table.time) if len(table) > 2 else 1.0
     source = table["source"]
     note = shares(source, style.SOURCE_NAMES) or "source not known"
