@@ -21,6 +21,7 @@ void CheckpointWriter::start() {
   if (config_.path.empty()) return;
   products_path_ = products_path(config_.path);
   newest_products_.ephemerides.reserve(ProductStore::kMostEphemerides);
+  newest_products_.biases.reserve(ProductStore::kMostBiases);
   written_products_.reserve(ProductsText::kUsualBytes);
   thread_.start(
       "file", ThreadConfig(), [this] { run(); }, RealtimeThread::kSmallStackBytes);

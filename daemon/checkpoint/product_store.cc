@@ -1,11 +1,33 @@
 #include "daemon/checkpoint/product_store.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
-namespace leonav {
+#include "core/base/capacity.h"
 
-ProductStore::ProductStore() { products_.ephemerides.reserve(kMostEphemerides); }
+namespace leonav {
+namespace {
+
+auto signal_of(const SignalBias& bias) { return std::tie(bias.satellite, bias.kind, bias.code); }
+
+bool is_before(const SignalBias& a, const SignalBias& b) {
+  return std::tuple(signal_of(a), a.valid_from) < std::tuple(signal_of(b), b.valid_from);
+}
+
+}  // namespace
+
+std::span<const SignalBias> first_message_of(std::span<const SignalBias> biases) {
+  std::size_t count = 0;
+  while (count < std::min(biases.size(), kMaxBiases) && biases[count].time == biases[0].time)
+    ++count;
+  return biases.first(count);
+}
+
+ProductStore::ProductStore() {
+  products_.ephemerides.reserve(kMostEphemerides);
+  products_.biases.reserve(kMostBiases);
+}
 
 void ProductStore::keep(const Ephemeris& ephemeris) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -29,10 +51,44 @@ void ProductStore::keep(const KlobucharModel& ionosphere) {
   changed_ = true;
 }
 
+void ProductStore::keep(std::span<const SignalBias> biases) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  for (const SignalBias& bias : biases) {
+    if (bias.kind == BiasKind::kPhase || !is_sane(bias)) continue;
+    keep_bias(bias);
+    changed_ = true;
+  }
+}
+
+void ProductStore::keep_bias(const SignalBias& bias) {
+  std::vector<SignalBias>& all = products_.biases;
+  const auto place = std::lower_bound(all.begin(), all.end(), bias, is_before);
+  if (place != all.end() && !is_before(bias, *place)) {
+    *place = bias;
+    return;
+  }
+  const auto same_signal = [&](const SignalBias& one) { return signal_of(one) == signal_of(bias); };
+  auto first = place;
+  while (first != all.begin() && same_signal(*(first - 1))) --first;
+  const auto end = std::find_if_not(place, all.end(), same_signal);
+  if (static_cast<std::size_t>(end - first) < SignalBiasStore::kMaxIntervals) {
+    if (all.size() < kMostBiases) all.insert(place, bias);
+    return;
+  }
+  *std::min_element(
+      first, end, [](const SignalBias& a, const SignalBias& b) { return a.time < b.time; }) = bias;
+  std::sort(first, end, is_before);
+}
+
 bool ProductStore::take(BroadcastProducts* products) {
   const std::lock_guard lock(mutex_);
   if (!std::exchange(changed_, false)) return false;
   *products = products_;
+  std::sort(products->biases.begin(), products->biases.end(),
+            [](const SignalBias& a, const SignalBias& b) {
+              return a.time != b.time ? a.time < b.time : is_before(a, b);
+            });
   return true;
 }
 

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "daemon/config/load_config.h"
@@ -102,6 +104,7 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
   auto [rest, events] = without_sum(text, path);
   BroadcastProducts products;
   Decoder decoder;
+  const auto biases = std::make_unique<SignalBiases>();  // too large for a stack
   while (!rest.empty()) {
     const auto event = take_event(&rest);
     if (!event) throw ConfigError(path + ": is damaged: no event log");
@@ -116,6 +119,10 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
     } else if (channel == Channel::kIonosphere &&
                decoder.decode(event->data, &ionosphere).fault == InputFault::kNone) {
       products.ionosphere = ionosphere;
+    } else if (channel == Channel::kBiases &&
+               decoder.decode(event->data, biases.get()).fault == InputFault::kNone &&
+               products.biases.size() + biases->size() <= ProductStore::kMostBiases) {
+      products.biases.insert(products.biases.end(), biases->begin(), biases->end());
     } else {
       throw ConfigError(path + ": is of another version of leonav, or damaged");
     }
@@ -126,6 +133,7 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
 
 ProductsText::ProductsText()
     : ephemeris_channel_(channel_name(Channel::kEphemeris)),
+      biases_channel_(channel_name(Channel::kBiases)),
       ionosphere_channel_(channel_name(Channel::kIonosphere)) {
   text_.reserve(kUsualBytes);
 }
@@ -135,6 +143,11 @@ const std::string& ProductsText::of(const BroadcastProducts& products) {
   std::int64_t number = 0;
   for (const Ephemeris& ephemeris : products.ephemerides)
     append_event(ephemeris_channel_, encoder_.encode(ephemeris, 0), number++, &text_);
+  for (std::span<const SignalBias> rest = products.biases; !rest.empty();) {
+    const std::span<const SignalBias> message = first_message_of(rest);
+    append_event(biases_channel_, encoder_.encode(message, 0), number++, &text_);
+    rest = rest.subspan(message.size());
+  }
   if (products.ionosphere) {
     const ByteSpan bytes = encoder_.encode(*products.ionosphere, GpsTime(), 0);
     append_event(ionosphere_channel_, bytes, number++, &text_);

@@ -1,8 +1,8 @@
 // These functions read and make the file of broadcast products beside the checkpoint.
 //
-// The file is an LCM event log of the messages EPHEMERIS and IONOSPHERE, so that lcm-logplayer and
-// leonav-import can read it; its last event, on the channel CRC32, is the CRC-32 of all bytes
-// before it.
+// The file is an LCM event log of the messages EPHEMERIS, BIASES and IONOSPHERE, so that
+// lcm-logplayer and leonav-import can read it; its last event, on the channel CRC32, is the CRC-32
+// of all bytes before it.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ std::optional<BroadcastProducts> load_products(const std::string& path);
 // it only where a content is longer than any before.
 class ProductsText {
  public:
-  static constexpr std::size_t kUsualBytes = 64 << 10;  // of some 300 satellites; no limit
+  static constexpr std::size_t kUsualBytes = 128 << 10;  // of some 300 satellites; no limit
 
   ProductsText();
 
@@ -31,7 +31,7 @@ class ProductsText {
   const std::string& of(const BroadcastProducts& products);
 
  private:
-  std::string ephemeris_channel_, ionosphere_channel_;
+  std::string ephemeris_channel_, biases_channel_, ionosphere_channel_;
   Encoder encoder_;
   std::string text_;
 };

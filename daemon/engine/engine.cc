@@ -1,5 +1,6 @@
 #include "daemon/engine/engine.h"
 
+#include <span>
 #include <utility>
 
 #include "daemon/engine/internal/input_counters.h"
@@ -85,6 +86,9 @@ void Engine::keep_product(Channel channel) {
   const Ephemeris& ephemeris = dispatch_.ephemeris();
   if (channel == Channel::kEphemeris && is_valid(ephemeris.satellite) && is_sane(ephemeris))
     checkpoint_writer_.products()->keep(ephemeris);
+  const SignalBiases& biases = dispatch_.biases();
+  if (channel == Channel::kBiases)
+    checkpoint_writer_.products()->keep(std::span(biases.data(), biases.size()));
   if (channel == Channel::kIonosphere) checkpoint_writer_.products()->keep(dispatch_.ionosphere());
 }
 

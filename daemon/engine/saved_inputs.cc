@@ -1,5 +1,7 @@
 #include "daemon/engine/saved_inputs.h"
 
+#include <span>
+
 #include "daemon/threads/wall_clock.h"
 #include "drivers/lcm/encode.h"
 
@@ -10,6 +12,11 @@ void receive_saved(const BroadcastProducts& products, Engine* engine) {
   // Without numbers, which belong to the senders.
   for (const Ephemeris& ephemeris : products.ephemerides)
     engine->receive(Channel::kEphemeris, encoder.encode(ephemeris, 0), wall_clock_us());
+  for (std::span<const SignalBias> rest = products.biases; !rest.empty();) {
+    const std::span<const SignalBias> message = first_message_of(rest);
+    engine->receive(Channel::kBiases, encoder.encode(message, 0), wall_clock_us());
+    rest = rest.subspan(message.size());
+  }
   if (products.ionosphere) {
     const ByteSpan bytes = encoder.encode(*products.ionosphere, GpsTime(), 0);
     engine->receive(Channel::kIonosphere, bytes, wall_clock_us());

@@ -67,7 +67,8 @@ void begin_from_products(const std::string& path, Engine* engine) {
     const auto products = load_products(path);
     if (!products) return;
     receive_saved(*products, engine);
-    spdlog::info("{}: {} ephemerides read", path, products->ephemerides.size());
+    spdlog::info("{}: {} ephemerides and {} biases of signals read", path,
+                 products->ephemerides.size(), products->biases.size());
   } catch (const ConfigError& error) {
     spdlog::warn("broadcast products ignored: {}", error.what());
   }

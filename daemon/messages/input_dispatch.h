@@ -27,6 +27,7 @@ class InputDispatch {
   // What the last message that decode() took held, where it was of that kind.
   const Ephemeris& ephemeris() const { return ephemeris_; }
   const KlobucharModel& ionosphere() const { return ionosphere_; }
+  const SignalBiases& biases() const { return *biases_; }
 
   // Counts messages that were refused by decode(), now or when a journal was written.
   void refuse(const RefusedInputs& refused);

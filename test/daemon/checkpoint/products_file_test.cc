@@ -2,6 +2,8 @@
 #include "daemon/checkpoint/products_file.h"
 
 #include <fstream>
+#include <span>
+#include <vector>
 
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/decode.h"
@@ -13,6 +15,19 @@ using namespace leonav;
 
 namespace {
 
+SignalBias bias_of(std::uint16_t number, double bias_m, double received_s, double from_s = 0.0) {
+  SignalBias bias;
+  bias.satellite = {System::kGalileo, number};
+  bias.code = {'5', 'Q'};
+  bias.time = test::kSkyEpoch.plus_seconds(received_s);
+  bias.bias_m = bias_m;
+  if (from_s != 0.0) {
+    bias.valid_from = test::kSkyEpoch.plus_seconds(from_s);
+    bias.valid_until = bias.valid_from.plus_seconds(86400.0);
+  }
+  return bias;
+}
+
 BroadcastProducts some_products() {
   BroadcastProducts products;
   Decoder decoder;
@@ -23,6 +38,7 @@ BroadcastProducts some_products() {
                             decoder.decode(bytes, &ephemeris).fault == InputFault::kNone)
                           products.ephemerides.push_back(ephemeris);
                       });
+  products.biases = {bias_of(3, 1.5, 0.0), bias_of(4, -0.25, 0.0, 10.0), bias_of(1, 2.0, 5.0)};
   products.ionosphere = KlobucharModel();
   products.ionosphere->alpha[0] = 1e-8;
   return products;
@@ -53,6 +69,15 @@ TEST_CASE("products are read as they were written") {
   CHECK(read->ephemerides[2].satellite == products.ephemerides[2].satellite);
   CHECK(read->ephemerides[2].m0 == products.ephemerides[2].m0);
   CHECK(read->ionosphere->alpha[0] == 1e-8);
+  REQUIRE(read->biases.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(read->biases[i].satellite == products.biases[i].satellite);
+    CHECK(read->biases[i].code == products.biases[i].code);
+    CHECK(read->biases[i].bias_m == products.biases[i].bias_m);
+    CHECK(read->biases[i].time == products.biases[i].time);
+    CHECK(read->biases[i].valid_from == products.biases[i].valid_from);
+    CHECK(read->biases[i].valid_until == products.biases[i].valid_until);
+  }
   CHECK(text_of_file(*read) == text);
 }
 
@@ -61,6 +86,7 @@ TEST_CASE("a file with any byte changed, cut anywhere, or too long is refused as
   const std::string path = folder.beside("c.products");
   BroadcastProducts few = some_products();
   few.ephemerides.resize(2);
+  REQUIRE(few.biases.size() == 3);
   const std::string text = text_of_file(few);
   std::size_t refused = 0, tried = 0;
   const auto attempt = [&](const std::string& damaged) {
@@ -98,4 +124,56 @@ TEST_CASE("the newest elements of a satellite replace those before, of each mess
   REQUIRE(taken.ephemerides.size() == 2);
   CHECK(taken.ephemerides[0].issue == 7);
   CHECK_FALSE(store.take(&taken));
+}
+
+TEST_CASE("a signal's newest bias replaces the one before, and the next day's comes beside it") {
+  ProductStore store;
+  BroadcastProducts taken;
+  const auto keep = [&](const SignalBias& bias) { store.keep(std::span(&bias, 1)); };
+  keep(bias_of(3, 1.0, 0.0));
+  keep(bias_of(3, 2.0, 60.0));
+  keep(bias_of(5, 3.0, 70.0));
+  REQUIRE(store.take(&taken));
+  REQUIRE(taken.biases.size() == 2);
+  CHECK(taken.biases[0].bias_m == 2.0);
+  CHECK(taken.biases[1].bias_m == 3.0);
+  CHECK_FALSE(store.take(&taken));
+  // The third day's replaces the first day's.
+  for (int day = 1; day <= 3; ++day) keep(bias_of(7, day, 80.0 + day, 86400.0 * day));
+  REQUIRE(store.take(&taken));
+  REQUIRE(taken.biases.size() == 4);
+  CHECK(taken.biases[2].bias_m == 2.0);
+  CHECK(taken.biases[3].bias_m == 3.0);
+}
+
+TEST_CASE("biases of carriers and impossible ones are not kept, nor more than there is room for") {
+  ProductStore store;
+  BroadcastProducts taken;
+  SignalBias phase = bias_of(3, 1.0, 0.0), far = phase, without_time = phase;
+  phase.kind = BiasKind::kPhase;
+  far.bias_m = 2.0 * kLargestBias_m;
+  without_time.time = GpsTime();
+  store.keep(std::vector{phase, far, without_time});
+  CHECK_FALSE(store.take(&taken));
+  std::vector<SignalBias> many;
+  for (std::uint16_t number = 1; number <= kHighestNumber[index_of(System::kLeo)]; ++number) {
+    for (char attribute = 'A'; attribute <= 'Z'; ++attribute) {
+      many.push_back(bias_of(number, 1.0, 0.0));
+      many.back().satellite.system = System::kLeo;
+      many.back().code = {'1', attribute};
+    }
+  }
+  REQUIRE(many.size() > ProductStore::kMostBiases);
+  store.keep(many);
+  REQUIRE(store.take(&taken));
+  CHECK(taken.biases.size() == ProductStore::kMostBiases);
+  // They take two messages, and come back from the file.
+  CHECK(first_message_of(taken.biases).size() == kMaxBiases);
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("c.products");
+  write(path, text_of_file(taken));
+  const auto read = load_products(path);
+  REQUIRE(read);
+  CHECK(read->biases.size() == taken.biases.size());
+  CHECK(text_of_file(*read) == text_of_file(taken));
 }

@@ -1,5 +1,7 @@
 // Two runs of the engine, the second from the checkpoint of the first; the journal has it all.
+#include <algorithm>
 #include <filesystem>
+#include <span>
 #include <thread>
 
 #include "core/earth/rotation.h"
@@ -191,4 +193,48 @@ TEST_CASE("a run that is started again needs nobody to repeat the ephemerides") 
   run_engine(config, without, &second, &counters, &engine);
   CHECK(used() == satellites);
   CHECK(counters->lost[index_of(Channel::kEphemeris)].get() == 0);
+}
+
+TEST_CASE("biases of signals that a run has received are the next run's, and in its journal") {
+  std::vector<test::Input> without;
+  test::feed_messages(test::synthetic_drive(test::noisy_drive(5.0)),
+                      [&](Channel channel, ByteSpan bytes) {
+                        without.push_back({channel, test::Bytes(bytes.begin(), bytes.end())});
+                      });
+  std::vector<test::Input> with = without;
+  SignalBias bias;
+  bias.satellite = {System::kGps, 5};
+  bias.code = {'1', 'C'};
+  bias.kind = BiasKind::kBroadcastCode;
+  bias.time = test::kSkyEpoch;
+  bias.bias_m = 1.5;
+  SignalBias later = bias;
+  later.time = test::kSkyEpoch.plus_seconds(1.0);
+  later.code = {'5', 'Q'};
+  Encoder encoder;
+  for (const SignalBias& one : {bias, later}) {
+    const ByteSpan bytes = encoder.encode(std::span(&one, 1), 1);
+    with.push_back({Channel::kBiases, test::Bytes(bytes.begin(), bytes.end())});
+  }
+  const test::TemporaryFile folder("unused", "");
+  DaemonConfig config = test::drive_config();
+  config.checkpoint.path = folder.beside("checkpoint.yaml");
+  std::unique_ptr<Engine> engine;
+  EngineCounters* counters = nullptr;
+  test::Collector first, second;
+  run_engine(config, with, &first, &counters, &engine);
+  const auto products = load_products(products_path(config.checkpoint.path));
+  REQUIRE(products);
+  REQUIRE(products->biases.size() == 2);
+  CHECK(products->biases[1].time == later.time);
+
+  config.journal.path = folder.beside("run.journal");
+  run_engine(config, without, &second, &counters, &engine);
+  CHECK(counters->received[index_of(Channel::kBiases)].get() == 2);  // of two times
+  for (const Gauge& rejected : counters->rejected) CHECK(rejected.get() == 0);
+  const auto journaled = test::read_journal_inputs(config.journal.path);
+  CHECK(std::count_if(journaled.begin(), journaled.end(), [](const test::Input& input) {
+          return input.channel == Channel::kBiases;
+        }) == 2);
+  check_same(second, test::run_navigator(config.navigator, journaled, {}));
 }

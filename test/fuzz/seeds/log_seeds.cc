@@ -75,6 +75,13 @@ void write_state_seeds(SeedWriter* writer) {
   writer->write("products", "ephemerides", Seed().byte(0).text(ProductsText().of(products)));
   products.ionosphere = KlobucharModel{{1e-8, 0, 0, 0}, {1e5, 0, 0, 0}, true};
   writer->write("products", "ionosphere", Seed().byte(0).text(ProductsText().of(products)));
+  SignalBias bias;
+  bias.satellite = {System::kGps, 5};
+  bias.code = {'1', 'C'};
+  bias.time = kSkyEpoch;
+  bias.bias_m = 1.5;
+  products.biases = {bias};
+  writer->write("products", "biases", Seed().byte(0).text(ProductsText().of(products)));
 }
 
 }  // namespace leonav::test
