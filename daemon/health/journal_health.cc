@@ -1,8 +1,24 @@
 #include "daemon/health/journal_health.h"
 
-#include <utility>
-
 namespace leonav {
+
+std::optional<HealthReason> reason_of(JournalTrouble trouble) {
+  switch (trouble) {
+    case JournalTrouble::kFails:
+      return HealthReason::kJournalFails;
+    case JournalTrouble::kStalls:
+      return HealthReason::kJournalStalled;
+    case JournalTrouble::kLoses:
+      return HealthReason::kJournalLost;
+    case JournalTrouble::kLeavesOut:
+      return HealthReason::kJournalLeftOut;
+    case JournalTrouble::kUnsynced:
+      return HealthReason::kJournalUnsynced;
+    case JournalTrouble::kUndeletable:
+      break;
+  }
+  return std::nullopt;
+}
 
 void JournalHealth::look(const Journal& journal, double now_s) {
   const JournalCounters& counters = journal.counters();
@@ -24,25 +40,15 @@ void JournalHealth::note(JournalTrouble trouble, bool seen, double now_s) {
 }
 
 void JournalHealth::note_growth(JournalTrouble trouble, std::int64_t count, double now_s) {
-  const std::int64_t before = std::exchange(counts_[static_cast<std::size_t>(trouble)], count);
-  note(trouble, count > before, now_s);
+  note(trouble, counts_[static_cast<std::size_t>(trouble)].look(count), now_s);
 }
 
 std::string JournalHealth::text(JournalTrouble trouble) const {
-  switch (trouble) {
-    case JournalTrouble::kFails:
-      return "journal: " + failure_;
-    case JournalTrouble::kStalls:
-      return "journal: the disk does not answer";
-    case JournalTrouble::kLoses:
-      return "journal: messages are lost";
-    case JournalTrouble::kLeavesOut:
-      return "journal: solutions are left out";
-    case JournalTrouble::kUnsynced:
-      return "journal: the disk has not confirmed what was written";
-    default:
-      return "journal: a piece cannot be deleted";
-  }
+  const auto reason = reason_of(trouble);
+  if (!reason) return "journal: a piece cannot be deleted";
+  std::string text(entry_of(*reason).text);
+  if (trouble == JournalTrouble::kFails) text.append(": ").append(failure_);
+  return text;
 }
 
 }  // namespace leonav

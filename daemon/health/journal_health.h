@@ -3,8 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "daemon/health/health_reason.h"
+#include "daemon/health/internal/growth_since_look.h"
 #include "daemon/journal/journal.h"
 
 namespace leonav {
@@ -17,7 +20,12 @@ enum class JournalTrouble : std::uint8_t {
   kUnsynced,    // the disk has not confirmed what was written
   kUndeletable  // a piece cannot be deleted
 };
-inline constexpr std::size_t kJournalTroubles = 6;
+inline constexpr std::array kJournalTroubles = {
+    JournalTrouble::kFails,     JournalTrouble::kStalls,   JournalTrouble::kLoses,
+    JournalTrouble::kLeavesOut, JournalTrouble::kUnsynced, JournalTrouble::kUndeletable};
+
+// Under which HEALTH tells it; none: the log alone does.
+std::optional<HealthReason> reason_of(JournalTrouble trouble);
 
 // A trouble counts until kCalm_s have passed without it, because a disk that is barely fast enough
 // is in trouble every other second.
@@ -28,7 +36,7 @@ class JournalHealth {
 
   bool has(JournalTrouble trouble) const { return states_[static_cast<std::size_t>(trouble)].is; }
   const std::string& last_failure() const { return failure_; }
-  // For the log, with the file and the reason where it cannot be written.
+  // For the log, as HEALTH says it; with the file and the reason where it cannot be written.
   std::string text(JournalTrouble trouble) const;
   static constexpr double kCalm_s = 10.0;
 
@@ -40,8 +48,8 @@ class JournalHealth {
   void note(JournalTrouble trouble, bool seen, double now_s);
   void note_growth(JournalTrouble trouble, std::int64_t count, double now_s);
 
-  std::array<State, kJournalTroubles> states_;
-  std::array<std::int64_t, kJournalTroubles> counts_{};
+  std::array<State, kJournalTroubles.size()> states_;
+  std::array<GrowthSinceLook, kJournalTroubles.size()> counts_;
   std::string failure_;
 };
 

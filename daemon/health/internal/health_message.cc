@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "core/navigator/interface/input_fault.h"
+#include "daemon/health/internal/counter_sums.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
@@ -89,10 +90,6 @@ void add_journal_counts(const Journal& journal, Counts* counts) {
   counts->add("journal pieces kept", of.kept.get());
   counts->add("journal pieces undeletable", of.undeletable.get());
   counts->add("journal memory %", static_cast<std::int64_t>(journal.ring().high_water_percent));
-}
-
-std::int64_t event_count(const EngineCounters& counters, EventKind kind) {
-  return counters.events[static_cast<std::size_t>(kind)].get();
 }
 
 void add_counts(const EngineCounters& of, Counts* counts) {

@@ -1,0 +1,66 @@
+// What HEALTH makes of an estimator that starts over, jumps or meets what it did not expect.
+#include "daemon/health/internal/estimator_monitor.h"
+
+#include "core/navigator/interface/solution.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace leonav;
+
+void set_source(Source source, EngineCounters* counters) {
+  counters->source.set(static_cast<std::int64_t>(source));
+}
+
+}  // namespace
+
+TEST_CASE("a filter that starts over is told once, and waits for the epoch after the next") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  counters.accepted_epochs.set(100);
+  CHECK(monitor.look().empty());
+  CHECK_FALSE(monitor.waits_for_epoch());
+  counters.events[static_cast<std::size_t>(EventKind::kFilterReset)].add(1);
+  const auto found = monitor.look();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].reason == HealthReason::kFilterStartedOver);
+  CHECK(monitor.waits_for_epoch());
+  counters.accepted_epochs.set(101);  // may be on its way
+  CHECK(monitor.look().empty());
+  CHECK(monitor.waits_for_epoch());
+  counters.accepted_epochs.set(102);
+  CHECK_FALSE(monitor.waits_for_epoch());
+}
+
+TEST_CASE("a jump is told once the answer has settled, and none that came before") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  set_source(Source::kEkf, &counters);
+  for (int look = 1; look <= 30; ++look) {
+    counters.large_jumps.add(1);
+    CHECK(monitor.look().empty());
+  }
+  CHECK(monitor.look().empty());
+  counters.large_jumps.add(1);
+  REQUIRE(monitor.look().size() == 1);
+  CHECK(monitor.look().empty());
+  set_source(Source::kInsOnly, &counters);  // begins anew
+  monitor.look();
+  set_source(Source::kSmoother, &counters);
+  counters.large_jumps.add(1);
+  CHECK(monitor.look().empty());
+}
+
+TEST_CASE("each surprise of the estimator is a finding of its own") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  counters.widened_predictions.add(1);
+  counters.events[static_cast<std::size_t>(EventKind::kImprobable)].add(1);
+  counters.events[static_cast<std::size_t>(EventKind::kConstraintsLeftOut)].add(1);
+  const auto found = monitor.look();
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].reason == HealthReason::kPredictionWidened);
+  CHECK(found[1].reason == HealthReason::kImprobable);
+  CHECK(found[2].reason == HealthReason::kConstraintsLeftOut);
+  CHECK(monitor.look().empty());
+}
