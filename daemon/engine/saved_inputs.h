@@ -1,5 +1,7 @@
 // These functions give an engine what an earlier run has saved, before any other input.
 #pragma once
+#include <string>
+
 #include "daemon/checkpoint/product_store.h"
 #include "daemon/engine/engine.h"
 
@@ -8,5 +10,9 @@ namespace leonav {
 // As inputs that came now: so they are in the journal, and a replay needs no file.
 void receive_saved(const BroadcastProducts& products, Engine* engine);
 void receive_saved(const Checkpoint& checkpoint, Engine* engine);
+
+// Reads the checkpoint's file and the products beside it and passes them on; logs what was found. A
+// file that is damaged is ignored. Empty path: there is none.
+void begin_from_saved(const std::string& checkpoint_path, Engine* engine);
 
 }  // namespace leonav

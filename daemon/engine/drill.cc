@@ -1,0 +1,25 @@
+#include "daemon/engine/drill.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <utility>
+
+namespace leonav {
+
+EngineHooks drill_hooks(const DrillConfig& drill) {
+  EngineHooks hooks;
+  if (drill.late_solve_every == 0) return hooks;
+  spdlog::warn("drill: the smoother waits {} s at every {}. epoch", drill.late_solve_s,
+               drill.late_solve_every);
+  hooks.before_iteration = [drill, last = std::uint64_t{0}](std::uint64_t epoch) mutable {
+    if (std::exchange(last, epoch) == epoch) return;  // not the first iteration
+    if (epoch % static_cast<std::uint64_t>(drill.late_solve_every) != 0) return;
+    std::this_thread::sleep_for(std::chrono::duration<double>(drill.late_solve_s));
+  };
+  return hooks;
+}
+
+}  // namespace leonav

@@ -1,0 +1,20 @@
+#include "daemon/main/configured_gate.h"
+
+#include <string>
+
+#include "daemon/config/load_config.h"
+#include "drivers/text/parse.h"
+
+namespace leonav {
+
+std::optional<CommandGate> configured_gate(const DaemonConfig& config) {
+  const std::string& path = config.commands.key_file;
+  if (path.empty()) return std::nullopt;
+  try {
+    return CommandGate(CommandKey::from_file(path));
+  } catch (const FileError& error) {
+    throw ConfigError(config.source.name + ": commands.key_file: " + error.what());
+  }
+}
+
+}  // namespace leonav

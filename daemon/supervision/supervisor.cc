@@ -1,0 +1,55 @@
+#include "daemon/supervision/supervisor.h"
+
+#include <spdlog/spdlog.h>
+
+#include "core/base/gps_time.h"
+#include "daemon/threads/wall_clock.h"
+
+namespace leonav {
+
+Supervisor::Supervisor(Engine* engine, const DaemonConfig& config, const ServiceManager* manager,
+                       ConfigReload* reload)
+    : engine_(engine),
+      manager_(manager),
+      reload_(reload),
+      expects_imu_(config.navigator.motion == MotionModel::kInertial),
+      health_(engine, config.navigator),
+      threads_(engine),
+      answer_(engine),
+      checkpoint_log_(engine),
+      journal_log_(config.journal.path, &engine->journal()) {}
+
+void Supervisor::run(ProcessSignals* signals, const ReceivingThread& io) {
+  while (!io.has_failed() && !wait_for_stop(signals)) look();
+}
+
+// Waits a second. True: the daemon is to stop.
+bool Supervisor::wait_for_stop(ProcessSignals* signals) {
+  const std::int64_t until_ns = monotonic_ns() + kNanosecondsPerSecond;
+  for (;;) {
+    switch (signals->wait_until(until_ns)) {
+      case SignalRequest::kNone:
+        return false;
+      case SignalRequest::kStop:
+        spdlog::info("{}: finishing", signals->name());
+        return true;
+      case SignalRequest::kReload:
+        manager_->reloading();
+        reload_->reload();
+        manager_->ready();
+    }
+  }
+}
+
+void Supervisor::look() {
+  const std::string stalled_threads = threads_.stalled_threads();
+  engine_->publish(Channel::kHealth, health_.next(stalled_threads));
+  const bool stands_still = answer_.stands_still(expects_imu_);
+  health_log_.look(&health_, stalled_threads, stands_still);
+  checkpoint_log_.look();
+  journal_log_.look(health_.journal());
+  if (keep_rule_.look(health_.fault())) engine_->keep_journal();
+  if (stalled_threads.empty() && !stands_still) manager_->feed_watchdog();
+}
+
+}  // namespace leonav

@@ -1,0 +1,60 @@
+// What a reload puts into effect, and that a wrong configuration changes nothing.
+#include "daemon/supervision/config_reload.h"
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+
+#include "daemon/config/load_config.h"
+#include "daemon/supervision/log_level.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace leonav;
+
+// A daemon that runs, as far as a reload is concerned.
+struct Rig {
+  std::string file = "preset: car\nlog: {level: error}\n";
+  DaemonConfig running = load_config_text(file, "mine.yaml");
+  Journal journal{running};  // none is written
+  ConfigReload reload{[this] { return load_config_text(file, "mine.yaml"); }, &running, &journal};
+};
+
+// The level is one for the whole process.
+class KeptLevel {
+ public:
+  ~KeptLevel() { spdlog::set_level(level_); }
+
+ private:
+  spdlog::level::level_enum level_ = spdlog::get_level();
+};
+
+}  // namespace
+
+TEST_CASE("a reload puts the reloadable keys into effect and leaves the others") {
+  const KeptLevel kept;
+  Rig rig;
+  set_log_level(rig.running.log.level);
+  CHECK(spdlog::get_level() == spdlog::level::err);
+  const double mask = rig.running.navigator.gnss.elevation_mask;
+  rig.file =
+      "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\njournal: {kept_mb: 77}\n";
+  rig.reload.reload();
+  CHECK(spdlog::get_level() == spdlog::level::warn);
+  CHECK(rig.running.log.level == LogLevel::kWarning);
+  CHECK(rig.running.journal.kept_mb == 77.0);
+  CHECK(rig.running.navigator.gnss.elevation_mask == mask);
+}
+
+TEST_CASE("a reload of a configuration with errors changes nothing") {
+  const KeptLevel kept;
+  Rig rig;
+  set_log_level(rig.running.log.level);
+  const double kept_mb = rig.running.journal.kept_mb;
+  rig.file = "preset: car\nlog: {level: info}\njournal: {kept_mb: 77, piece_mb: no number}\n";
+  rig.reload.reload();
+  CHECK(spdlog::get_level() == spdlog::level::err);
+  CHECK(rig.running.log.level == LogLevel::kError);
+  CHECK(rig.running.journal.kept_mb == kept_mb);
+}
