@@ -77,8 +77,7 @@ ArcJoins joins_of(const KeyframeInput& input);
 // The states that are estimated: the core states (before the ambiguities) whose variance is not
 // zero, in order, and all ambiguities.
 struct ActiveStates {
-  static constexpr int kMaxCore = ekf_index::kSize + ekf_index::kMaxVehicle;
-  boost::container::static_vector<int, kMaxCore> core;
+  boost::container::static_vector<int, ekf_index::kMaxCore> core;
   // number of core states, including those not estimated
   int before_ambiguities = ekf_index::kSize;
   int ambiguities = 0;
@@ -99,7 +98,7 @@ struct ProcessFactor {
   // about the previous one: the cost 0.5 e^T information e - gradient^T e with e = x_before - from.
   // They concern its core states alone: `information` has their rows and columns only.
   bool has_information = false;
-  BoundedMatrix<ActiveStates::kMaxCore, ActiveStates::kMaxCore> information;
+  BoundedMatrix<ekf_index::kMaxCore, ekf_index::kMaxCore> information;
   EkfCorrection gradient;
   ArcJoins joins;  // of ambiguities of the previous keyframe
 };

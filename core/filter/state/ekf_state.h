@@ -40,7 +40,8 @@ inline constexpr int kTravelYaw = 0, kTravelPitch = 1, kOdometerScale = 2, kLeve
                      kTimeOffset = 6, kMaxVehicle = 7;
 // The last four of them move the antenna.
 inline constexpr int kAntennaConstants = kMaxVehicle - kLeverArm;
-inline constexpr int kMaxSize = kSize + kMaxVehicle + static_cast<int>(kMaxArcs);
+inline constexpr int kMaxCore = kSize + kMaxVehicle;  // states before the ambiguities
+inline constexpr int kMaxSize = kMaxCore + static_cast<int>(kMaxArcs);
 }  // namespace ekf_index
 
 // A square matrix over all states at hand, in storage of fixed capacity.

@@ -1,5 +1,7 @@
 #include "core/filter/state/filter_process.h"
 
+#include <algorithm>
+
 namespace leonav {
 
 using Eigen::Index;
@@ -16,7 +18,8 @@ void joseph_update(const EkfCorrection& gain, const EkfCorrection& spread, doubl
 void FilterProcess::condition(const EkfCorrection& h, double innovation, double variance) {
   const Index then = transition.cols() - 1;
   if (!has_information) {
-    information.setZero(then, then);
+    const Index core = std::min<Index>(then, ekf_index::kMaxCore);
+    information.setZero(core, core);
     gradient.setZero(then);
     has_information = true;
   }
@@ -28,7 +31,8 @@ void FilterProcess::condition(const EkfCorrection& h, double innovation, double 
   transition.leftCols(then).noalias() -= gain * seen.transpose();
   transition.col(then) += unexplained * gain;
   joseph_update(gain, spread, total, &noise);
-  information.noalias() += (seen / total) * seen.transpose();
+  const auto of_core = seen.head(information.rows());
+  information.noalias() += (of_core / total) * of_core.transpose();
   gradient += (unexplained / total) * seen;
 }
 

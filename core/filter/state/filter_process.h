@@ -26,8 +26,9 @@ struct FilterProcess {
   ProcessMatrix transition;
   EkfCovariance noise;
   // Information of motion constraints since then about x_then, beyond their effect on F and N:
-  // 0.5 x_then^T information x_then - gradient^T x_then. Valid only if `has_information`.
-  EkfCovariance information;
+  // 0.5 x_then^T information x_then - gradient^T x_then. Valid only if `has_information`. They tell
+  // nothing of ambiguities: `information` has no rows and columns beyond the first kMaxCore.
+  BoundedMatrix<ekf_index::kMaxCore, ekf_index::kMaxCore> information;
   EkfCorrection gradient;
   bool has_information = false;
   boost::container::static_vector<ProcessJoin, kMaxArcs> joins;

@@ -7,7 +7,7 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kKeyframeRing = 4;  // each is 0.6 MB
+constexpr std::size_t kKeyframeRing = 4;  // each is 0.5 MB
 constexpr std::size_t kOutBytes = 128 << 10;
 
 }  // namespace
