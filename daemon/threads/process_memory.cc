@@ -23,9 +23,9 @@ namespace {
 constexpr int kLargeBlockBytes = 128 << 10;
 
 // Ceres' libraries, and those that only they need.
-constexpr std::array<std::string_view, 13> kOfCeres = {
-    "blas",    "lapack", "gfortran", "quadmath",    "gomp",   "cholmod", "metis",
-    "colamd.", "amd.",   "cxsparse", "suitesparse", "gflags", "glog"};
+constexpr std::array<std::string_view, 15> kOfCeres = {
+    "blas", "lapack",   "gfortran",    "quadmath", "gomp", "cholmod", "metis", "colamd.",
+    "amd.", "cxsparse", "suitesparse", "gflags",   "glog", "unwind",  "lzma"};
 
 bool is_of_ceres(std::string_view path) {
   const std::string_view name = path.substr(path.rfind('/') + 1);

@@ -8,8 +8,9 @@ namespace leonav {
 // the system, and a thread that a library starts has a stack of RealtimeThread::kStackBytes.
 void prepare_memory();
 
-// Locks all memory of the process, now and in future, and touches it (mlockall). Of the libraries
-// that Ceres alone uses (BLAS, LAPACK, ...: 50 MB) the code is left unlocked unless `uses_ceres`.
+// Locks all memory of the process, now and in future, and touches it (mlockall, mlock). Of the
+// libraries that Ceres alone uses (BLAS, LAPACK, ...: 50 MB) the code is left unlocked, and is not
+// brought in, unless `uses_ceres`.
 // Returns what the system refused, as a text; empty: nothing.
 std::string lock_memory(bool uses_ceres);
 
