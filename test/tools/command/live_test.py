@@ -5,6 +5,7 @@ leonav-command sends, and a sender of this script: it signs by Python's hmac and
 leonav's code. What leonavd took must stand in its journal as COMMAND, and the journal must replay without the key. Runs in a
 network namespace of its own; exit 77: none can be made here.
 """
+import atexit
 import hashlib
 import hmac
 import os
@@ -75,6 +76,7 @@ class Daemon:
         with open(self.text, "w") as text:
             self.process = subprocess.Popen([BIN / "leonavd", "--preset", "phone_imu", "--journal", self.journal, "--set",
                                              "realtime.lock_memory=false", *options], stderr=text)
+        atexit.register(self.process.kill)
         end = time.monotonic() + PATIENCE_S
         while "running; LCM" not in self.text.read_text():
             if self.process.poll() is not None or time.monotonic() > end:
