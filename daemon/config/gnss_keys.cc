@@ -137,6 +137,7 @@ void read_gnss(ConfigReader& group, GnssConfig* config) {
                              {"sine", WeightModel::kSine}},
                             &config->weight_model);
   group.number("cn0_reference_dbhz", {10.0, 70.0}, &config->cn0_reference_dbhz);
+  group.choice<bool>("atmosphere", {{"standard", true}, {"none", false}}, &config->has_atmosphere);
   group.number("ionosphere_model_error", {0.0, 10.0}, &config->ionosphere_model_error);
   group.number("troposphere_model_error_m", {0.0, 10.0}, &config->troposphere_model_error_m);
   group.choice<AttitudeLaw>(

@@ -71,7 +71,10 @@ struct GnssConfig {
   double cn0_mask_dbhz = 0.0;
   CodeCombination code_combination = CodeCombination::kAutomatic;
   WeightModel weight_model = WeightModel::kElevation;
-  double cn0_reference_dbhz = 45.0;        // C/N0 at which the sigmas hold (kCn0)
+  double cn0_reference_dbhz = 45.0;  // C/N0 at which the sigmas hold (kCn0)
+  // Whether ionosphere and troposphere delay the signals; false for those of a simulator without
+  // them.
+  bool has_atmosphere = true;
   double ionosphere_model_error = 0.5;     // share of the Klobuchar delay taken as its 1 sigma
   double troposphere_model_error_m = 0.1;  // 1 sigma at zenith
   // Attitude law of LEO satellites, for antennas and wind-up; the laws of the others are fixed.

@@ -61,6 +61,17 @@ TEST_CASE("all errors of a configuration are told at once, each in a line and on
       "car.yaml:8: journal: expected a group of keys (\"key: value\" lines)");
 }
 
+TEST_CASE("signals without an atmosphere are said so by name") {
+  const auto has_atmosphere = [](const std::string& gnss) {
+    return load_config_text("gnss: {" + gnss + "}\n", "x").navigator.gnss.has_atmosphere;
+  };
+  CHECK(has_atmosphere(""));
+  CHECK(has_atmosphere("atmosphere: standard"));
+  CHECK_FALSE(has_atmosphere("atmosphere: none"));
+  CHECK(error_of("gnss:\n  atmosphere: off\n") ==
+        "car.yaml:2: gnss.atmosphere: 'off' is not one of standard, none");
+}
+
 TEST_CASE("how LEO satellites stand is read by name") {
   const auto law = [](const std::string& name) {
     return load_config_text("gnss:\n  leo_attitude: " + name + "\n", "x")

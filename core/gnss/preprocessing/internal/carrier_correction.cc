@@ -6,8 +6,8 @@
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/measurement/weighting.h"
+#include "core/gnss/preprocessing/internal/code_correction.h"
 #include "core/gnss/preprocessing/internal/path_correction.h"
-#include "core/gnss/propagation/ionosphere.h"
 
 namespace leonav {
 namespace {
@@ -92,10 +92,8 @@ Measurement carrier_measurement(const DelayContext& context, const SignalObserva
         pair, noise1,
         sigma0 * noise_factor(*context.config, satellite.elevation, second->cn0_dbhz));
   } else {
-    const LookAngles direction{satellite.elevation, satellite.azimuth};
     // The ionosphere delays the code and advances the carrier by the same amount.
-    in_view->carrier_ionosphere_m =
-        klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    in_view->carrier_ionosphere_m = ionosphere_delay_m(context, satellite, f1);
     range += in_view->carrier_ionosphere_m;
     random_walk +=
         square(system == System::kLeo ? kIonosphereRandomWalkLeo : kIonosphereRandomWalk);

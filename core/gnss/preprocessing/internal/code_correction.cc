@@ -41,12 +41,13 @@ double obliquity(double elevation) { return 1.0 / std::max(std::sin(elevation), 
 
 double ionosphere_sigma(const DelayContext& context, double elevation, double delay_m,
                         double frequency) {
-  const double share = context.klobuchar->valid
+  const bool is_known = context.klobuchar->valid || !context.config->has_atmosphere;
+  const double share = is_known
                            ? context.config->ionosphere_model_error
                            : std::max(kUnknownModelShare, context.config->ionosphere_model_error);
   // The thin shell at 350 km limits the growth: obliquity of IS-GPS-200, at most 3.
   const double slant = std::min(obliquity(elevation), 3.0);
-  const double at_zenith = context.klobuchar->valid ? kIonosphereFloor : kUnknownFloor;
+  const double at_zenith = is_known ? kIonosphereFloor : kUnknownFloor;
   const double floor = at_zenith * slant * ionosphere_factor(frequency);
   return std::max(share * delay_m, floor);
 }
@@ -128,7 +129,7 @@ IonosphereError common_ionosphere_error(const DelayContext& context,
 // Returns the rate of the tropospheric delay by the satellite's motion: below 1 mm/s for GNSS, some
 // cm/s for a LEO satellite near the horizon. It is a central difference over one second.
 double troposphere_rate(const DelayContext& context, const SatelliteInView& satellite) {
-  if (!context.has_position) return 0.0;
+  if (!context.has_position || !context.config->has_atmosphere) return 0.0;
   const Eigen::Vector3d p_a_e = to_ecef(context.antenna);
   const auto delay_at = [&](double seconds) {
     const Eigen::Vector3d p_sat_e = satellite.p_e + seconds * satellite.v_e;
@@ -229,6 +230,13 @@ double ionosphere_slant(double elevation) {
   return 1.0 / std::sqrt(1.0 - square(kShellRatio * std::cos(elevation)));
 }
 
+double ionosphere_delay_m(const DelayContext& context, const SatelliteInView& satellite,
+                          double frequency) {
+  if (!context.config->has_atmosphere) return 0.0;
+  return klobuchar_delay_m(*context.klobuchar, context.antenna,
+                           {satellite.elevation, satellite.azimuth}, context.time, frequency);
+}
+
 void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
                                      SatelliteInView* satellite) {
   if (!context.has_position) return;
@@ -238,7 +246,9 @@ void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::V
   const ZenithDelays zenith = saastamoinen_zenith_delays(context.antenna);
   const TroposphereMapping mapping = niell_mapping(context.antenna, angles.elevation, context.time);
   satellite->troposphere_m =
-      zenith.hydrostatic_m * mapping.hydrostatic + zenith.wet_m * mapping.wet;
+      context.config->has_atmosphere
+          ? zenith.hydrostatic_m * mapping.hydrostatic + zenith.wet_m * mapping.wet
+          : 0.0;
   satellite->wet_mapping = mapping.wet;
   satellite->path_m = path_delay_m(context, p_a_e, *satellite);
 }
@@ -271,9 +281,7 @@ Measurement code_measurement(const DelayContext& given, const SignalObservation&
                of_first + of_second;
     band_variance = of_first + of_second;
   } else if (context.has_position) {
-    const LookAngles direction{satellite->elevation, satellite->azimuth};
-    const double delay =
-        klobuchar_delay_m(*context.klobuchar, context.antenna, direction, context.time, f1);
+    const double delay = ionosphere_delay_m(context, *satellite, f1);
     satellite->ionosphere_l1_m = delay * square(f1 / kL1Frequency);
     range -= delay;
     band_variance = bias_variance(context, first);
@@ -312,8 +320,7 @@ CodeVariances code_variances(const DelayContext& context,
   for (const SignalObservation* signal : bands)
     information += 1.0 / square(code_noise(context, elevation, *signal));
   variances.single_noise = 1.0 / information;
-  const double delay = klobuchar_delay_m(*context.klobuchar, context.antenna,
-                                         {elevation, satellite.azimuth}, context.time, f1);
+  const double delay = ionosphere_delay_m(context, satellite, f1);
   variances.ionosphere = square(ionosphere_sigma(context, elevation, delay, f1));
   return variances;
 }

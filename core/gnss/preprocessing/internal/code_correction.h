@@ -46,6 +46,11 @@ double ionosphere_factor(double frequency);
 //   1 / cos z',  sin z' = 6371/6721 cos E,  E: `elevation` (rad).
 double ionosphere_slant(double elevation);
 
+// Returns the ionosphere's delay of a code on `frequency` (Hz) by the broadcast model, m; 0 where
+// there is no atmosphere. Precondition: context.has_position.
+double ionosphere_delay_m(const DelayContext& context, const SatelliteInView& satellite,
+                          double frequency);
+
 // Sets elevation, azimuth and tropospheric delay of `satellite`.
 void set_look_angles_and_troposphere(const DelayContext& context, const Eigen::Vector3d& p_a_e,
                                      SatelliteInView* satellite);

@@ -124,7 +124,7 @@ void MeasurementFrontEnd::add(const KlobucharModel& klobuchar) {
   // Before the filter starts there are point solutions only.
   const MeasurementEpoch& last =
       measurements_->approximate_p_e.isZero() ? *point_measurements_ : *measurements_;
-  if (last.approximate_p_e.isZero()) return;
+  if (last.approximate_p_e.isZero() || !gnss_.has_atmosphere) return;
   const Geodetic antenna = to_geodetic(last.approximate_p_e);
   const double step_m = zenith_ionosphere_m(klobuchar, antenna, last.time) -
                         zenith_ionosphere_m(before, antenna, last.time);
