@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "drivers/csv/imu_csv.h"
+#include "drivers/csv/truth_csv.h"
 #include "tools/common/arguments.h"
 #include "tools/evaluate/integrity_mode.h"
 #include "tools/evaluate/internal/gyro_heading.h"
@@ -35,7 +36,11 @@ int body(int argc, char** argv) {
       "the levels are within the limits; of all runs together too.\n"
       "With --residuals: what the estimator left of its measurements, by system and elevation.\n"
       "With --quality: how good the GNSS measurements of a log or journal are, without a truth:\n"
-      "satellites, dilution of precision, code multipath, C/N0, cycle slips.");
+      "satellites, dilution of precision, code multipath, C/N0, cycle slips.\n"
+      "truth.csv has the columns " +
+          std::string(leonav::kTruthCsvHeader) +
+          ",\nof which the first five are needed; leonav-replay --columns prints those of its "
+          "tables.");
   arguments.option("--truth", "FILE", "truth.csv or an RTKLIB .pos file to judge by")
       .option("--truth-point", "LAT,LON,H",
               "in place of --truth: a surveyed point that did not move, degrees and metres above "

@@ -1,6 +1,8 @@
 // leonav-import converts a recording in files to an LCM event log.
 #include <iostream>
 
+#include "drivers/csv/imu_csv.h"
+#include "drivers/csv/truth_csv.h"
 #include "tools/common/arguments.h"
 #include "tools/import/import.h"
 
@@ -12,7 +14,7 @@ int body(int argc, char** argv) {
       "Turns a recording in files into an LCM event log, in the order and at the times a live\n"
       "system would have received it. Keys of dataset.yaml, each a path or a list of paths,\n"
       "relative to the file: observations (RINEX 2 or 3, .ubx, .rtcm3, .rtcm,\n"
-      "NovAtel's .oem7 or .gps, Septentrio's .sbf), navigation (RINEX 2 or 3, .rtcm3, .rtcm),\n"
+      "NovAtel's .oem7 or .gps, Septentrio's .sbf), navigation (RINEX 2 to 4, .rtcm3, .rtcm),\n"
       "orbits (SP3), clocks, biases (Bias-SINEX 1.00: code biases of the satellites, of the same\n"
       "provider as the clocks), corrections (SSR in .rtcm3, .rtcm; pages of Galileo HAS in .has,\n"
       ".ubx or .sbf, of PPP-B2b in .b2b or .sbf), antenna_models (ANTEX), imu (imu.csv; .oem7 or "
@@ -29,7 +31,12 @@ int body(int argc, char** argv) {
       "\n"
       "  observations: rover.ubx   # brings its ephemerides; beside RINEX add navigation: "
       "brdc.nav\n"
-      "  imu: imu.csv");
+      "  imu: imu.csv\n"
+      "\n"
+      "imu.csv has the columns " +
+          std::string(leonav::kImuCsvHeader) + ",\ntruth.csv " +
+          std::string(leonav::kTruthCsvHeader) +
+          ";\nthe end of a name is the unit. docs/design.md (Files) has the conventions.");
   arguments.option("--out", "FILE", "the log to write; -o for short")
       .option("--from", "TIME",
               "leave out data before this GPS time: WEEK:SECONDS or YYYY-MM-DDThh:mm:ss")

@@ -4,6 +4,7 @@
 
 #include "core/earth/rotation.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
 #include "tools/common/arguments.h"
 
 using namespace leonav;
@@ -177,4 +178,31 @@ TEST_CASE("why there is nothing to compare is said") {
   for (TrackPoint& row : within) row.time = row.time.plus_seconds(1000.0);
   CHECK(said(within).find("no common time: the solution is from 2200:2004.0 to 2200:2005.0, the "
                           "truth from 2200:1000.0 to 2200:1020.0") != std::string::npos);
+}
+
+TEST_CASE("a solution of RTKLIB is a truth, without its sigmas") {
+  const auto row = [](const std::string& tow) {
+    return "2200 " + tow +
+           "    45.000000000    7.000000000   100.0000   1   9   0.0100   0.0200   0.0300   0.0000 "
+           " "
+           " 0.0000   0.0000   0.00    3.0\n";
+  };
+  const test::TemporaryFile file(
+      "base.pos",
+      "% program   : RTKLIB ver.2.4.3\n"
+      "%  GPST          latitude(deg) longitude(deg)  height(m)   Q  ns   "
+      "sdn(m)   sde(m)   sdu(m)  sdne(m)  sdeu(m)  sdun(m) age(s)  "
+      "ratio\n" +
+          row("1000.000") + row("1001.000") + row("1002.000"));
+  const Track truth = load_truth(file.path());
+  REQUIRE(truth.size() == 3);
+  CHECK_FALSE(truth[0].sigma_neu);
+  Track solution = {truth[0], truth[0]};
+  for (std::size_t i = 0; i < solution.size(); ++i) {
+    solution[i].time = truth[i].time.plus_seconds(0.5);
+    solution[i].position.height += 1.5;
+  }
+  const Evaluation e = evaluate("x", solution, truth, {}, 3.0);
+  CHECK(e.up.mean == Approx(1.5).margin(1e-4));
+  CHECK(e.comparison.without_truth == 0);
 }

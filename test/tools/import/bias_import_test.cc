@@ -6,6 +6,7 @@
 
 #include "core/base/calendar.h"
 #include "core/gnss/propagation/signal_bias_store.h"
+#include "drivers/bias_sinex/bias_sinex_reader.h"
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
@@ -138,4 +139,20 @@ TEST_CASE("what a bias file leaves out, and a file that is none, are told", "[im
   CHECK(has_line);
   CHECK(to_string(run.report).find("biases without orbits") != std::string::npos);
   CHECK_THROWS_WITH(import_with("no bias file\n"), Contains("a.BIA:1") && Contains("%=BIA 1.00"));
+}
+
+TEST_CASE("biases beyond what is read of a file are told with the limits", "[import]") {
+  std::string records = record("G01", "C1C", 0, 30'000, 1.0);
+  char difference[160];
+  std::snprintf(difference, sizeof difference,
+                " DSB       G01           C1C  C2W  2024:127:00000 2024:127:30000 ns   %21.4f "
+                "%11.4f\n",
+                1.0, 0.01);
+  for (std::size_t i = 0; i <= BiasSinexFile::kMaxDifferences; ++i) records += difference;
+  const Run run = import_with(bias_file(records));
+  CHECK(left_out(run.report, "difference of a satellite that has biases of single codes too") ==
+        2'000);
+  CHECK(left_out(run.report,
+                 "bias beyond the 500000 that are read of a file, or beyond 2000 "
+                 "differences of one satellite") == 1);
 }

@@ -1,6 +1,7 @@
 #include "tools/import/internal/bias_source.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/base/capacity.h"
 #include "drivers/bias_sinex/bias_sinex_reader.h"
@@ -24,7 +25,10 @@ void report_file(const std::string& path, const BiasSinexFile& file, ImportRepor
       {"bias that is neither OSB nor DSB", file.other_kind},
       {"bias that changes within its validity (not read)", file.slopes},
       {"difference of a satellite that has biases of single codes too", file.beside_absolute},
-      {"bias beyond the capacity of the reader", file.beyond_capacity},
+      {"bias beyond the " + std::to_string(BiasSinexFile::kMaxRecords) +
+           " that are read of a file, or beyond " + std::to_string(BiasSinexFile::kMaxDifferences) +
+           " differences of one satellite",
+       file.beyond_capacity},
       {"signal of a satellite that no differences connect to the clock's pair (" +
            names_of(file.unconnected) + ")",
        file.without_reference}};
