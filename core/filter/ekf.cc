@@ -86,9 +86,13 @@ void Ekf::reset() {
   initialized_ = false;
 }
 
-void Ekf::start_errors(double code_sigma_factor, double doppler_sigma_factor) {
+void Ekf::start_errors(double code_sigma_factor, double doppler_sigma_factor, double share) {
   if (errors_unknown_ && !initialized_)
-    assembler_.start_errors(code_sigma_factor, doppler_sigma_factor);
+    assembler_.start_errors(code_sigma_factor, doppler_sigma_factor, share);
+}
+
+void Ekf::start_constants(const VehicleConstants& values, const VehicleConstants& variances) {
+  if (!initialized_) estimate_.set_vehicle_constants(values, variances);
 }
 
 void Ekf::initialize(GpsTime time, const PointSolution& given) {

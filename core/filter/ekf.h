@@ -90,8 +90,12 @@ class Ekf {
   void reset_vehicle_constants();
   bool initialized() const { return initialized_; }
   // Takes what an earlier run has learned of the size of errors, as factors on the configured
-  // sigmas. Does nothing once errors have been seen.
-  void start_errors(double code_sigma_factor, double doppler_sigma_factor);
+  // sigmas. `share`, 0 to 1, is how much of it still counts. Does nothing once errors have been
+  // seen.
+  void start_errors(double code_sigma_factor, double doppler_sigma_factor, double share);
+  // Takes vehicle constants from an earlier run, in the order of ekf_index, for initialize(). Does
+  // nothing once the filter is initialized.
+  void start_constants(const VehicleConstants& values, const VehicleConstants& variances);
 
   // --- attitude from outside ---
   // Goes over to the inertial model. The covariance of position, velocity and clocks is kept; the

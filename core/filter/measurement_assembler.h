@@ -60,8 +60,8 @@ class MeasurementAssembler {
   bool carriers_keep_position() const { return code_model_.carriers_keep_position(); }
   LearnedSummary learned_summary() const { return errors_.summary(standing()); }
   void forget_errors() { errors_.reset(); }
-  void start_errors(double code_sigma_factor, double doppler_sigma_factor) {
-    errors_.start(code_sigma_factor, doppler_sigma_factor);
+  void start_errors(double code_sigma_factor, double doppler_sigma_factor, double share) {
+    errors_.start(code_sigma_factor, doppler_sigma_factor, share);
   }
 
   FilterMeasurements* mutable_measurements() { return &measurements_; }

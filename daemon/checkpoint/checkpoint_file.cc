@@ -1,5 +1,6 @@
 #include "daemon/checkpoint/checkpoint_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <type_traits>
 
 #include "core/navigator/sequencer/input_validation.h"
 #include "daemon/checkpoint/internal/replace_file.h"
@@ -45,6 +47,30 @@ class FileText {
   std::size_t size_ = 0;
 };
 
+// The numbers of a calibration, one key a line, in the order of the file. `visit` takes key, a
+// number or vector, and the file's unit in SI.
+template <typename Of, typename Visit>
+void for_each_number(Of& calibration, const Visit& visit) {
+  visit("mounting_rpy_deg", calibration.mounting_rpy, kDegree);
+  visit("accel_bias_b_m_s2", calibration.accel_bias_b, 1.0);
+  visit("accel_bias_sigma_m_s2", calibration.accel_bias_sigma, 1.0);
+  visit("gyro_scale", calibration.gyro_scale, 1.0);
+  visit("gyro_scale_sigma", calibration.gyro_scale_sigma, 1.0);
+  visit("accel_scale", calibration.accel_scale, 1.0);
+  visit("accel_scale_sigma", calibration.accel_scale_sigma, 1.0);
+  constexpr std::array<const char*, ekf_index::kMaxVehicle> kConstants = {
+      "travel_yaw_rad", "travel_pitch_rad", "odometer_scale",   "lever_arm_x_m",
+      "lever_arm_y_m",  "lever_arm_z_m",    "imu_time_offset_s"};
+  constexpr std::array<const char*, ekf_index::kMaxVehicle> kSigmas = {
+      "travel_yaw_sigma_rad",   "travel_pitch_sigma_rad", "odometer_scale_sigma",
+      "lever_arm_x_sigma_m",    "lever_arm_y_sigma_m",    "lever_arm_z_sigma_m",
+      "imu_time_offset_sigma_s"};
+  for (std::size_t i = 0; i < kConstants.size(); ++i) {
+    visit(kConstants[i], calibration.constants[i], 1.0);
+    visit(kSigmas[i], calibration.constant_sigmas[i], 1.0);
+  }
+}
+
 FileText text_of(const Checkpoint& checkpoint) {
   FileText out;
   out << "# Where leonavd was last sure of its heading, for its next start. It may be deleted.\n"
@@ -58,8 +84,13 @@ FileText text_of(const Checkpoint& checkpoint) {
       << "\ngyro_bias_b_deg_per_h: " << Eigen::Vector3d(checkpoint.gyro_bias_b / kDegreePerHour)
       << "\ngyro_bias_sigma_deg_per_h: " << checkpoint.gyro_bias_sigma / kDegreePerHour
       << "\ncode_sigma_factor: " << checkpoint.code_sigma_factor
-      << "\ndoppler_sigma_factor: " << checkpoint.doppler_sigma_factor
-      << "\ncomplete: true\n";  // last: what was cut lacks it
+      << "\ndoppler_sigma_factor: " << checkpoint.doppler_sigma_factor;
+  if (checkpoint.calibration)
+    for_each_number(*checkpoint.calibration, [&](const char* key, const auto& value, double unit) {
+      out << "\n" << key << ": ";
+      out << std::remove_cvref_t<decltype(value)>(value / unit);
+    });
+  out << "\ncomplete: true\n";  // last: what was cut lacks it
   return out;
 }
 
@@ -69,8 +100,10 @@ Checkpoint parse(const std::string& text, const std::string& path) {
   int week = 0;
   double tow_s = 0.0;
   bool complete = false;
+  Calibration calibration;
+  std::size_t first_of_calibration = 0;
   read_yaml(text, {}, &source, [&](ConfigReader& root) {
-    constexpr Bounds kEcef = {-1e7, 1e7}, kSigma = {0.0, 1e6};
+    constexpr Bounds kEcef = {-1e7, 1e7}, kSigma = {0.0, 1e6}, kCalibration = {-1e4, 1e4};
     root.integer("gps_week", 1, 10000, &week);
     root.number("gps_tow_s", {0.0, 604800.0}, &tow_s);
     root.boolean("standing", &checkpoint.standing);
@@ -84,11 +117,28 @@ Checkpoint parse(const std::string& text, const std::string& path) {
     root.number("code_sigma_factor", {0.0, 100.0}, &checkpoint.code_sigma_factor);
     root.number("doppler_sigma_factor", {0.0, 100.0}, &checkpoint.doppler_sigma_factor);
     root.boolean("complete", &complete);
+    first_of_calibration = source.keys.size();
+    for_each_number(calibration, [&](const char* key, auto& value, double unit) {
+      if constexpr (std::is_same_v<decltype(value), double&>)
+        root.number(key, kCalibration, &value, unit);
+      else
+        root.vector(key, kCalibration, &value, unit);
+    });
   });
+  const auto is_given = [](const ConfigKey& key) { return key.given; };
+  // Files of older versions have no calibration; one has all of it.
+  const auto of_calibration =
+      source.keys.begin() + static_cast<std::ptrdiff_t>(first_of_calibration);
+  if (std::any_of(of_calibration, source.keys.end(), is_given))
+    checkpoint.calibration = calibration;
+  else
+    source.keys.erase(of_calibration, source.keys.end());
   for (const ConfigKey& key : source.keys) {
     if (!key.given && !key.path.ends_with("_sigma_factor"))
       throw ConfigError(path + ": is damaged: " + key.path + " is missing");
   }
+  if (checkpoint.calibration && check(*checkpoint.calibration) != InputFault::kNone)
+    throw ConfigError(path + ": holds a calibration that no IMU and no vehicle can have");
   checkpoint.time = GpsTime::from_week_and_tow(week, tow_s);
   if (!complete || check(checkpoint) != InputFault::kNone)
     throw ConfigError(path + ": holds no place on the Earth with a heading (sigma at most 10 deg)");

@@ -64,6 +64,9 @@ void CheckpointWriter::write_if_due(bool at_end) {
 void CheckpointWriter::write_checkpoint_if_due(bool at_end) {
   unwritten_ = latest_.take(&newest_) || unwritten_;
   if (!unwritten_) return;
+  // What the next start would refuse must not cost the heading.
+  if (newest_.calibration && check(*newest_.calibration) != InputFault::kNone)
+    newest_.calibration.reset();
   if (check(newest_) == InputFault::kNone) {
     const bool changed = !written_ || written_->standing != newest_.standing;
     if (!at_end && !changed && seconds(since_written_) < config_.interval_s) return;

@@ -17,7 +17,7 @@ class CheckpointLog {
 
  private:
   Engine* engine_;
-  std::int64_t last_use_ = 0;
+  std::int64_t last_use_ = 0, last_calibration_use_ = 0;
   std::string last_error_;
 };
 

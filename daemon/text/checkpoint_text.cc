@@ -14,7 +14,7 @@ std::string number(double value) {
 }  // namespace
 
 std::string checkpoint_text(CheckpointUse use, double value) {
-  constexpr double kDay_s = 86400.0;
+  constexpr double kDay_s = 86400.0, kHour_s = 3600.0;
   switch (use) {
     case CheckpointUse::kUsed:
       return "checkpoint used: heading as it was parked, " + number(value) + " m from its position";
@@ -31,6 +31,19 @@ std::string checkpoint_text(CheckpointUse use, double value) {
       return "checkpoint ignored: the vehicle moves, or has turned since the start";
     case CheckpointUse::kNotNeeded:
       return "checkpoint ignored: there is a heading already";
+    case CheckpointUse::kCalibrationUsed:
+      return "calibration of " + number(value / kHour_s) + " hours ago used";
+    case CheckpointUse::kCalibrationOld:
+      return value < 0.0
+                 ? "calibration ignored: " + number(-value) + " s later than the measurements"
+                 : "calibration ignored: " + number(value / kDay_s) +
+                       " days old, more than checkpoint.max_age_s";
+    case CheckpointUse::kCalibrationMounted:
+      return "calibration ignored: vehicle.mounting_rpy_deg, vehicle.lever_arm_b_m or "
+             "imu.time_offset_ms has changed";
+    case CheckpointUse::kCalibrationImu:
+      return "calibration of the IMU ignored: its gyros differ by " + number(value) +
+             " sigma; another IMU?";
   }
   return "checkpoint: unknown";
 }

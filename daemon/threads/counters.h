@@ -92,6 +92,8 @@ struct EngineCounters {
   Gauge checkpoints_used, checkpoints_ignored;
   // The last kCheckpoint event: 1 + CheckpointUse (0: none), and a thousand times the value.
   Gauge checkpoint_use, checkpoint_milli;
+  // The same of what is said about its calibration.
+  Gauge calibration_use, calibration_milli;
   // smoother
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage

@@ -217,6 +217,8 @@ InputFault convert(const antenna_t& from, AntennaPattern* to) {
 
 namespace {
 
+Eigen::Vector3d vector_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
 // What all versions of a checkpoint have.
 template <typename T>
 InputFault convert_place(const T& from, Checkpoint* to) {
@@ -239,12 +241,35 @@ InputFault convert_place(const T& from, Checkpoint* to) {
 
 InputFault convert(const checkpoint_v1_t& from, Checkpoint* to) {
   to->code_sigma_factor = to->doppler_sigma_factor = 0.0;
+  to->calibration.reset();
+  return convert_place(from, to);
+}
+
+InputFault convert(const checkpoint_v2_t& from, Checkpoint* to) {
+  to->code_sigma_factor = from.code_sigma_factor;
+  to->doppler_sigma_factor = from.doppler_sigma_factor;
+  to->calibration.reset();
   return convert_place(from, to);
 }
 
 InputFault convert(const checkpoint_t& from, Checkpoint* to) {
+  if (from.calibrated < 0 || from.calibrated > 1) return InputFault::kOutOfRange;
   to->code_sigma_factor = from.code_sigma_factor;
   to->doppler_sigma_factor = from.doppler_sigma_factor;
+  to->calibration.reset();
+  if (from.calibrated == 1) {
+    Calibration& calibration = to->calibration.emplace();
+    calibration.mounting_rpy = vector_of(from.mounting_rpy);
+    calibration.accel_bias_b = vector_of(from.accel_bias_b);
+    calibration.accel_bias_sigma = vector_of(from.accel_bias_sigma);
+    calibration.gyro_scale = vector_of(from.gyro_scale);
+    calibration.gyro_scale_sigma = vector_of(from.gyro_scale_sigma);
+    calibration.accel_scale = vector_of(from.accel_scale);
+    calibration.accel_scale_sigma = vector_of(from.accel_scale_sigma);
+    std::copy(std::begin(from.constants), std::end(from.constants), calibration.constants.begin());
+    std::copy(std::begin(from.constant_sigmas), std::end(from.constant_sigmas),
+              calibration.constant_sigmas.begin());
+  }
   return convert_place(from, to);
 }
 

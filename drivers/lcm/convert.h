@@ -7,6 +7,7 @@
 #include <leonav/bias_t.hpp>
 #include <leonav/checkpoint_t.hpp>
 #include <leonav/checkpoint_v1_t.hpp>
+#include <leonav/checkpoint_v2_t.hpp>
 #include <leonav/corrected_state_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/gnss_observation_t.hpp>
@@ -44,5 +45,6 @@ InputFault convert(const leo_ephemeris_t& from, Ephemeris* to);
 InputFault convert(const antenna_t& from, AntennaPattern* to);
 InputFault convert(const checkpoint_t& from, Checkpoint* to);
 InputFault convert(const checkpoint_v1_t& from, Checkpoint* to);
+InputFault convert(const checkpoint_v2_t& from, Checkpoint* to);
 
 }  // namespace leonav::wire

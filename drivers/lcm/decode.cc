@@ -7,6 +7,7 @@
 #include <leonav/biases_t.hpp>
 #include <leonav/checkpoint_t.hpp>
 #include <leonav/checkpoint_v1_t.hpp>
+#include <leonav/checkpoint_v2_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/corrected_states_t.hpp>
 #include <leonav/decision_t.hpp>
@@ -51,6 +52,7 @@ constexpr std::int32_t schema_of(const smoother_t&) {
   return static_cast<std::int32_t>(OutputSchema::kNewest);
 }
 constexpr std::int32_t schema_of(const checkpoint_t&) { return wire::kCheckpointSchema; }
+constexpr std::int32_t schema_of(const checkpoint_v2_t&) { return 2; }
 constexpr std::int32_t schema_of(const leo_ephemeris_t&) { return wire::kLeoEphemerisSchema; }
 
 // Runs the generated decoder and checks that it used the whole message and that the schema is
@@ -310,8 +312,14 @@ DecodeResult Decoder::decode(ByteSpan bytes, Command* command) {
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Checkpoint* checkpoint) {
-  return schema_in(bytes) == wire::kSchema ? decode_checkpoint<checkpoint_v1_t>(bytes, checkpoint)
-                                           : decode_checkpoint<checkpoint_t>(bytes, checkpoint);
+  switch (schema_in(bytes)) {
+    case 1:
+      return decode_checkpoint<checkpoint_v1_t>(bytes, checkpoint);
+    case 2:
+      return decode_checkpoint<checkpoint_v2_t>(bytes, checkpoint);
+    default:
+      return decode_checkpoint<checkpoint_t>(bytes, checkpoint);
+  }
 }
 
 DecodeResult Decoder::decode(ByteSpan bytes, Decision* decision) {

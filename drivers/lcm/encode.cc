@@ -427,6 +427,18 @@ ByteSpan Encoder::encode(const Checkpoint& checkpoint, std::uint64_t sequence) {
   message.gyro_bias_sigma = checkpoint.gyro_bias_sigma;
   message.code_sigma_factor = checkpoint.code_sigma_factor;
   message.doppler_sigma_factor = checkpoint.doppler_sigma_factor;
+  message.calibrated = checkpoint.calibration ? 1 : 0;
+  const Calibration calibration = checkpoint.calibration.value_or(Calibration());
+  copy(calibration.mounting_rpy, message.mounting_rpy);
+  copy(calibration.accel_bias_b, message.accel_bias_b);
+  copy(calibration.accel_bias_sigma, message.accel_bias_sigma);
+  copy(calibration.gyro_scale, message.gyro_scale);
+  copy(calibration.gyro_scale_sigma, message.gyro_scale_sigma);
+  copy(calibration.accel_scale, message.accel_scale);
+  copy(calibration.accel_scale_sigma, message.accel_scale_sigma);
+  std::copy(calibration.constants.begin(), calibration.constants.end(), message.constants);
+  std::copy(calibration.constant_sigmas.begin(), calibration.constant_sigmas.end(),
+            message.constant_sigmas);
   return storage_->write(message);
 }
 

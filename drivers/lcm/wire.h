@@ -10,7 +10,7 @@
 namespace leonav::wire {
 
 inline constexpr std::int32_t kSchema = 1;
-inline constexpr std::int32_t kCheckpointSchema = 2;    // it has learned errors since
+inline constexpr std::int32_t kCheckpointSchema = 3;    // it has a calibration since
 inline constexpr std::int32_t kLeoEphemerisSchema = 2;  // on the channel of ephemeris_t
 // Of HEALTH. SOLUTION, EPOCH and SMOOTHER: output_schema.h.
 inline constexpr std::int32_t kHealthSchema = 2;

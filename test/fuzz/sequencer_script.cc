@@ -328,6 +328,11 @@ void Player::checkpoint(const ScriptStep& step) {
   one.heading = step.choice < 8 ? 1.0 : 100.0;
   one.heading_sigma = 0.01;
   one.gyro_bias_sigma = step.choice < 12 ? 1e-4 : kNotMeasured;
+  if (step.choice % 3 == 0) {
+    Calibration& calibration = one.calibration.emplace();
+    calibration.accel_bias_b.setConstant(step.choice < 8 ? 0.1 : 1e300);
+    calibration.constant_sigmas.fill(step.choice < 12 ? 0.01 : kNotMeasured);
+  }
   sequencer_->on_checkpoint(one);
 }
 

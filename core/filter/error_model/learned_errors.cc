@@ -67,9 +67,9 @@ void LearnedErrors::reset() {
   last_time_ = GpsTime();
 }
 
-void LearnedErrors::start(double code_sigma_factor, double doppler_sigma_factor) {
-  scale_.start(Observable::kCode, code_sigma_factor);
-  scale_.start(Observable::kDoppler, doppler_sigma_factor);
+void LearnedErrors::start(double code_sigma_factor, double doppler_sigma_factor, double share) {
+  scale_.start(Observable::kCode, code_sigma_factor, share);
+  scale_.start(Observable::kDoppler, doppler_sigma_factor, share);
 }
 
 CorrelationModel LearnedErrors::carrier_correlation(double speed) const {

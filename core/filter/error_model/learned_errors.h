@@ -18,8 +18,9 @@ class LearnedErrors {
   explicit LearnedErrors(const EkfConfig& config);
   // Returns to what is configured.
   void reset();
-  // Takes factors on the configured sigmas from an earlier run, until errors are seen.
-  void start(double code_sigma_factor, double doppler_sigma_factor);
+  // Takes factors on the configured sigmas from an earlier run, until errors are seen. `share`, 0
+  // to 1, is how much of them still counts.
+  void start(double code_sigma_factor, double doppler_sigma_factor, double share);
 
   bool learns() const { return learns_; }
   // Takes the strengths of an epoch's signals; before its measurements are weighed.

@@ -46,9 +46,9 @@ SigmaScale::SigmaScale() {
       terms_[kind].base.value = std::log(kStartScale);
 }
 
-void SigmaScale::start(Observable observable, double scale) {
-  terms_[static_cast<std::size_t>(observable)].base.value =
-      std::clamp(std::log(scale), kSmallestLog, kLargestLog);
+void SigmaScale::start(Observable observable, double scale, double share) {
+  terms_[static_cast<std::size_t>(observable)].base.value = std::clamp(
+      share * std::log(scale) + (1.0 - share) * std::log(kStartScale), kSmallestLog, kLargestLog);
 }
 
 bool SigmaScale::fit_first(Observable observable, std::span<const Sample> samples) {

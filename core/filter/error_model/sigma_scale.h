@@ -29,8 +29,9 @@ class SigmaScale {
   };
 
   SigmaScale();
-  // Takes a scale as that of an observable, until errors are seen.
-  void start(Observable observable, double scale);
+  // Takes a scale as that of an observable, until errors are seen: by `share` of its logarithm, the
+  // rest is what is expected without it.
+  void start(Observable observable, double scale, double share);
   void reset() { *this = SigmaScale(); }
   // Fits the observable's term and those of elevation to the errors of a first epoch;
   // `squared_ratio` of `samples` is taken over the configured variance. With fewer than eight

@@ -498,6 +498,16 @@ void StateEstimate::join_ambiguities(int from, int to, double difference_m, doub
   add(correction, has_attitude_, &state_);
 }
 
+void StateEstimate::set_vehicle_constants(const VehicleConstants& values,
+                                          const VehicleConstants& variances) {
+  const auto count = static_cast<int>(values.size());
+  state_.vehicle = values;
+  state_.ambiguities.clear();
+  covariance_.setZero(kSize + count, kSize + count);
+  for (int i = 0; i < count; ++i)
+    covariance_(kSize + i, kSize + i) = variances[static_cast<std::size_t>(i)];
+}
+
 // Values and variances outlive the filter that found them; correlations do not.
 void StateEstimate::start_vehicle_constants() {
   const int known = static_cast<int>(state_.vehicle.size());

@@ -51,6 +51,8 @@ class StateEstimate {
                   const Eigen::Vector3d& antenna_offset_e);
   // Takes `state` as certain and begins its process, without ambiguities and known clocks.
   void set_exactly(const CoreState& state, bool has_attitude);
+  // Sets the vehicle constants, as many variances as values; to be followed by initialize().
+  void set_vehicle_constants(const VehicleConstants& values, const VehicleConstants& variances);
   // Removes the vehicle constants; to be followed by initialize().
   void remove_vehicle_constants() { state_.vehicle.clear(); }
   void forget_clocks() { known_clocks_ = ClockFlags{}; }

@@ -41,6 +41,14 @@ std::string_view to_string(CheckpointUse use) {
       return "moves";
     case CheckpointUse::kNotNeeded:
       return "not_needed";
+    case CheckpointUse::kCalibrationUsed:
+      return "calibration_used";
+    case CheckpointUse::kCalibrationOld:
+      return "calibration_old";
+    case CheckpointUse::kCalibrationMounted:
+      return "calibration_mounted";
+    case CheckpointUse::kCalibrationImu:
+      return "calibration_imu";
   }
   return "unknown";
 }

@@ -123,7 +123,33 @@ InputFault check(const Command& command) {
   return InputFault::kNone;
 }
 
+InputFault check(const Calibration& calibration) {
+  constexpr double kMaxAngle = 6.3, kMaxAccelBias = 100.0, kMaxScale = 0.5;  // rad, m/s^2, 1
+  constexpr double kMaxTravel = 3.2, kMaxOdometer = 1.0, kMaxArm_m = 1000.0, kMaxOffset_s = 10.0;
+  constexpr std::array<double, ekf_index::kMaxVehicle> kMaxConstants = {
+      kMaxTravel, kMaxTravel, kMaxOdometer, kMaxArm_m, kMaxArm_m, kMaxArm_m, kMaxOffset_s};
+  bool finite = calibration.mounting_rpy.allFinite();
+  bool in_range = calibration.mounting_rpy.cwiseAbs().maxCoeff() <= kMaxAngle;
+  const auto add = [&](double value, double sigma, double limit) {
+    finite = finite && std::isfinite(value) && std::isfinite(sigma);
+    in_range = in_range && std::abs(value) <= limit && sigma >= 0.0 && sigma <= limit;
+  };
+  for (int i = 0; i < 3; ++i) {
+    add(calibration.accel_bias_b[i], calibration.accel_bias_sigma[i], kMaxAccelBias);
+    add(calibration.gyro_scale[i], calibration.gyro_scale_sigma[i], kMaxScale);
+    add(calibration.accel_scale[i], calibration.accel_scale_sigma[i], kMaxScale);
+  }
+  for (std::size_t i = 0; i < kMaxConstants.size(); ++i)
+    add(calibration.constants[i], calibration.constant_sigmas[i], kMaxConstants[i]);
+  if (!finite) return InputFault::kNotFinite;
+  return in_range ? InputFault::kNone : InputFault::kOutOfRange;
+}
+
 InputFault check(const Checkpoint& checkpoint) {
+  if (checkpoint.calibration) {
+    const InputFault fault = check(*checkpoint.calibration);
+    if (fault != InputFault::kNone) return fault;
+  }
   const bool finite =
       checkpoint.antenna_p_e.allFinite() && checkpoint.gyro_bias_b.allFinite() &&
       std::isfinite(checkpoint.antenna_sigma) && std::isfinite(checkpoint.heading) &&

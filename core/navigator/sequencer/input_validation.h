@@ -31,7 +31,9 @@ InputFault check(const SignalObservation& observation);
 InputFault check(const KlobucharModel& model);
 InputFault check(const AntennaPattern& pattern);
 InputFault check(const Command& command);
-// Requires a position near the Earth's surface, a heading within a full turn, and sigmas in range.
+InputFault check(const Calibration& calibration);
+// Requires a position near the Earth's surface, a heading within a full turn, sigmas in range, and
+// a calibration that passes, if there is one.
 InputFault check(const Checkpoint& checkpoint);
 
 // Copies `from` without the observations that no receiver can have made (invalid satellite or

@@ -40,6 +40,7 @@ GnssStage::GnssStage(const NavigatorConfig& config, TimedMailbox<Anchor>* ekf_ma
       filter_monitor_(config),
       code_combination_(config.gnss.code_combination),
       attitude_(config),
+      calibration_(config),
       reporter_(sink),
       pending_keyframe_(config.smoother.keyframe_interval_s),
       installation_monitor_(config.gnss, config.ekf.robust, config.vehicle.lever_arm_b,
@@ -117,6 +118,7 @@ void GnssStage::use_measurements(const EpochWork& work) {
 }
 
 void GnssStage::start_filter(const EpochWork& work) {
+  report_calibration(calibration_.start(work.time, &ekf_), work.time);
   const IndependentSolution solution = front_end_.solve(work, Eigen::Vector3d::Zero());
   if (solution.accepted) {
     ekf_.initialize(work.time, solution.point);
@@ -196,7 +198,7 @@ void GnssStage::initialize_attitude(const EpochWork& work) {
   const auto first = attitude_.first_attitude(ekf_);
   if (!first) return;
   const AlignedAttitude& aligned = first->aligned;
-  ekf_.set_attitude(aligned.q_eb, aligned.sigma_rpy, aligned.gyro_bias_b, aligned.gyro_bias_sigma);
+  report_calibration(calibration_.set_attitude(aligned, work.time, &ekf_), work.time);
   if (!first->heading_given)
     ekf_.raise_attitude_noise(config_.alignment.settling_random_walk, config_.alignment.settling_s);
   attitude_.start_heading_monitor(ekf_);
@@ -233,7 +235,7 @@ void GnssStage::publish(const EpochWork& work) {
   const Solution& solution = reporter_.report().solution;
   std::optional<Checkpoint> checkpoint;
   if (inertial_ && ekf_.initialized())
-    checkpoint = checkpoint_from_filter(work, ekf_, solution, config_.alignment);
+    checkpoint = checkpoint_from_filter(work, ekf_, solution, config_);
   const bool publishes_solution = !inertial_ && keyframes_ == nullptr && ekf_.initialized();
   reporter_.publish(source(), attitude_.need(ekf_, solution.latitude), checkpoint,
                     publishes_solution);
@@ -282,11 +284,17 @@ void GnssStage::set_heading(double heading, double sigma) {
 
 void GnssStage::process_work(const Checkpoint& checkpoint) {
   if (!inertial_) return;
-  if (checkpoint.code_sigma_factor > 0.0 && checkpoint.doppler_sigma_factor > 0.0)
-    ekf_.start_errors(checkpoint.code_sigma_factor, checkpoint.doppler_sigma_factor);
+  if (!ekf_.initialized()) calibration_.take(checkpoint);
   attitude_.take_checkpoint(checkpoint);
   if (ekf_.has_attitude())
     reporter_.report_checkpoint(attitude_.discard_checkpoint(), last_epoch_time_);
+}
+
+void GnssStage::report_calibration(const std::optional<SavedCalibration::Verdict>& verdict,
+                                   GpsTime time) {
+  if (verdict)
+    reporter_.emit(EventKind::kCheckpoint, static_cast<std::uint8_t>(verdict->use), verdict->value,
+                   time);
 }
 
 void GnssStage::apply(const FilterVerdict& verdict, GpsTime time) {

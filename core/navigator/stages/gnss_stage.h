@@ -15,6 +15,7 @@
 #include "core/navigator/stages/internal/measurement_front_end.h"
 #include "core/navigator/stages/internal/pending_keyframe.h"
 #include "core/navigator/stages/internal/reset_plan.h"
+#include "core/navigator/stages/internal/saved_calibration.h"
 #include "core/vehicle/motion_aiding.h"
 
 namespace leonav {
@@ -73,6 +74,7 @@ class GnssStage {
   void publish(const EpochWork& work);
   void push_keyframe(const EpochWork& work);
   void set_heading(double heading, double sigma);
+  void report_calibration(const std::optional<SavedCalibration::Verdict>& verdict, GpsTime time);
 
   // The only members that drop or restart the filter or restart its clocks.
   void apply(const FilterVerdict& verdict, GpsTime time);
@@ -92,6 +94,7 @@ class GnssStage {
   SatelliteFaultMonitor satellite_faults_;
   FaultHypotheses fault_hypotheses_;  // after the last update
   AttitudeInitializer attitude_;
+  SavedCalibration calibration_;
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;
   InstallationMonitor installation_monitor_;

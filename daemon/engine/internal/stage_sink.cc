@@ -40,6 +40,20 @@ void count_reasons(const EpochReport& report, EngineCounters* counters) {
       std::count_if(report.aiding.begin(), report.aiding.end(), contradicts));
 }
 
+void count_checkpoint(const Event& event, EngineCounters* counters) {
+  const auto use = static_cast<CheckpointUse>(event.code);
+  const std::int64_t milli = std::llround(std::clamp(event.value, -1e12, 1e12) * 1e3);
+  if (is_of_calibration(use)) {
+    counters->calibration_milli.set(milli);
+    counters->calibration_use.set(event.code + 1);
+    return;
+  }
+  counters->checkpoint_milli.set(milli);
+  counters->checkpoint_use.set(event.code + 1);
+  const bool used = use == CheckpointUse::kUsed;
+  (used ? counters->checkpoints_used : counters->checkpoints_ignored).add(1);
+}
+
 }  // namespace
 
 void StageSink::on_solution(const Solution& solution) {
@@ -101,12 +115,7 @@ void StageSink::on_event(const Event& event) {
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
     counters_->conventions[event.code].add(1);
   }
-  if (event.kind == EventKind::kCheckpoint) {
-    counters_->checkpoint_milli.set(std::llround(std::clamp(event.value, -1e12, 1e12) * 1e3));
-    counters_->checkpoint_use.set(event.code + 1);
-    const bool used = event.code == static_cast<std::uint8_t>(CheckpointUse::kUsed);
-    (used ? counters_->checkpoints_used : counters_->checkpoints_ignored).add(1);
-  }
+  if (event.kind == EventKind::kCheckpoint) count_checkpoint(event, counters_);
   encoder_.on_event(event);
 }
 

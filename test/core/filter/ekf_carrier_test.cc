@@ -284,7 +284,7 @@ TEST_CASE("a carrier that has lost strength may drift as a reflection does, othe
   EkfConfig config = static_config();
   config.learn_errors = true;
   Ekf filter(config, ImuErrorModel(), Vector3d::Zero());
-  filter.start_errors(5.0, 1.0);
+  filter.start_errors(5.0, 1.0, 1.0);
   filter.initialize(synthetic::kStart, receiver.point());
   const auto measured = [&](double t, double first_cn0_dbhz) {
     MeasurementEpoch epoch = receiver.measure(t);

@@ -67,6 +67,22 @@ TEST_CASE("a checkpoint comes back from its file; where there is none, that is n
   CHECK(loaded->gyro_bias_sigma == Approx(saved.gyro_bias_sigma));
   CHECK(loaded->code_sigma_factor == saved.code_sigma_factor);
   CHECK(loaded->doppler_sigma_factor == saved.doppler_sigma_factor);
+  REQUIRE(loaded->calibration);
+  const Calibration& calibration = *loaded->calibration;
+  const auto same = [](const auto& a, const auto& b) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(a.size()); ++i)
+      if (!(std::abs(a.data()[i] - b.data()[i]) <= 1e-12)) return false;
+    return true;
+  };
+  CHECK(same(calibration.mounting_rpy, saved.calibration->mounting_rpy));
+  CHECK(same(calibration.accel_bias_b, saved.calibration->accel_bias_b));
+  CHECK(same(calibration.accel_bias_sigma, saved.calibration->accel_bias_sigma));
+  CHECK(same(calibration.gyro_scale, saved.calibration->gyro_scale));
+  CHECK(same(calibration.gyro_scale_sigma, saved.calibration->gyro_scale_sigma));
+  CHECK(same(calibration.accel_scale, saved.calibration->accel_scale));
+  CHECK(same(calibration.accel_scale_sigma, saved.calibration->accel_scale_sigma));
+  CHECK(same(calibration.constants, saved.calibration->constants));
+  CHECK(same(calibration.constant_sigmas, saved.calibration->constant_sigmas));
   REQUIRE(remove_checkpoint(path).empty());
   CHECK_FALSE(load_checkpoint(path));
   CHECK(remove_checkpoint(path).empty());
@@ -111,6 +127,36 @@ TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
   write_file(file.path(), std::string(1 << 20, '['));
   CHECK(error_of(file.path()).find("too long") != std::string::npos);
   CHECK(error_of("/dev/zero").find("no ordinary file") != std::string::npos);
+}
+
+TEST_CASE("a checkpoint's file has all of its calibration, or none as in older versions") {
+  const test::TemporaryFile file("checkpoint.yaml", "");
+  Checkpoint without = parked();
+  without.calibration.reset();
+  REQUIRE(save_checkpoint(file.path(), without).empty());
+  REQUIRE(load_checkpoint(file.path()));
+  CHECK_FALSE(load_checkpoint(file.path())->calibration);
+  const std::string old = test::text_of(file.path());
+  REQUIRE(save_checkpoint(file.path(), parked()).empty());
+  const std::string good = test::text_of(file.path());
+  const std::size_t begin = old.find("complete:");
+  const std::size_t end = good.find("complete:");
+  REQUIRE(old.substr(0, begin) == good.substr(0, begin));
+  // Each line of it is needed, and none may hold nonsense.
+  std::size_t lines = 0;
+  for (std::size_t at = begin; at < end; ++lines) {
+    const std::size_t next = good.find('\n', at) + 1;
+    const std::string key = good.substr(at, good.find(':', at) - at);
+    CAPTURE(key);
+    write_file(file.path(), good.substr(0, at) + good.substr(next));
+    CHECK(error_of(file.path()).find(key + " is missing") != std::string::npos);
+    for (const char* bad : {"nan", "-.inf", "1e5", "[1e5, 0, 0]", "[0, 0, -9999]", "words"}) {
+      write_file(file.path(), good.substr(0, at) + key + ": " + bad + "\n" + good.substr(next));
+      CHECK_FALSE(error_of(file.path()).empty());
+    }
+    at = next;
+  }
+  CHECK(lines == 21);
 }
 
 TEST_CASE(
@@ -200,6 +246,21 @@ TEST_CASE("without a heading the file stays while the vehicle stands and goes wh
     keeper.finish();
     CHECK(std::filesystem::exists(path) == standing);
   }
+}
+
+TEST_CASE("a calibration that the next start would refuse is left out of the file") {
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("checkpoint.yaml");
+  Checkpoint wild = parked();
+  wild.calibration->accel_scale_sigma.x() = 7.0;
+  CheckpointWriter keeper({path, 10.0});
+  keeper.start();
+  keeper.latest()->set(wild);
+  keeper.finish();
+  const auto left = load_checkpoint(path);
+  REQUIRE(left);
+  CHECK(left->heading == Approx(wild.heading));
+  CHECK_FALSE(left->calibration);
 }
 
 TEST_CASE("what keeps a checkpoint from being written is reported") {

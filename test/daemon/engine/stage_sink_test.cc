@@ -50,6 +50,15 @@ TEST_CASE("what became of checkpoints is counted, and each epoch's goes to who k
   event.code = static_cast<std::uint8_t>(CheckpointUse::kUsed);
   sink.on_event(event);
   CHECK(counters.checkpoints_used.get() == 1);
+  // What is said about the calibration does not hide it.
+  event.code = static_cast<std::uint8_t>(CheckpointUse::kCalibrationUsed);
+  event.value = 7.5;
+  sink.on_event(event);
+  CHECK(counters.calibration_use.get() == 1 + event.code);
+  CHECK(counters.calibration_milli.get() == 7'500);
+  CHECK(counters.checkpoint_use.get() == 1 + static_cast<int>(CheckpointUse::kUsed));
+  CHECK(counters.checkpoints_used.get() == 1);
+  CHECK(counters.checkpoints_ignored.get() == 1);
 
   const auto report = std::make_unique<EpochReport>();
   Checkpoint taken;

@@ -59,4 +59,12 @@ TEST_CASE("what became of a checkpoint is said in words") {
   CHECK(checkpoint_text(CheckpointUse::kUsed, 1.0).find("checkpoint used") == 0);
   CHECK(checkpoint_text(CheckpointUse::kOld, 40.0 * 86400.0).find("40.0 days") !=
         std::string::npos);
+  CHECK(checkpoint_text(CheckpointUse::kCalibrationUsed, 5400.0) ==
+        "calibration of 1.5 hours ago used");
+  CHECK(checkpoint_text(CheckpointUse::kCalibrationOld, -5.0) ==
+        "calibration ignored: 5.0 s later than the measurements");
+  CHECK(checkpoint_text(CheckpointUse::kCalibrationMounted, 0.0).find("mounting_rpy_deg") !=
+        std::string::npos);
+  CHECK(checkpoint_text(CheckpointUse::kCalibrationImu, 6.0).find("6.0 sigma") !=
+        std::string::npos);
 }

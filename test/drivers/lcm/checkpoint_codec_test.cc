@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <leonav/checkpoint_v1_t.hpp>
+#include <leonav/checkpoint_v2_t.hpp>
 #include <limits>
 #include <vector>
 
@@ -34,6 +35,16 @@ TEST_CASE("a checkpoint survives the wire") {
   CHECK(got.gyro_bias_sigma == sent.gyro_bias_sigma);
   CHECK(got.code_sigma_factor == sent.code_sigma_factor);
   CHECK(got.doppler_sigma_factor == sent.doppler_sigma_factor);
+  REQUIRE(got.calibration);
+  CHECK(got.calibration->mounting_rpy == sent.calibration->mounting_rpy);
+  CHECK(got.calibration->accel_bias_b == sent.calibration->accel_bias_b);
+  CHECK(got.calibration->accel_bias_sigma == sent.calibration->accel_bias_sigma);
+  CHECK(got.calibration->gyro_scale == sent.calibration->gyro_scale);
+  CHECK(got.calibration->gyro_scale_sigma == sent.calibration->gyro_scale_sigma);
+  CHECK(got.calibration->accel_scale == sent.calibration->accel_scale);
+  CHECK(got.calibration->accel_scale_sigma == sent.calibration->accel_scale_sigma);
+  CHECK(got.calibration->constants == sent.calibration->constants);
+  CHECK(got.calibration->constant_sigmas == sent.calibration->constant_sigmas);
   CHECK(channel_from_name("LEONAV_CHECKPOINT") == Channel::kCheckpoint);
   CHECK(is_input(Channel::kCheckpoint));
   CHECK_FALSE(is_input(Channel::kSolution));
@@ -78,12 +89,53 @@ TEST_CASE("a hostile checkpoint is refused, whatever is wrong with it") {
   CHECK(fault_of([](Checkpoint* c) { c->code_sigma_factor = 0.0; }) == kNone);
 }
 
-TEST_CASE("a checkpoint of an older journal is read, without sizes of errors") {
+TEST_CASE("a hostile calibration is refused, each number of it by itself") {
+  Encoder encoder;
+  Decoder decoder;
+  const auto fault_of = [&](const std::function<void(Calibration*)>& spoil) {
+    Checkpoint checkpoint = parked(), got;
+    spoil(&*checkpoint.calibration);
+    return decoder.decode(encoder.encode(checkpoint, 1), &got).fault;
+  };
+  using enum InputFault;
+  using Vector = Eigen::Vector3d Calibration::*;
+  for (const Vector of :
+       {&Calibration::mounting_rpy, &Calibration::accel_bias_b, &Calibration::accel_bias_sigma,
+        &Calibration::gyro_scale, &Calibration::gyro_scale_sigma, &Calibration::accel_scale,
+        &Calibration::accel_scale_sigma}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double bad :
+           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+        CHECK(fault_of([&](Calibration* c) { (c->*of)[axis] = bad; }) == kNotFinite);
+      CHECK(fault_of([&](Calibration* c) { (c->*of)[axis] = 1e3; }) == kOutOfRange);
+    }
+  }
+  for (const Vector sigma : {&Calibration::accel_bias_sigma, &Calibration::gyro_scale_sigma,
+                             &Calibration::accel_scale_sigma})
+    CHECK(fault_of([&](Calibration* c) { (c->*sigma)[1] = -1e-3; }) == kOutOfRange);
+  for (std::size_t i = 0; i < ekf_index::kMaxVehicle; ++i) {
+    CAPTURE(i);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(fault_of([&](Calibration* c) { c->constants[i] = nan; }) == kNotFinite);
+    CHECK(fault_of([&](Calibration* c) { c->constant_sigmas[i] = nan; }) == kNotFinite);
+    CHECK(fault_of([&](Calibration* c) { c->constants[i] = -2e3; }) == kOutOfRange);
+    CHECK(fault_of([&](Calibration* c) { c->constant_sigmas[i] = -1e-3; }) == kOutOfRange);
+    CHECK(fault_of([&](Calibration* c) { c->constant_sigmas[i] = 0.0; }) == kNone);
+  }
+  Checkpoint without = parked(), got = parked();
+  without.calibration.reset();
+  CHECK(decoder.decode(encoder.encode(without, 1), &got).fault == kNone);
+  CHECK_FALSE(got.calibration);
+}
+
+namespace {
+
+template <typename T>
+std::vector<std::uint8_t> older_message(std::int32_t schema, T message) {
   const Checkpoint sent = parked();
-  checkpoint_v1_t message{};
   message.time_ns = sent.time.nanoseconds();
   message.sequence = 1;
-  message.schema = 1;
+  message.schema = schema;
   message.standing = 1;
   std::copy(sent.antenna_p_e.begin(), sent.antenna_p_e.end(), message.antenna_p_e);
   message.antenna_sigma_m = sent.antenna_sigma;
@@ -92,6 +144,14 @@ TEST_CASE("a checkpoint of an older journal is read, without sizes of errors") {
   message.gyro_bias_sigma = sent.gyro_bias_sigma;
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a checkpoint of an older journal is read, without what it had not") {
+  const Checkpoint sent = parked();
+  const std::vector<std::uint8_t> bytes = older_message(1, checkpoint_v1_t{});
   Decoder decoder;
   Checkpoint got = sent;
   REQUIRE(decoder.decode(bytes, &got).fault == InputFault::kNone);
@@ -99,6 +159,17 @@ TEST_CASE("a checkpoint of an older journal is read, without sizes of errors") {
   CHECK(got.antenna_p_e == sent.antenna_p_e);
   CHECK(got.code_sigma_factor == 0.0);
   CHECK(got.doppler_sigma_factor == 0.0);
+  CHECK_FALSE(got.calibration);
+
+  checkpoint_v2_t second{};
+  second.code_sigma_factor = 2.5;
+  second.doppler_sigma_factor = 1.5;
+  got = sent;
+  REQUIRE(decoder.decode(older_message(2, second), &got).fault == InputFault::kNone);
+  CHECK(got.heading == sent.heading);
+  CHECK(got.code_sigma_factor == 2.5);
+  CHECK(got.doppler_sigma_factor == 1.5);
+  CHECK_FALSE(got.calibration);
 }
 
 TEST_CASE("a checkpoint cut short, too long, or of another schema is refused") {
@@ -112,11 +183,13 @@ TEST_CASE("a checkpoint cut short, too long, or of another schema is refused") {
   bytes.push_back(0);
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kUndecodable);
   bytes.pop_back();
-  bytes[27] = 3;  // schema
+  bytes[27] = 4;  // schema
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kUnknownSchema);
-  bytes[27] = 1;  // of another type
-  CHECK(decoder.decode(bytes, &got).fault == InputFault::kUndecodable);
-  bytes[27] = 2;
+  for (const std::uint8_t older : {1, 2}) {
+    bytes[27] = older;  // of another type
+    CHECK(decoder.decode(bytes, &got).fault == InputFault::kUndecodable);
+  }
+  bytes[27] = 3;
   bytes[28] = 2;  // standing
   CHECK(decoder.decode(bytes, &got).fault == InputFault::kOutOfRange);
 }

@@ -64,10 +64,16 @@ void write_log_seeds(SeedWriter* writer) {
 
 void write_state_seeds(SeedWriter* writer) {
   const TemporaryFile file("checkpoint.yaml", "");
-  save_checkpoint(file.path(), parked());
-  std::ifstream stream(file.path(), std::ios::binary);
-  writer->write("checkpoint", "parked",
-                Seed().text(std::string(std::istreambuf_iterator<char>(stream), {})));
+  const auto write_checkpoint = [&](const char* name, const Checkpoint& checkpoint) {
+    save_checkpoint(file.path(), checkpoint);
+    std::ifstream stream(file.path(), std::ios::binary);
+    writer->write("checkpoint", name,
+                  Seed().text(std::string(std::istreambuf_iterator<char>(stream), {})));
+  };
+  Checkpoint checkpoint = parked();
+  write_checkpoint("parked", checkpoint);
+  checkpoint.calibration.reset();  // as older versions
+  write_checkpoint("without_calibration", checkpoint);
 
   BroadcastProducts products;
   products.ephemerides = {walker_ephemerides(gps_walker()).front(),

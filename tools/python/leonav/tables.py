@@ -286,6 +286,13 @@ def checkpoint(m):
     columns["std_gyro_bias_rad_s"] = _native(m["gyro_bias_sigma"])
     if "code_sigma_factor" in m.dtype.names:  # not in journals of older versions
         columns.update({name: _native(m[name]) for name in ("code_sigma_factor", "doppler_sigma_factor")})
+    if "calibrated" in m.dtype.names:
+        columns["calibrated"] = np.asarray(m["calibrated"]) != 0
+        for name, unit in (("mounting_rpy", "_rad"), ("accel_bias_b", "_m_s2"), ("accel_bias_sigma", "_m_s2"), ("gyro_scale", ""),
+                           ("gyro_scale_sigma", ""), ("accel_scale", ""), ("accel_scale_sigma", "")):
+            _spread(columns, name + "_{}" + unit, m[name], AXES_BODY)
+        for name in ("constants", "constant_sigmas"):
+            _spread(columns, "vehicle_" + name + "_{}", m[name], range(7))
     columns["sequence"] = _native(m["sequence"])
     return {"": _table(m["time_ns"], columns)}
 
@@ -335,7 +342,7 @@ CHANNELS = {
     "ORBIT_CLOCK": (("orbit_clock_t",), orbit_clock), "IONOSPHERE": (("ionosphere_t",), ionosphere), "ANTENNA": (("antenna_t",), antenna),
     "CORRECTED_STATES": (("corrected_states_t",), corrected_states), "BIASES": (("biases_t",), biases),
     "COMMAND": (("command_t",), command), "ODOMETER": (("odometer_t",), odometer),
-    "CHECKPOINT": (("checkpoint_t", "checkpoint_v1_t"), checkpoint), "SOLUTION": (("solution_t", "solution_v1_t"), solution),
+    "CHECKPOINT": (("checkpoint_t", "checkpoint_v2_t", "checkpoint_v1_t"), checkpoint), "SOLUTION": (("solution_t", "solution_v1_t"), solution),
     "EPOCH": (("epoch_t", "epoch_v1_t"), epoch), "CONSTRAINTS": (("constraints_t",), constraints), "EVENT": (("event_t",), event),
     "DECISION": (("decision_t",), decision), "SMOOTHER": (("smoother_t", "smoother_v1_t"), smoother),
     "SMOOTHED": (("solution_t", "solution_v1_t"), solution), "HEALTH": (("health_t",), health), "STREAMS": (("streams_t",), streams),
