@@ -63,8 +63,9 @@ enum class CheckpointUse : std::uint8_t {
   // The calibration has a verdict of its own.
   kCalibrationUsed = 7,     // value: its age, s
   kCalibrationOld = 8,      // too old; value: its age, s; below zero: its time has not come yet
-  kCalibrationMounted = 9,  // the IMU is mounted, or its antenna placed, in another way; value: 0
-  kCalibrationImu = 10,     // the gyros have another bias; value: by so many sigmas
+  kCalibrationMounted = 9,  // mounting, or a vehicle constant, differs from what is configured;
+                            // value: 0
+  kCalibrationImu = 10,     // it is of another IMU; value: it differs by so many sigmas
 };
 // Whether a use is that of the calibration.
 constexpr bool is_of_calibration(CheckpointUse use) {

@@ -79,6 +79,7 @@ TEST_CASE("a run from a checkpoint is aligned at once and replays from its journ
   const auto left = load_checkpoint(config.checkpoint.path);
   REQUIRE(left);
   CHECK(left->standing);
+  CHECK(left->calibration);
   CHECK(std::abs(wrap_to_pi(left->heading - parked_heading())) < 0.06);
   CHECK(left->time > test::kSkyEpoch.plus_seconds(28.0));
 
@@ -92,6 +93,8 @@ TEST_CASE("a run from a checkpoint is aligned at once and replays from its journ
   REQUIRE(run_engine(config, list, &live, &counters, &engine));
   CHECK(counters->checkpoints_used.get() == 1);
   CHECK(counters->checkpoints_ignored.get() == 0);
+  CHECK(counters->calibration_use.get() ==
+        1 + static_cast<std::int64_t>(CheckpointUse::kCalibrationUsed));
   CHECK(counters->received[index_of(Channel::kCheckpoint)].get() == 1);
   for (const Gauge& rejected : counters->rejected) CHECK(rejected.get() == 0);
   CHECK(counters->source.get() == static_cast<std::int64_t>(estimator == Estimator::kSmoother

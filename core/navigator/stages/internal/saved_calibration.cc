@@ -30,6 +30,11 @@ double believed(double variance, double configured_sigma) {
   return std::clamp(variance, square(kLeastShare * configured_sigma), square(configured_sigma));
 }
 
+// By how many configured sigmas the largest of three values differs from zero.
+double largest(const Vector3d& values, const GaussMarkov& process) {
+  return process.sigma > 0.0 ? values.cwiseAbs().maxCoeff() / process.sigma : 0.0;
+}
+
 // Moves a state on by its process. One without a sigma is not known.
 Estimate moved_on(double value, double sigma, const GaussMarkov& process, double age_s) {
   if (!(sigma > 0.0) || !(process.sigma > 0.0)) return {0.0, square(process.sigma)};
@@ -83,7 +88,7 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::start(GpsTime time, E
 bool SavedCalibration::is_of_this_vehicle(const Calibration& calibration) const {
   const Vector3d turned = calibration.mounting_rpy - config_.vehicle.mounting_rpy;
   if (!(turned.cwiseAbs().maxCoeff() <= kSameMounting)) return false;
-  for (std::size_t i = kLeverArm; i < kMaxVehicle; ++i) {
+  for (std::size_t i = 0; i < kMaxVehicle; ++i) {
     const double limit = kSamePlaceSigmas * config_.ekf.vehicle.sigma[i];
     if (calibration.constant_sigmas[i] > 0.0 && limit > 0.0 &&
         !(std::abs(calibration.constants[i] - configured_[i]) <= limit))
@@ -146,8 +151,12 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::set_attitude(
           &errors.gyro_scale, &covariance);
   move_on(saved.accel_scale, saved.accel_scale_sigma, config_.imu.accel_scale, passed_s, 9,
           &errors.accel_scale, &covariance);
+  // What is so far from its configuration is of another IMU, or was damaged.
+  double worst = std::max({largest(checkpoint_->gyro_bias_b, config_.imu.gyro_bias),
+                           largest(saved.accel_bias_b, config_.imu.accel_bias),
+                           largest(saved.gyro_scale, config_.imu.gyro_scale),
+                           largest(saved.accel_scale, config_.imu.accel_scale)});
   if (aligned.gyro_bias_known) {
-    double worst = 0.0;
     for (int i = 0; i < 3; ++i) {
       const double saved_variance = covariance(i, i);
       const double measured_variance = square(aligned.gyro_bias_sigma);
@@ -158,10 +167,10 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::set_attitude(
       errors.gyro_bias_b[i] += saved_variance / sum * difference;
       covariance(i, i) = saved_variance * measured_variance / sum;
     }
-    if (worst > kSameImuSigmas) {
-      without();
-      return Verdict{CheckpointUse::kCalibrationImu, worst};
-    }
+  }
+  if (!(worst <= kSameImuSigmas)) {
+    without();
+    return Verdict{CheckpointUse::kCalibrationImu, worst};
   }
   filter->set_attitude(aligned.q_eb, aligned.sigma_rpy, errors, covariance);
   checkpoint_.reset();

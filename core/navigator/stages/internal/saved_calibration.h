@@ -16,8 +16,8 @@ namespace leonav {
 //   errors of the IMU         are moved on by their Gauss-Markov process,
 //   vehicle constants         are moved on by their random walk;
 // sigmas are doubled, and lie between a fifth of the configured one and that. Where the gyros' bias
-// was measured at rest, both are combined; where they contradict each other, the IMU is another
-// one, and its errors are as configured.
+// was measured at rest, both are combined; where they contradict each other, or an error is
+// far beyond its configured sigma, the IMU is another one, and its errors are as configured.
 class SavedCalibration {
  public:
   explicit SavedCalibration(const NavigatorConfig& config);

@@ -190,6 +190,29 @@ TEST_CASE("a gyro bias that was measured at rest is combined with that of before
   CHECK(variance(far, kAccelBias) == Approx(std::pow(config.imu.accel_bias.sigma, 2)));
 }
 
+TEST_CASE("errors that no such IMU has are not taken, whatever sigma they come with") {
+  const NavigatorConfig config = config_of_parked();
+  using Vector = Eigen::Vector3d Calibration::*;
+  for (const Vector of :
+       {&Calibration::accel_bias_b, &Calibration::gyro_scale, &Calibration::accel_scale}) {
+    Checkpoint checkpoint = parked();
+    ((*checkpoint.calibration).*of).z() = -0.45;  // passes check() of all three
+    if (of == &Calibration::accel_bias_b) checkpoint.calibration->accel_bias_b.z() = 50.0;
+    Ekf filter = filter_of(config);
+    SavedCalibration calibration(config);
+    calibration.take(checkpoint);
+    calibration.start(checkpoint.time, &filter);
+    filter.initialize(checkpoint.time, parked_point());
+    const auto verdict =
+        calibration.set_attitude(aligned_in_motion(config), checkpoint.time, &filter);
+    REQUIRE(verdict);
+    CHECK(verdict->use == CheckpointUse::kCalibrationImu);
+    CHECK(filter.state().errors.accel_bias_b.isZero());
+    CHECK(filter.state().errors.gyro_scale.isZero());
+    CHECK(filter.state().errors.accel_scale.isZero());
+  }
+}
+
 TEST_CASE("of another mounting, antenna or time, or without calibration, nothing is taken") {
   const NavigatorConfig original = config_of_parked();
   const auto verdict_of = [](const NavigatorConfig& config, const Checkpoint& checkpoint,
@@ -222,6 +245,15 @@ TEST_CASE("of another mounting, antenna or time, or without calibration, nothing
   verdict = verdict_of(config, parked(), 1.0);
   REQUIRE(verdict);
   CHECK(verdict->use == CheckpointUse::kCalibrationMounted);
+  for (std::size_t i = 0; i < kMaxVehicle; ++i) {
+    if (parked().calibration->constant_sigmas[i] == 0.0) continue;
+    CAPTURE(i);
+    Checkpoint damaged = parked();
+    damaged.calibration->constants[i] += 4.0 * original.ekf.vehicle.sigma[i];
+    verdict = verdict_of(original, damaged, 1.0);
+    REQUIRE(verdict);
+    CHECK(verdict->use == CheckpointUse::kCalibrationMounted);
+  }
   for (const double age_s : {original.checkpoint_max_age_s + 1.0, -10.0}) {
     verdict = verdict_of(original, parked(), age_s);
     REQUIRE(verdict);
