@@ -1,5 +1,5 @@
 // What an NTRIP caster answers.
-#include "support/ntrip_answers.h"
+#include "support/programs/ntrip_answers.h"
 #include "test/fuzz/byte_script.h"
 #include "test/fuzz/target_groups.h"
 

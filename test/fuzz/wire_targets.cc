@@ -6,18 +6,18 @@
 
 #include "daemon/messages/encoding_sink.h"
 #include "daemon/messages/input_dispatch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 #include "test/fuzz/byte_script.h"
 #include "test/fuzz/checksum_repair.h"
 #include "test/fuzz/target_groups.h"
-#include "tools/connect/formats/imu_line_format.h"
-#include "tools/connect/formats/oem7_format.h"
-#include "tools/connect/formats/page_format.h"
-#include "tools/connect/formats/rtcm3_format.h"
-#include "tools/connect/formats/sbf_format.h"
-#include "tools/connect/formats/ubx_format.h"
-#include "tools/connect/formats/vectornav_format.h"
-#include "tools/connect/formats/xsens_format.h"
+#include "tools/connect/formats/inertial/imu_line_format.h"
+#include "tools/connect/formats/inertial/vectornav_format.h"
+#include "tools/connect/formats/inertial/xsens_format.h"
+#include "tools/connect/formats/pages/page_format.h"
+#include "tools/connect/formats/receivers/oem7_format.h"
+#include "tools/connect/formats/receivers/rtcm3_format.h"
+#include "tools/connect/formats/receivers/sbf_format.h"
+#include "tools/connect/formats/receivers/ubx_format.h"
 
 namespace leonav::test {
 namespace {

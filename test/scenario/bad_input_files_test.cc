@@ -8,9 +8,9 @@
 
 #include "core/base/calendar.h"
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/shared_data.h"
-#include "support/simulated_sky.h"
+#include "support/programs/program_run.h"
+#include "support/recorded/shared_data.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav::test {
 namespace {

@@ -3,7 +3,7 @@
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 namespace leonav::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
+#include "support/drive/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -9,9 +9,9 @@
 #include "core/base/calendar.h"
 #include "core/gnss/orbits/satellite_state.h"
 #include "support/catch.h"
-#include "support/dataset.h"
-#include "support/rtklib_ephemerides.h"
-#include "support/rtklib_single.h"
+#include "support/recorded/dataset.h"
+#include "support/recorded/rtklib_ephemerides.h"
+#include "support/recorded/rtklib_single.h"
 
 using namespace leonav;
 using namespace leonav::test;

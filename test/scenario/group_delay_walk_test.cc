@@ -9,7 +9,7 @@
 #include "core/gnss/propagation/group_delay.h"
 #include "drivers/ubx/ubx_file_reader.h"
 #include "support/catch.h"
-#include "support/dataset.h"
+#include "support/recorded/dataset.h"
 
 using namespace leonav;
 using namespace leonav::test;

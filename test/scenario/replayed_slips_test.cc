@@ -13,7 +13,7 @@
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
 #include "scenario/recorded_runs.h"
-#include "support/slip_table.h"
+#include "support/slips/slip_table.h"
 
 namespace leonav::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "drivers/imu_line/line_layout.h"
 #include "drivers/oem7/imu_scale.h"
 #include "drivers/ssr/correction_store.h"
-#include "tools/connect/formats/ubx_options.h"
+#include "tools/connect/formats/receivers/ubx_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
 #include "tools/connect/stamps/imu_stamper.h"

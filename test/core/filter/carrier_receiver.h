@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/filter/ekf.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav::synthetic {

@@ -5,7 +5,7 @@
 #include "core/filter/ekf.h"
 #include "nees.h"
 #include "support/catch.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 
 namespace leonav {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/filter/ekf.h"
 #include "support/catch.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav {

@@ -8,7 +8,7 @@
 #include "core/filter/update/measurement_model.h"
 #include "nees.h"
 #include "support/catch.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 
 namespace leonav {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/filter/update/measurement_model.h"
 #include "support/catch.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 #include "synthetic.h"
 
 namespace leonav {

@@ -10,7 +10,7 @@
 #include "core/filter/state/ekf_state.h"
 #include "core/filter/synthetic.h"
 #include "support/catch.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 
 namespace leonav {
 namespace {

@@ -2,7 +2,7 @@
 #include "core/navigator/navigator.h"
 
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 using namespace leonav;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 #include "tools/common/allocations/allocation_counter.h"
 
 namespace leonav::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 

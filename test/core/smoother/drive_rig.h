@@ -11,7 +11,7 @@
 #include "core/filter/synthetic.h"
 #include "core/filter/update/measurement_model.h"
 #include "core/smoother/keyframe_from_filter.h"
-#include "support/white_errors.h"
+#include "support/drive/white_errors.h"
 
 namespace leonav::synthetic {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

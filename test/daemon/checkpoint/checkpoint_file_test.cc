@@ -16,8 +16,8 @@
 #include "daemon/checkpoint/checkpoint_writer.h"
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
-#include "support/parked_checkpoint.h"
-#include "support/program_run.h"
+#include "support/programs/parked_checkpoint.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/decode.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 
 using namespace leonav;

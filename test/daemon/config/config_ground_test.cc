@@ -14,7 +14,7 @@
 #include "drivers/lcm/run_configuration.h"
 #include "same_config.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -15,7 +15,7 @@
 #include "daemon/config/load_config.h"
 #include "daemon/engine/engine.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -15,7 +15,7 @@
 #include "daemon/engine/engine.h"
 #include "daemon/health/health_monitor.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 #include "tools/common/allocations/allocation_counter.h"
 

@@ -10,7 +10,7 @@
 #include "daemon/engine/engine.h"
 #include "daemon/engine/saved_inputs.h"
 #include "engine_runs.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 namespace {

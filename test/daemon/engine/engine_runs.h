@@ -11,7 +11,7 @@
 #include "daemon/messages/output_groups.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 
 namespace leonav::test {
 

@@ -14,7 +14,7 @@
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "engine_runs.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 namespace {
 

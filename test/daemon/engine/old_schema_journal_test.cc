@@ -10,8 +10,8 @@
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
-#include "support/program_run.h"
+#include "support/drive/drive_inputs.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -2,7 +2,7 @@
 #include "daemon/health/answer_monitor.h"
 
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 
 namespace {
 

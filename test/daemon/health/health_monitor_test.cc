@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -12,8 +12,8 @@
 #include "drivers/lcm/event_header.h"
 #include "drivers/lcm/piece_file.h"
 #include "journal/journal_rig.h"
-#include "support/drive_inputs.h"
-#include "support/program_run.h"
+#include "support/drive/drive_inputs.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 #include "tools/common/allocations/allocation_counter.h"
 

@@ -5,7 +5,7 @@
 #include "daemon/checkpoint/checkpoint_file.h"
 #include "daemon/text/checkpoint_text.h"
 #include "support/catch.h"
-#include "support/daemon_program.h"
+#include "support/programs/daemon_program.h"
 
 namespace {
 

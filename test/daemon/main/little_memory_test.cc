@@ -4,7 +4,7 @@
 #include <string>
 
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
-#include "support/daemon_program.h"
+#include "support/programs/daemon_program.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "support/catch.h"
-#include "support/daemon_program.h"
+#include "support/programs/daemon_program.h"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include "daemon/health/thread_monitor.h"
 #include "daemon/threads/wall_clock.h"
 #include "support/catch.h"
-#include "support/daemon_program.h"
-#include "support/drive_inputs.h"
+#include "support/drive/drive_inputs.h"
+#include "support/programs/daemon_program.h"
 
 namespace {
 

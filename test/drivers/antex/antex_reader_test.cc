@@ -11,7 +11,7 @@
 #include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

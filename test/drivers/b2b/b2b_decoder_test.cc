@@ -4,7 +4,7 @@
 #include <random>
 
 #include "support/catch.h"
-#include "support/page_bits.h"
+#include "support/pages/page_bits.h"
 
 namespace leonav {
 namespace {

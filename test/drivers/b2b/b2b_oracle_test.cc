@@ -4,8 +4,8 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ssr/correction_store.h"
 #include "support/catch.h"
-#include "support/page_oracle.h"
-#include "support/shared_data.h"
+#include "support/pages/page_oracle.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "drivers/sp3/sp3_reader.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

@@ -9,7 +9,7 @@
 #include "drivers/csv/solution_csv.h"
 #include "drivers/csv/truth_csv.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 using namespace leonav;
 using Catch::Matchers::Contains;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/has/reed_solomon.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav::test {
 

@@ -12,7 +12,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ssr/orbit_correction.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "annex_d.h"
 #include "support/catch.h"
-#include "support/page_bits.h"
+#include "support/pages/page_bits.h"
 
 namespace leonav {
 namespace {

@@ -12,7 +12,7 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
-#include "support/parked_checkpoint.h"
+#include "support/programs/parked_checkpoint.h"
 
 using namespace leonav;
 using test::parked;

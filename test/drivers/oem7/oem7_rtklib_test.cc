@@ -7,7 +7,7 @@
 #include "oem7_streams.h"
 #include "oracle_programs.h"
 #include "support/catch.h"
-#include "support/ephemeris_elements.h"
+#include "support/recorded/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

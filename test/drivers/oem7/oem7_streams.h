@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "drivers/oem7/oem7_decoder.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav::test {
 

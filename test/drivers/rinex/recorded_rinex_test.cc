@@ -8,7 +8,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/rinex/observation_reader.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 using namespace leonav;
 using namespace leonav::test;

@@ -11,7 +11,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ubx/walk_recording.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

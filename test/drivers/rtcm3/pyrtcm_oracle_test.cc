@@ -11,7 +11,7 @@
 #include "oracle_programs.h"
 #include "rtcm3_streams.h"
 #include "support/catch.h"
-#include "support/ephemeris_elements.h"
+#include "support/recorded/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

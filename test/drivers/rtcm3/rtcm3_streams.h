@@ -12,7 +12,7 @@
 #include "core/base/calendar.h"
 #include "drivers/binary/crc24q.h"
 #include "drivers/rtcm3/rtcm3_decoder.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav::test {
 

@@ -5,7 +5,7 @@
 #include "drivers/ubx/walk_recording.h"
 #include "sbf_streams.h"
 #include "support/catch.h"
-#include "support/ephemeris_elements.h"
+#include "support/recorded/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

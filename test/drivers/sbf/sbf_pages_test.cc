@@ -7,7 +7,7 @@
 #include "drivers/sbf/sbf_file_reader.h"
 #include "sbf_streams.h"
 #include "support/catch.h"
-#include "support/pages_in_sbf.h"
+#include "support/pages/pages_in_sbf.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

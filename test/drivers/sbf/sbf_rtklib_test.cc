@@ -13,7 +13,7 @@
 #include "oracle_programs.h"
 #include "sbf_streams.h"
 #include "support/catch.h"
-#include "support/ephemeris_elements.h"
+#include "support/recorded/ephemeris_elements.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "drivers/sbf/sbf_decoder.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav::test {
 

@@ -8,7 +8,7 @@
 #include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {

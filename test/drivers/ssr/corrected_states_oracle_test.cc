@@ -12,7 +12,7 @@
 #include "drivers/rtcm3/rtcm3_decoder.h"
 #include "drivers/ssr/correction_store.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 
 namespace leonav {

@@ -7,7 +7,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ubx/walk_recording.h"
 #include "support/catch.h"
-#include "support/ephemeris_elements.h"
+#include "support/recorded/ephemeris_elements.h"
 
 namespace leonav {
 namespace {

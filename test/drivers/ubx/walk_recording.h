@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/ubx/ubx_decoder.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav::test {
 

@@ -3,8 +3,8 @@
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_header.h"
 #include "drivers/lcm/journal_marks.h"
-#include "support/parked_checkpoint.h"
-#include "support/simulated_sky.h"
+#include "support/programs/parked_checkpoint.h"
+#include "support/sky/simulated_sky.h"
 #include "support/temporary_file.h"
 #include "test/fuzz/seeds/seed_writer.h"
 

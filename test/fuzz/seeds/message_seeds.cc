@@ -2,8 +2,8 @@
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/journal_marks.h"
-#include "support/parked_checkpoint.h"
-#include "support/simulated_sky.h"
+#include "support/programs/parked_checkpoint.h"
+#include "support/sky/simulated_sky.h"
 #include "test/fuzz/good_input.h"
 #include "test/fuzz/seeds/seed_writer.h"
 

@@ -1,4 +1,4 @@
-#include "support/page_bits.h"
+#include "support/pages/page_bits.h"
 #include "test/fuzz/seeds/seed_writer.h"
 
 namespace leonav::test {

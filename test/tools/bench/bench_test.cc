@@ -1,6 +1,6 @@
 // leonav-bench says what was measured, and fails where a limit is not kept.
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 using namespace leonav::test;
 using Catch::Contains;

@@ -5,7 +5,7 @@
 
 #include "core/earth/rotation.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 #include "tools/calibrate/data_halves.h"
 #include "tools/calibrate/print_calibration.h"
 

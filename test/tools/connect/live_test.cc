@@ -7,8 +7,8 @@
 #include <string>
 
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/shared_data.h"
+#include "support/programs/program_run.h"
+#include "support/recorded/shared_data.h"
 
 using namespace leonav::test;
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 #include "tools/evaluate/internal/clopper_pearson.h"
 

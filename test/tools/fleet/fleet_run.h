@@ -5,7 +5,7 @@
 #include <string>
 
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 namespace leonav::test {
 

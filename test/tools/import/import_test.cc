@@ -15,7 +15,7 @@
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"

@@ -6,8 +6,8 @@
 
 #include "drivers/text/parse.h"
 #include "support/catch.h"
-#include "support/pages_in_sbf.h"
-#include "support/shared_data.h"
+#include "support/pages/pages_in_sbf.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
 

@@ -4,7 +4,7 @@
 
 #include "drivers/text/parse.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
 

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/rtklib_single.h"
+#include "support/programs/program_run.h"
+#include "support/recorded/rtklib_single.h"
 #include "tools/import/dataset.h"
 #include "tools/import/import.h"
 #include "tools/quality/internal/sky.h"

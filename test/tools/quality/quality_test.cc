@@ -8,8 +8,8 @@
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/simulated_sky.h"
+#include "support/programs/program_run.h"
+#include "support/sky/simulated_sky.h"
 #include "support/temporary_file.h"
 
 using namespace leonav;

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 using namespace leonav::test;

@@ -8,7 +8,7 @@
 
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 using namespace leonav;
 using namespace leonav::test;

@@ -7,7 +7,7 @@
 
 #include "drivers/csv/csv_rows.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 using namespace leonav;

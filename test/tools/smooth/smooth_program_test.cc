@@ -4,8 +4,8 @@
 #include "drivers/csv/solution_csv.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
-#include "support/program_run.h"
+#include "support/drive/drive_inputs.h"
+#include "support/programs/program_run.h"
 
 namespace leonav::test {
 namespace {

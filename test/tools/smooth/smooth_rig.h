@@ -2,8 +2,8 @@
 #pragma once
 #include "core/smoother/batch/batch_smoother.h"
 #include "support/catch.h"
-#include "support/drive_inputs.h"
-#include "support/navigator_config.h"
+#include "support/drive/drive_inputs.h"
+#include "support/drive/navigator_config.h"
 #include "tools/smooth/keyframe_collector.h"
 
 namespace leonav::test {

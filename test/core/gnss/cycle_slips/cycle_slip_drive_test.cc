@@ -1,6 +1,6 @@
 // The detectors on a synthetic drive at 1 Hz, with and without an inertial prediction.
 #include "support/catch.h"
-#include "support/slip_scene_1hz.h"
+#include "support/slips/slip_scene_1hz.h"
 
 namespace leonav {
 namespace {

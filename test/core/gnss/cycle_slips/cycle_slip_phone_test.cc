@@ -1,8 +1,8 @@
 // What becomes of the carriers of a phone, which break constantly: printed, as no truth tells which
 // of its slips are real.
 #include "support/catch.h"
-#include "support/dataset.h"
-#include "support/slip_table.h"
+#include "support/recorded/dataset.h"
+#include "support/slips/slip_table.h"
 
 namespace leonav {
 

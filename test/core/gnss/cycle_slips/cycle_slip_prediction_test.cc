@@ -1,8 +1,8 @@
 // What an inertial prediction of the position change adds to the slip detectors: where few
 // satellites are in view, many slip at once, and the slips are small.
 #include "support/catch.h"
-#include "support/slip_bursts.h"
-#include "support/slip_scene_1hz.h"
+#include "support/slips/slip_bursts.h"
+#include "support/slips/slip_scene_1hz.h"
 
 namespace leonav {
 namespace {

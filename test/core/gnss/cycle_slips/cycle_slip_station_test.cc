@@ -1,7 +1,7 @@
 // The detectors on six hours of a geodetic receiver, 30 s, into whose carriers slips are put.
 #include "support/catch.h"
-#include "support/dataset.h"
-#include "support/slip_table.h"
+#include "support/recorded/dataset.h"
+#include "support/slips/slip_table.h"
 
 namespace leonav {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 using namespace leonav;
 

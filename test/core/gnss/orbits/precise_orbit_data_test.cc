@@ -9,7 +9,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {

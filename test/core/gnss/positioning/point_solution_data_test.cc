@@ -4,7 +4,7 @@
 
 #include "core/gnss/positioning/point_solution.h"
 #include "support/catch.h"
-#include "support/dataset.h"
+#include "support/recorded/dataset.h"
 
 namespace leonav::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/gnss/preprocessing/preprocess.h"
 #include "exhaustive_exclusion.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 using namespace leonav;
 using namespace leonav::test;

@@ -15,7 +15,7 @@
 #include "core/gnss/propagation/antenna_pattern_store.h"
 #include "drivers/antex/antex_reader.h"
 #include "support/catch.h"
-#include "support/dataset.h"
+#include "support/recorded/dataset.h"
 
 namespace leonav {
 namespace {

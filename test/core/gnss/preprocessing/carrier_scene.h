@@ -1,6 +1,6 @@
 // A receiver that tracks GPS and Galileo on three frequencies, codes and carriers free of noise.
 #pragma once
-#include "support/simulated_carrier.h"
+#include "support/sky/simulated_carrier.h"
 
 namespace leonav::test {
 

@@ -12,7 +12,7 @@
 #include "core/gnss/propagation/ionosphere.h"
 #include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav {
 namespace {

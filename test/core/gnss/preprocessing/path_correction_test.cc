@@ -5,7 +5,7 @@
 #include "core/gnss/orbits/satellite_attitude.h"
 #include "core/gnss/propagation/phase_wind_up.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/gnss/positioning/point_solution.h"
 #include "core/gnss/preprocessing/preprocess.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 #include "tools/common/allocations/allocation_counter.h"
 
 using namespace leonav;

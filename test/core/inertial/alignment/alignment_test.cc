@@ -9,7 +9,7 @@
 #include "core/earth/rotation.h"
 #include "exact_motion.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 
 using namespace leonav;
 using namespace leonav::test;

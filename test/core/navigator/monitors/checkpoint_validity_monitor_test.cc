@@ -8,8 +8,8 @@
 #include "core/earth/rotation.h"
 #include "core/navigator/monitors/checkpoint_validity_monitor.h"
 #include "support/catch.h"
-#include "support/sequencer_rig.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

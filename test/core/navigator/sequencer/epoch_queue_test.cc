@@ -3,7 +3,7 @@
 
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "support/catch.h"
-#include "support/sequencer_rig.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

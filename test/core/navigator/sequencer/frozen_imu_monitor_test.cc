@@ -6,7 +6,7 @@
 #include <random>
 
 #include "support/catch.h"
-#include "support/sequencer_rig.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

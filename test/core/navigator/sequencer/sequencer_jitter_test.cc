@@ -7,7 +7,7 @@
 #include <iostream>
 #include <random>
 
-#include "support/sequencer_rig.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "support/catch.h"
-#include "support/sequencer_rig.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

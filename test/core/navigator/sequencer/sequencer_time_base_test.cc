@@ -2,7 +2,7 @@
 #include "core/navigator/sequencer/sequencer.h"
 
 #include "support/catch.h"
-#include "support/sequencer_rig.h"
+#include "support/stages/sequencer_rig.h"
 
 namespace leonav::test {
 namespace {

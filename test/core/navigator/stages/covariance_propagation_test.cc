@@ -4,7 +4,7 @@
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/mechanization.h"
 #include "support/catch.h"
-#include "support/synthetic_drive.h"
+#include "support/drive/synthetic_drive.h"
 
 namespace leonav::test {
 namespace {

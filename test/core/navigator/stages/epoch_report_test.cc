@@ -6,7 +6,7 @@
 #include "core/gnss/measurement/dop.h"
 #include "core/gnss/preprocessing/preprocess.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav::test {
 namespace {

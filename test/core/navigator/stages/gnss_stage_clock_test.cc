@@ -3,7 +3,7 @@
 #include <random>
 
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

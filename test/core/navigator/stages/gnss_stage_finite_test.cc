@@ -1,7 +1,7 @@
 // Numbers that overflow.
 #include "core/navigator/interface/solution_conversion.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

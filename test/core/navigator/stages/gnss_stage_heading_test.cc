@@ -6,7 +6,7 @@
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -1,7 +1,7 @@
 // When the filter is started anew, and when it is not.
 #include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

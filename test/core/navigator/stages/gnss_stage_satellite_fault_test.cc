@@ -2,7 +2,7 @@
 // its sigma.
 #include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "inertial_rig.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "core/navigator/stages/inertial_navigator.h"
-#include "support/recording_sink.h"
-#include "support/synthetic_drive.h"
+#include "support/drive/synthetic_drive.h"
+#include "support/stages/recording_sink.h"
 
 namespace leonav::test {
 

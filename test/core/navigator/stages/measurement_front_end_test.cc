@@ -6,8 +6,8 @@
 
 #include "core/gnss/propagation/ionosphere.h"
 #include "support/catch.h"
-#include "support/navigator_config.h"
-#include "support/simulated_sky.h"
+#include "support/drive/navigator_config.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav::test {
 namespace {

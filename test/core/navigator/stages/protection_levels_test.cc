@@ -6,7 +6,7 @@
 #include "core/navigator/interface/solution_conversion.h"
 #include "inertial_rig.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 
 namespace leonav::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/gnss/signals/band_plan.h"
 #include "support/catch.h"
-#include "support/stage_drive.h"
+#include "support/drive/stage_drive.h"
 #include "tools/common/allocations/allocation_counter.h"
 
 namespace leonav::test {

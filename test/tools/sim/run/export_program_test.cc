@@ -5,8 +5,8 @@
 
 #include "drivers/csv/solution_csv.h"
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/rtklib_single.h"
+#include "support/programs/program_run.h"
+#include "support/recorded/rtklib_single.h"
 #include "support/temporary_file.h"
 
 using namespace leonav;

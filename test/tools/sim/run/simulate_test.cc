@@ -9,8 +9,8 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "support/catch.h"
-#include "support/program_run.h"
-#include "support/simulated_receiver.h"
+#include "support/programs/program_run.h"
+#include "support/sky/simulated_receiver.h"
 
 using namespace leonav;
 using namespace leonav::test;

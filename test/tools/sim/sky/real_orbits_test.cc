@@ -10,7 +10,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
+#include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 #include "tools/sim/sky/true_sky.h"

@@ -9,7 +9,7 @@
 
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
-#include "support/simulated_receiver.h"
+#include "support/sky/simulated_receiver.h"
 
 using namespace leonav;
 using namespace leonav::test;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "support/catch.h"
-#include "support/simulated_receiver.h"
+#include "support/sky/simulated_receiver.h"
 #include "support/temporary_file.h"
 
 using namespace leonav;

@@ -1,0 +1,203 @@
+// What leonav-connect publishes of an RTCM 3 stream, from messages encoded here by the standard's
+// tables.
+#include "tools/connect/formats/receivers/rtcm3_format.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/calendar.h"
+#include "core/gnss/orbits/satellite_state.h"
+#include "core/gnss/signals/signal.h"
+#include "drivers/binary/crc24q.h"
+#include "drivers/lcm/decode.h"
+#include "support/catch.h"
+
+namespace leonav {
+namespace {
+
+// Bits, the most significant first.
+class Bits {
+ public:
+  Bits& add(std::uint64_t value, int count) {
+    for (int bit = count - 1; bit >= 0; --bit) bits_.push_back(value >> bit & 1U);
+    return *this;
+  }
+  // With preamble, length and checksum.
+  std::vector<std::uint8_t> frame() const {
+    std::vector<std::uint8_t> bytes((bits_.size() + 7) / 8);
+    for (std::size_t i = 0; i < bits_.size(); ++i)
+      if (bits_[i] != 0) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | 0x80U >> i % 8);
+    bytes.insert(bytes.begin(), {0xD3, static_cast<std::uint8_t>(bytes.size() >> 8),
+                                 static_cast<std::uint8_t>(bytes.size() & 0xFFU)});
+    std::uint32_t crc = 0;
+    for (const std::uint8_t byte : bytes) crc = crc24q_next(crc, byte);
+    for (const int shift : {16, 8, 0})
+      bytes.push_back(static_cast<std::uint8_t>(crc >> shift & 0xFFU));
+    return bytes;
+  }
+
+ private:
+  std::vector<std::uint64_t> bits_;
+};
+
+// MSM4 of satellite 7 with one signal, whose mask is 1 << (32 - 2) for L1 C/A: 75 ms and a half.
+std::vector<std::uint8_t> msm4(int number, std::uint64_t time_ms) {
+  Bits bits;
+  bits.add(static_cast<std::uint64_t>(number), 12).add(1, 12).add(time_ms, 30).add(0, 1);
+  bits.add(0, 3).add(0, 7).add(0, 2).add(0, 2).add(0, 1).add(0, 3);
+  bits.add(std::uint64_t{1} << (64 - 7), 64).add(std::uint64_t{1} << (32 - 2), 32).add(1, 1);
+  bits.add(75, 8).add(512, 10);
+  bits.add(0, 15).add(0, 22).add(5, 4).add(0, 1).add(45, 6);
+  return bits.frame();
+}
+
+struct Epochs : MessageTarget {
+  void take(Channel channel, ByteSpan bytes) override {
+    REQUIRE(channel == Channel::kGnssEpoch);
+    RawEpoch epoch;
+    REQUIRE(Decoder().decode(bytes, &epoch).fault == InputFault::kNone);
+    list.push_back(epoch);
+  }
+  std::vector<RawEpoch> list;
+};
+
+// Of 2024-03-20, a Wednesday: 04:00 GPS time.
+const GpsTime kTime = from_calendar({2024, 3, 20, 4, 0, 0.0});
+constexpr std::uint64_t kOfWeek_ms = (3 * 24 + 4) * 3'600'000ULL;
+
+std::int64_t host_ns(GpsTime time) {
+  return time.nanoseconds() + (315'964'800 - leap_seconds(time)) * kNanosecondsPerSecond;
+}
+
+}  // namespace
+
+TEST_CASE("Observations are published with the week of the host's clock, or of the day told",
+          "[connect]") {
+  const bool is_live = GENERATE(true, false);
+  Epochs epochs;
+  MessageOutput output(&epochs);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(is_live ? GpsTime() : kTime.plus_seconds(-2.5 * 86'400), 30.0, &clock,
+                     &output);
+  for (int second = 0; second < 3; ++second) {
+    const auto bytes = msm4(1074, kOfWeek_ms + 1000U * static_cast<unsigned>(second));
+    // A file is read at any time.
+    const GpsTime now = is_live ? kTime.plus_seconds(second + 0.1) : kTime.plus_seconds(9e6);
+    format.feed(bytes, host_ns(now));
+  }
+  format.finish();
+  REQUIRE(epochs.list.size() == 3);
+  CHECK(epochs.list[2].time == kTime.plus_seconds(2.0));
+  REQUIRE(epochs.list[2].observations.size() == 1);
+  const SignalObservation& observation = epochs.list[2].observations.front();
+  CHECK(observation.satellite == SatelliteId{System::kGps, 7});
+  CHECK(observation.pseudorange_m == Approx(0.0755 * 299'792'458.0).epsilon(1e-12));
+  CHECK(format.counts().frames == 3);
+  CHECK(format.counts().messages == 3);
+  CHECK(format.counts().damaged == 0);
+  CHECK(format.data_time()->nanoseconds == kTime.plus_seconds(2.0).nanoseconds());
+  CHECK(format.detail() == "1 signals in the last epoch, 0 ephemerides");
+}
+
+TEST_CASE("A stream without what is needed is told with what it has", "[connect]") {
+  Epochs epochs;
+  MessageOutput output(&epochs);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(kTime, 30.0, &clock, &output);
+  std::vector<std::uint8_t> damaged = msm4(1074, kOfWeek_ms);
+  damaged[10] ^= 0x10U;
+  format.feed(damaged, host_ns(kTime));
+  format.feed(msm4(1084, 3'600'000), host_ns(kTime));
+  format.finish();
+  CHECK(epochs.list.empty());
+  CHECK(format.counts().damaged == 1);
+  CHECK(format.counts().frames == 1);
+  CHECK(format.why_no_messages().find("1084") != std::string::npos);
+  CHECK(format.why_no_messages().find("MSM4 to MSM7") != std::string::npos);
+}
+
+namespace {
+
+struct Messages : MessageTarget {
+  void take(Channel channel, ByteSpan bytes) override {
+    ++counts[channel];
+    if (channel != Channel::kCorrectedStates) return;
+    CorrectedStates received;
+    REQUIRE(Decoder().decode(bytes, &received).element_faults == 0);
+    states.insert(states.end(), received.begin(), received.end());
+  }
+  std::map<Channel, int> counts;
+  std::vector<CorrectedState> states;
+};
+
+// 1060 of GPS 7 with issue 77: 1 m along the radius, a clock of half a metre.
+std::vector<std::uint8_t> orbit_and_clock(std::uint64_t of_week_s) {
+  Bits bits;
+  bits.add(1060, 12).add(of_week_s, 20).add(0, 4).add(0, 1).add(0, 1).add(3, 4).add(270, 16);
+  bits.add(1, 4).add(1, 6);
+  bits.add(7, 6).add(77, 8).add(10'000, 22).add(0, 20).add(0, 20).add(0, 21).add(0, 19).add(0, 19);
+  bits.add(5'000, 22).add(0, 21).add(0, 27);
+  return bits.frame();
+}
+
+// 1059 of GPS 7: L1 C/A 0.25 m.
+std::vector<std::uint8_t> code_bias(std::uint64_t of_week_s) {
+  Bits bits;
+  bits.add(1059, 12).add(of_week_s, 20).add(0, 4).add(0, 1).add(3, 4).add(270, 16).add(1, 4);
+  bits.add(1, 6).add(7, 6).add(1, 5).add(0, 5).add(25, 14);
+  return bits.frame();
+}
+
+Ephemeris elements(std::uint16_t issue) {
+  Ephemeris e;
+  e.satellite = {System::kGps, 7};
+  e.toe = e.toc = kTime;
+  e.issue = issue;
+  e.sqrt_a = 5153.7;
+  e.i0 = 0.96;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
+  Messages messages;
+  MessageOutput output(&messages);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  ReceiverOutput receiver(30.0, &clock, &output, &corrections);
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
+  const std::uint64_t of_week_s = kOfWeek_ms / 1000;
+  const GpsTime arrival = kTime.plus_seconds(6.0);
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  CHECK(messages.counts.empty());
+  CHECK(service.why_no_messages().find("1 without their ephemeris") != std::string::npos);
+  receiver.send(elements(76));
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  CHECK(messages.states.empty());
+  receiver.send(elements(77));
+  service.feed(orbit_and_clock(of_week_s), host_ns(arrival));
+  service.feed(code_bias(of_week_s), host_ns(arrival));
+  // Observations in a service's stream are not the vehicle's.
+  service.feed(msm4(1074, kOfWeek_ms), host_ns(arrival));
+  service.finish();
+  CHECK(messages.counts[Channel::kGnssEpoch] == 0);
+  CHECK(messages.counts[Channel::kEphemeris] == 2);
+  CHECK(messages.counts[Channel::kBiases] == 1);
+  REQUIRE(messages.states.size() == 1);
+  const CorrectedState& state = messages.states.front();
+  CHECK(seconds_between(state.time, arrival) == Approx(0.0).margin(1e-6));
+  CHECK(state.corrected_at == kTime);
+  CHECK(state.issue == 77);
+  const SatelliteState broadcast = broadcast_state(elements(77), state.time);
+  CHECK((broadcast.p_e - state.p_e).norm() == Approx(1.0));
+  CHECK(kSpeedOfLight * (state.clock_s - broadcast.clock_s) == Approx(0.5).margin(1e-6));
+  CHECK(service.counts().messages == 1);        // biases do not count
+  CHECK(receiver.detail() == "2 ephemerides");  // no word of signals, as there is no epoch
+  CHECK(service.data_time()->nanoseconds == kTime.nanoseconds());
+}
+
+}  // namespace leonav

@@ -1,0 +1,58 @@
+// The ReceiverOutput publishes what one GNSS receiver has measured and received.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/transport/byte_source.h"
+#include "tools/connect/formats/outputs/correction_output.h"
+#include "tools/connect/formats/outputs/ephemeris_repeater.h"
+#include "tools/connect/formats/outputs/message_output.h"
+#include "tools/connect/stamps/gps_clock.h"
+
+namespace leonav {
+
+// Every format of receivers sends through it, so that all of them publish the same messages as
+// leonav-import writes. Besides, ephemerides are repeated.
+class ReceiverOutput {
+ public:
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if given,
+  // gets the ephemerides too. The pointers must outlive this object.
+  ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output,
+                 CorrectionOutput* corrections = nullptr)
+      : clock_(clock), output_(output), corrections_(corrections), repeater_(repeat_s, output) {}
+
+  // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock.
+  void send(const RawEpoch& epoch, std::int64_t arrival_ns);
+  // Elements for corrections alone are not published.
+  void send(const Ephemeris& ephemeris);
+  // `received`: GPS time.
+  void send(const KlobucharModel& model, GpsTime received);
+  void send(const std::vector<SignalBias>& biases);
+
+  // Sends ephemerides again that are due, as every epoch does; for a stream without epochs.
+  void repeat_ephemerides(GpsTime now);
+
+  GpsTime last_epoch() const { return last_epoch_; }
+  std::uint64_t messages() const { return messages_; }  // published
+  // The time of the last epoch, by which a file without recorded arrivals is played.
+  std::optional<DataTime> data_time() const;
+  // What came, in a few words; empty while nothing has come.
+  std::string detail() const;
+
+ private:
+  GpsClock* clock_;
+  void note_step(GpsTime time);
+
+  MessageOutput* output_;
+  CorrectionOutput* corrections_;
+  EphemerisRepeater repeater_;
+  GpsTime last_epoch_;
+  std::uint64_t time_steps_ = 0;
+  double last_step_s_ = 0.0;
+  std::size_t last_signals_ = 0;
+  std::uint64_t messages_ = 0, ephemerides_ = 0;
+};
+
+}  // namespace leonav

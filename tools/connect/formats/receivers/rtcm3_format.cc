@@ -1,0 +1,97 @@
+#include "tools/connect/formats/receivers/rtcm3_format.h"
+
+#include <string_view>
+
+namespace leonav {
+
+void Rtcm3Format::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
+  arrival_ns_ = arrival_ns;
+  if (is_live_) decoder_.tell_time(host_.at(arrival_ns).value_or(GpsTime()));
+  decoder_.feed(bytes, this);
+}
+
+void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
+  if (is_service_) {
+    ++station_epochs_;
+  } else {
+    receiver_.send(epoch, arrival_ns_);
+  }
+}
+void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
+
+void Rtcm3Format::on_ssr(const SsrMessage& message) {
+  if (corrections_ == nullptr) return;
+  if (message.time > last_ssr_) last_ssr_ = message.time;
+  const GpsTime now = time_of_arrival(message.time);
+  ssr_messages_ += static_cast<std::uint64_t>(corrections_->take(message, now));
+  if (is_service_) receiver_.repeat_ephemerides(now);
+}
+
+// A receiver's epochs know it best, then the host; of a file the messages' own times are all.
+GpsTime Rtcm3Format::time_of_arrival(GpsTime of_message) const {
+  if (!is_live_) return of_message;
+  if (const auto time = clock_->at(arrival_ns_)) return *time;
+  return host_.at(arrival_ns_).value_or(of_message);
+}
+
+std::optional<DataTime> Rtcm3Format::data_time() const {
+  if (const auto of_epochs = receiver_.data_time()) return of_epochs;
+  if (!last_ssr_.is_set()) return std::nullopt;
+  return DataTime{true, last_ssr_.nanoseconds()};
+}
+
+std::string Rtcm3Format::detail() const {
+  return joined({receiver_.detail(), summary_of(decoder_.counters().losses),
+                 last_ssr_.is_set() ? corrections_->detail() : ""});
+}
+
+FormatCounts Rtcm3Format::counts() const {
+  const Rtcm3Counters c = decoder_.counters();
+  FormatCounts counts;
+  counts.frames = c.framer.frames;
+  // Ephemerides, which come again and again, must not hide that no correction can be used.
+  const bool has_corrections = is_service_ && last_ssr_.is_set();
+  counts.messages = ssr_messages_ + (has_corrections ? 0 : receiver_.messages());
+  counts.damaged = c.framer.bad_checksums + c.framer.incomplete + c.framer.too_short;
+  counts.refused = c.epochs.bad_length + c.epochs.bad_mask + c.epochs.bad_time + c.epochs.late +
+                   c.epochs.other_station + c.epochs.without_reference +
+                   c.epochs.without_full_range + c.measurements.bad_value +
+                   c.measurements.bad_satellite + c.ephemerides.bad_length +
+                   c.ephemerides.bad_satellite + c.ephemerides.bad_time + c.ephemerides.bad_week +
+                   c.ephemerides.not_sane + c.ephemerides.without_reference + c.ssr.bad_length +
+                   c.ssr.bad_time + c.ssr.without_reference;
+  return counts;
+}
+
+std::string Rtcm3Format::why_no_frames() const {
+  return "bytes arrive but no valid RTCM 3 message: is the baud rate right, and does the sender "
+         "send RTCM 3?";
+}
+
+std::string Rtcm3Format::why_no_messages() const {
+  const Rtcm3Counters c = decoder_.counters();
+  if (c.epochs.without_full_range > 0) {
+    return "MSM1 to MSM3 arrive, whose ranges lack the milliseconds: let the sender send MSM4 to "
+           "MSM7";
+  }
+  if (last_ssr_.is_set()) {
+    return "SSR messages arrive, but none can be used (" + corrections_->detail() +
+           "): ephemerides must come too, 1019, 1042, 1045 or 1046 in this stream or from a "
+           "receiver";
+  }
+  if (station_epochs_ > 0) {
+    return "observations arrive, but no SSR messages, in a stream of 'corrections: true'; leave "
+           "that key out for a receiver";
+  }
+  std::string others;
+  for (const auto& [number, count] : c.unused) {
+    const std::string_view what = unused_message_text(number);
+    if (others.size() > 120 || what.empty()) continue;
+    others += (others.empty() ? " (" : ", ") + std::to_string(number) + " " + std::string(what);
+  }
+  if (!others.empty()) others += ")";
+  return "RTCM 3 arrives, but neither observations of GPS, Galileo or BeiDou nor ephemerides" +
+         others + ": let the sender send MSM4 to MSM7, and 1019, 1042, 1045 or 1046";
+}
+
+}  // namespace leonav

@@ -1,0 +1,54 @@
+// The Rtcm3Format publishes the observations, broadcast ephemerides and corrections of an RTCM 3
+// stream.
+#pragma once
+#include "drivers/rtcm3/rtcm3_decoder.h"
+#include "tools/connect/formats/outputs/receiver_output.h"
+#include "tools/connect/formats/stream_format.h"
+
+namespace leonav {
+
+// The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of the MSM of an
+// instant, EPHEMERIS of 1019, 1042, 1045 and 1046, CORRECTED_STATES and BIASES of SSR. Besides,
+// ephemerides are repeated. RTCM gives no week: it is that of a day that is told, otherwise that of
+// the host's clock at each arrival.
+class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
+ public:
+  // `day`: an instant within three days of the stream's beginning; unset: the stream is live.
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `is_service`: the stream
+  // is a correction service's, and observations in it are those of some station. `corrections`, if
+  // given, gets ephemerides and corrections. The pointers must outlive this object.
+  Rtcm3Format(GpsTime day, double repeat_s, GpsClock* clock, MessageOutput* output,
+              bool is_service = false, CorrectionOutput* corrections = nullptr)
+      : is_live_(!day.is_set()),
+        is_service_(is_service),
+        clock_(clock),
+        corrections_(corrections),
+        receiver_(repeat_s, clock, output, corrections),
+        decoder_({day}) {}
+
+  void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
+  void finish() override { decoder_.finish(this); }
+  FormatCounts counts() const override;
+  std::optional<DataTime> data_time() const override;
+  std::string detail() const override;
+  std::string why_no_frames() const override;
+  std::string why_no_messages() const override;
+
+ private:
+  void on_epoch(const RawEpoch& epoch) override;
+  void on_ephemeris(const Ephemeris& ephemeris) override;
+  void on_ssr(const SsrMessage& message) override;
+  GpsTime time_of_arrival(GpsTime of_message) const;
+
+  bool is_live_, is_service_;
+  GpsClock* clock_;
+  CorrectionOutput* corrections_;
+  ReceiverOutput receiver_;
+  GpsClock host_{TimeReference::kHost, 0.0};
+  Rtcm3Decoder decoder_;
+  std::int64_t arrival_ns_ = 0;                          // of the bytes at hand
+  GpsTime last_ssr_;                                     // time of the newest correction
+  std::uint64_t ssr_messages_ = 0, station_epochs_ = 0;  // published; left out
+};
+
+}  // namespace leonav
