@@ -99,14 +99,14 @@ void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, Check
     }
     const GpsTime begin = base.plus_nanoseconds((second - 1) * kSecond);
     for (int k = 1; k <= 200; ++k) {
-      sequencer->on_imu(sample_ending_at(begin.plus_nanoseconds(k * 5 * kMs)));
+      sequencer->on_imu(sample_until(begin.plus_nanoseconds(k * 5 * kMs)));
     }
     sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
   }
   // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
   for (int k = 1; k <= 100; ++k) {
     const GpsTime end = base.plus_nanoseconds(seconds * kSecond);
-    sequencer->on_imu(sample_ending_at(end.plus_nanoseconds(k * 5 * kMs)));
+    sequencer->on_imu(sample_until(end.plus_nanoseconds(k * 5 * kMs)));
   }
   const std::uint64_t good =
       inertial ? stages->good_epochs() - good_before : sequencer->counters().epochs - epochs_before;
@@ -121,16 +121,6 @@ GpsTime hidden_base(GpsTime now, std::uint64_t hash) {
       -kDay,   21 * kDay, -3'000 * kDay, 5 * kDay,     3'000 * kDay};
   const auto fraction = static_cast<std::int64_t>(hash / kMoves.size() % 1000) * kMs;
   return now.plus_nanoseconds(kMoves[hash % kMoves.size()] + fraction);
-}
-
-ImuSample sample_ending_at(GpsTime time, std::int64_t interval_ns) {
-  ImuSample sample;
-  sample.time = time;
-  sample.interval_ns = interval_ns;
-  const double dt = sample.interval_s();
-  sample.delta_theta_b << 0.01 * dt, -0.02 * dt, 0.03 * dt;
-  sample.delta_velocity_b << 0.5 * dt, 0.1 * dt, -9.8 * dt;
-  return sample;
 }
 
 RawEpoch epoch_of(GpsTime time, std::size_t satellites) {

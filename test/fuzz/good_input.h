@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/navigator/sequencer/sequencer.h"
+#include "support/stages/simple_sample.h"
 
 namespace leonav::test {
 
@@ -37,8 +38,7 @@ void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, Check
 // A base that no input can know: `now`, moved by one of ten amounts of time that `hash` chooses.
 GpsTime hidden_base(GpsTime now, std::uint64_t hash);
 
-// Simple inputs that are right but for their stamps.
-ImuSample sample_ending_at(GpsTime time, std::int64_t interval_ns = 5'000'000);
+// A simple epoch that is right but for its stamp.
 RawEpoch epoch_of(GpsTime time, std::size_t satellites = 1);
 
 }  // namespace leonav::test

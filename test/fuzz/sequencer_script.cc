@@ -179,7 +179,7 @@ void Player::drive(std::int64_t seconds) {
   for (const GpsTime end = now_.plus_nanoseconds(seconds * kSecond); now_ < end;) {
     const std::int64_t before = now_.nanoseconds() / interval_ns_;
     now_ = now_.plus_nanoseconds(5 * kMs);
-    sample(sample_ending_at(now_));
+    sample(sample_until(now_));
     if (now_.nanoseconds() / (20 * kMs) != (now_.nanoseconds() - 5 * kMs) / (20 * kMs))
       odometer(now_, 20 * kMs);
     if (now_.nanoseconds() / interval_ns_ != before) epoch(epoch_of(now_, 5));
@@ -193,10 +193,10 @@ void Player::good_samples(const ScriptStep& step) {
     noise_ = noise_ * 1664525U + 1013904223U;
     const std::int64_t part = static_cast<std::int64_t>(noise_ >> 16) - 32'768;
     if (step.action == ScriptAction::kJitter) {
-      sample(sample_ending_at(now_.plus_nanoseconds(step.offset_ns / 32'768 * part)));
+      sample(sample_until(now_.plus_nanoseconds(step.offset_ns / 32'768 * part)));
     } else {
-      sample(sample_ending_at(now_));
-      sample(sample_ending_at(now_.plus_nanoseconds(step.offset_ns)));
+      sample(sample_until(now_));
+      sample(sample_until(now_.plus_nanoseconds(step.offset_ns)));
     }
   }
 }
@@ -206,7 +206,7 @@ void Player::extreme_stamp(const ScriptStep& step) {
       GpsTime::from_nanoseconds(kExtremes[static_cast<std::size_t>(step.count) % 12]);
   switch (step.choice % 4) {
     case 0:
-      return sample(sample_ending_at(time));
+      return sample(sample_until(time));
     case 1:
       return epoch(epoch_of(time));
     case 2:
@@ -218,7 +218,7 @@ void Player::extreme_stamp(const ScriptStep& step) {
 
 void Player::wrong_sample(const ScriptStep& step, std::int64_t k) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  ImuSample one = sample_ending_at(moved(now_, step.offset_ns, 5 * kMs, k));
+  ImuSample one = sample_until(moved(now_, step.offset_ns, 5 * kMs, k));
   switch (step.choice) {
     case 0:
       one.delta_theta_b.x() = kNotMeasured;
@@ -383,7 +383,7 @@ void Player::play(const ScriptStep& step) {
       return drive(step.count);
     case ScriptAction::kSamples:
       return each([&](std::int64_t k) {
-        sample(sample_ending_at(moved(now_, step.offset_ns, step.step_ns, k), step.interval_ns));
+        sample(sample_until(moved(now_, step.offset_ns, step.step_ns, k), step.interval_ns));
       });
     case ScriptAction::kEpochs:
       return each([&](std::int64_t k) {

@@ -43,19 +43,17 @@ TEST_CASE("pieces are begun by size, and read as one journal from the first piec
 }
 
 TEST_CASE("pieces are begun by time") {
-  const TemporaryFile folder("unused", "");
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  config.journal.piece_s = 0.05;
-  config.journal.piece_mb = 100.0;
-  Journal journal(config);
-  journal.open();
-  Sender sender(&journal);
-  while (journal.counters().pieces.get() < 3) {
-    sender.push(1);
+  JournalRig rig([](JournalConfig* journal) {
+    journal->piece_s = 0.05;
+    journal->piece_mb = 100.0;
+  });
+  rig.journal.open();
+  while (rig.journal.counters().pieces.get() < 3) {
+    rig.sender.push(1);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  CHECK(journal.finish());
-  check_all(config.journal.path, sender.sent());
+  CHECK(rig.journal.finish());
+  check_all(rig.config.journal.path, rig.sender.sent());
 }
 
 TEST_CASE("the oldest pieces make room, of earlier runs first; no other file is touched") {
@@ -111,34 +109,30 @@ TEST_CASE("the oldest pieces make room, of earlier runs first; no other file is 
 }
 
 TEST_CASE("a disk that blocks costs what the memory does not hold, and a mark says how much") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  Journal journal(config, disk.hook());
-  journal.open();
-  Sender sender(&journal);
-  sender.push_slowly(50);
-  disk.block(true);
-  sender.push(5);
-  disk.await_call();
-  CHECK_FALSE(journal.is_stalled());  // not yet
-  sender.push(5000);                  // five times what there is room for
-  const std::int64_t lost = journal.counters().lost_others.get();
+  JournalRig rig;
+  rig.journal.open();
+  rig.sender.push_slowly(50);
+  rig.disk.block(true);
+  rig.sender.push(5);
+  rig.disk.await_call();
+  CHECK_FALSE(rig.journal.is_stalled());  // not yet
+  rig.sender.push(5000);                  // five times what there is room for
+  const std::int64_t lost = rig.journal.counters().lost_others.get();
   CHECK(lost > 3500);
   CHECK(lost < 4500);
-  disk.block(false);
-  while (journal.counters().journaled.get() < 800)
+  rig.disk.block(false);
+  while (rig.journal.counters().journaled.get() < 800)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  sender.push_slowly(50);
-  CHECK_FALSE(journal.finish());
-  CHECK(journal.error().find(" messages are missing, which the disk did not take in time") !=
+  rig.sender.push_slowly(50);
+  CHECK_FALSE(rig.journal.finish());
+  CHECK(rig.journal.error().find(" messages are missing, which the disk did not take in time") !=
         std::string::npos);
-  const Contents found = contents(config.journal.path);
+  const Contents found = contents(rig.config.journal.path);
   CHECK(found.ended);
   REQUIRE(found.lost.size() == 1);
   CHECK(found.lost[0].others == static_cast<std::uint64_t>(lost));
   CHECK(found.lost[0].solutions == 0);
-  REQUIRE(found.numbers.size() + static_cast<std::size_t>(lost) == sender.sent());
+  REQUIRE(found.numbers.size() + static_cast<std::size_t>(lost) == rig.sender.sent());
   // Whole before the mark and behind it, and the mark is where they are missing.
   for (std::size_t i = 0; i < found.numbers.size(); ++i)
     REQUIRE(found.numbers[i] ==
@@ -146,91 +140,77 @@ TEST_CASE("a disk that blocks costs what the memory does not hold, and a mark sa
 }
 
 TEST_CASE("where the memory is half full SOLUTION is left out, and nothing else") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  Journal journal(config, disk.hook());
-  journal.open();
-  Sender sender(&journal);
-  disk.block(true);
-  sender.push(1, Channel::kSolution);
-  disk.await_call();
+  JournalRig rig;
+  rig.journal.open();
+  rig.disk.block(true);
+  rig.sender.push(1, Channel::kSolution);
+  rig.disk.await_call();
   for (int i = 0; i < 800; ++i) {  // 0.8 MB
-    sender.push(1, i % 4 == 0 ? Channel::kImu : Channel::kSolution);
+    rig.sender.push(1, i % 4 == 0 ? Channel::kImu : Channel::kSolution);
   }
-  const std::int64_t left_out = journal.counters().lost_solutions.get();
+  const std::int64_t left_out = rig.journal.counters().lost_solutions.get();
   CHECK(left_out > 200);
-  CHECK(journal.counters().lost_others.get() == 0);
-  disk.block(false);
-  while (journal.counters().journaled.get() < static_cast<std::int64_t>(sender.sent()) - left_out)
+  CHECK(rig.journal.counters().lost_others.get() == 0);
+  rig.disk.block(false);
+  while (rig.journal.counters().journaled.get() <
+         static_cast<std::int64_t>(rig.sender.sent()) - left_out)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  sender.push(1, Channel::kSolution);
-  CHECK(journal.finish());  // a replay lacks nothing
-  const Contents found = contents(config.journal.path);
+  rig.sender.push(1, Channel::kSolution);
+  CHECK(rig.journal.finish());  // a replay lacks nothing
+  const Contents found = contents(rig.config.journal.path);
   REQUIRE(found.lost.size() == 1);
   CHECK(found.lost[0].solutions == static_cast<std::uint64_t>(left_out));
   CHECK(found.lost[0].others == 0);
-  CHECK(found.numbers.size() + static_cast<std::size_t>(left_out) == sender.sent());
+  CHECK(found.numbers.size() + static_cast<std::size_t>(left_out) == rig.sender.sent());
 }
 
 TEST_CASE(
     "a disk that fails for a while loses nothing that the memory holds; a new piece is begun") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  config.journal.piece_mb = 100.0;
-  Journal journal(config, disk.hook());
-  journal.open();
-  Sender sender(&journal);
+  JournalRig rig([](JournalConfig* journal) { journal->piece_mb = 100.0; });
+  rig.journal.open();
   for (const int error : {EIO, EROFS}) {
-    sender.push_slowly(50);
-    disk.fail_with(error);
-    sender.push(100);
-    while (journal.failure().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    CHECK(journal.failure() ==
-          config.journal.path + ": cannot be written: " + std::strerror(error));
-    sender.push(100);
-    disk.fail_with(0);
-    while (!journal.failure().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    sender.settle();
+    rig.sender.push_slowly(50);
+    rig.disk.fail_with(error);
+    rig.sender.push(100);
+    while (rig.journal.failure().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(rig.journal.failure() ==
+          rig.config.journal.path + ": cannot be written: " + std::strerror(error));
+    rig.sender.push(100);
+    rig.disk.fail_with(0);
+    while (!rig.journal.failure().empty())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    rig.sender.settle();
   }
-  CHECK(journal.counters().failures.get() >= 2);
-  CHECK(journal.finish());
-  CHECK(names(folder.path()) ==
+  CHECK(rig.journal.counters().failures.get() >= 2);
+  CHECK(rig.journal.finish());
+  CHECK(names(rig.folder.path()) ==
         std::set<std::string>{"run.journal", "run.journal.part0002", "run.journal.part0003"});
-  check_all(config.journal.path, sender.sent());
+  check_all(rig.config.journal.path, rig.sender.sent());
 }
 
 TEST_CASE("a disk that fails from the first byte on, and never comes back, is told at the end") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  Journal journal(config, disk.hook());
-  disk.fail_with(ENOSPC);
-  journal.open();
-  Sender sender(&journal);
-  sender.push(10);
-  CHECK_FALSE(journal.finish());
-  CHECK(journal.error() == config.journal.path + ": cannot be written: No space left on device");
-  CHECK(names(folder.path()).empty());
+  JournalRig rig;
+  rig.disk.fail_with(ENOSPC);
+  rig.journal.open();
+  rig.sender.push(10);
+  CHECK_FALSE(rig.journal.finish());
+  CHECK(rig.journal.error() ==
+        rig.config.journal.path + ": cannot be written: No space left on device");
+  CHECK(names(rig.folder.path()).empty());
 }
 
 TEST_CASE("a disk that fails before anything is written and comes back has one piece, whole") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  Journal journal(config, disk.hook());
-  disk.fail_with(EIO);
-  journal.open();
-  Sender sender(&journal);
-  sender.push(10);
-  while (journal.counters().failures.get() < 2)
+  JournalRig rig;
+  rig.disk.fail_with(EIO);
+  rig.journal.open();
+  rig.sender.push(10);
+  while (rig.journal.counters().failures.get() < 2)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  disk.fail_with(0);
-  sender.settle();
-  CHECK(journal.finish());
-  CHECK(names(folder.path()) == std::set<std::string>{"run.journal"});
-  check_all(config.journal.path, sender.sent());
+  rig.disk.fail_with(0);
+  rig.sender.settle();
+  CHECK(rig.journal.finish());
+  CHECK(names(rig.folder.path()) == std::set<std::string>{"run.journal"});
+  check_all(rig.config.journal.path, rig.sender.sent());
 }
 
 TEST_CASE("a disk that never returns holds up no end") {
@@ -256,43 +236,41 @@ TEST_CASE("a disk that never returns holds up no end") {
 }
 
 TEST_CASE("what led up to a fault is kept beyond the limit of all, within one of its own") {
-  const TemporaryFile folder("unused", "");
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  config.journal.total_mb = 0.3;
-  config.journal.kept_mb = 0.5;
-  Journal journal(config);
-  journal.open();
-  Sender sender(&journal);
-  sender.push_slowly(150);  // in the second piece
-  journal.keep();
-  sender.push_slowly(1000);
-  CHECK(journal.counters().kept.get() == 2);
-  CHECK(fs::exists(folder.beside("run.journal.kept")));
-  CHECK(fs::exists(folder.beside("run.journal.part0002.kept")));
-  CHECK_FALSE(fs::exists(folder.beside("run.journal.part0003")));
+  JournalRig rig([](JournalConfig* journal) {
+    journal->total_mb = 0.3;
+    journal->kept_mb = 0.5;
+  });
+  rig.journal.open();
+  rig.sender.push_slowly(150);  // in the second piece
+  rig.journal.keep();
+  rig.sender.push_slowly(1000);
+  CHECK(rig.journal.counters().kept.get() == 2);
+  CHECK(fs::exists(rig.folder.beside("run.journal.kept")));
+  CHECK(fs::exists(rig.folder.beside("run.journal.part0002.kept")));
+  CHECK_FALSE(fs::exists(rig.folder.beside("run.journal.part0003")));
   // An event of the filter asks for it, a command does not.
   const auto event = [&](EventKind kind, ResetCause cause) {
     std::vector<std::uint8_t> bytes(39);
     bytes[wire::kEventKindOffset] = static_cast<std::uint8_t>(kind);
     bytes[wire::kEventCodeOffset] = static_cast<std::uint8_t>(cause);
-    journal.push({1, 39, Channel::kEvent}, bytes);
-    sender.push_slowly(500);
+    rig.journal.push({1, 39, Channel::kEvent}, bytes);
+    rig.sender.push_slowly(500);
   };
   event(EventKind::kFilterReset, ResetCause::kCommand);
   event(EventKind::kOutageOver, ResetCause::kPrediction);
-  CHECK(journal.counters().kept.get() == 2);
+  CHECK(rig.journal.counters().kept.get() == 2);
   event(EventKind::kFilterReset, ResetCause::kPrediction);
-  CHECK(journal.counters().kept.get() == 4);
+  CHECK(rig.journal.counters().kept.get() == 4);
   event(EventKind::kSmootherFailed, ResetCause::kCommand);
   event(EventKind::kFilterReset, ResetCause::kLockedOut);
-  CHECK(journal.counters().kept.get() == 8);
-  REQUIRE(journal.finish());
+  CHECK(rig.journal.counters().kept.get() == 8);
+  REQUIRE(rig.journal.finish());
   std::uintmax_t kept = 0;
-  for (const std::string& name : names(folder.path()))
-    if (name.ends_with(".kept")) kept += fs::file_size(folder.beside(name));
+  for (const std::string& name : names(rig.folder.path()))
+    if (name.ends_with(".kept")) kept += fs::file_size(rig.folder.beside(name));
   CHECK(kept <= 500'000);
   CHECK(kept > 300'000);
-  CHECK_FALSE(fs::exists(folder.beside("run.journal.kept")));  // the oldest
+  CHECK_FALSE(fs::exists(rig.folder.beside("run.journal.kept")));  // the oldest
 }
 
 TEST_CASE(
@@ -652,26 +630,21 @@ TEST_CASE("a disk that does not answer while a piece is deleted or renamed count
 }
 
 TEST_CASE("a piece that has ended looks in use until the next one has begun") {
-  const TemporaryFile folder("unused", "");
-  Disk disk;
-  DaemonConfig config = small_pieces(folder.beside("run.journal"));
-  config.journal.kept_mb = 10.0;
-  Journal journal(config, disk.hook());
-  journal.open();
-  Sender sender(&journal);
-  sender.push_slowly(50);
-  disk.fail_with(EIO);
-  sender.push(1);
-  REQUIRE(await([&] { return !journal.failure().empty(); }));
+  JournalRig rig([](JournalConfig* journal) { journal->kept_mb = 10.0; });
+  rig.journal.open();
+  rig.sender.push_slowly(50);
+  rig.disk.fail_with(EIO);
+  rig.sender.push(1);
+  REQUIRE(await([&] { return !rig.journal.failure().empty(); }));
   // Its only file has no end mark and is written by nobody at present.
-  Journal second(config);
+  Journal second(rig.config);
   second.open();
   REQUIRE(await([&] { return second.has_file(); }));
   CHECK(second.counters().kept.get() == 0);
   CHECK(second.finish());
-  disk.fail_with(0);
-  CHECK(journal.finish());
-  check_all(folder.beside("run.journal"), sender.sent());
+  rig.disk.fail_with(0);
+  CHECK(rig.journal.finish());
+  check_all(rig.folder.beside("run.journal"), rig.sender.sent());
 }
 
 TEST_CASE("files with holes count as what they take of the disk, and overflow no sum") {

@@ -18,6 +18,7 @@
 #include "drivers/lcm/run_configuration.h"
 #include "drivers/lcm/wire.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
 
 namespace leonav::test {
 
@@ -117,6 +118,26 @@ class Sender {
  private:
   Journal* journal_;
   std::uint64_t sent_ = 0;
+};
+
+// A journal of small pieces on such a disk, not yet opened, and its sender.
+struct JournalRig {
+  TemporaryFile folder{"unused", ""};
+  Disk disk;
+  DaemonConfig config;
+  Journal journal;
+  Sender sender{&journal};
+
+  // `change`: of the configuration.
+  explicit JournalRig(void (*change)(JournalConfig*) = nullptr)
+      : config(changed(small_pieces(folder.beside("run.journal")), change)),
+        journal(config, disk.hook()) {}
+
+ private:
+  static DaemonConfig changed(DaemonConfig config, void (*change)(JournalConfig*)) {
+    if (change != nullptr) change(&config.journal);
+    return config;
+  }
 };
 
 struct Contents {

@@ -91,7 +91,7 @@ std::vector<SeedMessage> seed_messages() {
   for (int k = 1; k <= 12; ++k) {
     const GpsTime time = kSkyEpoch.plus_seconds(0.1 * k);
     const auto count = static_cast<std::uint64_t>(k);
-    messages.add(Channel::kImu, encoder.encode(sample_ending_at(time, 100'000'000), count));
+    messages.add(Channel::kImu, encoder.encode(sample_until(time, 100'000'000), count));
     if (k % 4 == 0) {
       messages.add(Channel::kOdometer,
                    encoder.encode(OdometerIncrement{time, 100'000'000, 0.1}, count));

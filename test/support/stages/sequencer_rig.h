@@ -4,6 +4,7 @@
 
 #include "support/catch.h"
 #include "support/stages/recording_stages.h"
+#include "support/stages/simple_sample.h"
 
 namespace leonav::test {
 
@@ -12,16 +13,6 @@ inline constexpr std::int64_t kMs = 1'000'000;
 
 inline GpsTime at_s(double s) { return kStart.plus_seconds(s); }
 inline GpsTime at_ms(std::int64_t ms) { return kStart.plus_nanoseconds(ms * kMs); }
-
-inline ImuSample sample_until(GpsTime time, std::int64_t interval_ns = 5 * kMs) {
-  ImuSample sample;
-  sample.time = time;
-  sample.interval_ns = interval_ns;
-  const double dt = sample.interval_s();
-  sample.delta_theta_b << 0.1 * dt, -0.2 * dt, 0.3 * dt;
-  sample.delta_velocity_b << 0.5 * dt, 0.1 * dt, -9.8 * dt;
-  return sample;
-}
 
 inline RawEpoch epoch_at(GpsTime time) {
   RawEpoch raw;
