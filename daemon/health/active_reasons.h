@@ -10,8 +10,8 @@ namespace leonav {
 
 // begin(), then raise() for each reason that is the case, once a second. A reason stays for its
 // hold after it was last raised, so that a status that comes and goes does not flap. The text names
-// those of the worst status first. Memory is taken at construction; more of it is only taken where
-// a text is longer than any before.
+// those of the worst status first. Memory is taken at construction, and again only where a text is
+// longer than any before.
 class ActiveReasons {
  public:
   ActiveReasons();

@@ -68,7 +68,7 @@ class InputDispatch {
 };
 
 // Cuts a message to one byte more than the longest valid one, so that a longer one is refused as
-// too long and the journal need not hold all of it.
+// too long and the journal need not hold the whole message.
 ByteSpan limit_length(ByteSpan bytes);
 
 }  // namespace leonav

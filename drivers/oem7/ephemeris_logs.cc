@@ -23,7 +23,7 @@ std::uint16_t to_u2(std::uint32_t value) {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(value, 0xFFFF));
 }
 
-// Returns whether a full week is that of `time`, or a neighbour of it.
+// Returns whether a full week is that of `time`, or the week beside it.
 bool is_week_of(std::uint32_t week, GpsTime time) {
   const std::int64_t difference = std::int64_t{week} - time.week();
   return difference >= -1 && difference <= 1;

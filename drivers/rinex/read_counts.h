@@ -20,7 +20,7 @@ struct ReadCounts {
   void skip(std::string_view reason, long line, long count = 1);
   long skipped_total() const;
   long count_of(std::string_view reason) const;  // 0 if it did not occur
-  // Whether something was skipped, and all of it for what it is: such reasons end in "not used)".
+  // Whether something was skipped, and each time for what it is: such reasons end in "not used)".
   bool all_skipped_by_design() const;
 };
 

@@ -59,7 +59,7 @@ void TcpOutlet::add(tcp::socket socket) {
   error_code error;
   const tcp::endpoint peer = socket.remote_endpoint(error);
   if (error) return;  // has gone already
-  // What waits in the kernel is as old as what waits here: little of it.
+  // What waits in the kernel is as old as what waits here: let it be little.
   socket.set_option(asio::socket_base::send_buffer_size(16'384), error);
   socket.set_option(tcp::no_delay(true), error);
   socket.set_option(asio::socket_base::keep_alive(true), error);

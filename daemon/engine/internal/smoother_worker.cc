@@ -68,7 +68,7 @@ void SmootherWorker::process(const KeyframeInput& keyframe) {
   counters_->worst_solve_ns.raise_to(solve_watch_.nanoseconds());
 }
 
-// Elapsed time ends the solve here; how many iterations came of it is in the journal. The next
+// Elapsed time ends the solve here; the journal has the number of iterations. The next
 // iteration takes as long as those before it did in the mean.
 bool SmootherWorker::may_iterate(int iterations_done) {
   if (inertial_ && !mailbox_.is_open(epoch_)) return false;

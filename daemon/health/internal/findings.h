@@ -15,8 +15,8 @@ struct Finding {
   std::string detail;  // as ActiveReasons::raise() takes it
 };
 
-// Memory is taken at construction; more of it is only taken where a look finds more, or a longer
-// detail, than any before.
+// Memory is taken at construction, and again only where a look finds more, or a longer detail,
+// than any before.
 class Findings {
  public:
   Findings();

@@ -21,7 +21,7 @@ struct HealthSummary {
   double uptime_s = 0.0;
 };
 
-// Memory is taken at construction; more of it is only taken where a text is longer than any before.
+// Memory is taken at construction, and again only where a text is longer than any before.
 class HealthMessage {
  public:
   HealthMessage();

@@ -18,9 +18,9 @@ std::optional<int> journal_number(std::string_view journal, std::string_view nam
 // Writes NAME or NAME.n with a final zero; false: it does not fit.
 bool format_journal_name(std::string_view name, int number, std::span<char> text);
 
-// Makes an empty file for a journal and opens it: NAME, or if that exists (the journal of a crash,
-// say) or a later piece of it, the first of NAME.1, NAME.2, ... that is free. Returns its number;
-// nullopt: error() of the calls is the reason, EEXIST where all numbers are taken. Does not
+// Makes an empty file for a journal and opens it: NAME, or if that (the journal of a crash, say)
+// or one of its later pieces exists, the first of NAME.1, NAME.2, ... that is free. Returns its
+// number; nullopt: error() of the calls is the reason, EEXIST where all numbers are taken. Does not
 // allocate.
 std::optional<int> claim_journal(std::string_view name, JournalFolder* folder, JournalFile* file,
                                  DiskCalls* disk, int most_numbers = kMostNumberedJournals);

@@ -26,7 +26,7 @@ class JournalWriter {
 
   // Writes what waits in the ring, as far as the disk takes it.
   void write_from(MessageRing* ring);
-  // The same for the last time, with the end mark; returns whether all of it is on the disk.
+  // The same for the last time, with the end mark; returns whether everything is on the disk.
   // `lost`: what no mark counts as yet; `sequence`: of the mark that counts it.
   bool finish(MessageRing* ring, const LostMessages& lost, std::uint64_t sequence);
   // Asks, in any thread, that the present piece and the one before it are kept.

@@ -16,10 +16,10 @@ using namespace synthetic;
 
 struct Apart {
   double dense = 0.0;              // of all keyframes, the chain's step from the dense one
-  double covariance = 0.0;         // likewise, of the newest
+  double covariance = 0.0;         // of the newest, the chain's from the dense one
   double oldest = 0.0;             // covariance of the oldest pose, in correlations
   double filter = 0.0;             // of the newest, the chain's state from the filter's
-  double filter_covariance = 0.0;  // likewise
+  double filter_covariance = 0.0;  // of the newest, the chain's from the filter's
 };
 
 // A window over a whole drive.

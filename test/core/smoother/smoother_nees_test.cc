@@ -37,7 +37,7 @@ Eigen::Vector3d nees_of(const Errors& errors, const Covariance& covariance) {
 
 struct Consistency {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();       // NEES at the end
-  Eigen::Vector3d of_filter = Eigen::Vector3d::Zero();  // likewise
+  Eigen::Vector3d of_filter = Eigen::Vector3d::Zero();  // NEES of the filter there
   double within = 0.0;  // share of the smoother's errors within 3 sigma
   double joined = 0.0;  // arcs by the filter, a drive
 };

@@ -13,7 +13,7 @@ struct ImuReading {
   std::int64_t arrival_ns = 0;           // of the ArrivalClock
   std::optional<GpsTime> gps_time;       // by the sensor itself
   std::optional<std::int64_t> clock_ns;  // the sensor's own clock
-  double clock_step_s = 0.0;             // what that clock shows is cut off to a multiple of it
+  double clock_step_s = 0.0;             // what that clock shows is cut off to a multiple of this
   std::optional<bool> has_pulse;         // a pulse left the sensor at this sample; empty: not told
   bool are_increments = false;
   // Of increments, where the sensor gives it; they end at the reading's time.

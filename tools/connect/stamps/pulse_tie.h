@@ -35,7 +35,7 @@ class PulseTie {
   // Takes a reading of the sensor. `has_pulse`: whether the sensor marks it as one with a pulse, if
   // it marks any. `by_arrivals`: its GPS time.
   void on_reading(std::int64_t clock_ns, std::optional<bool> has_pulse, GpsTime by_arrivals);
-  // The sensor's clock has stepped: what was known of it no longer holds.
+  // The sensor's clock has stepped: what was known about that clock no longer holds.
   void restart();
 
   const PulseLine& line() const { return line_; }

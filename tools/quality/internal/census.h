@@ -38,7 +38,7 @@ class Census {
   EpochTimes times() const;
   // Returns the plan of every satellite with a carrier.
   //
-  // The reference is on the band most often measured; among those within a tenth of it the
+  // The reference is on the band most often measured; among those within a tenth of that count the
   // navigator's preference decides (SignalPreference). The best partner is chosen by the same rule,
   // among those whose combination the navigator uses, if there is one.
   std::map<SatelliteId, CarrierPlan> plans() const;

@@ -28,7 +28,7 @@ struct StreetMultipathConfig {
   // 1 sigma below and above the limit of elevation, drawn per satellite and episode.
   Range code_low_m = {1.0, 5.0}, code_high_m = {0.3, 1.0};
   Range carrier_low_m = {0.003, 0.01}, carrier_high_m = {0.001, 0.003};
-  Range time_s = {10.0, 30.0};  // correlation time, drawn likewise
+  Range time_s = {10.0, 30.0};  // correlation time, drawn per satellite and episode
   double episode_s = 120.0;     // mean duration of an episode
   double correlation = 0.5;     // of the two signals of a satellite
 };

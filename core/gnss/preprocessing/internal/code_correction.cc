@@ -111,7 +111,7 @@ GroupDelay delay_of(const DelayContext& context, const SatelliteInView& satellit
 
 // Returns the part that all satellites have in common of what the model leaves in the code of
 // `signal`: `sigma` on its path, and `variance` of the code. The receiver code biases,
-// which are removed from the code, contain some of it.
+// which are removed from the code, contain some of that part.
 IonosphereError common_ionosphere_error(const DelayContext& context,
                                         const SignalObservation& signal, double elevation,
                                         double sigma, double variance) {

@@ -132,7 +132,7 @@ Growth growth(const std::vector<Sky>& skies, System system, std::size_t nodes, b
   return growth;
 }
 
-// Likewise of the errors themselves.
+// The same of the errors themselves, not of their changes.
 Growth size(const std::vector<Sky>& skies, System system) {
   std::vector<Sky> with_zeros;
   for (const Sky& sky : skies) {
