@@ -241,8 +241,8 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
   group.text("url", &config->url);
   group.text("prefix", &config->prefix);
   group.integer("receive_queue", 1, 1000000, &config->receive_queue);
-  // liblcm allows 63 characters in a channel's name; the longest of ours has 10.
-  if (config->prefix.size() > 50) group.fail("prefix", "longer than 50 characters");
+  // liblcm allows 63 characters in a channel's name; the longest of ours has 16.
+  if (config->prefix.size() > 47) group.fail("prefix", "longer than 47 characters");
   if (config->url.starts_with("tcpq:")) {
     group.fail("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
   }

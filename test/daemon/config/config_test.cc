@@ -1,6 +1,7 @@
 // Every way to get the configuration wrong names its place and the remedy.
 #include "config_error.h"
 #include "daemon/config/load_config.h"
+#include "drivers/lcm/channels.h"
 #include "support/catch.h"
 
 namespace {
@@ -32,6 +33,11 @@ TEST_CASE("a wrong configuration is refused with file, line and remedy") {
           "car.yaml:2: lcm.prefix: only letters, digits, '_' and '-' may be in it");
   }
   CHECK(load_config_text("lcm:\n  prefix: Car-1_\n", "x").lcm.prefix == "Car-1_");
+  // With it the longest name, CORRECTED_STATES, is as long as liblcm allows.
+  const std::string longest(63 - leonav::name_of(leonav::Channel::kCorrectedStates).size(), 'C');
+  CHECK(load_config_text("lcm:\n  prefix: " + longest + "\n", "x").lcm.prefix == longest);
+  CHECK(error_of("lcm:\n  prefix: " + longest + "C\n") ==
+        "car.yaml:2: lcm.prefix: longer than 47 characters");
   CHECK(error_of("robust:\n  k0: 5\n  k1: 2\n") ==
         "car.yaml:3: robust.k1: must be greater than k0");
   CHECK(error_of("robust:\n  k0: 1\n  k0: 2\n").find("given twice") != std::string::npos);
