@@ -2,6 +2,7 @@
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/encode.h"
 #include "drivers/lcm/journal_marks.h"
+#include "drivers/lcm/signed_command.h"
 #include "support/programs/parked_checkpoint.h"
 #include "support/sky/simulated_sky.h"
 #include "test/fuzz/good_input.h"
@@ -125,6 +126,10 @@ void write_message_seeds(SeedWriter* writer) {
   write(Channel::kPiece, encode_piece({17, 2, 40, RecordedOutputs::kThinned}));
   write(Channel::kRefused, encode_refused({Channel::kImu, InputFault::kNotSane, 3}, 1));
   write(Channel::kLost, encode_lost({2, 1}, 1));
+  write(Channel::kCommandNonce, encode_command_nonce({}, 1));
+  writer->write(
+      "decoder", kSignedCommandChannel,
+      Seed().byte(index_of(Channel::kCommandNonce)).add(encode_signed_command(SignedCommand())));
 }
 
 }  // namespace leonav::test
