@@ -293,7 +293,7 @@ bool EphemerisStore::refuse_wrong_orbit(SatelliteId satellite, GpsTime time) {
     products.orbit_refused = false;
     return false;
   }
-  const Ephemeris* best = best_ephemeris(products, time, options);
+  const Ephemeris* best = best_ephemeris(storage_->ephemerides, satellite, time, options);
   if (best == nullptr) return false;
   const SatelliteState broadcast = broadcast_state(*best, time);
   if (broadcast.age_s > kMaxComparedAge_s) return false;
