@@ -24,7 +24,7 @@ inline constexpr std::array kJournalTroubles = {
     JournalTrouble::kFails,     JournalTrouble::kStalls,   JournalTrouble::kLoses,
     JournalTrouble::kLeavesOut, JournalTrouble::kUnsynced, JournalTrouble::kUndeletable};
 
-// Under which HEALTH tells it; none: the log alone does.
+// The reason of HEALTH for it; none: it is in the log alone.
 std::optional<HealthReason> reason_of(JournalTrouble trouble);
 
 // A trouble counts until kCalm_s have passed without it, because a disk that is barely fast enough
@@ -36,7 +36,7 @@ class JournalHealth {
 
   bool has(JournalTrouble trouble) const { return states_[static_cast<std::size_t>(trouble)].is; }
   const std::string& last_failure() const { return failure_; }
-  // For the log, as HEALTH says it; with the file and the reason where it cannot be written.
+  // For the log, in the words of HEALTH; with the file and the reason where it cannot be written.
   std::string text(JournalTrouble trouble) const;
   static constexpr double kCalm_s = 10.0;
 

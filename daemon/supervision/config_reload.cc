@@ -33,7 +33,7 @@ void ConfigReload::reload() {
 
 void ConfigReload::put_into_effect(const DaemonConfig& read) {
   const auto changes = changes_between(running_->source, read.source);
-  // Told at the level that holds or at the one that will, whichever tells more.
+  // Logged at the level that holds or at the one that will, whichever lets more through.
   set_log_level(std::min(running_->log.level, read.log.level));
   spdlog::info("SIGHUP: {} read again{}", read.source.name,
                changes.empty() ? ", nothing has changed" : "");

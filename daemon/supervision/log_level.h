@@ -1,4 +1,4 @@
-// This function sets from which level on the log tells.
+// This function sets the level from which on lines are logged.
 #pragma once
 #include "daemon/config/daemon_config.h"
 

@@ -24,7 +24,7 @@ class Supervisor {
   Supervisor(Engine* engine, const DaemonConfig& config, const ServiceManager* manager,
              ConfigReload* reload);
 
-  // Returns once a signal says so, or `io` has failed. SIGHUP reloads meanwhile.
+  // Returns once a signal asks for it, or `io` has failed. SIGHUP reloads meanwhile.
   void run(ProcessSignals* signals, const ReceivingThread& io);
 
  private:

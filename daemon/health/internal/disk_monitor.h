@@ -8,7 +8,8 @@
 
 namespace leonav {
 
-// The navigation needs no journal: what is missing in it is said, and the next piece may be whole.
+// The navigation needs no journal: what is missing in it is counted, and the next piece may be
+// whole.
 class DiskMonitor {
  public:
   explicit DiskMonitor(const Engine* engine) : engine_(engine) {}

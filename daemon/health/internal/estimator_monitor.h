@@ -15,7 +15,7 @@ class EstimatorMonitor {
 
   // Once a second; valid until the next call.
   std::span<const Finding> look();
-  // Whether the filter has started over and no epoch has been worked on since.
+  // Returns whether the filter has started over and no epoch has been worked on since.
   bool waits_for_epoch() const;
   // Whether the filter has started over and no epoch has come since, usable or not.
   bool heard_no_epoch() const;

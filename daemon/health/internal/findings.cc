@@ -3,7 +3,7 @@
 namespace leonav {
 namespace {
 
-// Of what a run meets; no limits.
+// Enough for what a run meets; no limits.
 constexpr std::size_t kMostFindings = 8, kDetailBytes = 256;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// GrowthSinceLook tells whether a counter has grown since the last look.
+// GrowthSinceLook is whether a counter has grown since the last look.
 #pragma once
 #include <cstdint>
 #include <utility>

@@ -50,7 +50,7 @@ void InputMonitor::look_at_shares() {
     rates.received.look(counters_->received[i].get());
     rates.refused.look(counters_->refused[i].get());
     std::int64_t unused = rates.refused.get();
-    // Of the streams it is known what the Sequencer has taken.
+    // The Sequencer counts what it takes of the streams.
     if (channel == Channel::kImu) rates.accepted.look(counters_->accepted_imu.get());
     if (channel == Channel::kGnssEpoch) rates.accepted.look(counters_->accepted_epochs.get());
     if (channel == Channel::kImu || channel == Channel::kGnssEpoch)

@@ -12,7 +12,7 @@ class LevelTest {
  public:
   explicit LevelTest(const IntegrityConfig& config);
 
-  // Which protection levels are above their alert limits, or unknown; "": none. The levels
+  // Returns which protection levels are above their alert limits, or unknown; "": none. The levels
   // themselves are fields of HEALTH: here they would change the text, and be logged, every second.
   // Valid until the next call.
   std::string_view exceeded(const EngineCounters& counters);

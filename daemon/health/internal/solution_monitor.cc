@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
 constexpr double kIntervalsTolerated = 2.5;
-// As the longest hole over which the inertial answer is carried.
+// Like the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
 constexpr std::size_t kDetailBytes = 256;
@@ -45,7 +45,7 @@ std::span<const Finding> SolutionMonitor::look(double now_s, InputMonitor* input
     return found_.get();
   }
   solution_.look(counters_->solution_time_ns.get(), now_s);
-  if (solution_.has_ended()) {  // then the last source says nothing
+  if (solution_.has_ended()) {  // then the last source means nothing
     found_.add(HealthReason::kSolutionEnded);
     return found_.get();
   }

@@ -16,8 +16,7 @@
 
 namespace leonav {
 
-// Where there is no answer, the monitors of inputs and estimator, which must have looked before,
-// say why.
+// The monitors of inputs and estimator, which must have looked before, know why there is none.
 class SolutionMonitor {
  public:
   SolutionMonitor(const EngineCounters* counters, const NavigatorConfig& config);
@@ -25,13 +24,13 @@ class SolutionMonitor {
   // Once a second; valid until the next call.
   std::span<const Finding> look(double now_s, InputMonitor* inputs,
                                 const EstimatorMonitor& estimator);
-  // Whether there was an answer at the last look.
+  // The lack of an answer at the last look.
   Fault fault() const { return fault_; }
-  // Of the answer; kNone: it has ended, or there was none yet.
+  // The source of the answer; kNone: it has ended, or there was none yet.
   Source source() const;
 
  private:
-  // What the first position waits for. Valid until the next call.
+  // Returns what the first position waits for. Valid until the next call.
   std::string_view why_no_solution(InputMonitor* inputs, const EstimatorMonitor& estimator);
 
   const EngineCounters* counters_;

@@ -80,7 +80,7 @@ def houses_text(verdict, others):
 
 
 def reflections_text(verdict, others, results):
-    """The verdict on the row of the same drives whose LEO no house hides, where that misses it too."""
+    """The reflections of the row of the same drives whose LEO no house hides, where that misses it too."""
     own = own_reflections_text(verdict, results)
     if own:
         return own
