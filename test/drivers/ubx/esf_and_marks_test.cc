@@ -8,13 +8,16 @@
 
 #include "drivers/ubx/oracle_program.h"
 #include "drivers/ubx/walk_recording.h"
+#include "support/bytes/ubx_message.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
 
 namespace leonav {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using test::Bytes;
+using test::message;
+using test::put;
 
 struct Collector final : test::UbxCollector {
   void on_inertial(const EsfReading& reading) override { readings.push_back(reading); }
@@ -32,25 +35,6 @@ Collector decode(const Bytes& bytes, std::size_t chunk) {
   decoder.finish(&collector);
   collector.counters = decoder.counters();
   return collector;
-}
-
-void put(Bytes* bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes->push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-Bytes message(std::uint8_t message_class, std::uint8_t id, const Bytes& payload) {
-  Bytes bytes = {message_class, id};
-  put(&bytes, payload.size(), 2);
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
-  std::uint8_t a = 0, b = 0;
-  for (const std::uint8_t byte : bytes) {
-    a = static_cast<std::uint8_t>(a + byte);
-    b = static_cast<std::uint8_t>(b + a);
-  }
-  bytes.push_back(a);
-  bytes.push_back(b);
-  bytes.insert(bytes.begin(), {0xB5, 0x62});
-  return bytes;
 }
 
 std::uint64_t word(int type, int value) {

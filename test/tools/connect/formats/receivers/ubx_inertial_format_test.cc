@@ -5,34 +5,18 @@
 #include <vector>
 
 #include "drivers/lcm/decode.h"
+#include "support/bytes/ubx_message.h"
 #include "support/catch.h"
 #include "tools/connect/formats/receivers/ubx_format.h"
 
 namespace leonav {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using test::Bytes;
+using test::message;
+using test::put;
 constexpr int kWeek = 2209;
 constexpr std::int64_t kSecond = 1'000'000'000;
-
-void put(Bytes* bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes->push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-Bytes message(std::uint8_t message_class, std::uint8_t id, const Bytes& payload) {
-  Bytes bytes = {message_class, id};
-  put(&bytes, payload.size(), 2);
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
-  std::uint8_t a = 0, b = 0;
-  for (const std::uint8_t byte : bytes) {
-    a = static_cast<std::uint8_t>(a + byte);
-    b = static_cast<std::uint8_t>(b + a);
-  }
-  bytes.push_back(a);
-  bytes.push_back(b);
-  bytes.insert(bytes.begin(), {0xB5, 0x62});
-  return bytes;
-}
 
 // UBX-RXM-RAWX without a signal.
 Bytes rawx(double tow_s) {
