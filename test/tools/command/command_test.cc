@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 using namespace leonav::test;
 

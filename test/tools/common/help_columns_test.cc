@@ -4,7 +4,7 @@
 #include "drivers/csv/imu_csv.h"
 #include "drivers/csv/truth_csv.h"
 #include "support/catch.h"
-#include "support/program_run.h"
+#include "support/programs/program_run.h"
 
 using namespace leonav;
 

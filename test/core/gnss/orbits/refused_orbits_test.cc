@@ -10,8 +10,8 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "support/catch.h"
-#include "support/shared_data.h"
-#include "support/simulated_sky.h"
+#include "support/recorded/shared_data.h"
+#include "support/sky/simulated_sky.h"
 
 namespace leonav::test {
 namespace {

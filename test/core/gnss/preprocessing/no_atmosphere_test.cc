@@ -4,7 +4,7 @@
 #include "core/gnss/positioning/point_solution.h"
 #include "core/gnss/preprocessing/preprocess.h"
 #include "support/catch.h"
-#include "support/simulated_sky.h"
+#include "support/sky/simulated_sky.h"
 
 using namespace leonav;
 using namespace leonav::test;

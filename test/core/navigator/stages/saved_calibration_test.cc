@@ -6,7 +6,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
-#include "support/parked_checkpoint.h"
+#include "support/programs/parked_checkpoint.h"
 
 namespace leonav::test {
 namespace {
