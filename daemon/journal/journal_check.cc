@@ -36,11 +36,15 @@ std::string why_no_path(const std::string& path) {
   const bool is_name = name.size() + kLongestEnding > NAME_MAX;
   if (!is_name && path.size() + kLongestEnding < PATH_MAX) return "";
   const std::size_t most = is_name ? NAME_MAX : PATH_MAX - 1;
-  return std::string("the ") + (is_name ? "name" : "path") +
-         " is too long, because its pieces have up to " + std::to_string(kLongestEnding) +
-         " characters more; at most " + std::to_string(most - kLongestEnding) +
-         " characters are possible, these are " +
-         std::to_string(is_name ? name.size() : path.size());
+  // Appended, because gcc 12 reports a false error in a sum of these.
+  std::string why = is_name ? "the name" : "the path";
+  why += " is too long, because its pieces have up to ";
+  why += std::to_string(kLongestEnding);
+  why += " characters more; at most ";
+  why += std::to_string(most - kLongestEnding);
+  why += " characters are possible, these are ";
+  why += std::to_string(is_name ? name.size() : path.size());
+  return why;
 }
 
 }  // namespace
