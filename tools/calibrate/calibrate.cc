@@ -70,12 +70,12 @@ bool observes_any(const Finding& finding) {
 
 }  // namespace
 
-Calibration calibrate(const DaemonConfig& config, const std::string& log,
-                      const CalibrateOptions& options) {
+CalibrationResult calibrate(const DaemonConfig& config, const std::string& log,
+                            const CalibrateOptions& options) {
   NavigatorConfig navigator = config.navigator;
   if (navigator.motion != MotionModel::kInertial)
     throw std::runtime_error("ekf.motion is not inertial: there is no IMU to be calibrated");
-  Calibration calibration;
+  CalibrationResult calibration;
   calibration.configured = calibration.found = installation_of(navigator);
   calibration.wheeled = navigator.vehicle.motion.constraints.non_holonomic;
   while (!calibration.settled && calibration.passes < options.max_passes) {

@@ -10,7 +10,7 @@
 namespace leonav {
 
 // Result of a calibration.
-struct Calibration {
+struct CalibrationResult {
   Installation configured, found;
   // The change is that of the last pass. The sigma is that of the least squares, or that from the
   // difference between the two halves of the log if that is larger.
@@ -33,7 +33,7 @@ struct CalibrateOptions {
 
 // Calibrates from `log`. Throws EventLogError, and std::runtime_error if the log gives no attitude,
 // if no quantity is observed, or if the configuration has no IMU.
-Calibration calibrate(const DaemonConfig& config, const std::string& log,
-                      const CalibrateOptions& options);
+CalibrationResult calibrate(const DaemonConfig& config, const std::string& log,
+                            const CalibrateOptions& options);
 
 }  // namespace leonav

@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
     json.open(arguments.get("--json"));
     if (!json) throw std::runtime_error(arguments.get("--json") + ": cannot be written");
   }
-  Calibration found;
+  CalibrationResult found;
   {
     ProgressBar progress(&std::cerr, "leonav-calibrate", is_stderr_terminal());
     options.progress = [&](double share) { progress.show(share); };

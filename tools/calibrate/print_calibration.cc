@@ -17,7 +17,7 @@ struct Row {
   bool observed = false;
 };
 
-Row row_of(const Calibration& calibration, std::size_t i) {
+Row row_of(const CalibrationResult& calibration, std::size_t i) {
   const auto quantity = static_cast<Quantity>(i);
   const double unit = unit_of(quantity);
   return {quantity, values_of(calibration.configured)[i] / unit,
@@ -26,7 +26,7 @@ Row row_of(const Calibration& calibration, std::size_t i) {
 }
 
 // Returns why the log does not determine the quantity.
-const char* reason_of(Quantity quantity, const Calibration& calibration) {
+const char* reason_of(Quantity quantity, const CalibrationResult& calibration) {
   switch (quantity) {
     case Quantity::kRoll:
       if (calibration.wheeled) return "less than a minute of driving straight on";
@@ -52,7 +52,8 @@ std::string vector_text(const Eigen::Vector3d& v, double unit, int decimals) {
                 v.z() / unit);
 }
 
-std::string sigmas_text(const Calibration& calibration, std::size_t first, std::size_t count) {
+std::string sigmas_text(const CalibrationResult& calibration, std::size_t first,
+                        std::size_t count) {
   std::string text = "# 1 sigma";
   for (std::size_t i = first; i < first + count; ++i) {
     const Row row = row_of(calibration, i);
@@ -64,7 +65,7 @@ std::string sigmas_text(const Calibration& calibration, std::size_t first, std::
 
 }  // namespace
 
-void print_calibration(const Calibration& calibration, std::ostream& out) {
+void print_calibration(const CalibrationResult& calibration, std::ostream& out) {
   out << format("%d passes, %s; %.0f s straight on\n\n", calibration.passes,
                 calibration.settled ? "settled" : "NOT SETTLED", calibration.straight_s)
       << "                        configured      found    1 sigma     change  in sigmas\n";
@@ -106,7 +107,7 @@ void print_calibration(const Calibration& calibration, std::ostream& out) {
       << sigmas_text(calibration, 6, 1) << "\n";
 }
 
-std::string json_of(const Calibration& calibration) {
+std::string json_of(const CalibrationResult& calibration) {
   std::string text = format("{\"passes\": %d, \"settled\": %s,\n \"used s\": ", calibration.passes,
                             calibration.settled ? "true" : "false") +
                      json_number(calibration.used_s, 1) +

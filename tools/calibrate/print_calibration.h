@@ -9,9 +9,9 @@ namespace leonav {
 
 // Prints a table, the reason for every quantity that the log does not determine, and the lines for
 // the configuration.
-void print_calibration(const Calibration& calibration, std::ostream& out);
+void print_calibration(const CalibrationResult& calibration, std::ostream& out);
 // Returns {"passes": .., "settled": .., "lever_arm_forward_m": {"configured", "found", "sigma",
 // "observed", "compared"}, ..} in the units of the names.
-std::string json_of(const Calibration& calibration);
+std::string json_of(const CalibrationResult& calibration);
 
 }  // namespace leonav

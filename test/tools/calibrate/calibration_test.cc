@@ -95,7 +95,7 @@ TEST_CASE("what only one half has observed is not compared, and the table says s
   Finding other = whole;
   other.observed[0] = false;
   half.change[0] = 1.0;
-  Calibration calibration;
+  CalibrationResult calibration;
   calibration.last = whole;
   calibration.compared = compare_halves(half, other, &calibration.last);
   CHECK_FALSE(calibration.compared[0]);
@@ -109,7 +109,7 @@ TEST_CASE("what only one half has observed is not compared, and the table says s
 }
 
 TEST_CASE("what was learned about errors is printed by class, as text and as JSON") {
-  Calibration calibration;
+  CalibrationResult calibration;
   std::ostringstream without;
   print_calibration(calibration, without);
   CHECK(without.str().find("learned") == std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("a simulated drive shows how the IMU is built in, and a hand does not"
 }
 
 TEST_CASE("where the filter has started over, the result says which part of the log it is of") {
-  Calibration calibration;
+  CalibrationResult calibration;
   calibration.length_s = 300.0;
   calibration.used_s = 290.0;
   std::ostringstream whole;
