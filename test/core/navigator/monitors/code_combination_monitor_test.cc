@@ -46,7 +46,7 @@ LearnedErrors learned(double factor, bool learns = true) {
   EkfConfig config;
   config.learn_errors = learns;
   LearnedErrors errors(config);
-  errors.start(factor, 1.0);
+  errors.start(factor, 1.0, 1.0);
   return errors;
 }
 
