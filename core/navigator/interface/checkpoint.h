@@ -43,7 +43,7 @@ struct Checkpoint {
   double gyro_bias_sigma = 0.0;                           // rad/s, per axis
   // Learned factors on the configured sigmas of codes and Dopplers (LearnedErrors); 0: none.
   double code_sigma_factor = 0.0, doppler_sigma_factor = 0.0;
-  std::optional<Calibration> calibration;  // nullopt: from an older version
+  std::optional<Calibration> calibration = {};  // nullopt: from an older version
 };
 
 // Largest sigma (rad) of a heading that the next run accepts. Beyond it the next run finds a better

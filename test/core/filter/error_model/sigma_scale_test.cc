@@ -42,14 +42,20 @@ TEST_CASE("the scale of sigmas comes to what the errors are, but not below one")
 TEST_CASE(
     "what an earlier run has learned holds until errors are seen, and a minute later no more") {
   SigmaScale scale;
-  scale.start(Observable::kCode, 8.0);
+  scale.start(Observable::kCode, 8.0, 1.0);
   CHECK(scale.scale(test::code_class(1)) == Approx(8.0));
   CHECK(scale.mean_scale(Observable::kDoppler) == SigmaScale().mean_scale(Observable::kDoppler));
   std::mt19937_64 random(1);
   drive(&scale, test::code_class(1), 1.0, 60.0, &random);
   CHECK(scale.scale(test::code_class(1)) < 1.5);
-  scale.start(Observable::kCode, 1e6);
+  scale.start(Observable::kCode, 1e6, 1.0);
   CHECK(scale.mean_scale(Observable::kCode) < 31.0);
+  // What is older counts less, against what is expected without it.
+  const double unknown = SigmaScale().mean_scale(Observable::kCode);
+  scale.start(Observable::kCode, 8.0, 0.5);
+  CHECK(scale.mean_scale(Observable::kCode) == Approx(std::sqrt(8.0 * unknown)));
+  scale.start(Observable::kCode, 8.0, 0.0);
+  CHECK(scale.mean_scale(Observable::kCode) == unknown);
 }
 
 TEST_CASE("a street is entered within half a minute, and left within a minute") {

@@ -135,8 +135,9 @@ TEST_CASE(
   config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
   CountingSink sink;
   Navigator pipeline(config, &sink);
-  const Checkpoint checkpoint{kSkyEpoch, true, to_ecef(options.start),  1.0,
-                              0.5,       0.05, Eigen::Vector3d::Zero(), 1e-4};
+  Checkpoint checkpoint{kSkyEpoch, true, to_ecef(options.start),  1.0,
+                        0.5,       0.05, Eigen::Vector3d::Zero(), 1e-4};
+  checkpoint.calibration.emplace();
   std::size_t next_state = 0, seen = 0;
   start_counting_allocations();
   feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
@@ -168,7 +169,8 @@ TEST_CASE(
   CHECK(sink.full_epochs > 80);
   CHECK(sink.precise > 100);
   CHECK(sink.resets >= 2);
-  CHECK(sink.checkpoints == (motion == MotionModel::kInertial ? 2 : 0));
+  // Of the heading twice, and of the calibration at the first attitude.
+  CHECK(sink.checkpoints == (motion == MotionModel::kInertial ? 3 : 0));
   CHECK(sink.solutions > 80);
   CHECK(sink.carriers > 1000);
   CHECK(sink.arcs > 60);
