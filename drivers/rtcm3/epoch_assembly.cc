@@ -1,5 +1,7 @@
 #include "drivers/rtcm3/epoch_assembly.h"
 
+#include <utility>
+
 #include "core/base/calendar.h"
 #include "drivers/binary/week_time.h"
 
@@ -25,8 +27,7 @@ std::optional<GpsTime> EpochAssembly::begin(const MsmType& type,
     ++counters_.bad_length;
     return std::nullopt;
   }
-  if (!station_) station_ = header->station;
-  if (*station_ != header->station) {
+  if (is_of_other_station(type, *header, near)) {
     ++counters_.other_station;
     return std::nullopt;
   }
@@ -56,6 +57,31 @@ std::optional<GpsTime> EpochAssembly::begin(const MsmType& type,
       return std::nullopt;
   }
   return instant_of(*type.system, header->epoch_ms, near);
+}
+
+// Times are compared only with those of the same sender, whose clock may be wrong.
+bool EpochAssembly::is_of_other_station(const MsmType& type, const MsmHeader& header, GpsTime near) {
+  const bool is_open = std::exchange(is_station_open_, false);
+  if (station_ == header.station) {
+    other_since_ = {};
+    return false;
+  }
+  if (!is_open) {
+    if (!type.system || header.epoch_ms >= kMillisecondsPerWeek || !near.is_set()) return true;
+    const GpsTime time = instant_of(*type.system, header.epoch_ms, near);
+    if (!other_since_.is_set() || time < other_since_) other_since_ = time;
+    if (seconds_between(time, other_since_) < kOtherStation_s) return true;
+  }
+  change_station(header.station);
+  return false;
+}
+
+// What is there of an epoch of the station before is given up, so that no epoch is of two.
+void EpochAssembly::change_station(std::uint16_t station) {
+  station_ = station;
+  other_since_ = {};
+  observations_.interrupt_carriers();
+  clear();
 }
 
 bool EpochAssembly::add(std::optional<GpsTime> time) {

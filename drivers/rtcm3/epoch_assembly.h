@@ -22,7 +22,7 @@ struct EpochAssemblyCounters {
   std::uint64_t bad_time = 0;            // time beyond the end of the week
   std::uint64_t late = 0;                // for the epoch that was just given out
   bool bit_is_wrong = false;             // DF393 ends epochs that go on: it is no longer believed
-  std::uint64_t other_station = 0;       // of another station than the first one seen
+  std::uint64_t other_station = 0;       // of another station than the one in use
   std::uint64_t without_reference = 0;   // the week is not known
   std::uint64_t without_full_range = 0;  // formats 1 to 3
 };
@@ -32,8 +32,13 @@ struct EpochAssemblyCounters {
 // A sender that never sets the bit would have its first message alone used: where two epochs in a
 // row go on after their end, the time alone ends them from then on, which delays each by one
 // interval.
+//
+// The messages of one station are used: of the first one seen, until another one has sent alone for
+// kOtherStation_s. Carriers are interrupted by the change.
 class EpochAssembly {
  public:
+  static constexpr double kOtherStation_s = 5.0;
+
   // Takes a message of any MSM type, which may complete up to two epochs: the one before, whose
   // last message did not come, and its own. Each is given to `on_epoch` as a const RawEpoch&,
   // sorted. The week is the one that brings the time nearest to `near`; without it nothing is
@@ -62,6 +67,9 @@ class EpochAssembly {
     clear();
   }
 
+  // The next message may be another station's, as after a new connection: it is then the one used.
+  void allow_other_station() { is_station_open_ = true; }
+
   const EpochAssemblyCounters& counters() const { return counters_; }
   const MsmMeasurementCounters& measurement_counters() const { return observations_.counters(); }
   const CapacityLosses& losses() const { return capacity_.losses(); }
@@ -70,8 +78,10 @@ class EpochAssembly {
   // Reads the message; returns the time of a message whose measurements can be used.
   std::optional<GpsTime> begin(const MsmType& type, std::span<const std::uint8_t> message,
                                GpsTime near);
+  bool is_of_other_station(const MsmType& type, const MsmHeader& header, GpsTime near);
   // Adds what begin() has read; returns whether the epoch ends with it.
   bool add(std::optional<GpsTime> time);
+  void change_station(std::uint16_t station);
   bool complete();
   void count_late();
   void clear();
@@ -81,6 +91,8 @@ class EpochAssembly {
   MsmMessage message_;
   bool more_follow_ = true;  // as the present message says
   std::optional<std::uint16_t> station_;
+  bool is_station_open_ = true;             // the next message decides it
+  GpsTime other_since_;                     // since when another one sends alone; unset: it does not
   RawEpoch epoch_;                          // time unset: none is open
   std::vector<SignalObservation> signals_;  // of the open epoch; each signal comes once at most
   EpochCapacity capacity_;

@@ -1,6 +1,7 @@
 #include "drivers/rtcm3/msm_observations.h"
 
 #include <cmath>
+#include <limits>
 
 #include "drivers/rtcm3/msm_signal.h"
 
@@ -34,6 +35,17 @@ void MsmObservations::add(const MsmMessage& message, GpsTime time,
     if (!decode(message, cell, time, &observation)) continue;
     signals->push_back(observation);
     ++counters_.measurements;
+  }
+}
+
+// No lock is as old as what is remembered.
+void MsmObservations::interrupt_carriers() {
+  for (auto& system : states_) {
+    for (auto& satellite : system) {
+      for (SignalState& state : satellite) {
+        state.lock.least_lock_ms = std::numeric_limits<std::int64_t>::max();
+      }
+    }
   }
 }
 

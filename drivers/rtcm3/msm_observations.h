@@ -31,6 +31,8 @@ class MsmObservations {
   // the Doppler is minus (rough + fine rate) over the wavelength: a growing range is a falling
   // frequency.
   void add(const MsmMessage& message, GpsTime time, std::vector<SignalObservation>* signals);
+  // The next carrier of each signal continues none: it is another receiver's.
+  void interrupt_carriers();
   const MsmMeasurementCounters& counters() const { return counters_; }
 
  private:

@@ -27,6 +27,8 @@ void Rtcm3Decoder::tell_time(GpsTime now) {
   state_->received = now;
 }
 
+void Rtcm3Decoder::allow_other_station() { state_->assembly.allow_other_station(); }
+
 void Rtcm3Decoder::feed(std::span<const std::uint8_t> bytes, Rtcm3Handler* handler) {
   while (!bytes.empty()) {
     bytes = bytes.subspan(state_->framer.append(bytes));

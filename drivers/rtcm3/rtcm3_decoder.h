@@ -80,6 +80,8 @@ class Rtcm3Decoder {
   // Tells the present time of a live stream, exact to some seconds; a stream of ephemerides alone
   // has no other.
   void tell_time(GpsTime now);
+  // A connection has begun, at which another station may be: the next one's messages are used.
+  void allow_other_station();
   void feed(std::span<const std::uint8_t> bytes, Rtcm3Handler* handler);
   // Ends the stream: decodes what a false preamble near the end holds back, and gives out an epoch
   // whose last message did not come.

@@ -43,6 +43,7 @@ void Stream::finish() {
 
 void Stream::on_open() {
   watch_.on_open(clock_->now_ns());
+  format_->on_open();
   told_failure_.clear();
   spdlog::info("{}: {} is open", name_, source_text_);
 }

@@ -21,6 +21,8 @@ struct FormatCounts {
 class StreamFormat {
  public:
   virtual ~StreamFormat() = default;
+  // A connection has begun, whose sender may be another one than before.
+  virtual void on_open() {}
   // Decodes and publishes. Any bytes may come; a damaged message loses nothing but itself.
   virtual void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) = 0;
   // No more bytes will come.
