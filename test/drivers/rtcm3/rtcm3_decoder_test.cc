@@ -179,6 +179,49 @@ TEST_CASE("Impossible times, masks and stations cost their message and are count
   CHECK(decoded.counters.epochs.bad_length == 1);
 }
 
+TEST_CASE("Another station is used after a new connection, or once it has sent alone") {
+  if (!test::have_shared_data(test::kGmsd7)) return;
+  const bool is_new_connection = GENERATE(true, false);
+  const auto frames = gps_frames(10);
+  REQUIRE(frames.size() == 10);
+  Rtcm3Decoder decoder({kDay});
+  test::Rtcm3Collector collector;
+  for (std::size_t k = 0; k < 3; ++k) decoder.feed(frames[k], &collector);
+  REQUIRE(collector.epochs.size() == 3);
+  if (is_new_connection) decoder.allow_other_station();
+  for (std::size_t k = 3; k < 10; ++k) {
+    decoder.feed(test::edited(frames[k], {{kStation, 12, 200}}), &collector);
+  }
+  // Five seconds of the other one alone, from its first message on, pass.
+  const std::size_t refused = is_new_connection ? 0 : 5;
+  CHECK(decoder.counters().epochs.other_station == refused);
+  REQUIRE(collector.epochs.size() == 10 - refused);
+  for (const auto& o : collector.epochs[3].observations) {
+    if (std::isfinite(o.carrier_cycles)) CHECK(o.loss_of_lock);  // it is another receiver's carrier
+  }
+  const auto undisturbed = decode_rtcm3(joined(frames), kDay);
+  const RawEpoch& next = undisturbed.epochs[is_new_connection ? 4 : 9];
+  REQUIRE(collector.epochs[4].observations.size() == next.observations.size());
+  for (std::size_t i = 0; i < next.observations.size(); ++i) {
+    CHECK(collector.epochs[4].observations[i].loss_of_lock == next.observations[i].loss_of_lock);
+  }
+}
+
+TEST_CASE("A station that comes back in a new connection keeps its carriers, and another between") {
+  if (!test::have_shared_data(test::kGmsd7)) return;
+  const auto frames = gps_frames(9);
+  Rtcm3Decoder decoder({kDay});
+  test::Rtcm3Collector collector;
+  for (std::size_t k = 0; k < 9; ++k) {
+    if (k == 2) decoder.allow_other_station();
+    decoder.feed(frames[k], &collector);
+    decoder.feed(test::edited(frames[k], {{kStation, 12, 200}}), &collector);
+  }
+  CHECK(collector.epochs.size() == 9);
+  CHECK(decoder.counters().epochs.other_station == 9);
+  for (const auto& o : collector.epochs[2].observations) CHECK_FALSE(o.loss_of_lock);
+}
+
 TEST_CASE("Lock times that start again are losses of lock, and values not measured are left out") {
   if (!test::have_shared_data(test::kGmsd7)) return;
   auto frames = gps_frames(3);

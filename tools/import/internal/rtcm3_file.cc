@@ -42,7 +42,7 @@ void report_rtcm3(const std::string& path, const Rtcm3Counters& counters, Import
       {"observation message with more cells than there may be", epochs.bad_mask},
       {"observation message with an impossible time", epochs.bad_time},
       {"observation message of an epoch that had ended", epochs.late},
-      {"observation message of another station than the first", epochs.other_station},
+      {"observation message of another station than the one in use", epochs.other_station},
       {"MSM1 to MSM3 (ranges without their milliseconds; turn on MSM4 to MSM7)",
        epochs.without_full_range},
       {"epoch without a measurement of a used system", epochs.empty_epochs},
