@@ -60,7 +60,8 @@ std::optional<GpsTime> EpochAssembly::begin(const MsmType& type,
 }
 
 // Times are compared only with those of the same sender, whose clock may be wrong.
-bool EpochAssembly::is_of_other_station(const MsmType& type, const MsmHeader& header, GpsTime near) {
+bool EpochAssembly::is_of_other_station(const MsmType& type, const MsmHeader& header,
+                                        GpsTime near) {
   const bool is_open = std::exchange(is_station_open_, false);
   if (station_ == header.station) {
     other_since_ = {};

@@ -91,9 +91,9 @@ class EpochAssembly {
   MsmMessage message_;
   bool more_follow_ = true;  // as the present message says
   std::optional<std::uint16_t> station_;
-  bool is_station_open_ = true;             // the next message decides it
-  GpsTime other_since_;                     // since when another one sends alone; unset: it does not
-  RawEpoch epoch_;                          // time unset: none is open
+  bool is_station_open_ = true;  // the next message decides it
+  GpsTime other_since_;          // since when another one sends alone; unset: it does not
+  RawEpoch epoch_;               // time unset: none is open
   std::vector<SignalObservation> signals_;  // of the open epoch; each signal comes once at most
   EpochCapacity capacity_;
   GpsTime last_given_;      // time of the last epoch that was given out or was empty

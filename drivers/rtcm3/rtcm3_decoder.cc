@@ -27,6 +27,11 @@ void Rtcm3Decoder::tell_time(GpsTime now) {
   state_->received = now;
 }
 
+void Rtcm3Decoder::tell_week(GpsTime near) {
+  state_->near = near;
+  state_->received = {};
+}
+
 void Rtcm3Decoder::allow_other_station() { state_->assembly.allow_other_station(); }
 
 void Rtcm3Decoder::feed(std::span<const std::uint8_t> bytes, Rtcm3Handler* handler) {

@@ -71,15 +71,17 @@ struct Rtcm3Options {
 // The decoder streams: chunks of any size, no recursion, bounded memory. Each time is the one
 // nearest to that of the epoch before, so that a stream may last as long as it will and pause for
 // three days. An ephemeris is given out once per contents, however often it is repeated, and counts
-// as sent when it first came: at the last epoch's time, or at the time that was told.
+// as sent when it first came: at the last epoch's time, or at the time that was told after it.
 class Rtcm3Decoder {
  public:
   explicit Rtcm3Decoder(const Rtcm3Options& options = {});
   ~Rtcm3Decoder();
 
-  // Tells the present time of a live stream, exact to some seconds; a stream of ephemerides alone
-  // has no other.
+  // Tells the present time of a live stream, exact to some seconds.
   void tell_time(GpsTime now);
+  // Tells a time within three days of the present one, which says the week and no more. The
+  // transmission times of ephemerides are then unset.
+  void tell_week(GpsTime near);
   // A connection has begun, at which another station may be: the next one's messages are used.
   void allow_other_station();
   void feed(std::span<const std::uint8_t> bytes, Rtcm3Handler* handler);

@@ -3,7 +3,7 @@
 #include "drivers/nmea/fields.h"
 #include "drivers/nmea/sentence.h"
 #include "drivers/transport/arrival_clock.h"
-#include "tools/connect/stamps/gps_clock.h"
+#include "tools/connect/stamps/host_clock.h"
 
 namespace leonav {
 
@@ -29,8 +29,7 @@ std::string position_line(const ReportedPosition& position, GpsTime time) {
 }
 
 std::string position_line_now(const ReportedPosition& position) {
-  const GpsClock host(TimeReference::kHost, 0.0);
-  return position_line(position, host.at(ArrivalClock().now_ns()).value_or(GpsTime()));
+  return position_line(position, HostClock().at(ArrivalClock().now_ns()));
 }
 
 }  // namespace leonav

@@ -9,8 +9,9 @@ namespace leonav {
 
 struct UnusedCorrections {
   std::uint64_t count = 0;
-  const char* one = "";   // what one of them is, in a list with its count
-  const char* many = "";  // what follows their number in a sentence
+  const char* one = "";     // what one of them is, in a list with its count
+  const char* many = "";    // what follows their number in a sentence
+  const char* remedy = "";  // of a live stream
 };
 
 // Returns all reasons, also those that did not occur, in a fixed order.

@@ -5,6 +5,7 @@
 
 #include "core/base/gps_time.h"
 #include "tools/connect/stamps/envelope_line.h"
+#include "tools/connect/stamps/host_clock.h"
 
 namespace leonav {
 
@@ -22,20 +23,30 @@ class GpsClock {
 
   // Takes the time of a receiver's epoch and its arrival; of use with TimeReference::kGnss.
   void on_epoch(GpsTime time, std::int64_t arrival_ns);
-  // The GPS time at which the ArrivalClock shows `arrival_ns`; nullopt: not known yet. By the
-  // host's clock, UTC is taken as it was at the first arrival asked for: the ArrivalClock counts on
-  // over a leap second, so the seconds between both times stay what they were.
+  // The GPS time at which the ArrivalClock shows `arrival_ns`; nullopt: not known yet.
   std::optional<GpsTime> at(std::int64_t arrival_ns) const;
+  // The same by the host's clock, whatever the reference is; it may be wrong by any time.
+  GpsTime by_host(std::int64_t arrival_ns) const { return host_.at(arrival_ns); }
+  // As HostClock::compare().
+  std::optional<double> compare_host(std::int64_t wall_ns, std::int64_t arrival_ns) {
+    return host_.compare(wall_ns, arrival_ns);
+  }
   bool is_known() const { return reference_ == TimeReference::kHost || line_.is_ready(); }
   // 1 sigma, s, as far as the arrivals tell it; a wrong `latency_s` is not in it.
   double sigma_s() const { return reference_ == TimeReference::kGnss ? line_.sigma_s() : 0.0; }
-  std::uint64_t steps() const { return line_.steps(); }
+  std::uint64_t steps() const {
+    return reference_ == TimeReference::kGnss ? line_.steps() : host_.steps();
+  }
+  // With TimeReference::kHost: how far the host's clock is ahead of a receiver's last epoch, s,
+  // where no delay explains it.
+  std::optional<double> host_error_s() const;
 
  private:
   TimeReference reference_;
   double latency_s_;
-  EnvelopeLine line_;                           // from GPS time to arrival
-  mutable std::optional<int> gps_minus_utc_s_;  // of the host's clock, once it was asked for
+  EnvelopeLine line_;  // from GPS time to arrival
+  HostClock host_;
+  double host_minus_epoch_s_ = 0.0;  // at the last epoch
 };
 
 }  // namespace leonav

@@ -92,6 +92,57 @@ TEST_CASE("A leap second while the program runs moves no stamp", "[connect]") {
   CHECK(later.at(before_ns + 20 * kSecond) == after->plus_seconds(1.0));
 }
 
+TEST_CASE("A host's clock that is set is followed, and told as a step", "[connect]") {
+  GpsClock clock(TimeReference::kHost, 0.05);
+  const double step_s = GENERATE(3600.0, -0.03);
+  const std::int64_t start_ns = 1'608'163'200 * kSecond;
+  const auto wall_minus_arrival_ns = static_cast<std::int64_t>(step_s * 1e9);
+  CHECK(clock.at(start_ns) == kStart.plus_seconds(18.0));
+  CHECK_FALSE(clock.compare_host(start_ns + kSecond + 100'000, start_ns + kSecond));
+  // One comparison alone, as of a thread that waited between both readings, is none.
+  std::int64_t now_ns = start_ns + 2 * kSecond;
+  CHECK_FALSE(clock.compare_host(now_ns + 500'000'000, now_ns));
+  int told = 0;
+  for (int k = 0; k < 10; ++k) {
+    now_ns += kSecond;
+    const auto step = clock.compare_host(now_ns + wall_minus_arrival_ns, now_ns);
+    if (!step) continue;
+    ++told;
+    CHECK(*step == Approx(step_s).margin(1e-6));
+    CHECK(k == HostClock::kComparisons - 1);
+  }
+  CHECK(told == 1);
+  CHECK(clock.steps() == 1);
+  const double since_s = static_cast<double>(now_ns - start_ns) * 1e-9;
+  CHECK(seconds_between(*clock.at(now_ns), kStart) == Approx(18.0 + since_s + step_s).margin(1e-6));
+}
+
+TEST_CASE("A leap second of the host's clock is no step, known or not", "[connect]") {
+  const bool is_known = GENERATE(true, false);
+  HostClock clock;
+  // The end of 2016 had one; that of 2014 stands for one that came after this program was built.
+  const std::int64_t midnight_ns = (is_known ? 1'483'228'800 : 1'420'070'400) * kSecond;
+  const std::int64_t start_ns = midnight_ns - 10 * kSecond;
+  const GpsTime before = clock.at(start_ns);
+  for (int k = 0; k < 100; ++k) {
+    const std::int64_t arrival_ns = start_ns + k * kSecond + 300'000'000;
+    const std::int64_t wall_ns = arrival_ns - (arrival_ns >= midnight_ns ? kSecond : 0);
+    CHECK_FALSE(clock.compare(wall_ns, arrival_ns));
+  }
+  CHECK(clock.steps() == 0);
+  CHECK(seconds_between(clock.at(start_ns + 100 * kSecond), before) == 100.0);
+}
+
+TEST_CASE("A host's clock that contradicts the receiver's epochs is known", "[connect]") {
+  GpsClock clock(TimeReference::kHost, 0.05);
+  const std::int64_t start_ns = 1'608'163'200 * kSecond;
+  clock.on_epoch(kStart.plus_seconds(17.8), start_ns);
+  CHECK_FALSE(clock.host_error_s());
+  clock.on_epoch(kStart.plus_seconds(38.0), start_ns);
+  REQUIRE(clock.host_error_s());
+  CHECK(*clock.host_error_s() == Approx(-20.0));
+}
+
 TEST_CASE("Rates become increments over the time since the reading before", "[connect]") {
   ImuSampler sampler;
   ImuReading reading;

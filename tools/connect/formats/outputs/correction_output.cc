@@ -28,6 +28,17 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
   return published;
 }
 
+std::string CorrectionOutput::why_none() const {
+  std::string remedy = "is it the stream of a service for GPS, Galileo or BeiDou?";
+  std::uint64_t most = 0;
+  for (const UnusedCorrections& unused : unused_corrections(shared_->services.counters(stream_))) {
+    if (unused.count <= most) continue;
+    most = unused.count;
+    remedy = unused.remedy;
+  }
+  return "none can be used (" + detail() + "): " + remedy;
+}
+
 std::string CorrectionOutput::detail() const {
   if (last_satellites_ == 0) return "";
   const CorrectionServices& services = shared_->services;

@@ -38,6 +38,8 @@ class CorrectionOutput {
   // Takes a message that came at `now`, GPS time. Returns the number of messages with states that
   // were published, or left out because another service is in use.
   int take(const SsrMessage& message, GpsTime now);
+  // Why corrections came and none could be used, with the remedy for the most frequent reason.
+  std::string why_none() const;
   // What came, in a few words; empty while nothing has come.
   std::string detail() const;
 

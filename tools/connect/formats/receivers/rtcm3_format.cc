@@ -2,15 +2,34 @@
 
 #include <string_view>
 
+#include "drivers/binary/week_time.h"
+
 namespace leonav {
 
 void Rtcm3Format::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
   arrival_ns_ = arrival_ns;
-  if (is_live_) decoder_.tell_time(host_.at(arrival_ns).value_or(GpsTime()));
+  if (is_live_) tell_time();
   decoder_.feed(bytes, this);
 }
 
+// The host knows the week. The time in it is that of the stream's last epoch and what has passed
+// since, or of the epochs of another stream.
+void Rtcm3Format::tell_time() {
+  const GpsTime host = clock_->by_host(arrival_ns_);
+  if (last_epoch_.is_set()) {
+    const GpsTime now = last_epoch_.plus_nanoseconds(arrival_ns_ - last_epoch_ns_);
+    const std::int64_t of_week_ns = now.nanoseconds() - now.week() * kNanosecondsPerWeek;
+    decoder_.tell_time(nearest_instant_ns(of_week_ns, host));
+  } else if (const auto now = clock_->at(arrival_ns_)) {
+    decoder_.tell_time(*now);
+  } else {
+    decoder_.tell_week(host);
+  }
+}
+
 void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
+  last_epoch_ = epoch.time;
+  last_epoch_ns_ = arrival_ns_;
   if (is_service_) {
     ++station_epochs_;
   } else {
@@ -31,7 +50,7 @@ void Rtcm3Format::on_ssr(const SsrMessage& message) {
 GpsTime Rtcm3Format::time_of_arrival(GpsTime of_message) const {
   if (!is_live_) return of_message;
   if (const auto time = clock_->at(arrival_ns_)) return *time;
-  return host_.at(arrival_ns_).value_or(of_message);
+  return clock_->by_host(arrival_ns_);
 }
 
 std::optional<DataTime> Rtcm3Format::data_time() const {
@@ -74,10 +93,10 @@ std::string Rtcm3Format::why_no_messages() const {
     return "MSM1 to MSM3 arrive, whose ranges lack the milliseconds: let the sender send MSM4 to "
            "MSM7";
   }
-  if (last_ssr_.is_set()) {
-    return "SSR messages arrive, but none can be used (" + corrections_->detail() +
-           "): ephemerides must come too, 1019, 1042, 1045 or 1046 in this stream or from a "
-           "receiver";
+  if (last_ssr_.is_set()) return "SSR messages arrive, but " + corrections_->why_none();
+  if (c.epochs.other_station > 0 && receiver_.messages() == 0) {
+    return "observations of several stations arrive, and those of the first one cannot be used: "
+           "let the sender send one station alone";
   }
   if (station_epochs_ > 0) {
     return "observations arrive, but no SSR messages, in a stream of 'corrections: true'; leave "

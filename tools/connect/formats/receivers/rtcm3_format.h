@@ -10,7 +10,7 @@ namespace leonav {
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of the MSM of an
 // instant, EPHEMERIS of 1019, 1042, 1045 and 1046, CORRECTED_STATES and BIASES of SSR. Besides,
 // ephemerides are repeated. RTCM gives no week: it is that of a day that is told, otherwise that of
-// the host's clock at each arrival.
+// the host's clock at each arrival, which may be wrong by three days.
 class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
  public:
   // `day`: an instant within three days of the stream's beginning; unset: the stream is live.
@@ -26,6 +26,7 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
         receiver_(repeat_s, clock, output, corrections),
         decoder_({day}) {}
 
+  void on_open() override { decoder_.allow_other_station(); }
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   void finish() override { decoder_.finish(this); }
   FormatCounts counts() const override;
@@ -38,15 +39,17 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_ssr(const SsrMessage& message) override;
+  void tell_time();
   GpsTime time_of_arrival(GpsTime of_message) const;
 
   bool is_live_, is_service_;
   GpsClock* clock_;
   CorrectionOutput* corrections_;
   ReceiverOutput receiver_;
-  GpsClock host_{TimeReference::kHost, 0.0};
   Rtcm3Decoder decoder_;
-  std::int64_t arrival_ns_ = 0;                          // of the bytes at hand
+  std::int64_t arrival_ns_ = 0;  // of the bytes at hand
+  GpsTime last_epoch_;           // also of a station; and its arrival
+  std::int64_t last_epoch_ns_ = 0;
   GpsTime last_ssr_;                                     // time of the newest correction
   std::uint64_t ssr_messages_ = 0, station_epochs_ = 0;  // published; left out
 };

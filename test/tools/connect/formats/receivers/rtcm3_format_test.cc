@@ -43,9 +43,9 @@ class Bits {
 };
 
 // MSM4 of satellite 7 with one signal, whose mask is 1 << (32 - 2) for L1 C/A: 75 ms and a half.
-std::vector<std::uint8_t> msm4(int number, std::uint64_t time_ms) {
+std::vector<std::uint8_t> msm4(int number, std::uint64_t time_ms, std::uint64_t station = 1) {
   Bits bits;
-  bits.add(static_cast<std::uint64_t>(number), 12).add(1, 12).add(time_ms, 30).add(0, 1);
+  bits.add(static_cast<std::uint64_t>(number), 12).add(station, 12).add(time_ms, 30).add(0, 1);
   bits.add(0, 3).add(0, 7).add(0, 2).add(0, 2).add(0, 1).add(0, 3);
   bits.add(std::uint64_t{1} << (64 - 7), 64).add(std::uint64_t{1} << (32 - 2), 32).add(1, 1);
   bits.add(75, 8).add(512, 10);
@@ -162,6 +162,71 @@ Ephemeris elements(std::uint16_t issue) {
 
 }  // namespace
 
+namespace {
+
+// 1019 of a satellite for the two hours in which kTime is, of week 2306.
+std::vector<std::uint8_t> gps_ephemeris(std::uint64_t satellite) {
+  const std::uint64_t toe = kOfWeek_ms / 1000 / 16;
+  Bits bits;
+  bits.add(1019, 12).add(satellite, 6).add(2306 % 1024, 10).add(0, 4).add(1, 2).add(0, 14);
+  bits.add(45, 8).add(toe, 16).add(0, 8).add(0, 16).add(1000, 22).add(45, 10);
+  bits.add(0, 16).add(0, 16).add(100, 32).add(0, 16).add(85'899'345, 32).add(0, 16);
+  bits.add(2'702'049'280, 32).add(toe, 16).add(0, 16).add(1000, 32).add(0, 16);
+  bits.add(654'982'758, 32).add(0, 16).add(1000, 32).add(0, 24).add(0, 8).add(0, 6).add(0, 2);
+  return bits.frame();
+}
+
+struct Ephemerides : MessageTarget {
+  void take(Channel channel, ByteSpan bytes) override {
+    if (channel != Channel::kEphemeris) return;
+    Ephemeris ephemeris;
+    REQUIRE(Decoder().decode(bytes, &ephemeris).fault == InputFault::kNone);
+    list.push_back(ephemeris);
+  }
+  std::vector<Ephemeris> list;
+};
+
+}  // namespace
+
+TEST_CASE("Ephemerides are sent at the epochs' time, however wrong the host's clock is",
+          "[connect]") {
+  const double error_s = GENERATE(-86'400.0, 0.0, 1200.0);
+  Ephemerides ephemerides;
+  MessageOutput output(&ephemerides);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(GpsTime(), 0.0, &clock, &output);
+  const auto arrival_ns = [&](double s) { return host_ns(kTime.plus_seconds(s + error_s)); };
+  // Before the first epoch only the week is known: it counts as sent when its use began.
+  format.feed(gps_ephemeris(3), arrival_ns(-0.5));
+  for (unsigned second = 0; second < 3; ++second) {
+    format.feed(msm4(1074, kOfWeek_ms + 1000U * second), arrival_ns(second + 0.1));
+    format.feed(gps_ephemeris(4 + second), arrival_ns(second + 0.6));
+  }
+  // The epochs stop, and time goes on.
+  format.feed(gps_ephemeris(7), arrival_ns(602.1));
+  REQUIRE(ephemerides.list.size() == 5);
+  CHECK(ephemerides.list[0].transmission_time == kTime.plus_seconds(-7200.0));
+  for (unsigned second = 0; second < 3; ++second) {
+    CHECK(seconds_between(ephemerides.list[1 + second].transmission_time,
+                          kTime.plus_seconds(second)) == Approx(0.5).margin(1e-6));
+  }
+  CHECK(seconds_between(ephemerides.list[4].transmission_time, kTime) ==
+        Approx(602.0).margin(1e-6));
+}
+
+TEST_CASE("A receiver that comes back with another station's number is read", "[connect]") {
+  Epochs epochs;
+  MessageOutput output(&epochs);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(GpsTime(), 30.0, &clock, &output);
+  format.on_open();
+  format.feed(msm4(1074, kOfWeek_ms, 100), host_ns(kTime));
+  format.on_open();
+  format.feed(msm4(1074, kOfWeek_ms + 1000, 200), host_ns(kTime.plus_seconds(1.0)));
+  CHECK(epochs.list.size() == 2);
+  CHECK(format.counts().refused == 0);
+}
+
 TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
   Messages messages;
   MessageOutput output(&messages);
@@ -198,6 +263,22 @@ TEST_CASE("Corrections of a service make states with a receiver's ephemerides", 
   CHECK(service.counts().messages == 1);        // biases do not count
   CHECK(receiver.detail() == "2 ephemerides");  // no word of signals, as there is no epoch
   CHECK(service.data_time()->nanoseconds == kTime.nanoseconds());
+}
+
+TEST_CASE("Corrections that are too old are told with what may be wrong", "[connect]") {
+  Messages messages;
+  MessageOutput output(&messages);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
+  corrections.add(elements(77));
+  service.feed(orbit_and_clock(kOfWeek_ms / 1000), host_ns(kTime.plus_seconds(1200.0)));
+  CHECK(messages.states.empty());
+  const std::string text = service.why_no_messages();
+  CHECK_THAT(text, Catch::Contains("1 too old"));
+  CHECK_THAT(text, Catch::Contains("is the host's clock right"));
+  CHECK_THAT(text, !Catch::Contains("ephemerides must come"));
 }
 
 }  // namespace leonav
