@@ -26,7 +26,7 @@ bool may_be_version_1(const NtripReply& reply) {
 }
 
 NtripEndpoint::NtripEndpoint(asio::io_context* io, const NtripOptions& options)
-    : io_(io), options_(options) {
+    : io_(io), options_(options), lookup_(io, options.host, options.port) {
   if (!options_.credentials_file.empty()) {
     credentials_ = read_credentials(options_.credentials_file);
   }
@@ -44,8 +44,9 @@ void NtripEndpoint::open(Opened opened) {
   }
   std::string position = options_.position_line ? options_.position_line() : "";
   while (position.ends_with('\n') || position.ends_with('\r')) position.pop_back();
-  session_ = std::make_shared<NtripSession>(
-      io_, &options_, tls_.get(), ntrip_request(options_, asked_as_, credentials_, position));
+  session_ =
+      std::make_shared<NtripSession>(io_, &options_, &lookup_, tls_.get(),
+                                     ntrip_request(options_, asked_as_, credentials_, position));
   session_->open(std::move(opened));
 }
 
@@ -75,6 +76,7 @@ std::string NtripEndpoint::text_of(const error_code& error) const {
   if (session_ == nullptr) return what + network_text(error);
   if (!session_->tls_problem().empty()) return what + session_->tls_problem();
   if (error == boost::system::errc::protocol_error) return what + text_of_answer();
+  if (error == asio::error::timed_out && lookup_.is_asking()) return what + mute_name_server_text();
   if (error == asio::error::timed_out && session_->is_connected()) {
     return what + (session_->has_asked()
                        ? "the caster takes the request and does not answer it; is this the port "

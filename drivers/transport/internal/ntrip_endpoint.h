@@ -8,6 +8,7 @@
 
 #include "drivers/transport/credentials.h"
 #include "drivers/transport/internal/endpoint.h"
+#include "drivers/transport/internal/name_lookup.h"
 #include "drivers/transport/internal/ntrip_session.h"
 #include "drivers/transport/ntrip_source.h"
 
@@ -30,6 +31,7 @@ class NtripEndpoint final : public Endpoint {
 
   boost::asio::io_context* io_;
   NtripOptions options_;
+  NameLookup lookup_;
   std::optional<Credentials> credentials_;
   std::unique_ptr<boost::asio::ssl::context> tls_;
   std::shared_ptr<NtripSession> session_;  // the latest; also after close(), for text_of()

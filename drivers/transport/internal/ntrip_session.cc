@@ -25,9 +25,9 @@ boost::system::error_code as_end(const boost::system::error_code& error) {
 
 }  // namespace
 
-NtripSession::NtripSession(asio::io_context* io, const NtripOptions* options,
+NtripSession::NtripSession(asio::io_context* io, const NtripOptions* options, NameLookup* lookup,
                            asio::ssl::context* tls, std::string request)
-    : options_(options), resolver_(*io), socket_(*io), timer_(*io), outgoing_(std::move(request)) {
+    : options_(options), lookup_(lookup), socket_(*io), timer_(*io), outgoing_(std::move(request)) {
   if (tls != nullptr) tls_.emplace(socket_, *tls);
 }
 
@@ -45,16 +45,14 @@ void NtripSession::write_all(Handler handler) {
 
 void NtripSession::open(Endpoint::Opened opened) {
   opened_ = std::move(opened);
-  resolver_.async_resolve(
-      options_->host, std::to_string(options_->port),
-      [self = shared_from_this()](const Error& error, const tcp::resolver::results_type& found) {
-        if (self->is_closed_) return;
-        if (error) return self->finish_open(error);
-        self->connect(found);
-      });
+  lookup_->start([self = shared_from_this()](const Error& error, const NameLookup::Results& found) {
+    if (self->is_closed_) return;
+    if (error) return self->finish_open(error);
+    self->connect(found);
+  });
 }
 
-void NtripSession::connect(const tcp::resolver::results_type& found) {
+void NtripSession::connect(const NameLookup::Results& found) {
   asio::async_connect(socket_, found,
                       [self = shared_from_this()](const Error& error, const tcp::endpoint&) {
                         if (self->is_closed_) return;
@@ -172,10 +170,9 @@ void NtripSession::wait_to_send() {
 }
 
 void NtripSession::close() {
-  is_closed_ = true;
   opened_ = nullptr;
   Error ignored;
-  resolver_.cancel();
+  if (!std::exchange(is_closed_, true)) lookup_->cancel();
   timer_.cancel();
   socket_.close(ignored);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "drivers/transport/internal/endpoint.h"
+#include "drivers/transport/internal/name_lookup.h"
 #include "drivers/transport/internal/ntrip_reply.h"
 #include "drivers/transport/internal/tls_context.h"
 #include "drivers/transport/ntrip_source.h"
@@ -23,9 +24,9 @@ namespace leonav {
 // the next one.
 class NtripSession : public std::enable_shared_from_this<NtripSession> {
  public:
-  // `tls` is null for a connection that is not encrypted; `options` and `tls` must outlive the call
-  // of close().
-  NtripSession(boost::asio::io_context* io, const NtripOptions* options,
+  // `tls` is null for a connection that is not encrypted; `options`, `lookup` and `tls` must
+  // outlive the call of close().
+  NtripSession(boost::asio::io_context* io, const NtripOptions* options, NameLookup* lookup,
                boost::asio::ssl::context* tls, std::string request);
 
   // As those of Endpoint; an error of protocol means that answer() or tls_problem() says more.
@@ -41,7 +42,7 @@ class NtripSession : public std::enable_shared_from_this<NtripSession> {
 
  private:
   using Error = boost::system::error_code;
-  void connect(const boost::asio::ip::tcp::resolver::results_type& found);
+  void connect(const NameLookup::Results& found);
   void shake_hands();
   void ask();
   void await_answer();
@@ -58,7 +59,7 @@ class NtripSession : public std::enable_shared_from_this<NtripSession> {
   void write_all(Handler handler);
 
   const NtripOptions* options_;
-  boost::asio::ip::tcp::resolver resolver_;
+  NameLookup* lookup_;
   boost::asio::ip::tcp::socket socket_;
   std::optional<TlsStream> tls_;
   boost::asio::steady_timer timer_;  // of the position

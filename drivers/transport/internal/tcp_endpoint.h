@@ -6,6 +6,7 @@
 #include <string>
 
 #include "drivers/transport/internal/endpoint.h"
+#include "drivers/transport/internal/name_lookup.h"
 #include "drivers/transport/live_sources.h"
 
 namespace leonav {
@@ -13,7 +14,7 @@ namespace leonav {
 class TcpEndpoint final : public Endpoint {
  public:
   TcpEndpoint(boost::asio::io_context* io, const TcpOptions& options)
-      : options_(options), resolver_(*io), socket_(*io) {}
+      : options_(options), lookup_(io, options.host, options.port), socket_(*io) {}
   void open(Opened opened) override;
   void read(boost::asio::mutable_buffer buffer, Read done) override;
   void close() override;
@@ -22,10 +23,9 @@ class TcpEndpoint final : public Endpoint {
 
  private:
   TcpOptions options_;
-  boost::asio::ip::tcp::resolver resolver_;
+  NameLookup lookup_;
   boost::asio::ip::tcp::socket socket_;
-  // Counts openings and closings: a name may be resolved just when the attempt was given up, and
-  // must then connect nothing.
+  // Counts openings and closings, so that what an earlier one still calls back is told from it.
   std::uint64_t attempt_ = 0;
 };
 

@@ -45,6 +45,11 @@ TEST_CASE("A caster, clients and datagrams are read and recorded to the last byt
   run_script("test/tools/connect/sources_live_test.py");
 }
 
+TEST_CASE("A name server that is mute holds up its own stream alone", "[connect]") {
+  if (!have_programs("leonav-connect")) return;
+  run_script("test/tools/connect/name_server_test.py");
+}
+
 TEST_CASE("Faults of the wire are told, bridged and replayed", "[connect]") {
   if (!have_programs("leonav-connect", "leonavd", "leonav-replay", "leonav-sim")) return;
   run_script("tools/scripts/lib/wire_faults.py",
