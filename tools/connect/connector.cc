@@ -6,9 +6,13 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <chrono>
 #include <csignal>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "daemon/link/lcm_publisher.h"
@@ -33,6 +37,26 @@ namespace leonav {
 namespace asio = boost::asio;
 
 namespace {
+
+// The wall clock, in ns since 1970, and what the ArrivalClock showed then. Of some readings it is
+// the one that no other process has interrupted for long.
+struct TwoClocks {
+  std::int64_t wall_ns = 0, arrival_ns = 0;
+};
+
+TwoClocks read_clocks(const ArrivalClock& clock) {
+  TwoClocks best;
+  std::int64_t shortest_ns = std::numeric_limits<std::int64_t>::max();
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t before_ns = clock.now_ns();
+    const std::chrono::nanoseconds wall = std::chrono::system_clock::now().time_since_epoch();
+    const std::int64_t took_ns = clock.now_ns() - before_ns;
+    if (took_ns >= shortest_ns) continue;
+    shortest_ns = took_ns;
+    best = {wall.count(), before_ns + took_ns / 2};
+  }
+  return best;
+}
 
 void tell_change(const ServiceChange& change) {
   const bool is_fallback = !change.from.empty() && !change.is_return;
@@ -67,6 +91,7 @@ struct Connector::State {
   void wait_for_signal();
   void wait_a_second();
   void each_second();
+  void watch_host();
   void publish_status();
   bool all_have_ended() const {
     return std::all_of(streams.begin(), streams.end(),
@@ -89,6 +114,7 @@ struct Connector::State {
   std::vector<std::unique_ptr<Stream>> streams;
   ServiceManager manager;
   std::uint64_t seconds = 0;
+  bool host_was_wrong = false;  // by the receiver's epochs
   bool was_stopped = false;
 };
 
@@ -178,11 +204,32 @@ void Connector::State::wait_a_second() {
 void Connector::State::each_second() {
   ++seconds;
   for (const auto& stream : streams) stream->look();
+  watch_host();
   publish_status();
   manager.feed_watchdog();  // the one thread that reads all streams is alive
   const auto interval = static_cast<std::uint64_t>(config.status_interval_s);
   if (interval == 0 || seconds % interval != 0) return;
   for (const auto& stream : streams) spdlog::info("{}", status_text(*stream, clock.now_ns()));
+}
+
+void Connector::State::watch_host() {
+  const TwoClocks now = read_clocks(clock);
+  const std::optional<double> step_s = gps.compare_host(now.wall_ns, now.arrival_ns);
+  if (config.reference != TimeReference::kHost) return;
+  if (step_s) {
+    spdlog::warn("the host's clock was set by {:+.3f} s; stamps follow it from now on", *step_s);
+  }
+  const std::optional<double> error_s = gps.host_error_s();
+  if (error_s.has_value() == std::exchange(host_was_wrong, error_s.has_value())) return;
+  if (error_s) {
+    spdlog::warn(
+        "the host's clock is {:+.1f} s against the receiver's epochs, and 'time.reference: host' "
+        "stamps by it: what keeps it at UTC (chronyc tracking, pmc), and is the receiver's time "
+        "known?",
+        *error_s);
+  } else {
+    spdlog::info("the host's clock agrees with the receiver's epochs");
+  }
 }
 
 void Connector::State::publish_status() {

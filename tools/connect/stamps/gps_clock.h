@@ -34,9 +34,12 @@ class GpsClock {
   bool is_known() const { return reference_ == TimeReference::kHost || line_.is_ready(); }
   // 1 sigma, s, as far as the arrivals tell it; a wrong `latency_s` is not in it.
   double sigma_s() const { return reference_ == TimeReference::kGnss ? line_.sigma_s() : 0.0; }
-  std::uint64_t steps() const {
-    return reference_ == TimeReference::kGnss ? line_.steps() : host_.steps();
+  std::uint64_t steps() const { return line_.steps(); }
+  // Of a host's clock that is the reference.
+  std::uint64_t host_steps() const {
+    return reference_ == TimeReference::kHost ? host_.steps() : 0;
   }
+  double last_host_step_s() const { return host_.last_step_s(); }
   // With TimeReference::kHost: how far the host's clock is ahead of a receiver's last epoch, s,
   // where no delay explains it.
   std::optional<double> host_error_s() const;

@@ -82,6 +82,12 @@ double ImuStamper::sigma_s() const {
   return std::hypot(line_.sigma_s(), gps_->sigma_s());
 }
 
+std::string ImuStamper::host_text() const {
+  if (gps_->host_steps() == 0) return "";
+  return format("; the host's clock was set %llu times, the last by %.3f s",
+                static_cast<unsigned long long>(gps_->host_steps()), gps_->last_host_step_s());
+}
+
 std::string ImuStamper::text() const {
   switch (kind_) {
     case Kind::kGpsTime:
@@ -102,6 +108,7 @@ std::string ImuStamper::text() const {
                     options_.rate_hz > 0.0 ? "count" : "the sensor's clock", sigma_s() * 1e3,
                     line_.drift() * 1e6, static_cast<unsigned long long>(line_.steps())) +
              (line_.steps() > 0 ? format(", the last by %.3f s", line_.last_step_s()) : "") +
+             host_text() +
              (pulses_ == nullptr
                   ? ""
                   : "; no pulses that can be used, as in the first seconds of every run: is the "

@@ -53,6 +53,8 @@ class ImuStamper {
   std::optional<GpsTime> by_pulses(std::int64_t clock_ns, std::optional<bool> has_pulse,
                                    GpsTime by_arrivals);
 
+  std::string host_text() const;
+
   const GpsClock* gps_;
   ImuStampOptions options_;
   PulseQueue* pulses_;
