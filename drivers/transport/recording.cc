@@ -1,9 +1,14 @@
 #include "drivers/transport/recording.h"
 
+#include <array>
 #include <cerrno>
+#include <condition_variable>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include "drivers/binary/little_endian.h"
 #include "drivers/text/parse.h"
@@ -15,28 +20,84 @@ constexpr std::string_view kFirstLine = "leonav recording 1\n";
 constexpr std::size_t kHeaderBytes = 12;
 // A block is what one read gave; longer ones are damage.
 constexpr std::uint32_t kMaxBlock = 1U << 20;
+// The thread writes when so much waits, and at each flush.
+constexpr std::size_t kBatch = 1U << 16;
 // Small pieces, so that a file keeps a receiver's pace.
 constexpr std::size_t kPiece = 256;
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(const std::string& path) : path_(path) {
+struct RecordingWriter::State {
+  std::mutex mutex;
+  std::condition_variable wake, closed;
+  std::FILE* file = nullptr;  // the thread's
+  std::vector<std::uint8_t> queue;
+  bool is_flush_due = false, is_end = false, is_closed = false;
+  std::string problem;
+  bool has_failed = false;  // the file takes nothing more
+
+  void run();
+  void fail(int error) {
+    has_failed = true;
+    if (problem.empty()) problem = std::string("cannot be written: ") + std::strerror(error);
+  }
+};
+
+// Takes over all that is queued at once, so that nobody waits for the disk.
+void RecordingWriter::State::run() {
+  std::vector<std::uint8_t> batch;
+  std::unique_lock lock(mutex);
+  while (!is_end || !queue.empty()) {
+    wake.wait(lock, [this] { return is_flush_due || is_end || queue.size() >= kBatch; });
+    batch.clear();
+    std::swap(batch, queue);
+    is_flush_due = false;
+    if (has_failed) continue;
+    lock.unlock();
+    const bool written =
+        std::fwrite(batch.data(), 1, batch.size(), file) == batch.size() && std::fflush(file) == 0;
+    const int error = errno;
+    lock.lock();
+    if (!written) fail(error);
+  }
+  lock.unlock();
+  const bool is_closed_well = std::fclose(file) == 0;
+  const int error = errno;
+  lock.lock();
+  if (!is_closed_well) fail(error);
+  is_closed = true;
+  closed.notify_all();
+}
+
+RecordingWriter::RecordingWriter(const std::string& path, const RecordingLimits& limits)
+    : path_(path), limits_(limits) {
   for (int number = 1; std::filesystem::exists(path_) && number < 10'000; ++number) {
     path_ = path + "." + std::to_string(number);
   }
-  file_.reset(std::fopen(path_.c_str(), "wbx"));
-  if (file_ == nullptr) {
+  std::FILE* file = std::fopen(path_.c_str(), "wbx");
+  if (file == nullptr) {
     throw FileError(path_, 0,
                     std::string("cannot be created (") + std::strerror(errno) +
                         "); check the folder of 'record' and its permissions");
   }
-  if (std::fwrite(kFirstLine.data(), 1, kFirstLine.size(), file_.get()) != kFirstLine.size()) {
-    fail();
-  }
+  start(file);
+}
+
+RecordingWriter::RecordingWriter(std::FILE* file, const std::string& path,
+                                 const RecordingLimits& limits)
+    : path_(path), limits_(limits) {
+  start(file);
+}
+
+void RecordingWriter::start(std::FILE* file) {
+  state_ = std::make_shared<State>();
+  state_->file = file;
+  state_->queue.assign(kFirstLine.begin(), kFirstLine.end());
+  accepted_bytes_ = kFirstLine.size();
+  std::thread([state = state_] { state->run(); }).detach();
 }
 
 bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes) {
-  if (!error_.empty()) return false;
   std::array<std::uint8_t, kHeaderBytes> header;
   for (std::size_t i = 0; i < 8; ++i) {
     header[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(arrival_ns) >> (8 * i));
@@ -44,20 +105,45 @@ bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_
   for (std::size_t i = 0; i < 4; ++i) {
     header[8 + i] = static_cast<std::uint8_t>(bytes.size() >> (8 * i));
   }
-  const bool written =
-      std::fwrite(header.data(), 1, header.size(), file_.get()) == header.size() &&
-      (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size());
-  return written || fail();
+  const std::size_t size = header.size() + bytes.size();
+  const std::lock_guard lock(state_->mutex);
+  if (limits_.file_bytes > 0 && accepted_bytes_ + size > limits_.file_bytes) {
+    if (state_->problem.empty()) state_->problem = "has reached its limit, 'record_limit_gb'";
+  }
+  if (!state_->problem.empty()) return false;
+  if (state_->queue.size() + size > limits_.queued_bytes) {
+    dropped_bytes_ += bytes.size();
+    return true;
+  }
+  accepted_bytes_ += size;
+  state_->queue.insert(state_->queue.end(), header.begin(), header.end());
+  state_->queue.insert(state_->queue.end(), bytes.begin(), bytes.end());
+  if (state_->queue.size() >= kBatch) state_->wake.notify_one();
+  return true;
 }
 
 bool RecordingWriter::flush() {
-  if (!error_.empty()) return false;
-  return std::fflush(file_.get()) == 0 || fail();
+  const std::lock_guard lock(state_->mutex);
+  state_->is_flush_due = true;
+  state_->wake.notify_one();
+  return state_->problem.empty();
 }
 
-bool RecordingWriter::fail() {
-  error_ = path_ + ": cannot be written: " + std::strerror(errno);
-  return false;
+bool RecordingWriter::close() {
+  std::unique_lock lock(state_->mutex);
+  if (!std::exchange(state_->is_end, true)) {
+    state_->wake.notify_one();
+    state_->closed.wait_for(lock, kCloseTimeout, [this] { return state_->is_closed; });
+  }
+  if (!state_->is_closed && state_->problem.empty()) {
+    state_->problem = "cannot be completed: the disk takes nothing any more";
+  }
+  return state_->problem.empty();
+}
+
+std::string RecordingWriter::error() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->problem.empty() ? "" : path_ + ": " + state_->problem;
 }
 
 BlockReader::BlockReader(const std::string& path) : path_(path) {

@@ -4,7 +4,7 @@
 // arrival (8 bytes, nanoseconds since 1970), a length (4 bytes) and so many bytes of the stream;
 // numbers are little endian.
 #pragma once
-#include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -14,27 +14,44 @@
 
 namespace leonav {
 
-// Appends blocks to a new file. An error ends the recording, and nothing else.
+struct RecordingLimits {
+  std::uint64_t file_bytes = 0;          // a longer recording ends; 0: none
+  std::size_t queued_bytes = 8U << 20U;  // that wait for the disk; what comes then is dropped
+};
+
+// Appends blocks to a new file, in a thread of its own: a disk that stalls holds up nobody. An
+// error ends the recording, and nothing else.
 class RecordingWriter {
  public:
   // Never overwrites: a file that exists is kept, and PATH.1, PATH.2, ... is written. Throws
   // FileError where none can be created.
-  explicit RecordingWriter(const std::string& path);
+  explicit RecordingWriter(const std::string& path, const RecordingLimits& limits = {});
+  // Writes to a file that is open, and closes it.
+  RecordingWriter(std::FILE* file, const std::string& path, const RecordingLimits& limits);
+  ~RecordingWriter() { close(); }
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  // Returns false once writing has failed; error() then says why.
+  // They wait for nothing, and return false once writing has failed; error() then says why.
   bool write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes);
   bool flush();
+  // Writes what is queued and closes the file. A disk that stalls is given up after kCloseTimeout.
+  bool close();
+
   const std::string& path() const { return path_; }
-  const std::string& error() const { return error_; }
+  std::string error() const;
+  // Bytes of the stream that were left out because the disk was too slow.
+  std::uint64_t dropped_bytes() const { return dropped_bytes_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  bool fail();
+  static constexpr std::chrono::seconds kCloseTimeout{3};
+  struct State;
+  void start(std::FILE* file);
 
-  std::string path_, error_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::string path_;
+  RecordingLimits limits_;
+  std::uint64_t accepted_bytes_ = 0, dropped_bytes_ = 0;
+  std::shared_ptr<State> state_;  // shared with the thread, which a stalled disk may hold for long
 };
 
 // Reads a file in blocks: a recording by its own, any other file in pieces without a time.

@@ -41,7 +41,8 @@ struct StreamConfig {
   bool is_service = false;  // of kRtcm3, kHas, kB2b: corrections, no receiver
   bool uses_pages = false;  // of kUbx, kSbf: the corrections that the receiver gets are used
   std::string record;       // file for every byte; empty: none
-  double silent_s = 3.0;    // a stream without bytes for so long is told
+  std::uint64_t record_limit_bytes = 10'000'000'000;  // of that file; 0: none
+  double silent_s = 3.0;                              // a stream without bytes for so long is told
 };
 
 // Pulses of an inertial sensor at an input of the receiver.

@@ -30,14 +30,15 @@ Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
       watch_(limits_of(config), silence_remedy(config.source)),
       reconnect_after_s_(std::max(kReconnectAfter_s, config.silent_s)) {
   if (config.record.empty()) return;
-  recording_.emplace(config.record);
+  recording_ = std::make_unique<RecordingWriter>(
+      config.record, RecordingLimits{.file_bytes = config.record_limit_bytes});
   spdlog::info("{}: every byte goes to {}", name_, recording_->path());
 }
 
 void Stream::start() { source_->start(this); }
 
 void Stream::finish() {
-  if (recording_ && !recording_->flush()) tell_recording_error();
+  if (recording_ && !recording_->close()) tell_recording_error();
   recording_.reset();
 }
 
@@ -89,7 +90,7 @@ void Stream::on_end(const std::string& why) {
 }
 
 void Stream::look() {
-  if (recording_ && !recording_->flush()) tell_recording_error();
+  if (recording_) look_at_recording();
   if (has_ended()) return;
   const std::int64_t now_ns = clock_->now_ns();
   watch_.look(now_ns, *format_);
@@ -104,6 +105,14 @@ void Stream::look() {
     source_->reconnect(
         leonav::format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
   }
+}
+
+void Stream::look_at_recording() {
+  if (!recording_->flush()) return tell_recording_error();
+  const std::uint64_t dropped = recording_->dropped_bytes();
+  if (dropped == std::exchange(told_dropped_, dropped)) return;
+  spdlog::warn("{}: the recording lacks {} bytes since the start: the disk of {} is too slow",
+               name_, dropped, recording_->path());
 }
 
 // Once: the stream goes on without its recording.

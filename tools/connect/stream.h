@@ -41,6 +41,7 @@ class Stream final : public ByteSink {
   void on_failure(const std::string& why, double retry_s) override;
   void on_end(const std::string& why) override;
   std::optional<DataTime> data_time() const override { return format_->data_time(); }
+  void look_at_recording();
   void tell_recording_error();
 
   std::string name_, source_text_;
@@ -49,7 +50,8 @@ class Stream final : public ByteSink {
   std::unique_ptr<StreamFormat> format_;
   StreamWatch watch_;
   double reconnect_after_s_;
-  std::optional<RecordingWriter> recording_;
+  std::unique_ptr<RecordingWriter> recording_;
+  std::uint64_t told_dropped_ = 0;  // bytes that the recording lacks
   StreamState told_ = StreamState::kConnecting;
   std::string told_failure_;
 };

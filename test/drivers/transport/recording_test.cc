@@ -1,10 +1,14 @@
 // Recordings: written, read, cut short, damaged; and files played at their pace.
 #include "drivers/transport/recording.h"
 
+#include <unistd.h>
+
 #include <boost/asio/io_context.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "drivers/text/parse.h"
@@ -87,6 +91,67 @@ TEST_CASE("A recording that exists is kept, and one that is cut short ends there
   CHECK_FALSE(reader.next(&block));
   CHECK_THROWS_WITH(RecordingWriter("/no/such/folder/a"), Catch::Contains("cannot be created"));
   CHECK_THROWS_WITH(BlockReader(place.beside("none")), Catch::Contains("cannot be opened"));
+}
+
+TEST_CASE("A disk that takes nothing holds nobody up, and costs whole blocks", "[transport]") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  constexpr std::size_t kBlock = 4096;
+  const Bytes block(kBlock, 7);
+  std::vector<std::uint8_t> written;
+  std::uint64_t dropped = 0;
+  std::thread reader;
+  {
+    RecordingWriter writer(fdopen(ends[1], "wb"), "pipe", {.queued_bytes = 1U << 20U});
+    const auto start = ArrivalClock::Steady::now();
+    for (int i = 0; i < 2000; ++i) REQUIRE(writer.write(1'000'000'000 + i, block));
+    CHECK(writer.flush());
+    CHECK(ArrivalClock::Steady::now() - start < std::chrono::seconds(2));
+    dropped = writer.dropped_bytes();
+    CHECK(dropped > 2000 * kBlock / 2);
+    CHECK(dropped % kBlock == 0);
+    reader = std::thread([&] {
+      std::uint8_t buffer[65'536];
+      for (;;) {
+        const ssize_t count = read(ends[0], buffer, sizeof buffer);
+        if (count <= 0) return;
+        written.insert(written.end(), buffer, buffer + count);
+      }
+    });
+    CHECK(writer.close());
+  }
+  reader.join();
+  close(ends[0]);
+  const std::size_t first_line = 19, header = 12;
+  CHECK(written.size() == first_line + (2000 - dropped / kBlock) * (kBlock + header));
+}
+
+TEST_CASE("A disk that never takes anything again is given up at the end", "[transport]") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  RecordingWriter writer(fdopen(ends[1], "wb"), "pipe", {});
+  REQUIRE(writer.write(1'000'000'000, Bytes(1U << 20U, 7)));
+  CHECK_FALSE(writer.close());
+  CHECK_THAT(writer.error(), Catch::Contains("pipe: cannot be completed"));
+  std::signal(SIGPIPE, SIG_IGN);
+  close(ends[0]);
+}
+
+TEST_CASE("A full disk and a recording's limit end the recording alone", "[transport]") {
+  RecordingWriter full(std::fopen("/dev/full", "wb"), "full", {});
+  REQUIRE(full.write(1'000'000'000, Bytes{1, 2, 3}));
+  CHECK_FALSE(full.close());
+  CHECK_THAT(full.error(), Catch::Contains("full: cannot be written: No space left"));
+
+  const test::TemporaryFile place("unused", "");
+  const std::string path = place.beside("a.leoraw");
+  RecordingWriter limited(path, {.file_bytes = 19 + 2 * (12 + 100)});
+  CHECK(limited.write(1'000'000'000, Bytes(100, 1)));
+  CHECK(limited.write(1'000'000'001, Bytes(100, 2)));
+  CHECK_FALSE(limited.write(1'000'000'002, Bytes(100, 3)));
+  CHECK_THAT(limited.error(), Catch::Contains("record_limit_gb"));
+  CHECK_FALSE(limited.close());
+  CHECK(std::filesystem::file_size(path) == 19 + 2 * (12 + 100));
 }
 
 TEST_CASE("A damaged length is an error with its place, and allocates nothing", "[transport]") {
