@@ -46,6 +46,18 @@ TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
       ConfigError);
 }
 
+TEST_CASE("A recording has a limit unless 0 takes it away", "[connect]") {
+  const auto limit = [](const std::string& more) {
+    return load(stream("name: a, source: stdin, format: ubx, record: a.leoraw" + more))
+        .streams.at(0)
+        .record_limit_bytes;
+  };
+  CHECK(limit("") == 10'000'000'000);
+  CHECK(limit(", record_limit_gb: 0.5") == 500'000'000);
+  CHECK(limit(", record_limit_gb: 0") == 0);
+  CHECK_THROWS_AS(limit(", record_limit_gb: -1"), ConfigError);
+}
+
 TEST_CASE("Pages come from a service as text, or from a receiver that is told to use them",
           "[connect]") {
   const ConnectConfig config = load(
