@@ -50,33 +50,32 @@ bool is_text(std::uint8_t byte) {
 }  // namespace
 
 std::size_t Oem7Framer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
-    const auto first = static_cast<std::ptrdiff_t>(begin_);
-    const auto last = static_cast<std::ptrdiff_t>(end_);
+  if (begin_ > base_ && index(end_) + bytes.size() > kCapacity) {
+    const auto first = static_cast<std::ptrdiff_t>(index(begin_));
+    const auto last = static_cast<std::ptrdiff_t>(index(end_));
     std::copy(buffer_.begin() + first, buffer_.begin() + last, buffer_.begin());
     std::copy(crc_before_.begin() + first, crc_before_.begin() + last + 1, crc_before_.begin());
-    end_ -= begin_;
-    begin_ = 0;
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min(bytes.size(), kCapacity - index(end_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
-    crc_before_[end_ + 1] = crc32_next(crc_before_[end_], bytes[i]);
+    const std::size_t at = index(end_);
+    buffer_[at] = bytes[i];
+    crc_before_[at + 1] = crc32_next(crc_before_[at], bytes[i]);
     ++end_;
   }
   return count;
 }
 
-bool Oem7Framer::is_sync() const {
-  const std::uint8_t kind = buffer_[begin_ + 2];
-  return buffer_[begin_] == kSync[0] && buffer_[begin_ + 1] == kSync[1] &&
-         (kind == kLongHeader || kind == kShortHeader);
+bool Oem7Framer::is_sync(Position start) const {
+  const std::uint8_t* p = buffer_.data() + index(start);
+  return p[0] == kSync[0] && p[1] == kSync[1] && (p[2] == kLongHeader || p[2] == kShortHeader);
 }
 
 // The long header states its own length, which later firmware may enlarge. Returns false for
 // lengths that no message has. Precondition: the shorter header is there.
-bool Oem7Framer::read_layout(Layout* layout) const {
-  const std::uint8_t* p = buffer_.data() + begin_;
+bool Oem7Framer::read_layout(Position start, Layout* layout) const {
+  const std::uint8_t* p = buffer_.data() + index(start);
   if (p[2] == kShortHeader) {
     *layout = {kShortSize, p[3]};
     return true;
@@ -86,73 +85,78 @@ bool Oem7Framer::read_layout(Layout* layout) const {
          layout->payload <= kMaxPayload;
 }
 
+void Oem7Framer::find_starts() {
+  for (; searched_ + kShortSize <= end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(index(searched_));
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(index(end_) - kShortSize + 1);
+    searched_ += static_cast<Position>(std::find(from, to, kSync[0]) - from);
+    if (searched_ + kShortSize > end_) return;
+    if (!is_sync(searched_)) continue;
+    Layout layout;
+    if (read_layout(searched_, &layout)) {
+      starts_.add(searched_, searched_ + layout.size());
+    } else {
+      starts_.add_refused(searched_, kBadHeader);
+    }
+  }
+}
+
 // The checksum of a piece of the stream follows from those before its first byte and behind its
 // last, because a checksum is linear: the first one, moved on by the length of the piece, is what
 // the bytes before contribute to the second. Over a message and its own checksum it is zero.
-bool Oem7Framer::checksum_is_good(std::size_t size) const {
+bool Oem7Framer::checksum_is_good(const MessageStarts::Candidate& candidate) const {
   static_assert(kMaxSize < std::size_t{256} * 256);
-  return moved_on(crc_before_[begin_], size) == crc_before_[begin_ + size];
-}
-
-void Oem7Framer::describe(const Layout& layout, Oem7Message* message) const {
-  const std::uint8_t* p = buffer_.data() + begin_;
-  const bool is_short = p[2] == kShortHeader;
-  *message = {};
-  message->id = read_u2(p + 4);
-  message->payload = std::span(buffer_).subspan(begin_ + layout.header, layout.payload);
-  if (is_short) {
-    message->time = time_of(read_u2(p + 6), read_u4(p + 8));
-    return;
-  }
-  message->source = p[6] & 0x1F;
-  message->is_response = (p[6] & 0x80) != 0;
-  if (p[13] > kTimeUnknown) message->time = time_of(read_u2(p + 14), read_u4(p + 16));
+  const std::size_t start = index(candidate.start), end = index(candidate.end);
+  return moved_on(crc_before_[start], end - start) == crc_before_[end];
 }
 
 bool Oem7Framer::next(Oem7Message* message) {
-  while (available() >= kShortSize) {
-    if (!is_sync()) {
-      skip_to_sync();
-      continue;
+  find_starts();
+  while (const auto candidate = starts_.next_whole(end_)) {
+    if (checksum_is_good(*candidate)) {
+      take(*candidate, message);
+      return true;
     }
-    Layout layout;
-    if (!read_layout(&layout)) {
-      ++counters_.bad_headers;
-      skip(1);
-      continue;
-    }
-    if (available() < layout.size()) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(layout.size())) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    describe(layout, message);
-    begin_ += layout.size();
-    ++counters_.messages;
-    return true;
+    starts_.refuse(*candidate, kBadChecksum);
   }
-  if (finished_) skip(available());
+  // Bytes before the first start that still waits belong to no message.
+  skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
 
-void Oem7Framer::skip(std::size_t count) {
-  const auto first = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  counters_.text_bytes += static_cast<std::uint64_t>(
-      std::count_if(first, first + static_cast<std::ptrdiff_t>(count), is_text));
-  begin_ += count;
-  counters_.bytes_skipped += count;
+void Oem7Framer::take(const MessageStarts::Candidate& candidate, Oem7Message* message) {
+  skip_to(candidate.start);
+  const std::uint8_t* p = buffer_.data() + index(candidate.start);
+  Layout layout;
+  read_layout(candidate.start, &layout);
+  *message = {};
+  message->id = read_u2(p + 4);
+  message->payload =
+      std::span(buffer_).subspan(index(candidate.start) + layout.header, layout.payload);
+  if (p[2] == kShortHeader) {
+    message->time = time_of(read_u2(p + 6), read_u4(p + 8));
+  } else {
+    message->source = p[6] & 0x1F;
+    message->is_response = (p[6] & 0x80) != 0;
+    if (p[13] > kTimeUnknown) message->time = time_of(read_u2(p + 14), read_u4(p + 16));
+  }
+  begin_ = candidate.end;
+  searched_ = std::max(searched_, begin_);
+  starts_.drop_before(begin_);
+  ++counters_.messages;
 }
 
-void Oem7Framer::skip_to_sync() {
-  const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_) + 1;
-  const auto found = std::find(from, buffer_.begin() + static_cast<std::ptrdiff_t>(end_), kSync[0]);
-  skip(static_cast<std::size_t>(found - from) + 1);
+void Oem7Framer::skip_to(Position position) {
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.bad_headers += none[kBadHeader];
+  const auto first = buffer_.begin() + static_cast<std::ptrdiff_t>(index(begin_));
+  const auto last = buffer_.begin() + static_cast<std::ptrdiff_t>(index(position));
+  counters_.text_bytes += static_cast<std::uint64_t>(std::count_if(first, last, is_text));
+  counters_.bytes_skipped += position - begin_;
+  begin_ = position;
+  searched_ = std::max(searched_, begin_);
 }
 
 }  // namespace leonav

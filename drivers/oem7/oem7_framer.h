@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/gps_time.h"
+#include "drivers/binary/message_starts.h"
 
 namespace leonav {
 
@@ -31,8 +32,9 @@ struct Oem7FramerCounters {
 };
 
 // The caller appends bytes and takes messages until none is left. A false sync or a damaged message
-// costs only its own bytes: the search resumes one byte after its first. Every byte costs the same,
-// whatever lengths the stream claims.
+// costs only its own bytes, and no time: of all starts in the stream the one whose message is whole
+// first, with a good checksum, counts, so that a damaged length holds nothing back that comes
+// behind it. Every byte costs the same, whatever lengths the stream claims.
 class Oem7Framer {
  public:
   // The longest message of the manuals, RANGE with 325 signals, has 14,304 bytes.
@@ -55,25 +57,31 @@ class Oem7Framer {
   static constexpr std::size_t kMaxSize = kMaxHeader + kMaxPayload + kChecksum;
   static constexpr std::size_t kCapacity = 2 * kMaxSize;
 
+  // Why a start is none.
+  static constexpr std::size_t kBadChecksum = 1, kBadHeader = 2;
+  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
+  using Position = MessageStarts::Position;
+
   // Sizes that a header states.
   struct Layout {
     std::size_t header = 0, payload = 0;
     std::size_t size() const { return header + payload + kChecksum; }
   };
 
-  std::size_t available() const { return end_ - begin_; }
-  bool is_sync() const;
-  bool read_layout(Layout* layout) const;
-  void describe(const Layout& layout, Oem7Message* message) const;
-  bool checksum_is_good(std::size_t size) const;
-  void skip(std::size_t count);
-  void skip_to_sync();
+  std::size_t index(Position position) const { return position - base_; }
+  bool is_sync(Position start) const;
+  bool read_layout(Position start, Layout* layout) const;
+  void find_starts();
+  bool checksum_is_good(const MessageStarts::Candidate& candidate) const;
+  void take(const MessageStarts::Candidate& candidate, Oem7Message* message);
+  void skip_to(Position position);
 
   std::array<std::uint8_t, kCapacity> buffer_;
   // Checksum of all bytes of the stream before this one; one entry more, for the end.
   std::array<std::uint32_t, kCapacity + 1> crc_before_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
+  Position searched_ = 0;                    // starts before it are known
+  MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
   Oem7FramerCounters counters_;
 };

@@ -25,75 +25,82 @@ constexpr std::array<std::uint32_t, kPowers> kBytePowers = byte_powers();
 }  // namespace
 
 std::size_t Rtcm3Framer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
-    const auto first = static_cast<std::ptrdiff_t>(begin_);
-    const auto last = static_cast<std::ptrdiff_t>(end_);
+  if (begin_ > base_ && index(end_) + bytes.size() > kCapacity) {
+    const auto first = static_cast<std::ptrdiff_t>(index(begin_));
+    const auto last = static_cast<std::ptrdiff_t>(index(end_));
     std::copy(buffer_.begin() + first, buffer_.begin() + last, buffer_.begin());
     std::copy(crc_before_.begin() + first, crc_before_.begin() + last + 1, crc_before_.begin());
-    end_ -= begin_;
-    begin_ = 0;
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min(bytes.size(), kCapacity - index(end_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
-    crc_before_[end_ + 1] = crc24q_next(crc_before_[end_], bytes[i]);
+    const std::size_t at = index(end_);
+    buffer_[at] = bytes[i];
+    crc_before_[at + 1] = crc24q_next(crc_before_[at], bytes[i]);
     ++end_;
   }
   return count;
 }
 
+void Rtcm3Framer::find_starts() {
+  for (; searched_ + kHeader <= end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(index(searched_));
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(index(end_) - kHeader + 1);
+    searched_ += static_cast<Position>(std::find(from, to, kPreamble) - from);
+    if (searched_ + kHeader > end_) return;
+    const std::uint8_t* p = buffer_.data() + index(searched_);
+    if ((p[1] & kReservedBits) != 0) continue;
+    const std::size_t length = (static_cast<std::size_t>(p[1]) << 8) | p[2];
+    starts_.add(searched_, searched_ + kHeader + length + kChecksum);
+  }
+}
+
 // The checksum of a piece of the stream follows from those before its first byte and behind its
 // last, because a checksum is linear: the first one, moved on by the length of the piece, is what
 // the bytes before contribute to the second. Over a frame and its own checksum it is zero.
-bool Rtcm3Framer::checksum_is_good(std::size_t first, std::size_t size) const {
+bool Rtcm3Framer::checksum_is_good(const MessageStarts::Candidate& candidate) const {
   static_assert(kMaxFrame < kPowers);
-  return crc24q_product(crc_before_[first], kBytePowers[size]) == crc_before_[first + size];
+  const std::size_t start = index(candidate.start), end = index(candidate.end);
+  return crc24q_product(crc_before_[start], kBytePowers[end - start]) == crc_before_[end];
 }
 
 bool Rtcm3Framer::next(Rtcm3Frame* frame) {
-  while (end_ - begin_ >= kHeader) {
-    if (buffer_[begin_] != kPreamble || (buffer_[begin_ + 1] & kReservedBits) != 0) {
-      skip_to_preamble();
-      continue;
+  find_starts();
+  while (const auto candidate = starts_.next_whole(end_)) {
+    if (!checksum_is_good(*candidate)) {
+      starts_.refuse(*candidate, kBadChecksum);
+    } else if (take(*candidate, frame)) {
+      return true;
     }
-    const std::size_t length =
-        (static_cast<std::size_t>(buffer_[begin_ + 1]) << 8) | buffer_[begin_ + 2];
-    const std::size_t size = kHeader + length + kChecksum;
-    if (end_ - begin_ < size) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(begin_, size)) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    frame->message = std::span(buffer_).subspan(begin_ + kHeader, length);
-    begin_ += size;
-    ++counters_.frames;
-    if (length < kMinMessage) {  // an empty frame is filling
-      ++counters_.too_short;
-      continue;
-    }
-    frame->type = static_cast<std::uint16_t>((frame->message[0] << 4) | (frame->message[1] >> 4));
-    return true;
   }
-  if (finished_) skip(end_ - begin_);
+  // Bytes before the first start that still waits belong to no frame.
+  skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
 
-void Rtcm3Framer::skip(std::size_t count) {
-  begin_ += count;
-  counters_.bytes_skipped += count;
+bool Rtcm3Framer::take(const MessageStarts::Candidate& candidate, Rtcm3Frame* frame) {
+  skip_to(candidate.start);
+  frame->message = std::span(buffer_).subspan(
+      index(candidate.start) + kHeader, candidate.end - candidate.start - kHeader - kChecksum);
+  begin_ = candidate.end;
+  searched_ = std::max(searched_, begin_);
+  starts_.drop_before(begin_);
+  ++counters_.frames;
+  if (frame->message.size() < kMinMessage) {
+    ++counters_.too_short;
+    return false;
+  }
+  frame->type = static_cast<std::uint16_t>((frame->message[0] << 4) | (frame->message[1] >> 4));
+  return true;
 }
 
-void Rtcm3Framer::skip_to_preamble() {
-  const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_) + 1;
-  const auto found =
-      std::find(from, buffer_.begin() + static_cast<std::ptrdiff_t>(end_), kPreamble);
-  skip(static_cast<std::size_t>(found - from) + 1);
+void Rtcm3Framer::skip_to(Position position) {
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.bytes_skipped += position - begin_;
+  begin_ = position;
+  searched_ = std::max(searched_, begin_);
 }
 
 }  // namespace leonav

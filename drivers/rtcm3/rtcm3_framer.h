@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/binary/message_starts.h"
+
 namespace leonav {
 
 // A frame with a good checksum; `message` is valid until the framer is used again.
@@ -24,8 +26,9 @@ struct Rtcm3FramerCounters {
 };
 
 // The caller appends bytes and takes frames until none is left. A false preamble or a damaged frame
-// costs only its own bytes: the search resumes one byte after its first. Every byte costs the same,
-// whatever lengths the stream claims.
+// costs only its own bytes, and no time: of all starts in the stream the one whose frame is whole
+// first, with a good checksum, counts, so that a damaged length holds nothing back that comes
+// behind it. Every byte costs the same, whatever lengths the stream claims.
 class Rtcm3Framer {
  public:
   static constexpr std::size_t kMaxMessage = 1023;  // the length has ten bits
@@ -47,15 +50,24 @@ class Rtcm3Framer {
   static constexpr std::size_t kMaxFrame = kHeader + kMaxMessage + kChecksum;
   static constexpr std::size_t kCapacity = 4 * kMaxFrame;
 
-  void skip(std::size_t count);
-  void skip_to_preamble();
-  bool checksum_is_good(std::size_t first, std::size_t size) const;
+  // Why a start is none.
+  static constexpr std::size_t kBadChecksum = 1;
+  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
+  using Position = MessageStarts::Position;
+
+  std::size_t index(Position position) const { return position - base_; }
+  void find_starts();
+  bool checksum_is_good(const MessageStarts::Candidate& candidate) const;
+  // Whether the frame holds a message; one that holds none is filling.
+  bool take(const MessageStarts::Candidate& candidate, Rtcm3Frame* frame);
+  void skip_to(Position position);
 
   std::array<std::uint8_t, kCapacity> buffer_;
   // Checksum of all bytes of the stream before this one; one entry more, for the end.
   std::array<std::uint32_t, kCapacity + 1> crc_before_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
+  Position searched_ = 0;                    // starts before it are known
+  MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
   Rtcm3FramerCounters counters_;
 };

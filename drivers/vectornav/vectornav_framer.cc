@@ -9,93 +9,106 @@ namespace {
 
 constexpr std::uint8_t kSync = 0xFA;
 
-// Returns the product of two polynomials over GF(2), modulo the checksum's polynomial.
-constexpr std::uint16_t multiply(std::uint16_t a, std::uint16_t b) {
-  std::uint16_t product = 0;
-  for (int bit = 15; bit >= 0; --bit) {
-    const bool carries = (product & 0x8000) != 0;
-    product = static_cast<std::uint16_t>(product << 1);
-    if (carries) product ^= 0x1021;
-    if ((b >> bit & 1) != 0) product ^= a;
-  }
-  return product;
+using Powers = std::array<std::uint16_t, kMaxVectornavMessage + 1>;
+
+// Entry n is what n bytes of zeros make of the checksum 1: x^(8n) modulo the polynomial.
+constexpr Powers byte_powers() {
+  Powers powers{};
+  powers[0] = 1;
+  for (std::size_t n = 1; n < powers.size(); ++n) powers[n] = crc16_next(powers[n - 1], 0);
+  return powers;
 }
-static_assert(multiply(0x8000, 2) == 0x1021);
+constexpr Powers kBytePowers = byte_powers();
 
 }  // namespace
 
-VectornavFramer::VectornavFramer() {
-  power_[0] = 1;
-  for (std::size_t n = 1; n < power_.size(); ++n) power_[n] = multiply(power_[n - 1], 0x100);
-}
-
 std::size_t VectornavFramer::append(std::span<const std::uint8_t> bytes) {
-  if (begin_ > 0 && end_ + bytes.size() > kCapacity) {
-    std::copy(buffer_.begin() + begin_, buffer_.begin() + end_, buffer_.begin());
-    std::copy(crc_.begin() + begin_, crc_.begin() + end_, crc_.begin());
-    end_ -= begin_;
-    begin_ = 0;
+  if (begin_ > base_ && index(end_) + bytes.size() > kCapacity) {
+    const auto first = static_cast<std::ptrdiff_t>(index(begin_));
+    const auto last = static_cast<std::ptrdiff_t>(index(end_));
+    std::copy(buffer_.begin() + first, buffer_.begin() + last, buffer_.begin());
+    std::copy(crc_before_.begin() + first, crc_before_.begin() + last + 1, crc_before_.begin());
+    base_ = begin_;
   }
-  const std::size_t count = std::min(bytes.size(), kCapacity - end_);
+  const std::size_t count = std::min(bytes.size(), kCapacity - index(end_));
   for (std::size_t i = 0; i < count; ++i) {
-    buffer_[end_] = bytes[i];
-    last_crc_ = crc16_next(last_crc_, bytes[i]);
-    crc_[end_] = last_crc_;
+    const std::size_t at = index(end_);
+    buffer_[at] = bytes[i];
+    crc_before_[at + 1] = crc16_next(crc_before_[at], bytes[i]);
     ++end_;
   }
   return count;
 }
 
+VectornavHeader VectornavFramer::read_header(Position start, VectornavExtent* extent) const {
+  return read_vectornav_header(std::span(buffer_).subspan(index(start), end_ - start), extent);
+}
+
+// A header is of 4 to 16 bytes. One that is not whole yet is looked at again with more bytes, which
+// holds up no message before it.
+void VectornavFramer::find_starts() {
+  for (; searched_ < end_; ++searched_) {
+    const auto from = buffer_.begin() + static_cast<std::ptrdiff_t>(index(searched_));
+    const auto to = buffer_.begin() + static_cast<std::ptrdiff_t>(index(end_));
+    searched_ += static_cast<Position>(std::find(from, to, kSync) - from);
+    if (searched_ == end_) return;
+    VectornavExtent extent;
+    const VectornavHeader header = read_header(searched_, &extent);
+    if (header == VectornavHeader::kComplete) {
+      starts_.add(searched_, searched_ + extent.total_bytes());
+    } else if (header == VectornavHeader::kUnknownField) {
+      starts_.add_refused(searched_, kUnknownField);
+    } else if (finished_) {
+      starts_.add_refused(searched_, kCutOff);
+    } else {
+      return;
+    }
+  }
+}
+
 // The sync byte is not under the checksum; over the rest and the transmitted checksum it is zero.
-// It follows from the running one: C(first..last) = C(last) - C(first - 1) x^(8 n), where minus is
-// the exclusive or. A candidate therefore costs the same whatever its masks claim, and a stream
-// full of false sync bytes cannot make the search slow.
-bool VectornavFramer::checksum_is_good(std::size_t first, std::size_t count) const {
-  return crc_[first + count - 1] == multiply(crc_[first - 1], power_[count]);
+// The checksum of a piece of the stream follows from those before its first byte and behind its
+// last, because a checksum is linear: the first one, moved on by the length of the piece, is what
+// the bytes before contribute to the second.
+bool VectornavFramer::checksum_is_good(const MessageStarts::Candidate& candidate) const {
+  const std::size_t first = index(candidate.start) + 1, end = index(candidate.end);
+  return crc16_product(crc_before_[first], kBytePowers[end - first]) == crc_before_[end];
 }
 
 bool VectornavFramer::next(VectornavMessage* message) {
-  while (begin_ < end_) {
-    if (buffer_[begin_] != kSync) {
-      skip_to_sync();
-      continue;
+  find_starts();
+  while (const auto candidate = starts_.next_whole(end_)) {
+    if (checksum_is_good(*candidate)) {
+      take(*candidate, message);
+      return true;
     }
-    const std::span<const std::uint8_t> rest(buffer_.data() + begin_, end_ - begin_);
-    VectornavExtent extent;
-    const VectornavHeader header = read_vectornav_header(rest, &extent);
-    if (header == VectornavHeader::kUnknownField) {
-      ++counters_.unknown_fields;
-      skip(1);
-      continue;
-    }
-    const std::size_t total = extent.total_bytes();
-    if (header == VectornavHeader::kIncomplete || rest.size() < total) {
-      if (!finished_) return false;
-      ++counters_.incomplete;
-      skip(1);
-      continue;
-    }
-    if (!checksum_is_good(begin_ + 1, total - 1)) {
-      ++counters_.bad_checksums;
-      skip(1);
-      continue;
-    }
-    *message = {rest.first(total), extent};
-    begin_ += total;
-    ++counters_.messages;
-    return true;
+    starts_.refuse(*candidate, kBadChecksum);
   }
+  // Bytes before the first start that still waits belong to no message.
+  skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
 
-void VectornavFramer::skip(std::size_t count) {
-  begin_ += count;
-  counters_.bytes_skipped += count;
+void VectornavFramer::take(const MessageStarts::Candidate& candidate, VectornavMessage* message) {
+  skip_to(candidate.start);
+  read_header(candidate.start, &message->extent);
+  message->bytes =
+      std::span(buffer_).subspan(index(candidate.start), candidate.end - candidate.start);
+  begin_ = candidate.end;
+  searched_ = std::max(searched_, begin_);
+  starts_.drop_before(begin_);
+  ++counters_.messages;
 }
 
-void VectornavFramer::skip_to_sync() {
-  const auto from = buffer_.begin() + begin_;
-  skip(static_cast<std::size_t>(std::find(from, buffer_.begin() + end_, kSync) - from));
+void VectornavFramer::skip_to(Position position) {
+  const MessageStarts::Counts none = starts_.drop_before(position);
+  (finished_ ? counters_.incomplete : counters_.bad_checksums) += none[MessageStarts::kWaiting];
+  counters_.bad_checksums += none[kBadChecksum];
+  counters_.unknown_fields += none[kUnknownField];
+  counters_.incomplete += none[kCutOff];
+  counters_.bytes_skipped += position - begin_;
+  begin_ = position;
+  searched_ = std::max(searched_, begin_);
 }
 
 }  // namespace leonav

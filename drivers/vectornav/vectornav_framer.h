@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/binary/message_starts.h"
 #include "drivers/vectornav/field_layout.h"
 
 namespace leonav {
@@ -26,11 +27,11 @@ struct VectornavFramerCounters {
 };
 
 // The caller appends bytes and takes messages until none is left. A false sync or a damaged message
-// costs only its own bytes: the search resumes one byte after its first.
+// costs only its own bytes, and no time: of all starts in the stream the one whose message is whole
+// first, with a good checksum, counts, so that damaged masks hold nothing back that comes behind
+// them. Every byte costs the same, whatever the masks claim.
 class VectornavFramer {
  public:
-  VectornavFramer();
-
   // Copies as many of `bytes` as fit and returns their number. It is never zero unless `bytes` is
   // empty or a message has not been taken yet.
   std::size_t append(std::span<const std::uint8_t> bytes);
@@ -43,17 +44,24 @@ class VectornavFramer {
  private:
   static constexpr std::size_t kCapacity = 4 * kMaxVectornavMessage;
 
-  void skip(std::size_t count);
-  void skip_to_sync();
-  bool checksum_is_good(std::size_t first, std::size_t count) const;
+  // Why a start is none.
+  static constexpr std::size_t kBadChecksum = 1, kUnknownField = 2, kCutOff = 3;
+  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
+  using Position = MessageStarts::Position;
+
+  std::size_t index(Position position) const { return position - base_; }
+  VectornavHeader read_header(Position start, VectornavExtent* extent) const;
+  void find_starts();
+  bool checksum_is_good(const MessageStarts::Candidate& candidate) const;
+  void take(const MessageStarts::Candidate& candidate, VectornavMessage* message);
+  void skip_to(Position position);
 
   std::array<std::uint8_t, kCapacity> buffer_;
-  std::array<std::uint16_t, kCapacity> crc_;  // of all bytes up to and including this one
-  // x^(8 n) modulo the checksum's polynomial, for a message of n bytes.
-  std::array<std::uint16_t, kMaxVectornavMessage + 1> power_;
-  std::uint16_t last_crc_ = 0;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  // Checksum of all bytes of the stream before this one; one entry more, for the end.
+  std::array<std::uint16_t, kCapacity + 1> crc_before_{};
+  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
+  Position searched_ = 0;                    // starts before it are known
+  MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
   VectornavFramerCounters counters_;
 };

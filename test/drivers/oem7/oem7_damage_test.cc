@@ -83,6 +83,24 @@ TEST_CASE("A stream may end at every byte") {
   }
 }
 
+TEST_CASE("A damaged length holds back no message behind it") {
+  const test::RangeRecord record;
+  const auto payload = test::range_of(std::span(&record, 1));
+  Oem7Decoder decoder;
+  test::Oem7Collector collector;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    auto bytes = test::message_of({43, test::kTime_ms + 200 * k}, payload);
+    if (k == 2) bytes[9] ^= 0x20;  // 8192 bytes more, which would take seconds to come
+    decoder.feed(bytes, &collector);
+    // Each epoch comes out with its own last byte.
+    REQUIRE(collector.epochs.size() == (k < 2 ? k + 1 : k));
+  }
+  CHECK(collector.epochs.back().time == test::time_at(test::kTime_ms + 1000));
+  decoder.finish(&collector);
+  CHECK(decoder.counters().framer.messages == 5);
+  CHECK(decoder.counters().framer.bad_checksums + decoder.counters().framer.incomplete == 1);
+}
+
 TEST_CASE("A flipped bit costs the message it is in and no other") {
   if (!test::have_shared_data(test::kOemv)) return;
   const auto clean = recording();

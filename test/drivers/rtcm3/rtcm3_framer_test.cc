@@ -88,6 +88,27 @@ TEST_CASE("A flipped bit costs the frame it is in and no other") {
   }
 }
 
+TEST_CASE("A damaged length holds back no frame behind it") {
+  Rtcm3Framer framer;
+  Rtcm3Frame frame;
+  std::size_t found = 0;
+  for (std::uint8_t k = 0; k < 6; ++k) {
+    const std::vector<std::uint8_t> message = {0x3F, 0xF0, k, 0, 0, 0};  // of the type 1023
+    auto bytes = test::framed(message);
+    if (k == 2) bytes[1] ^= 0x03;  // 768 bytes more
+    REQUIRE(framer.append(bytes) == bytes.size());
+    while (framer.next(&frame)) {
+      CHECK(frame.type == 1023);
+      CHECK(frame.message[2] == k);
+      ++found;
+    }
+    // Each frame comes out with its own last byte.
+    REQUIRE(found == (k < 2 ? k + 1U : k));
+  }
+  CHECK(framer.counters().bytes_skipped == 12);
+  CHECK(framer.counters().bad_checksums == 1);
+}
+
 TEST_CASE("A false preamble swallows nothing, in the stream or at its end") {
   if (!test::have_shared_data(test::kMixed)) return;
   const auto bytes = test::stream_bytes(test::shared_data(test::kMixed));

@@ -168,6 +168,45 @@ TEST_CASE("Damage costs the message that it is in and no other, in chunks of any
   }
 }
 
+TEST_CASE("Damaged masks hold back no message behind them", "[vectornav]") {
+  VectornavDecoder decoder;
+  Collector collector;
+  for (std::size_t k = 0; k < 6; ++k) {
+    Bytes one = increments(1.0F);
+    // Two more groups with all fields that have a length: the next messages would be inside them.
+    if (k == 2) one = {0xFA, 0x03, 0xFF, 0x7F, 0xFF, 0x03};
+    decoder.feed(one, &collector);
+    // Each message comes out with its own last byte.
+    REQUIRE(collector.measurements.size() == (k < 2 ? k + 1 : k));
+  }
+  CHECK(decoder.counters().framer.bad_checksums == 1);
+  CHECK(decoder.counters().framer.bytes_skipped == 6);
+}
+
+TEST_CASE("A header that is cut off holds back nothing, also at the end of the stream",
+          "[vectornav]") {
+  VectornavDecoder decoder;
+  Collector collector;
+  Bytes bytes = increments(1.0F);
+  bytes.insert(bytes.end(), {0xFA, 0x7F, 0x01});
+  decoder.feed(bytes, &collector);
+  CHECK(collector.measurements.size() == 1);
+  decoder.finish(&collector);
+  CHECK(decoder.counters().framer.incomplete == 1);
+  CHECK(decoder.counters().framer.bytes_skipped == 3);
+}
+
+TEST_CASE("The heave of the attitude group does not hide the increments", "[vectornav]") {
+  Bytes payload;
+  put(&payload, 42'000'000, 8);
+  put_floats(&payload, {0.005F, 1.0F, 2.0F, -3.0F, 0.25F, -0.5F, -0.049F});
+  put_floats(&payload, {0.1F, 0.2F, 0.3F});  // Heave: heave, its rate, the delayed heave
+  const Bytes one = message(0x11, {1 << 0 | 1 << 11, 1 << 12}, payload);
+  const Collector found = decode(one, 1);
+  REQUIRE(found.measurements.size() == 1);
+  CHECK(found.measurements[0].increments->delta_velocity_m_s[0] == 0.25);
+}
+
 TEST_CASE("Random bytes yield nothing and end", "[vectornav]") {
   std::mt19937 dice(2);
   Bytes stream(200'000);
