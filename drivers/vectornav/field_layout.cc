@@ -13,13 +13,13 @@ using Lengths = std::array<std::uint8_t, kVectornavFields>;
 constexpr Lengths kGnssLengths = {8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28, 0, 0};
 
 constexpr std::array<Lengths, kVectornavGroups> kLengths = {{
-    {8, 8, 8, 12, 16, 12, 24, 12, 12, 24, 20, 28, 2, 4, 8, 0},    // common
-    {8, 8, 8, 2, 8, 8, 8, 4, 4, 1, 0, 0, 0, 0, 0, 0},             // time
-    {2, 12, 12, 12, 4, 4, 16, 12, 12, 12, 12, 2, 0, 0, 0, 0},     // IMU
-    kGnssLengths,                                                 // GNSS 1
-    {2, 12, 16, 36, 12, 12, 12, 12, 12, 12, 28, 24, 0, 0, 0, 0},  // attitude
-    {2, 24, 24, 12, 12, 12, 12, 12, 12, 4, 4, 68, 64, 0, 0, 0},   // INS
-    kGnssLengths,                                                 // GNSS 2
+    {8, 8, 8, 12, 16, 12, 24, 12, 12, 24, 20, 28, 2, 4, 8, 0},     // common
+    {8, 8, 8, 2, 8, 8, 8, 4, 4, 1, 0, 0, 0, 0, 0, 0},              // time
+    {2, 12, 12, 12, 4, 4, 16, 12, 12, 12, 12, 2, 0, 0, 0, 0},      // IMU
+    kGnssLengths,                                                  // GNSS 1
+    {2, 12, 16, 36, 12, 12, 12, 12, 12, 12, 28, 24, 12, 0, 0, 0},  // attitude
+    {2, 24, 24, 12, 12, 12, 12, 12, 12, 4, 4, 68, 64, 0, 0, 0},    // INS
+    kGnssLengths,                                                  // GNSS 2
 }};
 
 constexpr std::size_t longest_message() {
