@@ -39,6 +39,7 @@ void StreamWatch::on_open(std::int64_t now_ns) {
   opened_ns_ = now_ns;
   unreadable_since_ns_.reset();
   no_data_since_ns_.reset();
+  last_epoch_ns_.reset();
   recent_.clear();
   set(StreamState::kConnecting, "open");
 }
@@ -88,10 +89,18 @@ std::string StreamWatch::damage(const FormatCounts& counts, double least_share) 
       static_cast<unsigned long long>(damaged), static_cast<unsigned long long>(all));
 }
 
+std::string StreamWatch::no_epochs(std::int64_t now_ns) const {
+  return leonav::format(
+      "no epoch for %.0f s, although other messages come: does the receiver still send its "
+      "measurements, does the port's rate suffice for them, and is the antenna connected?",
+      age_s(last_epoch_ns_, now_ns));
+}
+
 void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   const FormatCounts counts = format.counts();
   const bool new_bytes = bytes_ > bytes_seen_, new_frames = counts.frames > seen_.frames,
-             new_messages = counts.messages > seen_.messages;
+             new_messages = counts.messages > seen_.messages,
+             new_epochs = counts.epochs > seen_.epochs;
   bytes_seen_ = bytes_;
   seen_ = counts;
   recent_.push_back(counts);
@@ -110,11 +119,13 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   } else if (new_frames && !no_data_since_ns_) {
     no_data_since_ns_ = now_ns;
   }
+  if (new_epochs || (counts.epochs > 0 && !last_epoch_ns_)) last_epoch_ns_ = now_ns;
   // Half the share ends it, so that the state does not change each second.
   const double least_share = (state_ == StreamState::kDamaged ? 0.5 : 1.0) * limits_.damaged_share;
   if (silence_s(now_ns) > limits_.silent_s) {
     unreadable_since_ns_.reset();
     no_data_since_ns_.reset();
+    last_epoch_ns_.reset();
     set(StreamState::kSilent,
         leonav::format("open, but no byte for %.0f s: ", silence_s(now_ns)) + silence_remedy_);
   } else if (age_s(unreadable_since_ns_, now_ns) > limits_.unreadable_s) {
@@ -124,6 +135,10 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
     // Damage may be why only messages of other kinds are whole.
     const std::string text = damage(counts, 2.0 * limits_.damaged_share);
     set(StreamState::kNoData, text.empty() ? format.why_no_messages() : text);
+  } else if (age_s(last_epoch_ns_, now_ns) > limits_.no_data_s) {
+    // Inertial samples, ephemerides and corrections must not hide it.
+    const std::string text = damage(counts, 2.0 * limits_.damaged_share);
+    set(StreamState::kNoData, text.empty() ? no_epochs(now_ns) : text);
   } else if (const std::string text = damage(counts, least_share); !text.empty()) {
     set(StreamState::kDamaged, text);
   } else if (new_messages) {

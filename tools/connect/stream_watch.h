@@ -15,7 +15,7 @@ enum class StreamState : std::uint8_t {
   kWaiting,     // could not be opened or broke off; tried again later
   kSilent,      // open, but no byte comes
   kUnreadable,  // bytes come, but no whole message
-  kNoData,      // whole messages come, but nothing to publish
+  kNoData,      // whole messages come, but nothing to publish, or a receiver's epochs have stopped
   kDamaged,     // messages are published, but many arrive damaged
   kGood,        // messages are published
   kEnded,       // finished for good
@@ -27,7 +27,7 @@ const char* name_of(StreamState state);
 struct WatchLimits {
   double silent_s = 3.0;       // without a byte
   double unreadable_s = 5.0;   // with bytes, but without a whole message
-  double no_data_s = 10.0;     // with whole messages, but without one published
+  double no_data_s = 10.0;     // with whole messages, but without one published, or without epochs
   double damaged_share = 0.1;  // of the messages of the last looks, and at least three of them
 };
 
@@ -70,6 +70,7 @@ class StreamWatch {
   void tell_waiting(std::int64_t now_ns);
   // Returns how many of the last messages were damaged, with the remedy; empty: few.
   std::string damage(const FormatCounts& counts, double least_share);
+  std::string no_epochs(std::int64_t now_ns) const;
   void set(StreamState state, const std::string& text) {
     state_ = state;
     text_ = text;
@@ -86,6 +87,7 @@ class StreamWatch {
   Instant last_byte_ns_, last_message_ns_;
   // Since when bytes come without a message, and messages without one published.
   Instant unreadable_since_ns_, no_data_since_ns_;
+  Instant last_epoch_ns_;  // or since when the next one is awaited; unset: none has ever come
   std::uint64_t bytes_ = 0, bytes_seen_ = 0, failures_ = 0;
   FormatCounts seen_;                // at the last look
   std::deque<FormatCounts> recent_;  // of the last looks, the oldest first

@@ -27,11 +27,13 @@ struct Rig {
       if (bytes > 0) watch.on_bytes(bytes, now_ns);
       format.now.frames += frames;
       format.now.messages += messages;
+      format.now.epochs += epochs;
       watch.look(now_ns, format);
     }
   }
   StreamWatch watch{WatchLimits{}, "is the sensor on?"};
   FakeFormat format;
+  std::uint64_t epochs = 0;  // in each second
   std::int64_t now_ns = 1'000'000'000'000;
 };
 
@@ -87,6 +89,37 @@ TEST_CASE("Whole messages with nothing to publish are told, with the remedy", "[
     slow.seconds(2, 0, 0, 0);
     CHECK(slow.watch.state() == StreamState::kGood);
   }
+}
+
+TEST_CASE("A receiver whose epochs have stopped is told although it sends inertial samples",
+          "[connect]") {
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  // One that has never sent epochs, such as a stream of ephemerides, is good without them.
+  rig.seconds(30, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.epochs = 1;
+  rig.seconds(5, 100, 5, 5);
+  rig.epochs = 0;
+  rig.seconds(10, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(1, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("no epoch for 11 s"));
+  rig.epochs = 1;
+  rig.seconds(1, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  // Silence is told as silence, and then the epochs have their time again.
+  rig.epochs = 0;
+  rig.seconds(20, 0, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kSilent);
+  rig.seconds(10, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(2, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  rig.watch.on_open(rig.now_ns);
+  rig.seconds(10, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
 }
 
 TEST_CASE("Failures and the end keep their reason", "[connect]") {

@@ -96,6 +96,7 @@ TEST_CASE("Inertial samples are published where the configuration says so", "[co
     Rig rig({is_inertial, std::nullopt});
     rig.format.feed(range(kTime_ms), 1);
     for (std::uint32_t k = 0; k < 5; ++k) rig.format.feed(rawimux(58, kTime_ms + 10 * k), 1);
+    CHECK(rig.format.counts().epochs == 1);  // samples do not stand for epochs
     // The first one's interval is not known.
     REQUIRE(rig.messages.samples.size() == (is_inertial ? 4 : 0));
     if (!is_inertial) {
