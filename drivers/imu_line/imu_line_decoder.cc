@@ -119,7 +119,23 @@ void ImuLineDecoder::split(std::string_view text) {
   }
 }
 
-bool ImuLineDecoder::read(ImuLine* line) const {
+// A leap by more than half of the counter's range is its end, or a line that has been read wrongly:
+// then the next one leaps back. A clock that counts on beyond the range is left as it is.
+double ImuLineDecoder::continued_clock(double value) {
+  const double range = std::ldexp(1.0, layout_.clock_bits);
+  const auto is_inside = [range](double clock) { return clock >= 0.0 && clock < range; };
+  if (is_inside(value) && is_inside(last_clock_)) {
+    if (last_clock_ - value > 0.5 * range) {
+      before_wraps_ += range;
+    } else if (value - last_clock_ > 0.5 * range && before_wraps_ > 0.0) {
+      before_wraps_ -= range;
+    }
+  }
+  last_clock_ = value;
+  return before_wraps_ + value;
+}
+
+bool ImuLineDecoder::read(ImuLine* line) {
   using enum LineColumn;
   Vector gyro{}, accel{};
   double week = -1.0, tow_s = -1.0;
@@ -139,7 +155,8 @@ bool ImuLineDecoder::read(ImuLine* line) const {
     } else if (column == kIntervalS) {
       line->interval_s = *value;
     } else {
-      const double clock_ns = *value * clock_unit_ns(column);
+      if (std::abs(*value) * clock_unit_ns(column) > kMaxClock_ns) return false;
+      const double clock_ns = continued_clock(*value) * clock_unit_ns(column);
       if (std::abs(clock_ns) > kMaxClock_ns) return false;
       line->clock_ns = std::llround(clock_ns);
     }

@@ -54,13 +54,16 @@ class ImuLineDecoder {
   void decode(std::string_view text, ImuLineHandler* handler);
   bool take_checksum(std::string_view* text);
   void split(std::string_view text);
-  bool read(ImuLine* line) const;
+  bool read(ImuLine* line);
+  double continued_clock(double value);
 
   LineLayout layout_;
   ImuLineCounters counters_;
   std::string text_;        // of the line that is not complete yet
   bool overflows_ = false;  // that line is too long, and dropped up to its end
   std::vector<std::string_view> fields_;
+  double last_clock_ = 0.0;    // as the sensor wrote it, in its units
+  double before_wraps_ = 0.0;  // what its clock had counted before it began again at zero
 };
 
 }  // namespace leonav

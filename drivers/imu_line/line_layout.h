@@ -31,6 +31,8 @@ struct LineLayout {
   std::string prefix;    // lines that begin otherwise are left out; empty: none do
   bool has_checksum =
       false;  // "$...*HH" as in NMEA 0183: HH is the exclusive or of what is between
+  int clock_bits =
+      32;  // the sensor's clock may begin again at zero after 2^clock_bits of its units
   bool are_increments = false;  // integrals over the interval that ends at the line's time
   double gyro_unit = 1.0;       // rad/s (of increments rad) in one unit of the columns
   double accel_unit = 1.0;      // m/s^2 (of increments m/s) in one unit of the columns

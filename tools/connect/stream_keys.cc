@@ -68,6 +68,7 @@ void read_line(ConfigReader& group, LineLayout* layout) {
                      &layout->separator);
   group.text("prefix", &layout->prefix);
   group.boolean("checksum", &layout->has_checksum);
+  group.integer("clock_bits", 8, 64, &layout->clock_bits);
   group.boolean("increments", &layout->are_increments);
   double gyro_scale = 1.0, accel_scale = 1.0;
   if (layout->are_increments) {

@@ -63,6 +63,30 @@ TEST_CASE("A damaged line costs itself only, with its reason", "[imu_line]") {
   CHECK(counters.too_long == 1);
 }
 
+TEST_CASE("A clock that begins again at zero goes on", "[imu_line]") {
+  LineLayout how = layout();
+  how.columns[0] = LineColumn::kClockUs;
+  const auto clocks = [&how](const std::vector<std::string>& values) {
+    std::string text;
+    for (const std::string& value : values) text += value + ",0,0,0,x,0,0,-1\n";
+    std::vector<std::int64_t> found;
+    for (const ImuLine& line : decode(how, text).lines) found.push_back(*line.clock_ns);
+    return found;
+  };
+  using Clocks = std::vector<std::int64_t>;
+  // micros() of 32 bits, twice around.
+  const std::int64_t range_ns = 1000 * (std::int64_t{1} << 32);
+  CHECK(clocks({"4294957296", "4704", "2147483648", "4294957296", "4704", "14704"}) ==
+        Clocks{range_ns - 10'000'000, range_ns + 4'704'000, range_ns + range_ns / 2,
+               2 * range_ns - 10'000'000, 2 * range_ns + 4'704'000, 2 * range_ns + 14'704'000});
+  // A line that has lost digits on the way is no end of the counter.
+  CHECK(clocks({"4294937296", "4294947", "4294957296"}).back() == range_ns - 10'000'000);
+  // A clock that counts on, and one of fewer bits.
+  CHECK(clocks({"4294957296", "4294972000", "4294982000"}).back() == 4'294'982'000'000);
+  how.clock_bits = 16;
+  CHECK(clocks({"65000", "464"}) == Clocks{65'000'000, 66'000'000});
+}
+
 TEST_CASE("Prefix, blanks and checksum", "[imu_line]") {
   using enum LineColumn;
   LineLayout how;
