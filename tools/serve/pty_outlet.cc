@@ -23,6 +23,12 @@ void make_link(const std::string& device, const std::string& link) {
   if (fs::exists(fs::symlink_status(link, error)) && !fs::is_symlink(link, error)) {
     throw FileError(link, 0, "is a file of its own and is left alone; choose another pty.link");
   }
+  // A link of the last run is to a pseudo-terminal, also where that has gone.
+  if (const std::string target = fs::read_symlink(link, error).string();
+      !error && !target.starts_with("/dev/pts/")) {
+    throw FileError(link, 0,
+                    "is a link to " + target + " and is left alone; choose another pty.link");
+  }
   fs::remove(link, error);
   fs::create_symlink(device, link, error);
   if (error) {

@@ -12,8 +12,8 @@ namespace leonav {
 // sentences.
 class PtyOutlet final : public Outlet {
  public:
-  // Makes the terminal and the symbolic link `link` to it. A link that is there is replaced, any
-  // other file is not. Throws FileError.
+  // Makes the terminal and the symbolic link `link` to it. A link to a pseudo-terminal that is
+  // there is replaced, any other link or file is not. Throws FileError.
   PtyOutlet(boost::asio::io_context* io, const std::string& link);
   ~PtyOutlet() override;
 
