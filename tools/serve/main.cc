@@ -24,6 +24,8 @@ std::vector<std::string> overrides_of(const Arguments& arguments) {
   };
   set_number("--tcp", "tcp.port");
   set("--address", "tcp.address");
+  set_number("--udp", "udp.port");
+  set("--udp-to", "udp.address");
   set("--serial", "serial.device");
   set_number("--baud", "serial.baud");
   set("--pty", "pty.link");
@@ -42,6 +44,7 @@ int serve_main(int argc, char** argv) {
       "\n"
       "  leonav-serve --tcp 10110                 any number of clients of this host\n"
       "  leonav-serve --tcp 10110 --address 0.0.0.0   and of the network\n"
+      "  leonav-serve --udp 10110 --udp-to 192.168.1.255   one host, or all by broadcast\n"
       "  leonav-serve --pty /tmp/leonav-nmea      a pseudo-terminal, as if a receiver were on it\n"
       "  leonav-serve --serial /dev/ttyUSB0 --baud 38400\n"
       "\n"
@@ -56,6 +59,8 @@ int serve_main(int argc, char** argv) {
       "Exit codes: 0 stopped, 1 failure while running, 2 command line, 3 configuration, 4 LCM.");
   arguments.option("--tcp", "PORT", "serve TCP clients on this port; 10110 is registered for NMEA")
       .option("--address", "ADDRESS", "address to serve on; 127.0.0.1 unless given")
+      .option("--udp", "PORT", "send UDP datagrams to this port")
+      .option("--udp-to", "ADDRESS", "address to send them to; 127.0.0.1 unless given")
       .option("--serial", "DEVICE", "write to a serial port")
       .option("--baud", "RATE", "of the serial port; 38400 unless given")
       .option("--pty", "LINK", "make a pseudo-terminal and a symbolic link LINK to it")

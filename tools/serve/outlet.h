@@ -1,4 +1,5 @@
-// An Outlet is one kind of way out: a TCP server, a serial port, a pseudo-terminal.
+// An Outlet is one kind of way out: a TCP server, a UDP destination, a serial port, a pseudo-
+// terminal.
 #pragma once
 #include <memory>
 #include <string>

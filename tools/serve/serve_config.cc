@@ -35,18 +35,16 @@ void read_sentences(ConfigReader& root, std::vector<SentenceKind>* sentences) {
   if (sentences->empty()) root.fail("sentences", "must name at least one of " + known);
 }
 
-void read_tcp(ConfigReader& group, TcpServerOptions* options) {
+// Of a TcpServerOptions or UdpOptions.
+template <typename Options>
+void read_address(ConfigReader& group, const std::string& remedy, Options* options) {
   int port = options->port;
   group.text("address", &options->address);
   group.integer("port", 0, 65'535, &port);
   options->port = static_cast<std::uint16_t>(port);
   boost::system::error_code error;
   boost::asio::ip::make_address(options->address, error);
-  if (error) {
-    group.fail("address", "'" + options->address +
-                              "' is no address of this host; use 127.0.0.1 for programs on it, "
-                              "0.0.0.0 for the network");
-  }
+  if (error) group.fail("address", "'" + options->address + "' is no " + remedy);
 }
 
 }  // namespace
@@ -61,7 +59,18 @@ ServeConfig load_serve_config(const std::string& path, const std::vector<std::st
     root.number("geoid_separation_m", {-200.0, 200.0}, &config.fix.geoid_separation_m);
     root.number("dead_reckoning_limit_m", {0.0, 1e6}, &config.fix.dead_reckoning_limit_m);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
-    root.group("tcp", [&](ConfigReader& group) { read_tcp(group, &config.tcp); });
+    root.group("tcp", [&](ConfigReader& group) {
+      read_address(group,
+                   "address of this host; use 127.0.0.1 for programs on it, 0.0.0.0 for the "
+                   "network",
+                   &config.tcp);
+    });
+    root.group("udp", [&](ConfigReader& group) {
+      read_address(group,
+                   "numeric address; use that of the reader, 127.0.0.1 for one on this host, or "
+                   "the network's broadcast address",
+                   &config.udp);
+    });
     root.group("serial", [&](ConfigReader& group) {
       int baud = 38'400;
       group.text("device", &config.serial.device);
@@ -69,8 +78,9 @@ ServeConfig load_serve_config(const std::string& path, const std::vector<std::st
       config.serial.baud = static_cast<unsigned>(baud);
     });
     root.group("pty", [&](ConfigReader& group) { group.text("link", &config.pty_link); });
-    if (config.tcp.port == 0 && config.serial.device.empty() && config.pty_link.empty()) {
-      root.fail("tcp", "there is no output; give tcp.port, serial.device or pty.link");
+    if (config.tcp.port == 0 && config.udp.port == 0 && config.serial.device.empty() &&
+        config.pty_link.empty()) {
+      root.fail("tcp", "there is no output; give tcp.port, udp.port, serial.device or pty.link");
     }
   };
   if (path.empty()) {

@@ -17,12 +17,18 @@ struct TcpServerOptions {
   std::uint16_t port = 0;             // 0: no server
 };
 
+struct UdpOptions {
+  std::string address = "127.0.0.1";  // of a host, a broadcast or a multicast address
+  std::uint16_t port = 0;             // 0: none
+};
+
 struct ServeConfig {
   LcmConfig lcm;
   double rate_hz = 1.0;  // of the solution's time
   std::vector<SentenceKind> sentences;
   FixOptions fix;
   TcpServerOptions tcp;
+  UdpOptions udp;
   SerialOptions serial;             // an empty device: none
   std::string pty_link;             // symbolic link to a pseudo-terminal; empty: none
   double status_interval_s = 60.0;  // of the text about all outputs; 0: only changes

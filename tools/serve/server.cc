@@ -16,6 +16,7 @@
 #include "tools/serve/sentence_feed.h"
 #include "tools/serve/serial_outlet.h"
 #include "tools/serve/tcp_outlet.h"
+#include "tools/serve/udp_outlet.h"
 
 namespace leonav {
 
@@ -34,6 +35,7 @@ struct Server::State {
     subscribe(Channel::kEpoch, &State::on_epoch);
     messages.assign(lcm->getFileno());
     if (config.tcp.port != 0) outlets.push_back(std::make_unique<TcpOutlet>(&io, config.tcp));
+    if (config.udp.port != 0) outlets.push_back(std::make_unique<UdpOutlet>(&io, config.udp));
     if (!config.serial.device.empty()) {
       outlets.push_back(std::make_unique<SerialOutlet>(&io, config.serial));
     }

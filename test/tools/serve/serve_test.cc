@@ -1,8 +1,14 @@
 // Which solutions are written, what a slow reader gets, what a wrong configuration says.
+#include <array>
+#include <filesystem>
+
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
+#include "tools/serve/pty_outlet.h"
 #include "tools/serve/sentence_feed.h"
+#include "tools/serve/udp_outlet.h"
 
 namespace leonav {
 namespace {
@@ -52,6 +58,56 @@ TEST_CASE("A slow reader loses whole instants and is told how many sentences", "
   CHECK(queue.is_empty());
 }
 
+TEST_CASE("Datagrams hold whole sentences, and all of them", "[serve]") {
+  std::string text;
+  for (int i = 0; i < 100; ++i)
+    text += "$GPGSV," + std::string(40, 'x') + std::to_string(i) + "\r\n";
+  std::string joined;
+  const auto datagrams = datagrams_of(text);
+  CHECK(datagrams.size() == 4);
+  for (const std::string_view one : datagrams) {
+    CHECK(one.size() <= 1'400);
+    CHECK(one.starts_with("$"));
+    CHECK(one.ends_with("\r\n"));
+    joined += one;
+  }
+  CHECK(joined == text);
+  CHECK(datagrams_of("$GPZDA\r\n").size() == 1);
+}
+
+TEST_CASE("An instant arrives as a datagram where it was sent to", "[serve]") {
+  boost::asio::io_context io;
+  using boost::asio::ip::udp;
+  udp::socket reader(io, udp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
+  UdpOutlet outlet(&io, {"127.0.0.1", reader.local_endpoint().port()});
+  auto batch = std::make_shared<Batch>();
+  batch->text = "$GNZDA,1*00\r\n$GNVTG*00\r\n";
+  batch->sentences = 2;
+  outlet.send(batch);
+  std::array<char, 2'000> bytes{};
+  const std::size_t size = reader.receive(boost::asio::buffer(bytes));
+  CHECK(std::string(bytes.data(), size) == batch->text);
+  CHECK(outlet.status().ends_with("1 datagrams sent, 0 lost"));
+}
+
+TEST_CASE("A link to another device is left alone, one to a pseudo-terminal replaced", "[serve]") {
+  boost::asio::io_context io;
+  namespace fs = std::filesystem;
+  if (!fs::exists("/dev/ptmx")) return;
+  const test::TemporaryFile place("unused", "");
+  const std::string link = place.beside("nmea");
+  fs::create_symlink("/dev/null", link);
+  CHECK_THROWS_WITH(PtyOutlet(&io, link), Catch::Contains("/dev/null and is left alone"));
+  CHECK(fs::read_symlink(link) == "/dev/null");
+  fs::remove(link);
+  fs::create_symlink("/dev/pts/999999", link);  // of a run that was killed
+  {
+    const PtyOutlet outlet(&io, link);
+    CHECK(fs::read_symlink(link) != "/dev/pts/999999");
+  }
+  CHECK_FALSE(fs::is_symlink(link));
+}
+
 TEST_CASE("Messages become sentences, damaged ones are counted", "[serve]") {
   const ServeConfig config = load_serve_config("", {"tcp.port=1", "sentences=[GGA, GSA]"});
   SentenceFeed feed(config);
@@ -97,6 +153,8 @@ TEST_CASE("The example configuration is good, and mistakes are told with the rem
   CHECK_THAT(problem({"rate_hz=1"}), Catch::Contains("there is no output"));
   CHECK_THAT(problem({"tcp.port=1", "sentences=[GLL]"}), Catch::Contains("'GLL' is none"));
   CHECK_THAT(problem({"tcp.port=1", "tcp.address=here"}), Catch::Contains("127.0.0.1"));
+  CHECK_THAT(problem({"udp.port=1", "udp.address=here"}), Catch::Contains("broadcast"));
+  CHECK(problem({"udp.port=1", "udp.address=192.168.1.255"}) == "none");
   CHECK_THAT(problem({"tcp.prot=1"}), Catch::Contains("tcp.prot"));
 }
 
