@@ -3,6 +3,9 @@
 
 #include <sys/stat.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <variant>
 
 #include "daemon/config/load_config.h"
@@ -17,6 +20,19 @@ ConnectConfig load(const std::string& text) {
   return load_connect_config(file.path(), {});
 }
 
+// The blocks of YAML in a page.
+std::vector<std::string> yaml_blocks(const std::filesystem::path& page) {
+  std::ifstream file(page);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string begin = "```yaml\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at)) {
+    at += begin.size();
+    blocks.push_back(text.substr(at, text.find("```", at) - at));
+  }
+  return blocks;
+}
+
 std::string stream(const std::string& keys) { return "streams:\n  - {" + keys + "}\n"; }
 
 }  // namespace
@@ -29,6 +45,28 @@ TEST_CASE("The example configuration is good, and says what it seems to say", "[
   CHECK(config.streams[0].format == FormatKind::kUbx);
   CHECK(text_of(config.streams[0].source) == "/dev/ttyACM0 at 460800 baud");
   CHECK(config.streams[1].format == FormatKind::kVectornav);
+}
+
+TEST_CASE("Every block of YAML in the pages of receivers and streams is a whole file",
+          "[connect]") {
+  const std::filesystem::path folder = LEONAV_SOURCE_DIR "/docs/operations";
+  std::vector<std::filesystem::path> pages = {folder / "connect.md"};
+  for (const auto& one : std::filesystem::directory_iterator(folder / "receivers")) {
+    pages.push_back(one.path());
+    const bool has_yaml = one.path().filename() == "README.md" || !yaml_blocks(one.path()).empty();
+    CAPTURE(one.path().string());
+    CHECK(has_yaml);
+  }
+  for (const auto& page : pages) {
+    for (const std::string& block : yaml_blocks(page)) {
+      const test::TemporaryFile file("connect.yaml", block);
+      const std::string credentials = file.beside("caster.credentials");
+      std::ofstream(credentials) << "user\npassword\n";
+      REQUIRE(chmod(credentials.c_str(), 0600) == 0);
+      CAPTURE(page.string(), block);
+      CHECK_NOTHROW(load_connect_config(file.path(), {}));
+    }
+  }
 }
 
 TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
