@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace leonav {
 
@@ -17,7 +17,8 @@ template <typename T, std::size_t kLists, std::size_t kLongest>
 class PooledLists {
  public:
   // `elements`: of all lists together, at least kLists.
-  explicit PooledLists(std::size_t elements) : pool_(elements) {}
+  explicit PooledLists(std::size_t elements)
+      : pool_(std::make_unique<T[]>(elements)), elements_(elements) {}
 
   // The elements of a list in the order in which they were appended.
   template <typename Element>
@@ -54,14 +55,14 @@ class PooledLists {
     Element* pool_;
     std::span<const std::uint16_t> slots_;
   };
-  Range<T> operator[](std::size_t list) { return {pool_.data(), of(list)}; }
-  Range<const T> operator[](std::size_t list) const { return {pool_.data(), of(list)}; }
+  Range<T> operator[](std::size_t list) { return {pool_.get(), of(list)}; }
+  Range<const T> operator[](std::size_t list) const { return {pool_.get(), of(list)}; }
   bool is_full(std::size_t list) const { return lists_[list].size == kLongest; }
 
   // Appends an element and returns it as T(). Where the pool is used up, the longest list loses the
   // element that arrived first. Precondition: the list is not full.
   T& append(std::size_t list) {
-    const std::uint16_t slot = used_ < pool_.size() ? static_cast<std::uint16_t>(used_++) : freed();
+    const std::uint16_t slot = used_ < elements_ ? static_cast<std::uint16_t>(used_++) : freed();
     List& to = lists_[list];
     to.slots[to.size++] = slot;
     return pool_[slot] = T();
@@ -90,8 +91,8 @@ class PooledLists {
     return slot;
   }
 
-  std::vector<T> pool_;
-  std::size_t used_ = 0;
+  std::unique_ptr<T[]> pool_;
+  std::size_t elements_, used_ = 0;
   std::array<List, kLists> lists_{};
 };
 
