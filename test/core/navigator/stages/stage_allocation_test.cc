@@ -135,9 +135,9 @@ TEST_CASE(
   config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
   CountingSink sink;
   Navigator pipeline(config, &sink);
-  Checkpoint checkpoint{kSkyEpoch,    true, to_ecef(options.start),  1.0,
-                        0.5,          0.05, Eigen::Vector3d::Zero(), 1e-4,
-                        Calibration()};
+  Checkpoint checkpoint{kSkyEpoch, true, to_ecef(options.start),  1.0,
+                        0.5,       0.05, Eigen::Vector3d::Zero(), 1e-4};
+  checkpoint.calibration.emplace();
   std::size_t next_state = 0, seen = 0;
   start_counting_allocations();
   feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
