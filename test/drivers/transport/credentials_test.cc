@@ -37,17 +37,17 @@ TEST_CASE("The first line is the user, the second one the password", "[ntrip]") 
 TEST_CASE("A file that others may use is refused with the remedy, and nothing is quoted",
           "[ntrip]") {
   for (const mode_t mode : {0640, 0604, 0620, 0601, 0666}) {
-    const std::string text = problem("me\nsecret\n", mode);
+    const std::string text = problem("me\nrosebud\n", mode);
     CHECK_THAT(text, Catch::Contains("chmod 600"));
-    CHECK_THAT(text, !Catch::Contains("secret"));
+    CHECK_THAT(text, !Catch::Contains("rosebud"));
   }
   for (const std::string& text :
-       {std::string("me\nsecret\nthird\n"), std::string("\nsecret\n"),
-        std::string("m\te\nsecret\n"), std::string("me\nsec\0ret", 10), std::string("m:e\nsecret"),
-        "me\nsecret" + std::string(2000, '\n')}) {
+       {std::string("me\nrosebud\nthird\n"), std::string("\nrosebud\n"),
+        std::string("m\te\nrosebud\n"), std::string("me\nsec\0ret", 10),
+        std::string("m:e\nrosebud"), "me\nrosebud" + std::string(2000, '\n')}) {
     const std::string told = problem(text, 0600);
     CHECK(told != "none");
-    CHECK_THAT(told, !Catch::Contains("secret"));
+    CHECK_THAT(told, !Catch::Contains("rosebud"));
   }
   const test::TemporaryFile place("unused", "");
   CHECK_THROWS_WITH(read_credentials(place.beside("none")), Catch::Contains("cannot be opened"));
