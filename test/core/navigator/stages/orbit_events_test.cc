@@ -75,10 +75,11 @@ TEST_CASE("a satellite's way to broadcast orbits and back is told, the first six
 
 TEST_CASE("a precise orbit 15 m off is told once, and its satellite has its broadcast orbit") {
   const SyntheticDrive drive = drive_of(20.0, 0.0, false);
-  const auto wrong = std::find_if(drive.ephemerides.begin(), drive.ephemerides.end(), [](auto& e) {
-    return e.satellite.system == System::kGps && e.satellite.number > 1;
+  const auto& seen_first = drive.epochs.front().observations;
+  const auto wrong = std::find_if(seen_first.begin(), seen_first.end(), [](auto& observation) {
+    return observation.satellite.system == System::kGps;
   });
-  REQUIRE(wrong != drive.ephemerides.end());
+  REQUIRE(wrong != seen_first.end());
   RecordingSink sink;
   Navigator pipeline(drive_navigator_config(drive.options, MotionModel::kConstantVelocity), &sink);
   Sequencer& sequencer = pipeline.sequencer();
