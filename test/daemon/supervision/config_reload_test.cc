@@ -39,11 +39,12 @@ TEST_CASE("a reload puts the reloadable keys into effect and leaves the others")
   CHECK(spdlog::get_level() == spdlog::level::err);
   const double mask = rig.running.navigator.gnss.elevation_mask;
   rig.file =
-      "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\njournal: {kept_mb: 77}\n";
+      "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\njournal: {kept_mb: "
+      "2077}\n";
   rig.reload.reload();
   CHECK(spdlog::get_level() == spdlog::level::warn);
   CHECK(rig.running.log.level == LogLevel::kWarning);
-  CHECK(rig.running.journal.kept_mb == 77.0);
+  CHECK(rig.running.journal.kept_mb == 2077.0);
   CHECK(rig.running.navigator.gnss.elevation_mask == mask);
 }
 
@@ -52,7 +53,7 @@ TEST_CASE("a reload of a configuration with errors changes nothing") {
   Rig rig;
   set_log_level(rig.running.log.level);
   const double kept_mb = rig.running.journal.kept_mb;
-  rig.file = "preset: car\nlog: {level: info}\njournal: {kept_mb: 77, piece_mb: no number}\n";
+  rig.file = "preset: car\nlog: {level: info}\njournal: {kept_mb: 2077, piece_mb: no number}\n";
   rig.reload.reload();
   CHECK(spdlog::get_level() == spdlog::level::err);
   CHECK(rig.running.log.level == LogLevel::kError);
