@@ -69,12 +69,16 @@ def filled(types, kind, dice, counts=None):
                 return struct.unpack(">f", struct.pack(">f", dice.uniform(-1e6, 1e6)))[0]
             if member.type == "boolean":
                 return dice.random() < 0.5
+            if member.type == "byte":
+                return dice.randrange(256)
             bits = {"int8_t": 8, "int16_t": 16, "int32_t": 32, "int64_t": 64}[member.type]
             return dice.randrange(-2 ** (bits - 1), 2 ** (bits - 1))
         if member.name in ("n", "n_counts", "n_satellites", "n_aiding"):
             value = dice.randrange(4)
         elif len(shape) == 1:
             value = [one() for _ in range(shape[0])]
+            if member.type == "byte":
+                value = bytes(value)
         else:
             value = one()
         values[member.name] = value
