@@ -183,13 +183,14 @@ bool find_any_precise(const SatelliteProducts& products, System system, GpsTime 
                                  find_precise(products, system, time, options, state));
 }
 
-// Largest difference of good orbits, centre of mass against antenna included. GPS up to two hours
-// from toe differs by 5.3 m at most and Galileo up to four by 7.2 m (docs/validation/orbits.md). It
-// is not measured of satellites that are geosynchronous, which are known less well.
+// Largest difference of good orbits, centre of mass against antenna included. GPS and Galileo up to
+// an hour from toe differ by 5.3 m at most, an hour and a half before toe by 13 m
+// (docs/validation/orbits.md). It is not measured of satellites that are geosynchronous, which are
+// known less well.
 constexpr double kMaxOrbitDifference_m = 10.0;
 constexpr double kMaxGeosynchronousDifference_m = 30.0;
 constexpr double kGeosynchronousRadius_m = 4e7;
-constexpr double kMaxComparedAge_s = 14400.0;  // of the broadcast elements
+constexpr double kMaxComparedAge_s = 3600.0;  // of the broadcast elements
 constexpr double kCompareInterval_s = 1.0;
 
 double max_difference_m(const SatelliteState& broadcast) {

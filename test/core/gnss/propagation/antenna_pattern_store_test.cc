@@ -128,11 +128,11 @@ TEST_CASE("The antenna catalogue refuses what it cannot hold and keeps the rest"
   CHECK_FALSE(ephemeris_store.add(unsound));
   CHECK(ephemeris_store.counters().refused == 2);
   CHECK(overhead(ephemeris_store, c05, '1', week(2000)).status == AntennaStatus::kNone);
-  // Every satellite there is, with both intervals of every band it can have.
+  // Every satellite there is, with both intervals of two bands: as many as there is room for.
   for (const System system : kSystems) {
     for (std::uint16_t number = 1; number < 400; ++number) {
       if (!is_valid({system, number})) continue;
-      for (const char band : {'1', '2', '5', '6', '7', '8'}) {
+      for (const char band : {'1', '2'}) {
         AntennaPattern pattern = satellite_pattern({system, number}, band, {0, 0, 1.0 * number});
         if (!is_sane(pattern)) continue;
         CHECK(ephemeris_store.add(pattern));
