@@ -25,7 +25,7 @@ class TcpEndpoint final : public Endpoint {
   TcpOptions options_;
   NameLookup lookup_;
   boost::asio::ip::tcp::socket socket_;
-  // Counts openings and closings, so that what an earlier one still calls back is told from it.
+  // Counts openings and closings. A callback that holds an older count is of an earlier connection.
   std::uint64_t attempt_ = 0;
 };
 

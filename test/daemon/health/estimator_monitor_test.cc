@@ -14,7 +14,9 @@ void set_source(Source source, EngineCounters* counters) {
 
 }  // namespace
 
-TEST_CASE("a filter that starts over is told once, and waits for the epoch after the next") {
+TEST_CASE(
+    "a filter that starts over raises its reason at one look, and waits until two epochs have "
+    "come") {
   EngineCounters counters;
   EstimatorMonitor monitor(&counters);
   counters.accepted_epochs.set(100);
@@ -32,7 +34,7 @@ TEST_CASE("a filter that starts over is told once, and waits for the epoch after
   CHECK_FALSE(monitor.waits_for_epoch());
 }
 
-TEST_CASE("a jump is told once the answer has settled, and none that came before") {
+TEST_CASE("jumps are a reason after thirty looks with an answer, and not before") {
   EngineCounters counters;
   EstimatorMonitor monitor(&counters);
   set_source(Source::kEkf, &counters);

@@ -73,7 +73,7 @@ TEST_CASE("a satellite's way to broadcast orbits and back is told, the first six
   CHECK(to_string(EventKind::kOrbitReturn) == "orbit_return");
 }
 
-TEST_CASE("a precise orbit 15 m off is told once, and its satellite has its broadcast orbit") {
+TEST_CASE("a precise orbit 15 m off gives one event, and the satellite's broadcast orbit is used") {
   const SyntheticDrive drive = drive_of(20.0, 0.0, false);
   const auto& seen_first = drive.epochs.front().observations;
   const auto wrong = std::find_if(seen_first.begin(), seen_first.end(), [](auto& observation) {
