@@ -21,54 +21,70 @@ constexpr std::size_t kBiases = 2 * kMaxBiases;
 template <typename T>
 constexpr bool kIsList = std::is_same_v<T, PreciseStates> || std::is_same_v<T, CorrectedStates> ||
                          std::is_same_v<T, SignalBiases>;
+template <typename T>
+concept IsListHead = requires {
+  typename T::List;
+};
 
 }  // namespace
 
 GnssRing::GnssRing(Wakeup* consumer)
-    : heads_(kHeads),
-      observations_(kObservations),
+    : observations_(kObservations),
       samples_(kSamples),
       increments_(kIncrements),
       precise_states_(kPreciseStates),
       corrected_states_(kCorrectedStates),
       biases_(kBiases),
+      heads_(kHeads, consumer),
       work_(std::make_unique<GnssWork>()),
       consumer_(consumer) {}
 
+// The head comes last: once the consumer sees it, its lists are there.
 void GnssRing::push(const GnssWork& work) {
-  if (!try_push(work)) {
-    waits_.fetch_add(1, std::memory_order_relaxed);
+  if (!has_room_for_lists(work)) {
+    waits_for_lists_.fetch_add(1, std::memory_order_relaxed);
     Backoff backoff;
     do {
       consumer_->notify();
       backoff.pause();
-    } while (!try_push(work));
+    } while (!has_room_for_lists(work));
   }
-  const std::uint64_t filled = filled_percent();
-  if (filled > high_water_percent_.load(std::memory_order_relaxed))
-    high_water_percent_.store(filled, std::memory_order_relaxed);
-  work_counter_.push();
-  consumer_->notify();
+  const Head head = push_lists(work);
+  const std::uint64_t filled = lists_filled_percent();
+  if (filled > lists_high_water_percent_.load(std::memory_order_relaxed))
+    lists_high_water_percent_.store(filled, std::memory_order_relaxed);
+  heads_.push(head);
 }
 
-// The head comes last: once the consumer sees it, its lists are there.
-bool GnssRing::try_push(const GnssWork& work) {
-  if (!has_room_for(work)) return false;
-  const Head head = std::visit(
+bool GnssRing::has_room_for_lists(const GnssWork& work) const {
+  return std::visit(
+      [this](const auto& one) {
+        using Work = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<Work, EpochWork>)
+          return observations_.has_room_for(one.raw.observations) &&
+                 samples_.has_room_for(one.block) && increments_.has_room_for(one.odometer);
+        else if constexpr (kIsList<Work>)
+          return elements_of(one).has_room_for(one);
+        else
+          return true;
+      },
+      work);
+}
+
+GnssRing::Head GnssRing::push_lists(const GnssWork& work) {
+  return std::visit(
       [this](const auto& one) -> Head {
         using Work = std::decay_t<decltype(one)>;
         if constexpr (std::is_same_v<Work, EpochWork>) {
-          observations_.push(one.raw.observations);
-          samples_.push(one.block);
-          increments_.push(one.odometer);
-          return EpochHead{one.index,
-                           one.time,
-                           one.raw.time,
-                           one.empty,
-                           one.smoother_decided,
-                           one.raw.observations.size(),
-                           one.block.size(),
-                           one.odometer.size()};
+          // Does not compile with a field more: it must go into the head, or a list, too.
+          const auto& [index, time, empty, raw, block, odometer, smoother_decided] = one;
+          const auto& [raw_time, observations] = raw;
+          observations_.push(observations);
+          samples_.push(block);
+          increments_.push(odometer);
+          return EpochHead{
+              index,        time,           raw_time, empty, smoother_decided, observations.size(),
+              block.size(), odometer.size()};
         } else if constexpr (kIsList<Work>) {
           elements_of(one).push(one);
           return ListHead<Work>{one.size()};
@@ -77,55 +93,41 @@ bool GnssRing::try_push(const GnssWork& work) {
         }
       },
       work);
-  heads_.push(head);
-  return true;
 }
 
-bool GnssRing::has_room_for(const GnssWork& work) const {
-  if (heads_.write_available() == 0) return false;
-  if (const auto* epoch = std::get_if<EpochWork>(&work))
-    return observations_.has_room_for(epoch->raw.observations) &&
-           samples_.has_room_for(epoch->block) && increments_.has_room_for(epoch->odometer);
-  if (const auto* states = std::get_if<PreciseStates>(&work))
-    return precise_states_.has_room_for(*states);
-  if (const auto* states = std::get_if<CorrectedStates>(&work))
-    return corrected_states_.has_room_for(*states);
-  if (const auto* biases = std::get_if<SignalBiases>(&work)) return biases_.has_room_for(*biases);
-  return true;
+void GnssRing::unpack(const Head& head) {
+  std::visit(
+      [this](const auto& one) {
+        using One = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<One, EpochHead>) {
+          auto& epoch = work_->template emplace<EpochWork>();
+          epoch.index = one.index;
+          epoch.time = one.time;
+          epoch.raw.time = one.raw_time;
+          epoch.empty = one.empty;
+          epoch.smoother_decided = one.smoother_decided;
+          observations_.pop(one.observations, &epoch.raw.observations);
+          samples_.pop(one.samples, &epoch.block);
+          increments_.pop(one.increments, &epoch.odometer);
+        } else if constexpr (IsListHead<One>) {
+          auto& list = work_->template emplace<typename One::List>();
+          elements_of(list).pop(one.size, &list);
+        } else {
+          *work_ = one;
+        }
+      },
+      head);
 }
 
-bool GnssRing::pop(GnssWork* work) {
-  return heads_.consume_one([this, work](const Head& head) {
-    std::visit(
-        [this, work](const auto& one) {
-          using One = std::decay_t<decltype(one)>;
-          if constexpr (std::is_same_v<One, EpochHead>) {
-            auto& epoch = work->template emplace<EpochWork>();
-            epoch.index = one.index;
-            epoch.time = one.time;
-            epoch.raw.time = one.raw_time;
-            epoch.empty = one.empty;
-            epoch.smoother_decided = one.smoother_decided;
-            observations_.pop(one.observations, &epoch.raw.observations);
-            samples_.pop(one.samples, &epoch.block);
-            increments_.pop(one.increments, &epoch.odometer);
-          } else if constexpr (std::is_same_v<One, ListHead<PreciseStates>>) {
-            precise_states_.pop(one.size, &work->template emplace<PreciseStates>());
-          } else if constexpr (std::is_same_v<One, ListHead<CorrectedStates>>) {
-            corrected_states_.pop(one.size, &work->template emplace<CorrectedStates>());
-          } else if constexpr (std::is_same_v<One, ListHead<SignalBiases>>) {
-            biases_.pop(one.size, &work->template emplace<SignalBiases>());
-          } else {
-            *work = one;
-          }
-        },
-        head);
-  });
+RingStatistics GnssRing::statistics() const {
+  const RingStatistics heads = heads_.statistics();
+  return {
+      std::max(heads.high_water_percent, lists_high_water_percent_.load(std::memory_order_relaxed)),
+      heads.waits + waits_for_lists_.load(std::memory_order_relaxed)};
 }
 
-std::uint64_t GnssRing::filled_percent() const {
-  const std::uint64_t heads = 100 * (kHeads - heads_.write_available()) / kHeads;
-  return std::max({heads, observations_.filled_percent(), samples_.filled_percent(),
+std::uint64_t GnssRing::lists_filled_percent() const {
+  return std::max({observations_.filled_percent(), samples_.filled_percent(),
                    increments_.filled_percent(), precise_states_.filled_percent(),
                    corrected_states_.filled_percent(), biases_.filled_percent()});
 }

@@ -8,14 +8,13 @@
 
 #include "core/navigator/interface/stage_work.h"
 #include "daemon/threads/wakeup.h"
-#include "daemon/threads/work_counter.h"
 #include "daemon/threads/work_ring.h"
 
 namespace leonav {
 
-// It is as a WorkRing, between exactly two threads: a full ring makes the producer wait, which is
-// counted, and drops nothing. But a GnssWork has room for the longest lists, of 137 kB, and few are
-// as long: what a list holds goes through a queue of its own.
+// A WorkRing of heads, whose lists go through queues of their own: a GnssWork has room for the
+// longest lists, of 137 kB, and few are as long. Between exactly two threads; a full queue makes
+// the producer wait, which is counted, and nothing is dropped.
 class GnssRing {
  public:
   explicit GnssRing(Wakeup* consumer);
@@ -26,19 +25,16 @@ class GnssRing {
   // Consumer: calls use(work), then frees it. False: empty.
   template <typename Use>
   bool consume_one(Use&& use) {
-    if (!pop(work_.get())) return false;
-    use(*work_);
-    work_counter_.finish();
-    return true;
+    return heads_.consume_one([&](const Head& head) {
+      unpack(head);
+      use(*work_);
+    });
   }
 
   // Any thread: everything that was pushed has been processed.
-  bool idle() const { return work_counter_.idle(); }
-  WorkCount count() const { return work_counter_.count(); }
-  RingStatistics statistics() const {
-    return {high_water_percent_.load(std::memory_order_relaxed),
-            waits_.load(std::memory_order_relaxed)};
-  }
+  bool idle() const { return heads_.idle(); }
+  WorkCount count() const { return heads_.count(); }
+  RingStatistics statistics() const;
 
  private:
   // The elements of one kind of list, of all work that waits.
@@ -75,34 +71,39 @@ class GnssRing {
     bool empty = false, smoother_decided = false;
     std::size_t observations = 0, samples = 0, increments = 0;
   };
-  template <typename List>
+  template <typename T>
   struct ListHead {
+    using List = T;
     std::size_t size = 0;
   };
   using Head = std::variant<Ephemeris, ListHead<PreciseStates>, ListHead<CorrectedStates>,
                             ListHead<SignalBiases>, KlobucharModel, AntennaPattern, Command,
                             Checkpoint, EpochHead>;
 
-  bool try_push(const GnssWork& work);
-  bool has_room_for(const GnssWork& work) const;
-  bool pop(GnssWork* work);
-  std::uint64_t filled_percent() const;
+  bool has_room_for_lists(const GnssWork& work) const;
+  Head push_lists(const GnssWork& work);
+  void unpack(const Head& head);  // into work_
+  std::uint64_t lists_filled_percent() const;
 
   Elements<PreciseState>& elements_of(const PreciseStates&) { return precise_states_; }
   Elements<CorrectedState>& elements_of(const CorrectedStates&) { return corrected_states_; }
   Elements<SignalBias>& elements_of(const SignalBiases&) { return biases_; }
+  const Elements<PreciseState>& elements_of(const PreciseStates&) const { return precise_states_; }
+  const Elements<CorrectedState>& elements_of(const CorrectedStates&) const {
+    return corrected_states_;
+  }
+  const Elements<SignalBias>& elements_of(const SignalBiases&) const { return biases_; }
 
-  boost::lockfree::spsc_queue<Head> heads_;
   Elements<SignalObservation> observations_;
   Elements<ImuSample> samples_;
   Elements<OdometerIncrement> increments_;
   Elements<PreciseState> precise_states_;
   Elements<CorrectedState> corrected_states_;
   Elements<SignalBias> biases_;
+  WorkRing<Head> heads_;
   std::unique_ptr<GnssWork> work_;  // the consumer's
   Wakeup* consumer_;
-  WorkCounter work_counter_;
-  std::atomic<std::uint64_t> waits_{0}, high_water_percent_{0};
+  std::atomic<std::uint64_t> waits_for_lists_{0}, lists_high_water_percent_{0};
 };
 
 }  // namespace leonav

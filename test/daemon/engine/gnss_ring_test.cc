@@ -33,21 +33,24 @@ std::unique_ptr<GnssWork> epoch_of(std::uint64_t index, std::size_t observations
 }
 
 void check_same(const EpochWork& a, const EpochWork& b) {
-  CHECK(a.index == b.index);
-  CHECK(a.time == b.time);
-  CHECK(a.raw.time == b.raw.time);
-  CHECK(a.empty == b.empty);
-  CHECK(a.smoother_decided == b.smoother_decided);
-  REQUIRE(a.raw.observations.size() == b.raw.observations.size());
-  REQUIRE(a.block.size() == b.block.size());
-  REQUIRE(a.odometer.size() == b.odometer.size());
+  // Does not compile with a field more, which must be compared too.
+  const auto& [index, time, empty, raw, block, odometer, smoother_decided] = a;
+  const auto& [raw_time, observations] = raw;
+  CHECK(index == b.index);
+  CHECK(time == b.time);
+  CHECK(raw_time == b.raw.time);
+  CHECK(empty == b.empty);
+  CHECK(smoother_decided == b.smoother_decided);
+  REQUIRE(observations.size() == b.raw.observations.size());
+  REQUIRE(block.size() == b.block.size());
+  REQUIRE(odometer.size() == b.odometer.size());
   bool same = true;
-  for (std::size_t i = 0; i < a.raw.observations.size(); ++i)
-    same &= a.raw.observations[i].pseudorange_m == b.raw.observations[i].pseudorange_m;
-  for (std::size_t i = 0; i < a.block.size(); ++i)
-    same &= a.block[i].delta_theta_b == b.block[i].delta_theta_b;
-  for (std::size_t i = 0; i < a.odometer.size(); ++i)
-    same &= a.odometer[i].distance_m == b.odometer[i].distance_m;
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    same &= observations[i].pseudorange_m == b.raw.observations[i].pseudorange_m;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    same &= block[i].delta_theta_b == b.block[i].delta_theta_b;
+  for (std::size_t i = 0; i < odometer.size(); ++i)
+    same &= odometer[i].distance_m == b.odometer[i].distance_m;
   CHECK(same);
 }
 
