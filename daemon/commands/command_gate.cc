@@ -1,19 +1,15 @@
 #include "daemon/commands/command_gate.h"
 
-#include <sys/random.h>
-
-#include <cerrno>
-#include <system_error>
 #include <utility>
+
+#include "daemon/commands/random_bytes.h"
 
 namespace leonav {
 namespace {
 
 CommandNonce random_nonce() {
   CommandNonce nonce;
-  if (getrandom(nonce.data(), nonce.size(), 0) != static_cast<ssize_t>(nonce.size()))
-    throw std::system_error(errno, std::generic_category(),
-                            "no random numbers for signed commands (getrandom)");
+  fill_random(nonce);
   return nonce;
 }
 
@@ -21,7 +17,7 @@ CommandNonce random_nonce() {
 
 CommandGate::CommandGate(CommandKey key) : key_(std::move(key)), current_(random_nonce()) {}
 
-std::optional<std::span<const std::uint8_t>> CommandGate::due_nonce(std::int64_t now_ns) {
+std::optional<std::span<const std::uint8_t>> CommandGate::due_nonce(std::int64_t now_ns) noexcept {
   renew(now_ns);
   if (published_ns_ && now_ns - *published_ns_ < kPublishing_ns) return std::nullopt;
   published_ns_ = now_ns;
@@ -29,11 +25,11 @@ std::optional<std::span<const std::uint8_t>> CommandGate::due_nonce(std::int64_t
   return message_;
 }
 
-InputFault CommandGate::judge(std::span<const std::uint8_t> message, std::int64_t now_ns) {
+InputFault CommandGate::judge(std::span<const std::uint8_t> message, std::int64_t now_ns) noexcept {
   renew(now_ns);
   const InputFault fault = decode_signed_command(message, &received_);
   if (fault != InputFault::kNone) return fault;
-  // The number first: it costs nothing, however many wrong commands come.
+  // The nonce first: it costs nothing, however many wrong commands come.
   if (!is_valid(received_.nonce) || !key_.has_signed(received_))
     return InputFault::kUnauthenticated;
   current_ = random_nonce();
@@ -43,8 +39,8 @@ InputFault CommandGate::judge(std::span<const std::uint8_t> message, std::int64_
   return InputFault::kNone;
 }
 
-// The number before is still good, for senders that have it already.
-void CommandGate::renew(std::int64_t now_ns) {
+// The nonce before is still good, for senders that have it already.
+void CommandGate::renew(std::int64_t now_ns) noexcept {
   if (!renewed_ns_) renewed_ns_ = now_ns;
   const std::int64_t age_ns = now_ns - *renewed_ns_;
   if (age_ns < kRenewal_ns) return;

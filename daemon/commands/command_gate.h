@@ -1,6 +1,6 @@
 // The CommandGate lets a command through only where it is signed with the key, and only once.
 //
-// A signed command carries a random number (nonce) that the gate has published. A number serves for
+// A signed command carries a nonce, a random number that the gate has published. A nonce serves for
 // one command, and for kRenewal_ns to twice as long; a gate never publishes one again, nor does the
 // next run. Therefore no clock has to be right, and neither leonavd nor a sender has to remember
 // anything over a restart.
@@ -21,20 +21,21 @@ class CommandGate {
   static constexpr std::int64_t kRenewal_ns = 10 * kNanosecondsPerSecond;
   static constexpr std::int64_t kPublishing_ns = kNanosecondsPerSecond;
 
-  // Throws std::system_error where the system has no random numbers; the same at each renewal.
+  // Throws std::system_error where the system has no random numbers. Once it has, it has some for
+  // each renewal.
   explicit CommandGate(CommandKey key);
 
   // The message COMMAND_NONCE where it is due: each second, and after each command let through.
   // `now_ns`: of a clock that never goes back.
-  std::optional<std::span<const std::uint8_t>> due_nonce(std::int64_t now_ns);
+  std::optional<std::span<const std::uint8_t>> due_nonce(std::int64_t now_ns) noexcept;
 
   // Looks at a message signed_command_t. kNone: command() is to be received as COMMAND.
-  InputFault judge(std::span<const std::uint8_t> message, std::int64_t now_ns);
+  InputFault judge(std::span<const std::uint8_t> message, std::int64_t now_ns) noexcept;
   // An encoded command_t, of which the gate knows nothing but who has signed it.
   std::span<const std::uint8_t> command() const { return received_.command; }
 
  private:
-  void renew(std::int64_t now_ns);
+  void renew(std::int64_t now_ns) noexcept;
   bool is_valid(const CommandNonce& nonce) const;
 
   CommandKey key_;

@@ -42,7 +42,7 @@ std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const Con
   return changes;
 }
 
-void reload(const DaemonConfig& read, DaemonConfig* running) {
+void take_reloadable(const DaemonConfig& read, DaemonConfig* running) {
   running->journal.flush_interval_s = read.journal.flush_interval_s;
   running->journal.piece_mb = read.journal.piece_mb;
   running->journal.piece_s = read.journal.piece_s;

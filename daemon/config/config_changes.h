@@ -20,6 +20,6 @@ struct ConfigChange {
 std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const ConfigOrigin& read);
 
 // Sets the reloadable keys of `running`, and where they come from, to those of `read`.
-void reload(const DaemonConfig& read, DaemonConfig* running);
+void take_reloadable(const DaemonConfig& read, DaemonConfig* running);
 
 }  // namespace leonav

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/navigator/interface/navigator_config.h"
@@ -87,6 +88,9 @@ struct ThreadsConfig {
 struct ConfigOrigin {
   std::string name;             // the file, or "preset NAME"
   std::vector<ConfigKey> keys;  // every key, in the order of the reference; empty: not from a file
+
+  // How an error about a key begins: "FILE:LINE: KEY" or "--set KEY"; "KEY": its default holds.
+  std::string place_of(std::string_view key) const;
 };
 
 struct DaemonConfig {

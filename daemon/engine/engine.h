@@ -54,7 +54,8 @@ class Engine final : private StageInputs {
   // receive() refuses.
   void refuse(Channel channel, InputFault fault, std::int64_t timestamp_us);
 
-  // An output of the same thread. Where `out` is stuck the message is dropped.
+  // An output of the same thread that is sent again soon. Where `out` is stuck the message is
+  // dropped, which is not counted.
   void publish_from_io(Channel channel, ByteSpan bytes, std::int64_t timestamp_us) {
     io_sink_.ring().try_push(channel, timestamp_us, bytes);
   }

@@ -18,10 +18,7 @@ constexpr double kShortestPiece_s = 10.0;
 // Adds what is wrong with a key as a line of its own.
 void add(const DaemonConfig& config, const std::string& key, const std::string& why,
          std::string* wrong) {
-  std::string where;
-  for (const ConfigKey& one : config.source.keys)
-    if (one.path == key && one.given) where = one.origin + (one.origin == "--set" ? " " : ": ");
-  *wrong += (wrong->empty() ? "" : "\n") + where + key + ": " + why;
+  *wrong += (wrong->empty() ? "" : "\n") + config.source.place_of(key) + ": " + why;
 }
 
 // Returns why the path cannot be a journal's; "": it can.

@@ -13,7 +13,7 @@ std::optional<CommandGate> configured_gate(const DaemonConfig& config) {
   try {
     return CommandGate(CommandKey::from_file(path));
   } catch (const FileError& error) {
-    throw ConfigError(config.source.name + ": commands.key_file: " + error.what());
+    throw ConfigError(config.source.place_of("commands.key_file") + ": " + error.what());
   }
 }
 

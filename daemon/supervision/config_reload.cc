@@ -38,7 +38,10 @@ void ConfigReload::put_into_effect(const DaemonConfig& read) {
   spdlog::info("SIGHUP: {} read again{}", read.source.name,
                changes.empty() ? ", nothing has changed" : "");
   for (const ConfigChange& change : changes) tell(change);
-  leonav::reload(read, running_);
+  if (!running_->commands.key_file.empty())
+    spdlog::info("{}: the key was read at the start; another one needs a restart",
+                 running_->commands.key_file);
+  take_reloadable(read, running_);
   journal_->set_limits(limits_of(running_->journal));
   set_log_level(running_->log.level);
 }

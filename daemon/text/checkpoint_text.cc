@@ -32,7 +32,8 @@ std::string checkpoint_text(CheckpointUse use, double value) {
     case CheckpointUse::kNotNeeded:
       return "checkpoint ignored: there is a heading already";
     case CheckpointUse::kCalibrationUsed:
-      return "calibration of " + number(value / kHour_s) + " hours ago used";
+      return value < kHour_s ? "calibration of " + number(value / 60.0) + " minutes ago used"
+                             : "calibration of " + number(value / kHour_s) + " hours ago used";
     case CheckpointUse::kCalibrationOld:
       return value < 0.0
                  ? "calibration ignored: " + number(-value) + " s later than the measurements"

@@ -50,7 +50,7 @@ int unlock_if_of_ceres(dl_phdr_info* library, std::size_t, void*) {
 }
 
 // Brings in what is locked, so that no use of it has to wait.
-void bring_in(std::ifstream* maps) {
+void populate(std::ifstream* maps) {
   for (std::string line; std::getline(*maps, line);) {
     std::uintptr_t begin = 0, end = 0;
     char permissions[5] = {};
@@ -81,7 +81,7 @@ std::string lock_memory(bool uses_ceres) {
     return std::string("memory is not locked: ") + std::strerror(errno);
   if (!uses_ceres) dl_iterate_phdr(unlock_if_of_ceres, nullptr);
   if (!in_parts) return {};
-  bring_in(&maps);
+  populate(&maps);
   mlockall(MCL_FUTURE);  // what comes is brought in at once
   return {};
 }

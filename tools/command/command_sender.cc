@@ -1,35 +1,46 @@
 #include "tools/command/command_sender.h"
 
-#include <sys/random.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
+#include <array>
+#include <cstring>
 #include <leonav/event_t.hpp>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
+#include "daemon/commands/random_bytes.h"
 #include "daemon/link/open_lcm.h"
+#include "daemon/threads/wall_clock.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/encode.h"
 
 namespace leonav {
 namespace {
 
-std::int64_t now_ns() {
-  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 std::int64_t nanoseconds_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
 // Random, so that no other sender waits for the same answer; not 0, and exact in the event's
 // double.
 std::uint64_t random_sequence() {
+  std::array<std::uint8_t, sizeof(std::uint64_t)> bytes{};
+  fill_random(bytes);
   std::uint64_t bits = 0;
-  if (getrandom(&bits, sizeof bits, 0) != static_cast<ssize_t>(sizeof bits))
-    throw std::system_error(errno, std::generic_category(), "no random numbers (getrandom)");
+  std::memcpy(&bits, bytes.data(), bytes.size());
   return bits >> 12U | 1U;
+}
+
+// Whether leonavd may refuse a command for it; other inputs are refused all the time.
+bool concerns_commands(InputFault fault) {
+  switch (fault) {
+    case InputFault::kUnauthenticated:
+    case InputFault::kUndecodable:
+    case InputFault::kUnknownSchema:
+    case InputFault::kNotFinite:
+    case InputFault::kOutOfRange:
+    case InputFault::kTooOften:
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace
@@ -47,15 +58,15 @@ CommandResult CommandSender::send(const Command& command, double timeout_s) {
   result_.reset();
   rejected_.reset();
   publish(command);
-  const std::int64_t until_ns = now_ns() + nanoseconds_of(timeout_s);
-  while (!result_ && now_ns() < until_ns) handle_until(until_ns);
+  const std::int64_t until_ns = monotonic_ns() + nanoseconds_of(timeout_s);
+  while (!result_ && monotonic_ns() < until_ns) handle_until(until_ns);
   if (!result_) throw std::runtime_error(why_no_answer());
   return *result_;
 }
 
 void CommandSender::wait_for_nonce(double timeout_s) {
-  const std::int64_t until_ns = now_ns() + nanoseconds_of(timeout_s);
-  while (!nonce_ && now_ns() < until_ns) handle_until(until_ns);
+  const std::int64_t until_ns = monotonic_ns() + nanoseconds_of(timeout_s);
+  while (!nonce_ && monotonic_ns() < until_ns) handle_until(until_ns);
   if (!nonce_)
     throw std::runtime_error("no leonavd that wants signed commands is at '" + url_ +
                              "' with channels " + prefix_ +
@@ -100,14 +111,15 @@ void CommandSender::on_event(const lcm::ReceiveBuffer* buffer, const std::string
   event_t event{};
   const int size = static_cast<int>(buffer->data_size);
   if (event.decode(buffer->data, 0, size) != size || event.schema != 1) return;
-  if (event.kind == event_t::KIND_REJECTED_INPUT) rejected_ = static_cast<InputFault>(event.code);
+  const auto fault = static_cast<InputFault>(event.code);
+  if (event.kind == event_t::KIND_REJECTED_INPUT && concerns_commands(fault)) rejected_ = fault;
   if (event.kind == event_t::KIND_COMMAND && event.value == static_cast<double>(sequence_))
     result_ = static_cast<CommandResult>(event.code);
 }
 
 // Takes what comes until then, and returns after the first message.
 void CommandSender::handle_until(std::int64_t until_ns) {
-  const std::int64_t left_ms = (until_ns - now_ns()) / 1'000'000 + 1;
+  const std::int64_t left_ms = (until_ns - monotonic_ns()) / 1'000'000 + 1;
   if (lcm_->handleTimeout(static_cast<int>(std::clamp<std::int64_t>(left_ms, 1, 1000))) < 0)
     throw std::runtime_error("LCM at '" + url_ + "' failed while receiving");
 }

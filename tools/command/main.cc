@@ -25,6 +25,7 @@ Command command_of(const Arguments& arguments) {
   const bool is_heading = words[0] == "heading";
   if (arguments.has("--degrees") != is_heading)
     throw UsageError("heading needs --degrees, and restart takes none");
+  if (!is_heading && arguments.has("--sigma")) throw UsageError("restart takes no --sigma");
   if (!is_heading) return {};
   Command command;
   command.kind = CommandKind::kSetHeading;

@@ -17,4 +17,9 @@ inline std::int64_t event_count(const EngineCounters& counters, EventKind kind) 
   return counters.events[static_cast<std::size_t>(kind)].get();
 }
 
+// Of the last epoch's satellites.
+inline std::int64_t satellite_count(const EngineCounters& counters, Reason reason) {
+  return counters.satellites_by_reason[static_cast<std::size_t>(reason)].get();
+}
+
 }  // namespace leonav

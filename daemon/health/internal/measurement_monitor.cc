@@ -24,12 +24,9 @@ std::span<const Finding> MeasurementMonitor::look() {
 }
 
 void MeasurementMonitor::look_at_orbits() {
-  const auto satellites = [&](Reason reason) {
-    return counters_->satellites_by_reason[static_cast<std::size_t>(reason)].get();
-  };
   const bool had_answer = static_cast<Source>(counters_->source.get()) != Source::kNone;
-  const std::int64_t without =
-      satellites(Reason::kNoEphemeris) + satellites(Reason::kEphemerisTooOld);
+  const std::int64_t without = satellite_count(*counters_, Reason::kNoEphemeris) +
+                               satellite_count(*counters_, Reason::kEphemerisTooOld);
   if (had_answer && 2 * without > sum(counters_->satellites_by_reason))
     found_.add(HealthReason::kWithoutOrbit);
 

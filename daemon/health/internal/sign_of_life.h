@@ -6,6 +6,9 @@
 
 namespace leonav {
 
+// So many intervals may pass without a sign of life, as until the answer counts as INS only.
+inline constexpr double kIntervalsTolerated = 2.5;
+
 class SignOfLife {
  public:
   explicit SignOfLife(double late_after_s,

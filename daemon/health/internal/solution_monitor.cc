@@ -10,7 +10,6 @@ namespace leonav {
 namespace {
 
 constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not count as one
-constexpr double kIntervalsTolerated = 2.5;
 // Like the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
@@ -70,9 +69,6 @@ Source SolutionMonitor::source() const {
 
 std::string_view SolutionMonitor::why_no_solution(InputMonitor* inputs,
                                                   const EstimatorMonitor& estimator) {
-  const auto satellites = [&](Reason reason) {
-    return counters_->satellites_by_reason[static_cast<std::size_t>(reason)].get();
-  };
   const std::int64_t measured = sum(counters_->satellites_by_reason);
   const std::string_view why = inputs->why_no_epoch(estimator.heard_no_epoch());
   if (!why.empty()) return why;
@@ -88,7 +84,7 @@ std::string_view SolutionMonitor::why_no_solution(InputMonitor* inputs,
       most = i;
   }
   const auto reason = static_cast<Reason>(most);
-  if (reason == Reason::kUsed || 2 * satellites(reason) < measured)
+  if (reason == Reason::kUsed || 2 * satellite_count(*counters_, reason) < measured)
     return "too few satellites with good codes so far";
   if (reason == Reason::kNoEphemeris)
     return "most satellites have no ephemeris: see that they are sent";

@@ -43,7 +43,7 @@ TEST_CASE("a reload changes the reloadable keys, and no others") {
       "journal: {outputs: none, flush_interval_s: 2, piece_mb: 50, piece_s: 60, total_mb: 400, "
       "kept_mb: 300}\n");
   DaemonConfig running = before;
-  reload(after, &running);
+  take_reloadable(after, &running);
   const auto changes = changes_between(running.source, after.source);
   REQUIRE(changes.size() == 2);
   CHECK(changes[0].path == "gnss.elevation_mask_deg");

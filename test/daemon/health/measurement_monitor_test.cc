@@ -64,6 +64,24 @@ TEST_CASE("HEALTH tells of contradicting measurements for as long as they are mo
   CHECK_FALSE(rig.finds(HealthReason::kMostRejected));
 }
 
+TEST_CASE("HEALTH judges no share of fewer than fifty measurements") {
+  Rig rig;
+  rig.counters.measurements.add(49);
+  rig.counters.contradicting_measurements.add(49);
+  CHECK_FALSE(rig.finds(HealthReason::kMostRejected));
+  rig.counters.measurements.add(1);
+  CHECK(rig.finds(HealthReason::kMostRejected));
+}
+
+TEST_CASE("HEALTH tells of refused orbits for as long as satellites are seen that have them") {
+  Rig rig;
+  CHECK_FALSE(rig.finds(HealthReason::kOrbitsRefused));
+  rig.counters.orbits_refused.set(1);
+  CHECK(rig.finds(HealthReason::kOrbitsRefused));
+  rig.counters.orbits_refused.set(0);
+  CHECK_FALSE(rig.finds(HealthReason::kOrbitsRefused));
+}
+
 TEST_CASE("HEALTH names the systems whose codes are off for minutes, and satellites that drift") {
   Rig rig;
   rig.counters.lasting_cm[0].set(99);

@@ -7,6 +7,7 @@
 
 #include "daemon/config/load_config.h"
 #include "daemon/supervision/log_level.h"
+#include "journal/journal_rig.h"
 #include "support/catch.h"
 
 namespace {
@@ -58,4 +59,19 @@ TEST_CASE("a reload of a configuration with errors changes nothing") {
   CHECK(spdlog::get_level() == spdlog::level::err);
   CHECK(rig.running.log.level == LogLevel::kError);
   CHECK(rig.running.journal.kept_mb == kept_mb);
+}
+
+TEST_CASE("a reload's limits reach the journal that is being written") {
+  const KeptLevel kept;
+  test::JournalRig rig([](JournalConfig* config) { config->piece_mb = 100.0; });
+  rig.journal.open();
+  DaemonConfig running = rig.config, read = rig.config;
+  read.journal.piece_mb = 0.1;
+  ConfigReload reload([&] { return read; }, &running, &rig.journal);
+  rig.sender.push_slowly(500);
+  CHECK(rig.journal.counters().pieces.get() == 1);
+  reload.reload();
+  rig.sender.push_slowly(500);
+  CHECK(test::await([&] { return rig.journal.counters().pieces.get() > 3; }));
+  CHECK(rig.journal.finish());
 }

@@ -29,9 +29,9 @@ TEST_CASE("leonavd with a key does what is signed with it, once, and nothing els
 TEST_CASE("a wrong command line of leonav-command is named", "[command]") {
   if (!have_programs("leonav-command")) return;
   for (const char* wrong :
-       {"", "stop", "restart heading", "heading", "restart --degrees 3", "heading --degrees 361",
-        "heading --degrees=-1", "heading --degrees 3 --sigma 0", "heading --degrees nan",
-        "restart --timeout 0", "restart --timeout long"}) {
+       {"", "stop", "restart heading", "heading", "restart --degrees 3", "restart --sigma 3",
+        "heading --degrees 361", "heading --degrees=-1", "heading --degrees 3 --sigma 0",
+        "heading --degrees nan", "restart --timeout 0", "restart --timeout long"}) {
     INFO(wrong);
     CHECK(run_program("leonav-command", wrong).exit_code == 2);
   }

@@ -195,7 +195,7 @@ def refused_files(key_file):
     for words in (("--preset", "phone_imu"), ("--check", "--preset", "phone_imu")):
         run = subprocess.run([BIN / "leonavd", *words, "--set", f"commands.key_file={key_file}"],
                              capture_output=True, text=True, timeout=PATIENCE_S, check=False)
-        check(run.returncode == 3 and "commands.key_file" in run.stderr and "chmod 600" in run.stderr and KEY not in run.stderr,
+        check(run.returncode == 3 and "--set commands.key_file" in run.stderr and "chmod 600" in run.stderr and KEY not in run.stderr,
               f"a key that others may read is not refused: {run}")
     key_file.chmod(0o600)
 
