@@ -23,14 +23,13 @@ CommandLine::CommandLine()
     : arguments_(
           "leonavd", "--config FILE [options]\n       leonavd --check [--config] FILE [options]",
           "The navigation daemon: takes IMU and GNSS from LCM, publishes position, velocity and "
-          "attitude.\nSIGTERM and SIGINT end it cleanly, with the journal complete; a second one "
-          "at "
-          "once.\nSIGHUP reads the configuration again: the log says of each changed key whether "
-          "it "
-          "is in effect\n(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; "
-          "log.level) "
-          "or needs a restart.\nExit codes: 0 stopped cleanly, 1 failure while running, 2 command "
-          "line, 3 "
+          "attitude.\n"
+          "SIGTERM and SIGINT end it cleanly, with the journal complete; a second one at once.\n"
+          "SIGHUP reads the configuration again: the log says of each changed key whether it is "
+          "in effect\n"
+          "(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or needs a "
+          "restart.\n"
+          "Exit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
           "configuration, 4 LCM, 5 journal.") {
   add_configuration_options(&arguments_);
   arguments_.option("--lcm-url", "URL", "instead of lcm.url")
