@@ -65,6 +65,8 @@ void populate(std::ifstream* maps) {
 
 void prepare_memory() {
   mallopt(M_MMAP_THRESHOLD, kLargeBlockBytes);
+  // Threads allocate next to nothing; an arena of their own would take 64 MB of addresses each.
+  mallopt(M_ARENA_MAX, 1);
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, RealtimeThread::kStackBytes);
