@@ -25,8 +25,9 @@ struct SatelliteProducts {
   InterpolationTable<OrbitNode, kMaxOrbitNodes> orbit;
   InterpolationTable<ClockNode, kMaxClockNodes> clock;  // from clock files
   CorrectedState corrected;                             // time unset: none
-  GpsTime compared_at;         // when corrected or precise states were compared with broadcast ones
-  bool orbit_refused = false;  // they differ
+  // When these states were compared with the broadcast ones; unset: not since something has come.
+  GpsTime compared_at;
+  bool orbit_refused = false;  // they differed
 };
 
 bool is_same_issue(const Ephemeris& a, const Ephemeris& b) {
@@ -185,17 +186,15 @@ bool find_any_precise(const SatelliteProducts& products, System system, GpsTime 
 
 // Largest difference of good orbits, centre of mass against antenna included. GPS and Galileo up to
 // an hour from toe differ by 5.3 m at most, an hour and a half before toe by 13 m
-// (docs/validation/orbits.md). It is not measured of satellites that are geosynchronous, which are
-// known less well.
+// (docs/validation/orbits.md). It is not measured of BeiDou, whose geosynchronous orbits are known
+// less well.
 constexpr double kMaxOrbitDifference_m = 10.0;
-constexpr double kMaxGeosynchronousDifference_m = 30.0;
-constexpr double kGeosynchronousRadius_m = 4e7;
+constexpr double kMaxBeidouDifference_m = 30.0;
 constexpr double kMaxComparedAge_s = 3600.0;  // of the broadcast elements
-constexpr double kCompareInterval_s = 1.0;
+constexpr double kCompareInterval_s = 0.9;    // stamps of epochs at 1 Hz drift with the clock
 
-double max_difference_m(const SatelliteState& broadcast) {
-  return broadcast.p_e.norm() < kGeosynchronousRadius_m ? kMaxOrbitDifference_m
-                                                        : kMaxGeosynchronousDifference_m;
+double max_difference_m(System system) {
+  return system == System::kBeidou ? kMaxBeidouDifference_m : kMaxOrbitDifference_m;
 }
 
 }  // namespace
@@ -220,12 +219,14 @@ EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
 bool EphemerisStore::add(const Ephemeris& ephemeris) {
   if (!is_sane(ephemeris) || is_for_corrections_alone(ephemeris)) return false;
   slot_for(ephemeris, &storage_->ephemerides) = {ephemeris, ++storage_->arrivals};
+  storage_->products_of[table_index_of(ephemeris.satellite)].compared_at = GpsTime();
   return true;
 }
 
 bool EphemerisStore::add(const PreciseState& state) {
   if (!is_sane_node(state)) return false;
   SatelliteProducts& products = storage_->products_of[table_index_of(state.satellite)];
+  products.compared_at = GpsTime();
   const std::uint64_t arrival = ++storage_->arrivals;
   if (state.is_clock_only()) {
     products.clock.insert({state.time, state.clock_s, state.clock_event, state.clock_predicted},
@@ -240,7 +241,9 @@ bool EphemerisStore::add(const PreciseState& state) {
 
 bool EphemerisStore::add(const CorrectedState& state) {
   if (!is_sane(state)) return false;
-  storage_->products_of[table_index_of(state.satellite)].corrected = state;
+  SatelliteProducts& products = storage_->products_of[table_index_of(state.satellite)];
+  products.corrected = state;
+  products.compared_at = GpsTime();
   return true;
 }
 
@@ -285,27 +288,30 @@ bool EphemerisStore::refuse_wrong_orbit(SatelliteId satellite, GpsTime time) {
   if (satellite.system == System::kLeo) return false;
   const EphemerisConfig& options = storage_->options;
   SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
-  const bool is_due = !products.compared_at.is_set() ||
-                      std::abs(seconds_between(time, products.compared_at)) >= kCompareInterval_s;
-  if (!is_due) return false;
-  SatelliteState precise;
-  const bool was_refused = products.orbit_refused;
-  if (!find_any_precise(products, satellite.system, time, options, &precise)) {
+  const Ephemeris* best = best_ephemeris(storage_->ephemerides, satellite, time, options);
+  if (best == nullptr) {  // nothing that could serve in its place
     products.orbit_refused = false;
     return false;
   }
-  const Ephemeris* best = best_ephemeris(storage_->ephemerides, satellite, time, options);
-  if (best == nullptr) return false;
-  const SatelliteState broadcast = broadcast_state(*best, time);
-  if (broadcast.age_s > kMaxComparedAge_s) return false;
+  const bool is_due = !products.compared_at.is_set() ||
+                      std::abs(seconds_between(time, products.compared_at)) >= kCompareInterval_s;
+  if (!is_due) return false;
+  if (std::abs(seconds_between(time, best->toe)) > kMaxComparedAge_s) return false;
+  SatelliteState precise;
+  if (!find_any_precise(products, satellite.system, time, options, &precise)) return false;
   products.compared_at = time;
-  const double limit_m = (was_refused ? 0.5 : 1.0) * max_difference_m(broadcast);
-  products.orbit_refused = (precise.p_e - broadcast.p_e).norm() > limit_m;
+  const bool was_refused = products.orbit_refused;
+  const double limit_m = (was_refused ? 0.5 : 1.0) * max_difference_m(satellite.system);
+  products.orbit_refused = (precise.p_e - broadcast_state(*best, time).p_e).norm() > limit_m;
   return products.orbit_refused && !was_refused;
 }
 
-bool EphemerisStore::is_orbit_refused(SatelliteId satellite) const {
-  return is_valid(satellite) && storage_->products_of[table_index_of(satellite)].orbit_refused;
+bool EphemerisStore::is_orbit_refused(SatelliteId satellite, GpsTime time) const {
+  if (!is_valid(satellite) || time.nanoseconds() <= 0) return false;
+  const SatelliteProducts& products = storage_->products_of[table_index_of(satellite)];
+  SatelliteState precise;
+  return products.orbit_refused &&
+         find_any_precise(products, satellite.system, time, storage_->options, &precise);
 }
 
 const Ephemeris* EphemerisStore::ephemeris_at(SatelliteId satellite, GpsTime time) const {

@@ -81,13 +81,15 @@ class EphemerisStore {
                         const Ephemeris** ephemeris = nullptr) const;
 
   // Compares the corrected or precise orbit of a satellite with its broadcast elements, where there
-  // are both, at most once a second. Where they differ by more than such products do, state_at()
-  // gives the broadcast state from then on, until a comparison finds less than half of that; the
-  // clocks are not compared, because each product has its own reference. LEO satellites are not
+  // are both, once a second and where anything new has come. Where they differ by more than such
+  // products do, state_at() gives the broadcast state from then on, until a comparison finds less
+  // than half of that, also over a gap of the product, or until there are no broadcast elements.
+  // The clocks are not compared, because each product has its own reference. LEO satellites are not
   // compared either: how good their broadcast elements are depends on the constellation. Returns
   // true where this begins.
   bool refuse_wrong_orbit(SatelliteId satellite, GpsTime time);
-  bool is_orbit_refused(SatelliteId satellite) const;
+  // Returns whether there is a corrected or precise orbit at `time` that is not used for this.
+  bool is_orbit_refused(SatelliteId satellite, GpsTime time) const;
 
   // Returns the broadcast elements for `time` whatever their health, or nullptr; a precise clock
   // needs their group delays. The pointer is valid until the next add().

@@ -111,8 +111,9 @@ int MeasurementFrontEnd::compare_orbits(const RawEpoch& raw, RefusedOrbits* begu
     const SatelliteId satellite = observation.satellite;
     if (satellite == last) continue;
     last = satellite;
+    if (!gnss_.systems[index_of(satellite.system)].enabled) continue;
     if (ephemeris_store_.refuse_wrong_orbit(satellite, raw.time)) begun->push_back(satellite);
-    if (ephemeris_store_.is_orbit_refused(satellite)) ++refused;
+    if (ephemeris_store_.is_orbit_refused(satellite, raw.time)) ++refused;
   }
   return refused;
 }

@@ -43,8 +43,9 @@ class MeasurementFrontEnd {
   // Sets how measure() and solve() use codes of two frequencies from now on.
   void combine_codes(CodeCombination combination) { gnss_.code_combination = combination; }
 
-  // Compares the precise orbits of the satellites seen with the broadcast ones, before either is
-  // used. Returns how many are refused, and appends those that are refused from now on.
+  // Compares the precise orbits of the satellites seen, of the systems that are used, with the
+  // broadcast ones, before either is used. Returns how many are refused, and appends those that are
+  // refused from now on.
   int compare_orbits(const RawEpoch& raw, RefusedOrbits* begun);
 
   // Preprocesses the epoch at the filter's predicted position and tests the carriers against the

@@ -73,15 +73,11 @@ TEST_CASE("a satellite's way to broadcast orbits and back is told, the first six
   CHECK(to_string(EventKind::kOrbitReturn) == "orbit_return");
 }
 
-TEST_CASE("a precise orbit 15 m off gives one event, and the satellite's broadcast orbit is used") {
-  const SyntheticDrive drive = drive_of(20.0, 0.0, false);
-  const auto& seen_first = drive.epochs.front().observations;
-  const auto wrong = std::find_if(seen_first.begin(), seen_first.end(), [](auto& observation) {
-    return observation.satellite.system == System::kGps;
-  });
-  REQUIRE(wrong != seen_first.end());
+// The drive with precise states of GPS, which are 15 m off for the satellite `wrong`.
+RecordingSink run_with_wrong_orbit(const SyntheticDrive& drive, const NavigatorConfig& config,
+                                   SatelliteId wrong) {
   RecordingSink sink;
-  Navigator pipeline(drive_navigator_config(drive.options, MotionModel::kConstantVelocity), &sink);
+  Navigator pipeline(config, &sink);
   Sequencer& sequencer = pipeline.sequencer();
   for (const Ephemeris& e : drive.ephemerides) sequencer.on_ephemeris(e);
   for (int s = -300; s <= 360; s += 30) {
@@ -89,16 +85,32 @@ TEST_CASE("a precise orbit 15 m off gives one event, and the satellite's broadca
     for (const Ephemeris& e : drive.ephemerides) {
       if (e.satellite.system != System::kGps) continue;
       nodes.push_back(product_node(e, kSkyEpoch.plus_seconds(s)));
-      if (e.satellite == wrong->satellite)
-        nodes.back().p_e += 15.0 * nodes.back().p_e.unitOrthogonal();
+      if (e.satellite == wrong) nodes.back().p_e += 15.0 * nodes.back().p_e.unitOrthogonal();
     }
     sequencer.on_precise_states(nodes);
   }
   for (const RawEpoch& raw : drive.epochs) sequencer.on_raw_epoch(raw);
+  return sink;
+}
+
+SatelliteId first_gps_of(const SyntheticDrive& drive) {
+  const auto& seen_first = drive.epochs.front().observations;
+  const auto wrong = std::find_if(seen_first.begin(), seen_first.end(), [](auto& observation) {
+    return observation.satellite.system == System::kGps;
+  });
+  REQUIRE(wrong != seen_first.end());
+  return wrong->satellite;
+}
+
+TEST_CASE("a precise orbit 15 m off gives one event, and the satellite's broadcast orbit is used") {
+  const SyntheticDrive drive = drive_of(20.0, 0.0, false);
+  const SatelliteId wrong = first_gps_of(drive);
+  const RecordingSink sink = run_with_wrong_orbit(
+      drive, drive_navigator_config(drive.options, MotionModel::kConstantVelocity), wrong);
   int seen = 0, precise = 0;
   for (const EpochReport& report : sink.epochs) {
     for (const SatelliteReport& satellite : report.satellites) {
-      if (satellite.satellite == wrong->satellite) {
+      if (satellite.satellite == wrong) {
         ++seen;
         CHECK(satellite.source == OrbitSource::kBroadcast);
         CHECK(report.orbits_refused == 1);
@@ -114,9 +126,19 @@ TEST_CASE("a precise orbit 15 m off gives one event, and the satellite's broadca
     if (event.kind != EventKind::kOrbitRefused) continue;
     ++told;
     CHECK(event.code == static_cast<std::uint8_t>(System::kGps));
-    CHECK(event.value == wrong->satellite.number);
+    CHECK(event.value == wrong.number);
   }
   CHECK(told == 1);
+}
+
+TEST_CASE("wrong orbits of a system that is not used are nobody's trouble") {
+  const SyntheticDrive drive = drive_of(20.0, 0.0, false);
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kConstantVelocity);
+  config.gnss.systems[index_of(System::kGps)].enabled = false;
+  const RecordingSink sink = run_with_wrong_orbit(drive, config, first_gps_of(drive));
+  REQUIRE(sink.epochs.size() > 5);
+  for (const EpochReport& report : sink.epochs) CHECK(report.orbits_refused == 0);
+  CHECK(sink.count(EventKind::kOrbitRefused) == 0);
 }
 
 }  // namespace leonav::test
