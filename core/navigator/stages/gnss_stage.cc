@@ -118,9 +118,10 @@ void GnssStage::use_measurements(const EpochWork& work) {
 }
 
 void GnssStage::start_filter(const EpochWork& work) {
-  report_calibration(calibration_.start(work.time, &ekf_), work.time);
   const IndependentSolution solution = front_end_.solve(work, Eigen::Vector3d::Zero());
   if (solution.accepted) {
+    // An epoch whose time may be wrong does not judge the calibration's age.
+    report_calibration(calibration_.start(work.time, &ekf_), work.time);
     ekf_.initialize(work.time, solution.point);
     epoch_.gnss_used = true;
   }

@@ -57,7 +57,11 @@ void move_on(const Vector3d& values, const Vector3d& sigmas, const GaussMarkov& 
 
 }  // namespace
 
-SavedCalibration::SavedCalibration(const NavigatorConfig& config) : config_(config) {
+SavedCalibration::SavedCalibration(const NavigatorConfig& config)
+    : imu_(config.imu),
+      vehicle_constants_(config.ekf.vehicle),
+      mounting_rpy_(config.vehicle.mounting_rpy),
+      max_age_s_(config.checkpoint_max_age_s) {
   for (int i = 0; i < 3; ++i)
     configured_[static_cast<std::size_t>(kLeverArm + i)] = config.vehicle.lever_arm_b[i];
   configured_[kTimeOffset] = config.imu_time_offset_s;
@@ -67,7 +71,7 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::start(GpsTime time, E
   if (!checkpoint_ || started_) return std::nullopt;
   started_ = true;
   const double age_s = seconds_between(time, checkpoint_->time);
-  if (age_s > config_.checkpoint_max_age_s || age_s < -kFutureTolerated_s) {
+  if (age_s > max_age_s_ || age_s < -kFutureTolerated_s) {
     const bool calibrated = checkpoint_->calibration.has_value();
     checkpoint_.reset();
     if (!calibrated) return std::nullopt;
@@ -81,15 +85,20 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::start(GpsTime time, E
     checkpoint_.reset();
     return Verdict{CheckpointUse::kCalibrationMounted, 0.0};
   }
+  const double worst = worst_imu_error(*checkpoint_->calibration);
+  if (!(worst <= kSameImuSigmas)) {
+    checkpoint_.reset();
+    return Verdict{CheckpointUse::kCalibrationImu, worst};
+  }
   start_constants(*checkpoint_->calibration, std::max(age_s, 0.0), filter);
   return std::nullopt;
 }
 
 bool SavedCalibration::is_of_this_vehicle(const Calibration& calibration) const {
-  const Vector3d turned = calibration.mounting_rpy - config_.vehicle.mounting_rpy;
+  const Vector3d turned = calibration.mounting_rpy - mounting_rpy_;
   if (!(turned.cwiseAbs().maxCoeff() <= kSameMounting)) return false;
   for (std::size_t i = 0; i < kMaxVehicle; ++i) {
-    const double limit = kSamePlaceSigmas * config_.ekf.vehicle.sigma[i];
+    const double limit = kSamePlaceSigmas * vehicle_constants_.sigma[i];
     if (calibration.constant_sigmas[i] > 0.0 && limit > 0.0 &&
         !(std::abs(calibration.constants[i] - configured_[i]) <= limit))
       return false;
@@ -97,9 +106,18 @@ bool SavedCalibration::is_of_this_vehicle(const Calibration& calibration) const 
   return true;
 }
 
+// Returns by how many configured sigmas an error of the IMU differs from zero at most. What is far
+// from its configuration is of another IMU, or was damaged.
+double SavedCalibration::worst_imu_error(const Calibration& calibration) const {
+  return std::max({largest(checkpoint_->gyro_bias_b, imu_.gyro_bias),
+                   largest(calibration.accel_bias_b, imu_.accel_bias),
+                   largest(calibration.gyro_scale, imu_.gyro_scale),
+                   largest(calibration.accel_scale, imu_.accel_scale)});
+}
+
 void SavedCalibration::start_constants(const Calibration& calibration, double age_s,
                                        Ekf* filter) const {
-  const VehicleConstantsConfig& config = config_.ekf.vehicle;
+  const VehicleConstantsConfig& config = vehicle_constants_;
   // The odometer's scale may join those that are estimated from the start.
   const int most = std::max(config.count, kOdometerScale + 1);
   VehicleConstants values, variances;
@@ -135,7 +153,7 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::set_attitude(
     return std::nullopt;
   }
   const double age_s = seconds_between(time, checkpoint_->time);
-  if (age_s > config_.checkpoint_max_age_s || age_s < -kFutureTolerated_s) {
+  if (age_s > max_age_s_ || age_s < -kFutureTolerated_s) {
     without();
     return Verdict{CheckpointUse::kCalibrationOld, age_s};
   }
@@ -144,18 +162,13 @@ std::optional<SavedCalibration::Verdict> SavedCalibration::set_attitude(
   ImuErrors errors;
   ImuErrorCovariance covariance = ImuErrorCovariance::Zero();
   move_on(checkpoint_->gyro_bias_b, Vector3d::Constant(checkpoint_->gyro_bias_sigma),
-          config_.imu.gyro_bias, passed_s, 0, &errors.gyro_bias_b, &covariance);
-  move_on(saved.accel_bias_b, saved.accel_bias_sigma, config_.imu.accel_bias, passed_s, 3,
-          &errors.accel_bias_b, &covariance);
-  move_on(saved.gyro_scale, saved.gyro_scale_sigma, config_.imu.gyro_scale, passed_s, 6,
+          imu_.gyro_bias, passed_s, 0, &errors.gyro_bias_b, &covariance);
+  covariance.diagonal().segment<3>(3).setConstant(square(imu_.accel_bias.sigma));
+  move_on(saved.gyro_scale, saved.gyro_scale_sigma, imu_.gyro_scale, passed_s, 6,
           &errors.gyro_scale, &covariance);
-  move_on(saved.accel_scale, saved.accel_scale_sigma, config_.imu.accel_scale, passed_s, 9,
+  move_on(saved.accel_scale, saved.accel_scale_sigma, imu_.accel_scale, passed_s, 9,
           &errors.accel_scale, &covariance);
-  // What is so far from its configuration is of another IMU, or was damaged.
-  double worst = std::max({largest(checkpoint_->gyro_bias_b, config_.imu.gyro_bias),
-                           largest(saved.accel_bias_b, config_.imu.accel_bias),
-                           largest(saved.gyro_scale, config_.imu.gyro_scale),
-                           largest(saved.accel_scale, config_.imu.accel_scale)});
+  double worst = 0.0;  // the gyros at rest from their saved bias, sigmas
   if (aligned.gyro_bias_known) {
     for (int i = 0; i < 3; ++i) {
       const double saved_variance = covariance(i, i);

@@ -136,7 +136,6 @@ TEST_CASE("errors of the IMU are moved on to the start, until they are as config
       return (a - b).norm() <= 1e-9 * b.norm();
     };
     CHECK(same(errors.gyro_bias_b, share(config.imu.gyro_bias) * checkpoint.gyro_bias_b));
-    CHECK(same(errors.accel_bias_b, share(config.imu.accel_bias) * saved.accel_bias_b));
     CHECK(same(errors.gyro_scale, share(config.imu.gyro_scale) * saved.gyro_scale));
     CHECK(same(errors.accel_scale, share(config.imu.accel_scale) * saved.accel_scale));
     const auto is_between = [&](int state, double saved_sigma, const GaussMarkov& process) {
@@ -148,11 +147,13 @@ TEST_CASE("errors of the IMU are moved on to the start, until they are as config
       CHECK(sigma >= std::min(process.sigma, 2.0 * share(process) * saved_sigma) * (1.0 - 1e-9));
     };
     is_between(kGyroBias, checkpoint.gyro_bias_sigma, config.imu.gyro_bias);
-    is_between(kAccelBias, saved.accel_bias_sigma.x(), config.imu.accel_bias);
+    // The level contains the accelerometers' bias.
+    CHECK(errors.accel_bias_b.isZero());
+    CHECK(variance(filter, kAccelBias) == Approx(std::pow(config.imu.accel_bias.sigma, 2)));
     is_between(kGyroScale, saved.gyro_scale_sigma.x(), config.imu.gyro_scale);
     is_between(kAccelScale, saved.accel_scale_sigma.x(), config.imu.accel_scale);
     if (age_s == 5.0)
-      CHECK(variance(filter, kAccelBias) < std::pow(config.imu.accel_bias.sigma, 2));
+      CHECK(variance(filter, kAccelScale) < std::pow(config.imu.accel_scale.sigma, 2));
   }
 }
 
@@ -187,26 +188,35 @@ TEST_CASE("a gyro bias that was measured at rest is combined with that of before
   CHECK(verdict->value > 4.0);
   CHECK(far.state().errors.gyro_bias_b == aligned.gyro_bias_b);
   CHECK(far.state().errors.accel_bias_b.isZero());
-  CHECK(variance(far, kAccelBias) == Approx(std::pow(config.imu.accel_bias.sigma, 2)));
+  CHECK(far.state().errors.accel_scale.isZero());
+  CHECK(variance(far, kAccelScale) == Approx(std::pow(config.imu.accel_scale.sigma, 2)));
+  // The gyros at rest come after the filter's start; what it began with is the vehicle's.
+  CHECK(far.filter_state().vehicle[kTravelYaw] == checkpoint.calibration->constants[kTravelYaw]);
 }
 
-TEST_CASE("errors that no such IMU has are not taken, whatever sigma they come with") {
+TEST_CASE("errors that no such IMU has are not taken, nor the constants found with them") {
   const NavigatorConfig config = config_of_parked();
   using Vector = Eigen::Vector3d Calibration::*;
+  const Vector none = nullptr;  // the gyros' bias, which is the checkpoint's own
   for (const Vector of :
-       {&Calibration::accel_bias_b, &Calibration::gyro_scale, &Calibration::accel_scale}) {
+       {&Calibration::accel_bias_b, &Calibration::gyro_scale, &Calibration::accel_scale, none}) {
     Checkpoint checkpoint = parked();
-    ((*checkpoint.calibration).*of).z() = -0.45;  // passes check() of all three
+    if (of == none)
+      checkpoint.gyro_bias_b.z() = 0.9;
+    else
+      ((*checkpoint.calibration).*of).z() = -0.45;  // passes check() of all three
     if (of == &Calibration::accel_bias_b) checkpoint.calibration->accel_bias_b.z() = 50.0;
     Ekf filter = filter_of(config);
     SavedCalibration calibration(config);
     calibration.take(checkpoint);
-    calibration.start(checkpoint.time, &filter);
+    const auto verdict = calibration.start(checkpoint.time, &filter);
     filter.initialize(checkpoint.time, parked_point());
-    const auto verdict =
-        calibration.set_attitude(aligned_in_motion(config), checkpoint.time, &filter);
     REQUIRE(verdict);
     CHECK(verdict->use == CheckpointUse::kCalibrationImu);
+    CHECK(verdict->value > 4.0);
+    CHECK(filter.filter_state().vehicle[kLeverArm] == 0.0);
+    CHECK_FALSE(calibration.set_attitude(aligned_in_motion(config), checkpoint.time, &filter));
+    CHECK(filter.state().errors.gyro_bias_b.isZero());
     CHECK(filter.state().errors.accel_bias_b.isZero());
     CHECK(filter.state().errors.gyro_scale.isZero());
     CHECK(filter.state().errors.accel_scale.isZero());
