@@ -12,13 +12,15 @@
 namespace leonav {
 
 // `T` has a member `arrival`, which is larger the later an element has come. No element is removed
-// but where the pool is used up. Allocates when constructed, not after.
-template <typename T, std::size_t kLists, std::size_t kLongest>
+// but where the pool is used up: it has kElements for all lists together, of which one may have
+// kLongest. Allocates when constructed, not after.
+template <typename T, std::size_t kLists, std::size_t kLongest, std::size_t kElements>
 class PooledLists {
  public:
-  // `elements`: of all lists together, at least kLists.
-  explicit PooledLists(std::size_t elements)
-      : pool_(std::make_unique<T[]>(elements)), elements_(elements) {}
+  // With fewer, a list could be the longest with no element to lose; slots have 16 bits.
+  static_assert(kElements >= kLists && kElements <= 65536);
+
+  PooledLists() : pool_(std::make_unique<T[]>(kElements)) {}
 
   // The elements of a list in the order in which they were appended.
   template <typename Element>
@@ -60,9 +62,10 @@ class PooledLists {
   bool is_full(std::size_t list) const { return lists_[list].size == kLongest; }
 
   // Appends an element and returns it as T(). Where the pool is used up, the longest list loses the
-  // element that arrived first. Precondition: the list is not full.
+  // element that arrived first, whatever its use; of several as long, that whose first element
+  // arrived first. Precondition: the list is not full.
   T& append(std::size_t list) {
-    const std::uint16_t slot = used_ < elements_ ? static_cast<std::uint16_t>(used_++) : freed();
+    const std::uint16_t slot = used_ < kElements ? static_cast<std::uint16_t>(used_++) : freed();
     List& to = lists_[list];
     to.slots[to.size++] = slot;
     return pool_[slot] = T();
@@ -79,8 +82,11 @@ class PooledLists {
   }
 
   std::uint16_t freed() {
-    List& longest = *std::max_element(lists_.begin(), lists_.end(),
-                                      [](const List& a, const List& b) { return a.size < b.size; });
+    List& longest =
+        *std::max_element(lists_.begin(), lists_.end(), [this](const List& a, const List& b) {
+          if (a.size != b.size || a.size == 0) return a.size < b.size;
+          return pool_[a.slots[0]].arrival > pool_[b.slots[0]].arrival;
+        });
     const auto end = longest.slots.begin() + longest.size;
     const auto first = std::min_element(
         longest.slots.begin(), end,
@@ -92,7 +98,7 @@ class PooledLists {
   }
 
   std::unique_ptr<T[]> pool_;
-  std::size_t elements_, used_ = 0;
+  std::size_t used_ = 0;
   std::array<List, kLists> lists_{};
 };
 

@@ -17,8 +17,8 @@ struct StoredEphemeris {
   std::uint64_t arrival = 0;
 };
 
-using Ephemerides =
-    PooledLists<StoredEphemeris, kMaxEphemerisSatellites, kMaxEphemeridesPerSatellite>;
+using Ephemerides = PooledLists<StoredEphemeris, kMaxEphemerisSatellites,
+                                kMaxEphemeridesPerSatellite, kMaxEphemerides>;
 
 // Precise and corrected states.
 struct SatelliteProducts {
@@ -204,7 +204,7 @@ struct EphemerisStore::Storage {
   KlobucharModel klobuchar;
   std::uint32_t klobuchar_issue = 0;
   std::uint64_t arrivals = 0;
-  Ephemerides ephemerides{kMaxEphemerides};
+  Ephemerides ephemerides;
   std::array<SatelliteProducts, kMaxEphemerisSatellites> products_of;
 };
 

@@ -14,7 +14,8 @@ namespace {
 struct SatelliteBand {
   char band = 0;
   GpsTime valid_from, valid_until;
-  std::uint64_t arrival = 0;
+  std::uint64_t arrival = 0;   // the last one, also of an identical pattern
+  std::uint64_t revision = 0;  // the arrival of the first that was identical
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
   double first_angle = 0.0, angle_step = 0.0;
   int angles = 0;
@@ -35,7 +36,8 @@ struct ReceiverBand {
 };
 
 constexpr std::size_t kMaxEntries = kMaxSatelliteAntennaBands * kMaxAntennaIntervals;
-using SatelliteBands = PooledLists<SatelliteBand, kMaxEphemerisSatellites, kMaxEntries>;
+using SatelliteBands =
+    PooledLists<SatelliteBand, kMaxEphemerisSatellites, kMaxEntries, kMaxSatelliteAntennas>;
 
 bool is_same(const SatelliteBand& a, const SatelliteBand& b) {
   return a.band == b.band && a.valid_from == b.valid_from && a.valid_until == b.valid_until &&
@@ -56,7 +58,7 @@ SatelliteBand compact(const AntennaPattern& pattern, std::uint64_t arrival) {
   entry.band = pattern.band;
   entry.valid_from = pattern.valid_from;
   entry.valid_until = pattern.valid_until;
-  entry.arrival = arrival;
+  entry.arrival = entry.revision = arrival;
   entry.offset_m = pattern.offset_m;
   entry.first_angle = pattern.variation.first_angle;
   entry.angle_step = pattern.variation.angle_step;
@@ -85,7 +87,7 @@ SatelliteBand* slot_for(const AntennaPattern& pattern, SatelliteBands* bands) {
 
 struct AntennaPatternStore::Storage {
   BandPlan bands;
-  SatelliteBands satellites{kMaxSatelliteAntennas};
+  SatelliteBands satellites;
   boost::container::static_vector<ReceiverBand, kMaxReceiverAntennaBands> receiver;
   std::uint64_t arrivals = 0;
   Counters counters;
@@ -97,10 +99,11 @@ struct AntennaPatternStore::Storage {
   bool add_satellite(const AntennaPattern& pattern) {
     SatelliteBand* slot = slot_for(pattern, &satellites);
     if (slot == nullptr) return false;
-    const SatelliteBand entry = compact(pattern, arrivals + 1);
-    if (is_same(*slot, entry)) return true;
-    *slot = entry;
-    ++arrivals;
+    const SatelliteBand entry = compact(pattern, ++arrivals);
+    if (is_same(*slot, entry))
+      slot->arrival = arrivals;
+    else
+      *slot = entry;
     return true;
   }
 
@@ -160,7 +163,8 @@ AntennaRange AntennaPatternStore::satellite_range(SatelliteId satellite, char ba
   const SatelliteBand* entry = storage_->find(satellite, band, time);
   if (entry == nullptr) return {};
   return {satellite_antenna_range_m(entry->offset_m, entry->grid(), p_sat_e, C_es, p_a_e),
-          entry->band == band ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand, entry->arrival};
+          entry->band == band ? AntennaStatus::kOk : AntennaStatus::kNeighbourBand,
+          entry->revision};
 }
 
 AntennaRange AntennaPatternStore::receiver_range(System system, char band,

@@ -41,10 +41,10 @@ class AntennaPatternStore {
   // Returns false (and changes nothing) if the pattern is not sane, if a satellite's depends on
   // azimuth or has more than kMaxNadirValues values, or if no slot for another band is free. A
   // pattern replaces the one of the same antenna, band and start of validity; an identical one
-  // changes nothing, not even the revision. Where kMaxAntennaIntervals other intervals are stored,
-  // it replaces the one that arrived first. There is one receiver antenna; its validity is ignored.
-  // Beyond kMaxSatelliteAntennas patterns, the satellite with most loses the one that arrived
-  // first.
+  // counts as arrived again, and leaves the revision. Where kMaxAntennaIntervals other intervals
+  // are stored, it replaces the one that arrived first. There is one receiver antenna; its validity
+  // is ignored. Beyond kMaxSatelliteAntennas patterns, a satellite with most loses the one that
+  // arrived first, which may be in use.
   bool add(const AntennaPattern& pattern);
 
   // Compute satellite_antenna_range_m and receiver_antenna_range_m with the pattern for the

@@ -24,8 +24,8 @@ struct Stored {
   std::uint64_t arrival = 0;
 };
 
-template <std::size_t kLongest>
-using Biases = PooledLists<Stored, kMaxEphemerisSatellites, kLongest>;
+template <std::size_t kLongest, std::size_t kAll>
+using Biases = PooledLists<Stored, kMaxEphemerisSatellites, kLongest, kAll>;
 
 bool has_ended(const Stored& stored, GpsTime time) {
   return stored.valid_until.is_set() && time >= stored.valid_until;
@@ -37,8 +37,8 @@ bool holds(const Stored& stored, GpsTime time) {
   return std::abs(seconds_between(time, stored.time)) <= kLongestBiasAge_s;
 }
 
-template <std::size_t kLongest>
-const Stored* find(const Biases<kLongest>& biases, SatelliteId satellite, SignalCode code,
+template <std::size_t kLongest, std::size_t kAll>
+const Stored* find(const Biases<kLongest, kAll>& biases, SatelliteId satellite, SignalCode code,
                    GpsTime time) {
   const Stored* newest = nullptr;
   for (const Stored& stored : biases[table_index_of(satellite)]) {
@@ -50,8 +50,8 @@ const Stored* find(const Biases<kLongest>& biases, SatelliteId satellite, Signal
 
 // Returns the slot for a bias: that of the same signal and beginning, a free one, or one of another
 // bias.
-template <std::size_t kLongest>
-Stored& slot_for(const SignalBias& bias, Biases<kLongest>* biases) {
+template <std::size_t kLongest, std::size_t kAll>
+Stored& slot_for(const SignalBias& bias, Biases<kLongest, kAll>* biases) {
   const std::size_t satellite = table_index_of(bias.satellite);
   const auto stored = (*biases)[satellite];
   const auto same = std::find_if(stored.begin(), stored.end(), [&](const Stored& s) {
@@ -65,14 +65,14 @@ Stored& slot_for(const SignalBias& bias, Biases<kLongest>* biases) {
   });
 }
 
-template <std::size_t kLongest>
-void keep(const SignalBias& bias, std::uint64_t arrival, Biases<kLongest>* biases) {
+template <std::size_t kLongest, std::size_t kAll>
+void keep(const SignalBias& bias, std::uint64_t arrival, Biases<kLongest, kAll>* biases) {
   slot_for(bias, biases) = {bias.code,        bias.time,   bias.valid_from,
                             bias.valid_until, bias.bias_m, arrival};
 }
 
-template <std::size_t kLongest>
-std::optional<GroupDelay> delay_of(const Biases<kLongest>& biases, const BandPlan& bands,
+template <std::size_t kLongest, std::size_t kAll>
+std::optional<GroupDelay> delay_of(const Biases<kLongest, kAll>& biases, const BandPlan& bands,
                                    SatelliteId satellite, GpsTime time, double sigma,
                                    SignalCode first, SignalCode second) {
   const Stored* a = find(biases, satellite, first, time);
@@ -92,8 +92,8 @@ std::optional<GroupDelay> delay_of(const Biases<kLongest>& biases, const BandPla
 struct SignalBiasStore::Storage {
   BandPlan bands;
   std::uint64_t arrivals = 0;
-  Biases<kMaxIntervals * kMaxSignalBiases> product{kMaxProductBiases};
-  Biases<kMaxSignalBiases> broadcast{kMaxBroadcastBiases};
+  Biases<kMaxIntervals * kMaxSignalBiases, kMaxProductBiases> product;
+  Biases<kMaxSignalBiases, kMaxBroadcastBiases> broadcast;
 };
 
 SignalBiasStore::SignalBiasStore(const BandPlan& bands) : storage_(std::make_unique<Storage>()) {

@@ -12,13 +12,16 @@ struct Element {
   int value = 0;
   std::uint64_t arrival = 0;
 };
-using Lists = PooledLists<Element, 3, 4>;
+template <std::size_t elements>
+using Lists = PooledLists<Element, 3, 4, elements>;
 
-void append(std::size_t list, int value, Lists* lists) {
+template <typename Any>
+void append(std::size_t list, int value, Any* lists) {
   lists->append(list) = {value, std::uint64_t(value)};
 }
 
-std::vector<int> values(const Lists& lists, std::size_t list) {
+template <typename Any>
+std::vector<int> values(const Any& lists, std::size_t list) {
   std::vector<int> values;
   for (const Element& element : lists[list]) values.push_back(element.value);
   return values;
@@ -27,7 +30,7 @@ std::vector<int> values(const Lists& lists, std::size_t list) {
 }  // namespace
 
 TEST_CASE("Lists in one pool keep their elements apart and in order", "[pooled_lists]") {
-  Lists lists(6);
+  Lists<6> lists;
   for (const int value : {1, 2, 3}) append(1, value, &lists);
   for (const int value : {4, 5}) append(2, value, &lists);
   CHECK(values(lists, 0).empty());
@@ -42,7 +45,7 @@ TEST_CASE("Lists in one pool keep their elements apart and in order", "[pooled_l
 
 TEST_CASE("Where the pool is used up, the longest list loses what arrived first",
           "[pooled_lists]") {
-  Lists lists(5);
+  Lists<5> lists;
   for (const int value : {3, 2, 7, 4}) append(1, value, &lists);
   append(2, 5, &lists);
   append(0, 8, &lists);
@@ -54,4 +57,16 @@ TEST_CASE("Where the pool is used up, the longest list loses what arrived first"
   CHECK(values(lists, 1) == std::vector{7, 4, 9});
   // What was lost leaves nothing behind.
   CHECK(lists.append(0).value == 0);
+}
+
+TEST_CASE("Of lists that are as long, that with the oldest first element makes room",
+          "[pooled_lists]") {
+  Lists<6> lists;
+  for (const int value : {3, 4}) append(0, value, &lists);
+  for (const int value : {1, 2}) append(1, value, &lists);
+  for (const int value : {5, 6}) append(2, value, &lists);
+  append(2, 7, &lists);
+  CHECK(values(lists, 0) == std::vector{3, 4});
+  CHECK(values(lists, 1) == std::vector{2});
+  CHECK(values(lists, 2) == std::vector{5, 6, 7});
 }

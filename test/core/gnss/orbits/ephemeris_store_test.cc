@@ -1,6 +1,7 @@
 #include "core/gnss/orbits/ephemeris_store.h"
 
 #include <limits>
+#include <vector>
 
 #include "broadcast_oracle.h"
 #include "core/base/capacity.h"
@@ -118,6 +119,38 @@ TEST_CASE("Both Galileo messages an hour ahead leave the sets in force where the
       }
     }
     CHECK(issue_at(ephemeris_store, kE11, 600.0 * now) == now);
+  }
+}
+
+TEST_CASE("Beyond the room for all satellites those with most lose the set that arrived first",
+          "[satellite_catalog]") {
+  EphemerisStore store{EphemerisConfig{}};
+  std::vector<SatelliteId> all;
+  for (const System system : kSystems)
+    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
+      all.push_back({system, number});
+  constexpr int kEach = static_cast<int>(kMaxEphemerides / kMaxEphemerisSatellites);
+  const auto set_of = [](SatelliteId id, int i) {
+    Ephemeris e = gps(1, 7200.0 * i, static_cast<std::uint16_t>(i));
+    e.satellite = id;
+    if (id.system == System::kGalileo) e.message = NavigationMessage::kGalileoInav;
+    if (id.system == System::kBeidou) e.message = NavigationMessage::kBeidouD1;
+    if (id.system == System::kLeo) e.sqrt_a = 2734.0;
+    return e;
+  };
+  const auto has = [&](SatelliteId id, int i) {
+    const Ephemeris* found = store.ephemeris_at(id, kNoon.plus_seconds(7200.0 * i));
+    return found != nullptr && found->issue == i;
+  };
+  for (int i = 0; i <= kEach; ++i)
+    for (const SatelliteId id : all) REQUIRE(store.add(set_of(id, i)));
+  // What the last round was more than the room for it has cost as many first sets, in their order.
+  const std::size_t lost = (kEach + 1) * all.size() - kMaxEphemerides;
+  REQUIRE(lost < all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CAPTURE(k);
+    CHECK(has(all[k], 0) == (k >= lost));
+    for (int i = 1; i <= kEach; ++i) CHECK(has(all[k], i));
   }
 }
 

@@ -1,6 +1,8 @@
 #include "core/gnss/propagation/antenna_pattern_store.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "antenna_patterns.h"
 #include "support/catch.h"
@@ -25,6 +27,42 @@ AntennaRange overhead(const AntennaPatternStore& ephemeris_store, SatelliteId id
 }
 
 const Vector3d kZenith(0, 0, -1);
+
+std::vector<SatelliteId> all_satellites() {
+  std::vector<SatelliteId> all;
+  for (const System system : kSystems)
+    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
+      all.push_back({system, number});
+  return all;
+}
+
+// Three of the satellite's bands.
+std::string bands_of(SatelliteId id) {
+  if (id.system == System::kGalileo) return "157";
+  return id.system == System::kBeidou ? "267" : "125";
+}
+
+BandPlan three_leo_bands() {
+  BandPlan plan;
+  plan.set_leo('5', plan.frequency_hz(System::kGps, '5'));
+  return plan;
+}
+
+// The pattern number `i` of six: three bands from the beginning, then the same from week 2000 on.
+// Its offset is i + 1 mm.
+AntennaPattern pattern_of(SatelliteId id, int i) {
+  AntennaPattern pattern =
+      satellite_pattern(id, bands_of(id)[static_cast<std::size_t>(i % 3)], {0, 0, i + 1.0});
+  if (i >= 3) pattern.valid_from = week(2000);
+  return pattern;
+}
+
+// Whether the store has that pattern.
+bool has(const AntennaPatternStore& store, SatelliteId id, int i) {
+  const char band = bands_of(id)[static_cast<std::size_t>(i % 3)];
+  const AntennaRange range = overhead(store, id, band, week(i >= 3 ? 2100 : 1999));
+  return range.status == AntennaStatus::kOk && std::abs(range.range_m + (i + 1) * 1e-3) < 1e-7;
+}
 
 }  // namespace
 
@@ -145,6 +183,40 @@ TEST_CASE("The antenna catalogue refuses what it cannot hold and keeps the rest"
   CHECK(overhead(ephemeris_store, {System::kGps, 63}, '1', week(1999)).range_m == Approx(-0.063));
   CHECK(overhead(ephemeris_store, {System::kGalileo, 1}, '1', week(1999)).range_m ==
         Approx(-0.001));
+}
+
+TEST_CASE("Beyond the antenna catalogue, every satellite keeps the patterns that came last",
+          "[antenna_catalog]") {
+  AntennaPatternStore store(three_leo_bands());
+  const std::vector<SatelliteId> all = all_satellites();
+  REQUIRE(all.size() == kMaxEphemerisSatellites);
+  REQUIRE(kMaxSatelliteAntennas == 4 * all.size());
+  for (int i = 0; i < 6; ++i)
+    for (const SatelliteId id : all) REQUIRE(store.add(pattern_of(id, i)));
+  for (const SatelliteId id : all) {
+    CAPTURE(to_string(id.system), id.number);
+    for (int i = 0; i < 6; ++i) CHECK(has(store, id, i) == (i >= 2));
+  }
+  CHECK(store.counters().refused == 0);
+}
+
+TEST_CASE("A pattern that was sent again is not the first to go", "[antenna_catalog]") {
+  AntennaPatternStore store(three_leo_bands());
+  const std::vector<SatelliteId> all = all_satellites();
+  const SatelliteId most = all.front(), fewest = all.back();
+  const auto count = [&](SatelliteId id) { return id == most ? 5 : id == fewest ? 3 : 4; };
+  for (const SatelliteId id : all)
+    for (int i = 0; i < count(id); ++i) REQUIRE(store.add(pattern_of(id, i)));
+  for (int i = 0; i < 5; ++i) REQUIRE(has(store, most, i));
+  const auto revision = [&] {
+    return overhead(store, most, bands_of(most)[0], week(1999)).revision;
+  };
+  const std::uint64_t before = revision();
+  REQUIRE(store.add(pattern_of(most, 0)));
+  CHECK(revision() == before);
+  REQUIRE(store.add(pattern_of(fewest, 3)));  // the first for which there is no room
+  for (int i = 0; i < 5; ++i) CHECK(has(store, most, i) == (i != 1));
+  for (int i = 0; i < 4; ++i) CHECK(has(store, fewest, i));
 }
 
 TEST_CASE("a pattern's revision changes with it, and not where the same one is sent again") {

@@ -50,6 +50,30 @@ TEST_CASE("The newest bias of a signal counts, and a full table drops what arriv
   CHECK_FALSE(store.code_delay(kG05, kTime, {'1', 'C'}));
 }
 
+TEST_CASE("Beyond the room for all satellites each loses the bias that arrived first") {
+  SignalBiasStore store;
+  constexpr int kEach = static_cast<int>(kMaxProductBiases / kMaxEphemerisSatellites);
+  for (int i = 0; i <= kEach; ++i)
+    for (const System system : kSystems)
+      for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
+        REQUIRE(store.add({{system, number},
+                           {'1', static_cast<char>('A' + i)},
+                           BiasKind::kCode,
+                           kTime,
+                           1.0 + i}));
+  for (const System system : kSystems) {
+    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number) {
+      CAPTURE(to_string(system), number);
+      for (int i = 0; i <= kEach; ++i) {
+        const auto delay =
+            store.code_delay({system, number}, kTime, {'1', static_cast<char>('A' + i)});
+        CHECK(delay.has_value() == (i > 0));
+        if (delay) CHECK(delay->delay_m == 1.0 + i);
+      }
+    }
+  }
+}
+
 TEST_CASE("A bias that is new is told from one that is followed by the next") {
   SignalBiasStore store;
   CHECK_FALSE(store.has(bias("1C", 2.0)));
