@@ -69,7 +69,7 @@ enum class CheckpointUse : std::uint8_t {
 };
 // Whether a use is that of the calibration.
 constexpr bool is_of_calibration(CheckpointUse use) {
-  return use >= CheckpointUse::kCalibrationUsed;
+  return use >= CheckpointUse::kCalibrationUsed && use <= CheckpointUse::kCalibrationImu;
 }
 // Returns the name of a use as outputs show it, for instance "taken_moving".
 std::string_view to_string(CheckpointUse use);

@@ -223,6 +223,13 @@ TEST_CASE("errors that no such IMU has are not taken, nor the constants found wi
   }
 }
 
+TEST_CASE("a code that nobody has given a meaning is none of the calibration's") {
+  CHECK_FALSE(is_of_calibration(CheckpointUse::kNotNeeded));
+  CHECK(is_of_calibration(CheckpointUse::kCalibrationUsed));
+  CHECK(is_of_calibration(CheckpointUse::kCalibrationImu));
+  CHECK_FALSE(is_of_calibration(static_cast<CheckpointUse>(11)));
+}
+
 TEST_CASE("of another mounting, antenna or time, or without calibration, nothing is taken") {
   const NavigatorConfig original = config_of_parked();
   const auto verdict_of = [](const NavigatorConfig& config, const Checkpoint& checkpoint,
