@@ -81,10 +81,13 @@ void ProductStore::keep_bias(const SignalBias& bias) {
   std::sort(first, end, is_before);
 }
 
+// Sorts without the lock, because what comes meanwhile would be left out.
 bool ProductStore::take(BroadcastProducts* products) {
-  const std::lock_guard lock(mutex_);
-  if (!std::exchange(changed_, false)) return false;
-  *products = products_;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(changed_, false)) return false;
+    *products = products_;
+  }
   std::sort(products->biases.begin(), products->biases.end(),
             [](const SignalBias& a, const SignalBias& b) {
               return a.time != b.time ? a.time < b.time : is_before(a, b);
