@@ -138,14 +138,21 @@ struct RtsSolver::Step {
   Reduced<Columns> units;
 
   // L, X, W, Y and Z
-  View<EkfCovariance> root() const { return at<EkfCovariance>(0, moved_before(), moved_before()); }
-  View<EkfCovariance> spread() const { return at<EkfCovariance>(1, moved_before(), moved()); }
-  View<EkfCovariance> predicted() const { return at<EkfCovariance>(2, moved(), moved()); }
-  View<Border> border() const { return at<Border>(3, moved_before(), kept()); }
-  View<Border> predicted_border() const { return at<Border>(4, moved(), kept()); }
+  auto root() { return at<EkfCovariance>(0, moved_before(), moved_before()); }
+  auto root() const { return at<EkfCovariance>(0, moved_before(), moved_before()); }
+  auto spread() { return at<EkfCovariance>(1, moved_before(), moved()); }
+  auto spread() const { return at<EkfCovariance>(1, moved_before(), moved()); }
+  auto predicted() { return at<EkfCovariance>(2, moved(), moved()); }
+  auto predicted() const { return at<EkfCovariance>(2, moved(), moved()); }
+  auto border() { return at<Border>(3, moved_before(), kept()); }
+  auto border() const { return at<Border>(3, moved_before(), kept()); }
+  auto predicted_border() { return at<Border>(4, moved(), kept()); }
+  auto predicted_border() const { return at<Border>(4, moved(), kept()); }
   // T and V of the ambiguities that walk
-  View<BorderMatrix> walk_root() const { return at<BorderMatrix>(5, walking(), walking()); }
-  View<WalkRows> walk_rows() const { return at<WalkRows>(6, walking(), moved() + kept()); }
+  auto walk_root() { return at<BorderMatrix>(5, walking(), walking()); }
+  auto walk_root() const { return at<BorderMatrix>(5, walking(), walking()); }
+  auto walk_rows() { return at<WalkRows>(6, walking(), moved() + kept()); }
+  auto walk_rows() const { return at<WalkRows>(6, walking(), moved() + kept()); }
 
   // Lays the matrices out for the partition.
   void lay_out() {
@@ -156,17 +163,27 @@ struct RtsSolver::Step {
     Index end = 0;
     for (std::size_t i = 0; i < kMatrices; ++i) {
       begins_[i] = end;
-      end += (sizes[i] + 1) / 2 * 2;  // each is aligned to 16 bytes
+      end += (sizes[i] + 1) / 2 * 2;  // each is aligned to kAlignment
     }
   }
 
  private:
   static constexpr std::size_t kMatrices = 7;
+  static constexpr int kAlignment = 2 * sizeof(double);  // bytes, as of new double[]
   static constexpr std::size_t kElements = 3u * kMaxSize * kMaxSize + kMatrices;
 
   template <typename Matrix>
-  View<Matrix> at(std::size_t matrix, Index rows, Index columns) const {
-    return View<Matrix>(elements_.get() + begins_[matrix], rows, columns);
+  View<Matrix> at(std::size_t matrix, Index rows, Index columns) {
+    return View<Matrix>(begin_of<Matrix>(matrix), rows, columns);
+  }
+  template <typename Matrix>
+  View<const Matrix> at(std::size_t matrix, Index rows, Index columns) const {
+    return View<const Matrix>(begin_of<Matrix>(matrix), rows, columns);
+  }
+  template <typename Matrix>
+  double* begin_of(std::size_t matrix) const {
+    static_assert(Eigen::internal::traits<Matrix>::Alignment <= kAlignment);
+    return elements_.get() + begins_[matrix];
   }
   Index moved_before() const { return static_cast<Index>(partition.moved_before.size()); }
   Index moved() const { return static_cast<Index>(partition.moved.size()); }
