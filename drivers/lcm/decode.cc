@@ -21,6 +21,7 @@
 #include <leonav/smoother_v1_t.hpp>
 
 #include "drivers/lcm/convert.h"
+#include "drivers/lcm/internal/read_message.h"
 #include "drivers/lcm/output_schema.h"
 #include "drivers/lcm/wire.h"
 
@@ -55,14 +56,10 @@ constexpr std::int32_t schema_of(const checkpoint_t&) { return wire::kCheckpoint
 constexpr std::int32_t schema_of(const checkpoint_v2_t&) { return 2; }
 constexpr std::int32_t schema_of(const leo_ephemeris_t&) { return wire::kLeoEphemerisSchema; }
 
-// Runs the generated decoder and checks that it used the whole message and that the schema is
-// known. Precondition: counts have been checked.
+// Reads a message of the newest schema. Precondition: counts have been checked.
 template <typename T>
 InputFault read(ByteSpan bytes, T* message) {
-  if (bytes.size() > wire::kMaxMessageBytes) return InputFault::kTooMany;
-  const int size = static_cast<int>(bytes.size());
-  if (message->decode(bytes.data(), 0, size) != size) return InputFault::kUndecodable;
-  return message->schema == schema_of(*message) ? InputFault::kNone : InputFault::kUnknownSchema;
+  return read_message(bytes, schema_of(*message), message);
 }
 
 // Reads a message whose only array may hold `capacity` elements.

@@ -5,6 +5,7 @@
 #include <leonav/command_nonce_t.hpp>
 #include <leonav/signed_command_t.hpp>
 
+#include "drivers/lcm/internal/read_message.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
@@ -15,14 +16,6 @@ std::array<std::uint8_t, size> bytes_of(const Message& message) {
   std::array<std::uint8_t, size> bytes{};
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
-}
-
-template <typename Message>
-InputFault read(ByteSpan bytes, std::size_t size, Message* message) {
-  const int length = static_cast<int>(size);
-  if (bytes.size() != size || message->decode(bytes.data(), 0, length) != length)
-    return InputFault::kUndecodable;
-  return message->schema == wire::kSchema ? InputFault::kNone : InputFault::kUnknownSchema;
 }
 
 }  // namespace
@@ -48,7 +41,7 @@ std::array<std::uint8_t, kCommandNonceBytes> encode_command_nonce(const CommandN
 
 InputFault decode_signed_command(ByteSpan bytes, SignedCommand* command) {
   signed_command_t message{};
-  const InputFault fault = read(bytes, kSignedCommandBytes, &message);
+  const InputFault fault = read_message(bytes, wire::kSchema, &message);
   if (fault != InputFault::kNone) return fault;
   command->sequence = static_cast<std::uint64_t>(std::max<std::int64_t>(message.sequence, 0));
   std::copy(std::begin(message.nonce), std::end(message.nonce), command->nonce.begin());
@@ -59,7 +52,7 @@ InputFault decode_signed_command(ByteSpan bytes, SignedCommand* command) {
 
 std::optional<CommandNonce> decode_command_nonce(ByteSpan bytes) {
   command_nonce_t message{};
-  if (read(bytes, kCommandNonceBytes, &message) != InputFault::kNone) return std::nullopt;
+  if (read_message(bytes, wire::kSchema, &message) != InputFault::kNone) return std::nullopt;
   CommandNonce nonce;
   std::copy(std::begin(message.nonce), std::end(message.nonce), nonce.begin());
   return nonce;
