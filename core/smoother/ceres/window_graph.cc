@@ -41,7 +41,7 @@ void copy_process(const Keyframe& before, const Keyframe& keyframe, LogProcess* 
   process->F = factor.F.topLeftCorner(core, core_before);
   process->noise = factor.noise.topLeftCorner(core, core);
   if (!factor.has_information) return;
-  process->information = factor.information.topLeftCorner(core_before, core_before);
+  process->information = factor.information;
   process->gradient = factor.gradient.head(core_before);
 }
 

@@ -188,4 +188,27 @@ TEST_CASE("a conditioned process tells what the measurement has told") {
   CHECK((P_now - P_expected).cwiseAbs().maxCoeff() < 1e-9 * P_expected.cwiseAbs().maxCoeff());
 }
 
+TEST_CASE("what a conditioned process tells is nothing of ambiguities") {
+  constexpr int kAmbiguities = 4, n = kMaxCore + kAmbiguities;
+  synthetic::Generator noise(8);
+  FilterProcess process;
+  process.begin(n);
+  for (int i = 0; i < kMaxCore; ++i)
+    for (int j = 0; j < kMaxCore; ++j) process.transition(i, j) += 0.1 * noise.normal();
+  Eigen::MatrixXd A(kMaxCore, kMaxCore);
+  for (double& x : A.reshaped()) x = noise.normal();
+  process.noise.topLeftCorner(kMaxCore, kMaxCore) = A * A.transpose();
+  process.noise.diagonal().tail(kAmbiguities).setConstant(1e-4);  // they walk
+  for (int i = 0; i < 3; ++i) {
+    EkfCorrection h = EkfCorrection::Zero(n);
+    for (int j = 0; j < kMaxCore; ++j) h(j) = noise.normal();
+    process.condition(h, noise.normal(), 0.1 + i);
+  }
+  REQUIRE(process.gradient.size() == n);
+  CHECK(process.information.rows() == kMaxCore);
+  CHECK_FALSE(process.gradient.head(kMaxCore).isZero());
+  CHECK(process.gradient.tail(kAmbiguities).isZero(0.0));
+  CHECK(process.transition.topRows(kMaxCore).middleCols(kMaxCore, kAmbiguities).isZero(0.0));
+}
+
 }  // namespace leonav
