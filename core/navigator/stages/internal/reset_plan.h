@@ -26,6 +26,8 @@ enum class CarrierReset : unsigned char {
 // - the means of FilterMonitor::add_consistency(), from which test_position() learns whether codes
 //   have been consistent,
 // - a checkpoint without a verdict, and whether the vehicle has turned since the start,
+// - the saved calibration, until the first attitude has used it; its learned factors and vehicle
+//   constants are for the first start alone,
 // - the last source of each satellite's orbit, and how long no satellite has been usable,
 // - the numbers and the thinning of events.
 //
