@@ -21,9 +21,9 @@ namespace leonav {
 
 // One measurement of a keyframe; its weight is factor / gain_variance.
 struct KeyframeMeasurement {
-  MeasuredRange measurement;  // satellite_index: into the keyframe's satellites
-  int ambiguity = -1;         // index among the state's ambiguities; -1: none
-  double variance = 0.0;      // of the measurement alone, for its test
+  MeasuredObservable measurement;  // satellite_index: into the keyframe's satellites
+  int ambiguity = -1;              // index among the state's ambiguities; -1: none
+  double variance = 0.0;           // of the measurement alone, for its test
   double gain_variance = 0.0;
   double factor = 1.0;    // IGG-III: first the filter's, later the window's
   double residual = 0.0;  // at the estimate where the window decided the factor, m or m/s

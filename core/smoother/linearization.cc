@@ -25,8 +25,9 @@ AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_
   return antenna;
 }
 
-LinearMeasurement linearize(const MeasuredRange& measurement, const SatelliteGeometry& satellite,
-                            const CoreState& state, const AntennaMotion& antenna) {
+LinearMeasurement linearize(const MeasuredObservable& measurement,
+                            const SatelliteGeometry& satellite, const CoreState& state,
+                            const AntennaMotion& antenna) {
   const MeasurementPrediction prediction =
       predict_measurement(measurement, satellite, antenna, state.clocks, state.wet_delay_m,
                           state.carrier_clock_m, state.ionosphere_m);

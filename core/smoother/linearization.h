@@ -20,8 +20,9 @@ struct LinearMeasurement {
 double row_of(const LinearMeasurement& linear, int state);
 
 // Linearizes a measurement at `state`; of a carrier the residual still contains the ambiguity.
-LinearMeasurement linearize(const MeasuredRange& measurement, const SatelliteGeometry& satellite,
-                            const CoreState& state, const AntennaMotion& antenna);
+LinearMeasurement linearize(const MeasuredObservable& measurement,
+                            const SatelliteGeometry& satellite, const CoreState& state,
+                            const AntennaMotion& antenna);
 
 // Returns position and velocity of the keyframe's antenna (ECEF) from its state and the lever arm
 // (m).

@@ -84,7 +84,7 @@ void add_by_antenna(const RowVector3d& by_p, const RowVector3d& by_v, const Ante
 
 }  // namespace
 
-MeasurementPrediction predict_measurement(const MeasuredRange& measurement,
+MeasurementPrediction predict_measurement(const MeasuredObservable& measurement,
                                           const SatelliteGeometry& satellite,
                                           const AntennaMotion& antenna, const ClockState& clocks,
                                           double wet_delay_m, double carrier_clock_m,

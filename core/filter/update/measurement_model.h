@@ -63,7 +63,7 @@ struct MeasurementPrediction {
 // Predicts one measurement (core/gnss/measurement/measurement.h has the model). `wet_delay_m` and
 // `ionosphere_m`: at zenith, beyond the modelled ones. `carrier_clock_m`: clock of the carriers
 // minus that of the codes. A carrier is predicted without its ambiguity.
-MeasurementPrediction predict_measurement(const MeasuredRange& measurement,
+MeasurementPrediction predict_measurement(const MeasuredObservable& measurement,
                                           const SatelliteGeometry& satellite,
                                           const AntennaMotion& antenna, const ClockState& clocks,
                                           double wet_delay_m, double carrier_clock_m,

@@ -112,8 +112,9 @@ struct IonosphereError {
 // carrier contain wet_mapping w of a zenith wet delay w beyond the modelled one, and a code of one
 // frequency ionosphere.mapping of a zenith ionosphere delay beyond the modelled one.
 //
-// MeasuredRange is the part that a prediction and tests of the residual need.
-struct MeasuredRange {
+// MeasuredObservable is the part that a prediction and tests of the residual need: the value of one
+// observable with its sigma.
+struct MeasuredObservable {
   std::uint16_t satellite_index = 0;  // into MeasurementEpoch::satellites
   Observable observable = Observable::kCode;
   SignalCode code;         // first signal
@@ -132,7 +133,7 @@ struct MeasuredRange {
     return correlated_sigma * correlated_sigma - ionosphere.variance;
   }
 };
-struct Measurement : MeasuredRange {
+struct Measurement : MeasuredObservable {
   double correlation_time_s = 0.0;  // code only: of correlated_sigma
   // Code only, m^2: the part of sigma^2 that lasts for minutes, without what the satellites have of
   // the ionosphere in common: orbit, clock, antenna, ionosphere, group delay, band, troposphere.

@@ -28,7 +28,7 @@ struct AmbiguityPiece {
 
 // One measurement of a keyframe; its weight is factor / gain_variance.
 struct LogMeasurement {
-  MeasuredRange measurement;        // satellite_index: into the keyframe's satellites
+  MeasuredObservable measurement;   // satellite_index: into the keyframe's satellites
   int piece = -1;                   // of LogGraph::pieces(); -1: no carrier
   double ambiguity_offset_m = 0.0;  // the carrier's ambiguity minus the piece's value
   double variance = 0.0;            // of the measurement alone, for its test
