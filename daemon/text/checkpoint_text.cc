@@ -43,7 +43,7 @@ std::string checkpoint_text(CheckpointUse use, double value) {
       return "calibration ignored: vehicle.mounting_rpy_deg, vehicle.lever_arm_b_m or "
              "imu.time_offset_ms has changed";
     case CheckpointUse::kCalibrationImu:
-      return "calibration of the IMU ignored: it differs by " + number(value) +
+      return "calibration ignored: that of the IMU differs by " + number(value) +
              " sigma; another IMU?";
   }
   return "checkpoint: unknown";
