@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::size_t kRecentLooks = 11;  // ten seconds between the first and the last
 constexpr std::uint64_t kLeastDamaged = 3;
+// So many of the last intervals between epochs count. A longer one is a pause.
+constexpr std::size_t kRecentIntervals = 3;
+constexpr double kLongestInterval_s = 60.0;
 
 }  // namespace
 
@@ -40,6 +43,7 @@ void StreamWatch::on_open(std::int64_t now_ns) {
   unreadable_since_ns_.reset();
   no_data_since_ns_.reset();
   last_epoch_ns_.reset();
+  intervals_s_.clear();
   recent_.clear();
   set(StreamState::kConnecting, "open");
 }
@@ -91,9 +95,23 @@ std::string StreamWatch::damage(const FormatCounts& counts, double least_share) 
 
 std::string StreamWatch::no_epochs(std::int64_t now_ns) const {
   return leonav::format(
-      "no epoch for %.0f s, although other messages come: does the receiver still send its "
+      "no epoch with signals for %.0f s, although other messages come: does the receiver still "
+      "send its "
       "measurements, does the port's rate suffice for them, and is the antenna connected?",
       age_s(last_epoch_ns_, now_ns));
+}
+
+void StreamWatch::note_epoch(std::int64_t now_ns) {
+  if (last_epoch_ns_) {
+    intervals_s_.push_back(std::min(age_s(last_epoch_ns_, now_ns), kLongestInterval_s));
+    if (intervals_s_.size() > kRecentIntervals) intervals_s_.pop_front();
+  }
+  last_epoch_ns_ = now_ns;
+}
+
+double StreamWatch::no_data_limit_s() const {
+  const auto longest = std::max_element(intervals_s_.begin(), intervals_s_.end());
+  return std::max(limits_.no_data_s, longest == intervals_s_.end() ? 0.0 : 3.0 * *longest);
 }
 
 void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
@@ -119,7 +137,8 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   } else if (new_frames && !no_data_since_ns_) {
     no_data_since_ns_ = now_ns;
   }
-  if (new_epochs || (counts.epochs > 0 && !last_epoch_ns_)) last_epoch_ns_ = now_ns;
+  if (new_epochs) note_epoch(now_ns);
+  if (counts.epochs + counts.empty_epochs > 0 && !last_epoch_ns_) last_epoch_ns_ = now_ns;
   // Half the share ends it, so that the state does not change each second.
   const double least_share = (state_ == StreamState::kDamaged ? 0.5 : 1.0) * limits_.damaged_share;
   if (silence_s(now_ns) > limits_.silent_s) {
@@ -131,11 +150,11 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   } else if (age_s(unreadable_since_ns_, now_ns) > limits_.unreadable_s) {
     const std::string text = damage(counts, limits_.damaged_share);
     set(StreamState::kUnreadable, format.why_no_frames() + (text.empty() ? "" : "; ") + text);
-  } else if (age_s(no_data_since_ns_, now_ns) > limits_.no_data_s) {
+  } else if (age_s(no_data_since_ns_, now_ns) > no_data_limit_s()) {
     // Damage may be why only messages of other kinds are whole.
     const std::string text = damage(counts, 2.0 * limits_.damaged_share);
     set(StreamState::kNoData, text.empty() ? format.why_no_messages() : text);
-  } else if (age_s(last_epoch_ns_, now_ns) > limits_.no_data_s) {
+  } else if (age_s(last_epoch_ns_, now_ns) > no_data_limit_s()) {
     // Inertial samples, ephemerides and corrections must not hide it.
     const std::string text = damage(counts, 2.0 * limits_.damaged_share);
     set(StreamState::kNoData, text.empty() ? no_epochs(now_ns) : text);

@@ -15,19 +15,21 @@ enum class StreamState : std::uint8_t {
   kWaiting,     // could not be opened or broke off; tried again later
   kSilent,      // open, but no byte comes
   kUnreadable,  // bytes come, but no whole message
-  kNoData,      // whole messages come, but nothing to publish, or a receiver's epochs have stopped
-  kDamaged,     // messages are published, but many arrive damaged
-  kGood,        // messages are published
-  kEnded,       // finished for good
+  kNoData,   // whole messages come, but nothing to publish, or a receiver's epochs have no signals
+  kDamaged,  // messages are published, but many arrive damaged
+  kGood,     // messages are published
+  kEnded,    // finished for good
 };
 
 // Returns the word for the state in logs and in stream_t.
 const char* name_of(StreamState state);
 
 struct WatchLimits {
-  double silent_s = 3.0;       // without a byte
-  double unreadable_s = 5.0;   // with bytes, but without a whole message
-  double no_data_s = 10.0;     // with whole messages, but without one published, or without epochs
+  double silent_s = 3.0;      // without a byte
+  double unreadable_s = 5.0;  // with bytes, but without a whole message
+  // With whole messages, but without one published, or without a receiver's epoch that has signals;
+  // of a receiver with rare epochs three times their interval, where that is longer.
+  double no_data_s = 10.0;
   double damaged_share = 0.1;  // of the messages of the last looks, and at least three of them
 };
 
@@ -71,6 +73,8 @@ class StreamWatch {
   // Returns how many of the last messages were damaged, with the remedy; empty: few.
   std::string damage(const FormatCounts& counts, double least_share);
   std::string no_epochs(std::int64_t now_ns) const;
+  void note_epoch(std::int64_t now_ns);
+  double no_data_limit_s() const;
   void set(StreamState state, const std::string& text) {
     state_ = state;
     text_ = text;
@@ -87,7 +91,10 @@ class StreamWatch {
   Instant last_byte_ns_, last_message_ns_;
   // Since when bytes come without a message, and messages without one published.
   Instant unreadable_since_ns_, no_data_since_ns_;
-  Instant last_epoch_ns_;  // or since when the next one is awaited; unset: none has ever come
+  // Of the last epoch with signals, or since when the next one is awaited; unset: the receiver has
+  // sent no epoch at all.
+  Instant last_epoch_ns_;
+  std::deque<double> intervals_s_;  // between the last epochs
   std::uint64_t bytes_ = 0, bytes_seen_ = 0, failures_ = 0;
   FormatCounts seen_;                // at the last look
   std::deque<FormatCounts> recent_;  // of the last looks, the oldest first

@@ -105,7 +105,7 @@ TEST_CASE("A receiver whose epochs have stopped is told although it sends inerti
   CHECK(rig.watch.state() == StreamState::kGood);
   rig.seconds(1, 100, 5, 5);
   CHECK(rig.watch.state() == StreamState::kNoData);
-  CHECK_THAT(rig.watch.text(), Catch::Contains("no epoch for 11 s"));
+  CHECK_THAT(rig.watch.text(), Catch::Contains("no epoch with signals for 11 s"));
   rig.epochs = 1;
   rig.seconds(1, 100, 5, 5);
   CHECK(rig.watch.state() == StreamState::kGood);
@@ -120,6 +120,65 @@ TEST_CASE("A receiver whose epochs have stopped is told although it sends inerti
   rig.watch.on_open(rig.now_ns);
   rig.seconds(10, 100, 5, 5);
   CHECK(rig.watch.state() == StreamState::kGood);
+}
+
+TEST_CASE("A receiver whose antenna is cut is told, since its start or later", "[connect]") {
+  const bool had_signals = GENERATE(true, false);
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  rig.epochs = 1;
+  if (had_signals) rig.seconds(5, 100, 1, 1);
+  rig.epochs = 0;
+  for (int i = 0; i < 12; ++i) {
+    ++rig.format.now.empty_epochs;
+    rig.seconds(1, 100, 1, 1);
+  }
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  CHECK_THAT(rig.watch.text(), Catch::Contains("no epoch with signals"));
+}
+
+TEST_CASE("A receiver with an epoch each 20 s is good in between, and told after a minute",
+          "[connect]") {
+  // The messages between are published, or are of other kinds.
+  const std::uint64_t published = GENERATE(0, 1);
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  const auto epoch = [&] {
+    rig.epochs = 1;
+    rig.seconds(1, 500, 2, 2);
+    rig.epochs = 0;
+  };
+  // The interval is known from the second epoch on.
+  epoch();
+  rig.seconds(19, 100, 5, published);
+  epoch();
+  for (int k = 0; k < 10; ++k) {
+    for (int i = 0; i < 19; ++i) {
+      rig.seconds(1, 100, 5, published);
+      CHECK(rig.watch.state() == StreamState::kGood);
+    }
+    epoch();
+  }
+  rig.seconds(60, 100, 5, published);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(1, 100, 5, published);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+}
+
+TEST_CASE("A long pause does not make a later stop of the epochs be told late", "[connect]") {
+  Rig rig;
+  rig.watch.on_open(rig.now_ns);
+  rig.epochs = 1;
+  rig.seconds(5, 100, 5, 5);
+  rig.epochs = 0;
+  rig.seconds(600, 100, 5, 5);
+  rig.epochs = 1;
+  rig.seconds(5, 100, 5, 5);
+  rig.epochs = 0;
+  rig.seconds(10, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(1, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kNoData);
 }
 
 TEST_CASE("Failures and the end keep their reason", "[connect]") {

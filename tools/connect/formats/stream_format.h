@@ -14,7 +14,8 @@ namespace leonav {
 struct FormatCounts {
   std::uint64_t frames = 0;    // messages or lines of the format that are whole
   std::uint64_t messages = 0;  // published; of corrections those with states
-  std::uint64_t epochs = 0;  // of these the receiver's epochs; other messages do not stand for them
+  // Of these the receiver's epochs, with signals and without. Other messages do not stand for them.
+  std::uint64_t epochs = 0, empty_epochs = 0;
   std::uint64_t damaged = 0;  // refused by checksum, length or number of columns
   std::uint64_t refused = 0;  // whole, but with values or times that cannot be used
 };

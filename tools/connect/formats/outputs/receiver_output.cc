@@ -29,7 +29,7 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
-  ++epochs_;
+  ++(epoch.observations.empty() ? empty_epochs_ : epochs_);
   repeat_ephemerides(epoch.time);
 }
 

@@ -36,7 +36,9 @@ class ReceiverOutput {
 
   GpsTime last_epoch() const { return last_epoch_; }
   std::uint64_t messages() const { return messages_; }  // published
-  std::uint64_t epochs() const { return epochs_; }      // of these
+  // Of these the epochs with signals, and those without, as of an antenna that is cut.
+  std::uint64_t epochs() const { return epochs_; }
+  std::uint64_t empty_epochs() const { return empty_epochs_; }
   // The time of the last epoch, by which a file without recorded arrivals is played.
   std::optional<DataTime> data_time() const;
   // What came, in a few words; empty while nothing has come.
@@ -53,7 +55,7 @@ class ReceiverOutput {
   std::uint64_t time_steps_ = 0;
   double last_step_s_ = 0.0;
   std::size_t last_signals_ = 0;
-  std::uint64_t messages_ = 0, epochs_ = 0, ephemerides_ = 0;
+  std::uint64_t messages_ = 0, epochs_ = 0, empty_epochs_ = 0, ephemerides_ = 0;
 };
 
 }  // namespace leonav

@@ -32,6 +32,7 @@ FormatCounts Oem7Format::counts() const {
   counts.frames = c.framer.messages;
   counts.messages = receiver_.messages() + sent_samples_;
   counts.epochs = receiver_.epochs();
+  counts.empty_epochs = receiver_.empty_epochs();
   counts.damaged = c.framer.bad_checksums + c.framer.bad_headers + c.framer.incomplete;
   counts.refused = c.ranges.bad_length + c.ranges.without_time + c.ranges.without_reference +
                    c.epochs.bad_value + c.epochs.bad_satellite + c.ephemerides.bad_length +

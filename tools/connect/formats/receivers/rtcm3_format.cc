@@ -72,6 +72,7 @@ FormatCounts Rtcm3Format::counts() const {
   const bool has_corrections = is_service_ && last_ssr_.is_set();
   counts.messages = ssr_messages_ + (has_corrections ? 0 : receiver_.messages());
   counts.epochs = receiver_.epochs();
+  counts.empty_epochs = receiver_.empty_epochs();
   counts.damaged = c.framer.bad_checksums + c.framer.incomplete + c.framer.too_short;
   counts.refused = c.epochs.bad_length + c.epochs.bad_mask + c.epochs.bad_time + c.epochs.late +
                    c.epochs.other_station + c.epochs.without_reference +

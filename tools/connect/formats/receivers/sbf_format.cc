@@ -32,6 +32,7 @@ FormatCounts SbfFormat::counts() const {
   counts.frames = c.framer.blocks;
   counts.messages = receiver_.messages() + pages_.published() + sent_samples_;
   counts.epochs = receiver_.epochs();
+  counts.empty_epochs = receiver_.empty_epochs();
   counts.damaged =
       c.framer.bad_checksums + c.framer.bad_lengths + c.framer.incomplete + pages_.damaged();
   counts.refused = c.measurements.bad_length + c.measurements.without_time +

@@ -70,6 +70,7 @@ FormatCounts UbxFormat::counts() const {
   counts.frames = c.framer.messages;
   counts.messages = receiver_.messages() + pages_.published();
   counts.epochs = receiver_.epochs();
+  counts.empty_epochs = receiver_.empty_epochs();
   counts.damaged =
       c.framer.bad_checksums + c.framer.oversize + c.framer.incomplete + pages_.damaged();
   counts.refused = c.rawx.bad_length + c.rawx.bad_version + c.rawx.bad_time + c.rawx.bad_value +

@@ -33,4 +33,24 @@ TEST_CASE("A receiver whose time leaps says so, and one that was off for hours d
   CHECK_THAT(receiver.detail(), Catch::Contains("stepped 2 times, the last by 100007204 s"));
 }
 
+TEST_CASE("An epoch without a signal is published and does not count as one with signals",
+          "[connect]") {
+  Nowhere nowhere;
+  MessageOutput output(&nowhere);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  ReceiverOutput receiver(0.0, &clock, &output);
+  RawEpoch epoch;
+  epoch.time = GpsTime::from_nanoseconds(1'300'000'000'000'000'000);
+  receiver.send(epoch, 0);
+  CHECK(receiver.messages() == 1);
+  CHECK(receiver.epochs() == 0);
+  CHECK(receiver.empty_epochs() == 1);
+  epoch.time = epoch.time.plus_seconds(1.0);
+  epoch.observations.emplace_back();
+  receiver.send(epoch, 0);
+  CHECK(receiver.messages() == 2);
+  CHECK(receiver.epochs() == 1);
+  CHECK(receiver.empty_epochs() == 1);
+}
+
 }  // namespace leonav
