@@ -33,6 +33,7 @@ struct RecordingWriter::State {
   std::FILE* file = nullptr;  // the thread's
   std::vector<std::uint8_t> queue;
   bool is_flush_due = false, is_end = false, is_closed = false;
+  std::chrono::steady_clock::time_point ended;  // when is_end was set
   std::string problem;
   bool has_failed = false;  // the file takes nothing more
 
@@ -108,7 +109,7 @@ bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_
   const std::size_t size = header.size() + bytes.size();
   const std::lock_guard lock(state_->mutex);
   if (limits_.file_bytes > 0 && accepted_bytes_ + size > limits_.file_bytes) {
-    if (state_->problem.empty()) state_->problem = "has reached its limit, 'record_limit_gb'";
+    if (state_->problem.empty()) state_->problem = "has reached its limit, 'record_limit_mb'";
   }
   if (!state_->problem.empty()) return false;
   if (state_->queue.size() + size > limits_.queued_bytes) {
@@ -129,12 +130,18 @@ bool RecordingWriter::flush() {
   return state_->problem.empty();
 }
 
+void RecordingWriter::end() {
+  const std::lock_guard lock(state_->mutex);
+  if (std::exchange(state_->is_end, true)) return;
+  state_->ended = std::chrono::steady_clock::now();
+  state_->wake.notify_one();
+}
+
 bool RecordingWriter::close() {
+  end();
   std::unique_lock lock(state_->mutex);
-  if (!std::exchange(state_->is_end, true)) {
-    state_->wake.notify_one();
-    state_->closed.wait_for(lock, kCloseTimeout, [this] { return state_->is_closed; });
-  }
+  state_->closed.wait_until(lock, state_->ended + kCloseTimeout,
+                            [this] { return state_->is_closed; });
   if (!state_->is_closed && state_->problem.empty()) {
     state_->problem = "cannot be completed: the disk takes nothing any more";
   }

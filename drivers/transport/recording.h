@@ -15,12 +15,13 @@
 namespace leonav {
 
 struct RecordingLimits {
-  std::uint64_t file_bytes = 0;          // a longer recording ends; 0: none
+  std::uint64_t file_bytes = 0;          // at which a recording ends; 0: none
   std::size_t queued_bytes = 8U << 20U;  // that wait for the disk; what comes then is dropped
 };
 
 // Appends blocks to a new file, in a thread of its own: a disk that stalls holds up nobody. An
-// error ends the recording, and nothing else.
+// error ends the recording, and nothing else. Whoever destroys it does not wait either: what is
+// queued goes to the file as long as the process runs.
 class RecordingWriter {
  public:
   // Never overwrites: a file that exists is kept, and PATH.1, PATH.2, ... is written. Throws
@@ -28,20 +29,26 @@ class RecordingWriter {
   explicit RecordingWriter(const std::string& path, const RecordingLimits& limits = {});
   // Writes to a file that is open, and closes it.
   RecordingWriter(std::FILE* file, const std::string& path, const RecordingLimits& limits);
-  ~RecordingWriter() { close(); }
+  ~RecordingWriter() { end(); }
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
   // They wait for nothing, and return false once writing has failed; error() then says why.
   bool write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes);
   bool flush();
-  // Writes what is queued and closes the file. A disk that stalls is given up after kCloseTimeout.
+  // Nothing more will be written: what is queued goes to the file, which is then closed.
+  void end();
+  // The same, and waits for it. A disk that stalls is given up kCloseTimeout after end().
   bool close();
 
   const std::string& path() const { return path_; }
   std::string error() const;
   // Bytes of the stream that were left out because the disk was too slow.
   std::uint64_t dropped_bytes() const { return dropped_bytes_; }
+  // Nine tenths of its limit are used up.
+  bool is_near_limit() const {
+    return limits_.file_bytes > 0 && accepted_bytes_ > limits_.file_bytes / 10 * 9;
+  }
 
  private:
   static constexpr std::chrono::seconds kCloseTimeout{3};

@@ -254,6 +254,7 @@ ConnectorEnd Connector::run() {
   s.manager.ready();
   s.io.run();
   s.manager.stopping();
+  for (const auto& stream : s.streams) stream->end_recording();
   bool failed = s.output.sent() == 0;
   for (const auto& stream : s.streams) {
     stream->finish();

@@ -32,14 +32,18 @@ Stream::Stream(const StreamConfig& config, const ArrivalClock* clock,
   if (config.record.empty()) return;
   recording_ = std::make_unique<RecordingWriter>(
       config.record, RecordingLimits{.file_bytes = config.record_limit_bytes});
+  is_recording_ = true;
   spdlog::info("{}: every byte goes to {}", name_, recording_->path());
 }
 
 void Stream::start() { source_->start(this); }
 
+void Stream::end_recording() {
+  if (recording_) recording_->end();
+}
+
 void Stream::finish() {
-  if (recording_ && !recording_->close()) tell_recording_error();
-  recording_.reset();
+  if (recording_ && !recording_->close() && is_recording_) tell_recording_error();
 }
 
 void Stream::on_open() {
@@ -50,7 +54,7 @@ void Stream::on_open() {
 }
 
 void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
-  if (recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
+  if (is_recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
   watch_.on_bytes(bytes.size(), clock_->now_ns());
   format_->feed(bytes, arrival_ns);
 }
@@ -90,7 +94,7 @@ void Stream::on_end(const std::string& why) {
 }
 
 void Stream::look() {
-  if (recording_) look_at_recording();
+  if (is_recording_) look_at_recording();
   if (has_ended()) return;
   const std::int64_t now_ns = clock_->now_ns();
   watch_.look(now_ns, *format_);
@@ -109,16 +113,21 @@ void Stream::look() {
 
 void Stream::look_at_recording() {
   if (!recording_->flush()) return tell_recording_error();
+  if (recording_->is_near_limit() && !std::exchange(limit_is_told_, true)) {
+    spdlog::warn("{}: the recording will end soon: {} has nine tenths of its 'record_limit_mb'",
+                 name_, recording_->path());
+  }
   const std::uint64_t dropped = recording_->dropped_bytes();
   if (dropped == std::exchange(told_dropped_, dropped)) return;
   spdlog::warn("{}: the recording lacks {} bytes since the start: the disk of {} is too slow",
                name_, dropped, recording_->path());
 }
 
-// Once: the stream goes on without its recording.
+// Once: the stream goes on without its recording, whose thread writes what is queued.
 void Stream::tell_recording_error() {
   spdlog::error("{}: the recording ends: {}", name_, recording_->error());
-  recording_.reset();
+  is_recording_ = false;
+  recording_->end();
 }
 
 }  // namespace leonav

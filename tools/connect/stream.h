@@ -25,7 +25,9 @@ class Stream final : public ByteSink {
   void start();
   // Once a second: decides the state anew, logs what has changed, and writes the recording out.
   void look();
-  // Completes the recording.
+  // Ends the recording, which its own thread completes; then waits for that thread. The second
+  // comes once all streams have been told to end, so that their disks are waited for together.
+  void end_recording();
   void finish();
 
   const std::string& name() const { return name_; }
@@ -51,6 +53,8 @@ class Stream final : public ByteSink {
   StreamWatch watch_;
   double reconnect_after_s_;
   std::unique_ptr<RecordingWriter> recording_;
+  bool is_recording_ = false;       // it has not ended
+  bool limit_is_told_ = false;      // that it is near
   std::uint64_t told_dropped_ = 0;  // bytes that the recording lacks
   StreamState told_ = StreamState::kConnecting;
   std::string told_failure_;

@@ -12,7 +12,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0, kMillisecond = 1e-3, kGigabyte = 1e9;
+constexpr double kDegree = std::numbers::pi / 180.0, kMillisecond = 1e-3, kMegabyte = 1e6;
 constexpr double kStandardGravity_m_s2 = 9.80665;
 
 const std::vector<std::pair<std::string, LineColumn>> kColumns = {
@@ -169,9 +169,9 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
     group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
   }
   group.text("record", &stream->record);
-  double record_limit_gb = static_cast<double>(stream->record_limit_bytes) / kGigabyte;
-  group.number("record_limit_gb", {0.0, 1e6}, &record_limit_gb);
-  stream->record_limit_bytes = static_cast<std::uint64_t>(record_limit_gb * kGigabyte);
+  double record_limit_mb = static_cast<double>(stream->record_limit_bytes) / kMegabyte;
+  group.number("record_limit_mb", {0.0, 1e9}, &record_limit_mb);
+  stream->record_limit_bytes = static_cast<std::uint64_t>(record_limit_mb * kMegabyte);
   stream->record = in_folder(folder, stream->record);
   // A service sends clocks each five or ten seconds, and nothing in between.
   if (stream->is_service) stream->silent_s = 15.0;

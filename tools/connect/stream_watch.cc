@@ -96,8 +96,7 @@ std::string StreamWatch::damage(const FormatCounts& counts, double least_share) 
 std::string StreamWatch::no_epochs(std::int64_t now_ns) const {
   return leonav::format(
       "no epoch with signals for %.0f s, although other messages come: does the receiver still "
-      "send its "
-      "measurements, does the port's rate suffice for them, and is the antenna connected?",
+      "send its measurements, does the port's rate suffice for them, and is the antenna connected?",
       age_s(last_epoch_ns_, now_ns));
 }
 

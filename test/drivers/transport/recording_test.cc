@@ -28,6 +28,7 @@ void write_three(const std::string& path) {
   REQUIRE(writer.write(1'050'000'000, two));
   REQUIRE(writer.write(1'100'000'000, three));
   REQUIRE(writer.flush());
+  REQUIRE(writer.close());
 }
 
 class Collector : public ByteSink {
@@ -149,9 +150,70 @@ TEST_CASE("A full disk and a recording's limit end the recording alone", "[trans
   CHECK(limited.write(1'000'000'000, Bytes(100, 1)));
   CHECK(limited.write(1'000'000'001, Bytes(100, 2)));
   CHECK_FALSE(limited.write(1'000'000'002, Bytes(100, 3)));
-  CHECK_THAT(limited.error(), Catch::Contains("record_limit_gb"));
+  CHECK_THAT(limited.error(), Catch::Contains("record_limit_mb"));
   CHECK_FALSE(limited.close());
   CHECK(std::filesystem::file_size(path) == 19 + 2 * (12 + 100));
+}
+
+TEST_CASE("A recording that ends at its limit on a stalled disk holds nothing up", "[transport]") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const auto start = ArrivalClock::Steady::now();
+  {
+    RecordingWriter writer(fdopen(ends[1], "wb"), "pipe", {.file_bytes = 1U << 20U});
+    int taken = 0;
+    while (writer.write(1'000'000'000, Bytes(4096, 7))) ++taken;
+    CHECK(taken == 255);
+    CHECK_THAT(writer.error(), Catch::Contains("has reached its limit"));
+    writer.end();
+  }
+  CHECK(ArrivalClock::Steady::now() - start < std::chrono::seconds(1));
+  std::signal(SIGPIPE, SIG_IGN);
+  close(ends[0]);
+}
+
+TEST_CASE("Stalled disks of several recordings are waited for together", "[transport]") {
+  int first[2], second[2];
+  REQUIRE(pipe(first) == 0);
+  REQUIRE(pipe(second) == 0);
+  RecordingWriter one(fdopen(first[1], "wb"), "one", {}), two(fdopen(second[1], "wb"), "two", {});
+  REQUIRE(one.write(1'000'000'000, Bytes(1U << 20U, 7)));
+  REQUIRE(two.write(1'000'000'000, Bytes(1U << 20U, 7)));
+  const auto start = ArrivalClock::Steady::now();
+  one.end();
+  two.end();
+  CHECK_FALSE(one.close());
+  CHECK_FALSE(two.close());
+  CHECK(ArrivalClock::Steady::now() - start < std::chrono::seconds(5));
+  std::signal(SIGPIPE, SIG_IGN);
+  close(first[0]);
+  close(second[0]);
+}
+
+TEST_CASE("What is queued goes to the file although nobody waits for it", "[transport]") {
+  const test::TemporaryFile place("unused", "");
+  const std::string path = place.beside("a.leoraw");
+  { REQUIRE(RecordingWriter(path).write(1'000'000'000, Bytes(100, 1))); }
+  const auto start = ArrivalClock::Steady::now();
+  while (std::filesystem::file_size(path) < 19 + 12 + 100 &&
+         ArrivalClock::Steady::now() - start < std::chrono::seconds(10)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  CHECK(std::filesystem::file_size(path) == 19 + 12 + 100);
+}
+
+TEST_CASE("A recording is near its limit from nine tenths on, and without a limit never",
+          "[transport]") {
+  const test::TemporaryFile place("unused", "");
+  RecordingWriter limited(place.beside("a.leoraw"), {.file_bytes = 10'000});
+  RecordingWriter unlimited(place.beside("b.leoraw"));
+  for (RecordingWriter* writer : {&limited, &unlimited}) {
+    CHECK(writer->write(1'000'000'000, Bytes(8900, 1)));
+  }
+  CHECK_FALSE(limited.is_near_limit());
+  CHECK(limited.write(1'000'000'000, Bytes(100, 1)));
+  CHECK(limited.is_near_limit());
+  CHECK_FALSE(unlimited.is_near_limit());
 }
 
 TEST_CASE("A damaged length is an error with its place, and allocates nothing", "[transport]") {

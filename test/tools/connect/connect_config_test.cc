@@ -91,9 +91,9 @@ TEST_CASE("A recording has a limit unless 0 takes it away", "[connect]") {
         .record_limit_bytes;
   };
   CHECK(limit("") == 10'000'000'000);
-  CHECK(limit(", record_limit_gb: 0.5") == 500'000'000);
-  CHECK(limit(", record_limit_gb: 0") == 0);
-  CHECK_THROWS_AS(limit(", record_limit_gb: -1"), ConfigError);
+  CHECK(limit(", record_limit_mb: 500") == 500'000'000);
+  CHECK(limit(", record_limit_mb: 0") == 0);
+  CHECK_THROWS_AS(limit(", record_limit_mb: -1"), ConfigError);
 }
 
 TEST_CASE("Pages come from a service as text, or from a receiver that is told to use them",
