@@ -92,6 +92,12 @@ void read_corrections(ConfigReader& group, CorrectionOptions* options,
 
 }  // namespace
 
+bool has_only_files(const ConnectConfig& config) {
+  return std::all_of(config.streams.begin(), config.streams.end(), [](const StreamConfig& stream) {
+    return std::holds_alternative<FileOptions>(stream.source);
+  });
+}
+
 const char* name_of(FormatKind format) {
   switch (format) {
     case FormatKind::kUbx:

@@ -63,6 +63,9 @@ struct ConnectConfig {
   std::vector<StreamConfig> streams;
 };
 
+// Whether all arrivals are those of files, with which the host's present clock has nothing to do.
+bool has_only_files(const ConnectConfig& config);
+
 const char* name_of(FormatKind format);
 
 // Reads a configuration file with the overrides of a command line ("key=value"). Paths in it are

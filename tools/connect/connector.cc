@@ -8,7 +8,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <csignal>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,26 +37,6 @@ namespace asio = boost::asio;
 
 namespace {
 
-// The wall clock, in ns since 1970, and what the ArrivalClock showed then. Of some readings it is
-// the one that no other process has interrupted for long.
-struct TwoClocks {
-  std::int64_t wall_ns = 0, arrival_ns = 0;
-};
-
-TwoClocks read_clocks(const ArrivalClock& clock) {
-  TwoClocks best;
-  std::int64_t shortest_ns = std::numeric_limits<std::int64_t>::max();
-  for (int k = 0; k < 3; ++k) {
-    const std::int64_t before_ns = clock.now_ns();
-    const std::chrono::nanoseconds wall = std::chrono::system_clock::now().time_since_epoch();
-    const std::int64_t took_ns = clock.now_ns() - before_ns;
-    if (took_ns >= shortest_ns) continue;
-    shortest_ns = took_ns;
-    best = {wall.count(), before_ns + took_ns / 2};
-  }
-  return best;
-}
-
 void tell_change(const ServiceChange& change) {
   const bool is_fallback = !change.from.empty() && !change.is_return;
   spdlog::log(is_fallback ? spdlog::level::warn : spdlog::level::info, "{}", to_text(change));
@@ -71,7 +50,7 @@ struct Connector::State {
         publisher(config.lcm),
         output(&publisher),
         corrections(config.corrections, config.services, &output, tell_change),
-        gps(config.reference, config.gnss_latency_s),
+        gps(config.reference, config.gnss_latency_s, clock.now_ns()),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {
@@ -91,6 +70,7 @@ struct Connector::State {
   void wait_for_signal();
   void wait_a_second();
   void each_second();
+  std::optional<double> compare_clocks();
   void watch_host();
   void publish_status();
   bool all_have_ended() const {
@@ -104,9 +84,9 @@ struct Connector::State {
   SharedCorrections corrections;
   // One of each stream, also of those without corrections: their ephemerides are corrected.
   std::map<std::string, CorrectionOutput> correction_outputs;
+  ArrivalClock clock;
   GpsClock gps;
   PulseQueue pulses;
-  ArrivalClock clock;
   PlaybackClocks clocks;
   asio::io_context io;  // before all that uses it
   asio::signal_set signals;
@@ -212,13 +192,18 @@ void Connector::State::each_second() {
   for (const auto& stream : streams) spdlog::info("{}", status_text(*stream, clock.now_ns()));
 }
 
+std::optional<double> Connector::State::compare_clocks() {
+  const std::int64_t now_ns = clock.now_ns();
+  return gps.compare_host(now_ns + clock.wall_lead_ns(), now_ns);
+}
+
 void Connector::State::watch_host() {
-  const TwoClocks now = read_clocks(clock);
-  const std::optional<double> step_s = gps.compare_host(now.wall_ns, now.arrival_ns);
+  const std::optional<double> step_s = has_only_files(config) ? std::nullopt : compare_clocks();
   if (config.reference != TimeReference::kHost) return;
   if (step_s) {
     spdlog::warn("the host's clock was set by {:+.3f} s; stamps follow it from now on", *step_s);
   }
+  gps.look_at_epochs();
   const std::optional<double> error_s = gps.host_error_s();
   if (error_s.has_value() == std::exchange(host_was_wrong, error_s.has_value())) return;
   if (error_s) {

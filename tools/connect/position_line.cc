@@ -2,7 +2,6 @@
 
 #include "drivers/nmea/fields.h"
 #include "drivers/nmea/sentence.h"
-#include "drivers/transport/arrival_clock.h"
 #include "tools/connect/stamps/host_clock.h"
 
 namespace leonav {
@@ -29,7 +28,8 @@ std::string position_line(const ReportedPosition& position, GpsTime time) {
 }
 
 std::string position_line_now(const ReportedPosition& position) {
-  return position_line(position, HostClock().at(ArrivalClock().now_ns()));
+  const std::int64_t now_ns = HostClock::wall_ns();
+  return position_line(position, HostClock(now_ns).at(now_ns));
 }
 
 }  // namespace leonav

@@ -84,6 +84,12 @@ TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
       ConfigError);
 }
 
+TEST_CASE("Streams that are all files are told from those of which one is live", "[connect]") {
+  const std::string file = stream("name: a, source: file, path: a.ubx, format: ubx");
+  CHECK(has_only_files(load(file)));
+  CHECK_FALSE(has_only_files(load(file + "  - {name: b, source: stdin, format: xsens}\n")));
+}
+
 TEST_CASE("A recording has a limit unless 0 takes it away", "[connect]") {
   const auto limit = [](const std::string& more) {
     return load(stream("name: a, source: stdin, format: ubx, record: a.leoraw" + more))

@@ -1,5 +1,8 @@
 #include "tools/connect/stamps/gps_clock.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace leonav {
 namespace {
 
@@ -12,7 +15,8 @@ void GpsClock::on_epoch(GpsTime time, std::int64_t arrival_ns) {
   if (reference_ == TimeReference::kGnss) {
     line_.add(time.nanoseconds(), arrival_ns);
   } else {
-    host_minus_epoch_s_ = seconds_between(host_.at(arrival_ns), time);
+    const double delay_s = seconds_between(host_.at(arrival_ns), time);
+    new_delay_s_ = std::min(new_delay_s_.value_or(delay_s), delay_s);
   }
 }
 
@@ -22,11 +26,16 @@ std::optional<GpsTime> GpsClock::at(std::int64_t arrival_ns) const {
   return GpsTime::from_nanoseconds(line_.clock_ns(arrival_ns)).plus_seconds(latency_s_);
 }
 
+void GpsClock::look_at_epochs() {
+  if (!new_delay_s_) return;
+  delay_s_ = *std::exchange(new_delay_s_, std::nullopt);
+  const bool is_explained = delay_s_ >= kLeastDelay_s && delay_s_ <= kLargestDelay_s;
+  looks_off_ = is_explained ? 0 : looks_off_ + 1;
+}
+
 std::optional<double> GpsClock::host_error_s() const {
-  if (host_minus_epoch_s_ >= kLeastDelay_s && host_minus_epoch_s_ <= kLargestDelay_s) {
-    return std::nullopt;
-  }
-  return host_minus_epoch_s_;
+  if (looks_off_ < HostClock::kComparisons) return std::nullopt;
+  return delay_s_;
 }
 
 }  // namespace leonav

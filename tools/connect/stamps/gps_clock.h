@@ -17,9 +17,10 @@ enum class TimeReference : std::uint8_t {
 
 class GpsClock {
  public:
-  // `latency_s`: from an epoch's time to the arrival of its last byte, at the least.
-  GpsClock(TimeReference reference, double latency_s)
-      : reference_(reference), latency_s_(latency_s) {}
+  // `latency_s`: from an epoch's time to the arrival of its last byte, at the least. `begin_ns`: as
+  // of HostClock.
+  GpsClock(TimeReference reference, double latency_s, std::int64_t begin_ns = HostClock::wall_ns())
+      : reference_(reference), latency_s_(latency_s), host_(begin_ns) {}
 
   // Takes the time of a receiver's epoch and its arrival; of use with TimeReference::kGnss.
   void on_epoch(GpsTime time, std::int64_t arrival_ns);
@@ -40,8 +41,11 @@ class GpsClock {
     return reference_ == TimeReference::kHost ? host_.steps() : 0;
   }
   double last_host_step_s() const { return host_.last_step_s(); }
-  // With TimeReference::kHost: how far the host's clock is ahead of a receiver's last epoch, s,
-  // where no delay explains it.
+  // With TimeReference::kHost, to be called about once a second: compares the host's clock with the
+  // epochs that have come since the last call.
+  void look_at_epochs();
+  // How far the host's clock is ahead of a receiver's epochs, s, where no delay explains it. One
+  // late epoch is none: HostClock::kComparisons looks in a row must have found it.
   std::optional<double> host_error_s() const;
 
  private:
@@ -49,7 +53,9 @@ class GpsClock {
   double latency_s_;
   EnvelopeLine line_;  // from GPS time to arrival
   HostClock host_;
-  double host_minus_epoch_s_ = 0.0;  // at the last epoch
+  std::optional<double> new_delay_s_;  // the least of the epochs since the last look
+  double delay_s_ = 0.0;               // the same at the last look that had epochs
+  int looks_off_ = 0;                  // in a row, that no delay explains
 };
 
 }  // namespace leonav

@@ -27,11 +27,11 @@ bool leap_second_may_have_been(std::int64_t wall_ns) {
 
 }  // namespace
 
-GpsTime HostClock::at(std::int64_t arrival_ns) const {
-  if (!gps_minus_arrival_ns_) {
-    gps_minus_arrival_ns_ = gps_from_wall(arrival_ns).nanoseconds() - arrival_ns;
-  }
-  return GpsTime::from_nanoseconds(arrival_ns + *gps_minus_arrival_ns_);
+HostClock::HostClock(std::int64_t begin_ns)
+    : gps_minus_arrival_ns_(gps_from_wall(begin_ns).nanoseconds() - begin_ns) {}
+
+std::int64_t HostClock::wall_ns() {
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 std::optional<double> HostClock::compare(std::int64_t wall_ns, std::int64_t arrival_ns) {
@@ -51,7 +51,7 @@ std::optional<double> HostClock::compare(std::int64_t wall_ns, std::int64_t arri
     leap_seconds_ahead_ += difference_s < 0.0 ? 1 : -1;
     return std::nullopt;
   }
-  *gps_minus_arrival_ns_ += std::llround(difference_s * 1e9);
+  gps_minus_arrival_ns_ += std::llround(difference_s * 1e9);
   ++steps_;
   last_step_s_ = difference_s;
   return difference_s;

@@ -18,8 +18,15 @@ class HostClock {
   // inserted second and in the one behind, which UTC does not tell apart.
   static constexpr int kComparisons = 3;
 
+  // `begin_ns`: a time of the ArrivalClock. Of it are the leap seconds that are counted.
+  explicit HostClock(std::int64_t begin_ns);
+  // The wall clock, since 1970, UTC.
+  static std::int64_t wall_ns();
+
   // The GPS time at which the ArrivalClock shows `arrival_ns`.
-  GpsTime at(std::int64_t arrival_ns) const;
+  GpsTime at(std::int64_t arrival_ns) const {
+    return GpsTime::from_nanoseconds(arrival_ns + gps_minus_arrival_ns_);
+  }
 
   // To be called about once a second. `wall_ns`: the wall clock (since 1970, UTC) when the
   // ArrivalClock showed `arrival_ns`. Returns by how much at() has stepped, s, where it has.
@@ -29,8 +36,7 @@ class HostClock {
   double last_step_s() const { return last_step_s_; }
 
  private:
-  // From arrivals to GPS time, set by the first one asked for.
-  mutable std::optional<std::int64_t> gps_minus_arrival_ns_;
+  std::int64_t gps_minus_arrival_ns_;
   int leap_seconds_ahead_ = 0;  // that the wall clock has had and the table of core does not know
   double difference_s_ = 0.0;   // at the last comparison
   int comparisons_ = 0;         // in a row with that difference

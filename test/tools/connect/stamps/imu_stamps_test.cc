@@ -77,10 +77,10 @@ TEST_CASE("A host that keeps UTC needs no receiver", "[connect]") {
 }
 
 TEST_CASE("A leap second while the program runs moves no stamp", "[connect]") {
-  const GpsClock clock(TimeReference::kHost, 0.05);
   // 2016-12-31 23:59:50 UTC is 1483228790 s since 1970, and 17 s later in GPS time. The clock of
   // arrivals counts 20 s on, one of which is the leap second.
   const std::int64_t before_ns = 1'483'228'790 * kSecond;
+  const GpsClock clock(TimeReference::kHost, 0.05, before_ns);
   const std::optional<GpsTime> before = clock.at(before_ns);
   const std::optional<GpsTime> after = clock.at(before_ns + 20 * kSecond);
   REQUIRE(before);
@@ -88,7 +88,7 @@ TEST_CASE("A leap second while the program runs moves no stamp", "[connect]") {
   CHECK(nanoseconds_between(*before, kStart) == (1'483'228'790 - 1'608'163'200 + 17) * kSecond);
   CHECK(nanoseconds_between(*after, *before) == 20 * kSecond);
   // A program that starts afterwards sees a clock that was set: 2017-01-01 00:00:10 UTC.
-  const GpsClock later(TimeReference::kHost, 0.05);
+  const GpsClock later(TimeReference::kHost, 0.05, before_ns + 20 * kSecond);
   CHECK(later.at(before_ns + 20 * kSecond) == after->plus_seconds(1.0));
 }
 
@@ -119,10 +119,10 @@ TEST_CASE("A host's clock that is set is followed, and told as a step", "[connec
 
 TEST_CASE("A leap second of the host's clock is no step, known or not", "[connect]") {
   const bool is_known = GENERATE(true, false);
-  HostClock clock;
   // The end of 2016 had one; that of 2014 stands for one that came after this program was built.
   const std::int64_t midnight_ns = (is_known ? 1'483'228'800 : 1'420'070'400) * kSecond;
   const std::int64_t start_ns = midnight_ns - 10 * kSecond;
+  HostClock clock(start_ns);
   const GpsTime before = clock.at(start_ns);
   for (int k = 0; k < 100; ++k) {
     const std::int64_t arrival_ns = start_ns + k * kSecond + 300'000'000;
@@ -136,11 +136,48 @@ TEST_CASE("A leap second of the host's clock is no step, known or not", "[connec
 TEST_CASE("A host's clock that contradicts the receiver's epochs is known", "[connect]") {
   GpsClock clock(TimeReference::kHost, 0.05);
   const std::int64_t start_ns = 1'608'163'200 * kSecond;
-  clock.on_epoch(kStart.plus_seconds(17.8), start_ns);
-  CHECK_FALSE(clock.host_error_s());
-  clock.on_epoch(kStart.plus_seconds(38.0), start_ns);
-  REQUIRE(clock.host_error_s());
+  // One look each second, with two epochs since the last one, the second of them in time.
+  const auto look = [&](int k, double first_delay_s, double second_delay_s) {
+    const GpsTime time = kStart.plus_seconds(18.0 + k);
+    const std::int64_t arrival_ns = start_ns + k * kSecond;
+    clock.on_epoch(time.plus_seconds(-first_delay_s), arrival_ns);
+    clock.on_epoch(time.plus_seconds(-second_delay_s), arrival_ns);
+    clock.look_at_epochs();
+  };
+  for (int k = 0; k < 10; ++k) {
+    look(k, 0.2, 0.2);
+    CHECK_FALSE(clock.host_error_s());
+  }
+  for (int k = 10; k < 13; ++k) {
+    look(k, -20.0, -19.0);
+    CHECK(clock.host_error_s().has_value() == (k == 12));
+  }
   CHECK(*clock.host_error_s() == Approx(-20.0));
+  // Looks without an epoch change nothing; one that agrees ends it.
+  clock.look_at_epochs();
+  CHECK(clock.host_error_s());
+  look(13, 0.2, 0.2);
+  CHECK_FALSE(clock.host_error_s());
+}
+
+TEST_CASE(
+    "A late epoch, and the epochs that a network delivers late at once, do not accuse the host",
+    "[connect]") {
+  GpsClock clock(TimeReference::kHost, 0.05);
+  const std::int64_t start_ns = 1'608'163'200 * kSecond;
+  for (int k = 0; k < 100; ++k) {
+    const std::int64_t arrival_ns = start_ns + k * kSecond;
+    const GpsTime time = kStart.plus_seconds(18.0 + k);
+    if (k == 10 || k == 11) {
+      clock.on_epoch(time.plus_seconds(-6.0), arrival_ns);
+    } else if (k % 10 == 0) {
+      for (int late_s = 9; late_s >= 0; --late_s) {
+        clock.on_epoch(time.plus_seconds(-late_s), arrival_ns);
+      }
+    }
+    clock.look_at_epochs();
+    CHECK_FALSE(clock.host_error_s());
+  }
 }
 
 TEST_CASE("Rates become increments over the time since the reading before", "[connect]") {
