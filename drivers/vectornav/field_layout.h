@@ -36,6 +36,9 @@ enum class VectornavHeader : std::uint8_t {
 // Reads the header at the start of `bytes`, which begins with the sync byte.
 VectornavHeader read_vectornav_header(std::span<const std::uint8_t> bytes, VectornavExtent* extent);
 
+// Longest header: sync byte, groups, and a mask of each group.
+inline constexpr std::size_t kMaxVectornavHeader = 2 + 2 * kVectornavGroups;
+
 // Longest message: every field with a known length, in every group.
 inline constexpr std::size_t kMaxVectornavMessage = 1200;
 

@@ -75,16 +75,47 @@ bool VectornavFramer::checksum_is_good(const MessageStarts::Candidate& candidate
   return crc16_product(crc_before_[first], kBytePowers[end - first]) == crc_before_[end];
 }
 
+bool VectornavFramer::has_known_header(Position start) const {
+  const std::span bytes = std::span(buffer_).subspan(index(start), end_ - start);
+  return std::any_of(known_headers_.begin(), known_headers_.end(), [&](const Header& header) {
+    return header.size > 0 && header.size <= bytes.size() &&
+           std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(header.size),
+                      header.bytes.begin());
+  });
+}
+
+void VectornavFramer::remember_header(Position start, std::size_t size) {
+  if (has_known_header(start)) return;
+  Header& header = known_headers_[oldest_header_];
+  oldest_header_ = (oldest_header_ + 1) % known_headers_.size();
+  header.size = size;
+  std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(index(start)), size,
+              header.bytes.begin());
+}
+
+std::optional<MessageStarts::Candidate> VectornavFramer::next_candidate() {
+  const auto first = starts_.first_waiting();
+  if (!first) return std::nullopt;
+  skip_to(*first);  // bytes before the first start that still waits belong to no message
+  if (has_known_header(begin_)) {
+    VectornavExtent extent;
+    read_header(begin_, &extent);
+    const MessageStarts::Candidate outer{begin_, begin_ + extent.total_bytes()};
+    if (outer.end <= end_) return outer;
+    if (!finished_) return std::nullopt;
+  }
+  return starts_.next_whole(end_);
+}
+
 bool VectornavFramer::next(VectornavMessage* message) {
   find_starts();
-  while (const auto candidate = starts_.next_whole(end_)) {
+  while (const auto candidate = next_candidate()) {
     if (checksum_is_good(*candidate)) {
       take(*candidate, message);
       return true;
     }
     starts_.refuse(*candidate, kBadChecksum);
   }
-  // Bytes before the first start that still waits belong to no message.
   skip_to(finished_ ? end_ : starts_.first_waiting().value_or(std::max(searched_, begin_)));
   return false;
 }
@@ -92,6 +123,7 @@ bool VectornavFramer::next(VectornavMessage* message) {
 void VectornavFramer::take(const MessageStarts::Candidate& candidate, VectornavMessage* message) {
   skip_to(candidate.start);
   read_header(candidate.start, &message->extent);
+  remember_header(candidate.start, message->extent.header_bytes);
   message->bytes =
       std::span(buffer_).subspan(index(candidate.start), candidate.end - candidate.start);
   begin_ = candidate.end;

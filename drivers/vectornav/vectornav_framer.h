@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "drivers/binary/message_starts.h"
@@ -29,7 +30,9 @@ struct VectornavFramerCounters {
 // The caller appends bytes and takes messages until none is left. A false sync or a damaged message
 // costs only its own bytes, and no time: of all starts in the stream the one whose message is whole
 // first, with a good checksum, counts, so that damaged masks hold nothing back that comes behind
-// them. Every byte costs the same, whatever the masks claim.
+// them. But a start whose header is that of one of the last messages is awaited to its end before
+// those inside it: of the 65,536 values of a checksum one is right by chance. Every byte costs the
+// same, whatever the masks claim.
 class VectornavFramer {
  public:
   // Copies as many of `bytes` as fit and returns their number. It is never zero unless `bytes` is
@@ -52,6 +55,9 @@ class VectornavFramer {
   std::size_t index(Position position) const { return position - base_; }
   VectornavHeader read_header(Position start, VectornavExtent* extent) const;
   void find_starts();
+  std::optional<MessageStarts::Candidate> next_candidate();
+  bool has_known_header(Position start) const;
+  void remember_header(Position start, std::size_t size);
   bool checksum_is_good(const MessageStarts::Candidate& candidate) const;
   void take(const MessageStarts::Candidate& candidate, VectornavMessage* message);
   void skip_to(Position position);
@@ -63,6 +69,13 @@ class VectornavFramer {
   Position searched_ = 0;                    // starts before it are known
   MessageStarts starts_;                     // at begin_ and behind it
   bool finished_ = false;
+  // Headers of the last messages, one of each kind; size 0: none. A sensor has three outputs.
+  struct Header {
+    std::array<std::uint8_t, kMaxVectornavHeader> bytes;
+    std::size_t size = 0;
+  };
+  std::array<Header, 3> known_headers_;
+  std::size_t oldest_header_ = 0;
   VectornavFramerCounters counters_;
 };
 

@@ -183,6 +183,71 @@ TEST_CASE("Damaged masks hold back no message behind them", "[vectornav]") {
   CHECK(decoder.counters().framer.bytes_skipped == 6);
 }
 
+namespace {
+
+// TimeStartup and DeltaTheta, 40 bytes of fields, in which a whole message with TimeStartup lies.
+Bytes message_with_another_inside() {
+  Bytes payload(20, 0);
+  const Bytes inner = message(0x01, {1 << 0}, Bytes(8, 7));
+  payload.insert(payload.end(), inner.begin(), inner.end());
+  payload.resize(36, 0);
+  return message(0x01, {1 << 0 | 1 << 11}, payload);
+}
+
+// The lengths of the messages that are found, byte by byte.
+std::vector<std::size_t> found_lengths(VectornavFramer* framer, const Bytes& bytes) {
+  std::vector<std::size_t> lengths;
+  VectornavMessage found;
+  for (const std::uint8_t byte : bytes) {
+    REQUIRE(framer->append({&byte, 1}) == 1);
+    while (framer->next(&found)) lengths.push_back(found.bytes.size());
+  }
+  return lengths;
+}
+
+}  // namespace
+
+TEST_CASE("A message of a known kind is awaited before one that lies inside it", "[vectornav]") {
+  VectornavFramer framer;
+  const Bytes outer = message_with_another_inside();
+  const Bytes same = message(0x01, {1 << 0 | 1 << 11}, Bytes(36, 0));
+  const Bytes other = message(0x02, {1 << 0 | 1 << 1}, Bytes(16, 0));
+  CHECK(found_lengths(&framer, same) == std::vector<std::size_t>{42});
+  // Also where the sensor sends messages of another kind in between.
+  CHECK(found_lengths(&framer, other) == std::vector<std::size_t>{22});
+  CHECK(found_lengths(&framer, outer) == std::vector<std::size_t>{42});
+  CHECK(framer.counters().bytes_skipped == 0);
+
+  SECTION("a payload that is damaged loses nothing behind it") {
+    Bytes stream = outer;
+    stream.back() ^= 1U;
+    stream.insert(stream.end(), same.begin(), same.end());
+    const auto lengths = found_lengths(&framer, stream);
+    REQUIRE(lengths.size() == 2);
+    CHECK(lengths.front() == 14);  // by itself it is a message like any other
+    CHECK(lengths.back() == 42);
+  }
+  SECTION("a message that is cut off holds nothing back") {
+    Bytes stream(outer.begin(), outer.begin() + 10);
+    stream.insert(stream.end(), same.begin(), same.end());
+    CHECK(found_lengths(&framer, stream) == std::vector<std::size_t>{42});
+  }
+  SECTION("a damaged mask holds nothing back") {
+    Bytes damaged = same;
+    damaged[3] = 0x7F;  // claims fields of hundreds of bytes
+    CHECK(found_lengths(&framer, damaged).empty());
+    CHECK(found_lengths(&framer, same) == std::vector<std::size_t>{42});
+  }
+  SECTION("at the end of the stream a message inside a cut one comes out") {
+    const Bytes cut(outer.begin(), outer.end() - 2);
+    CHECK(found_lengths(&framer, cut).empty());
+    framer.finish();
+    VectornavMessage found;
+    REQUIRE(framer.next(&found));
+    CHECK(found.bytes.size() == 14);
+  }
+}
+
 TEST_CASE("A header that is cut off holds back nothing, also at the end of the stream",
           "[vectornav]") {
   VectornavDecoder decoder;
