@@ -37,8 +37,9 @@ std::vector<std::string> overrides_of(const Arguments& arguments) {
 int serve_main(int argc, char** argv) {
   Arguments arguments(
       "leonav-serve", "[CONFIG.yaml] [options]",
-      "Writes the solutions of leonavd as NMEA 0183 sentences (GGA, RMC, VTG, GST, GSA, GSV, HDT,\n"
-      "ZDA), for gpsd, chart programs and all that reads a receiver. Give a file, options, or "
+      "Writes the solutions of leonavd as NMEA 0183 sentences (GGA, RMC, VTG, GST, GSA, GSV,\n"
+      "ZDA; HDT where it is asked for), for gpsd, chart programs and all that reads a receiver. "
+      "Give a file, options, or "
       "both;\n"
       "an option takes precedence over the file.\n"
       "\n"
@@ -48,9 +49,11 @@ int serve_main(int argc, char** argv) {
       "  leonav-serve --pty /tmp/leonav-nmea      a pseudo-terminal, as if a receiver were on it\n"
       "  leonav-serve --serial /dev/ttyUSB0 --baud 38400\n"
       "\n"
-      "With gpsd: leonav-serve --tcp 10110 --set 'sentences=[GGA, RMC, VTG, GST, GSA, GSV, ZDA]',\n"
-      "then gpsd -N -n tcp://localhost:10110 (or the pseudo-terminal), then cgps. gpsd 3.22 makes\n"
-      "unreadable JSON of HDT.\n"
+      "With gpsd: leonav-serve --tcp 10110, then gpsd -N -n tcp://localhost:10110 (or the\n"
+      "pseudo-terminal), then cgps. HDT, the heading, is left out, because gpsd 3.22 makes "
+      "unreadable\n"
+      "JSON of it; a chart program that wants it:\n"
+      "--set 'sentences=[GGA, RMC, VTG, GST, GSA, GSV, HDT, ZDA]'.\n"
       "Sentences come once a second of the solution's time. A reader that is too slow loses whole\n"
       "instants and is told by a TXT sentence; it holds nobody else up. Without a position fields\n"
       "are empty; INS alone has quality 6 and mode E. Heights are above the ellipsoid unless\n"

@@ -16,12 +16,16 @@ const std::vector<std::pair<std::string, SentenceKind>> kKinds = {
     {"GST", SentenceKind::kGst}, {"GSA", SentenceKind::kGsa}, {"GSV", SentenceKind::kGsv},
     {"HDT", SentenceKind::kHdt}, {"ZDA", SentenceKind::kZda}};
 
+// Without the key HDT is left out: gpsd 3.22 makes a report of it that many of its clients cannot
+// read.
 void read_sentences(ConfigReader& root, std::vector<SentenceKind>* sentences) {
   std::vector<std::string> names;
   std::string known;
   for (const auto& [name, kind] : kKinds) known += (known.empty() ? "" : ", ") + name;
   if (!root.list("sentences", &names, "list of " + known)) {
-    for (const auto& [name, kind] : kKinds) sentences->push_back(kind);
+    for (const auto& [name, kind] : kKinds) {
+      if (kind != SentenceKind::kHdt) sentences->push_back(kind);
+    }
     return;
   }
   for (const std::string& name : names) {
@@ -35,7 +39,7 @@ void read_sentences(ConfigReader& root, std::vector<SentenceKind>* sentences) {
   if (sentences->empty()) root.fail("sentences", "must name at least one of " + known);
 }
 
-// Of a TcpServerOptions or UdpOptions.
+// Of a ListenOptions or UdpDestination.
 template <typename Options>
 void read_address(ConfigReader& group, const std::string& remedy, Options* options) {
   int port = options->port;

@@ -12,12 +12,7 @@ namespace leonav {
 
 enum class SentenceKind : std::uint8_t { kGga, kRmc, kVtg, kGst, kGsa, kGsv, kHdt, kZda };
 
-struct TcpServerOptions {
-  std::string address = "127.0.0.1";  // 0.0.0.0 or ::, all of the host's
-  std::uint16_t port = 0;             // 0: no server
-};
-
-struct UdpOptions {
+struct UdpDestination {
   std::string address = "127.0.0.1";  // of a host, a broadcast or a multicast address
   std::uint16_t port = 0;             // 0: none
 };
@@ -27,8 +22,8 @@ struct ServeConfig {
   double rate_hz = 1.0;  // of the solution's time
   std::vector<SentenceKind> sentences;
   FixOptions fix;
-  TcpServerOptions tcp;
-  UdpOptions udp;
+  ListenOptions tcp;  // port 0: no server
+  UdpDestination udp;
   SerialOptions serial;             // an empty device: none
   std::string pty_link;             // symbolic link to a pseudo-terminal; empty: none
   double status_interval_s = 60.0;  // of the text about all outputs; 0: only changes

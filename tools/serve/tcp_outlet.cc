@@ -23,7 +23,7 @@ std::string text_of(const tcp::endpoint& endpoint) {
 
 }  // namespace
 
-TcpOutlet::TcpOutlet(asio::io_context* io, const TcpServerOptions& options)
+TcpOutlet::TcpOutlet(asio::io_context* io, const ListenOptions& options)
     : acceptor_(*io), pause_(*io) {
   const tcp::endpoint endpoint(asio::ip::make_address(options.address), options.port);
   name_ = "TCP " + text_of(endpoint);

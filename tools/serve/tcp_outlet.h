@@ -14,7 +14,7 @@ namespace leonav {
 class TcpOutlet final : public Outlet {
  public:
   // Throws std::runtime_error where the port cannot be had.
-  TcpOutlet(boost::asio::io_context* io, const TcpServerOptions& options);
+  TcpOutlet(boost::asio::io_context* io, const ListenOptions& options);
 
   void send(const std::shared_ptr<const Batch>& batch) override;
   std::string status() const override;

@@ -24,9 +24,9 @@ std::vector<std::string_view> datagrams_of(std::string_view text) {
   return datagrams;
 }
 
-UdpOutlet::UdpOutlet(asio::io_context* io, const UdpOptions& options)
-    : destination_(asio::ip::make_address(options.address), options.port), socket_(*io) {
-  name_ = "UDP to " + options.address + ", port " + std::to_string(options.port);
+UdpOutlet::UdpOutlet(asio::io_context* io, const UdpDestination& destination)
+    : destination_(asio::ip::make_address(destination.address), destination.port), socket_(*io) {
+  name_ = "UDP to " + destination.address + ", port " + std::to_string(destination.port);
   error_code error;
   socket_.open(destination_.protocol(), error);
   if (!error) socket_.non_blocking(true, error);
@@ -37,13 +37,16 @@ UdpOutlet::UdpOutlet(asio::io_context* io, const UdpOptions& options)
   spdlog::info("{}: open", name_);
 }
 
+// An instant with a failure is told as that, also where other datagrams of it went out.
 void UdpOutlet::send(const std::shared_ptr<const Batch>& batch) {
+  error_code worst;
   for (const std::string_view datagram : datagrams_of(batch->text)) {
     error_code error;
     socket_.send_to(asio::buffer(datagram.data(), datagram.size()), destination_, 0, error);
     ++(error ? lost_ : sent_);
-    tell(error);
+    if (error && (!worst || worst == asio::error::would_block)) worst = error;
   }
+  if (worst != asio::error::would_block) tell(worst);
 }
 
 // The same failure once.

@@ -15,11 +15,11 @@ namespace leonav {
 std::vector<std::string_view> datagrams_of(std::string_view text);
 
 // Nobody answers, so a destination without a reader is not known of. What the network does not take
-// is lost, counted and told.
+// is lost and counted, and told unless the network was only busy.
 class UdpOutlet final : public Outlet {
  public:
   // Throws std::runtime_error where no socket can be had.
-  UdpOutlet(boost::asio::io_context* io, const UdpOptions& options);
+  UdpOutlet(boost::asio::io_context* io, const UdpDestination& destination);
 
   void send(const std::shared_ptr<const Batch>& batch) override;
   std::string status() const override;

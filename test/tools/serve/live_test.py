@@ -149,7 +149,9 @@ def run(work, types, text):
     manager.bind(str(work / "notify"))
     manager.settimeout(60)
     told = {**os.environ, "NOTIFY_SOCKET": str(work / "notify"), "WATCHDOG_USEC": "10000000"}
-    process = subprocess.Popen([BIN / "leonav-serve", "--tcp", str(PORT), "--pty", link, "--rate", str(RATE)], stderr=text, env=told)
+    sentences_wanted = "sentences=[GGA, RMC, VTG, GST, GSA, GSV, HDT, ZDA]"
+    process = subprocess.Popen([BIN / "leonav-serve", "--tcp", str(PORT), "--pty", link, "--rate", str(RATE),
+                                "--set", sentences_wanted], stderr=text, env=told)
     for _ in range(100):
         if "running" in (work / "serve.txt").read_text(encoding="utf-8"):
             break

@@ -1,6 +1,11 @@
 // Which solutions are written, what a slow reader gets, what a wrong configuration says.
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <sstream>
 
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/encode.h"
@@ -88,6 +93,44 @@ TEST_CASE("An instant arrives as a datagram where it was sent to", "[serve]") {
   const std::size_t size = reader.receive(boost::asio::buffer(bytes));
   CHECK(std::string(bytes.data(), size) == batch->text);
   CHECK(outlet.status().ends_with("1 datagrams sent, 0 lost"));
+}
+
+TEST_CASE("Datagrams that cannot be sent are told once, also where others of the instant can",
+          "[serve]") {
+  boost::asio::io_context io;
+  using boost::asio::ip::udp;
+  const udp::socket reader(io, udp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
+  UdpOutlet outlet(&io, {"127.0.0.1", reader.local_endpoint().port()});
+  // No datagram can be so long as the second line.
+  const std::string sentence = "$GNZDA,1*00\r\n", much(70'000, 'x');
+  const auto long_one = std::make_shared<Batch>(), short_one = std::make_shared<Batch>();
+  long_one->text = sentence + much + "\r\n";
+  short_one->text = sentence;
+
+  std::ostringstream log;
+  const auto usual = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  for (int k = 0; k < 5; ++k) outlet.send(long_one);
+  for (int k = 0; k < 5; ++k) outlet.send(short_one);
+  spdlog::set_default_logger(usual);
+  CHECK(outlet.status().ends_with("10 datagrams sent, 5 lost"));
+  const std::string text = log.str();
+  CAPTURE(text);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+  CHECK_THAT(text, Catch::Contains("cannot be sent") && Catch::Contains("sent again; 5 datagrams"));
+}
+
+TEST_CASE("The heading is served only where it is asked for, because of gpsd", "[serve]") {
+  const auto has_heading = [](const ServeConfig& config) {
+    return std::find(config.sentences.begin(), config.sentences.end(), SentenceKind::kHdt) !=
+           config.sentences.end();
+  };
+  const ServeConfig usual = load_serve_config("", {"tcp.port=1"});
+  CHECK(usual.sentences.size() == 7);
+  CHECK_FALSE(has_heading(usual));
+  CHECK(has_heading(load_serve_config("", {"tcp.port=1", "sentences=[GGA, HDT]"})));
+  CHECK(load_serve_config(LEONAV_SOURCE_DIR "/config/serve.yaml", {}).sentences == usual.sentences);
 }
 
 TEST_CASE("A link to another device is left alone, one to a pseudo-terminal replaced", "[serve]") {
