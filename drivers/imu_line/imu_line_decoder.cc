@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "drivers/text/parse.h"
 
@@ -121,6 +122,8 @@ void ImuLineDecoder::split(std::string_view text) {
 
 // A leap by more than half of the counter's range is its end, or a line that has been read wrongly:
 // then the next one leaps back. A clock that counts on beyond the range is left as it is.
+// WrappedCounter does not serve: it takes whole numbers of 32 bits at most, which are here numbers
+// with decimals (clock_s) of up to 64 bits, and would cut off what a clock has counted beyond.
 double ImuLineDecoder::continued_clock(double value) {
   const double range = std::ldexp(1.0, layout_.clock_bits);
   const auto is_inside = [range](double clock) { return clock >= 0.0 && clock < range; };
@@ -139,6 +142,8 @@ bool ImuLineDecoder::read(ImuLine* line) {
   using enum LineColumn;
   Vector gyro{}, accel{};
   double week = -1.0, tow_s = -1.0;
+  std::optional<double> clock;
+  double unit_ns = 1.0;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const LineColumn column = layout_.columns[i];
     if (column == kSkip) continue;
@@ -155,17 +160,24 @@ bool ImuLineDecoder::read(ImuLine* line) {
     } else if (column == kIntervalS) {
       line->interval_s = *value;
     } else {
-      if (std::abs(*value) * clock_unit_ns(column) > kMaxClock_ns) return false;
-      const double clock_ns = continued_clock(*value) * clock_unit_ns(column);
-      if (std::abs(clock_ns) > kMaxClock_ns) return false;
-      line->clock_ns = std::llround(clock_ns);
+      clock = value;
+      unit_ns = clock_unit_ns(column);
+      if (std::abs(*clock) * unit_ns > kMaxClock_ns) return false;
     }
   }
   const bool has_gps = week >= 1.0 && week <= kMaxWeek && tow_s >= 0.0 && tow_s < kSecondsPerWeek;
   if (has_gps) line->gps_time = GpsTime::from_week_and_tow(static_cast<int>(week), tow_s);
   line->gyro = turned(gyro, layout_.axes, layout_.gyro_unit);
   line->accel = turned(accel, layout_.axes, layout_.accel_unit);
-  return are_within(line->gyro, kMaxRate_rad_s) && are_within(line->accel, kMaxForce_m_s2);
+  if (!are_within(line->gyro, kMaxRate_rad_s) || !are_within(line->accel, kMaxForce_m_s2)) {
+    return false;
+  }
+  // Last, so that a line that is refused does not count as one whose clock was read.
+  if (!clock) return true;
+  const double clock_ns = continued_clock(*clock) * unit_ns;
+  if (std::abs(clock_ns) > kMaxClock_ns) return false;
+  line->clock_ns = std::llround(clock_ns);
+  return true;
 }
 
 }  // namespace leonav

@@ -87,6 +87,28 @@ TEST_CASE("A clock that begins again at zero goes on", "[imu_line]") {
   CHECK(clocks({"65000", "464"}) == Clocks{65'000'000, 66'000'000});
 }
 
+TEST_CASE("The clock of a line that is refused neither makes nor hides an end of the counter",
+          "[imu_line]") {
+  using enum LineColumn;
+  LineLayout how;
+  how.columns = {kClockUs, kGyroX, kGyroY, kGyroZ, kAccelX, kAccelY, kAccelZ};
+  how.separator = ',';
+  const std::string good = ",0,0,0,0,0,-9.8\n";
+  // The clock, a rate or an acceleration of the second line has been damaged on the way.
+  const std::string bad =
+      GENERATE(",0,?,0,0,0,-9.8\n", ",0,9000,0,0,0,-9.8\n", ",0,0,0,0,0,-9800\n");
+  ImuLineCounters counters;
+  const auto lines =
+      decode(how, "4294937296" + good + "17" + bad + "4294957296" + good, &counters).lines;
+  CHECK(counters.bad_values == 1);
+  REQUIRE(lines.size() == 2);
+  CHECK(*lines[1].clock_ns == 4'294'957'296'000);
+  // Nor does it hide an end that comes then.
+  const auto over = decode(how, "4294957296" + good + "99999999999999" + bad + "4704" + good).lines;
+  REQUIRE(over.size() == 2);
+  CHECK(*over[1].clock_ns == 1000 * ((std::int64_t{1} << 32) + 4704));
+}
+
 TEST_CASE("Prefix, blanks and checksum", "[imu_line]") {
   using enum LineColumn;
   LineLayout how;
