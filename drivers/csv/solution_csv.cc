@@ -11,10 +11,6 @@ constexpr std::string_view kRequired = "gps_week,gps_tow_s,latitude_deg,longitud
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::string_view kPrediction = "prediction";
 
-bool is_prediction(Source source, bool has_attitude) {
-  return source == Source::kInsOnly && !has_attitude;
-}
-
 void write_vector(CsvWriter& writer, const std::optional<Eigen::Vector3d>& vector, double unit,
                   int decimals) {
   for (int i = 0; i < 3; ++i) {
@@ -55,7 +51,6 @@ SolutionRow to_solution_row(const Solution& solution, std::optional<int> satelli
     row.sigma_rpy = solution.sigma_rpy;
   }
   row.source = solution.source;
-  row.is_prediction = is_prediction(solution.source, solution.has_attitude);
   row.satellites = satellites;
   row.pdop = pdop;
   row.horizontal_protection_m = known(solution.horizontal_protection_m);
@@ -65,11 +60,11 @@ SolutionRow to_solution_row(const Solution& solution, std::optional<int> satelli
 }
 
 std::string_view source_name(Source source, bool has_attitude) {
-  return is_prediction(source, has_attitude) ? kPrediction : to_string(source);
+  return source == Source::kInsOnly && !has_attitude ? kPrediction : to_string(source);
 }
 
 std::string_view source_name(const SolutionRow& row) {
-  return row.is_prediction ? kPrediction : to_string(row.source);
+  return source_name(row.source, row.pva.roll.has_value());
 }
 
 SolutionCsvWriter::SolutionCsvWriter(const std::string& path) : writer_(path, kSolutionCsvHeader) {}
@@ -114,7 +109,6 @@ SolutionCsv read_solution_csv(const std::string& path) {
     row.sigma_rpy = read_vector(rows, sigma[6], sigma[7], sigma[8]);
     if (row.sigma_rpy) *row.sigma_rpy *= kDegree;
     row.source = read_source(rows, source);
-    row.is_prediction = rows.text(source) == kPrediction;
     row.satellites = parse_int(rows.text(satellites));
     if (!row.satellites && !rows.blank(satellites)) rows.mark_bad("satellites is no whole number");
     row.pdop = rows.number(pdop);

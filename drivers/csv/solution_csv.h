@@ -26,7 +26,6 @@ struct SolutionRow {
   std::optional<Eigen::Vector3d> sigma_v_n;  // m/s
   std::optional<Eigen::Vector3d> sigma_rpy;  // rad
   Source source = Source::kNone;
-  bool is_prediction = false;  // without recent GNSS and without an IMU that carries it on
   std::optional<int> satellites;
   std::optional<double> pdop;
   std::optional<double> horizontal_protection_m, vertical_protection_m;
@@ -38,7 +37,7 @@ SolutionRow to_solution_row(const Solution& solution, std::optional<int> satelli
                             std::optional<double> pdop);
 
 // Returns the name of a source in tables and exports: that of to_string(), but "prediction" and not
-// "ins" where no attitude says that an IMU carries the answer on.
+// "ins" where there is no attitude: without GNSS no IMU carries the answer on either.
 std::string_view source_name(Source source, bool has_attitude);
 // The same of a row.
 std::string_view source_name(const SolutionRow& row);
