@@ -1,5 +1,6 @@
 #include "drivers/rtcm3/epoch_assembly.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/calendar.h"
@@ -10,6 +11,11 @@ namespace {
 
 constexpr std::int64_t kMillisecondsPerWeek = kSecondsPerWeek * 1000;
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+// A longer interval between epochs is a pause.
+constexpr double kLongestInterval_s = 60.0;
+// A station that may follow is given up after so many messages of further ones: more than an epoch
+// has.
+constexpr int kForgetOther = 16;
 
 // GPS and Galileo count milliseconds of a week of GPS time, BeiDou of its own, 14 s behind.
 GpsTime instant_of(System system, std::uint32_t epoch_ms, GpsTime near) {
@@ -69,12 +75,24 @@ bool EpochAssembly::is_of_other_station(const MsmType& type, const MsmHeader& he
   }
   if (!is_open) {
     if (!type.system || header.epoch_ms >= kMillisecondsPerWeek || !near.is_set()) return true;
-    const GpsTime time = instant_of(*type.system, header.epoch_ms, near);
-    if (!other_since_.is_set() || time < other_since_) other_since_ = time;
-    if (seconds_between(time, other_since_) < kOtherStation_s) return true;
+    if (!has_sent_alone(header.station, instant_of(*type.system, header.epoch_ms, near))) {
+      return true;
+    }
   }
   change_station(header.station);
   return false;
+}
+
+// One of several others is followed, so that the time of one does not count for another.
+bool EpochAssembly::has_sent_alone(std::uint16_t station, GpsTime time) {
+  const bool is_same = other_since_.is_set() && station == other_;
+  if (!is_same && other_since_.is_set() && ++without_other_ < kForgetOther) return false;
+  if (!is_same || time < other_since_) {
+    other_ = station;
+    other_since_ = time;
+  }
+  without_other_ = 0;
+  return seconds_between(time, other_since_) >= std::max(kOtherStation_s, 3.0 * interval_s_);
 }
 
 // What is there of an epoch of the station before is given up, so that no epoch is of two.
@@ -108,6 +126,9 @@ void EpochAssembly::count_late() {
 
 // Returns whether the epoch has anything to give out.
 bool EpochAssembly::complete() {
+  if (last_given_.is_set()) {
+    interval_s_ = std::min(seconds_between(epoch_.time, last_given_), kLongestInterval_s);
+  }
   last_given_ = epoch_.time;
   if (!went_on_) gone_on_in_row_ = 0;
   went_on_ = false;

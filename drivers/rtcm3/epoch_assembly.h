@@ -34,7 +34,8 @@ struct EpochAssemblyCounters {
 // interval.
 //
 // The messages of one station are used: of the first one seen, until another one has sent alone for
-// kOtherStation_s. Carriers are interrupted by the change.
+// kOtherStation_s, and for three intervals of the one in use. Carriers are interrupted by the
+// change.
 class EpochAssembly {
  public:
   static constexpr double kOtherStation_s = 5.0;
@@ -79,6 +80,7 @@ class EpochAssembly {
   std::optional<GpsTime> begin(const MsmType& type, std::span<const std::uint8_t> message,
                                GpsTime near);
   bool is_of_other_station(const MsmType& type, const MsmHeader& header, GpsTime near);
+  bool has_sent_alone(std::uint16_t station, GpsTime time);
   // Adds what begin() has read; returns whether the epoch ends with it.
   bool add(std::optional<GpsTime> time);
   void change_station(std::uint16_t station);
@@ -91,9 +93,12 @@ class EpochAssembly {
   MsmMessage message_;
   bool more_follow_ = true;  // as the present message says
   std::optional<std::uint16_t> station_;
-  bool is_station_open_ = true;  // the next message decides it
-  GpsTime other_since_;          // since when another one sends alone; unset: it does not
-  RawEpoch epoch_;               // time unset: none is open
+  bool is_station_open_ = true;             // the next message decides it
+  std::uint16_t other_ = 0;                 // the one that may follow
+  GpsTime other_since_;                     // since when it sends alone; unset: it does not
+  int without_other_ = 0;                   // messages of further stations since its last one
+  double interval_s_ = 0.0;                 // between the last two epochs
+  RawEpoch epoch_;                          // time unset: none is open
   std::vector<SignalObservation> signals_;  // of the open epoch; each signal comes once at most
   EpochCapacity capacity_;
   GpsTime last_given_;      // time of the last epoch that was given out or was empty

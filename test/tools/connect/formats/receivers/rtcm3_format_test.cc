@@ -2,6 +2,7 @@
 // tables.
 #include "tools/connect/formats/receivers/rtcm3_format.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -225,6 +226,61 @@ TEST_CASE("A receiver that comes back with another station's number is read", "[
   format.feed(msm4(1074, kOfWeek_ms + 1000, 200), host_ns(kTime.plus_seconds(1.0)));
   CHECK(epochs.list.size() == 2);
   CHECK(format.counts().refused == 0);
+}
+
+namespace {
+
+struct StationRig {
+  void send(std::uint64_t ms, std::uint64_t station) {
+    format.feed(msm4(1074, kOfWeek_ms + ms, station),
+                host_ns(kTime.plus_nanoseconds(static_cast<std::int64_t>(ms) * 1'000'000)));
+  }
+  double last_s() const { return seconds_between(epochs.list.back().time, kTime); }
+  Epochs epochs;
+  MessageOutput output{&epochs};
+  GpsClock clock{TimeReference::kGnss, 0.05};
+  Rtcm3Format format{GpsTime(), 30.0, &clock, &output};
+};
+
+}  // namespace
+
+TEST_CASE("A station with rare epochs is used until it has missed three of them", "[connect]") {
+  StationRig rig;
+  rig.format.on_open();
+  rig.send(0, 100);
+  // From then on another station sends each second, half a second later.
+  for (std::uint64_t s = 10; s <= 120; ++s) {
+    if (s % 10 == 0 && s <= 60) rig.send(1000 * s, 100);
+    rig.send(1000 * s + 500, 200);
+    if (s < 90) {
+      CHECK(rig.epochs.list.size() == 1 + std::min<std::size_t>(s / 10, 6));
+    } else {
+      CHECK(rig.last_s() == Approx(static_cast<double>(s) + 0.5));
+    }
+  }
+}
+
+TEST_CASE("The time of one other station does not count for a third", "[connect]") {
+  StationRig rig;
+  rig.format.on_open();
+  for (std::uint64_t s = 0; s < 4; ++s) rig.send(1000 * s, 100);
+  for (std::uint64_t s = 4; s < 7; ++s) rig.send(1000 * s, 200);
+  for (std::uint64_t s = 7; s < 12; ++s) rig.send(1000 * s, 300);
+  CHECK(rig.epochs.list.size() == 4);
+  for (std::uint64_t s = 12; s < 40; ++s) rig.send(1000 * s, 300);
+  CHECK(rig.last_s() == Approx(39.0));
+}
+
+TEST_CASE("Where two others send at the same time, one of them is used", "[connect]") {
+  StationRig rig;
+  rig.format.on_open();
+  for (std::uint64_t s = 0; s < 4; ++s) rig.send(1000 * s, 100);
+  for (std::uint64_t s = 4; s < 20; ++s) {
+    rig.send(1000 * s, 200);
+    rig.send(1000 * s + 500, 300);
+  }
+  CHECK(rig.epochs.list.size() == 4 + 11);
+  CHECK(rig.last_s() == Approx(19.0));
 }
 
 TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
