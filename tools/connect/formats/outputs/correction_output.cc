@@ -7,6 +7,32 @@
 #include "tools/import/unused_corrections.h"
 
 namespace leonav {
+namespace {
+
+// A question, or what must change, in the words of connect.yaml.
+const char* remedy_of(UnusedReason reason) {
+  switch (reason) {
+    case UnusedReason::kWithoutEphemeris:
+      return "ephemerides must come too, from a receiver or another stream; in RTCM 3 these are "
+             "1019, 1042, 1045 or 1046";
+    case UnusedReason::kWithoutBcnav1:
+      return "the receiver must give B1C, whose B-CNAV1 has the ephemerides that are corrected";
+    case UnusedReason::kTooOld:
+      return "they come later than 'max_orbit_age_s' and 'max_clock_age_s' allow, by the "
+             "receiver's time, or by the host's clock where no receiver is connected: is the "
+             "host's clock right, and how old is what the service sends?";
+    case UnusedReason::kInRegionalFrame:
+      return "choose a stream of the service in the ITRF";
+    case UnusedReason::kWithoutOrbit:
+    case UnusedReason::kWithoutClock:
+    case UnusedReason::kOfOtherIssue:
+    case UnusedReason::kNotReliable:
+      break;
+  }
+  return "the service sends no complete solution of these satellites; ask its operator if it lasts";
+}
+
+}  // namespace
 
 int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
   const CorrectionResult result = shared_->services.take(stream_, message, now);
@@ -34,9 +60,10 @@ std::string CorrectionOutput::why_none() const {
   for (const UnusedCorrections& unused : unused_corrections(shared_->services.counters(stream_))) {
     if (unused.count <= most) continue;
     most = unused.count;
-    remedy = unused.remedy;
+    remedy = remedy_of(unused.reason);
   }
-  return "none can be used (" + detail() + "): " + remedy;
+  const std::string what = detail();  // empty where no message had satellites with clocks
+  return "none can be used" + (what.empty() ? "" : " (" + what + ")") + ": " + remedy;
 }
 
 std::string CorrectionOutput::detail() const {

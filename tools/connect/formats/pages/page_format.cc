@@ -51,8 +51,7 @@ std::string PageFormat::why_no_frames() const {
 std::string PageFormat::why_no_messages() const {
   std::string why = "pages arrive, but no message is complete";
   if (decoder_.messages() > 0) {
-    why = "corrections arrive, but none can be used (" + corrections_->detail() +
-          "): the ephemerides must come from a receiver or another stream";
+    why = "corrections arrive, but " + corrections_->why_none();
   }
   const char* separator = "; left out: ";
   for (const auto& [reason, count] : decoder_.left_out()) {

@@ -169,6 +169,15 @@ TEST_CASE("Without ephemerides the text says that they are missing", "[connect]"
   feed(&format, bytes);
   CHECK(rig.counts.of[Channel::kCorrectedStates] == 0);
   CHECK_THAT(format.why_no_messages(), Catch::Contains("without their ephemeris"));
+  // The remedy is that of the most frequent reason, as of SSR.
+  CHECK_THAT(format.why_no_messages(), Catch::Contains(rig.corrections.why_none()));
+}
+
+TEST_CASE("Corrections without satellites that have clocks are told without empty brackets",
+          "[connect]") {
+  const Rig rig;
+  CHECK(rig.corrections.why_none() ==
+        "none can be used: is it the stream of a service for GPS, Galileo or BeiDou?");
 }
 
 TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[connect]") {
