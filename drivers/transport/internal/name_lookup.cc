@@ -17,13 +17,22 @@ struct NameLookup::State {
   std::mutex mutex;
   asio::io_context* io = nullptr;  // null: nobody is there any more
   bool is_asking = false;
-  // Of the io_context's thread alone:
-  Found found;
-  std::uint64_t attempt = 0;
+  Found found;  // of the io_context's thread alone
 };
 
-NameLookup::NameLookup(asio::io_context* io, const std::string& host, std::uint16_t port)
-    : io_(io), host_(host), port_(port), state_(std::make_shared<State>()) {
+NameLookup::Results NameLookup::ask_system(const std::string& host, const std::string& port,
+                                           Error* error) {
+  asio::io_context own;
+  return tcp::resolver(own).resolve(host, port, *error);
+}
+
+NameLookup::NameLookup(asio::io_context* io, const std::string& host, std::uint16_t port,
+                       Query query)
+    : io_(io),
+      host_(host),
+      port_(port),
+      query_(std::move(query)),
+      state_(std::make_shared<State>()) {
   state_->io = io;
 }
 
@@ -34,7 +43,6 @@ NameLookup::~NameLookup() {
 }
 
 void NameLookup::start(Found found) {
-  ++state_->attempt;
   state_->found = std::move(found);
   Error error;
   const asio::ip::address address = asio::ip::make_address(host_, error);
@@ -42,20 +50,17 @@ void NameLookup::start(Found found) {
   answer({}, Results::create(tcp::endpoint(address, port_), host_, std::to_string(port_)));
 }
 
-void NameLookup::cancel() {
-  ++state_->attempt;
-  state_->found = nullptr;
-}
+void NameLookup::cancel() { state_->found = nullptr; }
 
 bool NameLookup::is_asking() const {
   const std::lock_guard lock(state_->mutex);
   return state_->is_asking;
 }
 
-// Of this attempt alone.
+// An answer that comes when nobody waits any more finds nobody; all answers are to the same
+// question.
 void NameLookup::answer(const Error& error, const Results& results) {
-  asio::post(*io_, [state = state_, attempt = state_->attempt, error, results] {
-    if (attempt != state->attempt) return;
+  asio::post(*io_, [state = state_, error, results] {
     if (const Found found = std::exchange(state->found, nullptr)) found(error, results);
   });
 }
@@ -64,11 +69,9 @@ void NameLookup::ask() {
   const std::lock_guard lock(state_->mutex);
   if (state_->is_asking) return;
   try {
-    std::thread([state = state_, host = host_, port = std::to_string(port_)] {
-      asio::io_context own;
-      tcp::resolver resolver(own);
+    std::thread([state = state_, query = query_, host = host_, port = std::to_string(port_)] {
       Error error;
-      const Results results = resolver.resolve(host, port, error);
+      const Results results = query(host, port, &error);
       const std::lock_guard answered(state->mutex);
       state->is_asking = false;
       if (state->io == nullptr) return;
