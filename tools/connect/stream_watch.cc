@@ -1,6 +1,7 @@
 #include "tools/connect/stream_watch.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "tools/common/format.h"
 
@@ -109,8 +110,11 @@ void StreamWatch::note_epoch(std::int64_t now_ns) {
 }
 
 double StreamWatch::no_data_limit_s() const {
-  const auto longest = std::max_element(intervals_s_.begin(), intervals_s_.end());
-  return std::max(limits_.no_data_s, longest == intervals_s_.end() ? 0.0 : 3.0 * *longest);
+  if (intervals_s_.empty()) return limits_.no_data_s;
+  // The median: one pause among them does not make a later stop be told late.
+  std::vector<double> sorted(intervals_s_.begin(), intervals_s_.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::max(limits_.no_data_s, 3.0 * sorted[(sorted.size() - 1) / 2]);
 }
 
 void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {

@@ -159,9 +159,9 @@ TEST_CASE("A receiver with an epoch each 20 s is good in between, and told after
     }
     epoch();
   }
-  rig.seconds(60, 100, 5, published);
+  rig.seconds(59, 100, 5, published);
   CHECK(rig.watch.state() == StreamState::kGood);
-  rig.seconds(1, 100, 5, published);
+  rig.seconds(2, 100, 5, published);
   CHECK(rig.watch.state() == StreamState::kNoData);
 }
 
