@@ -257,6 +257,7 @@ void Sequencer::on_command(const Command& command) {
   if (!command_limit_.allows(now())) return reject(InputFault::kTooOften);
   Command checked = command;
   checked.cause = ResetCause::kCommand;
+  checked.time = now();
   push_command(checked);
 }
 

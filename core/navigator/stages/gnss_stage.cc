@@ -54,6 +54,7 @@ void GnssStage::process(const GnssWork& work) {
 void GnssStage::process_work(const EpochWork& work) {
   reporter_.start(work);
   epoch_ = EpochState();
+  use_heading(work);
   follow_window(work);
   predict(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);
@@ -80,7 +81,8 @@ void GnssStage::process_work(const EpochWork& work) {
 // or a heading that ends the window.
 void GnssStage::follow_window(const EpochWork& work) {
   if (keyframes_ == nullptr || !inertial_ || !work.smoother_decided || !ekf_.initialized()) return;
-  if (!ekf_.estimate().process().continuous || pending_keyframe_.ends_window()) return;
+  if (!ekf_.estimate().process().continuous || pending_keyframe_.ends_window() || pending_heading_)
+    return;
   SmootherAnchor result;
   if (!keyframes_->result_of(work.index - 1, &result) || !result.filter_may_follow) return;
   const Anchor& window = result.anchor;
@@ -267,10 +269,28 @@ void GnssStage::process_work(const Command& command) {
   else if (attitude_.contradicts_motion(command.value, command.sigma, ekf_))
     result = CommandResult::kContradictsMotion;
   else
-    set_heading(command.value, command.sigma);
+    take_heading(command);
   if (command.sequence)
     reporter_.emit(EventKind::kCommand, static_cast<std::uint8_t>(result),
                    static_cast<double>(*command.sequence), time);
+}
+
+// A heading that holds later than the filter's state waits for the samples between the two.
+void GnssStage::take_heading(const Command& command) {
+  pending_heading_.reset();
+  if (ekf_.has_attitude() && ekf_.state().time < command.time)
+    pending_heading_ = command;
+  else
+    set_heading(command.value, command.sigma);
+}
+
+void GnssStage::use_heading(const EpochWork& work) {
+  if (!pending_heading_ || work.time < pending_heading_->time) return;
+  const Command command = *pending_heading_;
+  pending_heading_.reset();
+  const double turned =
+      ekf_.has_attitude() ? heading_change(ekf_.state(), work.block, command.time) : 0.0;
+  set_heading(command.value - turned, command.sigma);
 }
 
 // Replaces only the attitude; position, velocity, clocks and IMU errors do not change.

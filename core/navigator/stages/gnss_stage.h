@@ -1,6 +1,8 @@
 // GnssStage estimates the state at each GNSS epoch with the filter and delivers it as an anchor and
 // a report.
 #pragma once
+#include <optional>
+
 #include "core/filter/ekf.h"
 #include "core/installation_checks/installation_monitor.h"
 #include "core/navigator/interface/navigator_config.h"
@@ -73,6 +75,8 @@ class GnssStage {
   void report_solution(const EpochWork& work);
   void publish(const EpochWork& work);
   void push_keyframe(const EpochWork& work);
+  void take_heading(const Command& command);
+  void use_heading(const EpochWork& work);
   void set_heading(double heading, double sigma);
   void report_calibration(const std::optional<SavedCalibration::Verdict>& verdict, GpsTime time);
 
@@ -97,6 +101,7 @@ class GnssStage {
   SavedCalibration calibration_;
   EpochReporter reporter_;
   PendingKeyframe pending_keyframe_;
+  std::optional<Command> pending_heading_;  // which holds later than the filter's state
   InstallationMonitor installation_monitor_;
   EpochState epoch_;    // the current or last epoch
   LevelGrowth levels_;  // protection levels from that epoch on

@@ -18,6 +18,20 @@ bool block_ends_at_epoch(const EpochWork& work) {
 
 }  // namespace
 
+double heading_change(const NavState& state, const ImuBlock& samples, GpsTime until) {
+  const Eigen::Quaterniond q_ne(rotation_ecef_to_ned(to_geodetic(state.p_e)));
+  const Eigen::Quaterniond first = q_ne * state.q_eb;
+  Eigen::Quaterniond q_nb = first;
+  for (const ImuSample& sample : samples) {
+    if (sample.start() < state.time) continue;
+    if (sample.start() >= until) break;
+    const ImuSample part = sample.time > until ? split(sample, until).before : sample;
+    q_nb = q_nb * quaternion_from_rotation_vector(correct(part, state.errors).delta_theta_b);
+  }
+  return wrap_to_pi(euler_from_rotation(q_nb.toRotationMatrix()).yaw -
+                    euler_from_rotation(first.toRotationMatrix()).yaw);
+}
+
 AttitudeInitializer::AttitudeInitializer(const NavigatorConfig& config)
     : config_(config.alignment),
       inertial_(config.motion == MotionModel::kInertial),

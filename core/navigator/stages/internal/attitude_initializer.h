@@ -15,6 +15,11 @@
 
 namespace leonav {
 
+// Returns by how much the heading turns, rad, from `state` to `until`, by the samples' angular
+// rates without their estimated errors; the Earth's rate is left out, so that it serves for some
+// seconds. Samples before `state` do not count.
+double heading_change(const NavState& state, const ImuBlock& samples, GpsTime until);
+
 // AttitudeInitializer only reads the filter. The caller sets the attitudes that it returns and
 // reports the verdicts on a checkpoint. A heading comes from outside (configuration or command),
 // from an earlier run's checkpoint, or from alignment. Without an inertial motion model it does

@@ -69,6 +69,30 @@ TEST_CASE("commands are answered; a heading across the motion is refused, a reve
   CHECK(worst_error(sink, drive, 60.0, 90.0) < 1.0);
 }
 
+TEST_CASE("a commanded heading holds when it comes, and not at the epoch before, in a turn") {
+  SyntheticDriveOptions options;
+  options.duration_s = 90.0;
+  options.turn_rate_rad_s = 0.3;
+  const SyntheticDrive drive = synthetic_drive(options);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  const double given_s = 60.065;  // the newest sample when the epoch of 60 s comes
+  REQUIRE(std::abs(wrap_to_pi(heading_at(drive, given_s) - heading_at(drive, 59.0))) > 0.1);
+  RecordingSink sink;
+  Navigator pipeline(config, &sink);
+  bool told = false;
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    if (told || seconds(raw.time) < 59.5) return;
+    told = true;
+    sequencer->on_command({CommandKind::kSetHeading, heading_at(drive, given_s), 1e-3});
+  });
+  for (const EpochReport& report : sink.epochs) {
+    const double t = seconds(report.time);
+    if (t < 59.5 || t > 65.5) continue;
+    CAPTURE(t, report.solution.yaw, heading_at(drive, t));
+    CHECK(std::abs(wrap_to_pi(report.solution.yaw - heading_at(drive, t))) < 1e-3);
+  }
+}
+
 // Restarts the filter at each of these times.
 RecordingSink run_with_restarts(const SyntheticDrive& drive, const NavigatorConfig& config,
                                 const std::vector<double>& restarts_s) {
