@@ -27,6 +27,26 @@ install_packages() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# install_oracles: a Python with the independent decoders of test/oracle/requirements.txt in
+# build/oracles, which the tests find by LEONAV_PYTHON; without it they say what they skip.
+install_oracles() {
+  local folder=$leonav_root/build/oracles list=$leonav_root/test/oracle/requirements.txt
+  if [ -z "${LEONAV_PYTHON:-}" ]; then
+    if ! cmp -s "$list" "$folder/installed.txt"; then
+      say "Installing independent decoders from PyPI"
+      install_packages python3-venv
+      rm -rf "$folder"
+      if ! { /usr/bin/python3 -m venv "$folder" &&
+             "$folder/bin/pip" install --quiet --disable-pip-version-check --no-deps --only-binary :all: -r "$list" &&
+             cp "$list" "$folder/installed.txt"; }; then
+        say "No independent decoders: PyPI could not be reached, or does not have them for this Python; the tests that need them are skipped"
+        return
+      fi
+    fi
+    export LEONAV_PYTHON=$folder/bin/python
+  fi
+}
+
 leonav_build_packages=(g++ cmake ninja-build libeigen3-dev libboost-dev liblcm-dev liblcm-bin
                        libyaml-cpp-dev libspdlog-dev libceres-dev libssl-dev nettle-dev)
 leonav_test_packages=(catch2)
