@@ -4,7 +4,7 @@
 Publishes solutions and epochs by types that lcm-gen writes for Python and by the datagrams of LCM, not by leonav's code, and
 compares every sentence's numbers with what was published. A client that does not read must lose sentences, be told of it when
 it reads again, and hold nobody up. Damaged messages come in between. Leaves WORK_DIR/client.nmea and WORK_DIR/truth.csv for
-test/oracle/nmea.py. Runs in a network namespace of its own; exit 77: none can be made here.
+test/oracle/nmea.py, and runs it with the Python of LEONAV_PYTHON where that has pynmeagps and pynmea2. Runs in a network namespace of its own; exit 77: none can be made here.
 """
 import csv
 import datetime
@@ -199,6 +199,14 @@ def run(work, types, text):
     return published, fast, late, pty
 
 
+def compare_with_oracle(work):
+    python = os.environ.get("LEONAV_PYTHON", "python3")
+    if subprocess.run([python, "-c", "import pynmea2, pynmeagps"], stderr=subprocess.DEVNULL).returncode != 0:
+        print("SKIPPED (optional): no Python with pynmeagps and pynmea2 (LEONAV_PYTHON names another)")
+    elif subprocess.run([python, "-B", ROOT / "test/oracle/nmea.py", work / "client.nmea", work / "truth.csv"]).returncode != 0:
+        fail("pynmeagps or pynmea2 reads something else")
+
+
 def main():
     global BIN
     enter_namespace()
@@ -215,6 +223,7 @@ def main():
     for number, client in enumerate(fast):
         check(f"client {number}", client.data, published, True)
     check("pseudo-terminal", pty.data, published, True)
+    compare_with_oracle(work)
     if check("slow client", late.data, published, False) >= INSTANTS or b"sentences lost" not in late.data:
         fail("the slow client lost nothing, or was not told")
     for words in ("reads too slowly", f"{3 * INSTANTS // RATE} messages refused", "gone ("):
