@@ -1,6 +1,7 @@
 #include "daemon/checkpoint/product_store.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,24 @@ auto signal_of(const SignalBias& bias) { return std::tie(bias.satellite, bias.ki
 
 bool is_before(const SignalBias& a, const SignalBias& b) {
   return std::tuple(signal_of(a), a.valid_from) < std::tuple(signal_of(b), b.valid_from);
+}
+
+// What a bias is good for, least first.
+enum class Use : std::uint8_t { kEnded, kAhead, kInForce };
+
+Use use_at(GpsTime time, const SignalBias& bias) {
+  const bool has_ended = bias.valid_until.is_set()
+                             ? time >= bias.valid_until
+                             : seconds_between(time, bias.time) > kLongestBiasAge_s;
+  if (has_ended) return Use::kEnded;
+  return bias.valid_from.is_set() && time < bias.valid_from ? Use::kAhead : Use::kInForce;
+}
+
+// Whether at `time` the bias `a` of a signal makes room rather than `b`.
+bool makes_room(GpsTime time, const SignalBias& a, const SignalBias& b) {
+  const Use use_a = use_at(time, a), use_b = use_at(time, b);
+  if (use_a != use_b) return use_a < use_b;
+  return use_a == Use::kAhead ? a.valid_from > b.valid_from : a.time < b.time;
 }
 
 }  // namespace
@@ -53,7 +72,11 @@ void ProductStore::keep(const KlobucharModel& ionosphere) {
 
 void ProductStore::keep(std::span<const SignalBias> biases) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) return;
+  if (!lock || biases.empty()) return;
+  if (products_.biases.size() + biases.size() > kMostBiases)
+    std::erase_if(products_.biases, [now = biases[0].time](const SignalBias& bias) {
+      return use_at(now, bias) == Use::kEnded;
+    });
   for (const SignalBias& bias : biases) {
     if (bias.kind == BiasKind::kPhase || !is_sane(bias)) continue;
     keep_bias(bias);
@@ -76,8 +99,12 @@ void ProductStore::keep_bias(const SignalBias& bias) {
     if (all.size() < kMostBiases) all.insert(place, bias);
     return;
   }
-  *std::min_element(
-      first, end, [](const SignalBias& a, const SignalBias& b) { return a.time < b.time; }) = bias;
+  const auto rather = [&](const SignalBias& a, const SignalBias& b) {
+    return makes_room(bias.time, a, b);
+  };
+  const auto last = std::min_element(first, end, rather);
+  if (rather(bias, *last)) return;
+  *last = bias;
   std::sort(first, end, is_before);
 }
 

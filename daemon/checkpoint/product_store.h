@@ -33,8 +33,10 @@ class ProductStore {
   // Never waits: what comes while the other thread copies is left out, as senders repeat it.
   void keep(const Ephemeris& ephemeris);
   void keep(const KlobucharModel& ionosphere);
-  // Of a signal as many as SignalBiasStore keeps, by their beginnings; the next replaces the one
-  // that was received first. Biases of carriers, which nothing uses, are left out.
+  // Of a signal as many as SignalBiasStore keeps: those in force and those that begin next, at the
+  // time when the last one was received; of several in force the newest. Where there is no room for
+  // all signals, ended biases make some; those that hold or will hold stay, and the new ones are
+  // left out. Biases of carriers, which nothing uses, are left out too.
   void keep(std::span<const SignalBias> biases);
   // Copies what there is; `products` should have room. False: nothing has come since the last call.
   bool take(BroadcastProducts* products);

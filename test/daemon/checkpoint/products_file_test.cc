@@ -1,6 +1,7 @@
 // Broadcast products survive a restart, and a damaged file is never half used.
 #include "daemon/checkpoint/products_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <span>
 #include <vector>
@@ -26,6 +27,19 @@ SignalBias bias_of(std::uint16_t number, double bias_m, double received_s, doubl
     bias.valid_until = bias.valid_from.plus_seconds(86400.0);
   }
   return bias;
+}
+
+// More than a store holds.
+std::vector<SignalBias> biases_of_every_leo_satellite(double received_s) {
+  std::vector<SignalBias> many;
+  for (std::uint16_t number = 1; number <= kHighestNumber[index_of(System::kLeo)]; ++number) {
+    for (char attribute = 'A'; attribute <= 'Z'; ++attribute) {
+      many.push_back(bias_of(number, 1.0, received_s));
+      many.back().satellite.system = System::kLeo;
+      many.back().code = {'1', attribute};
+    }
+  }
+  return many;
 }
 
 BroadcastProducts some_products() {
@@ -138,12 +152,44 @@ TEST_CASE("a signal's newest bias replaces the one before, and the next day's co
   CHECK(taken.biases[0].bias_m == 2.0);
   CHECK(taken.biases[1].bias_m == 3.0);
   CHECK_FALSE(store.take(&taken));
-  // The third day's replaces the first day's.
-  for (int day = 1; day <= 3; ++day) keep(bias_of(7, day, 80.0 + day, 86400.0 * day));
+}
+
+// What a store holds that has been given these one after the other, as values in order.
+static std::vector<double> kept_of(const std::vector<SignalBias>& biases) {
+  ProductStore store;
+  for (const SignalBias& bias : biases) store.keep(std::span(&bias, 1));
+  BroadcastProducts taken;
   REQUIRE(store.take(&taken));
-  REQUIRE(taken.biases.size() == 4);
-  CHECK(taken.biases[2].bias_m == 2.0);
-  CHECK(taken.biases[3].bias_m == 3.0);
+  std::vector<double> values;
+  for (const SignalBias& bias : taken.biases) values.push_back(bias.bias_m);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+TEST_CASE("of a signal's biases those stay that are in force and that begin next, in any order") {
+  constexpr double kDay_s = 86400.0;
+  const auto of_day = [](int day, double received_s) {
+    return bias_of(7, day, received_s, kDay_s * day);
+  };
+  const double now_s = 1.2 * kDay_s;
+  std::vector<int> days = {1, 2, 3};
+  do {
+    std::vector<SignalBias> biases;
+    for (const int day : days) biases.push_back(of_day(day, now_s));
+    CHECK(kept_of(biases) == std::vector{1.0, 2.0});
+    biases.push_back(of_day(3, now_s + kDay_s));  // the first day has ended
+    biases.push_back(of_day(1, now_s + kDay_s));
+    CHECK(kept_of(biases) == std::vector{2.0, 3.0});
+  } while (std::next_permutation(days.begin(), days.end()));
+}
+
+TEST_CASE("of a signal's biases without an end the newest stay, whatever their beginnings") {
+  std::vector<SignalBias> biases;
+  for (const double begins_s : {30.0, 20.0, 10.0}) {
+    biases.push_back(bias_of(9, begins_s, 100.0 - begins_s, begins_s));
+    biases.back().valid_until = GpsTime();
+  }
+  CHECK(kept_of(biases) == std::vector{10.0, 20.0});
 }
 
 TEST_CASE("biases of carriers and impossible ones are not kept, nor more than there is room for") {
@@ -155,14 +201,7 @@ TEST_CASE("biases of carriers and impossible ones are not kept, nor more than th
   without_time.time = GpsTime();
   store.keep(std::vector{phase, far, without_time});
   CHECK_FALSE(store.take(&taken));
-  std::vector<SignalBias> many;
-  for (std::uint16_t number = 1; number <= kHighestNumber[index_of(System::kLeo)]; ++number) {
-    for (char attribute = 'A'; attribute <= 'Z'; ++attribute) {
-      many.push_back(bias_of(number, 1.0, 0.0));
-      many.back().satellite.system = System::kLeo;
-      many.back().code = {'1', attribute};
-    }
-  }
+  const std::vector<SignalBias> many = biases_of_every_leo_satellite(0.0);
   REQUIRE(many.size() > ProductStore::kMostBiases);
   store.keep(many);
   REQUIRE(store.take(&taken));
@@ -176,4 +215,33 @@ TEST_CASE("biases of carriers and impossible ones are not kept, nor more than th
   REQUIRE(read);
   CHECK(read->biases.size() == taken.biases.size());
   CHECK(text_of_file(*read) == text_of_file(taken));
+}
+
+TEST_CASE("a full store keeps the biases that hold, and takes others once these have ended") {
+  ProductStore store;
+  BroadcastProducts taken;
+  std::vector<SignalBias> many = biases_of_every_leo_satellite(0.0);
+  many.resize(ProductStore::kMostBiases);
+  const auto keep = [&](std::uint16_t number, double received_s) {
+    const SignalBias bias = bias_of(number, 2.0, received_s);
+    store.keep(std::span(&bias, 1));
+  };
+  const auto count_of_galileo = [&] {
+    REQUIRE(store.take(&taken));
+    return std::count_if(taken.biases.begin(), taken.biases.end(), [](const SignalBias& bias) {
+      return bias.satellite.system == System::kGalileo;
+    });
+  };
+  store.keep(many);
+  keep(1, 60.0);
+  CHECK(count_of_galileo() == 0);
+  CHECK(taken.biases.size() == ProductStore::kMostBiases);
+  // Half of them are sent again.
+  for (SignalBias& bias : many) bias.time = bias.time.plus_seconds(3600.0);
+  const std::span repeated = std::span(many).first(many.size() / 2);
+  store.keep(repeated);
+  keep(1, kLongestBiasAge_s + 60.0);
+  keep(2, kLongestBiasAge_s + 61.0);
+  CHECK(count_of_galileo() == 2);
+  CHECK(taken.biases.size() == repeated.size() + 2);
 }
