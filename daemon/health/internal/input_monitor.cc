@@ -78,21 +78,16 @@ void InputMonitor::look_at_stream(const Gauge& accepted, double now_s, Channel c
 std::string_view InputMonitor::why_no_epoch(bool none_since_start) {
   const bool had_imu = counters_->accepted_imu.get() > 0;
   if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
-  if (counters_->accepted_epochs.get() == 0)
-    return with_fault("all GNSS epochs are rejected", Channel::kGnssEpoch);
+  if (counters_->accepted_epochs.get() == 0) return with_clocks("all GNSS epochs are rejected");
   if (expects_imu_ && counters_->received[index_of(Channel::kImu)].get() == 0)
     return "no IMU sample has come";
   if (expects_imu_ && !had_imu) return with_fault("all IMU samples are rejected", Channel::kImu);
   if (expects_imu_ && imu_.used.is_late()) return "no IMU sample is used any more";
   if (!gnss_.used.is_late()) return "";
-  const InputFault fault = faults_.most_frequent(Channel::kGnssEpoch);
-  const bool wrong_time = fault == InputFault::kTimeBackwards || fault == InputFault::kTooFarAhead;
-  if (!wrong_time || !expects_imu_) return "no GNSS epoch is used any more";
+  if (!are_clocks_apart()) return "no GNSS epoch is used any more";
   // What was rejected before the start was compared with a time of the IMU that holds no more.
   if (none_since_start) return "";
-  with_fault("the GNSS epochs are rejected", Channel::kGnssEpoch);
-  detail_ += ", their time is not that of the IMU: compare the two clocks";
-  return detail_;
+  return with_clocks("the GNSS epochs are rejected");
 }
 
 bool InputMonitor::is_silent() const {
@@ -108,6 +103,19 @@ void InputMonitor::append_fault(Channel channel) {
 std::string_view InputMonitor::with_fault(std::string_view text, Channel channel) {
   detail_.assign(text);
   append_fault(channel);
+  return detail_;
+}
+
+// Whether the epochs are rejected because their time is not that of the IMU.
+bool InputMonitor::are_clocks_apart() const {
+  if (!expects_imu_ || counters_->accepted_imu.get() == 0) return false;
+  const InputFault fault = faults_.most_frequent(Channel::kGnssEpoch);
+  return fault == InputFault::kTimeBackwards || fault == InputFault::kTooFarAhead;
+}
+
+std::string_view InputMonitor::with_clocks(std::string_view text) {
+  with_fault(text, Channel::kGnssEpoch);
+  if (are_clocks_apart()) detail_ += ", their time is not that of the IMU: compare the two clocks";
   return detail_;
 }
 

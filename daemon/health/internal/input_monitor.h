@@ -46,6 +46,10 @@ class InputMonitor {
   void append_fault(Channel channel);
   // Valid until the next call.
   std::string_view with_fault(std::string_view text, Channel channel);
+  bool are_clocks_apart() const;
+  // With the fault of the epochs, and the remedy where the clocks are apart. Valid until the next
+  // call.
+  std::string_view with_clocks(std::string_view text);
 
   const EngineCounters* counters_;
   bool expects_imu_, uses_odometer_;

@@ -350,23 +350,29 @@ TEST_CASE("junk beside good inputs degrades HEALTH for as long as it comes, and 
   CHECK(long_after == "OK: ");
 }
 
-// Feeds the drive with its IMU samples changed from 30 s on, looks once a second until 45 s, and
-// returns what HEALTH said then.
+struct Stretch {
+  int begin_s = 0, end_s = 45;
+};
+
+// Feeds a stretch of the drive with its IMU samples changed from `changed_s` on, looks once a
+// second, and returns what HEALTH said last.
 template <typename Change>
-static std::string said_with_imu(Watched* watched, Change change) {
+static std::string said_with_imu(Watched* watched, Change change, int changed_s = 30,
+                                 Stretch stretch = {}) {
   Decoder decoder;
   Encoder encoder;
   const test::SyntheticDrive drive = test::synthetic_drive(test::noisy_drive(60.0));
   int samples = 0;
   std::string said;
   test::feed_messages(drive, [&](Channel channel, ByteSpan bytes) {
-    if (samples > 45 * 200) return;
+    samples += channel == Channel::kImu;
+    const bool is_before = stretch.begin_s > 0 && samples <= stretch.begin_s * 200;
+    if (is_before || samples > stretch.end_s * 200) return;
     if (channel != Channel::kImu) return watched->receive(channel, bytes);
     ImuSample sample;
     const DecodeResult result = decoder.decode(bytes, &sample);
     REQUIRE(result.fault == InputFault::kNone);
-    ++samples;
-    if (samples > 30 * 200) change(&sample);
+    if (samples > changed_s * 200) change(&sample);
     watched->receive(channel, encoder.encode(sample, result.sequence));
     if (samples % 200 == 0) said = watched->at(samples / 200);
   });
@@ -387,15 +393,45 @@ TEST_CASE("a dead IMU is named with its own fault, whatever else is rejected mor
   CHECK(said.find("is rejected (IMU as not_sane, ODOMETER as undecodable): ") != std::string::npos);
 }
 
+namespace {
+
+const std::string kApart = "their time is not that of the IMU: compare the two clocks); ";
+const auto an_hour_ahead = [](ImuSample* sample) {
+  sample->time = sample->time.plus_seconds(3600.0);
+};
+
+}  // namespace
+
 TEST_CASE("an IMU whose clock was set an hour ahead: HEALTH says that the two times differ") {
   Watched watched(MotionModel::kInertial);
-  const std::string said = said_with_imu(
-      &watched, [](ImuSample* sample) { sample->time = sample->time.plus_seconds(3600.0); });
+  const std::string said = said_with_imu(&watched, an_hour_ahead);
   CAPTURE(said);
-  CHECK(said.find("FAULT: no solution yet (the GNSS epochs are rejected as time_backwards, their "
-                  "time is not that of the IMU: compare the two clocks); ") == 0);
+  CHECK(said.find("FAULT: no solution yet (the GNSS epochs are rejected as time_backwards, " +
+                  kApart) == 0);
   CHECK(said.find("no usable GNSS (messages come, but are rejected as time_backwards): ") !=
         std::string::npos);
+}
+
+TEST_CASE("a restart while the clocks of IMU and GNSS differ: HEALTH says so again") {
+  Watched watched(MotionModel::kInertial);
+  CHECK(said_with_imu(&watched, an_hour_ahead).find(kApart) != std::string::npos);
+  watched.receive(Channel::kCommand, Encoder().encode(Command(), GpsTime(), 1));
+  CHECK(watched.at(45.5).find("FAULT: no solution yet (the filter has started over and waits for "
+                              "the next GNSS epoch); ") == 0);
+  for (const int begin_s : {45, 47, 50}) {
+    const std::string said = said_with_imu(&watched, an_hour_ahead, 30, {begin_s, begin_s + 2});
+    CAPTURE(said);
+    CHECK(said.find("FAULT: no solution yet (the GNSS epochs are rejected as time_backwards, " +
+                    kApart) == 0);
+  }
+}
+
+TEST_CASE("a start while the clocks of IMU and GNSS differ: HEALTH says so") {
+  Watched watched(MotionModel::kInertial);
+  const std::string said = said_with_imu(&watched, an_hour_ahead, 0);
+  CAPTURE(said);
+  CHECK(said.find("FAULT: no solution yet (all GNSS epochs are rejected as time_backwards, " +
+                  kApart) == 0);
 }
 
 TEST_CASE("inputs that come back after 16 s: HEALTH waits for an epoch before it compares clocks") {
