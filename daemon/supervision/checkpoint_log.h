@@ -5,6 +5,7 @@
 #include <string>
 
 #include "daemon/engine/engine.h"
+#include "daemon/supervision/changed.h"
 
 namespace leonav {
 
@@ -17,8 +18,8 @@ class CheckpointLog {
 
  private:
   Engine* engine_;
-  std::int64_t last_use_ = 0, last_calibration_use_ = 0;
-  std::string last_error_;
+  Changed<std::int64_t> use_, calibration_use_;  // 0: there was none yet
+  Changed<std::string> error_;
 };
 
 }  // namespace leonav

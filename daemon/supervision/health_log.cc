@@ -5,21 +5,16 @@
 namespace leonav {
 
 void HealthLog::look(HealthMonitor* health, const std::string& stalled_threads, bool stands_still) {
-  const HealthStatus status = health->status();
   const std::string& why = health->why();
-  if (status != status_ || why != why_ || is_first_)
-    spdlog::info("{}{}{}", to_string(status), why.empty() ? "" : ": ", why);
-  is_first_ = false;
-  status_ = status;
-  why_ = why;
-  if (health->suspicions() != suspicions_)
+  const bool is_other_status = status_.look(health->status()), is_other_why = why_.look(why);
+  if (is_other_status || is_other_why)
+    spdlog::info("{}{}{}", to_string(health->status()), why.empty() ? "" : ": ", why);
+  if (suspicions_.look(health->suspicions()))
     spdlog::warn("not as it should be: {}", health->suspicions());
-  suspicions_ = health->suspicions();
-  if (stands_still && !stands_still_) spdlog::error("no answer for a minute, though inputs come");
-  stands_still_ = stands_still;
-  if (!stalled_threads.empty() && stalled_threads != stalled_threads_)
+  if (stands_still_.look(stands_still) && stands_still)
+    spdlog::error("no answer for a minute, though inputs come");
+  if (stalled_threads_.look(stalled_threads) && !stalled_threads.empty())
     spdlog::error("thread hangs: {}", stalled_threads);
-  stalled_threads_ = stalled_threads;
 }
 
 }  // namespace leonav

@@ -1,9 +1,11 @@
 // The HealthLog logs the changes of HEALTH, of threads that hang and of an answer that stands
 // still.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "daemon/health/health_monitor.h"
+#include "daemon/supervision/changed.h"
 
 namespace leonav {
 
@@ -13,10 +15,9 @@ class HealthLog {
   void look(HealthMonitor* health, const std::string& stalled_threads, bool stands_still);
 
  private:
-  bool is_first_ = true;
-  HealthStatus status_ = HealthStatus::kOk;
-  std::string why_, suspicions_, stalled_threads_;
-  bool stands_still_ = false;
+  Changed<std::optional<HealthStatus>> status_;
+  Changed<std::string> why_, suspicions_, stalled_threads_;
+  Changed<bool> stands_still_;
 };
 
 }  // namespace leonav

@@ -8,9 +8,11 @@ void JournalLog::look(const JournalHealth& health) {
   tell_name();
   tell_failure(health);
   tell_loss(health);
-  if (unsynced_.change(health.has(JournalTrouble::kUnsynced)).value_or(false))
+  const bool unsynced = health.has(JournalTrouble::kUnsynced);
+  if (unsynced_.look(unsynced) && unsynced)
     spdlog::error("{}; a power cut now may cost it", health.text(JournalTrouble::kUnsynced));
-  if (undeletable_.change(health.has(JournalTrouble::kUndeletable)).value_or(false))
+  const bool undeletable = health.has(JournalTrouble::kUndeletable);
+  if (undeletable_.look(undeletable) && undeletable)
     spdlog::warn("{}; look at the owner and the attributes of the files beside {}",
                  health.text(JournalTrouble::kUndeletable), journal_->path());
   tell_kept(journal_);
@@ -24,9 +26,9 @@ void JournalLog::tell_name() {
 }
 
 void JournalLog::tell_failure(const JournalHealth& health) {
-  const auto fails = fails_.change(health.has(JournalTrouble::kFails));
-  if (!fails) return;
-  if (*fails)
+  const bool fails = health.has(JournalTrouble::kFails);
+  if (!fails_.look(fails)) return;
+  if (fails)
     spdlog::error("{}; a new piece is begun as soon as that can be done",
                   health.text(JournalTrouble::kFails));
   else
@@ -34,11 +36,10 @@ void JournalLog::tell_failure(const JournalHealth& health) {
 }
 
 void JournalLog::tell_loss(const JournalHealth& health) {
-  const auto loses =
-      loses_.change(health.has(JournalTrouble::kLoses) || health.has(JournalTrouble::kLeavesOut));
-  if (!loses) return;
+  const bool loses = health.has(JournalTrouble::kLoses) || health.has(JournalTrouble::kLeavesOut);
+  if (!loses_.look(loses)) return;
   const JournalCounters& counters = journal_->counters();
-  if (*loses)
+  if (loses)
     spdlog::warn("journal: messages are left out, because the disk is too slow");
   else
     spdlog::warn(

@@ -1,12 +1,12 @@
 // The JournalLog logs, each once, where the journal is, what has begun and ceased to be wrong with
 // it, and which pieces are kept.
 #pragma once
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "daemon/health/journal_health.h"
 #include "daemon/journal/journal.h"
+#include "daemon/supervision/changed.h"
 
 namespace leonav {
 
@@ -20,18 +20,6 @@ class JournalLog {
   static void tell_kept(Journal* journal);
 
  private:
-  class Switch {
-   public:
-    // The new position, where it has changed.
-    std::optional<bool> change(bool on) {
-      if (std::exchange(on_, on) == on) return std::nullopt;
-      return on;
-    }
-
-   private:
-    bool on_ = false;
-  };
-
   void tell_name();
   void tell_failure(const JournalHealth& health);
   void tell_loss(const JournalHealth& health);
@@ -39,7 +27,7 @@ class JournalLog {
   std::string path_;
   Journal* journal_;
   bool named_ = false;
-  Switch fails_, loses_, unsynced_, undeletable_;
+  Changed<bool> fails_, loses_, unsynced_, undeletable_;
 };
 
 }  // namespace leonav
