@@ -26,6 +26,7 @@ std::optional<std::span<const std::uint8_t>> CommandGate::due_nonce(std::int64_t
 }
 
 InputFault CommandGate::judge(std::span<const std::uint8_t> message, std::int64_t now_ns) noexcept {
+  take_key();
   renew(now_ns);
   const InputFault fault = decode_signed_command(message, &received_);
   if (fault != InputFault::kNone) return fault;
@@ -37,6 +38,18 @@ InputFault CommandGate::judge(std::span<const std::uint8_t> message, std::int64_
   renewed_ns_ = now_ns;
   published_ns_.reset();
   return InputFault::kNone;
+}
+
+void CommandGate::set_key(CommandKey key) {
+  const std::lock_guard lock(next_key_mutex_);
+  next_key_ = std::move(key);
+}
+
+void CommandGate::take_key() noexcept {
+  const std::unique_lock lock(next_key_mutex_, std::try_to_lock);
+  if (!lock || !next_key_) return;
+  key_ = std::move(*next_key_);
+  next_key_.reset();
 }
 
 // The nonce before is still good, for senders that have it already.

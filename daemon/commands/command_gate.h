@@ -7,6 +7,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -15,7 +16,7 @@
 
 namespace leonav {
 
-// One thread. Allocates nothing after construction.
+// One thread, but for set_key(). Allocates nothing after construction.
 class CommandGate {
  public:
   static constexpr std::int64_t kRenewal_ns = 10 * kNanosecondsPerSecond;
@@ -34,11 +35,18 @@ class CommandGate {
   // An encoded command_t, of which the gate knows nothing but who has signed it.
   std::span<const std::uint8_t> command() const { return received_.command; }
 
+  // Any thread: this key is the only one from the next command on. The other thread never waits for
+  // this one: a command that it looks at meanwhile is still judged by the key before.
+  void set_key(CommandKey key);
+
  private:
+  void take_key() noexcept;
   void renew(std::int64_t now_ns) noexcept;
   bool is_valid(const CommandNonce& nonce) const;
 
   CommandKey key_;
+  std::mutex next_key_mutex_;
+  std::optional<CommandKey> next_key_;
   CommandNonce current_{};
   std::optional<CommandNonce> previous_;
   std::optional<std::int64_t> renewed_ns_, published_ns_;

@@ -29,6 +29,7 @@ CommandLine::CommandLine()
           "in effect\n"
           "(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or needs a "
           "restart.\n"
+          "The key for commands (commands.key_file) is read again too.\n"
           "Exit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
           "configuration, 4 LCM, 5 journal.") {
   add_configuration_options(&arguments_);

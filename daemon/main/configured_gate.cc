@@ -7,11 +7,11 @@
 
 namespace leonav {
 
-std::optional<CommandGate> configured_gate(const DaemonConfig& config) {
+std::unique_ptr<CommandGate> configured_gate(const DaemonConfig& config) {
   const std::string& path = config.commands.key_file;
-  if (path.empty()) return std::nullopt;
+  if (path.empty()) return nullptr;
   try {
-    return CommandGate(CommandKey::from_file(path));
+    return std::make_unique<CommandGate>(CommandKey::from_file(path));
   } catch (const FileError& error) {
     throw ConfigError(config.source.place_of("commands.key_file") + ": " + error.what());
   }

@@ -3,9 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "daemon/engine/drill.h"
 #include "daemon/engine/engine.h"
@@ -66,7 +66,7 @@ int tell_end(Engine* engine, bool is_complete, bool io_failed, const std::string
 int run(const CommandLine& command_line) {
   DaemonConfig config = command_line.load();
   set_log_level(config.log.level);
-  std::optional<CommandGate> gate = configured_gate(config);
+  const std::unique_ptr<CommandGate> gate = configured_gate(config);
   prepare_memory();
   const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
@@ -79,7 +79,7 @@ int run(const CommandLine& command_line) {
   Engine engine(config, &publisher, drill_hooks(config.drill));
   // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
   std::optional<ProcessSignals> signals(std::in_place);
-  LcmReceiver receiver(config.lcm, config.threads.io, &engine, std::move(gate));
+  LcmReceiver receiver(config.lcm, config.threads.io, &engine, gate.get());
   warn_of(receiver.refused());
   for (const std::string& refused : engine.start()) warn_of(refused);
   begin_from_saved(config.checkpoint.path, &engine);
@@ -90,7 +90,8 @@ int run(const CommandLine& command_line) {
   if (!config.commands.key_file.empty())
     spdlog::info("commands: only those signed with the key of {}", config.commands.key_file);
 
-  ConfigReload reload([&] { return command_line.load_again(); }, &config, &engine.journal());
+  ConfigReload reload([&] { return command_line.load_again(); }, &config, &engine.journal(),
+                      gate.get());
   Supervisor supervisor(&engine, config, &manager, &reload);
   manager.ready();
   supervisor.run(&*signals, io);

@@ -1,7 +1,5 @@
 #include "daemon/service/lcm_link.h"
 
-#include <utility>
-
 #include "daemon/threads/process_threads.h"
 #include "daemon/threads/wall_clock.h"
 
@@ -15,8 +13,8 @@ ByteSpan bytes_of(const lcm_recv_buf_t* buffer) {
 }  // namespace
 
 LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
-                         std::optional<CommandGate> gate)
-    : engine_(engine), gate_(std::move(gate)), prefix_(config.prefix) {
+                         CommandGate* gate)
+    : engine_(engine), gate_(gate), prefix_(config.prefix) {
   const std::set<pid_t> before = threads_of_process();
   lcm_ = open_lcm(config.url);
   for (const Channel channel : kInputChannels) subscribe(config, name_of(channel), &on_message);

@@ -2,7 +2,6 @@
 #pragma once
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,7 +19,7 @@ class LcmReceiver {
   // which it works. With a gate, commands come on the channel SIGNED_COMMAND and through it, and
   // what comes on COMMAND is refused. Throws LcmError.
   LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
-              std::optional<CommandGate> gate = std::nullopt);
+              CommandGate* gate = nullptr);
 
   // The settings of that thread that the system refused, as a text; empty: none.
   const std::string& refused() const { return refused_; }
@@ -36,7 +35,7 @@ class LcmReceiver {
   static void on_signed_command(const lcm_recv_buf_t* buffer, const char* name, void* self);
 
   Engine* engine_;
-  std::optional<CommandGate> gate_;
+  CommandGate* gate_;
   std::string prefix_, refused_;
   std::unique_ptr<lcm::LCM> lcm_;
 };

@@ -20,8 +20,8 @@ void tell(const ConfigChange& change) {
 }  // namespace
 
 ConfigReload::ConfigReload(std::function<DaemonConfig()> load, DaemonConfig* running,
-                           Journal* journal)
-    : load_(std::move(load)), running_(running), journal_(journal) {}
+                           Journal* journal, CommandGate* gate)
+    : load_(std::move(load)), running_(running), journal_(journal), gate_(gate) {}
 
 void ConfigReload::reload() {
   try {
@@ -38,12 +38,22 @@ void ConfigReload::put_into_effect(const DaemonConfig& read) {
   spdlog::info("SIGHUP: {} read again{}", read.source.name,
                changes.empty() ? ", nothing has changed" : "");
   for (const ConfigChange& change : changes) tell(change);
-  if (!running_->commands.key_file.empty())
-    spdlog::info("{}: the key was read at the start; another one needs a restart",
-                 running_->commands.key_file);
+  read_command_key();
   take_reloadable(read, running_);
   journal_->set_limits(limits_of(running_->journal));
   set_log_level(running_->log.level);
+}
+
+// Another name of the file is a change of the configuration, and needs a restart.
+void ConfigReload::read_command_key() {
+  if (gate_ == nullptr) return;
+  const std::string& path = running_->commands.key_file;
+  try {
+    gate_->set_key(CommandKey::from_file(path));
+    spdlog::info("{}: the key for commands is read again", path);
+  } catch (const std::exception& error) {
+    spdlog::error("{}; the key that was read before is still in effect", error.what());
+  }
 }
 
 }  // namespace leonav

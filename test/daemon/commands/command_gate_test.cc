@@ -3,6 +3,8 @@
 #include "daemon/commands/command_gate.h"
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -42,6 +44,27 @@ CommandNonce published(CommandGate* gate, std::int64_t now_ns) {
 }
 
 }  // namespace
+
+TEST_CASE("another key is the only one from then on, also for numbers that are out", "[commands]") {
+  CommandGate gate(kKey);
+  const CommandNonce nonce = published(&gate, 0);
+  gate.set_key(kOtherKey);
+  CHECK(gate.judge(sign(nonce, kKey), kSecond) == InputFault::kUnauthenticated);
+  CHECK(gate.judge(sign(nonce, kOtherKey), kSecond) == InputFault::kNone);
+}
+
+TEST_CASE("the key may be set by one thread while another one judges", "[commands]") {
+  CommandGate gate(kKey);
+  std::atomic<bool> done = false;
+  std::thread setter([&] {
+    for (int i = 0; i < 2000; ++i) gate.set_key(i % 2 == 0 ? kOtherKey : kKey);
+    done = true;
+  });
+  const Message junk{};
+  while (!done) CHECK(gate.judge(junk, 0) != InputFault::kNone);
+  setter.join();
+  CHECK(gate.judge(sign(published(&gate, 0)), 0) == InputFault::kNone);  // the last one was kKey
+}
 
 TEST_CASE("a command with the right key is let through as it is, and once", "[commands]") {
   CommandGate gate(kKey);

@@ -2,13 +2,16 @@
 #include "daemon/supervision/config_reload.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <string>
 
 #include "daemon/config/load_config.h"
 #include "daemon/supervision/log_level.h"
 #include "journal/journal_rig.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
 
 namespace {
 
@@ -59,6 +62,41 @@ TEST_CASE("a reload of a configuration with errors changes nothing") {
   CHECK(spdlog::get_level() == spdlog::level::err);
   CHECK(rig.running.log.level == LogLevel::kError);
   CHECK(rig.running.journal.kept_mb == kept_mb);
+}
+
+TEST_CASE("a reload reads the key for commands again, and keeps the one before where it is wrong") {
+  const KeptLevel kept;
+  const std::string first(32, 'a'), second(32, 'b');
+  const test::TemporaryFile file("command.key", first + "\n");
+  chmod(file.path().c_str(), 0600);
+  Rig rig;
+  rig.file += "commands: {key_file: " + file.path() + "}\n";
+  rig.running = load_config_text(rig.file, "mine.yaml");
+  CommandGate gate{CommandKey(first)};
+  ConfigReload reload([&] { return load_config_text(rig.file, "mine.yaml"); }, &rig.running,
+                      &rig.journal, &gate);
+  std::int64_t now_ns = 0;
+  const auto takes = [&](const std::string& key) {
+    const auto message = gate.due_nonce(now_ns += kNanosecondsPerSecond);
+    REQUIRE(message.has_value());
+    SignedCommand command;
+    command.nonce = *decode_command_nonce(*message);
+    command.mac = CommandKey(key).mac_of(command.nonce, command.command);
+    return gate.judge(encode_signed_command(command), now_ns) == InputFault::kNone;
+  };
+  CHECK(takes(first));
+  std::ofstream(file.path()) << second << "\n";
+  reload.reload();
+  CHECK(takes(second));
+  CHECK_FALSE(takes(first));
+  std::ofstream(file.path()) << "short\n";
+  reload.reload();
+  CHECK(takes(second));
+  // With a configuration that is wrong the key stays, too.
+  std::ofstream(file.path()) << first << "\n";
+  rig.file += "journal: {piece_mb: no number}\n";
+  reload.reload();
+  CHECK(takes(second));
 }
 
 TEST_CASE("a reload's limits reach the journal that is being written") {

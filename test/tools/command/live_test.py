@@ -179,7 +179,30 @@ def with_key(types, channels, work, key_file, other_file):
     rejected = channels.wait("EVENT", is_event(types.event_t.KIND_REJECTED_INPUT))
     check(rejected is not None and types.event_t.decode(rejected).code == types.event_t.FAULT_UNAUTHENTICATED,
           "a command of the run before is not refused")
+    another_key(daemon, key_file, other_file)
     daemon.stop()
+
+
+def another_key(daemon, key_file, other_file):
+    """SIGHUP reads the file of the key again; while it is wrong the key before goes on."""
+    def reloads(words):
+        daemon.process.send_signal(signal.SIGHUP)
+        end = time.monotonic() + PATIENCE_S
+        while words not in daemon.text.read_text():
+            check(time.monotonic() < end, f"leonavd does not say '{words}': {daemon.text.read_text()}")
+            time.sleep(0.05)
+
+    before = key_file.read_text()
+    old_file = key_file.with_name("old_key")
+    shutil.copy(key_file, old_file)
+    key_file.write_text(other_file.read_text())
+    reloads(f"{key_file}: the key for commands is read again")
+    told(command("restart", "--key-file", other_file, "--timeout", "30"), 0, "done")
+    told(command("restart", "--key-file", old_file, "--timeout", "3"), 1, "no answer")
+    key_file.write_text("short\n")
+    reloads("the key that was read before is still in effect")
+    told(command("restart", "--key-file", other_file, "--timeout", "30"), 0, "done")
+    key_file.write_text(before)
 
 
 def without_key(work, key_file):
