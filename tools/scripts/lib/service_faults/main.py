@@ -48,7 +48,7 @@ def run_row(row, bin_dir, out):
     else:
         run.whole()
         result = judge.judged(row, run)
-    return {"numbers": result.numbers, "failures": result.failures, "notes": run.notes}
+    return {"numbers": result.numbers, "failures": result.failures, "notes": run.notes, "late_s": run.late_s}
 
 
 def number(value, digits=1):
