@@ -3,17 +3,20 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <memory>
 #include <span>
 
+#include "core/base/gps_time.h"
+
 namespace leonav {
 
-// `T` has a member `arrival`, which is larger the later an element has come. No element is removed
-// but where the pool is used up: it has kElements for all lists together, of which one may have
-// kLongest. Allocates when constructed, not after.
+// `T` has a member `arrival`, which is larger the later an element has come, and a mutable GpsTime
+// `used`. No element is removed but where the pool is used up: it has kElements for all lists
+// together, of which one may have kLongest. Allocates when constructed, not after.
 template <typename T, std::size_t kLists, std::size_t kLongest, std::size_t kElements>
 class PooledLists {
  public:
@@ -61,9 +64,22 @@ class PooledLists {
   Range<const T> operator[](std::size_t list) const { return {pool_.get(), of(list)}; }
   bool is_full(std::size_t list) const { return lists_[list].size == kLongest; }
 
+  // Notes that the element serves a look-up at `time`; no other state changes. It is in use until
+  // a look-up at a time that is kInUse_s away. That is little, because what served a few minutes
+  // ago must make room for what is to serve next.
+  void mark_used(const T& element, GpsTime time) const { element.used = now_ = time; }
+  static constexpr double kInUse_s = 60.0;
+
+  // Whether `a` makes room rather than `b` of the same list: what is in use last, else what arrived
+  // first.
+  bool makes_room(const T& a, const T& b) const {
+    const bool a_used = is_in_use(a), b_used = is_in_use(b);
+    return a_used != b_used ? b_used : a.arrival < b.arrival;
+  }
+
   // Appends an element and returns it as T(). Where the pool is used up, the longest list loses the
-  // element that arrived first, whatever its use; of several as long, that whose first element
-  // arrived first. Precondition: the list is not full.
+  // element that makes room first; of several lists as long, that whose first element arrived
+  // first. Precondition: the list is not full.
   T& append(std::size_t list) {
     const std::uint16_t slot = used_ < kElements ? static_cast<std::uint16_t>(used_++) : freed();
     List& to = lists_[list];
@@ -76,6 +92,10 @@ class PooledLists {
     std::array<std::uint16_t, kLongest> slots;
     std::uint16_t size = 0;
   };
+
+  bool is_in_use(const T& element) const {
+    return element.used.is_set() && std::abs(seconds_between(now_, element.used)) < kInUse_s;
+  }
 
   std::span<const std::uint16_t> of(std::size_t list) const {
     return std::span(lists_[list].slots).first(lists_[list].size);
@@ -90,13 +110,14 @@ class PooledLists {
     const auto end = longest.slots.begin() + longest.size;
     const auto first = std::min_element(
         longest.slots.begin(), end,
-        [this](std::uint16_t a, std::uint16_t b) { return pool_[a].arrival < pool_[b].arrival; });
+        [this](std::uint16_t a, std::uint16_t b) { return makes_room(pool_[a], pool_[b]); });
     const std::uint16_t slot = *first;
     std::copy(first + 1, end, first);
     --longest.size;
     return slot;
   }
 
+  mutable GpsTime now_;  // of the last look-up
   std::unique_ptr<T[]> pool_;
   std::size_t used_ = 0;
   std::array<List, kLists> lists_{};

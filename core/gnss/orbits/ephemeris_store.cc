@@ -15,6 +15,7 @@ namespace {
 struct StoredEphemeris {
   Ephemeris ephemeris;
   std::uint64_t arrival = 0;
+  mutable GpsTime used;
 };
 
 using Ephemerides = PooledLists<StoredEphemeris, kMaxEphemerisSatellites,
@@ -89,7 +90,9 @@ const Ephemeris* best_ephemeris(const Ephemerides& ephemerides, SatelliteId sate
     if (!is_in_age(stored.ephemeris, time, options)) continue;
     if (best == nullptr || is_better(stored, *best, time, options)) best = &stored;
   }
-  return best != nullptr ? &best->ephemeris : nullptr;
+  if (best == nullptr) return nullptr;
+  ephemerides.mark_used(*best, time);
+  return &best->ephemeris;
 }
 
 // The health is the last one transmitted up to `time`: an older issue may be nearer in toe and
@@ -107,7 +110,7 @@ bool newest_is_unhealthy(const Ephemerides& ephemerides, SatelliteId satellite, 
 }
 
 // Returns the slot for an ephemeris: that of the same issue, a free one, or that of the satellite's
-// that arrived first.
+// that makes room.
 StoredEphemeris& slot_for(const Ephemeris& ephemeris, Ephemerides* ephemerides) {
   const std::size_t satellite = table_index_of(ephemeris.satellite);
   const auto stored = (*ephemerides)[satellite];
@@ -117,9 +120,10 @@ StoredEphemeris& slot_for(const Ephemeris& ephemeris, Ephemerides* ephemerides) 
       });
   if (same != stored.end()) return *same;
   if (!ephemerides->is_full(satellite)) return ephemerides->append(satellite);
-  return *std::min_element(
-      stored.begin(), stored.end(),
-      [](const StoredEphemeris& a, const StoredEphemeris& b) { return a.arrival < b.arrival; });
+  return *std::min_element(stored.begin(), stored.end(),
+                           [&](const StoredEphemeris& a, const StoredEphemeris& b) {
+                             return ephemerides->makes_room(a, b);
+                           });
 }
 
 bool is_sane_node(const PreciseState& state) {
@@ -218,7 +222,7 @@ EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
 
 bool EphemerisStore::add(const Ephemeris& ephemeris) {
   if (!is_sane(ephemeris) || is_for_corrections_alone(ephemeris)) return false;
-  slot_for(ephemeris, &storage_->ephemerides) = {ephemeris, ++storage_->arrivals};
+  slot_for(ephemeris, &storage_->ephemerides) = {ephemeris, ++storage_->arrivals, {}};
   storage_->products_of[table_index_of(ephemeris.satellite)].compared_at = GpsTime();
   return true;
 }

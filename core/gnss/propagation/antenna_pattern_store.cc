@@ -16,6 +16,7 @@ struct SatelliteBand {
   GpsTime valid_from, valid_until;
   std::uint64_t arrival = 0;   // the last one, also of an identical pattern
   std::uint64_t revision = 0;  // the arrival of the first that was identical
+  mutable GpsTime used;
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
   double first_angle = 0.0, angle_step = 0.0;
   int angles = 0;
@@ -134,6 +135,7 @@ struct AntennaPatternStore::Storage {
         best_hz = hz;
       }
     }
+    if (best != nullptr) satellites.mark_used(*best, time);
     return best;
   }
 };

@@ -22,6 +22,7 @@ struct Stored {
   GpsTime time, valid_from, valid_until;
   double bias_m = 0.0;
   std::uint64_t arrival = 0;
+  mutable GpsTime used;
 };
 
 template <std::size_t kLongest, std::size_t kAll>
@@ -61,14 +62,14 @@ Stored& slot_for(const SignalBias& bias, Biases<kLongest, kAll>* biases) {
   if (!biases->is_full(satellite)) return biases->append(satellite);
   return *std::min_element(stored.begin(), stored.end(), [&](const Stored& a, const Stored& b) {
     const bool a_ended = has_ended(a, bias.time), b_ended = has_ended(b, bias.time);
-    return a_ended != b_ended ? a_ended : a.arrival < b.arrival;
+    return a_ended != b_ended ? a_ended : biases->makes_room(a, b);
   });
 }
 
 template <std::size_t kLongest, std::size_t kAll>
 void keep(const SignalBias& bias, std::uint64_t arrival, Biases<kLongest, kAll>* biases) {
-  slot_for(bias, biases) = {bias.code,        bias.time,   bias.valid_from,
-                            bias.valid_until, bias.bias_m, arrival};
+  slot_for(bias, biases) = {bias.code, bias.time, bias.valid_from, bias.valid_until, bias.bias_m,
+                            arrival,   {}};
 }
 
 template <std::size_t kLongest, std::size_t kAll>
@@ -77,10 +78,12 @@ std::optional<GroupDelay> delay_of(const Biases<kLongest, kAll>& biases, const B
                                    SignalCode first, SignalCode second) {
   const Stored* a = find(biases, satellite, first, time);
   if (a == nullptr) return std::nullopt;
+  biases.mark_used(*a, time);
   if (!second.is_set()) return GroupDelay{a->bias_m, sigma};
   const Stored* b = find(biases, satellite, second, time);
   const double f1 = bands.frequency_hz(satellite.system, first.band);
   const double f2 = bands.frequency_hz(satellite.system, second.band);
+  if (b != nullptr) biases.mark_used(*b, time);
   if (b == nullptr || !(f1 > 0.0) || !(f2 > 0.0) || f1 == f2) return std::nullopt;
   const IonosphereFree pair = ionosphere_free(f1, f2);
   return GroupDelay{pair.gamma1 * a->bias_m + pair.gamma2 * b->bias_m,

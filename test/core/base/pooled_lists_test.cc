@@ -1,5 +1,6 @@
 #include "core/base/pooled_lists.h"
 
+#include <utility>
 #include <vector>
 
 #include "support/catch.h"
@@ -11,13 +12,14 @@ namespace {
 struct Element {
   int value = 0;
   std::uint64_t arrival = 0;
+  mutable GpsTime used;
 };
 template <std::size_t elements>
 using Lists = PooledLists<Element, 3, 4, elements>;
 
 template <typename Any>
 void append(std::size_t list, int value, Any* lists) {
-  lists->append(list) = {value, std::uint64_t(value)};
+  lists->append(list) = {value, std::uint64_t(value), {}};
 }
 
 template <typename Any>
@@ -69,4 +71,28 @@ TEST_CASE("Of lists that are as long, that with the oldest first element makes r
   CHECK(values(lists, 0) == std::vector{3, 4});
   CHECK(values(lists, 1) == std::vector{2});
   CHECK(values(lists, 2) == std::vector{5, 6, 7});
+}
+
+TEST_CASE("What is in use makes room last, and longer ago it counts as the others",
+          "[pooled_lists]") {
+  const GpsTime begin = GpsTime::from_week_and_tow(2200, 0.0);
+  Lists<5> lists;
+  const auto use = [&](int value, double t_s) {
+    for (const Element& element : std::as_const(lists)[1])
+      if (element.value == value) lists.mark_used(element, begin.plus_seconds(t_s));
+  };
+  for (const int value : {1, 2, 3, 4}) append(1, value, &lists);
+  append(2, 5, &lists);
+  use(1, 0.0);
+  use(2, 30.0);
+  append(0, 6, &lists);
+  CHECK(values(lists, 1) == std::vector{1, 2, 4});
+  use(2, 70.0);  // the first one has served 70 s before
+  append(0, 7, &lists);
+  CHECK(values(lists, 1) == std::vector{2, 4});
+  // Where all of a list is in use, what arrived first.
+  use(4, 71.0);
+  append(1, 8, &lists);
+  CHECK(values(lists, 0) == std::vector{6, 7});
+  CHECK(values(lists, 1) == std::vector{4, 8});
 }

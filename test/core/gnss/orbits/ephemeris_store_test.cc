@@ -1,10 +1,12 @@
 #include "core/gnss/orbits/ephemeris_store.h"
 
+#include <array>
 #include <limits>
 #include <vector>
 
 #include "broadcast_oracle.h"
 #include "core/base/capacity.h"
+#include "signals/all_satellites.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -53,6 +55,16 @@ void add_orbit(EphemerisStore* ephemeris_store, const Ephemeris& e, int first, i
     const GpsTime t = kNoon.plus_seconds(i * step);
     REQUIRE(ephemeris_store->add(PreciseState{e.satellite, t, broadcast_state(e, t).p_e, 1e-5}));
   }
+}
+
+// The set number `i` of a satellite, every two hours.
+Ephemeris set_of(SatelliteId id, int i) {
+  Ephemeris e = gps(1, 7200.0 * i, static_cast<std::uint16_t>(i));
+  e.satellite = id;
+  if (id.system == System::kGalileo) e.message = NavigationMessage::kGalileoInav;
+  if (id.system == System::kBeidou) e.message = NavigationMessage::kBeidouD1;
+  if (id.system == System::kLeo) e.sqrt_a = 2734.0;
+  return e;
 }
 
 }  // namespace
@@ -122,22 +134,21 @@ TEST_CASE("Both Galileo messages an hour ahead leave the sets in force where the
   }
 }
 
+TEST_CASE("However many sets come ahead, that in force stays", "[satellite_catalog]") {
+  EphemerisStore store{EphemerisConfig{}};
+  REQUIRE(store.add(gps(5, 0.0, 1)));
+  for (int i = 1; i < 50; ++i) {
+    CHECK(issue_at(store, kG05, 10.0 * i) == 1);
+    REQUIRE(store.add(gps(5, 7200.0 * i, static_cast<std::uint16_t>(i + 1))));
+  }
+  CHECK(issue_at(store, kG05, 500.0) == 1);
+}
+
 TEST_CASE("Beyond the room for all satellites those with most lose the set that arrived first",
           "[satellite_catalog]") {
   EphemerisStore store{EphemerisConfig{}};
-  std::vector<SatelliteId> all;
-  for (const System system : kSystems)
-    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
-      all.push_back({system, number});
+  const std::vector<SatelliteId> all = test::all_satellites();
   constexpr int kEach = static_cast<int>(kMaxEphemerides / kMaxEphemerisSatellites);
-  const auto set_of = [](SatelliteId id, int i) {
-    Ephemeris e = gps(1, 7200.0 * i, static_cast<std::uint16_t>(i));
-    e.satellite = id;
-    if (id.system == System::kGalileo) e.message = NavigationMessage::kGalileoInav;
-    if (id.system == System::kBeidou) e.message = NavigationMessage::kBeidouD1;
-    if (id.system == System::kLeo) e.sqrt_a = 2734.0;
-    return e;
-  };
   const auto has = [&](SatelliteId id, int i) {
     const Ephemeris* found = store.ephemeris_at(id, kNoon.plus_seconds(7200.0 * i));
     return found != nullptr && found->issue == i;
@@ -152,6 +163,20 @@ TEST_CASE("Beyond the room for all satellites those with most lose the set that 
     CHECK(has(all[k], 0) == (k >= lost));
     for (int i = 1; i <= kEach; ++i) CHECK(has(all[k], i));
   }
+}
+
+TEST_CASE("Beyond the room for all satellites the sets in use stay", "[satellite_catalog]") {
+  EphemerisStore store{EphemerisConfig{}};
+  const std::vector<SatelliteId> all = test::all_satellites();
+  const std::array in_use = {all.front(), all[80], all.back()};
+  for (int i = 0; i < 20; ++i) {
+    for (const SatelliteId id : all) REQUIRE(store.add(set_of(id, i)));
+    for (const SatelliteId id : in_use) {
+      CAPTURE(i, to_string(id.system), id.number);
+      CHECK(issue_at(store, id, 10.0 * i) == 0);
+    }
+  }
+  CHECK(issue_at(store, all[1], 190.0) == -1);
 }
 
 TEST_CASE("Unhealthy satellites are out, by the newest message that was out by then",

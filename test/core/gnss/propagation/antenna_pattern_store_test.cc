@@ -1,10 +1,12 @@
 #include "core/gnss/propagation/antenna_pattern_store.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "antenna_patterns.h"
+#include "signals/all_satellites.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -27,14 +29,6 @@ AntennaRange overhead(const AntennaPatternStore& ephemeris_store, SatelliteId id
 }
 
 const Vector3d kZenith(0, 0, -1);
-
-std::vector<SatelliteId> all_satellites() {
-  std::vector<SatelliteId> all;
-  for (const System system : kSystems)
-    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
-      all.push_back({system, number});
-  return all;
-}
 
 // Three of the satellite's bands.
 std::string bands_of(SatelliteId id) {
@@ -188,7 +182,7 @@ TEST_CASE("The antenna catalogue refuses what it cannot hold and keeps the rest"
 TEST_CASE("Beyond the antenna catalogue, every satellite keeps the patterns that came last",
           "[antenna_catalog]") {
   AntennaPatternStore store(three_leo_bands());
-  const std::vector<SatelliteId> all = all_satellites();
+  const std::vector<SatelliteId> all = test::all_satellites();
   REQUIRE(all.size() == kMaxEphemerisSatellites);
   REQUIRE(kMaxSatelliteAntennas == 4 * all.size());
   for (int i = 0; i < 6; ++i)
@@ -200,9 +194,34 @@ TEST_CASE("Beyond the antenna catalogue, every satellite keeps the patterns that
   CHECK(store.counters().refused == 0);
 }
 
+TEST_CASE("A catalogue larger than the store, sent time and again, leaves the patterns in use",
+          "[antenna_catalog]") {
+  AntennaPatternStore store(three_leo_bands());
+  const std::vector<SatelliteId> all = test::all_satellites();
+  const std::array in_use = {all.front(), all[100], all.back()};
+  const auto revision = [&](SatelliteId id) {
+    return overhead(store, id, bands_of(id)[0], week(1999)).revision;
+  };
+  for (const SatelliteId id : in_use)
+    for (int i = 0; i < 2; ++i) REQUIRE(store.add(pattern_of(id, i)));
+  std::vector<std::uint64_t> revisions;
+  for (const SatelliteId id : in_use) revisions.push_back(revision(id));
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 6; ++i) {
+      for (const SatelliteId id : all) REQUIRE(store.add(pattern_of(id, i)));
+      for (std::size_t k = 0; k < in_use.size(); ++k) {
+        CAPTURE(round, i, k);
+        CHECK(has(store, in_use[k], 0));
+        CHECK(has(store, in_use[k], 1));
+        CHECK(revision(in_use[k]) == revisions[k]);
+      }
+    }
+  }
+}
+
 TEST_CASE("A pattern that was sent again is not the first to go", "[antenna_catalog]") {
   AntennaPatternStore store(three_leo_bands());
-  const std::vector<SatelliteId> all = all_satellites();
+  const std::vector<SatelliteId> all = test::all_satellites();
   const SatelliteId most = all.front(), fewest = all.back();
   const auto count = [&](SatelliteId id) { return id == most ? 5 : id == fewest ? 3 : 4; };
   for (const SatelliteId id : all)
@@ -214,6 +233,8 @@ TEST_CASE("A pattern that was sent again is not the first to go", "[antenna_cata
   const std::uint64_t before = revision();
   REQUIRE(store.add(pattern_of(most, 0)));
   CHECK(revision() == before);
+  // From here on none of them is in use.
+  REQUIRE(overhead(store, fewest, bands_of(fewest)[0], week(1998)).revision != 0);
   REQUIRE(store.add(pattern_of(fewest, 3)));  // the first for which there is no room
   for (int i = 0; i < 5; ++i) CHECK(has(store, most, i) == (i != 1));
   for (int i = 0; i < 4; ++i) CHECK(has(store, fewest, i));

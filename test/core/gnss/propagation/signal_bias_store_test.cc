@@ -1,8 +1,11 @@
 #include "core/gnss/propagation/signal_bias_store.h"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "core/base/capacity.h"
+#include "signals/all_satellites.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -13,6 +16,20 @@ constexpr SatelliteId kG05{System::kGps, 5};
 
 SignalBias bias(const char* code, double bias_m) {
   return {kG05, *signal_from_string(code), BiasKind::kCode, kTime, bias_m};
+}
+
+// As many biases of other signals as there is room for of one satellite.
+void fill(SignalBiasStore* store) {
+  constexpr int kCapacity = static_cast<int>(SignalBiasStore::kMaxIntervals * kMaxSignalBiases);
+  int others = 0;
+  for (const char band : {'1', '2', '5'}) {
+    for (char attribute = 'A'; attribute <= 'Z' && others < kCapacity; ++attribute) {
+      const std::string code{band, attribute};
+      if (code == "1C" || code == "2W") continue;
+      REQUIRE(store->add(bias(code.c_str(), 1.0)));
+      ++others;
+    }
+  }
 }
 
 }  // namespace
@@ -37,39 +54,37 @@ TEST_CASE("The newest bias of a signal counts, and a full table drops what arriv
   REQUIRE(store.add(bias("1C", 2.0)));
   REQUIRE(store.add(bias("1C", 3.0)));
   CHECK(store.code_delay(kG05, kTime, {'1', 'C'})->delay_m == 3.0);
-  constexpr int kCapacity = static_cast<int>(SignalBiasStore::kMaxIntervals * kMaxSignalBiases);
-  int others = 0;
-  for (const char band : {'1', '2', '5'}) {
-    for (char attribute = 'A'; attribute <= 'Z'; ++attribute) {
-      if (others == kCapacity) break;
-      if (band == '1' && attribute == 'C') continue;
-      REQUIRE(store.add({kG05, {band, attribute}, BiasKind::kCode, kTime, 1.0}));
-      ++others;
-    }
+  SignalBiasStore full;
+  REQUIRE(full.add(bias("1C", 2.0)));
+  fill(&full);
+  CHECK_FALSE(full.code_delay(kG05, kTime, {'1', 'C'}));
+}
+
+TEST_CASE("A bias in use is not the one that a full table drops") {
+  SignalBiasStore store;
+  for (const char* code : {"1C", "2W"}) REQUIRE(store.add(bias(code, 2.0)));
+  for (const double later_s : {0.0, 30.0, 80.0}) {
+    const GpsTime now = kTime.plus_seconds(later_s);
+    CAPTURE(later_s);
+    CHECK(store.code_delay(kG05, now, {'1', 'C'}, {'2', 'W'}));
+    fill(&store);
   }
-  CHECK_FALSE(store.code_delay(kG05, kTime, {'1', 'C'}));
 }
 
 TEST_CASE("Beyond the room for all satellites each loses the bias that arrived first") {
   SignalBiasStore store;
+  const std::vector<SatelliteId> all = test::all_satellites();
   constexpr int kEach = static_cast<int>(kMaxProductBiases / kMaxEphemerisSatellites);
   for (int i = 0; i <= kEach; ++i)
-    for (const System system : kSystems)
-      for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number)
-        REQUIRE(store.add({{system, number},
-                           {'1', static_cast<char>('A' + i)},
-                           BiasKind::kCode,
-                           kTime,
-                           1.0 + i}));
-  for (const System system : kSystems) {
-    for (std::uint16_t number = 1; number <= kHighestNumber[index_of(system)]; ++number) {
-      CAPTURE(to_string(system), number);
-      for (int i = 0; i <= kEach; ++i) {
-        const auto delay =
-            store.code_delay({system, number}, kTime, {'1', static_cast<char>('A' + i)});
-        CHECK(delay.has_value() == (i > 0));
-        if (delay) CHECK(delay->delay_m == 1.0 + i);
-      }
+    for (const SatelliteId satellite : all)
+      REQUIRE(store.add(
+          {satellite, {'1', static_cast<char>('A' + i)}, BiasKind::kCode, kTime, 1.0 + i}));
+  for (const SatelliteId satellite : all) {
+    CAPTURE(to_string(satellite.system), satellite.number);
+    for (int i = 0; i <= kEach; ++i) {
+      const auto delay = store.code_delay(satellite, kTime, {'1', static_cast<char>('A' + i)});
+      CHECK(delay.has_value() == (i > 0));
+      if (delay) CHECK(delay->delay_m == 1.0 + i);
     }
   }
 }
