@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -15,6 +14,7 @@ namespace leonav {
 
 // A framer adds every start that it finds, once, with the end that the start claims. Of all of them
 // the one whose message is whole first comes first; whether it is good is the framer's to test.
+// Memory is kept, so that a stream costs no allocation once it has run for a while.
 class MessageStarts {
  public:
   using Position = std::uint64_t;  // of a byte in the whole stream
@@ -40,9 +40,17 @@ class MessageStarts {
   std::optional<Position> first_waiting() const;
 
  private:
+  struct Start {
+    Position position;
+    std::size_t reason;
+  };
   using EndAndStart = std::pair<Position, Position>;
 
-  std::map<Position, std::size_t> reasons_;
+  // Null: dropped.
+  Start* find(Position position);
+
+  std::vector<Start> starts_;  // in order; those before first_ are dropped
+  std::size_t first_ = 0;
   std::priority_queue<EndAndStart, std::vector<EndAndStart>, std::greater<>> waiting_;
 };
 
