@@ -9,7 +9,7 @@ void MessageStarts::add(Position start, Position end) {
   waiting_.emplace(end, start);
 }
 
-void MessageStarts::add_refused(Position start, std::size_t reason) {
+void MessageStarts::add_refused(Position start, Reason reason) {
   starts_.push_back({start, reason});
 }
 
@@ -30,7 +30,7 @@ std::optional<MessageStarts::Candidate> MessageStarts::next_whole(Position bytes
   return std::nullopt;
 }
 
-void MessageStarts::refuse(const Candidate& candidate, std::size_t reason) {
+void MessageStarts::refuse(const Candidate& candidate, Reason reason) {
   find(candidate.start)->reason = reason;
 }
 

@@ -18,8 +18,15 @@ namespace leonav {
 class MessageStarts {
  public:
   using Position = std::uint64_t;  // of a byte in the whole stream
-  // Why a start is none; the framer gives the other numbers a meaning. kWaiting: not known yet.
-  static constexpr std::size_t kWaiting = 0, kReasons = 4;
+  // Why a start is none.
+  enum Reason : std::uint8_t {
+    kWaiting,  // not known yet
+    kBadChecksum,
+    kImpossible,  // a length or a field that no message has
+    kBadContent,  // a good checksum by chance
+    kCutHeader,   // cut off by the end of the stream, within the header
+    kReasons      // their number
+  };
   using Counts = std::array<std::uint64_t, kReasons>;
   struct Candidate {
     Position start, end;
@@ -27,12 +34,12 @@ class MessageStarts {
 
   // A start is added behind all others.
   void add(Position start, Position end);
-  void add_refused(Position start, std::size_t reason);
+  void add_refused(Position start, Reason reason);
 
   // Takes the next start whose message ends at or before `bytes_end`, the one that ends first.
   std::optional<Candidate> next_whole(Position bytes_end);
   // The candidate is none.
-  void refuse(const Candidate& candidate, std::size_t reason);
+  void refuse(const Candidate& candidate, Reason reason);
 
   // Forgets the starts before `position`; returns how many there were, by their reasons.
   Counts drop_before(Position position);
@@ -42,7 +49,7 @@ class MessageStarts {
  private:
   struct Start {
     Position position;
-    std::size_t reason;
+    Reason reason;
   };
   using EndAndStart = std::pair<Position, Position>;
 

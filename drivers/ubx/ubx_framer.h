@@ -1,12 +1,11 @@
 // This unit finds UBX messages in a stream of bytes by sync characters, length bound and Fletcher
 // checksum.
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "drivers/binary/message_starts.h"
+#include "drivers/binary/message_framer.h"
 #include "drivers/ubx/foreign_messages.h"
 
 namespace leonav {
@@ -28,54 +27,32 @@ struct UbxFramerCounters {
   std::uint64_t incomplete = 0;     // cut off by the end of the stream
 };
 
-// The caller appends bytes and takes messages until none is left. A false sync or a damaged message
-// costs only its own bytes, and no time: of all starts in the stream the one whose message is whole
-// first, with a good checksum, counts, so that a false start with a great length holds nothing back
-// that comes behind it. Starts within a message that counts, or before it, are none.
-class UbxFramer {
- public:
+// How UBX messages begin and end.
+struct UbxFraming : MessageFraming {
   // RXM-RAWX with 255 measurements has 16 + 255 * 32 bytes of payload; nothing else is longer.
   static constexpr std::size_t kMaxPayload = 16 + 255 * 32;
-
-  // Copies as many of `bytes` as fit and returns their number. It is never zero unless `bytes` is
-  // empty or a message has not been taken yet.
-  std::size_t append(std::span<const std::uint8_t> bytes);
-  // Takes the next message; returns false if more bytes are needed.
-  bool next(UbxMessage* message);
-  // Ends the stream: the rest counts as skipped after a search for messages inside it (a false sync
-  // near the end must not hide good messages). After it, call next() until it returns false.
-  void finish() { finished_ = true; }
-
-  UbxFramerCounters counters() const;
-
- private:
-  static constexpr std::size_t kHeader = 6;    // sync 2, class, id, length 2
   static constexpr std::size_t kOverhead = 8;  // header, checksum 2
+  static constexpr std::uint8_t kFirstByte = 0xB5;
+  static constexpr std::size_t kMinHeader = 6;  // sync 2, class, id, length 2
   static constexpr std::size_t kCapacity = 2 * (kMaxPayload + kOverhead);
 
-  // Why a start is none.
-  static constexpr std::size_t kBadChecksum = 1, kOversize = 2;
-  // Positions are of bytes in the whole stream; buffer_[0] is that of base_.
-  using Position = MessageStarts::Position;
+  struct Checksum {
+    std::uint8_t sum = 0, sum_of_sums = 0;  // modulo 256, both
+  };
+  static Checksum continued(Checksum before, std::uint8_t byte);
+  static StartClaim claim_of(std::span<const std::uint8_t> bytes);
+  static bool checksum_is_good(std::span<const std::uint8_t> message, const Checksum* before);
+  void skip(std::span<const std::uint8_t> bytes);
 
-  void find_starts();
-  void skip_to(Position position);
-  void skip_what_is_none();
-  void take(Position start, Position end, UbxMessage* message);
-  bool checksum_is_good(Position start, Position end) const;
-  std::uint8_t at(Position position) const { return buffer_[position - base_]; }
+  ForeignMessages foreign;
+};
+extern template class MessageFramer<UbxFraming>;
 
-  std::array<std::uint8_t, kCapacity> buffer_;
-  std::array<std::uint8_t, kCapacity> sum_;          // of all bytes up to and including this one
-  std::array<std::uint8_t, kCapacity> sum_of_sums_;  // modulo 256, both
-  std::uint8_t last_sum_ = 0;
-  std::uint8_t last_sum_of_sums_ = 0;
-  Position base_ = 0, begin_ = 0, end_ = 0;  // of the buffer; the first byte kept; behind the last
-  Position searched_ = 0;                    // starts before it are known
-  MessageStarts starts_;                     // at begin_ and behind it
-  bool finished_ = false;
-  UbxFramerCounters counters_;
-  ForeignMessages foreign_;
+class UbxFramer : public MessageFramer<UbxFraming> {
+ public:
+  // Takes the next message; returns false if more bytes are needed.
+  bool next(UbxMessage* message);
+  UbxFramerCounters counters() const;
 };
 
 }  // namespace leonav

@@ -148,7 +148,7 @@ void XsensDecoder::finish(XsensHandler* handler) {
 
 void XsensDecoder::drain(XsensHandler* handler) {
   for (XsensMessage message; framer_.next(&message);) {
-    if (message.id == XsensFramer::kMtData2) {
+    if (message.id == XsensFraming::kMtData2) {
       decode(message.payload, handler);
     } else {
       ++counters_.other_messages;
