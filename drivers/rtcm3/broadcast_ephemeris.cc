@@ -1,5 +1,6 @@
 #include "drivers/rtcm3/broadcast_ephemeris.h"
 
+#include <cstdlib>
 #include <numbers>
 
 #include "core/base/calendar.h"
@@ -168,11 +169,13 @@ Times take_elements(std::uint16_t message_number, const BitReader& reader, Ephem
   }
 }
 
-bool agrees(System system, int week, GpsTime near) {
-  if (system == System::kBeidou) return beidou_week_agrees(week, near);
+// The GPS week that the message states.
+int stated_week(System system, int week, GpsTime near) {
+  if (system == System::kBeidou)
+    return full_week(week + kBeidouWeekZeroInGpsWeeks, kBeidouWeekModulus, near.week());
   return system == System::kGalileo
-             ? week_agrees(week, kGalileoWeekModulus, kGalileoWeekZeroInGpsWeeks, near)
-             : week_agrees(week, kGpsWeekModulus, 0, near);
+             ? full_week(week + kGalileoWeekZeroInGpsWeeks, kGalileoWeekModulus, near.week())
+             : full_week(week, kGpsWeekModulus, near.week());
 }
 
 }  // namespace
@@ -184,7 +187,7 @@ bool is_broadcast_ephemeris(std::uint16_t message_number) {
 
 EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
-                                 Ephemeris* ephemeris) {
+                                 Ephemeris* ephemeris, GpsTime* stated_toe) {
   if (message.size() * 8 < bits_of(message_number)) return EphemerisStatus::kBadLength;
   const bool is_beidou = message_number == kBeidou;
   const System system =
@@ -197,7 +200,9 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
   if (times.toe_s >= kSecondsPerWeek || times.toc_s >= kSecondsPerWeek) {
     return EphemerisStatus::kBadTime;
   }
-  if (!agrees(system, times.week, near)) return EphemerisStatus::kBadWeek;
+  // Receiver and satellite may be on two sides of a week's end.
+  const int week = stated_week(system, times.week, near);
+  if (std::abs(week - near.week()) > 1) return EphemerisStatus::kBadWeek;
   const auto instant = [&](std::int64_t s) {
     return is_beidou ? nearest_beidou_instant(s, near) : nearest_instant(s, near);
   };
@@ -205,6 +210,11 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
   e.toc = instant(times.toc_s);
   if (!is_sane(e)) return EphemerisStatus::kNotSane;
   *ephemeris = e;
+  if (stated_toe != nullptr) {
+    const std::int64_t gps_s = times.toe_s - (is_beidou ? kBeidouMinusGpsSeconds : 0);
+    *stated_toe =
+        GpsTime::from_nanoseconds(week * kNanosecondsPerWeek + gps_s * kNanosecondsPerSecond);
+  }
   return EphemerisStatus::kOk;
 }
 

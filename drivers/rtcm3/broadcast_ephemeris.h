@@ -15,9 +15,11 @@ bool is_broadcast_ephemeris(std::uint16_t message_number);
 
 // Decodes one message. The times of week are completed to the instants nearest to `near`, with
 // which the message's own week must agree. The messages do not say when the set was sent:
-// transmission_time stays unset. Precondition: is_broadcast_ephemeris(), `near` is set.
+// transmission_time stays unset. `stated_toe`, if given, gets the time of ephemeris in the week
+// that the message states, which is a week early where it was sent at the end of that week for the
+// next. Precondition: is_broadcast_ephemeris(), `near` is set.
 EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
-                                 Ephemeris* ephemeris);
+                                 Ephemeris* ephemeris, GpsTime* stated_toe = nullptr);
 
 }  // namespace leonav

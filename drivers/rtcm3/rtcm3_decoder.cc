@@ -81,9 +81,12 @@ void Rtcm3Decoder::take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler
     return;
   }
   Ephemeris ephemeris;
-  if (!counters.count(decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris))) {
+  GpsTime stated_toe;
+  if (!counters.count(
+          decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris, &stated_toe))) {
     return;
   }
+  handler->on_stated_toe(stated_toe);
   if (!state_->reported.is_new(ephemeris)) {
     ++counters.repeated;
     return;

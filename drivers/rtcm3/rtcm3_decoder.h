@@ -23,6 +23,9 @@ class Rtcm3Handler {
   virtual ~Rtcm3Handler() = default;
   virtual void on_epoch(const RawEpoch& epoch) = 0;
   virtual void on_ephemeris(const Ephemeris& ephemeris) = 0;
+  // The time of ephemeris in the week that an ephemeris message, also a repeated one, itself
+  // states.
+  virtual void on_stated_toe(GpsTime) {}
   virtual void on_station_position(const StationPosition&) {}
   virtual void on_station_equipment(const StationEquipment&) {}
   virtual void on_ssr(const SsrMessage&) {}

@@ -8,6 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +43,12 @@ void tell_change(const ServiceChange& change) {
   spdlog::log(is_fallback ? spdlog::level::warn : spdlog::level::info, "{}", to_text(change));
 }
 
+// What is played does not depend on the host that plays it.
+std::function<bool()> host_question(const ConnectConfig& config) {
+  if (has_only_files(config)) return {};
+  return [] { return HostClock::is_unsynchronised(); };
+}
+
 }  // namespace
 
 struct Connector::State {
@@ -50,7 +57,7 @@ struct Connector::State {
         publisher(config.lcm),
         output(&publisher),
         corrections(config.corrections, config.services, &output, tell_change),
-        gps(config.reference, config.gnss_latency_s, clock.now_ns()),
+        gps(config.reference, config.gnss_latency_s, clock.now_ns(), host_question(config)),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {

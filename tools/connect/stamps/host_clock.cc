@@ -1,5 +1,7 @@
 #include "tools/connect/stamps/host_clock.h"
 
+#include <sys/timex.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -14,6 +16,9 @@ GpsTime gps_from_wall(std::int64_t wall_ns) {
   return gps_from_utc(
       GpsTime::from_nanoseconds(wall_ns - kGpsEpochSince1970_s * kNanosecondsPerSecond));
 }
+
+// The bound that stands for none: it grows by 500 ppm from the last setting on, up to this one.
+constexpr long kNoBound_us = 16'000'000;
 
 // Whether the wall clock shows the first minute of a half-year, before which leap seconds are.
 bool leap_second_may_have_been(std::int64_t wall_ns) {
@@ -33,6 +38,15 @@ HostClock::HostClock(std::int64_t begin_ns)
 std::int64_t HostClock::wall_ns() {
   return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
+
+// The flag STA_UNSYNC says less: chrony without 'rtcsync' leaves it set, so that the kernel does
+// not write the time to the real-time clock.
+bool HostClock::is_unsynchronised(int (*ask)(timex*)) {
+  timex answer{};
+  return ask(&answer) >= 0 && answer.maxerror >= kNoBound_us;
+}
+
+bool HostClock::is_unsynchronised() { return is_unsynchronised(::adjtimex); }
 
 std::optional<double> HostClock::compare(std::int64_t wall_ns, std::int64_t arrival_ns) {
   const GpsTime by_wall = gps_from_wall(wall_ns).plus_seconds(leap_seconds_ahead_);

@@ -5,6 +5,8 @@
 
 #include "core/base/gps_time.h"
 
+struct timex;
+
 namespace leonav {
 
 // The ArrivalClock goes on from the wall clock of its beginning. What sets the wall clock later
@@ -22,6 +24,11 @@ class HostClock {
   explicit HostClock(std::int64_t begin_ns);
   // The wall clock, since 1970, UTC.
   static std::int64_t wall_ns();
+  // Whether the kernel knows no bound of the wall clock's error: no time service has set the clock,
+  // or the last one is gone for some nine hours. False where the kernel does not say. `ask` is
+  // adjtimex(2).
+  static bool is_unsynchronised(int (*ask)(timex*));
+  static bool is_unsynchronised();
 
   // The GPS time at which the ArrivalClock shows `arrival_ns`.
   GpsTime at(std::int64_t arrival_ns) const {

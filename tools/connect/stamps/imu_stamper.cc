@@ -83,9 +83,14 @@ double ImuStamper::sigma_s() const {
 }
 
 std::string ImuStamper::host_text() const {
-  if (gps_->host_steps() == 0) return "";
-  return format("; the host's clock was set %llu times, the last by %.3f s",
-                static_cast<unsigned long long>(gps_->host_steps()), gps_->last_host_step_s());
+  std::string text;
+  if (gps_->host_steps() > 0) {
+    text = format("; the host's clock was set %llu times, the last by %.3f s",
+                  static_cast<unsigned long long>(gps_->host_steps()), gps_->last_host_step_s());
+  }
+  if (gps_->host_is_reference() && gps_->host_is_unsynchronised())
+    text += "; the host's clock is not synchronised: is the service that keeps it at UTC running?";
+  return text;
 }
 
 std::string ImuStamper::text() const {

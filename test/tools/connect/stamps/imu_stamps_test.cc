@@ -1,4 +1,6 @@
 // Stamps and samples of inertial readings.
+#include <sys/timex.h>
+
 #include <cmath>
 
 #include "support/catch.h"
@@ -115,6 +117,51 @@ TEST_CASE("A host's clock that is set is followed, and told as a step", "[connec
   CHECK(clock.host_steps() == 1);
   const double since_s = static_cast<double>(now_ns - start_ns) * 1e-9;
   CHECK(seconds_between(*clock.at(now_ns), kStart) == Approx(18.0 + since_s + step_s).margin(1e-6));
+}
+
+TEST_CASE("A host's clock without a bound of its error is not synchronised", "[connect]") {
+  // As adjtimex(2) answers: by its result, the bound in us, and the status.
+  CHECK(HostClock::is_unsynchronised([](timex* answer) {
+    answer->maxerror = 16'000'000;
+    answer->status = STA_UNSYNC;
+    return TIME_ERROR;
+  }));
+  CHECK_FALSE(HostClock::is_unsynchronised([](timex* answer) {
+    answer->maxerror = 31'000;
+    return TIME_OK;
+  }));
+  // As chrony without 'rtcsync' leaves it.
+  CHECK_FALSE(HostClock::is_unsynchronised([](timex* answer) {
+    answer->maxerror = 31'000;
+    answer->status = STA_UNSYNC;
+    return TIME_ERROR;
+  }));
+  // A system that forbids the question.
+  CHECK_FALSE(HostClock::is_unsynchronised([](timex* answer) {
+    answer->maxerror = 16'000'000;
+    return -1;
+  }));
+}
+
+TEST_CASE("Stamps by a host's clock that is not synchronised are told as such", "[connect]") {
+  const auto reference = GENERATE(TimeReference::kHost, TimeReference::kGnss);
+  bool is_unsynchronised = true;
+  const std::int64_t start_ns = 1'608'163'200 * kSecond;
+  GpsClock clock(reference, 0.05, start_ns, [&] { return is_unsynchronised; });
+  ImuStamper stamper(&clock, {});
+  for (int k = 0; k < 2000; ++k) {
+    ImuReading reading;
+    reading.clock_ns = k * 10'000'000LL;
+    reading.arrival_ns = start_ns + *reading.clock_ns;
+    if (k % 100 == 0) clock.on_epoch(kStart.plus_seconds(18.0 + k / 100), reading.arrival_ns);
+    stamper.stamp(reading);
+  }
+  REQUIRE(stamper.kind() == ImuStamper::Kind::kLine);
+  const std::string sentence = "the host's clock is not synchronised";
+  CHECK((stamper.text().find(sentence) != std::string::npos) ==
+        (reference == TimeReference::kHost));
+  is_unsynchronised = false;
+  CHECK(stamper.text().find(sentence) == std::string::npos);
 }
 
 TEST_CASE("A leap second of the host's clock is no step, known or not", "[connect]") {

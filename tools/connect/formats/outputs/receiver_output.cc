@@ -21,8 +21,9 @@ void ReceiverOutput::note_step(GpsTime time) {
   last_step_s_ = step_s;
 }
 
-void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns) {
+void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns, bool has_own_week) {
   clock_->on_epoch(epoch.time, arrival_ns);
+  if (has_own_week) clock_->confirm_host(epoch.time, arrival_ns);
   note_step(epoch.time);
   last_epoch_ = epoch.time;
   last_signals_ = epoch.observations.size();

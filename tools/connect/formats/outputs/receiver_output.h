@@ -23,8 +23,9 @@ class ReceiverOutput {
                  CorrectionOutput* corrections = nullptr)
       : clock_(clock), output_(output), corrections_(corrections), repeater_(repeat_s, output) {}
 
-  // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock.
-  void send(const RawEpoch& epoch, std::int64_t arrival_ns);
+  // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock. `has_own_week`:
+  // its week comes from the receiver, and not from the host's clock.
+  void send(const RawEpoch& epoch, std::int64_t arrival_ns, bool has_own_week = true);
   // Elements for corrections alone are not published.
   void send(const Ephemeris& ephemeris);
   // `received`: GPS time.

@@ -33,7 +33,7 @@ void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
   if (is_service_) {
     ++station_epochs_;
   } else {
-    receiver_.send(epoch, arrival_ns_);
+    receiver_.send(epoch, arrival_ns_, false);
   }
 }
 void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
@@ -61,7 +61,18 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 
 std::string Rtcm3Format::detail() const {
   return joined({receiver_.detail(), summary_of(decoder_.counters().losses),
-                 last_ssr_.is_set() ? corrections_->detail() : ""});
+                 last_ssr_.is_set() ? corrections_->detail() : "", host_doubt()});
+}
+
+// What is taken from the host's clock while nothing shows that it is right.
+std::string Rtcm3Format::host_doubt() const {
+  if (!is_live_) return "";
+  const bool week = !clock_->host_week_is_confirmed();
+  const bool age = last_ssr_.is_set() && !clock_->at(arrival_ns_);
+  if ((!week && !age) || !clock_->host_is_unsynchronised()) return "";
+  return std::string("the host's clock is not synchronised, and ") +
+         (week ? "the week of these messages is" : "the age of these corrections is") +
+         " taken from it: is a time service running (timedatectl)?";
 }
 
 FormatCounts Rtcm3Format::counts() const {
@@ -89,7 +100,7 @@ std::string Rtcm3Format::why_no_frames() const {
          "send RTCM 3?";
 }
 
-std::string Rtcm3Format::why_no_messages() const {
+std::string Rtcm3Format::why_none() const {
   const Rtcm3Counters c = decoder_.counters();
   if (c.epochs.without_full_range > 0) {
     return "MSM1 to MSM3 arrive, whose ranges lack the milliseconds: let the sender send MSM4 to "

@@ -33,14 +33,17 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   std::optional<DataTime> data_time() const override;
   std::string detail() const override;
   std::string why_no_frames() const override;
-  std::string why_no_messages() const override;
+  std::string why_no_messages() const override { return joined({why_none(), host_doubt()}); }
 
  private:
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
+  void on_stated_toe(GpsTime time) override { clock_->confirm_host(time, arrival_ns_); }
   void on_ssr(const SsrMessage& message) override;
   void tell_time();
   GpsTime time_of_arrival(GpsTime of_message) const;
+  std::string why_none() const;
+  std::string host_doubt() const;
 
   bool is_live_, is_service_;
   GpsClock* clock_;

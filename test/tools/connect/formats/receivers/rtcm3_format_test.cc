@@ -215,6 +215,72 @@ TEST_CASE("Ephemerides are sent at the epochs' time, however wrong the host's cl
         Approx(602.0).margin(1e-6));
 }
 
+TEST_CASE("A host's clock that is not synchronised is told until its week is confirmed",
+          "[connect]") {
+  const std::string sentence =
+      "the host's clock is not synchronised, and the week of these messages is taken from it";
+  Messages messages;
+  MessageOutput output(&messages);
+  bool is_unsynchronised = true;
+  GpsClock clock(TimeReference::kGnss, 0.05, HostClock::wall_ns(),
+                 [&] { return is_unsynchronised; });
+  Rtcm3Format format(GpsTime(), 30.0, &clock, &output);
+  const auto doubts = [&] { return format.detail().find(sentence) != std::string::npos; };
+  const auto feed_epochs = [&](double host_error_s) {
+    for (unsigned s = 0; s < 3; ++s)
+      format.feed(msm4(1074, kOfWeek_ms + 1000U * s),
+                  host_ns(kTime.plus_seconds(s + 0.1 + host_error_s)));
+  };
+
+  SECTION("its own epochs do not confirm it, and they are published") {
+    feed_epochs(0.0);
+    CHECK(doubts());
+    CHECK(messages.counts[Channel::kGnssEpoch] == 3);
+    is_unsynchronised = false;
+    CHECK_FALSE(doubts());
+  }
+  SECTION("an ephemeris confirms it, and a clock that is set needs it anew") {
+    feed_epochs(0.0);
+    format.feed(gps_ephemeris(3), host_ns(kTime.plus_seconds(3.0)));
+    CHECK_FALSE(doubts());
+    const std::int64_t now_ns = host_ns(kTime);
+    for (int k = 0; k < HostClock::kComparisons; ++k)
+      clock.compare_host(now_ns + 86'400 * kNanosecondsPerSecond, now_ns);
+    CHECK(doubts());
+    // A repeated one will do.
+    format.feed(gps_ephemeris(3), host_ns(kTime.plus_seconds(4.0)));
+    CHECK_FALSE(doubts());
+  }
+  SECTION("an ephemeris of a neighbouring week does not") {
+    feed_epochs(7.0 * 86'400.0);
+    format.feed(gps_ephemeris(3), host_ns(kTime.plus_seconds(7.0 * 86'400.0 + 3.0)));
+    CHECK(messages.counts[Channel::kEphemeris] == 1);
+    CHECK(doubts());
+  }
+  SECTION("a receiver that knows its week does") {
+    feed_epochs(0.0);
+    ReceiverOutput receiver(30.0, &clock, &output);
+    RawEpoch epoch;
+    epoch.time = kTime.plus_seconds(8.0 * 86'400.0);  // as long as it does not know it yet
+    receiver.send(epoch, host_ns(kTime));
+    CHECK(doubts());
+    epoch.time = kTime.plus_seconds(1.0);
+    receiver.send(epoch, host_ns(kTime.plus_seconds(1.0)));
+    CHECK_FALSE(doubts());
+  }
+  SECTION("where all ephemerides are refused, it is told with the remedy") {
+    format.feed(gps_ephemeris(3), host_ns(kTime.plus_seconds(-300.0 * 86'400.0)));
+    CHECK(format.counts().messages == 0);
+    CHECK_THAT(format.why_no_messages(), Catch::Contains(sentence));
+  }
+  SECTION("a file has its day from the configuration") {
+    Rtcm3Format file(kTime, 30.0, &clock, &output);
+    file.feed(msm4(1074, kOfWeek_ms), host_ns(kTime));
+    file.finish();
+    CHECK_THAT(file.detail(), !Catch::Contains("synchronised"));
+  }
+}
+
 TEST_CASE("A receiver that comes back with another station's number is read", "[connect]") {
   Epochs epochs;
   MessageOutput output(&epochs);
@@ -335,6 +401,28 @@ TEST_CASE("Corrections that are too old are told with what may be wrong", "[conn
   CHECK_THAT(text, Catch::Contains("1 too old"));
   CHECK_THAT(text, Catch::Contains("is the host's clock right"));
   CHECK_THAT(text, !Catch::Contains("ephemerides must come"));
+}
+
+TEST_CASE("The age of corrections by a host's clock that is not synchronised is told",
+          "[connect]") {
+  Messages messages;
+  MessageOutput output(&messages);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
+  GpsClock clock(TimeReference::kGnss, 0.05, HostClock::wall_ns(), [] { return true; });
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
+  service.feed(gps_ephemeris(7), host_ns(kTime.plus_seconds(1200.0)));  // confirms the week
+  CHECK_THAT(service.detail(), !Catch::Contains("synchronised"));
+  service.feed(orbit_and_clock(kOfWeek_ms / 1000), host_ns(kTime.plus_seconds(1200.0)));
+  const std::string sentence =
+      "the host's clock is not synchronised, and the age of these corrections is taken from it";
+  CHECK_THAT(service.why_no_messages(), Catch::Contains("1 too old"));
+  CHECK_THAT(service.why_no_messages(), Catch::Contains(sentence));
+  // A receiver's epochs give the age.
+  for (int s = 0; s < 30; ++s)
+    clock.on_epoch(kTime.plus_seconds(s), host_ns(kTime.plus_seconds(1200.0 + s)));
+  REQUIRE(clock.at(host_ns(kTime.plus_seconds(1200.0))));
+  CHECK_THAT(service.why_no_messages(), !Catch::Contains(sentence));
 }
 
 }  // namespace leonav
