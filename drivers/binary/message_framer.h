@@ -28,7 +28,6 @@ struct StartClaim {
 struct MessageFramerCounts {
   std::uint64_t messages = 0;       // framed, checksum good
   std::uint64_t bytes_skipped = 0;  // outside any message (other protocols, damage)
-  std::uint64_t text_bytes = 0;     // the part of bytes_skipped that is printable
   std::uint64_t bad_checksums = 0;
   std::uint64_t impossible = 0;   // a length or a field that no message has
   std::uint64_t bad_content = 0;  // checksum good by chance
@@ -55,6 +54,17 @@ struct MessageFraming {
   static bool is_awaited(std::span<const std::uint8_t>) { return false; }
   // Takes bytes that belong to no message.
   static void skip(std::span<const std::uint8_t>) {}
+};
+
+// What formats of receivers have that send text between their messages.
+struct TextCountingFraming : MessageFraming {
+  void skip(std::span<const std::uint8_t> bytes) {
+    text_bytes +=
+        static_cast<std::uint64_t>(std::count_if(bytes.begin(), bytes.end(), [](std::uint8_t byte) {
+          return (byte >= 0x20 && byte < 0x7F) || byte == '\r' || byte == '\n' || byte == '\t';
+        }));
+  }
+  std::uint64_t text_bytes = 0;  // printable, and no part of a message
 };
 
 // The caller appends bytes and takes messages until none is left. A false start or a damaged
@@ -202,10 +212,6 @@ void MessageFramer<Framing>::skip_to(Position position) {
   counts_.cut_headers += none[MessageStarts::kCutHeader];
   const Bytes skipped = between(begin_, position);
   counts_.bytes_skipped += skipped.size();
-  counts_.text_bytes += static_cast<std::uint64_t>(
-      std::count_if(skipped.begin(), skipped.end(), [](std::uint8_t byte) {
-        return (byte >= 0x20 && byte < 0x7F) || byte == '\r' || byte == '\n' || byte == '\t';
-      }));
   framing_.skip(skipped);
   begin_ = position;
   searched_ = std::max(searched_, begin_);

@@ -68,7 +68,8 @@ bool Oem7Framer::next(Oem7Message* message) {
 
 Oem7FramerCounters Oem7Framer::counters() const {
   const MessageFramerCounts& c = counts();
-  return {c.messages, c.bytes_skipped, c.text_bytes, c.bad_checksums, c.impossible, c.incomplete};
+  return {c.messages,      c.bytes_skipped, framing().text_bytes,
+          c.bad_checksums, c.impossible,    c.incomplete};
 }
 
 }  // namespace leonav

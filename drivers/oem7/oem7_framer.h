@@ -31,7 +31,7 @@ struct Oem7FramerCounters {
 };
 
 // How NovAtel messages begin and end.
-struct Oem7Framing : MessageFraming {
+struct Oem7Framing : TextCountingFraming {
   // The longest message of the manuals, RANGE with 325 signals, has 14,304 bytes.
   static constexpr std::size_t kMaxPayload = 16384;
   static constexpr std::size_t kMaxHeader = 64;

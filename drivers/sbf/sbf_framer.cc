@@ -56,7 +56,8 @@ bool SbfFramer::next(SbfBlock* block) {
 
 SbfFramerCounters SbfFramer::counters() const {
   const MessageFramerCounts& c = counts();
-  return {c.messages, c.bytes_skipped, c.text_bytes, c.bad_checksums, c.impossible, c.incomplete};
+  return {c.messages,      c.bytes_skipped, framing().text_bytes,
+          c.bad_checksums, c.impossible,    c.incomplete};
 }
 
 }  // namespace leonav

@@ -28,7 +28,7 @@ struct SbfFramerCounters {
 };
 
 // How SBF blocks begin and end.
-struct SbfFraming : MessageFraming {
+struct SbfFraming : TextCountingFraming {
   // A MeasEpoch with 100 satellites of five signals each has 6,820 bytes. The length field can
   // claim 65,532; a longer block than this one is no block of interest.
   static constexpr std::size_t kMaxSize = 16384;
