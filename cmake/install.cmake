@@ -31,14 +31,13 @@ foreach(folder report fleet top python)
           PATTERN __pycache__ EXCLUDE PATTERN "*.egg-info" EXCLUDE PATTERN README.md EXCLUDE
           PATTERN setup.py EXCLUDE PATTERN pyproject.toml EXCLUDE)
 endforeach()
-install(DIRECTORY lcmtypes DESTINATION ${share} FILES_MATCHING PATTERN "*.lcm")
+install(DIRECTORY lcmtypes DESTINATION ${share} FILES_MATCHING PATTERN "*.lcm" PATTERN README.md)
 install(DIRECTORY config/presets config/scenario config/matrix DESTINATION ${share} FILES_MATCHING PATTERN "*.yaml")
-install(FILES config/reference.yaml DESTINATION ${share})
-install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs/operations DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
-install(FILES docs/glossary.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES config/reference.yaml config/dataset.yaml DESTINATION ${share})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# Paths in units depend on the prefix, which is known when it is installed; manuals are made by the programs.
+# Paths in units and pages depend on the prefix, which is known when it is installed; manuals are made by the programs.
 get_property(scripts GLOBAL PROPERTY leonav_scripts)
 install(CODE "
   set(source \"${CMAKE_SOURCE_DIR}\")

@@ -1,4 +1,4 @@
-# Run by `cmake --install`: what depends on the prefix (links, units, configuration) and what the installed programs
+# Run by `cmake --install`: what depends on the prefix (links, units, configuration, pages) and what the installed programs
 # make (manuals, completions). In: source, build, version, programs, scripts (paths below source).
 set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})  # file(INSTALL) puts DESTDIR before its destination by itself
 
@@ -19,11 +19,30 @@ set(leonav_etc ${CMAKE_INSTALL_PREFIX}/etc/leonav)
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(leonav_etc /etc/leonav)
 endif()
-file(INSTALL ${source}/tools/packaging/leonavd.yaml ${source}/config/connect.yaml ${source}/config/serve.yaml
-     DESTINATION ${leonav_etc})
+set(leonav_share ${CMAKE_INSTALL_PREFIX}/share/leonav)
+set(leonav_doc ${CMAKE_INSTALL_PREFIX}/share/doc/leonav)
+set(leonav_units ${CMAKE_INSTALL_PREFIX}/lib/systemd/system)
+
+# A text of the tree, with paths as they are here.
+find_program(python3 python3 NO_CACHE REQUIRED)
+set(with_installed_paths ${python3} ${source}/tools/packaging/installed_paths.py ${leonav_share} ${leonav_doc} ${leonav_etc} ${leonav_units})
+function(install_text from to)
+  cmake_path(GET to PARENT_PATH folder)
+  file(MAKE_DIRECTORY $ENV{DESTDIR}${folder})
+  execute_process(COMMAND ${with_installed_paths} INPUT_FILE ${source}/${from} OUTPUT_FILE $ENV{DESTDIR}${to} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(INSTALL ${source}/tools/packaging/leonavd.yaml DESTINATION ${leonav_etc})
+install_text(config/connect.yaml ${leonav_etc}/connect.yaml)
+install_text(config/serve.yaml ${leonav_etc}/serve.yaml)
+install_text(README.md ${leonav_doc}/README.md)
+file(GLOB_RECURSE pages RELATIVE ${source}/docs ${source}/docs/*.md)
+foreach(page ${pages})
+  install_text(docs/${page} ${leonav_doc}/${page})
+endforeach()
 foreach(unit leonavd leonav-connect leonav-serve leonav-multicast)
   configure_file(${source}/tools/packaging/systemd/${unit}.service ${build}/units/${unit}.service @ONLY)
-  file(INSTALL ${build}/units/${unit}.service DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/systemd/system)
+  file(INSTALL ${build}/units/${unit}.service DESTINATION ${leonav_units})
 endforeach()
 file(INSTALL ${source}/tools/packaging/systemd/sysusers.conf DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/sysusers.d RENAME leonav.conf)
 
@@ -38,7 +57,6 @@ else()
 endif()
 
 # Manuals and completions out of --help.
-find_program(python3 python3 NO_CACHE REQUIRED)
 file(STRINGS ${source}/tools/packaging/summaries.txt summaries)
 file(MAKE_DIRECTORY ${root}/share/man/man1)
 foreach(program ${programs})
@@ -65,7 +83,14 @@ foreach(program ${programs})
   string(REPLACE "${program}: " "" summary "${summary}")
   set(page ${root}/share/man/man1/${program}.1)
   execute_process(
+    COMMAND ${with_installed_paths}
     COMMAND ${python3} ${source}/tools/packaging/manual.py ${program} ${summary} ${version}
     INPUT_FILE ${help} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND gzip -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
+
+# The manual that comes before them lists them.
+list(TRANSFORM summaries REPLACE "([^:]+): (.*)" ".TP\n.BR \\1 (1)\n\\2")
+list(JOIN summaries "\n" leonav_programs)
+configure_file(${source}/tools/packaging/leonav.7 ${root}/share/man/man7/leonav.7 @ONLY)
+execute_process(COMMAND gzip -9nf ${root}/share/man/man7/leonav.7 COMMAND_ERROR_IS_FATAL ANY)

@@ -48,7 +48,8 @@ def page(program, summary, version, text):
     usage, _, rest = text.partition("\n\n")
     usage = re.sub(r"^(usage: |       )", "", usage, flags=re.M)
     yield from (f'.TH {program.upper()} 1 "" "leonav {version}" leonav', ".SH NAME", rf"{program} \- {summary}", ".SH SYNOPSIS", ".nf",
-                *map(escaped, usage.splitlines()), ".fi", ".SH DESCRIPTION", *body(rest))
+                *map(escaped, usage.splitlines()), ".fi", ".SH DESCRIPTION", *body(rest),
+                ".SH SEE ALSO", ".BR leonav (7)")
 
 
 print("\n".join(page(*sys.argv[1:4], sys.stdin.read())))
