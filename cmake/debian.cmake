@@ -5,6 +5,14 @@ set(CPACK_PACKAGE_VENDOR leonav)
 set(LEONAV_MAINTAINER "leonav maintainers <leonav@users.noreply.github.com>" CACHE STRING "Maintainer of the Debian packages")
 set(CPACK_PACKAGE_CONTACT ${LEONAV_MAINTAINER})
 set(CPACK_COMPONENTS_ALL leonav leonav-dev)
+# The same version of leonav made for the next release of Debian is another package, and a newer one: 0.1.0~deb12, 0.1.0~deb13.
+set(package_version ${PROJECT_VERSION})
+cmake_host_system_information(RESULT distribution QUERY DISTRIB_INFO)
+if(distribution_VERSION_ID)
+  string(REPLACE debian deb name ${distribution_ID})
+  string(APPEND package_version "~${name}${distribution_VERSION_ID}")
+endif()
+set(CPACK_DEBIAN_PACKAGE_VERSION ${package_version})
 # The prefix of a package is /usr whatever that of the build is, and there are files in /etc.
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
@@ -48,7 +56,7 @@ foreach(package leonav leonav-dev)
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES tools/packaging/debian/copyright DESTINATION ${doc} COMPONENT ${package})
   file(WRITE ${CMAKE_BINARY_DIR}/debian/${package}/changelog
-    "leonav (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * Built from the sources of version ${PROJECT_VERSION}.\n\n"
+    "leonav (${package_version}) unstable; urgency=medium\n\n  * Built from the sources of version ${PROJECT_VERSION}.\n\n"
     " -- ${LEONAV_MAINTAINER}  ${date}\n")
   execute_process(COMMAND gzip -9nf ${CMAKE_BINARY_DIR}/debian/${package}/changelog COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${CMAKE_BINARY_DIR}/debian/${package}/changelog.gz DESTINATION ${doc} COMPONENT ${package})
