@@ -34,11 +34,12 @@ write a journal that replays bit for bit.
 
 The package holds the services for systemd, which the administrator enables,
 and the tools that import, simulate, replay, judge and show runs.")
-# shlibdeps adds the libraries. Which Python modules a tool needs, it says itself.
+# shlibdeps adds the libraries. Which Python modules a tool needs, it says itself. A vehicle needs leonav-top and lcm-logplayer;
+# pictures and tables would bring 1.6 GB: matplotlib and pandas recommend a compiler, among others.
 set(CPACK_DEBIAN_LEONAV_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LEONAV_PACKAGE_DEPENDS "python3, iproute2, systemd | systemd-standalone-sysusers")
-set(CPACK_DEBIAN_LEONAV_PACKAGE_RECOMMENDS "python3-numpy, python3-pandas, python3-matplotlib, python3-yaml, liblcm-bin")
-set(CPACK_DEBIAN_LEONAV_PACKAGE_SUGGESTS "default-jre, liblcm-java, libjchart2d-java, python3-distributed, gpsd")
+set(CPACK_DEBIAN_LEONAV_PACKAGE_RECOMMENDS "python3-numpy, liblcm-bin")
+set(CPACK_DEBIAN_LEONAV_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-yaml, default-jre, liblcm-java, libjchart2d-java, python3-distributed, gpsd")
 set(CPACK_DEBIAN_LEONAV_PACKAGE_CONTROL_EXTRA
     ${CMAKE_SOURCE_DIR}/${scripts}/conffiles ${CMAKE_SOURCE_DIR}/${scripts}/postinst
     ${CMAKE_SOURCE_DIR}/${scripts}/prerm ${CMAKE_SOURCE_DIR}/${scripts}/postrm)
