@@ -47,8 +47,8 @@ def lock_indicator(milliseconds):
 class Receiver:
     """Keeps since when carriers are locked, and which cycles were taken off their phase ranges."""
 
-    def __init__(self):
-        self.locks = {}
+    def __init__(self, station=1):
+        self.station, self.locks = station, {}
 
     def restart(self):
         self.locks.clear()
@@ -81,7 +81,7 @@ class Receiver:
         tow_ms = round(now * 1e3) % 604800000
         if system == "C":
             tow_ms = (tow_ms - 14000) % 604800000
-        out = bits(MSM7[system], 12) + bits(1, 12) + bits(tow_ms, 30) + bits(more, 1) + "0" * 18
+        out = bits(MSM7[system], 12) + bits(self.station, 12) + bits(tow_ms, 30) + bits(more, 1) + "0" * 18
         out += "".join("1" if number in part else "0" for number in range(1, 65))
         out += "".join("1" if bit in {MASK[system][signal] for signal in signals} else "0" for bit in range(1, 33))
         out += "".join("1" if signal in of else "0" for of in part.values() for signal in signals)

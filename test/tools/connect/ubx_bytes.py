@@ -163,17 +163,29 @@ def sfrbx(satellite, words):
     return frame(0x02, 0x13, header + struct.pack(f"<{len(words)}I", *words))
 
 
-def broadcasts(path, start):
-    """(time of reception, message) of three subframes of the newest record of each satellite that is sent at `start`."""
+def newest_records(path, start):
+    """{satellite number: (time of clock, clock terms, 28 numbers)} of the newest record of each GPS satellite that is sent at `start`."""
     newest = {}
     for satellite, toc, clock, orbit in records(path):
         if toc <= start + 7200 and (satellite not in newest or toc > newest[satellite][0]):
             newest[satellite] = toc, clock, orbit
+    return newest
+
+
+def received_subframes(path, start):
+    """(time of reception, satellite number, ten words) of the ionosphere's page and of three subframes of each satellite."""
+    newest = newest_records(path, start)
     first = start - start % 6 + 24
-    yield first + 6, sfrbx(min(newest), ionosphere_page(first))
+    yield first + 6, min(newest), ionosphere_page(first)
     for satellite, (toc, clock, orbit) in newest.items():
         for sent, words in subframes(toc, clock, orbit, start - start % 6 + 6):
-            yield sent + 6, sfrbx(satellite, words)
+            yield sent + 6, satellite, words
+
+
+def broadcasts(path, start):
+    """(time of reception, message) of each."""
+    for received, satellite, words in received_subframes(path, start):
+        yield received, sfrbx(satellite, words)
 
 
 def main():

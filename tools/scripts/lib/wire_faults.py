@@ -2,7 +2,7 @@
 
   wire_faults.py BIN OUT [--jobs N] [ROW...]
 
-Each row runs at the pace of its drive, in a network namespace of its own, N (6) at a time. A table goes to standard output
+Each row runs at the pace of its drive, in namespaces of network and mounts of its own, N (6) at a time. A table goes to standard output
 and to OUT/wire-faults.md, logs and journals to OUT/ROW. Exit code 1: an expectation of rows.py does not hold.
 """
 import argparse
@@ -34,16 +34,20 @@ def by_name(name):
 
 def run(row, bin_dir, folder):
     """The whole of one row; inside a network namespace. Returns what the table shows."""
-    made = row.make(Scene(lambda **keys: Drive(bin_dir, folder / "drive", row.duration_s, **keys), row.begin_s, row.end_s))
+    new_drive = lambda name="drive", **keys: Drive(bin_dir, folder / name, row.duration_s, **keys)
+    made = row.make(Scene(new_drive, row.begin_s, row.end_s))
     drive, sources = made.drive, {}
     for name, (keys, stream) in made.streams.items():
         if made.recorded:
             sources[name] = live.Recording(folder / f"{name}.leoraw", stream, drive.first)
         else:
-            sources[name] = live.Caster() if name == "service" else live.Terminal()
+            sources[name] = live.Caster(made.casters[name]) if name in made.casters else live.Terminal()
+    host = {"names": live.NameServer(folder)} if made.has_name_server else {}
+    if made.clock:
+        host["clock"] = live.HostClock(folder, *made.clock)
     programs = live.Programs(bin_dir, folder, [(name, sources[name], keys) for name, (keys, _) in made.streams.items()],
-                             made.connect_keys, made.daemon_options)
-    actions = [(t, getattr(sources[name], what)) for t, what, name in made.actions]
+                             made.connect_keys, made.daemon_options, host["clock"].environment() if made.clock else None)
+    actions = [(t, getattr({**sources, **host}[name], what)) for t, what, name in made.actions]
     if made.recorded:
         actions.append((row.duration_s, lambda: None))
     else:
@@ -78,7 +82,7 @@ def judged(row, bin_dir, folder, drive, programs, codes, delay):
     replay_ok = verified and replay(bin_dir, folder, "--rate", "10", "--out", folder / "continuous")
     said = {name: judge.Said(programs.said(name), programs.begin) for name in ("leonav-connect", "leonavd")}
     track = judge.Track(folder / "continuous/solution.csv", drive.truth, drive.first)
-    settled, end = min(SETTLED_S, row.begin_s - 5), row.duration_s - 2
+    settled, end = row.settled_s or min(SETTLED_S, row.begin_s - 5), row.duration_s - 2
     error, sigma, at = track.worst(settled, end)
     result = {"gap_s": track.longest_gap(settled, end), "worst_m": error, "sigma_m": sigma, "worst_at_s": at,
               "sigmas": track.worst_sigmas(settled, end), "recovered_s": track.settled_after(row.end_s, LIMIT_M), "verified": verified,
@@ -140,7 +144,7 @@ def start(name, words, namespace):
     (folder / "result.json").unlink(missing_ok=True)
     script = 'ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo && exec "$@"'
     with open(folder / "run.txt", "w", encoding="utf-8") as text:
-        subprocess.run([*namespace, "sh", "-c", script, "row", sys.executable, __file__, words.bin, words.out, "--one", name],
+        subprocess.run([*namespace, "-m", "sh", "-c", script, "row", sys.executable, __file__, words.bin, words.out, "--one", name],
                        stdout=text, stderr=text, check=False)
     try:
         return json.loads((folder / "result.json").read_text())

@@ -1,4 +1,5 @@
 """What is done to the bytes of a stream, which is a list of (s, bytes)."""
+import itertools
 
 
 def between(begin, end, change):
@@ -21,6 +22,18 @@ def flipped(rate, dice):
 def halved(share, dice):
     """Of `share` of all messages nothing comes behind some place within."""
     return lambda data: data[:dice.randrange(len(data))] if dice.random() < share else data
+
+
+# The bit of the length field that makes of an epoch's message one of 512 (RTCM 3), 4096 (UBX) or 8192 bytes more, which the formats
+# allow: its byte, from the first one of the message on, and its mask.
+LENGTH_BITS = {"ubx": (5, 0x10), "rtcm3": (1, 0x02), "oem7": (9, 0x20), "sbf": (7, 0x20)}
+
+
+def lengthened(kind):
+    """Of every third message the length field is wrong by one bit."""
+    place, mask = LENGTH_BITS[kind]
+    seen = itertools.count()
+    return lambda data: data[:place] + bytes([data[place] ^ mask]) + data[place + 1:] if next(seen) % 3 == 0 else data
 
 
 def misread(sent_baud, read_baud):

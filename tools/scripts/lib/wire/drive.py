@@ -7,7 +7,9 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 sys.path += [str(ROOT / "test/tools/connect"), str(ROOT / "tools/scripts/lib")]
+import oem7_bytes  # noqa: E402
 import rtcm3_bytes  # noqa: E402
+import sbf_bytes  # noqa: E402
 import ssr_from_products  # noqa: E402
 import ubx_bytes  # noqa: E402
 import vectornav_bytes  # noqa: E402
@@ -45,22 +47,36 @@ class Drive:
     def since(self, time_of_epoch):
         return time_of_epoch[0] + time_of_epoch[1] - self.first
 
-    def ubx(self, restarts=(), leap_seconds=None):
-        """(s, RAWX), and a (s, SFRBX) for each subframe: after the start and again after each of the `restarts`, s."""
+    def receiver(self, encode, broadcasts, restarts=(), cut=(0, 0)):
+        """(s, epoch as `encode` makes it of instant, satellites and locks), and (s, message) of what the satellites send: after the
+        start and again after each of the `restarts`, s. Within `cut`, s, the antenna is, and epochs have no signals.
+        """
         locks, begun, out = {}, [], []
-        waiting = sorted(ubx_bytes.broadcasts(self.navigation, self.epochs[0][0][0]))
+        waiting = sorted(broadcasts(self.navigation, self.epochs[0][0][0]))
         for instant, satellites in self.epochs:
             now = self.since(instant)
             for restart in restarts:
                 if now >= restart and restart not in begun:
                     begun.append(restart)
                     locks.clear()
-                    waiting = sorted(ubx_bytes.broadcasts(self.navigation, instant[0]))
-            data = ubx_bytes.rawx(instant, satellites, locks, *([leap_seconds(now)] if leap_seconds else []))
-            out.append((now + GNSS_LATENCY_S, data))
+                    waiting = sorted(broadcasts(self.navigation, instant[0]))
+            is_cut = cut[0] <= now < cut[1]
+            out.append((now + GNSS_LATENCY_S, encode(instant, {} if is_cut else satellites, locks)))
             while waiting and waiting[0][0] <= instant[0]:
                 out.append((now + GNSS_LATENCY_S, waiting.pop(0)[1]))
+            if is_cut:
+                locks.clear()
         return out
+
+    def ubx(self, leap_seconds=lambda now: 18, **keys):
+        encode = lambda instant, satellites, locks: ubx_bytes.rawx(instant, satellites, locks, leap_seconds(self.since(instant)))
+        return self.receiver(encode, ubx_bytes.broadcasts, **keys)
+
+    def oem7(self, **keys):
+        return self.receiver(oem7_bytes.epoch, oem7_bytes.broadcasts, **keys)
+
+    def sbf(self, **keys):
+        return self.receiver(sbf_bytes.epoch, sbf_bytes.broadcasts, **keys)
 
     def ubx_at(self, change):
         """(s, RAWX) whose times are what `change` makes of the epochs'."""
@@ -72,9 +88,9 @@ class Drive:
         strength = lambda name: max((value[0] for code, value in satellites[name].items() if code[0] == "S" and value), default=0.0)
         return max((name for name in satellites if name[0] == system), key=strength)
 
-    def rtcm3(self):
+    def rtcm3(self, station=1):
         """(s, MSM7 of one epoch), and every ephemeris each 30 s."""
-        receiver, out = rtcm3_bytes.Receiver(), []
+        receiver, out = rtcm3_bytes.Receiver(station), []
         for index, (instant, satellites) in enumerate(self.epochs):
             now = self.since(instant) + GNSS_LATENCY_S
             out.append((now, receiver.epoch(instant, satellites)))

@@ -34,12 +34,13 @@ class Terminal(SerialTerminal):
 class Caster:
     """An NTRIP caster of version 1 with one mountpoint, which can be gone."""
 
-    def __init__(self):
+    def __init__(self, host="127.0.0.1"):
+        self.host = host
         self.lock, self.listener, self.clients, self.port = threading.Lock(), None, [], 0
         self.up()
 
     def keys(self):
-        return f"source: ntrip, host: 127.0.0.1, port: {self.port}, mountpoint: SSR, version: 1"
+        return f"source: ntrip, host: {self.host}, port: {self.port}, mountpoint: SSR, version: 1"
 
     def up(self):
         self.listener = socket.create_server(("127.0.0.1", self.port))
@@ -74,6 +75,67 @@ class Caster:
                     self.clients.remove(client)
 
 
+class NameServer:
+    """Knows every name by the address 127.0.0.1, and can be mute. It has the place of the host's: in a namespace of mounts alone."""
+
+    def __init__(self, folder):
+        (folder / "resolv.conf").write_text("nameserver 127.0.0.1\n")
+        subprocess.run(["mount", "--bind", folder / "resolv.conf", "/etc/resolv.conf"], check=True)
+        self.is_mute = False
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 53))
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def mute(self):
+        self.is_mute = True
+
+    def speak(self):
+        self.is_mute = False
+
+    def serve(self):
+        while True:
+            query, asker = self.socket.recvfrom(512)
+            if not self.is_mute:
+                self.socket.sendto(self.answer(query), asker)
+
+    @staticmethod
+    def answer(query):
+        """RFC 1035, 4.1: of the type A the address, of others no record."""
+        end = query.index(0, 12) + 5  # behind the question
+        is_address = query[end - 4:end - 2] == b"\0\1"
+        head = query[:2] + b"\x81\x80" + struct.pack(">HHHH", 1, is_address, 0, 0)
+        record = b"\xc0\x0c" + struct.pack(">HHIH", 1, 1, 0, 4) + socket.inet_aton("127.0.0.1")
+        return head + query[12:end] + (record if is_address else b"")
+
+
+class HostClock:
+    """The clock of day that the programs see, off by whole `days` where it is wrong. Their steady clock goes on."""
+
+    LIBRARIES = [f"/usr/lib/{machine}-linux-gnu/faketime/libfaketimeMT.so.1" for machine in ("x86_64", "aarch64")]
+
+    def __init__(self, folder, days, is_wrong):
+        self.path, self.days = folder / "clock.txt", days
+        self.wrong() if is_wrong else self.right()
+
+    def wrong(self):
+        self.set(self.days)
+
+    def right(self):
+        self.set(0)
+
+    def set(self, days):
+        new = self.path.with_suffix(".new")
+        new.write_text(f"{days * 86400:+d}\n")
+        new.replace(self.path)
+
+    def environment(self):
+        library = next((path for path in self.LIBRARIES if os.path.exists(path)), None)
+        if library is None:
+            sys.exit("libfaketime is missing (Debian: faketime)")
+        return {"LD_PRELOAD": library, "FAKETIME_TIMESTAMP_FILE": str(self.path), "FAKETIME_NO_CACHE": "1",
+                "FAKETIME_DONT_FAKE_MONOTONIC": "1", "DONT_FAKE_MONOTONIC": "1"}
+
+
 class Recording:
     """A recording, complete before the program starts: it plays it by its arrivals."""
 
@@ -92,8 +154,8 @@ class Recording:
 class Programs:
     """Both programs with their logs. `streams`: (name, source, other keys) of the configuration."""
 
-    def __init__(self, bin_dir, folder, streams, connect_keys=(), daemon_options=()):
-        self.bin, self.folder = bin_dir, folder
+    def __init__(self, bin_dir, folder, streams, connect_keys=(), daemon_options=(), environment=None):
+        self.bin, self.folder, self.environment = bin_dir, folder, {**os.environ, **(environment or {})}
         lines = [f"lcm: {{url: '{URL}'}}", "status_interval_s: 5", *connect_keys, "streams:"]
         lines += [f"  - {{name: {name}, {source.keys()}, {keys}}}" for name, source, keys in streams]
         (folder / "connect.yaml").write_text("\n".join(lines) + "\n")
@@ -105,7 +167,7 @@ class Programs:
 
     def start(self, name, *words):
         with open(self.folder / f"{name}.txt", "w", encoding="utf-8") as text:
-            return subprocess.Popen([self.bin / name, *words], stderr=text, stdout=text, cwd=ROOT)
+            return subprocess.Popen([self.bin / name, *words], stderr=text, stdout=text, cwd=ROOT, env=self.environment)
 
     def said(self, name):
         return (self.folder / f"{name}.txt").read_text(encoding="utf-8", errors="replace")

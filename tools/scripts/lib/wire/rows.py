@@ -2,12 +2,13 @@
 import dataclasses
 import random
 
-from damage import between, flipped, halved, merged, misread, without
+from damage import between, flipped, halved, lengthened, merged, misread, without
 from drive import WEEK_S, host_gps_s
 
 # s since the first epoch: the drive, the fault within it, and from when on errors count.
 DURATION_S, BEGIN_S, END_S, SETTLED_S = 150, 60, 90, 45
-UBX, RTCM3, IMU, SERVICE = "format: ubx", "format: rtcm3", "format: vectornav", "format: rtcm3, corrections: true"
+UBX, RTCM3, OEM7, SBF = "format: ubx", "format: rtcm3", "format: oem7", "format: sbf"
+IMU, SERVICE = "format: vectornav", "format: rtcm3, corrections: true"
 LEAP_SECOND_GPS_S = 1167264017  # 2017-01-01 00:00:00 UTC: the 17 s before became 18
 
 
@@ -37,13 +38,17 @@ class Row:
     duration_s: int = DURATION_S
     begin_s: float = BEGIN_S
     end_s: float = END_S
+    settled_s: float = 0.0  # from when on errors count; 0: SETTLED_S, and before the fault
 
 
 @dataclasses.dataclass
 class Made:
     drive: object
     streams: dict  # name: (keys, stream)
-    actions: tuple = ()  # (s, "down" or "up" of the stream's source, name)
+    actions: tuple = ()  # (s, what is called, name of the stream's source, "names" or "clock")
+    casters: dict = dataclasses.field(default_factory=dict)  # name of a stream that comes from a caster: its host
+    has_name_server: bool = False  # one of the row's own, "names"
+    clock: tuple = ()  # of the host, "clock": by how many days it is wrong where it is, and whether at the start
     connect_keys: tuple = ()
     daemon_options: tuple = ()
     recorded: bool = False
@@ -87,10 +92,48 @@ def on_imu(change):
     return lambda scene: plain(scene, imu=scene.during(change))
 
 
-def as_rtcm3(change=lambda dice: lambda data: data):
+# The receivers by their formats.
+RECEIVERS = {"ubx": (UBX, lambda drive: drive.ubx), "rtcm3": (RTCM3, lambda drive: drive.rtcm3), "oem7": (OEM7, lambda drive: drive.oem7),
+             "sbf": (SBF, lambda drive: drive.sbf)}
+
+
+def sends(kind, change=lambda dice: lambda data: data):
+    """A receiver of another format, with a change of its bytes."""
+    def make(scene):
+        drive, (keys, stream_of) = scene.new_drive(), RECEIVERS[kind]
+        return Made(drive, {"receiver": (keys, scene.during(change(random.Random(7)))(stream_of(drive)())), "imu": (IMU, drive.vectornav())})
+    return make
+
+
+def with_long_lengths(kind):
+    return sends(kind, lambda dice: lengthened(kind))
+
+
+def antenna_cut(kind):
+    """The receiver goes on with epochs without signals; then all carriers are locked anew, and the satellites' messages come again."""
+    def make(scene):
+        drive, (keys, stream_of) = scene.new_drive(), RECEIVERS[kind]
+        stream = stream_of(drive)(cut=(scene.begin_s, scene.end_s), restarts=(scene.end_s,))
+        return Made(drive, {"receiver": (keys, stream), "imu": (IMU, drive.vectornav())})
+    return make
+
+
+def other_station(number):
+    """The caster sends what a station with this number, 11 km to the north, receives."""
     def make(scene):
         drive = scene.new_drive()
-        return Made(drive, {"receiver": (RTCM3, scene.during(change(random.Random(7)))(drive.rtcm3())), "imu": (IMU, drive.vectornav())})
+        other = scene.new_drive(name="other", settings=("route.origin_latitude_deg=40.0065",))
+        stream = merged(scene.outside(drive.rtcm3()), scene.inside(other.rtcm3(number)))
+        return Made(drive, {"receiver": (RTCM3, stream), "imu": (IMU, drive.vectornav())}, casters={"receiver": "127.0.0.1"})
+    return make
+
+
+def host_clock(days, is_wrong_at_start=False):
+    """The host's clock, of which RTCM 3 has its week, is wrong by days from the fault's begin to its end."""
+    def make(scene):
+        drive = scene.new_drive()
+        actions = (() if is_wrong_at_start else ((scene.begin_s, "wrong", "clock"),)) + ((scene.end_s, "right", "clock"),)
+        return Made(drive, {"receiver": (RTCM3, drive.rtcm3()), "imu": (IMU, drive.vectornav())}, actions=actions, clock=(days, is_wrong_at_start))
     return make
 
 
@@ -150,8 +193,11 @@ def own_clock(shown):
     return make
 
 
-def corrected(change_of=None, tag_s=0, is_gone=False):
-    """With a correction service; `change_of` gives for a drive what is done to the corrections from the fault's begin to its end."""
+def corrected(change_of=None, tag_s=0, is_gone=False, names_are_gone=False):
+    """With a correction service; `change_of` gives for a drive what is done to the corrections from the fault's begin to its end.
+
+    `names_are_gone`: the caster breaks off, and the name server, of which its address comes, is mute.
+    """
     def make(scene):
         drive = scene.new_drive()
         stream = drive.corrections()
@@ -159,7 +205,11 @@ def corrected(change_of=None, tag_s=0, is_gone=False):
             wrong = drive.corrections(change_of(drive, scene), tag_s) if change_of else drive.corrections(tag_s=tag_s)
             stream = merged(scene.outside(stream), scene.inside(wrong))
         actions = ((scene.begin_s, "down", "service"), (scene.end_s, "up", "service")) if is_gone else ()
-        return Made(drive, {"receiver": (UBX, drive.ubx()), "imu": (IMU, drive.vectornav()), "service": (SERVICE, stream)}, actions=actions)
+        if names_are_gone:
+            actions = ((scene.begin_s, "mute", "names"), (scene.begin_s, "down", "service"), (scene.begin_s + 0.1, "up", "service"),
+                       (scene.end_s, "speak", "names"))
+        return Made(drive, {"receiver": (UBX, drive.ubx()), "imu": (IMU, drive.vectornav()), "service": (SERVICE, stream)}, actions=actions,
+                    casters={"service": "caster.example" if names_are_gone else "127.0.0.1"}, has_name_server=names_are_gone)
     return make
 
 
@@ -206,15 +256,23 @@ def told(connect=(), health=(), **keys):
 # Orbits are sent at 29, 59, 89, ... s: the times of the product.
 SSR_SPAN = {"begin_s": 58, "end_s": 148, "duration_s": 210}
 GNSS_GONE = ("no usable GNSS",)
+DAMAGED = r"receiver: (damaged|unreadable): .*is the cable good"
 IMU_GONE = ("no usable IMU",)
 ROWS = [
     Row("none", "none", plain, quiet()),
-    Row("none-rtcm3", "none, the receiver sends RTCM 3", as_rtcm3(), quiet()),
+    Row("none-rtcm3", "none, the receiver sends RTCM 3", sends("rtcm3"), quiet()),
+    Row("none-oem7", "none, the receiver sends NovAtel's logs", sends("oem7"), quiet()),
+    Row("none-sbf", "none, the receiver sends Septentrio's blocks", sends("sbf"), quiet()),
     Row("flips-1e-4", "one byte of 10,000 flipped", on_both(lambda dice: flipped(1e-4, dice)), told((r"imu: good, .* [1-9]\d* damaged",))),
     Row("flips-1e-3", "one byte of 1,000 flipped", on_both(lambda dice: flipped(1e-3, dice)), told((r"receiver: damaged: .* is the cable good",), GNSS_GONE)),
     Row("flips-1e-2", "one byte of 100 flipped", on_both(lambda dice: flipped(1e-2, dice)),
         told((r"receiver: unreadable: .* is the cable good", r"imu: damaged: .* is the cable good"), GNSS_GONE, recovered_s=15)),
-    Row("flips-rtcm3", "one byte of 1,000 flipped, RTCM 3", as_rtcm3(lambda dice: flipped(1e-3, dice)), told((r"receiver: damaged: .* is the cable good",))),
+    Row("flips-rtcm3", "one byte of 1,000 flipped, RTCM 3", sends("rtcm3", lambda dice: flipped(1e-3, dice)), told((DAMAGED,))),
+    Row("flips-oem7", "one byte of 1,000 flipped, NovAtel", sends("oem7", lambda dice: flipped(1e-3, dice)), told((DAMAGED,), GNSS_GONE)),
+    Row("flips-sbf", "one byte of 1,000 flipped, Septentrio", sends("sbf", lambda dice: flipped(1e-3, dice)), told((DAMAGED,), GNSS_GONE)),
+    *(Row(f"length-{kind}", f"a bit of the length flipped in each third message, {text}", with_long_lengths(kind),
+          told((DAMAGED,), never=("no usable GNSS",))) for kind, text in
+      (("ubx", "UBX"), ("rtcm3", "RTCM 3"), ("oem7", "NovAtel"), ("sbf", "Septentrio"))),
     Row("halves", "half of a third of all messages", on_both(lambda dice: halved(1 / 3, dice)), told((r"receiver: damaged: ", r"imu: damaged: "))),
     Row("mixed", "NMEA, RTCM 3 and the other device's messages between the own", mixed, quiet()),
     Row("swapped", "each device on the other's port", swapped,
@@ -227,8 +285,20 @@ ROWS = [
     Row("restart", "receiver silent, then new locks and ephemerides", restarted, told((r"receiver: silent: .* is the sensor on",), GNSS_GONE, recovered_s=15)),
     Row("restart-no-time", "the same, and five epochs of an old week first", restarted_without_time,
         told((r"receiver: silent: ", r"receiver: .*its time has stepped 2 times"), GNSS_GONE, within_s=35, recovered_s=15)),
+    *(Row(f"antenna-{kind}", f"antenna cut: epochs without signals, then new locks, {text}", antenna_cut(kind),
+          told((r"receiver: no data: no epoch with signals .* is the antenna connected",), GNSS_GONE, recovered_s=15)) for kind, text in
+      (("ubx", "UBX"), ("oem7", "NovAtel"), ("sbf", "Septentrio"))),
+    Row("station", "RTCM 3: the caster sends another station, 11 km away", other_station(2), told((r"receiver: .*its station has changed",))),
+    Row("station-number", "the same, and both have the same number", other_station(1), told()),
     Row("week-ubx", "week rollover, UBX", over_the_week(lambda drive: (UBX, drive.ubx())), quiet(), end_s=BEGIN_S),
     Row("week-rtcm3", "week rollover, RTCM 3", over_the_week(lambda drive: (RTCM3, drive.rtcm3())), quiet(), end_s=BEGIN_S),
+    Row("clock-2-days", "RTCM 3: host's clock steps by 2 days", host_clock(2), quiet()),
+    Row("clock-ahead", "RTCM 3: host's clock steps by 5 days", host_clock(5), told((r"receiver: .*the host's clock",))),
+    Row("clock-behind", "RTCM 3: host's clock steps by -5 days", host_clock(-5), told((r"receiver: .*the host's clock",))),
+    Row("clock-start-ahead", "RTCM 3: host's clock wrong by 5 days for a minute from the start on", host_clock(5, True),
+        told((r"receiver: .*the host's clock",), ("no solution yet",), within_s=60), begin_s=0, end_s=60, settled_s=110),
+    Row("clock-start-behind", "RTCM 3: host's clock wrong by -5 days for a minute from the start on", host_clock(-5, True),
+        told((r"receiver: .*the host's clock",), ("no solution yet",), within_s=60), begin_s=0, end_s=60, settled_s=110),
     Row("leap-second", "leap second, stamps by the host's clock", over_the_leap_second, Expected(never=QUIET[:1]), end_s=BEGIN_S),
     Row("clock-drift", "sensor's clock 100 ppm fast", own_clock(lambda passed, _: passed * 1.0001), Expected((r"imu: .* drift -(99|100|101)\.\d ppm, 0 steps",), never=QUIET)),
     Row("clock-step", "sensor's clock steps by 0.5 s", own_clock(lambda passed, begin: passed + (0.5 if passed >= begin else 0.0)),
@@ -240,6 +310,9 @@ ROWS = [
         told((r"service: .*nothing listens there",), corrected=((0.9, 1), (0, 0), (0.9, 1))), duration_s=780, end_s=660),
     Row("ntrip-break", "caster gone for a minute and a half", corrected(is_gone=True),
         told((r"service: .*nothing listens there",), corrected=((0.9, 1), (0, 0), (0.9, 1))), **SSR_SPAN),
+    Row("name-server", "caster broken off and name server mute for a minute and a half", corrected(names_are_gone=True),
+        told((r"service: .*the name server does not answer",), corrected=((0.9, 1), (0, 0), (0.9, 1)),
+             never=(r"(receiver|imu): (silent|unreadable|no data|damaged|waiting)", *QUIET[1:])), begin_s=58, end_s=148, duration_s=270),
     Row("ssr-issue", "corrections of another issue", corrected(other_issue),
         told((r"service: no data: .* none can be used .*without their ephemeris",), within_s=50, corrected=((0.9, 1), (0, 0), (0.9, 1))), **SSR_SPAN),
     Row("ssr-stale", "corrections 150 s old", corrected(tag_s=-150),
