@@ -1,5 +1,6 @@
 #include "drivers/rtcm3/broadcast_ephemeris.h"
 
+#include <bit>
 #include <cstdlib>
 #include <numbers>
 
@@ -18,6 +19,8 @@ constexpr std::uint16_t kGps = 1019, kBeidou = 1042, kGalileoFnav = 1045, kGalil
 constexpr int kGpsWeekModulus = 1024;
 constexpr int kGalileoWeekModulus = 4096;
 constexpr double kBeidouGroupDelayUnit = 1e-10;  // s
+// The week stands behind number and satellite.
+constexpr std::size_t kWeekAt = 18;
 
 // What a message says of its times, besides the elements.
 struct Times {
@@ -169,13 +172,27 @@ Times take_elements(std::uint16_t message_number, const BitReader& reader, Ephem
   }
 }
 
+System system_of(std::uint16_t message_number) {
+  switch (message_number) {
+    case kGps:
+      return System::kGps;
+    case kBeidou:
+      return System::kBeidou;
+    default:
+      return System::kGalileo;
+  }
+}
+
+int week_modulus(System system) {
+  if (system == System::kBeidou) return kBeidouWeekModulus;
+  return system == System::kGalileo ? kGalileoWeekModulus : kGpsWeekModulus;
+}
+
 // The GPS week that the message states.
 int stated_week(System system, int week, GpsTime near) {
-  if (system == System::kBeidou)
-    return full_week(week + kBeidouWeekZeroInGpsWeeks, kBeidouWeekModulus, near.week());
-  return system == System::kGalileo
-             ? full_week(week + kGalileoWeekZeroInGpsWeeks, kGalileoWeekModulus, near.week())
-             : full_week(week, kGpsWeekModulus, near.week());
+  if (system == System::kBeidou) week += kBeidouWeekZeroInGpsWeeks;
+  if (system == System::kGalileo) week += kGalileoWeekZeroInGpsWeeks;
+  return full_week(week, week_modulus(system), near.week());
 }
 
 }  // namespace
@@ -189,9 +206,8 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
                                  Ephemeris* ephemeris, GpsTime* stated_toe) {
   if (message.size() * 8 < bits_of(message_number)) return EphemerisStatus::kBadLength;
-  const bool is_beidou = message_number == kBeidou;
-  const System system =
-      is_beidou ? System::kBeidou : (message_number == kGps ? System::kGps : System::kGalileo);
+  const System system = system_of(message_number);
+  const bool is_beidou = system == System::kBeidou;
   BitReader reader(message);
   Ephemeris e;
   e.satellite = {system, static_cast<std::uint16_t>(reader.skip(12).take(6))};
@@ -216,6 +232,20 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
         GpsTime::from_nanoseconds(week * kNanosecondsPerWeek + gps_s * kNanosecondsPerSecond);
   }
   return EphemerisStatus::kOk;
+}
+
+bool is_of_other_week(std::uint16_t message_number, std::span<const std::uint8_t> message,
+                      GpsTime near) {
+  if (message.size() * 8 < bits_of(message_number)) return false;
+  // Elements serve for two hours before and behind their reference time, GPS's longest sets for
+  // three; the week that is named is that of either time.
+  constexpr std::int64_t kNearEnd_ns = 4 * 3600 * kNanosecondsPerSecond;
+  const GpsTime before = near.plus_nanoseconds(-kNearEnd_ns);
+  if (before.week() != near.plus_nanoseconds(kNearEnd_ns).week()) return false;
+  const System system = system_of(message_number);
+  const int bits = std::countr_zero(static_cast<unsigned>(week_modulus(system)));
+  const int week = static_cast<int>(BitReader(message).skip(kWeekAt).take(bits));
+  return stated_week(system, week, near) != near.week();
 }
 
 }  // namespace leonav

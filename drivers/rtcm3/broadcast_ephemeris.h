@@ -22,4 +22,9 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
                                  Ephemeris* ephemeris, GpsTime* stated_toe = nullptr);
 
+// Returns whether the message names another week than that of `near`, where no week's end is near.
+// Precondition: as of decode_ephemeris().
+bool is_of_other_week(std::uint16_t message_number, std::span<const std::uint8_t> message,
+                      GpsTime near);
+
 }  // namespace leonav

@@ -97,7 +97,11 @@ bool EpochAssembly::has_sent_alone(std::uint16_t station, GpsTime time) {
 
 // What is there of an epoch of the station before is given up, so that no epoch is of two.
 void EpochAssembly::change_station(std::uint16_t station) {
-  station_ = station;
+  if (station_) {
+    ++counters_.station_changes;
+    counters_.station_before = *station_;
+  }
+  station_ = counters_.station = station;
   other_since_ = {};
   observations_.interrupt_carriers();
   clear();

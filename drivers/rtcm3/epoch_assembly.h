@@ -25,6 +25,9 @@ struct EpochAssemblyCounters {
   std::uint64_t other_station = 0;       // of another station than the one in use
   std::uint64_t without_reference = 0;   // the week is not known
   std::uint64_t without_full_range = 0;  // formats 1 to 3
+  std::uint64_t station_changes = 0;     // another station came into use
+  std::uint16_t station = 0;             // the one in use
+  std::uint16_t station_before = 0;      // the one before the last change
 };
 
 // The messages of an epoch come one after the other, and all but the last say that another follows

@@ -80,6 +80,8 @@ void Rtcm3Decoder::take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler
     ++counters.without_reference;
     return;
   }
+  const bool is_other = is_of_other_week(frame.type, frame.message, state_->near);
+  counters.other_week_in_row = is_other ? counters.other_week_in_row + 1 : 0;
   Ephemeris ephemeris;
   GpsTime stated_toe;
   if (!counters.count(

@@ -36,6 +36,8 @@ struct Rtcm3EphemerisCounters : EphemerisRefusals {
   std::uint64_t ephemerides = 0;        // given out
   std::uint64_t repeated = 0;           // same contents as the one before
   std::uint64_t without_reference = 0;  // the week is not known
+  // So many messages in a row, up to the last one, are of another week than the time that was told.
+  std::uint64_t other_week_in_row = 0;
 };
 
 // Counts of SSR messages of the systems that are used.

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "drivers/binary/week_time.h"
+#include "tools/common/format.h"
 
 namespace leonav {
 
@@ -60,7 +61,8 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 }
 
 std::string Rtcm3Format::detail() const {
-  return joined({receiver_.detail(), summary_of(decoder_.counters().losses),
+  return joined({week_text(), receiver_.detail(), station_text(),
+                 summary_of(decoder_.counters().losses),
                  last_ssr_.is_set() ? corrections_->detail() : "", host_doubt()});
 }
 
@@ -73,6 +75,24 @@ std::string Rtcm3Format::host_doubt() const {
   return std::string("the host's clock is not synchronised, and ") +
          (week ? "the week of these messages is" : "the age of these corrections is") +
          " taken from it: is a time service running (timedatectl)?";
+}
+
+// One satellite may send old elements for long.
+std::string Rtcm3Format::week_text() const {
+  constexpr std::uint64_t kEnough = 3;
+  if (decoder_.counters().ephemerides.other_week_in_row < kEnough) return "";
+  return std::string("the ephemerides are of another week than ") +
+         (is_live_ ? "the host's clock shows, which gives the week of all times: set it "
+                     "(timedatectl)"
+                   : "'date' says: is it the day of the recording?");
+}
+
+std::string Rtcm3Format::station_text() const {
+  const EpochAssemblyCounters epochs = decoder_.counters().epochs;
+  if (epochs.station_changes == 0) return "";
+  return leonav::format("its station has changed %llu times, the last from %d to %d",
+                        static_cast<unsigned long long>(epochs.station_changes),
+                        int{epochs.station_before}, int{epochs.station});
 }
 
 FormatCounts Rtcm3Format::counts() const {

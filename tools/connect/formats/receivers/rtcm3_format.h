@@ -44,6 +44,8 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   GpsTime time_of_arrival(GpsTime of_message) const;
   std::string why_none() const;
   std::string host_doubt() const;
+  std::string week_text() const;
+  std::string station_text() const;
 
   bool is_live_, is_service_;
   GpsClock* clock_;

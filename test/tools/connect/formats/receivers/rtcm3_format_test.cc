@@ -281,6 +281,44 @@ TEST_CASE("A host's clock that is not synchronised is told until its week is con
   }
 }
 
+TEST_CASE("Ephemerides of another week than the host's clock are told, also once it is right",
+          "[connect]") {
+  Ephemerides ephemerides;
+  MessageOutput output(&ephemerides);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(GpsTime(), 0.0, &clock, &output);
+  const double error_days = GENERATE(-5.0, 5.0, 12.0);
+  const auto send = [&](std::uint64_t satellite, double days) {
+    format.feed(gps_ephemeris(satellite), host_ns(kTime.plus_seconds(days * 86'400.0)));
+  };
+  send(3, error_days);
+  send(4, error_days);
+  CHECK(format.detail().find("the host's clock") == std::string::npos);
+  send(5, error_days);
+  CHECK_THAT(format.detail(), Catch::Contains("of another week than the host's clock shows"));
+  send(6, 0.0);
+  CHECK(format.detail().find("the host's clock") == std::string::npos);
+  // Wrong by less than half a week it gives the right one.
+  for (const double days : {-3.0, -2.0, 2.0, 3.0}) send(7, days);
+  CHECK(format.detail().find("the host's clock") == std::string::npos);
+}
+
+TEST_CASE("Around a week's end ephemerides may be of the week before or behind", "[connect]") {
+  Ephemerides ephemerides;
+  MessageOutput output(&ephemerides);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format format(GpsTime(), 0.0, &clock, &output);
+  const GpsTime next_week = GpsTime::from_week_and_tow(2307, 0.0);
+  for (std::uint64_t k = 0; k < 5; ++k) {
+    format.feed(gps_ephemeris(3 + k), host_ns(next_week.plus_seconds(3600.0)));
+  }
+  CHECK(format.detail().find("the host's clock") == std::string::npos);
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    format.feed(gps_ephemeris(8 + k), host_ns(next_week.plus_seconds(5.0 * 3600.0)));
+  }
+  CHECK_THAT(format.detail(), Catch::Contains("of another week than the host's clock shows"));
+}
+
 TEST_CASE("A receiver that comes back with another station's number is read", "[connect]") {
   Epochs epochs;
   MessageOutput output(&epochs);
@@ -292,6 +330,8 @@ TEST_CASE("A receiver that comes back with another station's number is read", "[
   format.feed(msm4(1074, kOfWeek_ms + 1000, 200), host_ns(kTime.plus_seconds(1.0)));
   CHECK(epochs.list.size() == 2);
   CHECK(format.counts().refused == 0);
+  CHECK_THAT(format.detail(), Catch::Contains("its station has changed 1 times, the last from "
+                                              "100 to 200"));
 }
 
 namespace {
