@@ -56,12 +56,15 @@ TEST_CASE("Faults of the wire are told, bridged and replayed", "[connect]") {
              "--jobs 6 short-flips short-baud short-restart short-mixed");
 }
 
-TEST_CASE("The encoder of RTCM 3 for tests writes what pyrtcm reads", "[connect]") {
+TEST_CASE("The encoders of receivers' bytes for tests write what independent packages read",
+          "[connect]") {
   if (!have_shared_data("station")) return;
   const char* python = std::getenv("LEONAV_PYTHON");
-  require_success(std::string("'") + (python != nullptr ? python : "python3") +
-                  "' -B " LEONAV_SOURCE_DIR "/test/tools/connect/rtcm3_bytes_test.py '" +
-                  shared_data("station") + "'");
+  const std::string command = std::string("'") + (python != nullptr ? python : "python3") +
+                              "' -B " LEONAV_SOURCE_DIR "/test/tools/connect/";
+  for (const std::string script : {"rtcm3_bytes_test.py", "receiver_bytes_test.py"}) {
+    require_success(command + script + " '" + shared_data("station") + "'");
+  }
 }
 
 TEST_CASE("A wrong command line or configuration ends with its own code", "[connect]") {
