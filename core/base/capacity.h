@@ -17,8 +17,8 @@ inline constexpr std::size_t kMaxEphemerisSatellites = 575;  // every satellite 
 // stay.
 inline constexpr std::size_t kMaxEphemeridesPerSatellite = 16;
 // Of all satellites together: what 256 satellites may keep, and seven for each that has a name.
-// Beyond that a satellite with most loses the set that arrived first, be it in force or not; the
-// same holds for the other capacities of all satellites together.
+// Beyond that a satellite with most loses the set that arrived first and is not in use; the same
+// holds for the other capacities of all satellites together.
 inline constexpr std::size_t kMaxEphemerides = 4096;
 inline constexpr std::size_t kMaxOrbitNodes = 32;        // precise states kept per satellite
 inline constexpr std::size_t kMaxClockNodes = 64;        // precise clocks kept per satellite

@@ -61,8 +61,8 @@ class EphemerisStore {
   // Returns false if the ephemeris is not sane, or for corrections alone (nothing changes then). A
   // repeated issue replaces its predecessor. A full table drops the entry of this satellite that
   // arrived first, so that wrong times in the input cannot block a slot permanently. Beyond
-  // kMaxEphemerides of all satellites, a satellite with most loses the one that arrived first,
-  // which may be in force.
+  // kMaxEphemerides of all satellites, a satellite with most loses the one that arrived first. In
+  // both cases one that served a look-up within the last minute stays.
   bool add(const Ephemeris& ephemeris);
   bool add(const PreciseState& state);
   // The newest corrected state of a satellite replaces the one before, whatever its time.

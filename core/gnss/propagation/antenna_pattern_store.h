@@ -44,7 +44,7 @@ class AntennaPatternStore {
   // counts as arrived again, and leaves the revision. Where kMaxAntennaIntervals other intervals
   // are stored, it replaces the one that arrived first. There is one receiver antenna; its validity
   // is ignored. Beyond kMaxSatelliteAntennas patterns, a satellite with most loses the one that
-  // arrived first, which may be in use.
+  // arrived first and has not served within the last minute.
   bool add(const AntennaPattern& pattern);
 
   // Compute satellite_antenna_range_m and receiver_antenna_range_m with the pattern for the

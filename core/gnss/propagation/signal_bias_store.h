@@ -55,7 +55,8 @@ class SignalBiasStore {
   // signal and beginning of validity, so that those of the next day can come ahead. Where a
   // satellite has kMaxIntervals * kMaxSignalBiases others, it replaces one whose end has passed at
   // the bias' time, else the one that arrived first. Beyond kMaxProductBiases of all satellites, or
-  // kMaxBroadcastBiases of the others, a satellite with most loses the one that arrived first.
+  // kMaxBroadcastBiases of the others, a satellite with most loses the one that arrived first. What
+  // served within the last minute makes room last.
   bool add(const SignalBias& bias);
   static constexpr std::size_t kMaxIntervals = 2;
 
