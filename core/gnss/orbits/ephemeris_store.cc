@@ -222,7 +222,10 @@ EphemerisStore& EphemerisStore::operator=(EphemerisStore&&) noexcept = default;
 
 bool EphemerisStore::add(const Ephemeris& ephemeris) {
   if (!is_sane(ephemeris) || is_for_corrections_alone(ephemeris)) return false;
-  slot_for(ephemeris, &storage_->ephemerides) = {ephemeris, ++storage_->arrivals, {}};
+  StoredEphemeris& slot = slot_for(ephemeris, &storage_->ephemerides);
+  // A set that is sent again stays in use.
+  const GpsTime used = is_same_issue(slot.ephemeris, ephemeris) ? slot.used : GpsTime();
+  slot = {ephemeris, ++storage_->arrivals, used};
   storage_->products_of[table_index_of(ephemeris.satellite)].compared_at = GpsTime();
   return true;
 }

@@ -68,8 +68,11 @@ Stored& slot_for(const SignalBias& bias, Biases<kLongest, kAll>* biases) {
 
 template <std::size_t kLongest, std::size_t kAll>
 void keep(const SignalBias& bias, std::uint64_t arrival, Biases<kLongest, kAll>* biases) {
-  slot_for(bias, biases) = {bias.code, bias.time, bias.valid_from, bias.valid_until, bias.bias_m,
-                            arrival,   {}};
+  Stored& slot = slot_for(bias, biases);
+  // A bias that is sent again stays in use.
+  const bool is_same = slot.code == bias.code && slot.valid_from == bias.valid_from;
+  const GpsTime used = is_same ? slot.used : GpsTime();
+  slot = {bias.code, bias.time, bias.valid_from, bias.valid_until, bias.bias_m, arrival, used};
 }
 
 template <std::size_t kLongest, std::size_t kAll>

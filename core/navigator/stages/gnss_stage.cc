@@ -336,6 +336,7 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
                       const PointSolution& start) {
   const bool attitude_lost = ekf_.has_attitude() && !plan.keeps_attitude;
   if (plan.clears_external_heading) attitude_.forget_heading();
+  if (plan.clears_times) pending_heading_.reset();
   if (plan.filter == FilterReset::kReset) ekf_.reset();
   if (plan.filter == FilterReset::kRestart) restart_filter(plan, time, start);
   if (plan.carriers == CarrierReset::kAll) front_end_.reset_carriers();

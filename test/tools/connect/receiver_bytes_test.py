@@ -74,8 +74,11 @@ def check(name, epochs):
 
 def main():
     epochs = list(itertools.islice(ubx_bytes.epochs(next(pathlib.Path(sys.argv[1]).glob("*.obs"))), EPOCHS))
-    if not any([check(name, epochs) for name in FORMATS]):
-        print("SKIPPED (optional): neither novatel-edie nor pysbf2 for this Python (LEONAV_PYTHON names another)")
+    compared = {name: check(name, epochs) for name in FORMATS}
+    for name, is_compared in compared.items():
+        if not is_compared:
+            print(f"SKIPPED (optional): no independent decoder of {name} for this Python (LEONAV_PYTHON names another)")
+    if not any(compared.values()):
         sys.exit(77)
 
 

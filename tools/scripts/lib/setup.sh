@@ -34,9 +34,8 @@ install_oracles() {
   if [ -z "${LEONAV_PYTHON:-}" ]; then
     if ! cmp -s "$list" "$folder/installed.txt"; then
       say "Installing independent decoders from PyPI"
-      install_packages python3-venv
       rm -rf "$folder"
-      if ! { /usr/bin/python3 -m venv "$folder" &&
+      if ! { (install_packages python3-venv) && /usr/bin/python3 -m venv "$folder" &&
              "$folder/bin/pip" install --quiet --disable-pip-version-check --no-deps --only-binary :all: -r "$list" &&
              cp "$list" "$folder/installed.txt"; }; then
         say "No independent decoders: PyPI could not be reached, or does not have them for this Python; the tests that need them are skipped"

@@ -165,6 +165,23 @@ TEST_CASE("Beyond the room for all satellites those with most lose the set that 
   }
 }
 
+TEST_CASE("A catalogue larger than the store that comes twice leaves the sets in use",
+          "[satellite_catalog]") {
+  EphemerisStore store{EphemerisConfig{}};
+  const std::vector<SatelliteId> all = test::all_satellites();
+  const std::array in_use = {all.front(), all[80], all.back()};
+  for (const SatelliteId id : all) REQUIRE(store.add(set_of(id, 0)));
+  for (const SatelliteId id : in_use) REQUIRE(issue_at(store, id, 0.0) == 0);
+  const int sets_each = GENERATE(8, 9);
+  for (int round = 0; round < 2; ++round)
+    for (int i = 0; i < sets_each; ++i)
+      for (const SatelliteId id : all) REQUIRE(store.add(set_of(id, i)));
+  for (const SatelliteId id : in_use) {
+    CAPTURE(sets_each, to_string(id.system), id.number);
+    CHECK(issue_at(store, id, 10.0) == 0);
+  }
+}
+
 TEST_CASE("Beyond the room for all satellites the sets in use stay", "[satellite_catalog]") {
   EphemerisStore store{EphemerisConfig{}};
   const std::vector<SatelliteId> all = test::all_satellites();

@@ -91,6 +91,26 @@ TEST_CASE("a commanded heading holds when it comes, and not at the epoch before,
     CAPTURE(t, report.solution.yaw, heading_at(drive, t));
     CHECK(std::abs(wrap_to_pi(report.solution.yaw - heading_at(drive, t))) < 1e-3);
   }
+  CHECK(sink.count(EventKind::kAligned) == 2);  // the start, and the command
+}
+
+TEST_CASE("a heading that waits for its samples is forgotten by a restart") {
+  const SyntheticDrive drive = drive_of(90.0);
+  const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  RecordingSink sink;
+  Navigator pipeline(config, &sink);
+  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    const double t = seconds(raw.time);
+    if (std::abs(t - 50.0) >= 0.5) return;
+    sequencer->on_command({CommandKind::kSetHeading, heading_at(drive, t) + 1.0, 0.05});
+    sequencer->on_command({CommandKind::kRestart});
+  });
+  for (const EpochReport& report : sink.epochs) {
+    const double t = seconds(report.time);
+    if (t < 51.5 || !report.solution.has_attitude) continue;
+    CAPTURE(t);
+    CHECK(std::abs(wrap_to_pi(report.solution.yaw - heading_at(drive, t))) < 0.3);
+  }
 }
 
 // Restarts the filter at each of these times.

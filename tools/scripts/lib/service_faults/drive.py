@@ -19,7 +19,7 @@ HEADING_SIGMA_DEG = 1
 
 
 class Drive:
-    """The files of leonav-sim, made once for each list of settings, and again where leonav-sim is newer."""
+    """The files of leonav-sim, made once for each list of settings, and again where leonav-sim or the scenario is newer."""
 
     def __init__(self, bin_dir, folder, duration_s, settings=()):
         keys = [f"duration_s={duration_s}", f"route.standing_s={STANDING_S}", "truth_interval_s=0.1",
@@ -27,11 +27,12 @@ class Drive:
         self.folder = folder / hashlib.sha256("\n".join(keys).encode()).hexdigest()[:12]
         self.log, self.truth = self.folder / "run.lcmlog", self.folder / "truth.csv"
         self.folder.mkdir(parents=True, exist_ok=True)
-        simulator, done_file = bin_dir / "leonav-sim", self.folder / "done"
+        simulator, scenario, done_file = bin_dir / "leonav-sim", ROOT / "config/scenario/urban.yaml", self.folder / "done"
+        newest = max(file.stat().st_mtime for file in (simulator, scenario))
         with open(self.folder / "lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            if not done_file.exists() or done_file.stat().st_mtime < simulator.stat().st_mtime:
-                command = [simulator, ROOT / "config/scenario/urban.yaml", "-o", self.log, "--truth", self.truth]
+            if not done_file.exists() or done_file.stat().st_mtime < newest:
+                command = [simulator, scenario, "-o", self.log, "--truth", self.truth]
                 done = subprocess.run([*command, *(word for key in keys for word in ("--set", key))], capture_output=True, text=True,
                                       check=False)
                 if done.returncode != 0:
