@@ -197,4 +197,18 @@ bool BlockReader::next_recorded(Block* block) {
   return length == 0 || std::fread(block->bytes.data(), 1, length, file_.get()) == length;
 }
 
+std::optional<std::int64_t> first_arrival_ns(const std::string& path) {
+  std::error_code ignored;
+  // Of a pipe nothing must be taken away.
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  try {
+    BlockReader reader(path);
+    BlockReader::Block block;
+    if (reader.is_recording() && reader.next(&block)) return block.arrival_ns;
+  } catch (const FileError&) {
+    // Told by whoever plays the file.
+  }
+  return std::nullopt;
+}
+
 }  // namespace leonav

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -87,5 +88,8 @@ class BlockReader {
   std::unique_ptr<std::FILE, Close> file_;
   bool is_recording_ = false;
 };
+
+// Returns the first arrival in a recording; nullopt: the file is none, or has no whole block.
+std::optional<std::int64_t> first_arrival_ns(const std::string& path);
 
 }  // namespace leonav

@@ -20,6 +20,7 @@
 #include "drivers/transport/file_source.h"
 #include "drivers/transport/live_sources.h"
 #include "drivers/transport/ntrip_source.h"
+#include "drivers/transport/recording.h"
 #include "tools/connect/formats/inertial/imu_line_format.h"
 #include "tools/connect/formats/inertial/vectornav_format.h"
 #include "tools/connect/formats/inertial/xsens_format.h"
@@ -49,6 +50,19 @@ std::function<bool()> host_question(const ConnectConfig& config) {
   return [] { return HostClock::is_unsynchronised(); };
 }
 
+// A time of the clock that the arrivals are of. That of recordings has counted the leap seconds of
+// their day.
+std::int64_t arrivals_begin_ns(const ConnectConfig& config, std::int64_t now_ns) {
+  if (!has_only_files(config)) return now_ns;
+  std::optional<std::int64_t> first_ns;
+  for (const StreamConfig& stream : config.streams) {
+    const auto* file = std::get_if<FileOptions>(&stream.source);
+    const auto arrival_ns = file != nullptr ? first_arrival_ns(file->path) : std::nullopt;
+    if (arrival_ns) first_ns = std::min(first_ns.value_or(*arrival_ns), *arrival_ns);
+  }
+  return first_ns.value_or(now_ns);
+}
+
 }  // namespace
 
 struct Connector::State {
@@ -57,7 +71,8 @@ struct Connector::State {
         publisher(config.lcm),
         output(&publisher),
         corrections(config.corrections, config.services, &output, tell_change),
-        gps(config.reference, config.gnss_latency_s, clock.now_ns(), host_question(config)),
+        gps(config.reference, config.gnss_latency_s, arrivals_begin_ns(config, clock.now_ns()),
+            host_question(config)),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {

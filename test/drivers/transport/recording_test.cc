@@ -80,6 +80,16 @@ TEST_CASE("A recording gives back every byte with its arrival", "[transport]") {
   CHECK_FALSE(reader.next(&block));
 }
 
+TEST_CASE("The first arrival is known of a recording with a whole block alone", "[transport]") {
+  const test::TemporaryFile text("text.ubx", "no recording"),
+      empty("empty.leoraw", "leonav recording 1\n");
+  write_three(text.beside("three.leoraw"));
+  CHECK(first_arrival_ns(text.beside("three.leoraw")) == 1'000'000'000);
+  CHECK(first_arrival_ns(text.path()) == std::nullopt);
+  CHECK(first_arrival_ns(empty.path()) == std::nullopt);
+  CHECK(first_arrival_ns(text.beside("none.leoraw")) == std::nullopt);
+}
+
 TEST_CASE("A recording that exists is kept, and one that is cut short ends there", "[transport]") {
   const test::TemporaryFile place("unused", "");
   const std::string path = place.beside("a.leoraw");
