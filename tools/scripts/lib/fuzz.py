@@ -1,8 +1,9 @@
 """Runs the targets of leonav-fuzz and says how much of each was executed, and what was found.
 
-  fuzz.py PROGRAM OUT [--seconds S | --runs N] [--jobs N] [TARGET...]
+  fuzz.py PROGRAM OUT [--seconds S | --minutes M] [--runs N] [--jobs N] [TARGET...]
 
-OUT/TARGET/corpus is the corpus that grows, OUT/TARGET/log what libFuzzer said, OUT/TARGET/*-HASH the inputs that were findings.
+OUT/TARGET/corpus is the corpus that grows, OUT/TARGET/log what libFuzzer said last, OUT/TARGET/executions the number of executions of
+all runs and the seconds of a processor that they took, OUT/TARGET/*-HASH the inputs that were findings.
 """
 import argparse
 import concurrent.futures
@@ -11,12 +12,22 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 SEEDS = pathlib.Path(__file__).resolve().parents[3] / "test/fuzz/corpus"
 # An input that takes longer, or more memory, is a finding as well.
-LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-max_len=16384"]
+LIMITS = ["-timeout=20", "-rss_limit_mb=2048"]
+SHORTEST, LONGEST = 1024, 16384  # bytes: an input may be twice as long as the longest seed, within these
+# No other process adds to the corpus; new functions are not looked up by name; fast inputs are changed more often than slow ones.
+HABITS = ["-reload=0", "-print_funcs=0", "-entropic_scale_per_exec_time=1", "-print_final_stats=1"]
+# Freed memory is kept back for as long as an input runs, not for hundreds, and stays mapped; where it was taken is told when a finding is
+# repeated without these.
+SANITIZER = "quarantine_size_mb=16:allocator_release_to_os_interval_ms=-1:malloc_context_size=1"
+FIRST_S = 5  # how long a target runs to find its rate
+RUNS = 10_000_000
 FINDINGS = ("crash-*", "timeout-*", "oom-*", "leak-*")
-HEADER = "| target | executions | executions/s | coverage (edges) | inputs in the corpus | findings |\n|---|---|---|---|---|---|"
+HEADER = ("| target | executions | executions/s | coverage (edges) | inputs in the corpus | findings | the rest takes |\n"
+          "|---|---|---|---|---|---|---|")
 
 
 def last_number(pattern, text):
@@ -24,20 +35,80 @@ def last_number(pattern, text):
     return int(found[-1]) if found else 0
 
 
-def run(program, out, target, amount):
-    folder = out / target
-    corpus = folder / "corpus"
-    corpus.mkdir(parents=True, exist_ok=True)
-    command = [program, *LIMITS, amount, "-print_final_stats=1", f"-artifact_prefix={folder}/", corpus]
-    if (SEEDS / target).is_dir():
-        command.append(SEEDS / target)
-    with open(folder / "log", "w", encoding="utf-8", errors="replace") as log:
-        code = subprocess.run(command, env={**os.environ, "LEONAV_FUZZ_TARGET": target}, stdout=log, stderr=log, check=False).returncode
-    text = (folder / "log").read_text(encoding="utf-8", errors="replace")
-    findings = sorted(path for pattern in FINDINGS for path in folder.glob(pattern))
-    row = [target, last_number(r"^stat::number_of_executed_units: (\d+)", text), last_number(r"^stat::average_exec_per_sec: +(\d+)", text),
-           last_number(r"cov: (\d+)", text), sum(1 for _ in corpus.iterdir()), len(findings) or ("" if code == 0 else "see log")]
-    return row, findings, code
+def duration(seconds):
+    for unit, length in (("d", 86400), ("h", 3600), ("min", 60)):
+        if seconds >= length:
+            return f"{seconds / length:.1f} {unit}"
+    return f"{seconds:.0f} s" if seconds > 0 else ""
+
+
+class Target:
+    def __init__(self, program, out, name, runs):
+        self.program, self.name, self.folder, self.runs = program, name, out / name, runs
+        self.corpus, self.seeds, self.log = self.folder / "corpus", SEEDS / name, self.folder / "log"
+        self.counts, self.code = self.folder / "executions", 0
+        self.corpus.mkdir(parents=True, exist_ok=True)
+
+    def executed(self):
+        """Executions of all runs, and the seconds of a processor that they took, which do not depend on what else runs."""
+        count, seconds = self.counts.read_text().split() if self.counts.exists() else (0, 0)
+        return int(count), float(seconds)
+
+    def missing_s(self):
+        """How long the executions that are missing take one processor at the rate so far; None: no rate is known."""
+        count, seconds = self.executed()
+        return max(self.runs - count, 0) * seconds / count if count > 0 else None
+
+    def findings(self):
+        return sorted(path for pattern in FINDINGS for path in self.folder.glob(pattern))
+
+    def max_length(self):
+        lengths = [path.stat().st_size for path in self.seeds.iterdir()] if self.seeds.is_dir() else [0]
+        return min(max(2 * max(lengths), SHORTEST), LONGEST)
+
+    def run(self, seconds=None, is_counted=True):
+        """Runs until all executions are done (`is_counted`), or for so many seconds."""
+        missing = self.runs - self.executed()[0]
+        if self.code != 0 or (is_counted and missing <= 0):
+            return
+        command = [self.program, *LIMITS, *HABITS, f"-max_len={self.max_length()}", f"-artifact_prefix={self.folder}/", self.corpus]
+        if is_counted:
+            command.insert(1, f"-runs={missing}")
+        if seconds is not None:
+            command.insert(1, f"-max_total_time={max(int(seconds), 1)}")
+        if self.seeds.is_dir():
+            command.append(self.seeds)
+        options = ":".join(filter(None, [SANITIZER, os.environ.get("ASAN_OPTIONS")]))
+        environment = {**os.environ, "LEONAV_FUZZ_TARGET": self.name, "ASAN_OPTIONS": options}
+        with open(self.log, "w", encoding="utf-8", errors="replace") as log:
+            process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+            _, status, usage = os.wait4(process.pid, 0)
+        self.code = process.returncode = os.waitstatus_to_exitcode(status)
+        count, seconds = self.executed()
+        count += last_number(r"^stat::number_of_executed_units: (\d+)", self.text())
+        self.counts.write_text(f"{count} {seconds + usage.ru_utime + usage.ru_stime:.1f}\n")
+
+    def text(self):
+        return self.log.read_text(encoding="utf-8", errors="replace") if self.log.exists() else ""
+
+    def row(self):
+        count, seconds = self.executed()
+        rate = round(count / seconds) if seconds > 0 else 0
+        return [self.name, count, rate, last_number(r"cov: (\d+)", self.text()), sum(1 for _ in self.corpus.iterdir()),
+                len(self.findings()) or ("" if self.code == 0 else "see log"), duration(self.missing_s() or 0)]
+
+
+def run_until(end, targets):
+    """Runs targets one after the other until `end`: each until it is done, but for no longer than an equal share of what is left."""
+    for target in targets:
+        if target.missing_s() is None:
+            target.run(FIRST_S)
+    targets = sorted(targets, key=lambda target: target.missing_s() or 0)
+    for i, target in enumerate(targets):
+        share = (end - time.monotonic()) / (len(targets) - i)
+        if share >= 1:
+            target.run(share)
+    return targets
 
 
 def main():
@@ -45,8 +116,9 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     amount = parser.add_mutually_exclusive_group()
-    amount.add_argument("--seconds", type=int, default=20)
-    amount.add_argument("--runs", type=int)
+    amount.add_argument("--seconds", type=int)
+    amount.add_argument("--minutes", type=float)
+    parser.add_argument("--runs", type=int)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     options = parser.parse_intermixed_args()
@@ -56,19 +128,34 @@ def main():
     if unknown:
         sys.exit(f"fuzz: no target is called {', '.join(unknown)}; there are: {' '.join(known)}")
 
-    amount = f"-runs={options.runs}" if options.runs is not None else f"-max_total_time={options.seconds}"
-    failed, lines = False, []
+    targets = [Target(options.program, options.out, name, options.runs or RUNS) for name in options.targets or known]
     with open(options.out / "fuzz.md", "w", encoding="utf-8") as table, concurrent.futures.ThreadPoolExecutor(options.jobs) as workers:
         def tell(line):
             print(line, flush=True)
             print(line, file=table, flush=True)
+
+        def tell_row(target):
+            tell("| " + " | ".join(str(field) for field in target.row()) + " |")
         tell(HEADER)
-        for row, findings, code in workers.map(lambda target: run(options.program, options.out, target, amount), options.targets or known):
-            tell("| " + " | ".join(str(field) for field in row) + " |")
-            failed = failed or code != 0 or bool(findings)
-            lines += [f"{row[0]}: {path}" for path in findings] or ([f"{row[0]}: {options.out / row[0] / 'log'}"] if code else [])
-    if lines:
-        print("\nFindings; LEONAV_FUZZ_TARGET=TARGET leonav-fuzz FILE repeats one:", *lines, sep="\n", file=sys.stderr)
+        if options.minutes is not None:
+            end = time.monotonic() + 60 * options.minutes
+            list(workers.map(lambda job: run_until(end, targets[job::options.jobs]), range(options.jobs)))
+            for target in targets:
+                tell_row(target)
+        else:
+            seconds = options.seconds or (20 if options.runs is None else None)
+
+            def run(target):
+                target.run(seconds, is_counted=options.runs is not None)
+                return target
+            for target in workers.map(run, targets):
+                tell_row(target)
+    failed = [target for target in targets if target.code != 0 or target.findings()]
+    if failed:
+        print("\nFindings; LEONAV_FUZZ_TARGET=TARGET leonav-fuzz FILE repeats one:", file=sys.stderr)
+        for target in failed:
+            for path in target.findings() or [target.log]:
+                print(f"{target.name}: {path}", file=sys.stderr)
     sys.exit(1 if failed else 0)
 
 
