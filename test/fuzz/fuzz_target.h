@@ -28,4 +28,9 @@ const std::vector<FuzzTarget>& fuzz_targets();
 // Returns the target with this name, or nullptr.
 const FuzzTarget* find_fuzz_target(std::string_view name);
 
+// Returns whether an input gets the whole of a check of which most inputs get the cheaper part: one
+// in `one_in` does, by a hash that its bytes do not show, or every one.
+bool is_chosen(FuzzBytes bytes, std::uint64_t one_in);
+void choose_every_input(bool is_on);
+
 }  // namespace leonav::test

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "test/fuzz/byte_script.h"
 #include "test/fuzz/fuzz_target.h"
 #include "test/fuzz/target_groups.h"
 
@@ -15,6 +16,8 @@ std::vector<FuzzTarget> all_targets() {
   return all;
 }
 
+bool every_input_is_chosen = false;
+
 }  // namespace
 
 const std::vector<FuzzTarget>& fuzz_targets() {
@@ -28,5 +31,11 @@ const FuzzTarget* find_fuzz_target(std::string_view name) {
                                   [&](const FuzzTarget& one) { return one.name == name; });
   return found == targets.end() ? nullptr : &*found;
 }
+
+bool is_chosen(FuzzBytes bytes, std::uint64_t one_in) {
+  return every_input_is_chosen || (hash_of(bytes) >> 20) % one_in == 0;
+}
+
+void choose_every_input(bool is_on) { every_input_is_chosen = is_on; }
 
 }  // namespace leonav::test

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"
 #include "test/fuzz/fuzz_target.h"
@@ -76,10 +77,8 @@ void CheckedStages::check_epoch(const EpochWork& work) {
   }
   last_epoch_ = work.time;
   if (work.empty || work.raw.observations.empty()) return;
-  // The block reaches up to the epoch: its samples have come.
-  if (!work.block.empty() && end != work.time) return;
-  last_good_epoch_ = work.block.empty() ? GpsTime() : work.time;
-  good_epochs_ += work.block.empty() ? 0 : 1;
+  // A block that reaches up to the epoch: its samples have come.
+  before_newest_ = std::exchange(newest_, {work.time, !work.block.empty() && end == work.time});
 }
 
 void CheckedStages::event(const Event& event) {
@@ -87,40 +86,43 @@ void CheckedStages::event(const Event& event) {
   last_event_ = event.sequence;
 }
 
-void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, CheckedStages* stages,
-                      GpsTime base) {
-  const int seconds = recovery_seconds(config);
-  const bool inertial = config.motion == MotionModel::kInertial;
-  std::uint64_t good_before = 0, epochs_before = 0;
-  for (int second = 1; second <= seconds; ++second) {
-    if (second == seconds - 1) {
-      good_before = stages->good_epochs();
-      epochs_before = sequencer->counters().epochs;
-    }
-    const GpsTime begin = base.plus_nanoseconds((second - 1) * kSecond);
-    for (int k = 1; k <= 200; ++k) {
-      sequencer->on_imu(sample_until(begin.plus_nanoseconds(k * 5 * kMs)));
-    }
-    sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
-  }
-  // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
-  for (int k = 1; k <= 100; ++k) {
-    const GpsTime end = base.plus_nanoseconds(seconds * kSecond);
-    sequencer->on_imu(sample_until(end.plus_nanoseconds(k * 5 * kMs)));
-  }
-  const std::uint64_t good =
-      inertial ? stages->good_epochs() - good_before : sequencer->counters().epochs - epochs_before;
-  if (good >= 2) return;
-  throw Finding("a dead end: after " + std::to_string(seconds) + " s of good input " +
-                std::to_string(good) + " of the last two epochs reached the stages");
-}
-
-GpsTime hidden_base(GpsTime now, std::uint64_t hash) {
+GoodInput hidden_good_input(GpsTime now, std::uint64_t hash, bool is_whole) {
   constexpr std::array<std::int64_t, 10> kMoves = {
       kSecond, 0,         7 * kSecond,   -7 * kSecond, 3'600 * kSecond,
       -kDay,   21 * kDay, -3'000 * kDay, 5 * kDay,     3'000 * kDay};
   const auto fraction = static_cast<std::int64_t>(hash / kMoves.size() % 1000) * kMs;
-  return now.plus_nanoseconds(kMoves[hash % kMoves.size()] + fraction);
+  const GpsTime base = now.plus_nanoseconds(kMoves[hash % kMoves.size()] + fraction);
+  return {base, is_whole ? 5 * kMs : 20 * kMs, !is_whole};
+}
+
+void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, CheckedStages* stages,
+                      const GoodInput& good) {
+  const int seconds = recovery_seconds(config);
+  const bool inertial = config.motion == MotionModel::kInertial;
+  const auto feed_samples = [&](GpsTime begin, std::int64_t duration_ns) {
+    for (std::int64_t ns = good.sample_interval_ns; ns <= duration_ns;
+         ns += good.sample_interval_ns)
+      sequencer->on_imu(sample_until(begin.plus_nanoseconds(ns), good.sample_interval_ns));
+  };
+  // The epochs of the good input alone are at whole seconds from its base.
+  const auto is_good = [&](const CheckedStages::Epoch& epoch, int second) {
+    return epoch.time == good.base.plus_nanoseconds(second * kSecond) &&
+           (epoch.has_samples || !inertial);
+  };
+  const auto have_come = [&](int second) {
+    return is_good(stages->before_newest(), second - 1) && is_good(stages->newest(), second);
+  };
+  for (int second = 1; second <= seconds; ++second) {
+    const GpsTime begin = good.base.plus_nanoseconds((second - 1) * kSecond);
+    feed_samples(begin, kSecond);
+    sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
+    if (good.stops_early && (have_come(second) || have_come(second - 1))) return;
+  }
+  // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
+  feed_samples(good.base.plus_nanoseconds(seconds * kSecond), kSecond / 2);
+  if (have_come(seconds)) return;
+  throw Finding("a dead end: after " + std::to_string(seconds) +
+                " s of good input the last two epochs have not reached the stages");
 }
 
 RawEpoch epoch_of(GpsTime time, std::size_t satellites) {

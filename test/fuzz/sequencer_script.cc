@@ -14,6 +14,9 @@ namespace leonav::test {
 namespace {
 
 constexpr std::int64_t kUs = 1'000, kMs = 1'000 * kUs, kSecond = 1'000 * kMs;
+// A script ends with the step that reaches this many inputs: longer ones take time and tell nothing
+// that shorter ones do not.
+constexpr std::int64_t kMostInputs = 2500;
 constexpr std::size_t kMostSteps = 200;
 
 // Amounts of time around which the rules of the Sequencer turn.
@@ -112,6 +115,12 @@ ScriptStep step_from(ByteScript* bytes) {
       step.offset_ns = amount(bytes);
   }
   return step;
+}
+
+// About how many samples, epochs and increments a step is.
+std::int64_t inputs_of(const ScriptStep& step) {
+  if (step.action == ScriptAction::kDrive) return step.count * 250;
+  return step.action == ScriptAction::kTwoStreams ? 2 * step.count : step.count;
 }
 
 // Feeds the steps one after the other.
@@ -435,8 +444,11 @@ SequencerScript script_from(FuzzBytes bytes) {
   ByteScript rest(bytes);
   SequencerScript script;
   script.config = config_from(&rest);
-  while (!rest.empty() && script.steps.size() < kMostSteps)
+  for (std::int64_t inputs = 0;
+       !rest.empty() && script.steps.size() < kMostSteps && inputs < kMostInputs;) {
     script.steps.push_back(step_from(&rest));
+    inputs += inputs_of(script.steps.back());
+  }
   return script;
 }
 

@@ -37,34 +37,48 @@ class CheckedMessages : public MessageTarget {
   }
 };
 
-// What leonav-connect has around a format.
-struct Surroundings {
-  Surroundings() {
-    // A receiver's epochs have tied arrivals to GPS time, as most sensors need it.
-    for (int k = 0; k < 20; ++k) {
-      const double s = 0.1 * k;
-      clock.on_epoch(kSkyEpoch.plus_seconds(s), arrival_ns + static_cast<std::int64_t>(s * 1e9));
-    }
-    arrival_ns += 2'000'000'000;
-    for (const Ephemeris& e : broadcast()) corrections.add(e);
+constexpr std::int64_t kBegin_ns = 1'000'000'000;
+constexpr const char* kStream = "fuzz";
+
+// A receiver's epochs have tied arrivals to GPS time, as most sensors need it.
+GpsClock tied_clock() {
+  GpsClock clock{TimeReference::kGnss, kLatency_s};
+  for (int k = 0; k < 20; ++k) {
+    const double s = 0.1 * k;
+    clock.on_epoch(kSkyEpoch.plus_seconds(s), kBegin_ns + static_cast<std::int64_t>(s * 1e9));
   }
-  // Of another stream, so that corrections have something to correct.
-  static const std::vector<Ephemeris>& broadcast() {
-    static const std::vector<Ephemeris> all = [] {
-      std::vector<Ephemeris> some = walker_ephemerides(gps_walker());
-      const std::vector<Ephemeris> more = walker_ephemerides(galileo_walker());
-      some.insert(some.end(), more.begin(), more.end());
-      return some;
-    }();
-    return all;
+  return clock;
+}
+
+// Another stream has brought ephemerides, so that corrections have something to correct.
+CorrectionServices services_with_ephemerides() {
+  CorrectionServices services{CorrectionOptions{}};
+  services.add_stream(kStream);
+  for (const Walker& walker : {gps_walker(), galileo_walker()}) {
+    for (const Ephemeris& e : walker_ephemerides(walker)) services.add(e);
+  }
+  return services;
+}
+
+// What leonav-connect has around a format. What is always the same is made once and copied.
+struct Surroundings {
+  Surroundings() : clock(made_clock()) {}
+  // For a format that takes corrections.
+  void receive_ephemerides() {
+    static const CorrectionServices made = services_with_ephemerides();
+    shared.services = made;
+  }
+  static const GpsClock& made_clock() {
+    static const GpsClock made = tied_clock();
+    return made;
   }
 
-  std::int64_t arrival_ns = 1'000'000'000;
+  std::int64_t arrival_ns = kBegin_ns + 2'000'000'000;
   CheckedMessages messages;
   MessageOutput output{&messages};
   SharedCorrections shared{CorrectionOptions{}, ServiceChoiceOptions{}, &output};
-  CorrectionOutput corrections{"fuzz", &shared};
-  GpsClock clock{TimeReference::kGnss, kLatency_s};
+  CorrectionOutput corrections{kStream, &shared};
+  GpsClock clock;
   PulseQueue pulses;
 };
 
@@ -98,7 +112,7 @@ void look(const StreamFormat& format) {
 }
 
 // The first byte of an input chooses options, of which the highest bit leaves wrong checksums; the
-// second one the pieces.
+// second one the pieces. One input in four is fed at once as well.
 void run_format(FuzzBytes input, Make make, Repair repair) {
   ByteScript script(input);
   const unsigned options = script.byte();
@@ -113,6 +127,7 @@ void run_format(FuzzBytes input, Make make, Repair repair) {
   const FormatCounts in_pieces = feed(format.get(), bytes, cut, around.arrival_ns);
   look(*format);
 
+  if (cut == 0 || !is_chosen(input, 4)) return;
   Surroundings others;
   const Format other = make(&others, options);
   const FormatCounts at_once = feed(other.get(), bytes, 0, others.arrival_ns);
@@ -123,6 +138,7 @@ void run_format(FuzzBytes input, Make make, Repair repair) {
 }
 
 Format make_ubx(Surroundings* around, unsigned options) {
+  around->receive_ephemerides();
   UbxStreamOptions own;
   own.is_inertial = (options & 1U) != 0;
   own.stamps.latency_s = 0.004;
@@ -135,16 +151,19 @@ Format make_ubx(Surroundings* around, unsigned options) {
 
 // A day is given, because otherwise the host's clock would be asked.
 Format make_rtcm3(Surroundings* around, unsigned options) {
+  around->receive_ephemerides();
   return std::make_unique<Rtcm3Format>(kSkyEpoch, (options & 1U) != 0 ? 0.0 : 30.0, &around->clock,
                                        &around->output, false, &around->corrections);
 }
 
 Format make_rtcm3_service(Surroundings* around, unsigned) {
+  around->receive_ephemerides();
   return std::make_unique<Rtcm3Format>(kSkyEpoch, 0.0, &around->clock, &around->output, true,
                                        &around->corrections);
 }
 
 Format make_oem7(Surroundings* around, unsigned options) {
+  around->receive_ephemerides();
   Oem7StreamOptions own;
   own.is_inertial = (options & 1U) == 0;
   if ((options & 2U) != 0) own.imu_scale = ImuScale{1e-7, 1e-6};
@@ -153,6 +172,7 @@ Format make_oem7(Surroundings* around, unsigned options) {
 }
 
 Format make_sbf(Surroundings* around, unsigned options) {
+  around->receive_ephemerides();
   const SbfStreamOptions own{(options & 1U) == 0, (options & 2U) == 0};
   return std::make_unique<SbfFormat>(own, kLatency_s, 30.0, &around->clock, &around->output,
                                      &around->corrections);
@@ -194,10 +214,12 @@ Format make_imu_line(Surroundings* around, unsigned options) {
 }
 
 Format make_has(Surroundings* around, unsigned) {
+  around->receive_ephemerides();
   return std::make_unique<PageFormat>(PageService::kGalileoHas, &around->corrections);
 }
 
 Format make_b2b(Surroundings* around, unsigned) {
+  around->receive_ephemerides();
   return std::make_unique<PageFormat>(PageService::kBeidouB2b, &around->corrections);
 }
 
