@@ -64,8 +64,8 @@ struct Command {
   ResetCause cause = ResetCause::kCommand;  // kRestart: set by the Sequencer
   // The sender's count; nullopt: not from outside, and not answered.
   std::optional<std::uint64_t> sequence = std::nullopt;
-  GpsTime time =
-      GpsTime();  // of the data, when it came: the heading holds then; set by the Sequencer
+  // Data time at which it came, and at which a heading holds; set by the Sequencer.
+  GpsTime time = {};
 };
 
 // The precise states of one message, with room for one of each satellite that has a name.

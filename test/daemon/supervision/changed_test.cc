@@ -1,4 +1,4 @@
-// What is logged once is told when it changes, and not while it stays.
+// A log line is written when its value changes, and not again while the value stays the same.
 #include "daemon/supervision/changed.h"
 
 #include <optional>

@@ -215,7 +215,7 @@ TEST_CASE("Ephemerides are sent at the epochs' time, however wrong the host's cl
         Approx(602.0).margin(1e-6));
 }
 
-TEST_CASE("A host's clock that is not synchronised is told until its week is confirmed",
+TEST_CASE("While nothing confirms its week, a host's clock without synchronisation is mentioned",
           "[connect]") {
   const std::string sentence =
       "the host's clock is not synchronised, and the week of these messages is taken from it";
