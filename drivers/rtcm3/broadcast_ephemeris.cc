@@ -1,6 +1,5 @@
 #include "drivers/rtcm3/broadcast_ephemeris.h"
 
-#include <bit>
 #include <cstdlib>
 #include <numbers>
 
@@ -19,8 +18,6 @@ constexpr std::uint16_t kGps = 1019, kBeidou = 1042, kGalileoFnav = 1045, kGalil
 constexpr int kGpsWeekModulus = 1024;
 constexpr int kGalileoWeekModulus = 4096;
 constexpr double kBeidouGroupDelayUnit = 1e-10;  // s
-// The week stands behind number and satellite.
-constexpr std::size_t kWeekAt = 18;
 
 // What a message says of its times, besides the elements.
 struct Times {
@@ -183,16 +180,13 @@ System system_of(std::uint16_t message_number) {
   }
 }
 
-int week_modulus(System system) {
-  if (system == System::kBeidou) return kBeidouWeekModulus;
-  return system == System::kGalileo ? kGalileoWeekModulus : kGpsWeekModulus;
-}
-
 // The GPS week that the message states.
 int stated_week(System system, int week, GpsTime near) {
-  if (system == System::kBeidou) week += kBeidouWeekZeroInGpsWeeks;
-  if (system == System::kGalileo) week += kGalileoWeekZeroInGpsWeeks;
-  return full_week(week, week_modulus(system), near.week());
+  if (system == System::kBeidou)
+    return full_week(week + kBeidouWeekZeroInGpsWeeks, kBeidouWeekModulus, near.week());
+  return system == System::kGalileo
+             ? full_week(week + kGalileoWeekZeroInGpsWeeks, kGalileoWeekModulus, near.week())
+             : full_week(week, kGpsWeekModulus, near.week());
 }
 
 }  // namespace
@@ -216,8 +210,11 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
   if (times.toe_s >= kSecondsPerWeek || times.toc_s >= kSecondsPerWeek) {
     return EphemerisStatus::kBadTime;
   }
-  // Receiver and satellite may be on two sides of a week's end.
   const int week = stated_week(system, times.week, near);
+  const std::int64_t gps_s = times.toe_s - (is_beidou ? kBeidouMinusGpsSeconds : 0);
+  *stated_toe =
+      GpsTime::from_nanoseconds(week * kNanosecondsPerWeek + gps_s * kNanosecondsPerSecond);
+  // Receiver and satellite may be on two sides of a week's end.
   if (std::abs(week - near.week()) > 1) return EphemerisStatus::kBadWeek;
   const auto instant = [&](std::int64_t s) {
     return is_beidou ? nearest_beidou_instant(s, near) : nearest_instant(s, near);
@@ -226,26 +223,15 @@ EphemerisStatus decode_ephemeris(std::uint16_t message_number,
   e.toc = instant(times.toc_s);
   if (!is_sane(e)) return EphemerisStatus::kNotSane;
   *ephemeris = e;
-  if (stated_toe != nullptr) {
-    const std::int64_t gps_s = times.toe_s - (is_beidou ? kBeidouMinusGpsSeconds : 0);
-    *stated_toe =
-        GpsTime::from_nanoseconds(week * kNanosecondsPerWeek + gps_s * kNanosecondsPerSecond);
-  }
   return EphemerisStatus::kOk;
 }
 
-bool is_of_other_week(std::uint16_t message_number, std::span<const std::uint8_t> message,
-                      GpsTime near) {
-  if (message.size() * 8 < bits_of(message_number)) return false;
+bool is_of_other_week(GpsTime stated_toe, GpsTime near) {
   // Elements serve for two hours before and behind their reference time, GPS's longest sets for
-  // three; the week that is named is that of either time.
+  // three; the week that is stated is that of either time.
   constexpr std::int64_t kNearEnd_ns = 4 * 3600 * kNanosecondsPerSecond;
-  const GpsTime before = near.plus_nanoseconds(-kNearEnd_ns);
-  if (before.week() != near.plus_nanoseconds(kNearEnd_ns).week()) return false;
-  const System system = system_of(message_number);
-  const int bits = std::countr_zero(static_cast<unsigned>(week_modulus(system)));
-  const int week = static_cast<int>(BitReader(message).skip(kWeekAt).take(bits));
-  return stated_week(system, week, near) != near.week();
+  const int week = near.plus_nanoseconds(-kNearEnd_ns).week();
+  return week == near.plus_nanoseconds(kNearEnd_ns).week() && stated_toe.week() != week;
 }
 
 }  // namespace leonav

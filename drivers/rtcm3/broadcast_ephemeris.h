@@ -15,16 +15,15 @@ bool is_broadcast_ephemeris(std::uint16_t message_number);
 
 // Decodes one message. The times of week are completed to the instants nearest to `near`, with
 // which the message's own week must agree. The messages do not say when the set was sent:
-// transmission_time stays unset. `stated_toe`, if given, gets the time of ephemeris in the week
-// that the message states, which is a week early where it was sent at the end of that week for the
-// next. Precondition: is_broadcast_ephemeris(), `near` is set.
+// transmission_time stays unset. `stated_toe` gets the time of ephemeris in the week that the
+// message states, also where that week does not agree; it is a week early where the message was
+// sent at the end of a week for the next. Precondition: is_broadcast_ephemeris(), `near` is set.
 EphemerisStatus decode_ephemeris(std::uint16_t message_number,
                                  std::span<const std::uint8_t> message, GpsTime near,
-                                 Ephemeris* ephemeris, GpsTime* stated_toe = nullptr);
+                                 Ephemeris* ephemeris, GpsTime* stated_toe);
 
-// Returns whether the message names another week than that of `near`, where no week's end is near.
-// Precondition: as of decode_ephemeris().
-bool is_of_other_week(std::uint16_t message_number, std::span<const std::uint8_t> message,
-                      GpsTime near);
+// Returns whether a message states another week than that of `near`; false within four hours of a
+// week's end.
+bool is_of_other_week(GpsTime stated_toe, GpsTime near);
 
 }  // namespace leonav

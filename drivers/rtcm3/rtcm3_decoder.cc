@@ -80,14 +80,15 @@ void Rtcm3Decoder::take_ephemeris(const Rtcm3Frame& frame, Rtcm3Handler* handler
     ++counters.without_reference;
     return;
   }
-  const bool is_other = is_of_other_week(frame.type, frame.message, state_->near);
-  counters.other_week_in_row = is_other ? counters.other_week_in_row + 1 : 0;
   Ephemeris ephemeris;
   GpsTime stated_toe;
-  if (!counters.count(
-          decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris, &stated_toe))) {
-    return;
+  const EphemerisStatus status =
+      decode_ephemeris(frame.type, frame.message, state_->near, &ephemeris, &stated_toe);
+  if (stated_toe.is_set()) {
+    const bool is_other = is_of_other_week(stated_toe, state_->near);
+    counters.other_week_in_row = is_other ? counters.other_week_in_row + 1 : 0;
   }
+  if (!counters.count(status)) return;
   handler->on_stated_toe(stated_toe);
   if (!state_->reported.is_new(ephemeris)) {
     ++counters.repeated;

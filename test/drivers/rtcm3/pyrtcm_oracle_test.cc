@@ -155,10 +155,11 @@ TEST_CASE("Every ephemeris agrees with pyrtcm to the last bit") {
       REQUIRE(next < theirs.size());
       const Words& line = theirs[next++];
       Ephemeris e;
+      GpsTime stated_toe;
       // GMSD7 and the list of many types tell weeks of their own days.
       const auto status =
           decode_ephemeris(extent.type, std::span(bytes).subspan(extent.first + 3, extent.size - 6),
-                           r.reference, &e);
+                           r.reference, &e, &stated_toe);
       REQUIRE(status == EphemerisStatus::kOk);
       CHECK(std::to_string(extent.type) == line[1]);
       CHECK(to_string(e.satellite) == line[2]);
