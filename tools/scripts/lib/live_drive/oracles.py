@@ -1,7 +1,13 @@
-"""The drive's bytes as other people's packages read them: pyubx2 and pyrtcm, of PyPI, where they are installed."""
-import collections
+"""The drive's bytes as other people's packages read them: oracles.py RECEIVER.ubx OBSERVATIONS.obs SERVICE.rtcm3
 
-from simulated_drive import ubx_bytes
+By pyubx2 and pyrtcm, of PyPI, where the Python that runs this has them. Each difference is a line of standard error.
+"""
+import collections
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[4] / "test/tools/connect"))
+import ubx_bytes  # noqa: E402
 
 UBX_GNSS = {"GPS": "G", "Galileo": "E", 0: "G", 2: "E"}
 
@@ -20,7 +26,7 @@ def receiver(path, observations):
     try:
         import pyubx2
     except ImportError:
-        print("SKIPPED (optional): no pyubx2")
+        print("SKIPPED (optional): no pyubx2 for this Python (LEONAV_PYTHON names another)")
         return []
     kinds, values, faults = collections.Counter(), 0, []
     epochs = ubx_bytes.epochs(observations)
@@ -50,7 +56,7 @@ def service(path):
     try:
         import pyrtcm
     except ImportError:
-        print("SKIPPED (optional): no pyrtcm")
+        print("SKIPPED (optional): no pyrtcm for this Python (LEONAV_PYTHON names another)")
         return []
     kinds = collections.Counter()
     with open(path, "rb") as file:
@@ -59,3 +65,13 @@ def service(path):
                 kinds[message.identity] += 1
     print(f"pyrtcm: {dict(sorted(kinds.items()))}")
     return [] if set(kinds) == {"1057", "1058", "1240", "1241"} else [f"pyrtcm reads other messages than were sent: {dict(kinds)}"]
+
+
+def main():
+    receiver_path, observations, service_path = map(pathlib.Path, sys.argv[1:])
+    for fault in receiver(receiver_path, observations) + service(service_path):
+        print(fault, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
