@@ -11,42 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "collector.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
 namespace asio = boost::asio;
-
-class Collector : public ByteSink {
- public:
-  void on_open() override { ++opened; }
-  void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override {
-    text.append(bytes.begin(), bytes.end());
-    last_arrival_ns = arrival_ns;
-  }
-  void on_failure(const std::string& why, double retry_s) override {
-    failures.push_back(why);
-    waits_s.push_back(retry_s);
-  }
-  void on_end(const std::string& why) override { ends.push_back(why); }
-
-  int opened = 0;
-  std::string text;
-  std::int64_t last_arrival_ns = 0;
-  std::vector<std::string> failures, ends;
-  std::vector<double> waits_s;
-};
-
-// Runs until `done`, ten seconds at most.
-template <typename Done>
-bool run_until(asio::io_context* io, Done done) {
-  for (int i = 0; i < 1000 && !done(); ++i) {
-    io->restart();
-    io->run_for(std::chrono::milliseconds(10));
-  }
-  return done();
-}
+using test::Collector;
+using test::run_until;
 
 // The side of a pseudo-terminal at which a sensor would be.
 class Sensor {

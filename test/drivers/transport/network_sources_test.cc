@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collector.h"
 #include "drivers/transport/live_sources.h"
 #include "drivers/transport/retry_wait.h"
 #include "support/catch.h"
@@ -16,34 +17,10 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using asio::ip::udp;
+using test::Collector;
+using test::run_until;
 
 const asio::ip::address kLoopback = asio::ip::address_v4::loopback();
-
-class Collector : public ByteSink {
- public:
-  void on_open() override { ++opened; }
-  void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t) override {
-    text.append(bytes.begin(), bytes.end());
-    sizes.push_back(bytes.size());
-  }
-  void on_waiting(const std::string& what) override { waits.push_back(what); }
-  void on_failure(const std::string& why, double) override { failures.push_back(why); }
-  void on_end(const std::string&) override {}
-
-  int opened = 0;
-  std::string text;
-  std::vector<std::size_t> sizes;
-  std::vector<std::string> failures, waits;
-};
-
-template <typename Done>
-bool run_until(asio::io_context* io, Done done) {
-  for (int i = 0; i < 1500 && !done(); ++i) {
-    io->restart();
-    io->run_for(std::chrono::milliseconds(10));
-  }
-  return done();
-}
 
 // A port that was free a moment ago.
 template <typename Protocol>
@@ -73,11 +50,11 @@ TEST_CASE("Clients of a server are read one after the other", "[transport]") {
   Collector sink;
   const auto source = make_tcp_server_source(&io, &clock, {"127.0.0.1", port});
   source->start(&sink);
-  REQUIRE(run_until(&io, [&] { return !sink.waits.empty(); }));
-  CHECK_THAT(sink.waits[0], Catch::Contains("no client is connected"));
+  REQUIRE(run_until(&io, [&] { return !sink.waiting.empty(); }));
+  CHECK_THAT(sink.waiting[0], Catch::Contains("no client is connected"));
   run_until(&io, [] { return false; });  // longer than an attempt to connect may take
   CHECK(sink.failures.empty());
-  CHECK(sink.waits.size() == 1);
+  CHECK(sink.waiting.size() == 1);
   tcp::socket first(io), second(io);
   first.connect({kLoopback, port});
   asio::write(first, asio::buffer("first", 5));

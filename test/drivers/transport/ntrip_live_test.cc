@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "collector.h"
 #include "drivers/transport/ntrip_source.h"
 #include "drivers/transport/retry_wait.h"
 #include "support/catch.h"
@@ -19,23 +20,7 @@
 namespace leonav {
 namespace {
 
-class Collector : public ByteSink {
- public:
-  void on_open() override { ++opened; }
-  void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t) override {
-    text.append(bytes.begin(), bytes.end());
-  }
-  void on_failure(const std::string& why, double retry_s) override {
-    failures.push_back(why);
-    waits_s.push_back(retry_s);
-  }
-  void on_end(const std::string&) override {}
-
-  int opened = 0;
-  std::string text;
-  std::vector<std::string> failures;
-  std::vector<double> waits_s;
-};
+using test::Collector;
 
 // The caster, which ends with the object; what it says goes to a file.
 class Caster {

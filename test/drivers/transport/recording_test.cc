@@ -31,7 +31,7 @@ void write_three(const std::string& path) {
   REQUIRE(writer.close());
 }
 
-class Collector : public ByteSink {
+class PlayedFile : public ByteSink {
  public:
   using Steady = ArrivalClock::Steady;
   void on_open() override { opened = Steady::now(); }
@@ -50,12 +50,12 @@ class Collector : public ByteSink {
   std::string end;
 };
 
-Collector play(const std::string& path, double speed) {
+PlayedFile play(const std::string& path, double speed) {
   boost::asio::io_context io;
   const ArrivalClock clock;
   PlaybackClocks clocks(speed, &clock);
   const auto source = make_file_source(&io, &clocks, path);
-  Collector sink;
+  PlayedFile sink;
   source->start(&sink);
   io.run();
   return sink;
@@ -245,7 +245,7 @@ TEST_CASE("A recording is played by its arrivals, at any speed", "[transport]") 
   const test::TemporaryFile place("unused", "");
   const std::string path = place.beside("a.leoraw");
   write_three(path);
-  const Collector sink = play(path, 0.5);
+  const PlayedFile sink = play(path, 0.5);
   CHECK(sink.end == "end");
   CHECK(sink.count == 5003);
   REQUIRE(sink.arrivals_ns.size() == 2);  // the empty block brings nothing
@@ -256,7 +256,7 @@ TEST_CASE("A recording is played by its arrivals, at any speed", "[transport]") 
 
 TEST_CASE("A file without times is played without waiting", "[transport]") {
   const test::TemporaryFile file("a.ubx", std::string(10'000, 'x'));
-  const Collector sink = play(file.path(), 1.0);
+  const PlayedFile sink = play(file.path(), 1.0);
   CHECK(sink.count == 10'000);
   CHECK(sink.end == "end");
 }
