@@ -20,7 +20,7 @@ class FakeFormat : public StreamFormat {
 };
 
 // A stream of which each second brings some bytes, frames and messages.
-struct Rig {
+struct WatchRig {
   void seconds(int count, std::size_t bytes, std::uint64_t frames, std::uint64_t messages) {
     for (int i = 0; i < count; ++i) {
       now_ns += 1'000'000'000;
@@ -40,7 +40,7 @@ struct Rig {
 }  // namespace
 
 TEST_CASE("A stream is good once messages are published, and silent when bytes stop", "[connect]") {
-  Rig rig;
+  WatchRig rig;
   CHECK(rig.watch.state() == StreamState::kConnecting);
   rig.watch.on_open(rig.now_ns);
   rig.seconds(2, 0, 0, 0);
@@ -60,7 +60,7 @@ TEST_CASE("A stream is good once messages are published, and silent when bytes s
 }
 
 TEST_CASE("Bytes without a whole message are told within seconds, with the remedy", "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   rig.seconds(6, 100, 0, 0);
   CHECK(rig.watch.state() == StreamState::kConnecting);
@@ -75,13 +75,13 @@ TEST_CASE("Bytes without a whole message are told within seconds, with the remed
 }
 
 TEST_CASE("Whole messages with nothing to publish are told, with the remedy", "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   rig.seconds(12, 100, 5, 0);
   CHECK(rig.watch.state() == StreamState::kNoData);
   CHECK(rig.watch.text() == "switch it on");
   // A receiver with an epoch every five seconds, and silence in between, is good.
-  Rig slow;
+  WatchRig slow;
   slow.watch.on_open(slow.now_ns);
   for (int i = 0; i < 5; ++i) {
     slow.seconds(1, 500, 1, 1);
@@ -93,7 +93,7 @@ TEST_CASE("Whole messages with nothing to publish are told, with the remedy", "[
 
 TEST_CASE("A receiver whose epochs have stopped is told although it sends inertial samples",
           "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   // One that has never sent epochs, such as a stream of ephemerides, is good without them.
   rig.seconds(30, 100, 5, 5);
@@ -124,7 +124,7 @@ TEST_CASE("A receiver whose epochs have stopped is told although it sends inerti
 
 TEST_CASE("A receiver whose antenna is cut is told, since its start or later", "[connect]") {
   const bool had_signals = GENERATE(true, false);
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   rig.epochs = 1;
   if (had_signals) rig.seconds(5, 100, 1, 1);
@@ -141,7 +141,7 @@ TEST_CASE("A receiver with an epoch each 20 s is good in between, and told after
           "[connect]") {
   // The messages between are published, or are of other kinds.
   const std::uint64_t published = GENERATE(0, 1);
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   const auto epoch = [&] {
     rig.epochs = 1;
@@ -166,7 +166,7 @@ TEST_CASE("A receiver with an epoch each 20 s is good in between, and told after
 }
 
 TEST_CASE("A long pause does not make a later stop of the epochs be told late", "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   rig.epochs = 1;
   rig.seconds(5, 100, 5, 5);
@@ -182,7 +182,7 @@ TEST_CASE("A long pause does not make a later stop of the epochs be told late", 
 }
 
 TEST_CASE("Failures and the end keep their reason", "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_failure("there is no such device", 4.0, rig.now_ns);
   CHECK(rig.watch.text() == "there is no such device; tried again in 4 s");
   rig.seconds(20, 0, 0, 0);
@@ -198,7 +198,7 @@ TEST_CASE("Failures and the end keep their reason", "[connect]") {
 
 TEST_CASE("Damage of more than a tenth of all messages is told until it is below half of that",
           "[connect]") {
-  Rig rig;
+  WatchRig rig;
   rig.watch.on_open(rig.now_ns);
   const auto seconds = [&](int count, std::uint64_t damaged, std::uint64_t messages) {
     for (int i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "stamp_times.h"
 #include "support/catch.h"
 #include "tools/connect/stamps/imu_sampler.h"
 #include "tools/connect/stamps/imu_stamper.h"
@@ -10,10 +11,9 @@
 namespace leonav {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-const GpsTime kStart = GpsTime::from_week_and_tow(2136, 345'600.0);
-// When the host's clock of arrivals shows zero, GPS time is kStart.
-GpsTime gps_at(std::int64_t host_ns) { return kStart.plus_nanoseconds(host_ns); }
+using test::gps_at;
+using test::kSecond;
+using test::kStart;
 
 // A receiver at 1 Hz whose epochs arrive after 50 ms.
 void feed_epochs(GpsClock* clock, int from_s, int to_s) {

@@ -4,20 +4,21 @@
 #include <limits>
 #include <random>
 
+#include "stamp_times.h"
 #include "support/catch.h"
 #include "tools/connect/stamps/imu_stamper.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000, kMillisecond = 1'000'000;
-const GpsTime kStart = GpsTime::from_week_and_tow(2136, 345'600.0);
-// When the host's clock of arrivals shows zero, GPS time is kStart.
-GpsTime gps_at(std::int64_t host_ns) { return kStart.plus_nanoseconds(host_ns); }
+using test::gps_at;
+using test::kMillisecond;
+using test::kSecond;
+using test::kStart;
 
 // A sensor that takes a sample each `spacing_ns`, and a receiver that sees a pulse at each n-th.
-struct Rig {
-  explicit Rig(double drift_ppm, double latency_s = 0.004)
+struct PulseRig {
+  explicit PulseRig(double drift_ppm, double latency_s = 0.004)
       : drift(drift_ppm * 1e-6), stamper(&clock, {latency_s, 0.0}, &pulses) {}
 
   double drift;
@@ -84,7 +85,7 @@ TEST_CASE("Pulses tie a drifting clock to GPS time within its resolution", "[con
   for (const double drift_ppm : {-100.0, 0.0, 100.0}) {
     // At each sample, and once a second.
     for (const int every : {1, 200}) {
-      Rig rig(drift_ppm);
+      PulseRig rig(drift_ppm);
       rig.every = every;
       rig.run(20.0);
       REQUIRE(rig.is_by_pulses());
@@ -101,7 +102,7 @@ TEST_CASE("Pulses tie a drifting clock to GPS time within its resolution", "[con
 }
 
 TEST_CASE("A wrong latency does not matter where pulses are used", "[connect]") {
-  Rig rig(100.0, 0.003);  // it is 4 ms
+  PulseRig rig(100.0, 0.003);  // it is 4 ms
   rig.run(6.5);
   REQUIRE_FALSE(rig.is_by_pulses());
   rig.run(0.5);
@@ -113,7 +114,7 @@ TEST_CASE("A wrong latency does not matter where pulses are used", "[connect]") 
 }
 
 TEST_CASE("Lost pulses cost nothing for a minute, then arrivals serve again", "[connect]") {
-  Rig rig(100.0);
+  PulseRig rig(100.0);
   rig.run(40.0);
   REQUIRE(rig.is_by_pulses());
   rig.has_pulses = false;
@@ -133,7 +134,7 @@ TEST_CASE("Lost pulses cost nothing for a minute, then arrivals serve again", "[
 
 TEST_CASE("A step of the clock is followed and told", "[connect]") {
   SECTION("that arrivals do not show") {
-    Rig rig(100.0);
+    PulseRig rig(100.0);
     rig.run(30.0);
     rig.offset_ns += 1'400'000;
     rig.run(30.0, 8.0);
@@ -143,7 +144,7 @@ TEST_CASE("A step of the clock is followed and told", "[connect]") {
   }
   SECTION("by more than the time between samples") {
     for (const std::int64_t step_ns : {13 * kMillisecond, 3 * kSecond, -40 * kSecond}) {
-      Rig rig(100.0);
+      PulseRig rig(100.0);
       rig.run(30.0);
       rig.offset_ns += step_ns;
       rig.run(60.0, 25.0);
@@ -158,12 +159,12 @@ TEST_CASE("A step of the clock is followed and told", "[connect]") {
 
 TEST_CASE("Which sample a pulse belongs to is known as far as arrivals are right", "[connect]") {
   // Arrivals are wrong by 4 ms, of 2.5 ms that are allowed: the next sample is taken.
-  Rig rig(0.0, 0.0);
+  PulseRig rig(0.0, 0.0);
   rig.run(40.0, 30.0);
   CHECK(rig.is_by_pulses());
   CHECK(rig.mean_ms == Approx(5.0).margin(0.1));
   // A sensor that marks its samples allows half a second.
-  Rig marking(0.0, 0.0);
+  PulseRig marking(0.0, 0.0);
   marking.marks_pulses = true;
   marking.run(40.0, 30.0);
   CHECK(marking.is_by_pulses());
@@ -172,7 +173,7 @@ TEST_CASE("Which sample a pulse belongs to is known as far as arrivals are right
 }
 
 TEST_CASE("Marks that cannot be right are counted and change nothing", "[connect]") {
-  Rig rig(100.0);
+  PulseRig rig(100.0);
   rig.run(20.0);
   for (int i = 0; i < 30; ++i) {
     const GpsTime now = gps_at(rig.now_ns);

@@ -15,22 +15,22 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 // Numbers one after the other, most significant byte first.
-struct Packed {
-  Packed& add(std::uint64_t value, int size) {
+struct BigEndian {
+  BigEndian& add(std::uint64_t value, int size) {
     for (int i = size - 1; i >= 0; --i) {
       bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
     }
     return *this;
   }
-  Packed& single(float value) { return add(std::bit_cast<std::uint32_t>(value), 4); }
-  Packed& group(std::uint16_t identifier, int size) { return add(identifier, 2).add(size, 1); }
-  Packed& vector(std::uint16_t identifier, float x, float y, float z) {
+  BigEndian& single(float value) { return add(std::bit_cast<std::uint32_t>(value), 4); }
+  BigEndian& group(std::uint16_t identifier, int size) { return add(identifier, 2).add(size, 1); }
+  BigEndian& vector(std::uint16_t identifier, float x, float y, float z) {
     return group(identifier, 12).single(x).single(y).single(z);
   }
   Bytes bytes;
 };
 
-Bytes message(std::uint8_t id, const Packed& payload) {
+Bytes message(std::uint8_t id, const BigEndian& payload) {
   Bytes bytes;
   for (const std::size_t byte :
        {std::size_t{0xFA}, std::size_t{0xFF}, std::size_t{id}, payload.bytes.size()})
@@ -41,7 +41,7 @@ Bytes message(std::uint8_t id, const Packed& payload) {
   return bytes;
 }
 
-struct Messages : MessageTarget {
+struct SamplesAlone : MessageTarget {
   void take(Channel channel, ByteSpan bytes) override {
     REQUIRE(channel == Channel::kImu);
     REQUIRE(Decoder().decode(bytes, &samples.emplace_back()).fault == InputFault::kNone);
@@ -49,16 +49,16 @@ struct Messages : MessageTarget {
   std::vector<ImuSample> samples;
 };
 
-struct Rig {
-  Messages messages;
+struct XsensRig {
+  SamplesAlone messages;
   MessageOutput output{&messages};
   GpsClock clock{TimeReference::kHost, 0.0};
   XsensFormat format{&clock, ImuStampOptions{}, &output};
 };
 
 // 2021-05-13 12:05:37 UTC and some nanoseconds, with all flags.
-Packed utc(std::uint32_t ns) {
-  Packed p;
+BigEndian utc(std::uint32_t ns) {
+  BigEndian p;
   p.group(0x1010, 12).add(ns, 4).add(2021, 2).add(5, 1).add(13, 1).add(12, 1).add(5, 1).add(37, 1);
   return p.add(7, 1);
 }
@@ -66,9 +66,9 @@ Packed utc(std::uint32_t ns) {
 }  // namespace
 
 TEST_CASE("A sensor's axes become forward, right, down", "[connect]") {
-  Rig rig;
+  XsensRig rig;
   for (std::uint32_t k = 0; k < 3; ++k) {
-    Packed p = utc(k * 10'000'000);
+    BigEndian p = utc(k * 10'000'000);
     p.vector(0x8020, 1.0F, 2.0F, 3.0F).vector(0x4020, 4.0F, 5.0F, 9.8125F);
     rig.format.feed(message(0x36, p), 1);
   }
@@ -86,9 +86,9 @@ TEST_CASE("A sensor's axes become forward, right, down", "[connect]") {
 
 TEST_CASE("Increments come before rates, and cover one interval where a message was lost",
           "[connect]") {
-  Rig rig;
+  XsensRig rig;
   for (const std::uint32_t k : {0U, 1U, 2U, 4U, 5U}) {
-    Packed p = utc(k * 10'000'000);
+    BigEndian p = utc(k * 10'000'000);
     p.vector(0x8020, 1.0F, 2.0F, 3.0F).vector(0x4020, 4.0F, 5.0F, 9.8F);
     p.group(0x8030, 16).single(1.0F).single(0.0F).single(0.0F).single(0.0F);
     p.vector(0x4010, 0.5F, 0.25F, 0.125F);
@@ -103,10 +103,10 @@ TEST_CASE("Increments come before rates, and cover one interval where a message 
 }
 
 TEST_CASE("The clock of the sensor goes on where it wraps", "[connect]") {
-  Rig rig;
+  XsensRig rig;
   std::uint32_t ticks = 0xFFFFFFFF - 40'000;  // it wraps after four seconds
   for (std::int64_t k = 0; k < 1000; ++k, ticks += 100) {
-    Packed p;
+    BigEndian p;
     p.group(0x1060, 4).add(ticks, 4).vector(0x8020, 0, 0, 0).vector(0x4020, 0, 0, 9.8F);
     rig.format.feed(message(0x36, p), 1'700'000'000'000'000'000 + k * 10'000'000);
   }
@@ -118,26 +118,26 @@ TEST_CASE("The clock of the sensor goes on where it wraps", "[connect]") {
 
 TEST_CASE("What an Xsens stream lacks is told with the remedy", "[connect]") {
   const auto problem = [](const Bytes& bytes) {
-    Rig rig;
+    XsensRig rig;
     rig.format.feed(bytes, 1);
     rig.format.finish();
     CHECK(rig.messages.samples.empty());
     return rig.format.why_no_messages();
   };
-  Packed motion;
+  BigEndian motion;
   motion.vector(0x8020, 0, 0, 0).vector(0x4020, 0, 0, 9.8F);
-  Packed half;
+  BigEndian half;
   half.vector(0x8020, 0, 0, 0);
-  Packed wild;
+  BigEndian wild;
   wild.vector(0x8020, 0, 0, 1e9F).vector(0x4020, 0, 0, 9.8F);
   CHECK_THAT(problem(message(0x36, motion)), Catch::Contains("SampleTimeFine"));
   CHECK_THAT(problem(message(0x36, half)), Catch::Contains("add DeltaQ and DeltaV"));
   CHECK_THAT(problem(message(0x36, wild)), Catch::Contains("beyond what a sensor measures"));
   CHECK_THAT(problem(message(0x32, motion)), Catch::Contains("former output"));
-  CHECK_THAT(problem(message(0x3E, Packed())), Catch::Contains("configuration state"));
-  Rig rig;
+  CHECK_THAT(problem(message(0x3E, BigEndian())), Catch::Contains("configuration state"));
+  XsensRig rig;
   CHECK_THAT(rig.format.why_no_frames(), Catch::Contains("baud rate") && Catch::Contains("NMEA"));
-  Packed clipped = utc(0);
+  BigEndian clipped = utc(0);
   clipped.group(0xE020, 4).add(1 << 8, 4).vector(0x8020, 0, 0, 0).vector(0x4020, 0, 0, 9.8F);
   rig.format.feed(message(0x36, clipped), 1);
   CHECK_THAT(rig.format.detail(), Catch::Contains("1 samples at the end of the sensor's range"));

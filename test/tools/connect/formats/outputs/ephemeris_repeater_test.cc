@@ -14,7 +14,7 @@ struct Counter : MessageTarget {
   int count = 0;
 };
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2136, 345'600.0);
+const GpsTime kToe = GpsTime::from_week_and_tow(2136, 345'600.0);
 
 }  // namespace
 
@@ -25,11 +25,11 @@ TEST_CASE("Each ephemeris is sent again after its interval, a few at a time", "[
   for (std::uint16_t number = 1; number <= 10; ++number) {
     Ephemeris ephemeris;
     ephemeris.satellite = {System::kGps, number};
-    ephemeris.toe = kStart;
-    repeater.remember(ephemeris, kStart);
-    repeater.remember(ephemeris, kStart);  // the same once more is still one
+    ephemeris.toe = kToe;
+    repeater.remember(ephemeris, kToe);
+    repeater.remember(ephemeris, kToe);  // the same once more is still one
   }
-  const auto at = [&](double s) { return repeater.repeat(kStart.plus_seconds(s)); };
+  const auto at = [&](double s) { return repeater.repeat(kToe.plus_seconds(s)); };
   CHECK(at(29.0) == 0);
   CHECK(at(30.0) == 4);
   CHECK(at(31.0) == 4);
@@ -48,9 +48,9 @@ TEST_CASE("With an interval of zero nothing is sent again", "[connect]") {
   EphemerisRepeater repeater(0.0, &output);
   Ephemeris ephemeris;
   ephemeris.satellite = {System::kGps, 1};
-  ephemeris.toe = kStart;
-  repeater.remember(ephemeris, kStart);
-  CHECK(repeater.repeat(kStart.plus_seconds(3600.0)) == 0);
+  ephemeris.toe = kToe;
+  repeater.remember(ephemeris, kToe);
+  CHECK(repeater.repeat(kToe.plus_seconds(3600.0)) == 0);
 }
 
 }  // namespace leonav

@@ -50,7 +50,7 @@ void feed(StreamFormat* format, std::span<const std::uint8_t> bytes, std::size_t
   format->finish();
 }
 
-struct Rig {
+struct PageRig {
   void add_ephemerides() {
     for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
       corrections.add(e);
@@ -68,7 +68,7 @@ TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
   const bool is_has = GENERATE(true, false);
   const char* source = is_has ? kHas : kB2b;
   if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
-  Rig rig;
+  PageRig rig;
   rig.add_ephemerides();
   PageFormat format(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b, &rig.corrections);
   feed(&format, bytes_of(test::shared_data(source)));
@@ -88,7 +88,7 @@ TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
 // No recording has B-CNAV1 of this hour: sets with the issues that the corrections name.
 TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]") {
   if (!test::have_shared_data(kB2b)) return;
-  Rig rig;
+  PageRig rig;
   PageFileReader pages(test::shared_data(kB2b), PageService::kBeidouB2b);
   B2bDecoder decoder;
   std::set<std::pair<SatelliteId, std::uint16_t>> known;
@@ -162,7 +162,7 @@ TEST_CASE("Of two services the one listed first is used, and the other one's tex
 
 TEST_CASE("Without ephemerides the text says that they are missing", "[connect]") {
   if (!test::have_shared_data(kHas)) return;
-  Rig rig;
+  PageRig rig;
   PageFormat format(PageService::kGalileoHas, &rig.corrections);
   std::vector<std::uint8_t> bytes = bytes_of(test::shared_data(kHas));
   bytes.resize(100'000);
@@ -175,13 +175,13 @@ TEST_CASE("Without ephemerides the text says that they are missing", "[connect]"
 
 TEST_CASE("Corrections without satellites that have clocks are told without empty brackets",
           "[connect]") {
-  const Rig rig;
+  const PageRig rig;
   CHECK(rig.corrections.why_none() ==
         "none can be used: is it the stream of a service for GPS, Galileo or BeiDou?");
 }
 
 TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[connect]") {
-  Rig rig;
+  PageRig rig;
   PageFormat format(PageService::kGalileoHas, &rig.corrections);
   const std::string text = "# remark\n\r\nno page\n2269 0 1 6 61 " + std::string(122, 'a') + "\n";
   feed(&format, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -199,7 +199,7 @@ TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where 
   const bool is_has = GENERATE(true, false);
   const char* source = is_has ? kHas : kB2b;
   if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
-  Rig of_lines;
+  PageRig of_lines;
   of_lines.add_ephemerides();
   PageFormat lines(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b,
                    &of_lines.corrections);
@@ -208,7 +208,7 @@ TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where 
   REQUIRE(
       test::write_pages_as_sbf(is_has ? "has" : "b2b", test::shared_data(source), place.path()));
   for (const bool uses_pages : {true, false}) {
-    Rig rig;
+    PageRig rig;
     rig.add_ephemerides();
     GpsClock clock(TimeReference::kGnss, 0.05);
     SbfStreamOptions options;
@@ -230,7 +230,7 @@ TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where 
 
 TEST_CASE("A Septentrio stream without the pages that it is to give says what to turn on",
           "[connect]") {
-  Rig rig;
+  PageRig rig;
   GpsClock clock(TimeReference::kGnss, 0.05);
   const SbfFormat format({false, true}, 0.05, 0.0, &clock, &rig.output, &rig.corrections);
   CHECK_THAT(format.detail(), Catch::Contains("turn on GALRawCNAV and BDSRawB2b"));
@@ -240,7 +240,7 @@ TEST_CASE("A u-blox receiver's pages are used where that is asked for", "[connec
   if (!test::have_shared_data(kWalk)) return;
   int biases_without_pages = 0;  // those of CNAV and B-CNAV
   for (const bool uses_pages : {false, true}) {
-    Rig rig;
+    PageRig rig;
     GpsClock clock(TimeReference::kGnss, 0.05);
     UbxStreamOptions options;
     options.uses_pages = uses_pages;

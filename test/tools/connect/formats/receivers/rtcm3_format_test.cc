@@ -121,7 +121,7 @@ TEST_CASE("A stream without what is needed is told with what it has", "[connect]
 
 namespace {
 
-struct Messages : MessageTarget {
+struct PublishedCorrections : MessageTarget {
   void take(Channel channel, ByteSpan bytes) override {
     ++counts[channel];
     if (channel != Channel::kCorrectedStates) return;
@@ -219,7 +219,7 @@ TEST_CASE("While nothing confirms its week, a host's clock without synchronisati
           "[connect]") {
   const std::string sentence =
       "the host's clock is not synchronised, and the week of these messages is taken from it";
-  Messages messages;
+  PublishedCorrections messages;
   MessageOutput output(&messages);
   bool is_unsynchronised = true;
   GpsClock clock(TimeReference::kGnss, 0.05, HostClock::wall_ns(),
@@ -390,7 +390,7 @@ TEST_CASE("Where two others send at the same time, one of them is used", "[conne
 }
 
 TEST_CASE("Corrections of a service make states with a receiver's ephemerides", "[connect]") {
-  Messages messages;
+  PublishedCorrections messages;
   MessageOutput output(&messages);
   SharedCorrections shared({}, {}, &output);
   CorrectionOutput corrections("service", &shared);
@@ -428,7 +428,7 @@ TEST_CASE("Corrections of a service make states with a receiver's ephemerides", 
 }
 
 TEST_CASE("Corrections that are too old are told with what may be wrong", "[connect]") {
-  Messages messages;
+  PublishedCorrections messages;
   MessageOutput output(&messages);
   SharedCorrections shared({}, {}, &output);
   CorrectionOutput corrections("service", &shared);
@@ -445,7 +445,7 @@ TEST_CASE("Corrections that are too old are told with what may be wrong", "[conn
 
 TEST_CASE("The age of corrections by a host's clock that is not synchronised is told",
           "[connect]") {
-  Messages messages;
+  PublishedCorrections messages;
   MessageOutput output(&messages);
   SharedCorrections shared({}, {}, &output);
   CorrectionOutput corrections("service", &shared);

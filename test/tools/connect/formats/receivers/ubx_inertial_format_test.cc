@@ -16,7 +16,6 @@ using test::Bytes;
 using test::message;
 using test::put;
 constexpr int kWeek = 2209;
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 // UBX-RXM-RAWX without a signal.
 Bytes rawx(double tow_s) {
@@ -59,7 +58,7 @@ Bytes time_mark(int input, std::uint8_t edges, std::uint32_t tow_ms) {
   return message(0x0D, 0x03, payload);
 }
 
-struct Messages : MessageTarget {
+struct PublishedSamples : MessageTarget {
   void take(Channel channel, ByteSpan bytes) override {
     if (channel != Channel::kImu) return;
     REQUIRE(Decoder().decode(bytes, &samples.emplace_back()).fault == InputFault::kNone);
@@ -67,10 +66,10 @@ struct Messages : MessageTarget {
   std::vector<ImuSample> samples;
 };
 
-struct Rig {
-  explicit Rig(const UbxStreamOptions& options)
+struct UbxRig {
+  explicit UbxRig(const UbxStreamOptions& options)
       : format(0.05, 30.0, &clock, &output, nullptr, options, &pulses) {}
-  Messages messages;
+  PublishedSamples messages;
   MessageOutput output{&messages};
   GpsClock clock{TimeReference::kGnss, 0.05};
   PulseQueue pulses;
@@ -81,11 +80,11 @@ struct Rig {
 
 TEST_CASE("Samples of a receiver's own sensor are stamped by arrivals", "[connect]") {
   for (const bool is_inertial : {true, false}) {
-    Rig rig({is_inertial, ImuStampOptions{0.01, 0.0}, {}});
-    // Messages of ten samples each tenth of a second, 10 ms after the last of them; epochs after
-    // 50 ms. The sensor's clock wraps on the way.
+    UbxRig rig({is_inertial, ImuStampOptions{0.01, 0.0}, {}});
+    // PublishedSamples of ten samples each tenth of a second, 10 ms after the last of them; epochs
+    // after 50 ms. The sensor's clock wraps on the way.
     for (std::int64_t tenth = 0; tenth < 200; ++tenth) {
-      const std::int64_t now_ns = tenth * kSecond / 10;
+      const std::int64_t now_ns = tenth * kNanosecondsPerSecond / 10;
       if (tenth % 10 == 0) {
         const double tow_s = 1000.0 + static_cast<double>(tenth) / 10.0;
         rig.format.feed(rawx(tow_s), now_ns + 50'000'000);
@@ -112,14 +111,14 @@ TEST_CASE("Samples of a receiver's own sensor are stamped by arrivals", "[connec
 }
 
 TEST_CASE("Pulses of the configured input and edge are handed on", "[connect]") {
-  Rig rig({false, {}, {1, true, 0.002}});
+  UbxRig rig({false, {}, {1, true, 0.002}});
   rig.format.feed(time_mark(1, 0x84, 5000), 1);
   const auto mark = rig.pulses.pop();
   REQUIRE(mark);
   CHECK(mark->time == GpsTime::from_week_and_tow(kWeek, 5.5 - 0.002));
   CHECK(mark->sigma_s == Approx(40e-9));
   CHECK_THAT(rig.format.detail(), Catch::Contains("1 pulses"));
-  Rig other({false, {}, {1, true, 0.0}});
+  UbxRig other({false, {}, {1, true, 0.0}});
   CHECK_THAT(other.format.detail(), Catch::Contains("switch UBX-TIM-TM2 on"));
   other.format.feed(time_mark(0, 0x84, 5000), 1);
   other.format.feed(time_mark(1, 0x80, 5000), 1);
