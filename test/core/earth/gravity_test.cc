@@ -10,11 +10,11 @@ using namespace leonav;
 
 namespace {
 
-struct Pair {
+struct GravityAt {
   Eigen::Vector3d p_e, g_e;
 };
 // NormalGravity::U of GeographicLib 2.1.2 with the constants of core/earth/ellipsoid.h.
-const Pair kPublished[] = {
+const GravityAt kPublishedGravity[] = {
     {{6378137, 0, 0}, {-9.78032533590389, 0, 0}},
     {{0, 0, 6356752.3142451793}, {0, 0, -9.8321849378634}},
     {{3912348.4649880435, 2258795.4394244654, 4487348.4088659193},
@@ -35,8 +35,8 @@ const Pair kPublished[] = {
 
 TEST_CASE("Gravity agrees with GeographicLib's normal gravity", "[earth]") {
   double worst = 0.0;
-  for (const Pair& pair : kPublished) {
-    worst = std::max(worst, (gravity_e(pair.p_e) - pair.g_e).norm());
+  for (const GravityAt& point : kPublishedGravity) {
+    worst = std::max(worst, (gravity_e(point.p_e) - point.g_e).norm());
   }
   std::cout << "gravity against GeographicLib, worst: " << worst << " m/s^2\n";
   CHECK(worst < 1e-13);

@@ -11,7 +11,7 @@ using namespace leonav;
 
 // Twelve LEO satellites (no group delays) between 15 and 80 degrees; the ionosphere delays L1 at
 // the zenith by `zenith_m`, the receiver the second band by 9 m.
-ConventionFinding found(double zenith_m, int epochs, double noise_m = 0.3) {
+ConventionFinding found_in_codes(double zenith_m, int epochs, double noise_m = 0.3) {
   const EphemerisStore ephemeris_store{EphemerisConfig()};
   CodeOrderMonitor check;
   RawEpoch raw;
@@ -46,19 +46,19 @@ ConventionFinding found(double zenith_m, int epochs, double noise_m = 0.3) {
 }
 
 TEST_CASE("codes in order: no word", "[conventions]") {
-  CHECK(!found(3.0, 60));
-  CHECK(!found(0.0, 60));
+  CHECK(!found_in_codes(3.0, 60));
+  CHECK(!found_in_codes(0.0, 60));
 }
 
 TEST_CASE("codes exchanged show the ionosphere upside down", "[conventions]") {
-  const auto finding = found(-3.0, 60);
+  const auto finding = found_in_codes(-3.0, 60);
   CHECK(finding.convention == Convention::kCodesExchanged);
   CHECK(finding.value == Approx(3.0).margin(0.3));
 }
 
 TEST_CASE("a few epochs, or hardly any ionosphere, say nothing of the codes", "[conventions]") {
-  CHECK(!found(-3.0, 10));
-  CHECK(!found(-0.2, 60));
+  CHECK(!found_in_codes(-3.0, 10));
+  CHECK(!found_in_codes(-0.2, 60));
 }
 
 }  // namespace

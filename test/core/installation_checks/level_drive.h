@@ -11,6 +11,8 @@
 
 namespace leonav::test {
 
+inline const Eigen::Vector3d kDown = Eigen::Vector3d::UnitZ();
+
 class LevelDrive {
  public:
   static constexpr double kGravity = 9.81;

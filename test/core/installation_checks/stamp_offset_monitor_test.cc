@@ -10,7 +10,7 @@ using namespace leonav;
 const GpsTime kStart = GpsTime::from_nanoseconds(1'300'000'000'000'000'000);
 
 // An epoch a second and the IMU's samples between; the IMU's stamps are off by `offset_s`.
-ConventionFinding found(double offset_s, int epochs, bool imu_goes_on = true) {
+ConventionFinding found_in_stamps(double offset_s, int epochs, bool imu_goes_on = true) {
   StampOffsetMonitor watch;
   ConventionFinding first;
   for (int i = 0; i < epochs; ++i) {
@@ -23,19 +23,19 @@ ConventionFinding found(double offset_s, int epochs, bool imu_goes_on = true) {
 }
 
 TEST_CASE("stamps that agree but for latencies", "[conventions]") {
-  for (const double offset_s : {0.0, 2.0, -2.0, 4.5}) CHECK(!found(offset_s, 60));
+  for (const double offset_s : {0.0, 2.0, -2.0, 4.5}) CHECK(!found_in_stamps(offset_s, 60));
 }
 
 TEST_CASE("the leap seconds are called so", "[conventions]") {
-  CHECK(found(-18.0, 20).convention == Convention::kLeapSeconds);
-  CHECK(found(-18.0, 20).value == Approx(-18.0).margin(0.2));
-  CHECK(found(18.0, 20).convention == Convention::kLeapSeconds);
-  CHECK(found(604800.0, 20).convention == Convention::kStampOffset);
+  CHECK(found_in_stamps(-18.0, 20).convention == Convention::kLeapSeconds);
+  CHECK(found_in_stamps(-18.0, 20).value == Approx(-18.0).margin(0.2));
+  CHECK(found_in_stamps(18.0, 20).convention == Convention::kLeapSeconds);
+  CHECK(found_in_stamps(604800.0, 20).convention == Convention::kStampOffset);
 }
 
 TEST_CASE("a few epochs, or an IMU that has stopped, say nothing of stamps", "[conventions]") {
-  CHECK(!found(-18.0, 6));
-  CHECK(!found(0.0, 60, false));
+  CHECK(!found_in_stamps(-18.0, 6));
+  CHECK(!found_in_stamps(0.0, 60, false));
 }
 
 TEST_CASE("an offset that wanders is of no clock", "[conventions]") {

@@ -7,6 +7,7 @@
 namespace {
 
 using namespace leonav;
+using test::kDown;
 
 template <typename Change>
 MotionRecord record_of(Change change, int seconds = 100) {
@@ -19,8 +20,6 @@ MotionRecord record_of(Change change, int seconds = 100) {
   }
   return record;
 }
-
-const Eigen::Vector3d kDown = Eigen::Vector3d::UnitZ();
 
 TEST_CASE("right gyros turn as the course does", "[conventions]") {
   const MotionRecord record = record_of(test::nothing);

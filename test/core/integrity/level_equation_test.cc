@@ -5,13 +5,13 @@
 #include <random>
 #include <vector>
 
+#include "normal_overbound.h"
 #include "support/catch.h"
 
 using namespace leonav;
+using test::kNormal;
 
 namespace {
-
-constexpr Overbound kNormal = {1.0, 0.0, 1.0};
 
 double solve(const std::vector<LevelTerm>& terms, double risk, const Overbound& bound = kNormal) {
   return solve_level(terms, risk, bound);

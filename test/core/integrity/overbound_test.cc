@@ -3,14 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "normal_overbound.h"
 #include "support/catch.h"
 
 using leonav::exceedance;
 using leonav::Overbound;
+using leonav::test::kNormal;
 
 namespace {
-
-constexpr Overbound kNormal = {1.0, 0.0, 1.0};
 
 // The density of a normal distribution.
 double density(double x, double sigma) {

@@ -14,7 +14,7 @@ using namespace synthetic;
 using namespace ekf_index;
 using Eigen::Vector3d;
 
-constexpr int kRestart = 25, kAligned = 35, kEpochs = 55;
+constexpr int kRestart = 25, kAligned = 35, kEnd = 55;
 
 DriveOptions restarted(std::uint64_t seed) {
   DriveOptions options;
@@ -38,7 +38,7 @@ TEST_CASE("the window goes on where the filter starts over without an attitude")
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     Drive drive(restarted(500 + seed));
     const auto smoother = smoother_of(drive, 10);
-    for (int epoch = 1; epoch <= kEpochs; ++epoch) {
+    for (int epoch = 1; epoch <= kEnd; ++epoch) {
       const SmootherResult result = solve(drive.step(), smoother.get());
       if (epoch < kRestart) continue;
       CAPTURE(seed, epoch);
@@ -51,8 +51,8 @@ TEST_CASE("the window goes on where the filter starts over without an attitude")
       const double attitude =
           nees(attitude_error(drive, result), result.covariance.block<3, 3>(kAttitude, kAttitude));
       if (epoch >= kAligned) {
-        aligned_position += position / (kSeeds * (kEpochs - kAligned + 1));
-        aligned_attitude += attitude / (kSeeds * (kEpochs - kAligned + 1));
+        aligned_position += position / (kSeeds * (kEnd - kAligned + 1));
+        aligned_attitude += attitude / (kSeeds * (kEnd - kAligned + 1));
         continue;
       }
       of_position += position;
@@ -126,7 +126,7 @@ TEST_CASE("an attitude found anew ends a window that it contradicts") {
 TEST_CASE("solves that are late leave a window over a restart as it was") {
   Drive drive(restarted(3)), same(restarted(3));
   const auto late = smoother_of(drive, 10), in_time = smoother_of(same, 10);
-  for (int epoch = 1; epoch <= kEpochs; ++epoch) {
+  for (int epoch = 1; epoch <= kEnd; ++epoch) {
     const bool is_late = epoch % 3 == 0;
     const SmootherResult a = solve(drive.step(), late.get(), !is_late);
     const KeyframeInput& input = same.step();

@@ -21,7 +21,7 @@ GpsTime turn(ExternalHeading* given, double rate, double seconds, GpsTime start)
   return start;
 }
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2400, 0.0);
+const GpsTime kBeginOfWeek = GpsTime::from_week_and_tow(2400, 0.0);
 
 ExternalHeading used_heading() {
   ExternalHeading given;
@@ -37,7 +37,7 @@ TEST_CASE("A told heading waits for its first use, whatever moves before", "[ins
   CHECK_FALSE(given.get());
   given.set({1.0, 0.1});
   given.end_on_motion(10.0, 0.1, kMinSpeed);
-  turn(&given, 1.0, 5.0, kStart);
+  turn(&given, 1.0, 5.0, kBeginOfWeek);
   REQUIRE(given.get());
   CHECK(given.get()->heading == 1.0);
   CHECK(given.get()->sigma == 0.1);
@@ -45,7 +45,7 @@ TEST_CASE("A told heading waits for its first use, whatever moves before", "[ins
 
 TEST_CASE("A used heading is good again only while the vehicle stands", "[ins]") {
   ExternalHeading standing = used_heading();
-  GpsTime time = turn(&standing, 0.02, 10.0, kStart);  // a gyro bias
+  GpsTime time = turn(&standing, 0.02, 10.0, kBeginOfWeek);  // a gyro bias
   standing.end_on_motion(0.1, 0.05, kMinSpeed);
   CHECK(standing.get());
   SECTION("driven") { standing.end_on_motion(2.0, 0.05, kMinSpeed); }
@@ -63,7 +63,7 @@ TEST_CASE("A used heading is good again only while the vehicle stands", "[ins]")
 
 TEST_CASE("Shaking is not turning", "[ins]") {
   ExternalHeading given = used_heading();
-  GpsTime time = kStart;
+  GpsTime time = kBeginOfWeek;
   for (int i = 0; i < 100; ++i) {
     time = turn(&given, 1.0, 0.02, time);
     time = turn(&given, -1.0, 0.02, time);

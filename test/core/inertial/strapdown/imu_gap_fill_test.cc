@@ -9,9 +9,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2300, 1000.0);
-
-GpsTime at_ms(int ms) { return kStart.plus_nanoseconds(ms * 1'000'000LL); }
+GpsTime at_ms(int ms) {
+  return GpsTime::from_week_and_tow(2300, 1000.0).plus_nanoseconds(ms * 1'000'000LL);
+}
 
 // Rate and force that change linearly: the mean over an interval is that at its middle.
 Vector3d rate_at(double t) { return Vector3d{0.1, -0.2, 0.3} + t * Vector3d{2.0, -1.0, 0.5}; }

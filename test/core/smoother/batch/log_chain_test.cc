@@ -3,10 +3,10 @@
 #include "core/smoother/batch/log_chain.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "core/smoother/drive_rig.h"
 #include "dense_log.h"
+#include "drive_graph.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -14,20 +14,6 @@ namespace {
 
 using namespace synthetic;
 using Eigen::Index;
-
-using Edit = std::function<void(KeyframeInput*)>;
-
-LogGraph graph_of(const DriveOptions& options, int epochs, const Edit& edit = nullptr) {
-  Drive drive(options);
-  LogGraph graph(drive.lever_b());
-  const auto input = std::make_unique<KeyframeInput>();
-  for (int i = 0; i < epochs; ++i) {
-    *input = drive.step();
-    if (edit) edit(input.get());
-    graph.add(*input);
-  }
-  return graph;
-}
 
 LogCorrections solved(const LogGraph& graph) {
   LogCorrections corrections;
@@ -99,12 +85,6 @@ int with_previous(const LogGraph& graph) {
   return static_cast<int>(
       std::count_if(graph.pieces().begin(), graph.pieces().end(),
                     [](const AmbiguityPiece& piece) { return piece.previous >= 0; }));
-}
-
-int segments(const LogGraph& graph) {
-  int count = 0;
-  for (int k = 0; k < graph.size(); ++k) count += graph.at(k).process.exists ? 0 : 1;
-  return count;
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 #include "core/smoother/batch/log_processes.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "core/base/square.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/mechanization.h"
 #include "core/smoother/batch/batch_smoother.h"
 #include "core/smoother/drive_rig.h"
+#include "drive_graph.h"
 #include "support/catch.h"
 
 namespace leonav {
@@ -19,8 +19,6 @@ using namespace synthetic;
 using namespace ekf_index;
 using Eigen::Index;
 using Eigen::Vector3d;
-
-using Edit = std::function<void(KeyframeInput*)>;
 
 // A drive as a graph, with its truth.
 struct Log {
@@ -59,12 +57,6 @@ struct Log {
   LogProcesses processes;
   std::vector<NavState> truth;
 };
-
-int segments(const LogGraph& graph) {
-  int count = 0;
-  for (int k = 0; k < graph.size(); ++k) count += graph.at(k).process.exists ? 0 : 1;
-  return count;
-}
 
 Edit parted_at(std::uint64_t index) {
   return [index](KeyframeInput* input) {

@@ -4,19 +4,13 @@
 #include "core/smoother/batch/batch_smoother.h"
 #include "core/smoother/ceres/log_ceres.h"
 #include "core/smoother/drive_rig.h"
+#include "drive_graph.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
 using namespace synthetic;
-
-LogGraph graph_of(const DriveOptions& options, int epochs) {
-  Drive drive(options);
-  LogGraph graph(drive.lever_b());
-  for (int i = 0; i < epochs; ++i) graph.add(drive.step());
-  return graph;
-}
 
 // The largest distance of two core estimates in sigmas.
 double apart(const LogGraph& a, const LogGraph& b, const LogCorrections& covariances) {
