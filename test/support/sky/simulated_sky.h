@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
@@ -90,6 +91,12 @@ struct SimulatedSky {
     }
   }
 };
+
+inline SimulatedSky sky_of(std::initializer_list<Walker> walkers) {
+  SimulatedSky sky;
+  for (const Walker& walker : walkers) sky.add(walker);
+  return sky;
+}
 
 // A receiver moving straight in ECEF, whose clock is off by `clock_s` at kSkyEpoch and drifts.
 struct SimulatedReceiver {

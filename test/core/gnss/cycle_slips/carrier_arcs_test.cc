@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "support/catch.h"
+#include "support/start_time.h"
 #include "tools/common/allocations/allocation_counter.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kMillisecond_m = 299'792.458;
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
+using test::kStart;
+
+constexpr double kClockJump_m = 299'792.458;
 
 // Eight satellites on L1 and L2 whose ranges change by up to 700 m/s, without noise.
 struct Receiver {
@@ -210,7 +212,7 @@ TEST_CASE("A clock that jumps by milliseconds ends no arc, whatever the receiver
     for (const bool pairs : {true, false}) {
       CAPTURE(milliseconds, pairs);
       const Receiver before;
-      const double jump_m = milliseconds * kMillisecond_m;
+      const double jump_m = milliseconds * kClockJump_m;
       // Codes jump; the epoch is sampled so much earlier.
       {
         Run run = settled_run(before, pairs);
@@ -249,7 +251,7 @@ TEST_CASE("A clock that jumps by milliseconds ends no arc, whatever the receiver
 
 TEST_CASE("A slip at the epoch of a clock jump is that satellite's alone", "[carrier_arcs]") {
   Run run = settled_run(Receiver{});
-  RawEpoch raw = Receiver{kMillisecond_m, 0.0, 1e-3}.at(20.0 - 1e-3);
+  RawEpoch raw = Receiver{kClockJump_m, 0.0, 1e-3}.at(20.0 - 1e-3);
   raw.observations[4].carrier_cycles += 9.0;
   raw.observations[5].carrier_cycles += 7.0;
   run.feed(raw);
@@ -349,7 +351,7 @@ TEST_CASE("Where the geometry cannot tell, an arc of one frequency ends, that of
     }
     // Ranges predicted for a clock that has jumped contradict the carriers, and nothing slipped.
     Receiver jumped;
-    jumped.code_jump_m = kMillisecond_m;
+    jumped.code_jump_m = kClockJump_m;
     const RawEpoch after = jumped.at(21);
     run.arcs.process(after.time, inputs_of(after, pairs), &run.epoch);
     REQUIRE(run.epoch.clock_jump.code_ms == 1);

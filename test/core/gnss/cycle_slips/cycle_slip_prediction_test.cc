@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPrediction_m = 0.01;  // 1 sigma of each axis over 1 s: a good IMU
 
-struct Case {
+struct SlipCase {
   const char* name;
   std::size_t (*slipping)(std::size_t count);
   std::size_t satellites;  // 0: all
@@ -19,7 +19,7 @@ struct Case {
 constexpr auto kOne = [](std::size_t) { return std::size_t{1}; };
 constexpr auto kHalf = [](std::size_t count) { return (count - 1) / 2; };
 constexpr auto kAllButThree = [](std::size_t count) { return count - std::min(count, 3ul); };
-constexpr Case kCases[] = {
+constexpr SlipCase kSlipCases[] = {
     {"all in view, one slips", kOne, 0, true},
     {"all in view, half of them slip", kHalf, 0, true},
     {"all in view, all but three slip", kAllButThree, 0, false},
@@ -31,17 +31,17 @@ constexpr Case kCases[] = {
     {"4 in view, one slips", kOne, 4, true},
 };
 
-struct Receiver {
+struct Detection {
   const char* name;
   bool pairs, other_detectors;
 };
-constexpr Receiver kReceivers[] = {
+constexpr Detection kDetections[] = {
     {"Single frequency", false, true},
     {"Pairs", true, true},
     {"Pairs, nothing but the range change", true, false},
 };
 
-test::SlipCounts find(const test::SlipScene& whole, const Receiver& receiver, const Case& c,
+test::SlipCounts find(const test::SlipScene& whole, const Detection& receiver, const SlipCase& c,
                       bool one_cycle) {
   test::SlipScene scene = whole;
   scene.second_signals = receiver.pairs;
@@ -62,7 +62,7 @@ test::SlipCounts find(const test::SlipScene& whole, const Receiver& receiver, co
   return test::SlipRun(scene, config).run(slips);
 }
 
-void print_heading(const Receiver& receiver, bool one_cycle) {
+void print_heading(const Detection& receiver, bool one_cycle) {
   std::cout << '\n'
             << receiver.name << (one_cycle ? ", slips of 1 cycle" : ", slips of 1 to 1000 cycles")
             << "; at once %, false/1000\n"
@@ -87,10 +87,10 @@ TEST_CASE("What a prediction adds to the slip detectors", "[cycle_slip]") {
   test::SlipScene1Hz predicted(options);
   options.prediction_sigma_m = -1.0;
   test::SlipScene1Hz unpredicted(options);
-  for (const Receiver& receiver : kReceivers) {
+  for (const Detection& receiver : kDetections) {
     for (const bool one_cycle : {true, false}) {
       print_heading(receiver, one_cycle);
-      for (const Case& c : kCases) {
+      for (const SlipCase& c : kSlipCases) {
         const test::SlipCounts with = find(predicted.scene(), receiver, c, one_cycle);
         const test::SlipCounts without = find(unpredicted.scene(), receiver, c, one_cycle);
         print(c.name, with, without);

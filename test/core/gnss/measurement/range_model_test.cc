@@ -11,7 +11,7 @@ using namespace leonav;
 
 namespace {
 
-struct Case {
+struct NamedSatellite {
   const char* name;
   SatelliteInView satellite;
 };
@@ -26,7 +26,7 @@ SatelliteInView satellite(const Eigen::Vector3d& p_e, const Eigen::Vector3d& v_e
 const Eigen::Vector3d kAntenna = to_ecef({0.7, 0.2, 100.0});
 const Eigen::Vector3d kAntennaVelocity(12.0, -25.0, 3.0);
 
-std::vector<Case> cases() {
+std::vector<NamedSatellite> cases() {
   return {{"GPS", satellite({15'600e3, 7'540e3, 20'140e3}, {-1500.0, 2400.0, 900.0})},
           {"LEO", satellite({5'700e3, 1'900e3, 4'400e3}, {-4100.0, -3100.0, 5600.0})}};
 }
@@ -34,7 +34,7 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST_CASE("range Jacobian equals numerical differentiation") {
-  for (const Case& c : cases()) {
+  for (const NamedSatellite& c : cases()) {
     INFO(c.name);
     const RangePrediction range = predict_range(c.satellite, kAntenna);
     CHECK(range.range_m == Approx((c.satellite.p_e - kAntenna).norm()).epsilon(1e-15));
@@ -49,7 +49,7 @@ TEST_CASE("range Jacobian equals numerical differentiation") {
 }
 
 TEST_CASE("range rate Jacobians equal numerical differentiation, at LEO speed too") {
-  for (const Case& c : cases()) {
+  for (const NamedSatellite& c : cases()) {
     INFO(c.name);
     const RangeRatePrediction rate = predict_range_rate(c.satellite, kAntenna, kAntennaVelocity);
     for (int i = 0; i < 3; ++i) {
@@ -120,7 +120,7 @@ TEST_CASE("the line of sight turns as two directions a second apart say") {
     const Eigen::Vector3d now = s.p_e - kAntenna, later = s.p_e + s.v_e - kAntenna;
     return std::atan2(now.cross(later).norm(), now.dot(later));
   };
-  for (const Case& c : cases()) {
+  for (const NamedSatellite& c : cases()) {
     INFO(c.name);
     CHECK(line_of_sight_rate(c.satellite, kAntenna) == Approx(turned(c.satellite)).epsilon(5e-3));
   }

@@ -3,12 +3,13 @@
 
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/signals/signal.h"
+#include "gps_5_at_noon.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kNoon = GpsTime::from_week_and_tow(2200, 4 * 86400.0 + 43200.0);
+using test::kNoon;
 
 // GPS 29 of 2023-08-17, whose message follows the real forces to a metre over hours.
 Ephemeris real_elements() {

@@ -7,13 +7,15 @@
 #include "core/base/capacity.h"
 #include "core/gnss/measurement/transmission_state.h"
 #include "core/gnss/orbits/ephemeris_store.h"
+#include "gps_5_at_noon.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kNoon = GpsTime::from_week_and_tow(2200, 4 * 86400.0 + 43200.0);
-constexpr SatelliteId kG05{System::kGps, 5};
+using test::kG05;
+using test::kNoon;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Ephemeris gps(double toe_s, std::uint16_t issue) {

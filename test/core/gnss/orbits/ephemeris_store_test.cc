@@ -6,13 +6,15 @@
 
 #include "broadcast_oracle.h"
 #include "core/base/capacity.h"
+#include "gps_5_at_noon.h"
 #include "signals/all_satellites.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kNoon = GpsTime::from_week_and_tow(2200, 4 * 86400.0 + 43200.0);
+using test::kG05;
+using test::kNoon;
 
 Ephemeris gps(int number, double toe_s, std::uint16_t issue) {
   Ephemeris e;
@@ -46,7 +48,6 @@ int issue_at(const EphemerisStore& ephemeris_store, SatelliteId id, double secon
   return used->issue;
 }
 
-constexpr SatelliteId kG05{System::kGps, 5};
 constexpr SatelliteId kE11{System::kGalileo, 11};
 
 void add_orbit(EphemerisStore* ephemeris_store, const Ephemeris& e, int first, int last,

@@ -4,12 +4,14 @@
 #include <limits>
 #include <vector>
 
+#include "gps_5_at_noon.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kNoon = GpsTime::from_week_and_tow(2200, 4 * 86400.0 + 43200.0);
+using test::kNoon;
+
 constexpr double kOffset = 1e-4, kRate = 1e-11;
 
 std::vector<ClockNode> sampled(int first, int last, double step_s) {

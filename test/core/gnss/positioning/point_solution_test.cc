@@ -28,12 +28,6 @@ Solved solve(const SimulatedSky& sky, const RawEpoch& raw,
   return solved;
 }
 
-SimulatedSky sky_of(std::initializer_list<Walker> walkers) {
-  SimulatedSky sky;
-  for (const Walker& walker : walkers) sky.add(walker);
-  return sky;
-}
-
 SimulatedReceiver moving_receiver() {
   SimulatedReceiver receiver;
   // Level: the delay models know nothing of a climb, which changes the troposphere's delay.

@@ -28,7 +28,7 @@ struct RangeError {
   double error_m = 0.0;     // broadcast range less clock, less the precise one
   std::uint32_t issue = 0;  // of the broadcast elements
 };
-using Sky = std::map<SatelliteId, RangeError>;  // of one node's time
+using SkyErrors = std::map<SatelliteId, RangeError>;  // of one node's time
 
 struct Products {
   test::Dataset data = test::read_station(true);
@@ -70,7 +70,7 @@ double antenna_m(const AntennaPatternStore& antennas, SatelliteId id, const Sate
 }
 
 // At the precise nodes of one day, whose clocks are no interpolation.
-std::vector<Sky> straying(const Products& products) {
+std::vector<SkyErrors> straying(const Products& products) {
   const Eigen::Vector3d p_e = test::station_antenna();
   std::vector<Ephemeris> ephemerides = products.data.ephemerides;
   std::stable_sort(ephemerides.begin(), ephemerides.end(),
@@ -82,14 +82,14 @@ std::vector<Sky> straying(const Products& products) {
   options.galileo_prefers_fnav =
       true;  // whose clocks are of the bands that the precise ones are of
   EphemerisStore ephemeris_store(options);
-  std::vector<Sky> skies;
+  std::vector<SkyErrors> skies;
   auto next = ephemerides.begin();
   const GpsTime first = products.data.epochs[0].time;
   for (double t = 0.0; t < 86400.0; t += kNode_s) {
     const GpsTime time = first.plus_seconds(t);
     for (; next != ephemerides.end() && next->transmission_time <= time; ++next)
       ephemeris_store.add(*next);
-    Sky& sky = skies.emplace_back();
+    SkyErrors& sky = skies.emplace_back();
     for (const auto& [id, nodes] : products.orbits) {
       SatelliteState precise, broadcast;
       if (!precise_state(nodes.data(), nodes.size(), time, 1000.0, id.system, nullptr, &precise) ||
@@ -113,7 +113,7 @@ struct Growth {
 
 // Of the satellites in view at both times, without what their system's clock takes up. `same`: only
 // those whose elements are the same.
-Growth growth(const std::vector<Sky>& skies, System system, std::size_t nodes, bool same) {
+Growth growth(const std::vector<SkyErrors>& skies, System system, std::size_t nodes, bool same) {
   Growth growth;
   for (std::size_t k = 0; k + nodes < skies.size(); ++k) {
     std::vector<double> changes;
@@ -133,9 +133,9 @@ Growth growth(const std::vector<Sky>& skies, System system, std::size_t nodes, b
 }
 
 // The same of the errors themselves, not of their changes.
-Growth size(const std::vector<Sky>& skies, System system) {
-  std::vector<Sky> with_zeros;
-  for (const Sky& sky : skies) {
+Growth size(const std::vector<SkyErrors>& skies, System system) {
+  std::vector<SkyErrors> with_zeros;
+  for (const SkyErrors& sky : skies) {
     with_zeros.push_back(sky);
     for (auto& [id, straying] : with_zeros.emplace_back(sky)) straying.error_m = 0.0;
   }
@@ -153,7 +153,7 @@ Growth size(const std::vector<Sky>& skies, System system) {
 TEST_CASE("Broadcast orbits and clocks wander as an ambiguity's random walk says", "[data]") {
   if (!test::have_shared_data("station/ESBC00DNK_2020177.nav")) return;
   const Products products;
-  const std::vector<Sky> skies = straying(products);
+  const std::vector<SkyErrors> skies = straying(products);
   for (const System system : {System::kGps, System::kGalileo}) {
     std::cout << to_string(system) << ", broadcast less precise: " << std::fixed
               << std::setprecision(3) << size(skies, system).rms_m() << " m rms; changes over";

@@ -16,7 +16,6 @@
 namespace leonav::test {
 namespace {
 
-constexpr double kStep_s = 30.0;
 constexpr int kChange = 5;  // the epoch of the change
 
 struct Follower {

@@ -6,11 +6,12 @@
 
 #include "core/gnss/measurement/range_model.h"
 #include "support/catch.h"
+#include "support/start_time.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
+using test::kStart;
 
 // Satellites on L1 at rest; fills `epoch` as the preparation of measurements does.
 void add_carrier(CarrierPreprocessor* preprocessor, double t,

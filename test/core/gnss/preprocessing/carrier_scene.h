@@ -4,6 +4,8 @@
 
 namespace leonav::test {
 
+inline constexpr double kStep_s = 30.0;  // between its epochs
+
 struct CarrierScene {
   SimulatedSky sky;
   SimulatedReceiver receiver;

@@ -5,11 +5,13 @@
 
 #include "core/gnss/preprocessing/carrier_preprocessor.h"
 #include "support/catch.h"
+#include "support/start_time.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
+using test::kStart;
+
 const SatelliteId kSatellite{System::kGps, 7};
 
 SignalObservation signal_of(SignalCode code, bool with_code = true, bool with_carrier = true) {

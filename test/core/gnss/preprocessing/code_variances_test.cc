@@ -19,7 +19,7 @@ namespace {
 
 using test::kSkyEpoch;
 
-struct Case {
+struct CodeCase {
   System system;
   std::vector<SignalCode> bands;
   std::size_t second;  // of the pair, beside the first
@@ -27,7 +27,7 @@ struct Case {
   double elevation;
 };
 
-const Case kCases[] = {
+const CodeCase kCodeCases[] = {
     {System::kGps, {{'1', 'C'}, {'2', 'W'}}, 1, WeightModel::kElevation, 1.0},
     {System::kGps, {{'1', 'C'}, {'5', 'Q'}, {'2', 'W'}}, 2, WeightModel::kElevation, 0.3},
     {System::kGalileo, {{'1', 'C'}, {'5', 'Q'}, {'7', 'Q'}}, 1, WeightModel::kCn0, 0.5},
@@ -41,7 +41,7 @@ struct Codes {
   SatelliteInView view;
   Eigen::Vector3d p_e = to_ecef({0.69, 0.14, 300.0});
 
-  explicit Codes(const Case& of) {
+  explicit Codes(const CodeCase& of) {
     config.weight_model = of.weights;
     view.satellite = {of.system, 7};
     view.source = OrbitSource::kBroadcast;
@@ -85,7 +85,7 @@ struct Codes {
 
 TEST_CASE(
     "variances of a code's combinations are those of the codes that it would be measured by") {
-  const Case& of = kCases[GENERATE(range(0, 4))];
+  const CodeCase& of = kCodeCases[GENERATE(range(0, 4))];
   CAPTURE(of.system, of.second);
   Codes codes(of);
   codes.klobuchar.valid = GENERATE(false, true);
@@ -116,7 +116,7 @@ double slant_in_shell(double elevation) {
 }
 
 TEST_CASE("what the ionosphere's model leaves in common is half of the variance, by the slant") {
-  const Case& of = kCases[GENERATE(range(0, 4))];
+  const CodeCase& of = kCodeCases[GENERATE(range(0, 4))];
   CAPTURE(of.system, of.elevation);
   Codes codes(of);
   codes.klobuchar = {
@@ -167,7 +167,7 @@ TEST_CASE("a code contains of the ionosphere what the delay of its band has not 
 }
 
 TEST_CASE("without a position no variances of a code are known") {
-  const CodeVariances variances = Codes(kCases[0]).variances(1, false);
+  const CodeVariances variances = Codes(kCodeCases[0]).variances(1, false);
   CHECK(variances.pair_noise == 0.0);
   CHECK(variances.single_noise == 0.0);
   CHECK(variances.ionosphere == 0.0);

@@ -24,7 +24,7 @@ OceanLoading coast() {
   return loading;
 }
 
-struct Scene : CarrierScene {
+struct StandingScene : CarrierScene {
   std::unique_ptr<MeasurementEpoch> preprocessed(const GnssConfig& config, double t) {
     const RawEpoch raw = at(t, C_en());
     CarrierPreprocessor preprocessor(config.cycle_slips);
@@ -42,7 +42,7 @@ void check_ranges(const GnssConfig& without, const GnssConfig& with, Displacemen
   double largest = 0.0, worst = 0.0;
   int codes = 0, carriers = 0;
   for (const double t : {0.0, 3'000.0, 6'000.0}) {
-    Scene scene, again;  // new ones: the ambiguities are drawn in order of appearance
+    StandingScene scene, again;  // new ones: the ambiguities are drawn in order of appearance
     const auto before = scene.preprocessed(without, t);
     const auto after = again.preprocessed(with, t);
     const Eigen::Vector3d d_e = displacement_e(scene.receiver.p_e, kSkyEpoch.plus_seconds(t));

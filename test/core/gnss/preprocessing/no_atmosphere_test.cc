@@ -11,21 +11,21 @@ using namespace leonav::test;
 
 namespace {
 
-struct Solved {
+struct SolvedEpoch {
   bool is_good = false;
   double error_m = 0.0;
   std::unique_ptr<MeasurementEpoch> epoch = std::make_unique<MeasurementEpoch>();
 };
 
 // One epoch without noise, in motion.
-Solved solve(bool is_delayed, const GnssConfig& config) {
+SolvedEpoch solve(bool is_delayed, const GnssConfig& config) {
   SimulatedReceiver receiver;
   receiver.v_e = {3.0, -2.0, 5.0};
   receiver.atmosphere = is_delayed;
   SimulatedSky sky;
   sky.add(gps_walker());
   sky.add(galileo_walker());
-  Solved solved;
+  SolvedEpoch solved;
   const PointSolution point =
       solve_point(simulate_epoch(sky, receiver, 0.0), sky.ephemeris_store, config, RobustConfig{},
                   Eigen::Vector3d::Zero(), solved.epoch.get());
@@ -47,13 +47,13 @@ TEST_CASE("without an atmosphere no delay is modelled, of pairs and of one frequ
     for (const bool is_delayed : {true, false}) {
       const GnssConfig& right = is_delayed ? standard : none;
       const GnssConfig& wrong = is_delayed ? none : standard;
-      const Solved solved = solve(is_delayed, right);
+      const SolvedEpoch solved = solve(is_delayed, right);
       CHECK(solved.is_good);
       CHECK(solved.error_m < 0.1);
-      const Solved contradicted = solve(is_delayed, wrong);
+      const SolvedEpoch contradicted = solve(is_delayed, wrong);
       CHECK((!contradicted.is_good || contradicted.error_m > 1.0));
     }
-    const Solved solved = solve(false, none);
+    const SolvedEpoch solved = solve(false, none);
     for (const SatelliteInView& view : solved.epoch->satellites) {
       CHECK(view.troposphere_m == 0.0);
       CHECK(view.ionosphere_l1_m == 0.0);

@@ -14,11 +14,9 @@ using namespace leonav::test;
 
 namespace {
 
-constexpr double kStep_s = 30.0;
-
 // An antenna that turns about the vertical.
-struct Scene : CarrierScene {
-  Scene() {
+struct TurningScene : CarrierScene {
+  TurningScene() {
     receiver.clock_s = 3e-4;
     receiver.clock_drift = 1e-8;
   }
@@ -34,7 +32,8 @@ struct Differences {
 };
 
 // Carrier minus code, per arc, less what it was at first.
-std::map<std::uint32_t, Differences> run(Scene* scene, const GnssConfig& config, int epochs) {
+std::map<std::uint32_t, Differences> run(TurningScene* scene, const GnssConfig& config,
+                                         int epochs) {
   CarrierPreprocessor preprocessor(config.cycle_slips);
   ReceiverCodeBiases biases;
   std::map<std::uint32_t, Differences> arcs;
@@ -81,7 +80,7 @@ GnssConfig config_of(CodeCombination combination) {
 TEST_CASE("carrier minus code is one constant per arc, in pairs and on one frequency") {
   for (const auto combination :
        {CodeCombination::kIonosphereFree, CodeCombination::kSingleFrequency}) {
-    Scene scene;
+    TurningScene scene;
     if (combination == CodeCombination::kSingleFrequency)
       scene.receiver.signals = {{{'1', 'C'}, 45.0}};
     int long_arcs = 0;
@@ -102,7 +101,7 @@ TEST_CASE("carrier minus code is one constant per arc, in pairs and on one frequ
 }
 
 TEST_CASE("without the antenna's turns in the wind-up, carriers drift by wavelengths") {
-  Scene scene;
+  TurningScene scene;
   const GnssConfig config = config_of(CodeCombination::kIonosphereFree);
   CarrierPreprocessor preprocessor(config.cycle_slips);
   const auto epoch = std::make_unique<MeasurementEpoch>();

@@ -17,12 +17,6 @@ using namespace leonav::test;
 
 namespace {
 
-SimulatedSky sky_of(std::initializer_list<Walker> walkers) {
-  SimulatedSky sky;
-  for (const Walker& walker : walkers) sky.add(walker);
-  return sky;
-}
-
 // Every satellite that has a name: some hundred of them above the horizon.
 SimulatedSky crowded_sky() {
   return sky_of({{System::kGps, 9, 7, 26'560e3, 0.96, 0.008},

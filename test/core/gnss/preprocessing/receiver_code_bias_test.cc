@@ -9,7 +9,7 @@ using namespace leonav;
 
 namespace {
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 0.0);
+const GpsTime kBeginOfWeek = GpsTime::from_week_and_tow(2200, 0.0);
 
 InterBandDifferences around(double value, double sigma, std::mt19937* generator) {
   std::normal_distribution<double> normal;
@@ -20,7 +20,7 @@ InterBandDifferences around(double value, double sigma, std::mt19937* generator)
 }
 
 void feed(ReceiverCodeBiases* biases, int epoch, const InterBandDifferences& differences) {
-  biases->open(kStart.plus_seconds(epoch));
+  biases->open(kBeginOfWeek.plus_seconds(epoch));
   biases->set_reference(System::kGps, '1');
   biases->update(System::kGps, '5', differences);
 }
@@ -115,7 +115,7 @@ TEST_CASE("a delay and what it contains of the ionosphere are filtered alike") {
       zenith = 1.0;
       biases.step_ionosphere_model(1.4);
     }
-    biases.open(kStart.plus_seconds(epoch));
+    biases.open(kBeginOfWeek.plus_seconds(epoch));
     InterBandDifferences differences;
     for (const double high : {1.0, 1.2, 1.3, 1.7, 2.4}) {
       const double mapping = high + 1e-3 * epoch;

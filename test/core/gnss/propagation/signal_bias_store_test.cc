@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "core/base/capacity.h"
+#include "orbits/gps_5_at_noon.h"
 #include "signals/all_satellites.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
+using test::kG05;
+
 const GpsTime kTime = GpsTime::from_week_and_tow(2300, 1000.0);
-constexpr SatelliteId kG05{System::kGps, 5};
 
 SignalBias bias(const char* code, double bias_m) {
   return {kG05, *signal_from_string(code), BiasKind::kCode, kTime, bias_m};
