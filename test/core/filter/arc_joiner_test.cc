@@ -2,13 +2,15 @@
 
 #include "core/filter/state/ambiguities.h"
 #include "core/gnss/measurement/weighting.h"
+#include "gps_pair.h"
 #include "support/catch.h"
 
 using namespace leonav;
+using test::kL1;
+using test::kL2;
 
 namespace {
 
-constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
 constexpr double kGap_s = 20.0;
 constexpr double kOnePair = 0.5;  // of one pair of arcs alone no more is known
 const SatelliteId kSatellite{System::kGps, 7};
@@ -25,7 +27,7 @@ struct Scene {
 
 double cycles_m() {
   const IonosphereFree pair = ionosphere_free(kL1, kL2);
-  return pair.gamma1 * kC / kL1 * 1000.0 - pair.gamma2 * kC / kL2 * 400.0;
+  return pair.gamma1 * kSpeedOfLight / kL1 * 1000.0 - pair.gamma2 * kSpeedOfLight / kL2 * 400.0;
 }
 
 class Run {
@@ -36,8 +38,9 @@ class Run {
     observe(1, 0.0, 45.0, 2.0, {}, false);
     observe(1, 1.0, scene.cn0_before, 2.0, {}, false);
     // Carriers are continuous over an arc: a half cycle found later was in it from the start.
-    const double geometry_free_m =
-        2.0 + 1000.0 * kC / kL1 + 400.0 * kC / kL2 + scene.geometry_free_step_m + scene.repaired_m;
+    const double geometry_free_m = 2.0 + 1000.0 * kSpeedOfLight / kL1 +
+                                   400.0 * kSpeedOfLight / kL2 + scene.geometry_free_step_m +
+                                   scene.repaired_m;
     second_attribute_ = scene.second_attribute;
     observe(2, 1.0 + kGap_s, scene.cn0_after, geometry_free_m, {}, scene.half_cycle);
     factor_ = scene.factor;
@@ -80,7 +83,7 @@ class Run {
     carrier.arc = arc;
     carrier.code = {'1', 'C'};
     carrier.second_code = {'2', second_attribute_};
-    carrier.cycles.wavelength_m = {kC / kL1, kC / kL2};
+    carrier.cycles.wavelength_m = {kSpeedOfLight / kL1, kSpeedOfLight / kL2};
     carrier.cycles.gamma = {pair.gamma1, pair.gamma2};
     carrier.cycles.geometry_free_m = geometry_free_m;
     carrier.cycles.geometry_free_noise = {0.003, 0.0003, 0.00001};
@@ -134,7 +137,7 @@ TEST_CASE("an ambiguity keeps what is known of a wrong join") {
   // The nearest other cycles that fit are one of each frequency away, or further.
   const IonosphereFree pair = ionosphere_free(kL1, kL2);
   CHECK(run.state().ambiguities[0].wrong_join_m >
-        0.9 * (pair.gamma1 * kC / kL1 + pair.gamma2 * kC / kL2));
+        0.9 * (pair.gamma1 * kSpeedOfLight / kL1 + pair.gamma2 * kSpeedOfLight / kL2));
 }
 
 TEST_CASE("arcs of other signals on the same frequencies are not joined") {
@@ -147,7 +150,7 @@ TEST_CASE("a carrier that an update has rejected says nothing of its arc") {
 }
 
 TEST_CASE("half cycles repaired in an arc are not whole cycles of another") {
-  const Run run{Scene{.repaired_m = 0.5 * kC / kL1}};
+  const Run run{Scene{.repaired_m = 0.5 * kSpeedOfLight / kL1}};
   CHECK(run.joined == 1);
 }
 

@@ -22,9 +22,9 @@ double of_lasting(double time_s, double interval_s) {
 }
 
 // A receiver of eight satellites, of which so many have an arc that has gone on.
-class Receiver {
+class CodeReceiver {
  public:
-  explicit Receiver(std::size_t arcs, double interval_s = 1.0)
+  explicit CodeReceiver(std::size_t arcs, double interval_s = 1.0)
       : arcs_(arcs), interval_s_(interval_s) {
     for (std::uint32_t arc = 1; arc <= arcs; ++arc)
       ambiguities_.push_back({arc, {}, 0.0, 0.0, {}, {}, 0});
@@ -97,14 +97,14 @@ double expected(double counted_s, double interval_s = 1.0) {
 }
 
 TEST_CASE("carriers keep the position while five arcs and more go on") {
-  CHECK(Receiver(8).model().carriers_keep_position());
-  CHECK(Receiver(5).model().carriers_keep_position());
-  CHECK_FALSE(Receiver(4).model().carriers_keep_position());
-  CHECK_FALSE(Receiver(2).model().carriers_keep_position());
+  CHECK(CodeReceiver(8).model().carriers_keep_position());
+  CHECK(CodeReceiver(5).model().carriers_keep_position());
+  CHECK_FALSE(CodeReceiver(4).model().carriers_keep_position());
+  CHECK_FALSE(CodeReceiver(2).model().carriers_keep_position());
 }
 
 TEST_CASE("arcs have five seconds to go on; where none does, codes hold the position") {
-  Receiver none(0);
+  CodeReceiver none(0);
   for (int second = 0; second < 5; ++second) {
     CHECK(none.model().carriers_keep_position());
     none.step();
@@ -115,13 +115,13 @@ TEST_CASE("arcs have five seconds to go on; where none does, codes hold the posi
   none.reset();
   CHECK(none.model().carriers_keep_position());
   // Epochs after a tunnel have new arcs, which may go on.
-  Receiver after_tunnel(0, 20.0);
+  CodeReceiver after_tunnel(0, 20.0);
   CHECK(after_tunnel.model().carriers_keep_position());
   CHECK(none.model().carriers_keep_position());
 }
 
 TEST_CASE("a position that is soon forgotten leaves all of a code inflated as its reflections") {
-  Receiver receiver(2);
+  CodeReceiver receiver(2);
   const double plain = kInflation * kSigma * kSigma;
   CHECK(receiver.gain_variance() == Approx(plain));  // nothing is known of the memory yet
   receiver.update(0.1);
@@ -133,7 +133,7 @@ TEST_CASE("a position that is soon forgotten leaves all of a code inflated as it
 TEST_CASE("what lasts is inflated for a twentieth of the position's memory, at most for 20 s") {
   const double interval_s = GENERATE(1.0, 0.2);
   CAPTURE(interval_s);
-  Receiver receiver(2, interval_s);
+  CodeReceiver receiver(2, interval_s);
   double before = 0.0;
   for (const double memory_s : {100.0, 200.0, 300.0, 400.0}) {
     receiver.update(1.0 - interval_s / memory_s);
@@ -151,7 +151,7 @@ TEST_CASE("what lasts is inflated for a twentieth of the position's memory, at m
 }
 
 TEST_CASE("what lasts shorter than the memory is inflated for as long as it lasts") {
-  Receiver receiver(2);
+  CodeReceiver receiver(2);
   receiver.update(0.9999);
   CHECK(receiver.gain_variance(6.0) == Approx(expected(6.0)));
   CHECK(receiver.gain_variance(6000.0, 1e-3) == Approx(expected(6.0)));
@@ -159,7 +159,7 @@ TEST_CASE("what lasts shorter than the memory is inflated for as long as it last
 }
 
 TEST_CASE("without carriers that keep the position no code is scheduled, and with them all are") {
-  Receiver few(2), many(8);
+  CodeReceiver few(2), many(8);
   few.update(0.9999);
   many.update(0.9999);
   for (int i = 0; i < 10; ++i) few.step(), many.step();
@@ -170,7 +170,7 @@ TEST_CASE("without carriers that keep the position no code is scheduled, and wit
 TEST_CASE("codes of a satellite whose carrier drifts by a reflection keep more of their weight") {
   // The variance of a code after a minute of them.
   const auto after_minute = [](double reflected_walk) {
-    Receiver receiver(8);
+    CodeReceiver receiver(8);
     double variance = 0.0;
     for (int i = 0; i < 60; ++i) {
       receiver.step();
@@ -184,7 +184,7 @@ TEST_CASE("codes of a satellite whose carrier drifts by a reflection keep more o
 }
 
 TEST_CASE("updates of no interval or of no variance leave the memory as it is") {
-  Receiver receiver(2);
+  CodeReceiver receiver(2);
   receiver.update(0.99);
   const double before = receiver.gain_variance();
   receiver.add_update(0.0, 0.0, 1.0);

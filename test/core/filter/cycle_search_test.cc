@@ -5,18 +5,19 @@
 
 #include "core/base/square.h"
 #include "core/gnss/measurement/weighting.h"
+#include "gps_pair.h"
 #include "support/catch.h"
 
 using namespace leonav;
+using test::kL1;
+using test::kL2;
 
 namespace {
-
-constexpr double kC = 299792458.0, kL1 = 1575.42e6, kL2 = 1227.60e6;
 
 CycleEquations equations_of(double n1, double n2, double sigma_m, double geometry_free_sigma_m) {
   const IonosphereFree pair = ionosphere_free(kL1, kL2);
   CycleEquations e;
-  e.wavelength_m = {kC / kL1, kC / kL2};
+  e.wavelength_m = {kSpeedOfLight / kL1, kSpeedOfLight / kL2};
   e.gamma = {pair.gamma1, pair.gamma2};
   e.difference_m = pair.gamma1 * e.wavelength_m[0] * n1 + pair.gamma2 * e.wavelength_m[1] * n2;
   e.geometry_free_m = e.wavelength_m[0] * n1 - e.wavelength_m[1] * n2;
@@ -88,7 +89,7 @@ TEST_CASE("a geometry-free change that no cycles explain is refused") {
 TEST_CASE("the likelihood ratio is one on average over differences of any length") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> length(-50.0, 50.0);
-  for (const double second : {0.0, kC / kL2}) {
+  for (const double second : {0.0, kSpeedOfLight / kL2}) {
     double mean = 0.0;
     constexpr int kDraws = 20000;
     for (int i = 0; i < kDraws; ++i) {
@@ -107,7 +108,7 @@ TEST_CASE("the likelihood ratio is one on average over differences of any length
 
 TEST_CASE("on one frequency the difference alone decides") {
   CycleEquations e;
-  e.wavelength_m = {kC / kL1, 0.0};
+  e.wavelength_m = {kSpeedOfLight / kL1, 0.0};
   e.difference_m = 12.0 * e.wavelength_m[0] + 0.01;
   e.difference_sigma_m = 0.02;
   const CycleSearch search = search_cycles(e);

@@ -14,7 +14,7 @@ using namespace ekf_index;
 using Eigen::Vector3d;
 using synthetic::Generator;
 
-constexpr double kStep = 0.005;
+constexpr double kSample_s = 0.005;
 constexpr int kPerSecond = 200;
 
 ImuErrorModel tactical() {
@@ -28,7 +28,7 @@ ImuErrorModel tactical() {
   return model;
 }
 
-struct Outcome {
+struct TunnelOutcome {
   double error_m = 0.0, sigma_m = 0.0;
   double nees_position = 0.0;
   int lost = 0;
@@ -36,7 +36,7 @@ struct Outcome {
 
 // Two minutes under open sky, then a tunnel of 60 s. Each sample begins with probability `loss` a
 // hole of `burst` samples.
-Outcome tunnel(double loss, int burst, std::uint64_t seed) {
+TunnelOutcome tunnel(double loss, int burst, std::uint64_t seed) {
   constexpr int kOpen = 120, kTunnel = 60;
   Generator noise(seed), losses(seed + 77);
   const EkfConfig config;
@@ -62,20 +62,20 @@ Outcome tunnel(double loss, int burst, std::uint64_t seed) {
                       synthetic::mems().gyro_bias.sigma);
   Mechanization mechanization;
   mechanization.reset(state);
-  Outcome outcome;
+  TunnelOutcome outcome;
   int still_lost = 0;
   for (int second = 0; second < kOpen + kTunnel; ++second) {
     std::vector<ImuSample> block;
     Vector3d rate_b = Vector3d::Zero();
     for (int k = 0; k < kPerSecond; ++k) {
-      const double t = second + k * kStep;
+      const double t = second + k * kSample_s;
       const synthetic::Maneuver maneuver{.yaw_rate = 0.2 * std::sin(0.4 * t),
                                          .acceleration = 1.5 * std::cos(0.5 * t)};
-      const ImuSample ideal = synthetic::ideal_sample(mechanization.state(), maneuver, kStep);
+      const ImuSample ideal = synthetic::ideal_sample(mechanization.state(), maneuver, kSample_s);
       mechanization.advance(ideal);
-      synthetic::advance_errors(model, kStep, &errors, &noise);
+      synthetic::advance_errors(model, kSample_s, &errors, &noise);
       const ImuSample measured = synthetic::with_errors(ideal, model, errors, &noise);
-      rate_b = ideal.delta_theta_b / kStep;
+      rate_b = ideal.delta_theta_b / kSample_s;
       if (losses.uniform() < loss) still_lost = burst;
       if (still_lost > 0) {
         --still_lost;
@@ -106,7 +106,7 @@ TEST_CASE("samples lost one by one hardly change where the filter leaves a tunne
   constexpr int kRuns = 5;
   double error2_whole = 0.0, sigma_whole = 0.0;
   for (int run = 0; run < kRuns; ++run) {
-    const Outcome whole = tunnel(0.0, 1, 40 + static_cast<std::uint64_t>(run));
+    const TunnelOutcome whole = tunnel(0.0, 1, 40 + static_cast<std::uint64_t>(run));
     error2_whole += whole.error_m * whole.error_m;
     sigma_whole = std::max(sigma_whole, whole.sigma_m);
   }
@@ -114,7 +114,7 @@ TEST_CASE("samples lost one by one hardly change where the filter leaves a tunne
     double error2 = 0.0, sigma = 0.0;
     int lost = 0;
     for (int run = 0; run < kRuns; ++run) {
-      const Outcome holed = tunnel(loss, 1, 40 + static_cast<std::uint64_t>(run));
+      const TunnelOutcome holed = tunnel(loss, 1, 40 + static_cast<std::uint64_t>(run));
       error2 += holed.error_m * holed.error_m;
       sigma = std::max(sigma, holed.sigma_m);
       lost += holed.lost;
@@ -131,7 +131,7 @@ TEST_CASE("samples lost one by one hardly change where the filter leaves a tunne
 
 TEST_CASE("a tenth of a second lost at a time is bridged within its stated sigma") {
   for (std::uint64_t seed = 60; seed < 64; ++seed) {
-    const Outcome outcome = tunnel(2e-4, 20, seed);
+    const TunnelOutcome outcome = tunnel(2e-4, 20, seed);
     WARN("holes of 0.1 s, " << outcome.lost << " samples lost: " << outcome.error_m << " m (sigma "
                             << outcome.sigma_m << " m)");
     CHECK(outcome.lost >= 20);

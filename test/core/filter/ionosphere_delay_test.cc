@@ -24,9 +24,9 @@ constexpr double kZenithSigma = 3.0, kNoise = 0.5;
 double mapping(const SatelliteInView& satellite) { return 1.0 / std::sin(satellite.elevation); }
 
 // A receiver that moves and keeps time as its filter assumes, with codes of one frequency.
-class Receiver {
+class DelayedReceiver {
  public:
-  explicit Receiver(std::uint64_t seed) : noise_(seed) {
+  explicit DelayedReceiver(std::uint64_t seed) : noise_(seed) {
     truth_.p_antenna_e = start_position();
     truth_.clocks.offset_m.setConstant(100.0);
     delay_m_ = kZenithSigma * noise_.normal();
@@ -99,7 +99,7 @@ TEST_CASE("the zenith delay is found, and errors are as large as the covariance 
   double delay = 0.0;
   Vector3d position = Vector3d::Zero();
   for (int run = 0; run < kDraws; ++run) {
-    Receiver receiver(static_cast<std::uint64_t>(run) + 1);
+    DelayedReceiver receiver(static_cast<std::uint64_t>(run) + 1);
     receiver.run(20);
     delay += std::pow(receiver.delay_error() / receiver.delay_sigma(), 2) / kDraws;
     position += (receiver.position_error_ned().array() / receiver.position_sigma_ned().array())
@@ -116,7 +116,7 @@ TEST_CASE("the zenith delay is found, and errors are as large as the covariance 
 }
 
 TEST_CASE("a common delay does not make the horizontal position less certain") {
-  Receiver told(7), untold(7);
+  DelayedReceiver told(7), untold(7);
   told.run(60);
   untold.run(60, false);
   CHECK(told.position_sigma_ned().head<2>().norm() <
@@ -126,7 +126,7 @@ TEST_CASE("a common delay does not make the horizontal position less certain") {
 }
 
 TEST_CASE("a delay that no code shows any more becomes uncertain again; a new start forgets it") {
-  Receiver receiver(3);
+  DelayedReceiver receiver(3);
   receiver.run(60);
   const double known = receiver.delay_sigma();
   receiver.run(600, false);
@@ -140,7 +140,7 @@ TEST_CASE("a delay that no code shows any more becomes uncertain again; a new st
 TEST_CASE("a step of the model moves the delay by as much, once, and widens it by its square") {
   constexpr double kStep = 4.0;
   const auto after = [](double step_m) {
-    Receiver receiver(5);
+    DelayedReceiver receiver(5);
     receiver.see(System::kGps, 8);
     receiver.run(120);
     // One satellite of a system that begins: its clock is started from the predicted measurements,
@@ -150,8 +150,10 @@ TEST_CASE("a step of the model moves the delay by as much, once, and widens it b
     receiver.run(1);
     return receiver;
   };
-  const Receiver stepped = after(kStep), undisturbed = after(0.0);
-  const auto delay = [](const Receiver& r) { return r.filter().filter_state().ionosphere_m; };
+  const DelayedReceiver stepped = after(kStep), undisturbed = after(0.0);
+  const auto delay = [](const DelayedReceiver& r) {
+    return r.filter().filter_state().ionosphere_m;
+  };
   CHECK(delay(stepped) - delay(undisturbed) == Approx(-kStep).margin(0.3));
   CHECK(std::pow(stepped.delay_sigma(), 2) - std::pow(undisturbed.delay_sigma(), 2) ==
         Approx(kStep * kStep).epsilon(0.02));
@@ -161,15 +163,15 @@ TEST_CASE("a step of the model moves the delay by as much, once, and widens it b
 TEST_CASE("other coefficients of the model move the delay and not the position") {
   constexpr double kStep = 4.0;
   const auto after = [](bool stepped, bool told) {
-    Receiver receiver(5);
+    DelayedReceiver receiver(5);
     receiver.run(120);
     if (stepped) receiver.step_model(kStep, told);
     receiver.run(1);
     return receiver;
   };
-  const Receiver undisturbed = after(false, false), followed = after(true, true),
-                 untold = after(true, false);
-  const auto moved = [&](const Receiver& receiver) {
+  const DelayedReceiver undisturbed = after(false, false), followed = after(true, true),
+                        untold = after(true, false);
+  const auto moved = [&](const DelayedReceiver& receiver) {
     return (receiver.position_error_ned() - undisturbed.position_error_ned()).norm();
   };
   CHECK(moved(followed) < 0.2);

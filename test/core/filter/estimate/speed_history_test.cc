@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kPoint_b{-1.0, 0.5, 0.0};
+const Vector3d kSpeedPoint_b{-1.0, 0.5, 0.0};
 
 GpsTime at(double t) { return synthetic::kStart.plus_seconds(t); }
 
@@ -67,11 +67,11 @@ TEST_CASE("the speed is that of the point, along the direction of travel") {
   FilterState state = state_at(0.0, 10.0);
   state.vehicle = {0.1, 0.0};
   const Vector3d rate_b{0.0, 0.0, 0.4};
-  SpeedHistory history(kPoint_b);
+  SpeedHistory history(kSpeedPoint_b);
   history.add(state, rate_b);
   // (10 - 0.4 * 0.5, -0.4, 0) m/s of the point
   CHECK(history.last() == Approx(9.8 * std::cos(0.1) - 0.4 * std::sin(0.1)).margin(1e-3));
-  CHECK(history.last() == forward_speed(state, rate_b, kPoint_b));
+  CHECK(history.last() == forward_speed(state, rate_b, kSpeedPoint_b));
 }
 
 }  // namespace leonav

@@ -13,7 +13,7 @@ namespace {
 using namespace ekf_index;
 using Eigen::Vector3d;
 
-FilterState turning_state() {
+FilterState turning_filter_state() {
   FilterState state;
   state.nav.time = synthetic::kStart;
   state.nav.p_e = synthetic::start_position();
@@ -36,7 +36,7 @@ StateEstimate after_a_second(const EkfConfig& config, const FilterState& state) 
 TEST_CASE(
     "a constraint's innovation and variance are the prediction's, and the residual is what the "
     "update left") {
-  StateEstimate estimate = after_a_second(EkfConfig(), turning_state());
+  StateEstimate estimate = after_a_second(EkfConfig(), turning_filter_state());
   const auto& P = estimate.covariance();
   MotionMeasurements two(2);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -60,7 +60,7 @@ TEST_CASE("a vehicle constant that joins later gets its own state and leaves all
   EkfConfig config;
   config.keep_process = true;
   config.vehicle = {2, {0.02, 0.02, 0.03}, {1e-5, 1e-5, 1e-6}};
-  FilterState state = turning_state();
+  FilterState state = turning_filter_state();
   state.vehicle = {0.01, 0.02};
   StateEstimate estimate = after_a_second(config, state);
   for (std::size_t i = 0; i < 3; ++i) {

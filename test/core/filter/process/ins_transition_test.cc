@@ -15,7 +15,7 @@ namespace {
 using namespace ekf_index;
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.005;
+constexpr double kInterval_s = 0.005;
 
 NavState start_state() {
   NavState state;
@@ -35,14 +35,14 @@ NavState start_state() {
 std::vector<ImuSample> lively_samples(int count) {
   std::vector<ImuSample> samples;
   for (int k = 0; k < count; ++k) {
-    const double t = (k + 0.5) * kStep;
+    const double t = (k + 0.5) * kInterval_s;
     ImuSample sample;
-    sample.interval_ns = std::llround(kStep * 1e9);
+    sample.interval_ns = std::llround(kInterval_s * 1e9);
     sample.time = synthetic::kStart.plus_nanoseconds((k + 1) * sample.interval_ns);
     sample.delta_theta_b =
-        kStep * Vector3d{0.5 * std::sin(3 * t), 0.3 * std::cos(2 * t), 1.0 * std::sin(t + 1)};
+        kInterval_s * Vector3d{0.5 * std::sin(3 * t), 0.3 * std::cos(2 * t), 1.0 * std::sin(t + 1)};
     sample.delta_velocity_b =
-        kStep * Vector3d{2.0 * std::sin(t), 3.0 * std::cos(3 * t), -9.8 + std::sin(5 * t)};
+        kInterval_s * Vector3d{2.0 * std::sin(t), 3.0 * std::cos(3 * t), -9.8 + std::sin(5 * t)};
     samples.push_back(sample);
   }
   return samples;

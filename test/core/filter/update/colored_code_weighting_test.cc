@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "support/catch.h"
+#include "support/start_time.h"
 
 using namespace leonav;
 
 namespace {
-
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
 
 Measurement code_of(double noise, double correlated) {
   Measurement code;
@@ -47,7 +46,7 @@ TEST_CASE("what codes with correlated errors weigh adds up to the best estimate'
       int place = -1;
       const double variance = schedule.weigh(
           code, {System::kGps, 7}, {.orbit_issue = 3, .correlation_time_s = c.time_s},
-          c.noise * c.noise, kStart.plus_seconds(c.dt * k), &place);
+          c.noise * c.noise, test::kStart.plus_seconds(c.dt * k), &place);
       REQUIRE(variance > 0.0);
       schedule.accept(place);
       information += 1.0 / variance;
@@ -66,7 +65,7 @@ TEST_CASE("a code that was not used has told nothing, and another orbit errs ane
   int place = -1;
   ColoredCodeWeighting::CodeErrorModel error_model{.orbit_issue = 3, .correlation_time_s = 3600.0};
   const auto weigh = [&](double t) {
-    return schedule.weigh(code, satellite, error_model, 0.09, kStart.plus_seconds(t), &place);
+    return schedule.weigh(code, satellite, error_model, 0.09, test::kStart.plus_seconds(t), &place);
   };
   CHECK(weigh(0.0) == Approx(plain));
   CHECK(weigh(30.0) == Approx(plain));  // the first was not accepted
