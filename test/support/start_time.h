@@ -4,6 +4,6 @@
 
 namespace leonav::test {
 
-inline const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
+inline const GpsTime kAnyTime = GpsTime::from_week_and_tow(2200, 1000.0);
 
 }  // namespace leonav::test

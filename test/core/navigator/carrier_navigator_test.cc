@@ -10,7 +10,7 @@
 namespace leonav::test {
 namespace {
 
-struct Errors {
+struct ErrorCounts {
   int epochs = 0, within = 0;  // of three components each
   double squares = 0.0;
   double rms() const { return std::sqrt(squares / epochs); }
@@ -29,7 +29,7 @@ void disturb_clocks(SyntheticDrive* drive) {
 }
 
 void add_errors(const SyntheticDrive& drive, Orbits orbits, const NavigatorConfig& config,
-                Errors* errors) {
+                ErrorCounts* errors) {
   RecordingSink sink;
   Navigator pipeline(config, &sink);
   ProductNodes product(drive.ephemerides, 30.0, 180.0);
@@ -54,8 +54,8 @@ void add_errors(const SyntheticDrive& drive, Orbits orbits, const NavigatorConfi
 }
 
 // Errors without carriers, and with.
-std::array<Errors, 2> drive_errors(MotionModel motion, Orbits orbits) {
-  std::array<Errors, 2> errors;
+std::array<ErrorCounts, 2> drive_errors(MotionModel motion, Orbits orbits) {
+  std::array<ErrorCounts, 2> errors;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SyntheticDriveOptions options;
     options.duration_s = 240.0;

@@ -13,7 +13,7 @@ using ekf_index::kOdometerScale;
 
 constexpr double kTunnelBegin_s = 110.0, kTunnelEnd_s = 170.0;
 
-SyntheticDriveOptions noisy_drive() {
+SyntheticDriveOptions biased_drive() {
   SyntheticDriveOptions options;
   options.duration_s = 200.0;
   options.code_sigma_m = 1.0;
@@ -78,7 +78,7 @@ double worst_in_tunnel(const Outcome& outcome, const SyntheticDrive& drive) {
 
 TEST_CASE("an odometer carries both estimators through a minute's tunnel, its scale factor found") {
   const Estimator estimator = GENERATE(Estimator::kEkf, Estimator::kSmoother);
-  const SyntheticDriveOptions options = noisy_drive();
+  const SyntheticDriveOptions options = biased_drive();
   const SyntheticDrive drive = darkened(synthetic_drive(options));
   const NavigatorConfig config = config_of(options, estimator);
   const Outcome without = drive_with(drive, {}, config);
@@ -107,7 +107,7 @@ TEST_CASE("an odometer carries both estimators through a minute's tunnel, its sc
 }
 
 TEST_CASE("without a message an odometer that is switched on changes no bit") {
-  const SyntheticDriveOptions options = noisy_drive();
+  const SyntheticDriveOptions options = biased_drive();
   const SyntheticDrive drive = synthetic_drive(options);
   NavigatorConfig config = config_of(options, Estimator::kSmoother);
   const Outcome on = drive_with(drive, {}, config);
@@ -121,7 +121,7 @@ TEST_CASE("without a message an odometer that is switched on changes no bit") {
 }
 
 TEST_CASE("a locked wheel is left out") {
-  const SyntheticDriveOptions options = noisy_drive();
+  const SyntheticDriveOptions options = biased_drive();
   const SyntheticDrive drive = synthetic_drive(options);
   const NavigatorConfig config = config_of(options, Estimator::kEkf);
   const WheelOptions locking = {.lock_from_s = 120.0, .lock_to_s = 124.0};
@@ -134,7 +134,7 @@ TEST_CASE("a locked wheel is left out") {
 
 TEST_CASE("a wheel that turns forbids standing") {
   // An IMU that feels still, a filter that may be standing: only the wheel tells.
-  SyntheticDriveOptions options = noisy_drive();
+  SyntheticDriveOptions options = biased_drive();
   options.standstill_s = 60.0;
   options.duration_s = 100.0;
   const SyntheticDrive drive = synthetic_drive(options);

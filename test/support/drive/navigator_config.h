@@ -25,4 +25,10 @@ inline NavigatorConfig drive_navigator_config(const SyntheticDriveOptions& optio
   return config;
 }
 
+inline NavigatorConfig config_with_carriers(const SyntheticDrive& drive) {
+  NavigatorConfig config = drive_navigator_config(drive.options);
+  config.ekf.use_carrier = true;
+  return config;
+}
+
 }  // namespace leonav::test

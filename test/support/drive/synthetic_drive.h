@@ -231,6 +231,12 @@ inline SyntheticDrive synthetic_drive(const SyntheticDriveOptions& options = {})
   return drive;
 }
 
+inline double heading_at(const SyntheticDrive& drive, double t) {
+  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
+  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
+      .yaw;
+}
+
 // Calls on_ephemeris(e), on_imu(sample) and on_epoch(raw) in the order in which a live system would
 // receive them: ephemerides first, each epoch `latency_s` after its time.
 template <typename OnEphemeris, typename OnImu, typename OnEpoch>

@@ -44,7 +44,7 @@ CorrelationModel learned(double share, double time_s, double seconds, ErrorCorre
   for (int i = 0; i < 15; ++i) processes.emplace_back(share, time_s, &random);
   ErrorClass of;
   for (int t = 0; t < seconds; ++t) {
-    const GpsTime now = test::kStart.plus_seconds(t);
+    const GpsTime now = test::kAnyTime.plus_seconds(t);
     for (std::size_t i = 0; i < processes.size(); ++i) {
       const SatelliteId satellite{System::kGps, static_cast<std::uint16_t>(i + 1)};
       correlation->add({satellite, {'1', 'C'}, of, times * processes[i].next()}, now);
@@ -119,7 +119,7 @@ TEST_CASE("errors of a standing vehicle are not taken for those of a moving one"
   for (int t = 0; t < 120; ++t) {
     for (std::uint16_t i = 0; i < 15; ++i)
       correlation.add({{System::kGps, i}, {'1', 'C'}, standing, i % 2 == 0 ? 1.0 : -1.0},
-                      test::kStart.plus_seconds(t));
+                      test::kAnyTime.plus_seconds(t));
     correlation.end_epoch(1.0);
   }
   CHECK(correlation.model(standing).share > 0.8);
@@ -130,7 +130,7 @@ TEST_CASE("more signals than the table holds are left out and nothing breaks") {
   ErrorCorrelation correlation(priors(0.5, 10.0));
   for (int t = 0; t < 3; ++t) {
     for (std::uint16_t i = 0; i < 700; ++i)
-      correlation.add({{System::kLeo, i}, {'1', 'C'}, {}, 0.5}, test::kStart.plus_seconds(t));
+      correlation.add({{System::kLeo, i}, {'1', 'C'}, {}, 0.5}, test::kAnyTime.plus_seconds(t));
     correlation.end_epoch(1.0);
   }
   CHECK(std::isfinite(correlation.model({}).share));

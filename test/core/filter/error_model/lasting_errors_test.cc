@@ -44,9 +44,9 @@ void run(const Street& street, double duration_s, const Bias& bias, std::uint64_
                                               street.white_m * normal(random));
         sample.stated_variance = stated_m * stated_m;
         sample.speed_m_s = street.speed_m_s;
-        errors.add(sample, test::kStart.plus_seconds(t));
+        errors.add(sample, test::kAnyTime.plus_seconds(t));
       }
-    errors.end_epoch(test::kStart.plus_seconds(t));
+    errors.end_epoch(test::kAnyTime.plus_seconds(t));
     if (!each(errors, t)) return;
   }
 }
@@ -197,8 +197,8 @@ TEST_CASE("after a gap a single code is no block, and after a long one nothing i
     const auto add = [&](double residual_m) {
       for (std::uint16_t i = 1; i <= 4; ++i)
         errors.add({{System::kGps, i}, alternating({System::kGps, i}, residual_m), 1.0, 1e-4, 20.0},
-                   test::kStart.plus_seconds(t));
-      errors.end_epoch(test::kStart.plus_seconds(t));
+                   test::kAnyTime.plus_seconds(t));
+      errors.end_epoch(test::kAnyTime.plus_seconds(t));
     };
     for (int gap = 0; gap < 8; ++gap, t += gap_s) add(50.0);
     CHECK(errors.largest_sigma_m() == 0.0);
@@ -220,9 +220,9 @@ TEST_CASE("the growth of an error is reported, also after it has become smaller 
       for (std::uint16_t i = 1; i <= 4; ++i) {
         const SatelliteId satellite{System::kGps, i};
         errors.add({satellite, alternating(satellite, size_m), 1.0, 1e-4, 10.0},
-                   test::kStart.plus_seconds(t));
+                   test::kAnyTime.plus_seconds(t));
       }
-      errors.end_epoch(test::kStart.plus_seconds(t));
+      errors.end_epoch(test::kAnyTime.plus_seconds(t));
       sum += errors.change().growth_m * errors.change().growth_m;
       if (errors.change().growth_m > 0.0) CHECK(errors.change().codes_differ);
     }
@@ -239,8 +239,8 @@ TEST_CASE("the growth of an error is reported, also after it has become smaller 
   bool differ = false;
   for (const double end = t + 900.0; t < end; t += 1.0) {
     for (std::uint16_t i = 1; i <= 4; ++i)
-      errors.add({{System::kGps, i}, 0.0, 1.0, 1e-4, 10.0}, test::kStart.plus_seconds(t));
-    errors.end_epoch(test::kStart.plus_seconds(t));
+      errors.add({{System::kGps, i}, 0.0, 1.0, 1e-4, 10.0}, test::kAnyTime.plus_seconds(t));
+    errors.end_epoch(test::kAnyTime.plus_seconds(t));
     differ |= errors.change().codes_differ;
   }
   CHECK(differ);
@@ -255,9 +255,9 @@ TEST_CASE("a finding counts the satellites in view, and ends when none can be te
       for (int i = 1; i <= satellites; ++i) {
         const SatelliteId satellite{System::kGps, static_cast<std::uint16_t>(i)};
         errors.add({satellite, alternating(satellite, 5.0), 0.25, 1e-4, 10.0},
-                   test::kStart.plus_seconds(t));
+                   test::kAnyTime.plus_seconds(t));
       }
-      errors.end_epoch(test::kStart.plus_seconds(t));
+      errors.end_epoch(test::kAnyTime.plus_seconds(t));
     }
   };
   add(16, 0.0, 600.0);
@@ -283,11 +283,11 @@ TEST_CASE("an error is found once, when it has doubled, and when it comes back")
     for (const double end = t + seconds; t < end; t += 1.0) {
       for (std::uint16_t i = 1; i <= 4; ++i) {
         const SatelliteId gps{System::kGps, i}, galileo{System::kGalileo, i};
-        errors.add({gps, alternating(gps, gps_m), 1.0, 1e-4, 10.0}, test::kStart.plus_seconds(t));
+        errors.add({gps, alternating(gps, gps_m), 1.0, 1e-4, 10.0}, test::kAnyTime.plus_seconds(t));
         errors.add({galileo, alternating(galileo, galileo_m), 1.0, 1e-4, 10.0},
-                   test::kStart.plus_seconds(t));
+                   test::kAnyTime.plus_seconds(t));
       }
-      errors.end_epoch(test::kStart.plus_seconds(t));
+      errors.end_epoch(test::kAnyTime.plus_seconds(t));
       if (errors.change().found_m == 0.0) continue;
       ++found;
       largest_m = errors.change().found_m;

@@ -12,7 +12,7 @@
 namespace leonav {
 namespace {
 
-using test::kStart;
+using test::kAnyTime;
 
 constexpr double kClockJump_m = 299'792.458;
 
@@ -23,7 +23,7 @@ struct Receiver {
 
   RawEpoch at(double t) const {
     RawEpoch raw;
-    raw.time = kStart.plus_seconds(t + tag_s);
+    raw.time = kAnyTime.plus_seconds(t + tag_s);
     for (std::uint16_t n = 1; n <= 8; ++n) {
       const double rate = -700.0 + 175.0 * n;
       const double range = 2.2e7 + 1e5 * n + rate * t + 0.05 * t * t;

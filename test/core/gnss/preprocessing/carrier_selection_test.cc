@@ -10,7 +10,7 @@
 namespace leonav {
 namespace {
 
-using test::kStart;
+using test::kAnyTime;
 
 const SatelliteId kSatellite{System::kGps, 7};
 
@@ -29,7 +29,7 @@ std::uint32_t arc_of(CarrierPreprocessor* preprocessor, double t,
                      const std::vector<SignalObservation>& signals) {
   const SelectedSignals selected =
       select_signals({signals.data(), signals.size()}, SignalPreference(), 20.0);
-  preprocessor->begin(kStart.plus_seconds(t));
+  preprocessor->begin(kAnyTime.plus_seconds(t));
   preprocessor->set_wind_up(kSatellite, 0.0);
   const CarrierChoice choice = choose_carriers({signals.data(), signals.size()}, selected, 20.0,
                                                preprocessor->tracked_pair(kSatellite));

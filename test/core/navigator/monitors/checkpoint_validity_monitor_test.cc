@@ -16,12 +16,6 @@ namespace {
 
 constexpr double kRad = 3.14159265358979 / 180.0;
 
-double heading_at(const SyntheticDrive& drive, double t) {
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
-  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
-      .yaw;
-}
-
 // Stands for half a minute, then drives.
 SyntheticDrive parked_drive(double duration_s, double standstill_s = 30.0) {
   SyntheticDriveOptions options;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "begin_of_week.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2300, 0.0);
 constexpr auto kPairs = CodeCombination::kIonosphereFree;
 constexpr auto kSingle = CodeCombination::kSingleFrequency;
 constexpr bool kCarriersKeep = true, kCodesKeep = false;
@@ -23,7 +23,7 @@ struct Sky {
 
 MeasurementEpoch epoch_of(const Sky& sky, double t) {
   MeasurementEpoch epoch;
-  epoch.time = kStart.plus_seconds(t);
+  epoch.time = test::kBeginOfWeek.plus_seconds(t);
   for (int i = 0; i < sky.satellites; ++i) {
     SatelliteInView view;
     view.satellite = {System::kGps, static_cast<std::uint16_t>(i + 1)};

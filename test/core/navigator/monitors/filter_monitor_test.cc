@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "begin_of_week.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
 
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-const GpsTime kStart = GpsTime::from_week_and_tow(2300, 0.0);
 constexpr int kCodes = 10;
 
 Vector3d place() { return to_ecef({0.9, 0.2, 100.0}); }
@@ -36,7 +36,7 @@ Ekf filter_at(const Vector3d& p_e, double sigma_m = 2.0) {
   Ekf filter(EkfConfig(), ImuErrorModel(), Vector3d::Zero());
   PointSolution start = point_at(p_e, sigma_m);
   start.satellites = 0;  // its sigma is the filter's, whatever codes it came from
-  filter.initialize(kStart, start);
+  filter.initialize(test::kBeginOfWeek, start);
   return filter;
 }
 
@@ -77,7 +77,7 @@ FilterVerdict after(int epochs, int rejected_codes, const Ekf& filter, FilterMon
   FilterVerdict verdict;
   for (int i = 0; i < epochs; ++i)
     verdict = monitor->test_prediction(
-        {kStart.plus_seconds(first_s + i), update, measurements, filter}, solver);
+        {test::kBeginOfWeek.plus_seconds(first_s + i), update, measurements, filter}, solver);
   return verdict;
 }
 
@@ -146,17 +146,17 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
                       1e-4);
   FilterMonitor monitor{NavigatorConfig()};
   const PointSolution point = point_at(place());
-  const FilterVerdict first = monitor.restart_after_outage(point, filter, kStart);
+  const FilterVerdict first = monitor.restart_after_outage(point, filter, test::kBeginOfWeek);
   CHECK(first.cause == ResetCause::kOutage);
   CHECK(first.keeps_attitude);
   CHECK(first.keeps_vehicle_constants);
-  monitor.filter_restarted(kStart, false);
+  monitor.filter_restarted(test::kBeginOfWeek, false);
   const FilterVerdict second =
-      monitor.restart_after_outage(point, filter, kStart.plus_seconds(1.0));
+      monitor.restart_after_outage(point, filter, test::kBeginOfWeek.plus_seconds(1.0));
   CHECK_FALSE(second.keeps_attitude);
   CHECK_FALSE(second.keeps_vehicle_constants);
   const FilterVerdict later =
-      monitor.restart_after_outage(point, filter, kStart.plus_seconds(3600.0));
+      monitor.restart_after_outage(point, filter, test::kBeginOfWeek.plus_seconds(3600.0));
   CHECK(later.keeps_attitude);
 }
 
@@ -169,11 +169,12 @@ TEST_CASE("a filter 15 m off where its carriers hold it restarts at what all cod
   const MeasurementEpoch measurements = codes_all_used();
   const EkfUpdateResult update = update_with(2);
   const EkfUpdateResult agreeing = update_with(0);
-  FilterVerdict verdict = monitor.test_position({kStart, agreeing, measurements, filter}, &solver);
+  FilterVerdict verdict =
+      monitor.test_position({test::kBeginOfWeek, agreeing, measurements, filter}, &solver);
   int epochs = 0;
   while (verdict.action == FilterAction::kKeep && epochs < 120)
-    verdict = monitor.test_position({kStart.plus_seconds(++epochs), update, measurements, filter},
-                                    &solver);
+    verdict = monitor.test_position(
+        {test::kBeginOfWeek.plus_seconds(++epochs), update, measurements, filter}, &solver);
   CHECK(verdict.action == FilterAction::kRestart);
   CHECK(verdict.cause == ResetCause::kPrediction);
   CHECK(verdict.value == Approx(15.0).margin(0.1));
@@ -191,7 +192,9 @@ TEST_CASE("a filter whose codes agree with it stays, however many of them are re
   const MeasurementEpoch measurements = codes_all_used();
   const EkfUpdateResult update = update_with(2);
   for (int i = 1; i < 300; ++i)
-    CHECK(monitor.test_position({kStart.plus_seconds(i), update, measurements, filter}, &solver)
+    CHECK(monitor
+              .test_position({test::kBeginOfWeek.plus_seconds(i), update, measurements, filter},
+                             &solver)
               .action == FilterAction::kKeep);
 }
 
@@ -210,13 +213,13 @@ TEST_CASE("a prediction too uncertain for codes is good enough while carrier arc
   NavigatorConfig config;
   config.ekf.use_carrier = true;
   const FilterMonitor monitor{config};
-  const GpsTime now = kStart.plus_seconds(10.0);
+  const GpsTime now = test::kBeginOfWeek.plus_seconds(10.0);
   const Ekf sharp = filter_at(place()), vague = filter_at(place(), 1e3);
   const Ekf lost = filter_at(place(), 1e6);
   CHECK_FALSE(monitor.prediction_is_too_uncertain(sharp, now, GpsTime()));
   CHECK(monitor.prediction_is_too_uncertain(vague, now, GpsTime()));  // no arc goes on
-  CHECK_FALSE(monitor.prediction_is_too_uncertain(vague, now, kStart));
-  CHECK(monitor.prediction_is_too_uncertain(lost, now, kStart));
+  CHECK_FALSE(monitor.prediction_is_too_uncertain(vague, now, test::kBeginOfWeek));
+  CHECK(monitor.prediction_is_too_uncertain(lost, now, test::kBeginOfWeek));
 }
 
 }  // namespace

@@ -7,12 +7,11 @@
 #include <random>
 #include <vector>
 
+#include "begin_of_week.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
-
-const GpsTime kStart = GpsTime::from_week_and_tow(2300, 0.0);
 
 SatelliteId satellite(int number) { return {System::kGps, static_cast<std::uint16_t>(number)}; }
 
@@ -38,7 +37,7 @@ std::vector<Convicted> convictions(const Run& run, SatelliteFaultMonitor* monito
   std::vector<double> errors(static_cast<std::size_t>(run.satellites) + 1, 0.0);
   const double keep = run.correlation_s > 0.0 ? std::exp(-run.interval_s / run.correlation_s) : 0.0;
   for (double t = run.begin_s; t < run.seconds; t += run.interval_s) {
-    const GpsTime time = kStart.plus_seconds(t);
+    const GpsTime time = test::kBeginOfWeek.plus_seconds(t);
     const ExcludedSatellites excluded = monitor->excluded(time);
     const double clock = 3.0 * normal(generator);
     CarrierInnovations carriers;
@@ -86,7 +85,7 @@ TEST_CASE(
     const double all_m = 0.1 * 0.05 * (found[0].after_s - begin_s) / interval_s;
     CHECK(found[0].fault.followed_m > 0.6 * all_m);
     CHECK(found[0].fault.followed_m < 1.2 * all_m);
-    const GpsTime time = kStart.plus_seconds(found[0].after_s);
+    const GpsTime time = test::kBeginOfWeek.plus_seconds(found[0].after_s);
     CHECK(monitor.excluded(time.plus_seconds(1799.0)).size() == 1);
     CHECK(monitor.excluded(time.plus_seconds(1801.0)).empty());
   }
@@ -112,7 +111,7 @@ TEST_CASE("too few satellites convict nobody, nor do they lose more than one in 
   const std::size_t convicted = convictions(run, &many).size();
   CHECK(convicted >= 1);
   CHECK(convicted <= 2);
-  CHECK(many.excluded(kStart.plus_seconds(1500.0)).size() <= 2);
+  CHECK(many.excluded(test::kBeginOfWeek.plus_seconds(1500.0)).size() <= 2);
 }
 
 TEST_CASE("a restart of the filter clears the sums, and a new time base the exclusions too") {
@@ -123,9 +122,9 @@ TEST_CASE("a restart of the filter clears the sums, and a new time base the excl
   REQUIRE(found.size() == 1);
   const double convicted_s = found[0].after_s;
   monitor.filter_restarted(false);
-  CHECK(monitor.excluded(kStart.plus_seconds(600.0)).size() == 1);
+  CHECK(monitor.excluded(test::kBeginOfWeek.plus_seconds(600.0)).size() == 1);
   monitor.filter_restarted(true);
-  CHECK(monitor.excluded(kStart.plus_seconds(600.0)).empty());
+  CHECK(monitor.excluded(test::kBeginOfWeek.plus_seconds(600.0)).empty());
   // Restarted just before it would convict, it takes its time again.
   for (const bool restarted : {false, true}) {
     CAPTURE(restarted);

@@ -10,7 +10,7 @@ namespace leonav::test {
 namespace {
 
 // Inputs with wrong stamps in between those of a drive with IMU and GNSS, in milliseconds.
-struct Rig : SequencerRig {
+struct MillisecondRig : SequencerRig {
   using SequencerRig::SequencerRig;
 
   std::int64_t now_ms = 0;
@@ -48,7 +48,7 @@ TEST_CASE("a burst of epochs of another time between two IMU samples costs nothi
       NavigatorConfig config;
       config.realtime.epoch_interval_s = interval_s;
       const int burst = interval_s < 1.0 ? 100 : EpochQueue::kRunWithImu - 1;
-      Rig rig(config);
+      MillisecondRig rig(config);
       rig.drive(5);
       for (int k = 0; k < burst; ++k)
         rig.epoch(rig.now_ms + ahead_ms + static_cast<std::int64_t>(1000 * interval_s) * k);
@@ -63,7 +63,7 @@ TEST_CASE("a burst of epochs of another time between two IMU samples costs nothi
 TEST_CASE("GNSS that goes on in another time while the IMU stays silent is followed") {
   for (const std::int64_t ahead_ms : {-3'600'000LL, 60'000LL, 3'600'000LL}) {
     CAPTURE(ahead_ms);
-    Rig rig;
+    MillisecondRig rig;
     rig.drive(5);
     for (int k = 0; k < 40; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
     REQUIRE(rig.stages.commands.size() == 1);
@@ -75,7 +75,7 @@ TEST_CASE("GNSS that goes on in another time while the IMU stays silent is follo
 TEST_CASE("epochs stamped in the future while no IMU sample comes do not end navigation") {
   for (const std::int64_t ahead_ms : {11'000LL, 60'000LL, 3'600'000LL, 86'400'000LL}) {
     CAPTURE(ahead_ms);
-    Rig rig;
+    MillisecondRig rig;
     rig.drive(5);
     for (int k = 0; k < 30; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
     rig.drive(5);
@@ -84,7 +84,7 @@ TEST_CASE("epochs stamped in the future while no IMU sample comes do not end nav
 }
 
 TEST_CASE("an IMU that is silent while GNSS is an hour ahead is followed when it comes back") {
-  Rig rig;
+  MillisecondRig rig;
   rig.drive(5);
   for (int k = 0; k < 10; ++k) rig.epoch(rig.now_ms + 3'600'000 + 1000 * k);
   rig.now_ms += 10'000;
@@ -93,14 +93,14 @@ TEST_CASE("an IMU that is silent while GNSS is an hour ahead is followed when it
 }
 
 TEST_CASE("an IMU that begins after wrong epochs is followed") {
-  Rig rig;
+  MillisecondRig rig;
   for (int k = 0; k < 3; ++k) rig.epoch(3'600'000 + 1000 * k);
   rig.drive(5);
   CHECK(rig.good_epochs(3) == 3);
 }
 
 TEST_CASE("epochs that lead ahead step by step do not make the right ones late") {
-  Rig rig;
+  MillisecondRig rig;
   rig.drive(3);
   for (int k = 1; k <= 200; ++k) {
     rig.epoch(rig.now_ms + 8000 * k);
@@ -111,7 +111,7 @@ TEST_CASE("epochs that lead ahead step by step do not make the right ones late")
 }
 
 // Adds one of twelve sorts of input, most of them wrong.
-void disturb(std::mt19937_64* dice, Rig* rig) {
+void disturb(std::mt19937_64* dice, MillisecondRig* rig) {
   const auto draw = [&](std::int64_t from, std::int64_t to) {
     return std::uniform_int_distribution<std::int64_t>(from, to)(*dice);
   };
@@ -168,7 +168,7 @@ TEST_CASE("after any sequence of wrong stamps thirteen seconds of good inputs br
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     CAPTURE(seed);
     std::mt19937_64 dice(seed);
-    Rig rig;
+    MillisecondRig rig;
     for (int k = 0; k < 12; ++k) disturb(&dice, &rig);
     rig.now_ms += 1000 - rig.now_ms % 1000;
     rig.drive(13);  // a stamp ten seconds ahead is waited for

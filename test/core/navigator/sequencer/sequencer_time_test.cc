@@ -8,7 +8,7 @@ namespace leonav::test {
 namespace {
 
 // A SequencerRig that counts time in seconds.
-struct Rig : SequencerRig {
+struct SecondRig : SequencerRig {
   using SequencerRig::SequencerRig;
 
   void epochs(double from_s, double step_s, int count) {
@@ -46,7 +46,7 @@ TEST_CASE("an interval other than configured costs no epoch") {
   for (const double configured_s : {0.1, 1.0, 30.0}) {
     for (const double interval_s : {0.1, 1.0, 30.0, 300.0}) {
       CAPTURE(configured_s, interval_s);
-      Rig rig(gnss_only(configured_s));
+      SecondRig rig(gnss_only(configured_s));
       rig.epochs(0.0, interval_s, 100);
       // The newest may wait for the one after it.
       CHECK(rig.stages.blocks.size() >= 99);
@@ -57,13 +57,13 @@ TEST_CASE("an interval other than configured costs no epoch") {
       }
     }
   }
-  Rig station(gnss_only(30.0));
+  SecondRig station(gnss_only(30.0));
   station.epochs(0.0, 30.0, 721);
   CHECK(station.stages.blocks.size() == 721);
 }
 
 TEST_CASE("without an IMU an outage of any length costs no epoch and no restart") {
-  Rig rig(gnss_only(1.0));
+  SecondRig rig(gnss_only(1.0));
   rig.epochs(0.0, 1.0, 10);
   for (const double outage_end_s : {30.0, 700.0, 9'000.0, 700'000.0}) {
     const std::size_t before = rig.stages.blocks.size();
@@ -79,7 +79,7 @@ TEST_CASE("without an IMU an outage of any length costs no epoch and no restart"
 }
 
 TEST_CASE("without an IMU a stray stamp costs the epoch that has it and no other") {
-  Rig rig(gnss_only(1.0));
+  SecondRig rig(gnss_only(1.0));
   rig.epochs(0.0, 1.0, 10);
   rig.sequencer.on_raw_epoch(epoch_at(at_s(86'400.0)));
   rig.sequencer.on_raw_epoch(epoch_at(at_s(86'400.0)));  // twice
@@ -97,7 +97,7 @@ TEST_CASE("without an IMU a stray stamp costs the epoch that has it and no other
 TEST_CASE("without an IMU a clock set back costs a short run, whatever the interval") {
   for (const double interval_s : {1.0, 30.0}) {
     CAPTURE(interval_s);
-    Rig rig(gnss_only(1.0));
+    SecondRig rig(gnss_only(1.0));
     rig.epochs(0.0, interval_s, 50);
     rig.epochs(-3'600.0, interval_s, 50);
     // And the one that was held, if any: nothing speaks for it.
@@ -110,14 +110,14 @@ TEST_CASE("without an IMU a clock set back costs a short run, whatever the inter
 TEST_CASE("stamps in UTC at first, leap seconds later: eighteen seconds either way") {
   for (const double error_s : {-18.0, 18.0}) {
     CAPTURE(error_s);
-    Rig alone(gnss_only(1.0));
+    SecondRig alone(gnss_only(1.0));
     alone.epochs(error_s, 1.0, 30);
     alone.epochs(30.0, 1.0, 60);
     CHECK(alone.last_s() == Approx(89.0));
     // Forward costs nothing; back, the clock has to be believed first.
     CHECK(alone.stages.blocks.size() >= 90 - EpochQueue::kRunToRestart);
 
-    Rig with_imu{NavigatorConfig{}};
+    SecondRig with_imu{NavigatorConfig{}};
     with_imu.drive(0.0, 30.0);
     with_imu.drive(30.0, 60.0, error_s);  // the IMU keeps the time: refused, and counted
     CHECK(with_imu.rejected() == 30);
@@ -129,7 +129,7 @@ TEST_CASE("stamps in UTC at first, leap seconds later: eighteen seconds either w
 }
 
 TEST_CASE("power off for a minute: both streams are back after a tenth of a second") {
-  Rig rig{NavigatorConfig{}};
+  SecondRig rig{NavigatorConfig{}};
   rig.drive(0.0, 10.0);
   rig.drive(70.0, 80.0);
   CHECK(rig.sequencer.counters().epochs == 20);
@@ -137,7 +137,7 @@ TEST_CASE("power off for a minute: both streams are back after a tenth of a seco
   CHECK(rig.stages.commands.size() == 1);
   CHECK(rig.last_s() == Approx(80.0));
 
-  Rig slow_imu{NavigatorConfig{}};  // comes up 20 s after GNSS
+  SecondRig slow_imu{NavigatorConfig{}};  // comes up 20 s after GNSS
   slow_imu.drive(0.0, 10.0);
   slow_imu.epochs(70.0, 1.0, 20);
   slow_imu.drive(90.0, 100.0);
@@ -148,7 +148,7 @@ TEST_CASE("power off for a minute: both streams are back after a tenth of a seco
 
 TEST_CASE("an IMU that starts late takes over the time GNSS has kept") {
   NavigatorConfig config;
-  Rig rig(config);
+  SecondRig rig(config);
   rig.epochs(0.0, 30.0, 10);  // 30 s where 1 s is expected: each waits for the next
   CHECK(rig.rejected() == 0);
   rig.imu(270.0, 270.1);  // the last one held belongs to this time
@@ -159,7 +159,7 @@ TEST_CASE("an IMU that starts late takes over the time GNSS has kept") {
 }
 
 TEST_CASE("epochs out of order take their place while the IMU has not passed them") {
-  Rig rig{NavigatorConfig{}};
+  SecondRig rig{NavigatorConfig{}};
   rig.imu(0.0, 0.5);
   for (const double t : {2.0, 1.0, 3.0, 2.0}) rig.sequencer.on_raw_epoch(epoch_at(at_s(t)));
   CHECK(rig.rejected(InputFault::kDuplicate) == 1);

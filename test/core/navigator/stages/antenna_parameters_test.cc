@@ -14,7 +14,7 @@ using namespace ekf_index;
 constexpr double kArmError_m = 0.4;
 constexpr double kLate_s = 0.03;
 
-SyntheticDrive noisy_drive() {
+SyntheticDrive minutes_of_noise() {
   SyntheticDriveOptions options;
   options.duration_s = 200.0;
   options.code_sigma_m = 0.5;
@@ -27,15 +27,9 @@ SyntheticDrive noisy_drive() {
 
 // The same with an IMU that measures later than it stamps.
 SyntheticDrive late_drive() {
-  SyntheticDrive drive = noisy_drive();
+  SyntheticDrive drive = minutes_of_noise();
   for (ImuSample& sample : drive.imu) sample.time = sample.time.plus_seconds(-kLate_s);
   return drive;
-}
-
-NavigatorConfig config_of(const SyntheticDrive& drive) {
-  NavigatorConfig config = drive_navigator_config(drive.options);
-  config.ekf.use_carrier = true;
-  return config;
 }
 
 void estimate(NavigatorConfig* config) {
@@ -65,7 +59,7 @@ double worst_of_smoother(const SyntheticDrive& drive, const RecordingSink& sink)
 
 TEST_CASE("a filter told a wrong lever arm and stamped late finds both") {
   const SyntheticDrive drive = late_drive();
-  NavigatorConfig config = config_of(drive);
+  NavigatorConfig config = config_with_carriers(drive);
   config.vehicle.lever_arm_b.x() += kArmError_m;
   config.vehicle.lever_arm_b.y() -= kArmError_m;
   estimate(&config);
@@ -100,7 +94,7 @@ TEST_CASE("a filter told a wrong lever arm and stamped late finds both") {
 
 TEST_CASE("answers of both estimators are those of the stamp and of the true lever arm") {
   const SyntheticDrive drive = late_drive();
-  NavigatorConfig config = config_of(drive);
+  NavigatorConfig config = config_with_carriers(drive);
   config.estimator = Estimator::kSmoother;
   config.vehicle.lever_arm_b.x() += kArmError_m;
   const RecordingSink wrong = run(drive, config);
@@ -116,8 +110,8 @@ TEST_CASE("answers of both estimators are those of the stamp and of the true lev
 }
 
 TEST_CASE("a configured time offset moves the IMU's stamps before anything looks at them") {
-  const SyntheticDrive drive = late_drive(), right = noisy_drive();
-  NavigatorConfig config = config_of(drive);
+  const SyntheticDrive drive = late_drive(), right = minutes_of_noise();
+  NavigatorConfig config = config_with_carriers(drive);
   const RecordingSink expected = run(right, config);
   config.imu_time_offset_s = kLate_s;
   const RecordingSink moved = run(drive, config);

@@ -11,12 +11,6 @@
 namespace leonav::test {
 namespace {
 
-double heading_at(const SyntheticDrive& drive, double t) {
-  const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(drive.options.start);
-  return euler_from_rotation(C_ne * SyntheticPath(drive.options).state(t).q_eb.toRotationMatrix())
-      .yaw;
-}
-
 TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
   const SyntheticDrive drive = drive_of(90.0);
   const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);

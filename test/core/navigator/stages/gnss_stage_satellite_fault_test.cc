@@ -7,10 +7,10 @@
 namespace leonav::test {
 namespace {
 
-constexpr double kBegin_s = 120.0, kDuration_s = 420.0;
+constexpr double kBegin_s = 120.0, kEnd_s = 420.0;
 
 SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
-  SyntheticDrive drive = drive_with_noise(kDuration_s);
+  SyntheticDrive drive = drive_with_noise(kEnd_s);
   for (RawEpoch& raw : drive.epochs) {
     const double range_m = drift_m_s * std::max(seconds(raw.time) - kBegin_s, 0.0);
     for (SignalObservation& o : raw.observations) {
@@ -24,12 +24,6 @@ SyntheticDrive drifting(SatelliteId victim, double drift_m_s) {
   return drive;
 }
 
-NavigatorConfig config_of(const SyntheticDrive& drive) {
-  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
-  config.ekf.use_carrier = true;
-  return config;
-}
-
 int faults_told(const RecordingSink& sink, SatelliteId of) {
   return static_cast<int>(
       std::count_if(sink.events.begin(), sink.events.end(), [&](const Event& e) {
@@ -39,7 +33,7 @@ int faults_told(const RecordingSink& sink, SatelliteId of) {
 }
 
 TEST_CASE("the stage reports and excludes a satellite whose clock drifts, and keeps its accuracy") {
-  const RecordingSink clean = run(drifting({}, 0.0), config_of(drifting({}, 0.0)));
+  const RecordingSink clean = run(drifting({}, 0.0), config_with_carriers(drifting({}, 0.0)));
   for (const Event& event : clean.events) CHECK(event.kind != EventKind::kSatelliteFault);
   const auto& satellites = clean.epochs[clean.epochs.size() / 2].satellites;
   const SatelliteId victim =
@@ -47,7 +41,7 @@ TEST_CASE("the stage reports and excludes a satellite whose clock drifts, and ke
         return a.elevation < b.elevation;
       })->satellite;
   const SyntheticDrive drive = drifting(victim, 0.02);
-  const RecordingSink sink = run(drive, config_of(drive));
+  const RecordingSink sink = run(drive, config_with_carriers(drive));
   CHECK(faults_told(sink, victim) == 1);
   int left_out = 0;
   for (const EpochReport& report : sink.epochs)
@@ -69,8 +63,8 @@ TEST_CASE("the stage reports and excludes a satellite whose clock drifts, and ke
     CHECK(growth(sink) > 1.005);
     CHECK(growth(sink) < 3.0);
   }
-  const double before = worst_error(clean, drive, kBegin_s, kDuration_s);
-  const double with_fault = worst_error(sink, drive, kBegin_s, kDuration_s);
+  const double before = worst_error(clean, drive, kBegin_s, kEnd_s);
+  const double with_fault = worst_error(sink, drive, kBegin_s, kEnd_s);
   CAPTURE(before, with_fault);
   CHECK(with_fault < before + 0.3);
 }

@@ -7,11 +7,11 @@
 namespace leonav::test {
 namespace {
 
-constexpr double kDuration_s = 1000.0;
+constexpr double kLongDrive_s = 1000.0;
 
 // Until `end_s`.
 SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
-  SyntheticDrive drive = drive_with_noise(kDuration_s);
+  SyntheticDrive drive = drive_with_noise(kLongDrive_s);
   for (RawEpoch& raw : drive.epochs)
     for (SignalObservation& o : raw.observations) {
       if (seconds(raw.time) >= end_s) continue;
@@ -23,9 +23,8 @@ SyntheticDrive with_wrong_ranges(double size_m, double end_s) {
   return drive;
 }
 
-NavigatorConfig config_of(const SyntheticDrive& drive) {
-  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
-  config.ekf.use_carrier = true;
+NavigatorConfig learning_config(const SyntheticDrive& drive) {
+  NavigatorConfig config = config_with_carriers(drive);
   config.ekf.learn_errors = true;
   return config;
 }
@@ -47,19 +46,19 @@ double sigma_at(const RecordingSink& sink, double t) {
 }
 
 TEST_CASE("orbits that are wrong by tens of metres are told, and the sigma holds from then on") {
-  const SyntheticDrive clean = with_wrong_ranges(0.0, kDuration_s);
-  CHECK(told(run(clean, config_of(clean))) == 0);
+  const SyntheticDrive clean = with_wrong_ranges(0.0, kLongDrive_s);
+  CHECK(told(run(clean, learning_config(clean))) == 0);
   const bool mended = GENERATE(false, true);
   CAPTURE(mended);
-  const SyntheticDrive drive = with_wrong_ranges(30.0, mended ? 400.0 : kDuration_s);
-  const RecordingSink sink = run(drive, config_of(drive));
+  const SyntheticDrive drive = with_wrong_ranges(30.0, mended ? 400.0 : kLongDrive_s);
+  const RecordingSink sink = run(drive, learning_config(drive));
   CHECK(told(sink) >= 1);
   CHECK(told(sink) <= 3);
   const auto first = std::find_if(sink.events.begin(), sink.events.end(), is_of_orbits);
   REQUIRE(first != sink.events.end());
   CHECK(seconds(first->time) < 300.0);
   double worst_m = 0.0;
-  for (double t = 320.0; t < (mended ? 400.0 : kDuration_s - 10.0); t += 10.0) {
+  for (double t = 320.0; t < (mended ? 400.0 : kLongDrive_s - 10.0); t += 10.0) {
     const double error_m = worst_error(sink, drive, t, t + 10.0);
     worst_m = std::max(worst_m, error_m);
     const double sigma_m = sigma_at(sink, t);
@@ -68,13 +67,13 @@ TEST_CASE("orbits that are wrong by tens of metres are told, and the sigma holds
     CHECK(sigma_m < 150.0);
   }
   CHECK(worst_m > 3.0);
-  CHECK(sigma_at(sink, kDuration_s - 5.0) < (mended ? 10.0 : 150.0));
-  CHECK((sigma_at(sink, kDuration_s - 5.0) > 10.0) == !mended);
+  CHECK(sigma_at(sink, kLongDrive_s - 5.0) < (mended ? 10.0 : 150.0));
+  CHECK((sigma_at(sink, kLongDrive_s - 5.0) > 10.0) == !mended);
 }
 
 TEST_CASE("a smoother's window goes on where wrong orbits end all ambiguities") {
-  const SyntheticDrive drive = with_wrong_ranges(30.0, kDuration_s);
-  NavigatorConfig config = config_of(drive);
+  const SyntheticDrive drive = with_wrong_ranges(30.0, kLongDrive_s);
+  NavigatorConfig config = learning_config(drive);
   config.estimator = Estimator::kSmoother;
   const RecordingSink sink = run(drive, config);
   CHECK(told(sink) >= 1);
@@ -82,7 +81,7 @@ TEST_CASE("a smoother's window goes on where wrong orbits end all ambiguities") 
       sink.smoothed.begin(), sink.smoothed.end(),
       [](const SmootherReport& report) { return report.status == SmootherStatus::kOk; });
   CAPTURE(good, sink.smoothed.size());
-  CHECK(good > 0.9 * kDuration_s);
+  CHECK(good > 0.9 * kLongDrive_s);
 }
 
 }  // namespace

@@ -8,10 +8,8 @@
 namespace leonav::test {
 namespace {
 
-using Rig = InertialRig;
-
 TEST_CASE("nothing is published before the first anchor, every sample after it") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 2.0);
   CHECK(rig.sink.solutions.empty());
   CHECK(rig.navigator.source() == Source::kNone);
@@ -35,7 +33,7 @@ TEST_CASE("nothing is published before the first anchor, every sample after it")
 }
 
 TEST_CASE("re-propagation from an anchor equals direct mechanization, bit for bit") {
-  Rig rig;
+  InertialRig rig;
   const double t = 2.00123;  // inside a sample
   rig.feed(0.0, 2.1);
   rig.issue(1, t, 0.2);
@@ -61,8 +59,8 @@ TEST_CASE("re-propagation from an anchor equals direct mechanization, bit for bi
 }
 
 TEST_CASE("the answer is the same whenever the anchor commits") {
-  Rig early, late;
-  for (Rig* rig : {&early, &late}) {
+  InertialRig early, late;
+  for (InertialRig* rig : {&early, &late}) {
     rig->feed(0.0, 1.0);
     rig->issue(1, 1.0, rig == &early ? 0.05 : 0.9);
     rig->mailbox.deliver(1, rig->anchor(1, 1.0));
@@ -77,7 +75,7 @@ TEST_CASE("the answer is the same whenever the anchor commits") {
 }
 
 TEST_CASE("a missed epoch leaves the older anchor in use and says so") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -98,7 +96,7 @@ TEST_CASE("a missed epoch leaves the older anchor in use and says so") {
 }
 
 TEST_CASE("without new anchors the source becomes ins and the sigmas grow") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -122,7 +120,7 @@ TEST_CASE("without new anchors the source becomes ins and the sigmas grow") {
 }
 
 TEST_CASE("a jump is in the message once, and in an event") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -142,7 +140,7 @@ TEST_CASE("a jump is in the message once, and in an event") {
 }
 
 TEST_CASE("while aligning the anchor is extrapolated at constant velocity") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   Anchor update = rig.anchor(1, 1.0);
@@ -159,7 +157,7 @@ TEST_CASE("the solution rate is bounded by data time") {
   for (const auto& [rate_hz, expected] : {std::pair(200.0, 401), {100.0, 201}, {10.0, 21}}) {
     NavigatorConfig config;
     config.solution_rate_hz = rate_hz;
-    Rig rig(5.0, config);
+    InertialRig rig(5.0, config);
     rig.feed(0.0, 1.0);
     rig.issue(1, 1.0, 0.0);
     rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -170,7 +168,7 @@ TEST_CASE("the solution rate is bounded by data time") {
 
 TEST_CASE(
     "holes are bridged; time that runs backwards starts over with a decision for each epoch") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -199,7 +197,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an anchor older than the kept samples is refused, the answer goes on") {
-  Rig rig(60.0);
+  InertialRig rig(60.0);
   rig.feed(0.0, 1.0);
   rig.issue(1, 1.0, 0.1);
   rig.mailbox.deliver(1, rig.anchor(1, 1.0));
@@ -215,7 +213,7 @@ TEST_CASE("an anchor older than the kept samples is refused, the answer goes on"
 }
 
 TEST_CASE("epochs that pile up while the IMU stands still are each decided once") {
-  Rig rig;
+  InertialRig rig;
   rig.feed(0.0, 1.0);
   for (std::uint64_t k = 1; k <= 200; ++k) {
     rig.issue(k, 1.0, 0.1);
@@ -230,7 +228,7 @@ TEST_CASE("epochs that pile up while the IMU stands still are each decided once"
 TEST_CASE("a solution that is no number is never published; the next anchor answers again") {
   for (const double push : {1e160, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     CAPTURE(push);
-    Rig rig;
+    InertialRig rig;
     rig.feed(0.0, 2.0);
     rig.issue(1, 2.0, 0.2);
     rig.mailbox.deliver(1, rig.anchor(1, 2.0));

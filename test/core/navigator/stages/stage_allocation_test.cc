@@ -11,7 +11,7 @@
 namespace leonav::test {
 namespace {
 
-struct CountingSink : OutputSink {
+struct FullSkySink : OutputSink {
   std::size_t solutions = 0, epochs = 0, resets = 0, full_epochs = 0, precise = 0, arcs = 0,
               carriers = 0, epochs_of_30 = 0, solved = 0, checkpoints = 0, faults = 0,
               to_single = 0, to_pairs = 0;
@@ -133,7 +133,7 @@ TEST_CASE(
   if (GENERATE(false, true)) make_a_car(&config);
   config.vehicle.motion.constraints.odometer = true;
   config.ekf.vehicle.sigma[ekf_index::kOdometerScale] = 0.03;
-  CountingSink sink;
+  FullSkySink sink;
   Navigator pipeline(config, &sink);
   Checkpoint checkpoint{kSkyEpoch, true, to_ecef(options.start),  1.0,
                         0.5,       0.05, Eigen::Vector3d::Zero(), 1e-4};
@@ -186,7 +186,7 @@ TEST_CASE("thirty satellites of three systems on two frequencies, 200 Hz IMU: no
   options.carrier_sigma_m = 0.002;
   options.slip_probability = 0.02;
   const SyntheticDrive drive = synthetic_drive(options);
-  CountingSink sink;
+  FullSkySink sink;
   NavigatorConfig config = full_config(MotionModel::kInertial);
   config.estimator = GENERATE(Estimator::kEkf, Estimator::kSmoother);
   Navigator pipeline(config, &sink);
@@ -228,7 +228,7 @@ TEST_CASE("leaving a satellite out and changing how codes are combined allocates
     }
     if (t > 320.0 && t < 350.0) pass_a_street(&bits, &raw);
   }
-  CountingSink sink;
+  FullSkySink sink;
   Navigator pipeline(full_config(MotionModel::kInertial), &sink);
   start_counting_allocations();
   feed(drive, &pipeline);

@@ -81,8 +81,8 @@ struct UbxRig {
 TEST_CASE("Samples of a receiver's own sensor are stamped by arrivals", "[connect]") {
   for (const bool is_inertial : {true, false}) {
     UbxRig rig({is_inertial, ImuStampOptions{0.01, 0.0}, {}});
-    // PublishedSamples of ten samples each tenth of a second, 10 ms after the last of them; epochs
-    // after 50 ms. The sensor's clock wraps on the way.
+    // Messages of ten samples each tenth of a second, 10 ms after the last of them; epochs after
+    // 50 ms. The sensor's clock wraps on the way.
     for (std::int64_t tenth = 0; tenth < 200; ++tenth) {
       const std::int64_t now_ns = tenth * kNanosecondsPerSecond / 10;
       if (tenth % 10 == 0) {
