@@ -1,4 +1,4 @@
-// A file with given content that goes with the object.
+// A file with given content, and one that goes with the object.
 #pragma once
 #include <unistd.h>
 
@@ -10,11 +10,15 @@
 
 namespace leonav::test {
 
+inline void write_file(const std::string& path, std::string_view content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, std::string_view content)
       : folder_(make_folder()), path_((folder_ / name).string()) {
-    std::ofstream(path_, std::ios::binary) << content;
+    write_file(path_, content);
   }
   ~TemporaryFile() {
     std::error_code ignored;

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "core/earth/ellipsoid.h"
@@ -24,12 +23,9 @@ namespace {
 
 using namespace leonav;
 using test::parked;
+using test::write_file;
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string error_of(const std::string& path) {
+std::string load_error(const std::string& path) {
   try {
     load_checkpoint(path);
   } catch (const ConfigError& error) {
@@ -90,14 +86,14 @@ TEST_CASE("a checkpoint comes back from its file; where there is none, that is n
 
 TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
   const test::TemporaryFile file("checkpoint.yaml", "");
-  CHECK(error_of(file.path()) == file.path() + ": is damaged: empty");
+  CHECK(load_error(file.path()) == file.path() + ": is damaged: empty");
   REQUIRE(save_checkpoint(file.path(), parked()).empty());
   const std::string good = test::text_of(file.path());
   // Cut anywhere it is never taken for another one; but for the last line end, it is an error.
   for (std::size_t size = 0; size + 1 < good.size(); ++size) {
     INFO(good.substr(0, size));
     write_file(file.path(), good.substr(0, size));
-    CHECK_FALSE(error_of(file.path()).empty());
+    CHECK_FALSE(load_error(file.path()).empty());
   }
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -105,7 +101,7 @@ TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
     REQUIRE(at != std::string::npos);
     text.replace(at, text.find('\n', at) - at, to);
     write_file(file.path(), text);
-    return error_of(file.path());
+    return load_error(file.path());
   };
   CHECK(with("heading_deg", "heading_deg: nan").find(":7: heading_deg: 'nan'") !=
         std::string::npos);
@@ -123,10 +119,10 @@ TEST_CASE("a checkpoint's file that is damaged is an error that says where") {
     CHECK(with(text.substr(0, text.find(':')), text).find("holds no place") != std::string::npos);
   }
   write_file(file.path(), std::string(300, '\xff'));
-  CHECK_FALSE(error_of(file.path()).empty());
+  CHECK_FALSE(load_error(file.path()).empty());
   write_file(file.path(), std::string(1 << 20, '['));
-  CHECK(error_of(file.path()).find("too long") != std::string::npos);
-  CHECK(error_of("/dev/zero").find("no ordinary file") != std::string::npos);
+  CHECK(load_error(file.path()).find("too long") != std::string::npos);
+  CHECK(load_error("/dev/zero").find("no ordinary file") != std::string::npos);
 }
 
 TEST_CASE("a checkpoint's file has all of its calibration, or none as in older versions") {
@@ -149,10 +145,10 @@ TEST_CASE("a checkpoint's file has all of its calibration, or none as in older v
     const std::string key = good.substr(at, good.find(':', at) - at);
     CAPTURE(key);
     write_file(file.path(), good.substr(0, at) + good.substr(next));
-    CHECK(error_of(file.path()).find(key + " is missing") != std::string::npos);
+    CHECK(load_error(file.path()).find(key + " is missing") != std::string::npos);
     for (const char* bad : {"nan", "-.inf", "1e5", "[1e5, 0, 0]", "[0, 0, -9999]", "words"}) {
       write_file(file.path(), good.substr(0, at) + key + ": " + bad + "\n" + good.substr(next));
-      CHECK_FALSE(error_of(file.path()).empty());
+      CHECK_FALSE(load_error(file.path()).empty());
     }
     at = next;
   }
@@ -193,7 +189,7 @@ TEST_CASE("whenever a writer is killed, the file is a whole checkpoint") {
     int status = 0;
     REQUIRE(waitpid(writer, &status, 0) == writer);
     CHECK(WIFSIGNALED(status));
-    INFO(error_of(path));
+    INFO(load_error(path));
     const auto left = load_checkpoint(path);
     REQUIRE(left);
     CHECK(std::abs(left->heading) == Approx(1.25));

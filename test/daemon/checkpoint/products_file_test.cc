@@ -2,7 +2,6 @@
 #include "daemon/checkpoint/products_file.h"
 
 #include <algorithm>
-#include <fstream>
 #include <span>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "support/temporary_file.h"
 
 using namespace leonav;
+using test::write_file;
 
 namespace {
 
@@ -63,10 +63,6 @@ std::string text_of_file(const BroadcastProducts& products) {
   return text.of(products);
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 }  // namespace
 
 TEST_CASE("products are read as they were written") {
@@ -76,7 +72,7 @@ TEST_CASE("products are read as they were written") {
   const BroadcastProducts products = some_products();
   REQUIRE(products.ephemerides.size() > 4);
   const std::string text = text_of_file(products);
-  write(path, text);
+  write_file(path, text);
   const auto read = load_products(path);
   REQUIRE(read);
   REQUIRE(read->ephemerides.size() == products.ephemerides.size());
@@ -104,7 +100,7 @@ TEST_CASE("a file with any byte changed, cut anywhere, or too long is refused as
   const std::string text = text_of_file(few);
   std::size_t refused = 0, tried = 0;
   const auto attempt = [&](const std::string& damaged) {
-    write(path, damaged);
+    write_file(path, damaged);
     ++tried;
     try {
       load_products(path);
@@ -210,7 +206,7 @@ TEST_CASE("biases of carriers and impossible ones are not kept, nor more than th
   CHECK(first_message_of(taken.biases).size() == kMaxBiases);
   const test::TemporaryFile folder("unused", "");
   const std::string path = folder.beside("c.products");
-  write(path, text_of_file(taken));
+  write_file(path, text_of_file(taken));
   const auto read = load_products(path);
   REQUIRE(read);
   CHECK(read->biases.size() == taken.biases.size());

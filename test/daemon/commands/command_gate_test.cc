@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_keys.h"
 #include "drivers/lcm/encode.h"
 #include "support/catch.h"
 #include "tools/common/allocations/allocation_counter.h"
@@ -15,10 +16,9 @@
 namespace {
 
 using namespace leonav;
-
-constexpr std::int64_t kSecond = kNanosecondsPerSecond;
-const CommandKey kKey("0123456789abcdef0123456789abcdef");
-const CommandKey kOtherKey("0123456789abcdef0123456789abcdeF");
+using test::kKey;
+using test::kOtherKey;
+using test::kSecond;
 
 using Message = std::array<std::uint8_t, kSignedCommandBytes>;
 

@@ -9,15 +9,16 @@ namespace {
 
 using namespace leonav;
 
-DaemonConfig read(const std::string& text) { return load_config_text(text, "mine.yaml"); }
+DaemonConfig read_config(const std::string& text) { return load_config_text(text, "mine.yaml"); }
 
 }  // namespace
 
 TEST_CASE("changes are told in the order of the reference, by their effective values") {
-  const DaemonConfig before = read("preset: car\njournal:\n  piece_mb: 100\nlog: {level: info}\n");
+  const DaemonConfig before =
+      read_config("preset: car\njournal:\n  piece_mb: 100\nlog: {level: info}\n");
   CHECK(changes_between(before.source, before.source).empty());
   // A value that is given and that was the default is no change.
-  const DaemonConfig after = read(
+  const DaemonConfig after = read_config(
       "preset: car\nlog:\n  level: error\njournal:\n  piece_mb: 50\n  piece_s: 3600\n"
       "gnss:\n  elevation_mask_deg: 7\n");
   const auto changes = changes_between(before.source, after.source);
@@ -30,15 +31,15 @@ TEST_CASE("changes are told in the order of the reference, by their effective va
 }
 
 TEST_CASE("a default that follows from the vehicle's kind is a change where the kind is one") {
-  const auto changes = changes_between(read("vehicle:\n  kind: car\n").source,
-                                       read("vehicle:\n  kind: boat\n").source);
+  const auto changes = changes_between(read_config("vehicle:\n  kind: car\n").source,
+                                       read_config("vehicle:\n  kind: boat\n").source);
   REQUIRE(changes.size() > 1);
   for (const ConfigChange& change : changes) CHECK_FALSE(change.is_reloadable);
 }
 
 TEST_CASE("a reload changes the reloadable keys, and no others") {
-  const DaemonConfig before = read("preset: car\n");
-  const DaemonConfig after = read(
+  const DaemonConfig before = read_config("preset: car\n");
+  const DaemonConfig after = read_config(
       "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\n"
       "journal: {outputs: none, flush_interval_s: 2, piece_mb: 50, piece_s: 60, total_mb: 400, "
       "kept_mb: 300}\n");

@@ -10,6 +10,7 @@
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
 #include "daemon/engine/engine.h"
+#include "discard.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "same_config.h"
@@ -21,6 +22,7 @@ namespace {
 
 using namespace leonav;
 using leonav::test::error_of;
+using test::Discard;
 
 const std::string kBlq =
     "  BRUX 13101M010\n"
@@ -52,10 +54,6 @@ bool same_bits(const GnssConfig& a, const GnssConfig& b) {
          a.ocean_loading->amplitude_m == b.ocean_loading->amplitude_m &&
          a.ocean_loading->phase == b.ocean_loading->phase;
 }
-
-struct Discard final : MessageTarget {
-  void take(Channel, ByteSpan) override {}
-};
 
 }  // namespace
 

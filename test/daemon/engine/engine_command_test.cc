@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "commands/command_keys.h"
 #include "daemon/commands/command_gate.h"
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
@@ -12,10 +13,9 @@
 namespace {
 
 using namespace leonav;
-
-constexpr std::int64_t kSecond = kNanosecondsPerSecond;
-const CommandKey kKey("0123456789abcdef0123456789abcdef");
-const CommandKey kOtherKey("0123456789abcdef0123456789abcdeF");
+using test::kKey;
+using test::kOtherKey;
+using test::kSecond;
 
 using Message = std::array<std::uint8_t, kSignedCommandBytes>;
 

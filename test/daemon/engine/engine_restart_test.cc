@@ -19,7 +19,7 @@ using test::Input;
 constexpr std::uint64_t kHeldEpoch = 40;
 
 // The drive, with a restart right behind one epoch.
-std::vector<Input> inputs_with_restart() {
+std::vector<Input> drive_with_restart() {
   std::vector<Input> list;
   Encoder encoder;
   std::uint64_t epochs = 0;
@@ -73,7 +73,7 @@ Collector run_held(const std::vector<Input>& list, const std::string& journal) {
 TEST_CASE("a restart behind an epoch under way: live, Navigator and replay answer alike") {
   const test::TemporaryFile folder("unused", "");
   const std::string journal = folder.beside("journal.lcmlog");
-  const std::vector<Input> list = inputs_with_restart();
+  const std::vector<Input> list = drive_with_restart();
   const Collector live = run_held(list, journal);
   CHECK(test::missed_epochs(live).empty());
   CHECK(live.groups[1].size() == 59);

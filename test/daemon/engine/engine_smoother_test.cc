@@ -22,7 +22,7 @@ using test::Input;
 
 constexpr std::size_t kDecisions = 1, kGnssEvents = 5, kSmoother = 7, kKeyframes = 8;
 
-const std::vector<Input>& inputs() {
+const std::vector<Input>& whole_drive() {
   static const std::vector<Input> list = test::drive_messages([](Channel) { return true; });
   return list;
 }
@@ -65,7 +65,7 @@ std::vector<Input> inputs_with_restart() {
   std::vector<Input> list;
   Encoder encoder;
   int epochs = 0;
-  for (const Input& input : inputs()) {
+  for (const Input& input : whole_drive()) {
     list.push_back(input);
     if (input.channel != Channel::kGnssEpoch || ++epochs != 30) continue;
     const ByteSpan bytes = encoder.encode(Command(), test::kSkyEpoch, 1);
@@ -75,14 +75,14 @@ std::vector<Input> inputs_with_restart() {
 }
 
 Collector replay(const std::vector<Decision>& decisions,
-                 const std::vector<Input>& list = inputs()) {
+                 const std::vector<Input>& list = whole_drive()) {
   return test::run_navigator(smoother_config().navigator, list, decisions);
 }
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }
 
 Collector run_engine(Hold hold, double time_limit_s = 0.0,
-                     const std::vector<Input>& list = inputs()) {
+                     const std::vector<Input>& list = whole_drive()) {
   std::atomic<std::uint64_t> samples{0}, held_until{0};
   std::uint64_t last_epoch = 0;
   int iteration = 0;

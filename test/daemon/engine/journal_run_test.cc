@@ -14,6 +14,7 @@
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "engine_runs.h"
+#include "support/has.h"
 #include "support/programs/program_run.h"
 
 namespace {
@@ -21,6 +22,7 @@ namespace {
 using namespace leonav;
 using test::Bytes;
 using test::Collector;
+using test::has;
 using test::Input;
 
 DaemonConfig journaled(const std::string& path, const std::vector<std::string>& overrides = {}) {
@@ -49,10 +51,6 @@ void feed(Engine* engine, double duration_s, Each each) {
 test::ProgramRun replay(const test::TemporaryFile& folder, const std::string& log) {
   return test::run_program("leonav-replay",
                            "--verify --out '" + folder.beside("out") + "' '" + log + "'");
-}
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 // The events of the journal of a drive.

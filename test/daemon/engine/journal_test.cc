@@ -15,6 +15,7 @@
 #include "daemon/engine/engine.h"
 #include "daemon/messages/input_dispatch.h"
 #include "daemon/messages/output_groups.h"
+#include "discard.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
@@ -25,11 +26,8 @@
 namespace {
 
 using namespace leonav;
+using test::Discard;
 using Bytes = std::vector<std::uint8_t>;
-
-struct Discard final : MessageTarget {
-  void take(Channel, ByteSpan) override {}
-};
 
 struct Queues final : MessageTarget {
   std::array<std::deque<Bytes>, kOutputGroups.size()> groups;

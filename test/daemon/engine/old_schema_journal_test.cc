@@ -11,12 +11,14 @@
 #include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
+#include "support/has.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
 namespace {
 
 using namespace leonav;
+using test::has;
 
 // Writes what it is given to a log.
 struct LogTarget final : MessageTarget {
@@ -49,10 +51,6 @@ void write_journal(const std::string& path, OutputSchema schema,
 test::ProgramRun verify(const std::string& journal, const test::TemporaryFile& folder) {
   return test::run_program("leonav-replay",
                            "--verify --out '" + folder.beside("replay") + "' '" + journal + "'");
-}
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 // Copies a journal with the last bit of the `which`-th message of a channel turned over.

@@ -1,16 +1,14 @@
 // When the watchdog is told that the answer stands still.
 #include "daemon/health/answer_monitor.h"
 
+#include "discard.h"
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 
 namespace {
 
 using namespace leonav;
-
-struct Discard final : MessageTarget {
-  void take(Channel, ByteSpan) override {}
-};
+using test::Discard;
 
 // An engine that is not started: the test sets its counters, a second at each look.
 class Looks {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "discard.h"
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
@@ -18,10 +19,7 @@
 namespace {
 
 using namespace leonav;
-
-struct Discard final : MessageTarget {
-  void take(Channel, ByteSpan) override {}
-};
+using test::Discard;
 
 // An engine and its health, fed in step.
 class Watched {

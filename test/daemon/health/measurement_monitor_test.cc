@@ -11,11 +11,11 @@ namespace {
 using namespace leonav;
 
 // Counters as an engine writes them, and what is found in them.
-struct Rig {
+struct WatchedCounters {
   EngineCounters counters;
   MeasurementMonitor monitor{&counters};
 
-  Rig() { counters.source.set(static_cast<std::int64_t>(Source::kEkf)); }
+  WatchedCounters() { counters.source.set(static_cast<std::int64_t>(Source::kEkf)); }
   void satellites(Reason reason, std::int64_t count) {
     counters.satellites_by_reason[static_cast<std::size_t>(reason)].set(count);
   }
@@ -29,7 +29,7 @@ struct Rig {
 }  // namespace
 
 TEST_CASE("HEALTH tells of satellites without orbits once more than half lack one") {
-  Rig rig;
+  WatchedCounters rig;
   rig.satellites(Reason::kUsed, 6);
   rig.satellites(Reason::kNoEphemeris, 4);
   rig.satellites(Reason::kEphemerisTooOld, 2);
@@ -41,7 +41,7 @@ TEST_CASE("HEALTH tells of satellites without orbits once more than half lack on
 }
 
 TEST_CASE("HEALTH tells that precise orbits have ended only where several were in use") {
-  Rig rig;
+  WatchedCounters rig;
   rig.counters.satellites_by_source[0].set(8);
   rig.counters.satellites_by_source[1].set(3);
   CHECK_FALSE(rig.finds(HealthReason::kPreciseEnded));
@@ -56,7 +56,7 @@ TEST_CASE("HEALTH tells that precise orbits have ended only where several were i
 }
 
 TEST_CASE("HEALTH tells of contradicting measurements for as long as they are more than half") {
-  Rig rig;
+  WatchedCounters rig;
   rig.counters.measurements.add(100);
   rig.counters.contradicting_measurements.add(51);
   CHECK(rig.finds(HealthReason::kMostRejected));
@@ -65,7 +65,7 @@ TEST_CASE("HEALTH tells of contradicting measurements for as long as they are mo
 }
 
 TEST_CASE("HEALTH judges no share of fewer than fifty measurements") {
-  Rig rig;
+  WatchedCounters rig;
   rig.counters.measurements.add(49);
   rig.counters.contradicting_measurements.add(49);
   CHECK_FALSE(rig.finds(HealthReason::kMostRejected));
@@ -74,7 +74,7 @@ TEST_CASE("HEALTH judges no share of fewer than fifty measurements") {
 }
 
 TEST_CASE("HEALTH tells of refused orbits for as long as satellites are seen that have them") {
-  Rig rig;
+  WatchedCounters rig;
   CHECK_FALSE(rig.finds(HealthReason::kOrbitsRefused));
   rig.counters.orbits_refused.set(1);
   CHECK(rig.finds(HealthReason::kOrbitsRefused));
@@ -83,7 +83,7 @@ TEST_CASE("HEALTH tells of refused orbits for as long as satellites are seen tha
 }
 
 TEST_CASE("HEALTH names the systems whose codes are off for minutes, and satellites that drift") {
-  Rig rig;
+  WatchedCounters rig;
   rig.counters.lasting_cm[0].set(99);
   CHECK(rig.monitor.look().empty());
   rig.counters.lasting_cm[0].set(100);

@@ -8,11 +8,13 @@
 #include "drivers/lcm/run_configuration.h"
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
+#include "support/has.h"
 #include "support/programs/program_run.h"
 
 namespace {
 
 using namespace leonav;
+using test::has;
 
 // 30 s of a drive without one of its channels, begun by a configuration if there is one.
 void write_log_without(Channel channel, const std::string& path,
@@ -43,10 +45,6 @@ Replay replay_without(Channel channel, const std::string& options = "") {
                                                       folder.beside("log") + "'");
   replay.summary = test::text_of(folder.beside("out/summary.txt"));
   return replay;
-}
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Signals to leonavd: SIGHUP, by which it reads its configuration again, and those that end it.
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "support/catch.h"
@@ -10,10 +9,7 @@
 namespace {
 
 using namespace leonav;
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::trunc) << text;
-}
+using test::write_file;
 
 }  // namespace
 
@@ -26,9 +22,9 @@ TEST_CASE("SIGHUP puts reloadable keys into effect, and names those that need a 
   CHECK(daemon.says("info: SIGHUP: " + file.path() + " read again, nothing has changed"));
 
   // The command line goes on to stand above the file.
-  write(file.path(),
-        "preset: phone_imu\ngnss: {elevation_mask_deg: 7}\n"
-        "journal: {piece_mb: 50, piece_s: 60}\n");
+  write_file(file.path(),
+             "preset: phone_imu\ngnss: {elevation_mask_deg: 7}\n"
+             "journal: {piece_mb: 50, piece_s: 60}\n");
   daemon.signal(SIGHUP);
   CHECK(daemon.says("info: journal.piece_s: 3600 -> 60: in effect"));
   CHECK(daemon.says("warning: gnss.elevation_mask_deg: "));
@@ -36,7 +32,7 @@ TEST_CASE("SIGHUP puts reloadable keys into effect, and names those that need a 
   CHECK(daemon.text().find("journal.piece_mb") == std::string::npos);
 
   // A key in effect is logged once; one that needs a restart, at each SIGHUP.
-  write(file.path(), "preset: phone_imu\njournal: {piece_s: 60}\nlog: {level: error}\n");
+  write_file(file.path(), "preset: phone_imu\njournal: {piece_s: 60}\nlog: {level: error}\n");
   daemon.signal(SIGHUP);
   CHECK(daemon.says("info: log.level: info -> error: in effect"));
   const std::string text = daemon.text();
@@ -50,8 +46,9 @@ TEST_CASE("a configuration with errors changes nothing and says all of them") {
   const test::TemporaryFile file("vehicle.yaml", "preset: phone_imu\n");
   test::DaemonProgram daemon({"--config", file.path()});
   REQUIRE(daemon.says("running; LCM memq://"));
-  write(file.path(),
-        "preset: phone_imu\njournal:\n  piece_s: -1\nlog: {level: error}\nvehicle: {kind: cart}\n");
+  write_file(
+      file.path(),
+      "preset: phone_imu\njournal:\n  piece_s: -1\nlog: {level: error}\nvehicle: {kind: cart}\n");
   daemon.signal(SIGHUP);
   CHECK(daemon.says("error: SIGHUP: the configuration has errors, nothing is changed: "));
   CHECK(daemon.says(file.path() + ":3: journal.piece_s: "));

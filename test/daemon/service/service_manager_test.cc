@@ -68,7 +68,7 @@ class Variable {
 
 std::string abstract_name() { return "@leonav-test-" + std::to_string(getpid()); }
 
-struct Discard final : MessageTarget {
+struct HeldTarget final : MessageTarget {
   std::atomic<bool> hold{false};
   void take(Channel, ByteSpan) override {
     while (hold) std::this_thread::yield();
@@ -157,7 +157,7 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
   hooks.before_epoch = [&](std::uint64_t) {
     while (hold_gnss) std::this_thread::yield();
   };
-  Discard target;
+  HeldTarget target;
   Engine engine(test::drive_config(), &target, hooks);
   engine.start();
   ThreadMonitor watch(&engine);

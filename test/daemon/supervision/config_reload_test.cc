@@ -18,7 +18,7 @@ namespace {
 using namespace leonav;
 
 // A daemon that runs, as far as a reload is concerned.
-struct Rig {
+struct RunningDaemon {
   std::string file = "preset: car\nlog: {level: error}\n";
   DaemonConfig running = load_config_text(file, "mine.yaml");
   Journal journal{running};  // none is written
@@ -38,7 +38,7 @@ class KeptLevel {
 
 TEST_CASE("a reload puts the reloadable keys into effect and leaves the others") {
   const KeptLevel kept;
-  Rig rig;
+  RunningDaemon rig;
   set_log_level(rig.running.log.level);
   CHECK(spdlog::get_level() == spdlog::level::err);
   const double mask = rig.running.navigator.gnss.elevation_mask;
@@ -54,7 +54,7 @@ TEST_CASE("a reload puts the reloadable keys into effect and leaves the others")
 
 TEST_CASE("a reload of a configuration with errors changes nothing") {
   const KeptLevel kept;
-  Rig rig;
+  RunningDaemon rig;
   set_log_level(rig.running.log.level);
   const double kept_mb = rig.running.journal.kept_mb;
   rig.file = "preset: car\nlog: {level: info}\njournal: {kept_mb: 2077, piece_mb: no number}\n";
@@ -69,7 +69,7 @@ TEST_CASE("a reload reads the key for commands again, and keeps the one before w
   const std::string first(32, 'a'), second(32, 'b');
   const test::TemporaryFile file("command.key", first + "\n");
   chmod(file.path().c_str(), 0600);
-  Rig rig;
+  RunningDaemon rig;
   rig.file += "commands: {key_file: " + file.path() + "}\n";
   rig.running = load_config_text(rig.file, "mine.yaml");
   CommandGate gate{CommandKey(first)};
