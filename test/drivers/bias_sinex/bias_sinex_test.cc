@@ -44,14 +44,14 @@ std::string file_of(const std::string& records, const std::string& description =
          "-BIAS/SOLUTION\n%=ENDBIA\n";
 }
 
-BiasSinexFile read_text(const std::string& text) {
+BiasSinexFile read_bias_text(const std::string& text) {
   const TemporaryFile file("test.BIA", text);
   return read_bias_sinex(file.path());
 }
 
 std::string refusal_of(const std::string& text) {
   try {
-    read_text(text);
+    read_bias_text(text);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -76,10 +76,10 @@ const SignalBias* find(const BiasSinexFile& file, const char* satellite, const c
 }  // namespace
 
 TEST_CASE("biases of single codes come with their validity", "[bias_sinex]") {
-  const BiasSinexFile file =
-      read_text(file_of(record("OSB", "G01", "C1C", "", kDay1, kDay2, 10.2472) +
-                        record("OSB", "G01", "C1C", "", kDay2, kDay3, -3.5) +
-                        record("OSB", "E11", "C5Q", "", "0000:000:00000", "0000:000:00000", 1.0)));
+  const BiasSinexFile file = read_bias_text(
+      file_of(record("OSB", "G01", "C1C", "", kDay1, kDay2, 10.2472) +
+              record("OSB", "G01", "C1C", "", kDay2, kDay3, -3.5) +
+              record("OSB", "E11", "C5Q", "", "0000:000:00000", "0000:000:00000", 1.0)));
   REQUIRE(file.biases.size() == 3);
   const SignalBias& first = file.biases[0];
   CHECK(first.kind == BiasKind::kCode);
@@ -96,10 +96,10 @@ TEST_CASE("biases of single codes come with their validity", "[bias_sinex]") {
 // the delays of L1P and L2P against the clock as TGD and gamma TGD.
 TEST_CASE("differences become biases against the pair of the clock", "[bias_sinex]") {
   const BiasSinexFile file =
-      read_text(file_of(record("DSB", "G05", "C1C", "C1W", kDay1, kDay2, 1.5) +
-                        record("DSB", "G05", "C1W", "C2W", kDay1, kDay2, 4.0) +
-                        record("DSB", "G05", "C2W", "C2L", kDay1, kDay2, -0.5) +
-                        record("DSB", "G05", "C1C", "C5Q", kDay1, kDay2, 7.0)));
+      read_bias_text(file_of(record("DSB", "G05", "C1C", "C1W", kDay1, kDay2, 1.5) +
+                             record("DSB", "G05", "C1W", "C2W", kDay1, kDay2, 4.0) +
+                             record("DSB", "G05", "C2W", "C2L", kDay1, kDay2, -0.5) +
+                             record("DSB", "G05", "C1C", "C5Q", kDay1, kDay2, 7.0)));
   const double gamma = 77.0 * 77.0 / (60.0 * 60.0), tgd = 4.0 / (1.0 - gamma);
   const auto ns = [&](const char* code) {
     const SignalBias* bias = find(file, "G05", code, kStart);
@@ -118,23 +118,23 @@ TEST_CASE("the pair that the product names comes before the usual one", "[bias_s
   const std::string records = record("DSB", "E11", "C1X", "C7X", kDay1, kDay2, 3.0) +
                               record("DSB", "E11", "C1X", "C5X", kDay1, kDay2, 2.0);
   const BiasSinexFile named =
-      read_text(file_of(records, " SATELLITE_CLOCK_REFERENCE_OBSERVABLES   E  C1X  C7X\n"));
+      read_bias_text(file_of(records, " SATELLITE_CLOCK_REFERENCE_OBSERVABLES   E  C1X  C7X\n"));
   const double f1 = 154.0 * 154.0, f7 = 118.0 * 118.0;
   CHECK(find(named, "E11", "1X", kStart)->bias_m / kNanosecond_m ==
         Approx(-f7 / (f1 - f7) * 3.0).epsilon(1e-12));
   const double f5 = 115.0 * 115.0;
-  CHECK(find(read_text(file_of(records)), "E11", "1X", kStart)->bias_m / kNanosecond_m ==
+  CHECK(find(read_bias_text(file_of(records)), "E11", "1X", kStart)->bias_m / kNanosecond_m ==
         Approx(-f5 / (f1 - f5) * 2.0).epsilon(1e-12));
   const BiasSinexFile single =
-      read_text(file_of(records, " SATELLITE_CLOCK_REFERENCE_OBSERVABLES   E  C7X\n"));
+      read_bias_text(file_of(records, " SATELLITE_CLOCK_REFERENCE_OBSERVABLES   E  C7X\n"));
   CHECK(find(single, "E11", "7X", kStart)->bias_m == 0.0);
   CHECK(find(single, "E11", "1X", kStart)->bias_m == Approx(3.0 * kNanosecond_m));
 }
 
 TEST_CASE("codes that no difference connects to the clock are told by name", "[bias_sinex]") {
   const BiasSinexFile file =
-      read_text(file_of(record("DSB", "C19", "C2I", "C6I", kDay1, kDay2, 4.0) +
-                        record("DSB", "C19", "C1X", "C5X", kDay1, kDay2, 1.0)));
+      read_bias_text(file_of(record("DSB", "C19", "C2I", "C6I", kDay1, kDay2, 4.0) +
+                             record("DSB", "C19", "C1X", "C5X", kDay1, kDay2, 1.0)));
   CHECK(file.biases.size() == 2);
   CHECK(file.without_reference == 2);
   CHECK(file.unconnected.count({System::kBeidou, {'5', 'X'}}) == 1);
@@ -160,7 +160,7 @@ TEST_CASE("a damaged record costs itself and is told with its line", "[bias_sine
       {good.substr(0, 60) + "\n", "two times"}};
   for (const auto& [line, what] : bad) {
     INFO(line);
-    const BiasSinexFile file = read_text(file_of(good + line));
+    const BiasSinexFile file = read_bias_text(file_of(good + line));
     CHECK(file.biases.size() == 1);
     CHECK(file.damaged_lines == 1);
     REQUIRE(file.problems.size() == 1);
@@ -177,13 +177,13 @@ TEST_CASE("records of other things are counted apart", "[bias_sinex]") {
   flat.back() = ' ';
   flat += "               0.0000\n";
   const BiasSinexFile file =
-      read_text(file_of(flat + sloped + record("OSB", "G01", "C1C", "", kDay1, kDay2, 1.0) +
-                        record("DSB", "G01", "C1C", "C1W", kDay1, kDay2, 1.0) +
-                        record("OSB", "R01", "C1C", "", kDay1, kDay2, 1.0) +
-                        record("OSB", "G", "C1C", "", kDay1, kDay2, 1.0, "ABMF") +
-                        record("OSB", "G01", "L1C", "", kDay1, kDay2, 1.0) +
-                        record("OSB", "G01", "L1C", "", kDay1, kDay2, 1.0, "", "cyc") +
-                        record("ISB", "G01", "C1C", "", kDay1, kDay2, 1.0)));
+      read_bias_text(file_of(flat + sloped + record("OSB", "G01", "C1C", "", kDay1, kDay2, 1.0) +
+                             record("DSB", "G01", "C1C", "C1W", kDay1, kDay2, 1.0) +
+                             record("OSB", "R01", "C1C", "", kDay1, kDay2, 1.0) +
+                             record("OSB", "G", "C1C", "", kDay1, kDay2, 1.0, "ABMF") +
+                             record("OSB", "G01", "L1C", "", kDay1, kDay2, 1.0) +
+                             record("OSB", "G01", "L1C", "", kDay1, kDay2, 1.0, "", "cyc") +
+                             record("ISB", "G01", "C1C", "", kDay1, kDay2, 1.0)));
   CHECK(file.biases.size() == 2);
   CHECK(file.slopes == 1);
   CHECK(file.beside_absolute == 1);
@@ -201,13 +201,13 @@ TEST_CASE("what is no Bias-SINEX file, or has nothing to use, is refused", "[bia
   CHECK(refusal_of(file_of("")).find("holds no code bias") != std::string::npos);
   CHECK(refusal_of(file_of("", " TIME_SYSTEM  X\n")).find("time system 'X'") != std::string::npos);
   const std::string all = file_of(record("OSB", "G01", "C1C", "", kDay1, kDay2, 1.0));
-  CHECK(read_text(all.substr(0, all.size() - 9)).truncated);
+  CHECK(read_bias_text(all.substr(0, all.size() - 9)).truncated);
 }
 
 TEST_CASE("times of other systems become GPS time", "[bias_sinex]") {
   const std::string one = record("OSB", "G01", "C1C", "", kDay1, kDay2, 1.0);
   const auto start = [&](const char* system) {
-    return read_text(file_of(one, std::string(" TIME_SYSTEM  ") + system + "\n"))
+    return read_bias_text(file_of(one, std::string(" TIME_SYSTEM  ") + system + "\n"))
         .biases[0]
         .valid_from;
   };

@@ -9,7 +9,7 @@
 namespace leonav {
 namespace {
 
-const std::string kHeader =
+const std::string kBlqHeader =
     "$$ Ocean loading displacement\n"
     "$$\n"
     "$$ COLUMN ORDER:  M2  S2  N2  K2  K1  O1  P1  Q1  MF  MM SSA\n"
@@ -36,10 +36,10 @@ const std::string kOther =
     "$$ a remark between rows\n"
     "   201.1  202.1  203.1  204.1  205.1  206.1  207.1  208.1  209.1  210.1  211.1\n"
     "   301.1  302.1  303.1  304.1  305.1  306.1  307.1  308.1  309.1  310.1  311.1\n";
-const std::string kEnd = "$$ END TABLE\n";
+const std::string kEndOfTable = "$$ END TABLE\n";
 constexpr int kHeaderLines = 6;
 
-BlqStation read_text(const std::string& text, const std::string& station) {
+BlqStation read_blq_text(const std::string& text, const std::string& station) {
   const test::TemporaryFile file("test.blq", text);
   return read_blq(file.path(), station);
 }
@@ -71,15 +71,15 @@ std::string error_of(const std::string& text, const std::string& station) {
 }  // namespace
 
 TEST_CASE("each station of a BLQ file is found, row by row and wave by wave", "[blq]") {
-  const std::string text = kHeader + kOnsala + kEnd + kOther + kEnd;
-  const BlqStation onsala = read_text(text, "ONSALA");
+  const std::string text = kBlqHeader + kOnsala + kEndOfTable + kOther + kEndOfTable;
+  const BlqStation onsala = read_blq_text(text, "ONSALA");
   CHECK(onsala.name == "ONSALA");
   CHECK(onsala.line == kHeaderLines + 1);
   CHECK(onsala.rows(0, 0) == 0.00352);
   CHECK(onsala.rows(2, 10) == 0.00001);
   CHECK(onsala.rows(3, 0) == -64.7);
   CHECK(onsala.rows(5, 10) == 5.2);
-  const BlqStation other = read_text(text, "7840 13212S001");
+  const BlqStation other = read_blq_text(text, "7840 13212S001");
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < OceanLoading::kConstituents; ++column) {
       INFO(row << " " << column);
@@ -90,7 +90,7 @@ TEST_CASE("each station of a BLQ file is found, row by row and wave by wave", "[
 }
 
 TEST_CASE("BLQ rows become metres and radians, by constituent", "[blq]") {
-  const OceanLoading loading = ocean_loading(read_text(kOther, "").rows);
+  const OceanLoading loading = ocean_loading(read_blq_text(kOther, "").rows);
   CHECK(loading.amplitude_m(0, OceanLoading::kM2) == Approx(0.01001));
   CHECK(loading.amplitude_m(1, OceanLoading::kS2) == Approx(0.02002));
   CHECK(loading.amplitude_m(2, OceanLoading::kSsa) == Approx(0.03011));
@@ -99,14 +99,14 @@ TEST_CASE("BLQ rows become metres and radians, by constituent", "[blq]") {
 }
 
 TEST_CASE("a BLQ station is named in any case, whole or by its first word", "[blq]") {
-  const std::string text = kHeader + kOnsala + kOther;
-  CHECK(read_text(text, "onsala").name == "ONSALA");
-  CHECK(read_text(text, " 7840 ").name == "7840 13212S001");
-  CHECK(read_text(kOnsala, "").name == "ONSALA");
-  CHECK(read_text("\xef\xbb\xbf\r\n" + replaced(kOnsala, "\n", "\r\n"), "Onsala").line == 2);
+  const std::string text = kBlqHeader + kOnsala + kOther;
+  CHECK(read_blq_text(text, "onsala").name == "ONSALA");
+  CHECK(read_blq_text(text, " 7840 ").name == "7840 13212S001");
+  CHECK(read_blq_text(kOnsala, "").name == "ONSALA");
+  CHECK(read_blq_text("\xef\xbb\xbf\r\n" + replaced(kOnsala, "\n", "\r\n"), "Onsala").line == 2);
   // A whole name goes before another's first word.
   const std::string marker = replaced(kOther, "7840 13212S001", "7840");
-  CHECK(read_text(kOther + marker, "7840").name == "7840");
+  CHECK(read_blq_text(kOther + marker, "7840").name == "7840");
   CHECK_THAT(error_of(kOther + replaced(kOther, "13212S001", "13212M009"), "7840"),
              Catch::Contains(":9: the name fits more than one station") &&
                  Catch::Contains("'7840 13212S001', '7840 13212M009'"));
@@ -115,7 +115,7 @@ TEST_CASE("a BLQ station is named in any case, whole or by its first word", "[bl
 }
 
 TEST_CASE("a BLQ station that is absent or there twice is an error that says so", "[blq]") {
-  const std::string text = kHeader + kOnsala + kOther;
+  const std::string text = kBlqHeader + kOnsala + kOther;
   CHECK(error_of(text, "BRUX") ==
         ": station 'BRUX' is not in the file; there are 'ONSALA', '7840 13212S001'");
   CHECK_THAT(error_of(text, "onsela"), Catch::Contains("did you mean 'ONSALA'?"));
@@ -146,15 +146,15 @@ TEST_CASE("a damaged BLQ station is named with its line; others do not mind", "[
         Case{replaced(kOnsala, row, "  remark\n" + row), ":10: station 'ONSALA': has 1 of its six"},
         Case{seventh, ":15: station 'ONSALA': has more than six rows"}}) {
     INFO(text);
-    CHECK_THAT(error_of(kHeader + text + kOther, "ONSALA"), Catch::StartsWith(what));
-    CHECK(read_text(kHeader + text + kOther, "7840").rows(5, 10) == 311.1);
-    CHECK(read_text(kHeader + kOther + text, "7840").rows(0, 0) == 0.01001);
+    CHECK_THAT(error_of(kBlqHeader + text + kOther, "ONSALA"), Catch::StartsWith(what));
+    CHECK(read_blq_text(kBlqHeader + text + kOther, "7840").rows(5, 10) == 311.1);
+    CHECK(read_blq_text(kBlqHeader + kOther + text, "7840").rows(0, 0) == 0.01001);
   }
 }
 
 TEST_CASE("a BLQ file cut off anywhere gives no wrong coefficients", "[blq]") {
-  const std::string text = kHeader + kOther + kOnsala;
-  const BlqRows whole = read_text(text, "ONSALA").rows;
+  const std::string text = kBlqHeader + kOther + kOnsala;
+  const BlqRows whole = read_blq_text(text, "ONSALA").rows;
   int refused = 0, read = 0, wrong = 0;
   for (std::size_t length = 0; length < text.size(); ++length) {
     const test::TemporaryFile file("cut.blq", text.substr(0, length));
@@ -173,11 +173,11 @@ TEST_CASE("a BLQ file cut off anywhere gives no wrong coefficients", "[blq]") {
 TEST_CASE("what is no BLQ file is refused", "[blq]") {
   CHECK_THROWS_AS(read_blq("no/such.blq", "ONSALA"), FileError);
   for (const std::string& text :
-       {std::string(), std::string("hello\n"), kHeader, std::string("\x01\x02\n\x03\n")}) {
+       {std::string(), std::string("hello\n"), kBlqHeader, std::string("\x01\x02\n\x03\n")}) {
     CHECK_THAT(error_of(text, ""), Catch::Contains("holds no station"));
     CHECK_THAT(error_of(text, "ONSALA"), Catch::Contains("holds no station"));
   }
-  const std::string swapped = replaced(kHeader, "M2  S2", "S2  M2");
+  const std::string swapped = replaced(kBlqHeader, "M2  S2", "S2  M2");
   CHECK_THAT(error_of(swapped + kOnsala, "ONSALA"),
              Catch::StartsWith(":3: columns are in another"));
   std::string prose;

@@ -27,7 +27,7 @@ std::string header(const std::string& version, const std::string& time_system,
   return text + padded("", label_column) + "END OF HEADER\n";
 }
 
-const std::string kHeader = header("     3.00", "GPS");
+const std::string kClockHeader = header("     3.00", "GPS");
 const std::string kG01 = "AS G01  2024  1  1  0  0  0.000000  2   -0.123456789012E-03  0.5D-11\n";
 const std::string kE05 = "AS E05  2024  1  1  0  0  0.000000  1    0.200000000000E-03\n";
 const std::string kG01Later =
@@ -47,19 +47,19 @@ File read_path(const std::string& path) {
   return file;
 }
 
-File read_text(const std::string& text) {
+File read_clock_text(const std::string& text) {
   return read_path(test::TemporaryFile("a.clk", text).path());
 }
 
 }  // namespace
 
 TEST_CASE("RINEX clocks come epoch by epoch, without positions") {
-  const File file =
-      read_text(kHeader + kG01 + "AR BRUX 2024  1  1  0  0  0.000000  2    0.1E-08  0.1E-10\n" +
-                kE05 + "AS R07  2024  1  1  0  0  0.000000  1    0.1E-03\n" +
-                "AS G02  2024  1  1  0  0  0.000000  6    0.300000000000E-03  0.1E-10\n"
-                "    0.100000000000E-12  0.1E-13  0.1E-15  0.1E-16\n" +
-                "AS G03  2024  1  1  0  0  0.000000  1    0.999999999999E+06\n" + kG01Later);
+  const File file = read_clock_text(
+      kClockHeader + kG01 + "AR BRUX 2024  1  1  0  0  0.000000  2    0.1E-08  0.1E-10\n" + kE05 +
+      "AS R07  2024  1  1  0  0  0.000000  1    0.1E-03\n" +
+      "AS G02  2024  1  1  0  0  0.000000  6    0.300000000000E-03  0.1E-10\n"
+      "    0.100000000000E-12  0.1E-13  0.1E-15  0.1E-16\n" +
+      "AS G03  2024  1  1  0  0  0.000000  1    0.999999999999E+06\n" + kG01Later);
   REQUIRE(file.epochs.size() == 2);
   CHECK(file.epochs[0].time == kMidnight);
   REQUIRE(file.epochs[0].states.size() == 3);
@@ -81,20 +81,21 @@ TEST_CASE("every version's columns are read") {
   const std::string wide =
       "AS G01       2024 01 01 00 00  0.000000  2    -0.123456789012E-03  0.5E-11\n"
       "AR BRUX00BEL 2024 01 01 00 00  0.000000  1     0.123456789012E-03\n";
-  CHECK(read_text(header("3.04", "GPS", 65) + wide).counts.damaged_lines == 0);
-  CHECK(read_text(header("3.04", "GPS", 65) + wide).epochs.at(0).states.at(0).clock_s ==
+  CHECK(read_clock_text(header("3.04", "GPS", 65) + wide).counts.damaged_lines == 0);
+  CHECK(read_clock_text(header("3.04", "GPS", 65) + wide).epochs.at(0).states.at(0).clock_s ==
         Approx(-0.123456789012e-3).epsilon(1e-15));
   for (const char* version : {"     2.00", "     3.00", "     3.01", "     3.02", "     3.03"}) {
-    CHECK(read_text(header(version, "") + kG01).epochs.at(0).time == kMidnight);
+    CHECK(read_clock_text(header(version, "") + kG01).epochs.at(0).time == kMidnight);
   }
   for (const char* version : {"     1.00", "     2.11", "     3.05", "     4.00"}) {
-    CHECK_THROWS_WITH(read_text(header(version, "") + kG01), Catch::Contains(":1: is of version"));
+    CHECK_THROWS_WITH(read_clock_text(header(version, "") + kG01),
+                      Catch::Contains(":1: is of version"));
   }
 }
 
 TEST_CASE("clock times of other systems become GPS time") {
   const auto offset_of = [](const std::string& system) {
-    return seconds_between(read_text(header("     3.02", system) + kG01).epochs.at(0).time,
+    return seconds_between(read_clock_text(header("     3.02", system) + kG01).epochs.at(0).time,
                            kMidnight);
   };
   for (const char* same : {"GPS", "GAL", "QZS", "IRN", ""}) CHECK(offset_of(same) == 0.0);
@@ -118,28 +119,28 @@ TEST_CASE("a damaged clock record costs that record and is named") {
                               "lower case\n"};
   for (const std::string& row : rows) {
     INFO(row);
-    const File file = read_text(kHeader + kE05 + row + kG01Later);
+    const File file = read_clock_text(kClockHeader + kE05 + row + kG01Later);
     CHECK(file.counts.states == 2);
     CHECK(file.counts.damaged_lines + file.counts.other_system == 1);
     if (file.counts.damaged_lines == 1) CHECK(file.counts.problems.at(0).line == 5);
   }
   // Twice, and at a time that is nonsense: what follows is still there.
-  CHECK(read_text(kHeader + kG01 + kG01).counts.damaged_lines == 1);
-  const File far = read_text(kHeader + kG01 + "AS G02  2098  1  1  0  0  0.000000  1  0.1E-03\n" +
-                             kE05 + kG01Later);
+  CHECK(read_clock_text(kClockHeader + kG01 + kG01).counts.damaged_lines == 1);
+  const File far = read_clock_text(
+      kClockHeader + kG01 + "AS G02  2098  1  1  0  0  0.000000  1  0.1E-03\n" + kE05 + kG01Later);
   CHECK(far.counts.states == 4);
   // Only the first are kept.
-  std::string many = kHeader + kG01;
+  std::string many = kClockHeader + kG01;
   for (int i = 0; i < 1000; ++i) many += "AS\n";
-  CHECK(read_text(many).counts.damaged_lines == 1000);
-  CHECK(read_text(many).counts.problems.size() == 20);
+  CHECK(read_clock_text(many).counts.damaged_lines == 1000);
+  CHECK(read_clock_text(many).counts.problems.size() == 20);
 }
 
 TEST_CASE("a clock file cut off anywhere gives no wrong clock") {
-  const std::string text = kHeader + kG01 + kE05 + kG01Later;
-  for (std::size_t length = kHeader.size() + 1; length < text.size(); ++length) {
+  const std::string text = kClockHeader + kG01 + kE05 + kG01Later;
+  for (std::size_t length = kClockHeader.size() + 1; length < text.size(); ++length) {
     try {
-      for (const ClockEpoch& epoch : read_text(text.substr(0, length)).epochs) {
+      for (const ClockEpoch& epoch : read_clock_text(text.substr(0, length)).epochs) {
         for (const PreciseState& state : epoch.states) {
           const double clock_s = state.satellite.system == System::kGalileo ? 2e-4 : -1.23456789e-4;
           CHECK(state.clock_s == Approx(clock_s).epsilon(1e-9));
@@ -152,14 +153,14 @@ TEST_CASE("a clock file cut off anywhere gives no wrong clock") {
 
 TEST_CASE("a clock file without anything to use is an error that says so") {
   CHECK_THROWS_AS(ClockReader("no/such/file.clk"), FileError);
-  CHECK_THROWS_WITH(read_text(""), Catch::Contains("is empty"));
-  CHECK_THROWS_WITH(read_text("hello\n"), Catch::Contains(":1: does not begin"));
-  CHECK_THROWS_WITH(read_text(padded(padded("     3.04", 20) + "OBSERVATION DATA", 60) +
-                              "RINEX VERSION / TYPE\n"),
+  CHECK_THROWS_WITH(read_clock_text(""), Catch::Contains("is empty"));
+  CHECK_THROWS_WITH(read_clock_text("hello\n"), Catch::Contains(":1: does not begin"));
+  CHECK_THROWS_WITH(read_clock_text(padded(padded("     3.04", 20) + "OBSERVATION DATA", 60) +
+                                    "RINEX VERSION / TYPE\n"),
                     Catch::Contains(":1: is RINEX, but no clock file"));
-  CHECK_THROWS_WITH(read_text(kHeader.substr(0, kHeader.size() - 15)),
+  CHECK_THROWS_WITH(read_clock_text(kClockHeader.substr(0, kClockHeader.size() - 15)),
                     Catch::Contains("END OF HEADER"));
-  CHECK_THROWS_WITH(read_text(kHeader), Catch::Contains("holds no clock"));
+  CHECK_THROWS_WITH(read_clock_text(kClockHeader), Catch::Contains("holds no clock"));
 }
 
 TEST_CASE("the recorded clock file agrees with the orbit file's clocks at their common times") {

@@ -8,7 +8,7 @@
 namespace leonav {
 namespace {
 
-class Collector : public ImuLineHandler {
+class LineCollector : public ImuLineHandler {
  public:
   void on_line(const ImuLine& line) override { lines.push_back(line); }
   std::vector<ImuLine> lines;
@@ -23,10 +23,10 @@ LineLayout layout() {
   return layout;
 }
 
-Collector decode(const LineLayout& how, const std::string& text,
-                 ImuLineCounters* counters = nullptr) {
+LineCollector decode(const LineLayout& how, const std::string& text,
+                     ImuLineCounters* counters = nullptr) {
   ImuLineDecoder decoder(how);
-  Collector collector;
+  LineCollector collector;
   for (const char c : text) {
     const auto byte = static_cast<std::uint8_t>(c);
     decoder.feed({&byte, 1}, &collector);

@@ -52,7 +52,7 @@ struct Numbers {
   std::int64_t missing = 0;
 };
 
-Numbers read(const std::string& path) {
+Numbers read_numbers(const std::string& path) {
   EventLogReader log(path);
   Numbers numbers;
   for (LogEvent event; log.next(&event);) numbers.list.push_back(event.number);
@@ -137,7 +137,7 @@ TEST_CASE("the pieces of a run are one log, from the first one or from the folde
     const auto whole = from_to(0, 29);
     for (const std::string& path : {journal, fs::path(journal).parent_path().string()}) {
       INFO(path);
-      const Numbers numbers = read(path);
+      const Numbers numbers = read_numbers(path);
       CHECK(numbers.list == whole);
       CHECK(numbers.missing == 0);
       CHECK(EventLogReader(path).size_bytes() > static_cast<std::int64_t>(fs::file_size(journal)));
@@ -151,16 +151,16 @@ TEST_CASE("what was written twice is read once; what is gone is counted") {
   write_piece(journal, {5, 1}, 2, 12);
   write_piece(journal + ".part0002", {5, 2}, 10, 19);
   write_piece(journal + ".part0004", {5, 4}, 30, 39);
-  Numbers numbers = read(journal);
+  Numbers numbers = read_numbers(journal);
   auto expected = from_to(0, 19);
   for (const std::int64_t i : from_to(30, 39)) expected.push_back(i);
   CHECK(numbers.list == expected);
   CHECK(numbers.missing == 10);
   // An event that is cut short stands whole in the next piece.
   fs::resize_file(journal, fs::file_size(journal) - 3);
-  CHECK(read(journal).list == expected);
+  CHECK(read_numbers(journal).list == expected);
   // The first pieces are gone: the beginning of the first that is left stands for theirs.
-  numbers = read(journal + ".part0004");
+  numbers = read_numbers(journal + ".part0004");
   expected = from_to(0, 1);
   for (const std::int64_t i : from_to(30, 39)) expected.push_back(i);
   CHECK(numbers.list == expected);
@@ -176,13 +176,13 @@ TEST_CASE("pieces of other runs, other names and damaged beginnings do not join 
   write_piece(journal + ".part0002.txt", {5, 2}, 10, 19);
   std::ofstream(journal + ".part0004") << "";
   std::ofstream(journal + ".part0005") << std::string(5000, 'x');
-  CHECK(read(journal).list == from_to(0, 9));
+  CHECK(read_numbers(journal).list == from_to(0, 9));
   // Hostile lengths behind a true beginning.
   std::ofstream file(journal + ".part0006", std::ios::binary);
   const auto header = encode_event_header({0, 1, 8, kMaxEventDataBytes + 1});
   file.write(reinterpret_cast<const char*>(header.data()), header.size());
   file.close();
-  CHECK(read(journal).list == from_to(0, 9));
+  CHECK(read_numbers(journal).list == from_to(0, 9));
   CHECK_THROWS_WITH(EventLogReader(fs::path(journal).parent_path()),
                     Catch::Matchers::Contains("holds journals of several runs"));
 }
@@ -214,7 +214,7 @@ TEST_CASE("a damaged event number inside a piece is damage, named with its byte"
     const EventHeaderBytes header = encode_event_header({number, 1, 5, 1});
     file.write(reinterpret_cast<const char*>(header.data()), header.size());
     file.close();
-    return read(journal).list;
+    return read_numbers(journal).list;
   };
   CHECK(read_with(5, 13) == from_to(0, 15));
   for (const std::int64_t number :
@@ -233,7 +233,7 @@ TEST_CASE("a damaged event number inside a piece is damage, named with its byte"
   for (std::int64_t i = 2; i <= 5; ++i) write_event(&copied, i, "X_IMU", kByte);
   copied.close();
   fs::remove(journal + ".part0002");
-  CHECK(read(journal).list == from_to(0, 5));
+  CHECK(read_numbers(journal).list == from_to(0, 5));
 }
 
 TEST_CASE("sizes of files with holes do not overflow their sum") {

@@ -31,7 +31,7 @@ Sets sets_of(const std::vector<Ephemeris>& all, NavigationMessage message) {
   return sets;
 }
 
-std::string oracle() {
+std::string cnav1_oracle() {
   const char* python = std::getenv("LEONAV_PYTHON");
   return std::string("'") + (python != nullptr ? python : "python3") +
          "' '" LEONAV_SOURCE_DIR "/test/oracle/bcnav1.py' ";
@@ -68,14 +68,14 @@ SubframeStatus read(const Subframe2& subframe, Ephemeris* e) {
 
 TEST_CASE("Every element of the walk's B-CNAV1 is that of cssrlib") {
   if (!test::have_shared_data(test::kWalkUbx)) return;
-  if (std::system((oracle() + "--have >/dev/null 2>&1").c_str()) != 0) {
+  if (std::system((cnav1_oracle() + "--have >/dev/null 2>&1").c_str()) != 0) {
     std::cout << "SKIPPED (optional): no Python with cssrlib (LEONAV_PYTHON names another)\n";
     return;
   }
   const test::TemporaryFile output("sets.txt", "");
-  REQUIRE(std::system(
-              (oracle() + "'" + test::shared_data(test::kWalkUbx) + "' >'" + output.path() + "'")
-                  .c_str()) == 0);
+  REQUIRE(std::system((cnav1_oracle() + "'" + test::shared_data(test::kWalkUbx) + "' >'" +
+                       output.path() + "'")
+                          .c_str()) == 0);
   const Sets ours = sets_of(test::decode_walk().ephemerides, NavigationMessage::kBeidouCnav1);
   std::ifstream file(output.path());
   int lines = 0;

@@ -10,18 +10,11 @@ using namespace leonav::test;
 
 namespace {
 
-const std::string kHeader =
+const std::string kHeader4 =
     header_line("     4.01           NAVIGATION DATA     M", "RINEX VERSION / TYPE") +
     header_line("", "END OF HEADER");
 const std::string kGps = "G07 2024 05 06 08 00 00", kGalileo = "E05 2024 05 06 08 10 00",
                   kBeidou = "C03 2024 05 06 08 00 00", kInclined = "C38 2024 05 06 08 00 00";
-const GpsTime kMonday = from_calendar({2024, 5, 6, 8, 0, 0.0});  // tow 115200, week 2313
-
-NavigationFile read(const std::string& text) {
-  const TemporaryFile file("test.nav", text);
-  return read_navigation(file.path());
-}
-
 std::string named(const std::string& name, const std::string& record) {
   return "> EPH " + record.substr(0, 3) + " " + name + "\n" + record;
 }
@@ -59,9 +52,9 @@ double bias_of(const NavigationFile& file, const std::string& satellite, const s
 }  // namespace
 
 TEST_CASE("RINEX 4 navigation: a record is that of RINEX 3, its message the named one", "[rinex]") {
-  const auto file = read(kHeader + named("LNAV", good(kGps)) + named("INAV", good(kGalileo)) +
-                         named("FNAV", good(kGalileo)) + named("D2  ", good(kBeidou)) +
-                         named("D1", good(kInclined)));
+  const auto file = read_navigation_text(
+      kHeader4 + named("LNAV", good(kGps)) + named("INAV", good(kGalileo)) +
+      named("FNAV", good(kGalileo)) + named("D2  ", good(kBeidou)) + named("D1", good(kInclined)));
   for (const auto& skip : file.counts.skipped) CHECK(skip.reason == "");
   CHECK(file.counts.used == 5);
   REQUIRE(file.ephemerides.size() == 5);
@@ -69,7 +62,8 @@ TEST_CASE("RINEX 4 navigation: a record is that of RINEX 3, its message the name
       header_line("     3.05           N: GNSS NAV DATA    M", "RINEX VERSION / TYPE") +
       header_line("", "END OF HEADER");
   const auto old =
-      read(header_3 + good(kGps) + good(kGalileo) + good(kBeidou) + good(kInclined)).ephemerides;
+      read_navigation_text(header_3 + good(kGps) + good(kGalileo) + good(kBeidou) + good(kInclined))
+          .ephemerides;
   REQUIRE(old.size() == 4);
   const auto same = [](Ephemeris a, const Ephemeris& b) {
     CHECK(a.satellite == b.satellite);
@@ -93,15 +87,15 @@ TEST_CASE("RINEX 4 navigation: a record is that of RINEX 3, its message the name
 
 TEST_CASE("RINEX 4 navigation: B-CNAV1 gives elements for corrections, and group delays",
           "[rinex]") {
-  const auto file = read(kHeader + cnav_record("CNV1", kInclined, 39,
-                                               {{20, 1e-14},
-                                                {27, -1e-9},
-                                                {29, 4e-9},
-                                                {30, 2e-9},
-                                                {32, 1},
-                                                {34, 258},
-                                                {35, 115218.0},
-                                                {38, 2}}));
+  const auto file = read_navigation_text(kHeader4 + cnav_record("CNV1", kInclined, 39,
+                                                                {{20, 1e-14},
+                                                                 {27, -1e-9},
+                                                                 {29, 4e-9},
+                                                                 {30, 2e-9},
+                                                                 {32, 1},
+                                                                 {34, 258},
+                                                                 {35, 115218.0},
+                                                                 {38, 2}}));
   CHECK(file.counts.skipped.empty());
   REQUIRE(file.ephemerides.size() == 1);
   const Ephemeris& e = file.ephemerides[0];
@@ -126,10 +120,10 @@ TEST_CASE("RINEX 4 navigation: of CNAV and B-CNAV2 the group delays are used", "
     values.emplace_back(place, value);
     return values;
   };
-  const auto file =
-      read(kHeader + cnav_record("CNAV", kGps, 35, with(gps, 31, 115212.0)) +
-           cnav_record("CNV2", "G08 2024 05 06 08 00 00", 39, with(gps, 35, 115212.0)) +
-           cnav_record("CNV2", kInclined, 39, {{28, 1e-9}, {29, 4e-9}, {30, 2e-9}}));
+  const auto file = read_navigation_text(
+      kHeader4 + cnav_record("CNAV", kGps, 35, with(gps, 31, 115212.0)) +
+      cnav_record("CNV2", "G08 2024 05 06 08 00 00", 39, with(gps, 35, 115212.0)) +
+      cnav_record("CNV2", kInclined, 39, {{28, 1e-9}, {29, 4e-9}, {30, 2e-9}}));
   CHECK(file.ephemerides.empty());
   CHECK(file.counts.all_skipped_by_design());
   CHECK(file.counts.count_of("CNAV record (group delays used, elements not used)") == 2);
@@ -153,8 +147,8 @@ TEST_CASE("RINEX 4 navigation: other records are counted, the ionosphere of LNAV
       "     4.000000000000e-08 5.000000000000e+04 6.000000000000e+04"
       " 7.000000000000e+04\n"
       "     8.000000000000e+04 0.000000000000e+00\n";
-  const auto file = read(
-      kHeader + "> STO G07 LNAV\n    2024 05 06 08 00 00 GPUT\n     1 2 3 4\n" +
+  const auto file = read_navigation_text(
+      kHeader4 + "> STO G07 LNAV\n    2024 05 06 08 00 00 GPUT\n     1 2 3 4\n" +
       "> EOP G07 CNAV\n    2024 05 06 08 00 00 1.0\n     1\n     2\n" + "> ION E05 IFNV\n" + four +
       "> ION G07 LNAV\n" + four + named("FDMA", "R01 2024 05 06 08 00 00 1.0e-04\n    1\n    2\n") +
       named("LNAV", good("J02 2024 05 06 08 00 00")) + named("SBAS", good(kGps)) +
@@ -186,11 +180,11 @@ TEST_CASE("RINEX 4 navigation: a damaged record costs itself alone", "[rinex]") 
   cut.resize(cut.size() / 2);
   std::string bad_cnav = cnav_record("CNV1", kInclined, 39, {{35, 115218.0}, {38, 2}});
   bad_cnav.replace(bad_cnav.find("2.38"), 1, "x");
-  const auto file =
-      read(kHeader + "    junk\n" + named("LNAV", at(1)) + bad_number + named("LNAV", at(3)) + cut +
-           "\n" + named("LNAV", at(5)) + at(6) + named("LNAV", at(7)) + "> EPH G08 LNAV\n" + at(9) +
-           bad_cnav + cnav_record("CNV1", kInclined, 38, {{35, 115218.0}}) + "> EPH G10 LNAV\n" +
-           ">\n" + named("LNAV", at(11) + "    extra\n") + named("LNAV", at(12)));
+  const auto file = read_navigation_text(
+      kHeader4 + "    junk\n" + named("LNAV", at(1)) + bad_number + named("LNAV", at(3)) + cut +
+      "\n" + named("LNAV", at(5)) + at(6) + named("LNAV", at(7)) + "> EPH G08 LNAV\n" + at(9) +
+      bad_cnav + cnav_record("CNV1", kInclined, 38, {{35, 115218.0}}) + "> EPH G10 LNAV\n" + ">\n" +
+      named("LNAV", at(11) + "    extra\n") + named("LNAV", at(12)));
   std::vector<int> numbers;
   for (const Ephemeris& e : file.ephemerides) numbers.push_back(e.satellite.number);
   CHECK(numbers == std::vector<int>{1, 3, 5, 7, 12});
@@ -206,10 +200,10 @@ TEST_CASE("RINEX 4 navigation: a damaged record costs itself alone", "[rinex]") 
 
 TEST_CASE("RINEX 4 navigation: a file cut off at any byte gives whole records alone", "[rinex]") {
   const std::string text =
-      kHeader + named("LNAV", good(kGps)) +
+      kHeader4 + named("LNAV", good(kGps)) +
       cnav_record("CNV1", kInclined, 39, {{29, 4e-9}, {35, 115218.0}, {38, 2}});
-  for (std::size_t size = kHeader.size(); size < text.size(); ++size) {
-    const auto file = read(text.substr(0, size));
+  for (std::size_t size = kHeader4.size(); size < text.size(); ++size) {
+    const auto file = read_navigation_text(text.substr(0, size));
     for (const Ephemeris& e : file.ephemerides) {
       CHECK(e.i_dot == 3e-10);
       CHECK(e.toe.is_set());

@@ -16,18 +16,11 @@ const std::string kHeader3 =
     header_line("GPSB   8.1920D+04  9.8304d+04 -6.5536e+04 -5.2429E+05", "IONOSPHERIC CORR") +
     header_line("", "END OF HEADER");
 
-NavigationFile read(const std::string& text) {
-  const TemporaryFile file("test.nav", text);
-  return read_navigation(file.path());
-}
-
-const GpsTime kMonday = from_calendar({2024, 5, 6, 8, 0, 0.0});  // tow 115200, week 2313
-
 }  // namespace
 
 TEST_CASE("RINEX 3 navigation: GPS, and the ionosphere of the header", "[rinex]") {
   for (const char* exponent : {"e", "E", "D", "d"}) {
-    const auto file = read(
+    const auto file = read_navigation_text(
         kHeader3 + record_3("G07 2024 05 06 08 00 00",
                             {{11, 115200.0}, {26, 597.0}, {24, 63.0}, {27, 108018.0}}, exponent));
     REQUIRE(file.ephemerides.size() == 1);
@@ -52,7 +45,7 @@ TEST_CASE("RINEX 3 navigation: GPS, and the ionosphere of the header", "[rinex]"
 
 TEST_CASE("RINEX 3 navigation: Galileo messages by their data source bits", "[rinex]") {
   const auto message = [](double bits) {
-    const auto file = read(
+    const auto file = read_navigation_text(
         kHeader3 + record_3("E05 2024 05 06 08 10 00",
                             {{10, 5440.6}, {11, 115800.0}, {20, bits}, {25, 2e-9}, {26, 3e-9}}));
     REQUIRE(file.ephemerides.size() == 1);
@@ -73,8 +66,8 @@ TEST_CASE("RINEX 3 navigation: BeiDou times and messages", "[rinex]") {
   const std::vector<std::pair<int, double>> values = {{3, 1},         {10, 6493.4}, {11, 115200.0},
                                                       {21, 957},      {25, 1e-9},   {26, -9e-9},
                                                       {27, 115227.6}, {28, 12}};
-  const auto file = read(kHeader3 + record_3("C03 2024 05 06 08 00 00", values) +
-                         record_3("C38 2024 05 06 08 00 00", values));
+  const auto file = read_navigation_text(kHeader3 + record_3("C03 2024 05 06 08 00 00", values) +
+                                         record_3("C38 2024 05 06 08 00 00", values));
   REQUIRE(file.ephemerides.size() == 2);
   CHECK(file.ephemerides[0].message == NavigationMessage::kBeidouD2);
   CHECK(file.ephemerides[1].message == NavigationMessage::kBeidouD1);
@@ -90,7 +83,8 @@ TEST_CASE("RINEX 3 navigation: BeiDou times and messages", "[rinex]") {
 TEST_CASE("RINEX 3 navigation: times over the week's end, unknown transmission", "[rinex]") {
   const GpsTime sunday = from_calendar({2024, 5, 5, 0, 0, 0.0});
   const auto sent = [](double tow) {
-    return read(kHeader3 + record_3("G07 2024 05 05 00 00 00", {{11, 0.0}, {27, tow}}))
+    return read_navigation_text(kHeader3 +
+                                record_3("G07 2024 05 05 00 00 00", {{11, 0.0}, {27, tow}}))
         .ephemerides.at(0)
         .transmission_time;
   };
@@ -100,7 +94,8 @@ TEST_CASE("RINEX 3 navigation: times over the week's end, unknown transmission",
   CHECK_FALSE(sent(9.999e8).is_set());
   CHECK_FALSE(sent(200000.0).is_set());
   // Clock reference on Saturday, orbit reference on Sunday.
-  const auto file = read(kHeader3 + record_3("G07 2024 05 04 23 59 44", {{11, 0.0}}));
+  const auto file =
+      read_navigation_text(kHeader3 + record_3("G07 2024 05 04 23 59 44", {{11, 0.0}}));
   CHECK(file.ephemerides.at(0).toe == sunday);
   CHECK(file.ephemerides.at(0).toc == sunday.plus_seconds(-16.0));
 }
@@ -116,11 +111,11 @@ TEST_CASE("RINEX 3 navigation: a damaged record costs itself alone", "[rinex]") 
   cut.resize(cut.size() / 2);
   bad_time.replace(9, 2, "13");
   const std::string glonass = "R01 2024 05 06 08 00 00 1.0e-04\n    1\n    2\n    3\n    4\n";
-  const auto file =
-      read(kHeader3 + good(1) + bad_number + good(3) + cut + "\n" + good(5) + bad_time + glonass +
-           "S33 2024 05 06 08 00 00\n    1\n    2\n    3\n" + good(7) + "    extra\n" + good(8) +
-           record_3("L01 2024 05 06 08 00 00", {}) +
-           record_3("G09 2024 05 06 08 00 00", {{11, 115200.0}, {8, 0.9}}) + good(10) + "\n\n");
+  const auto file = read_navigation_text(
+      kHeader3 + good(1) + bad_number + good(3) + cut + "\n" + good(5) + bad_time + glonass +
+      "S33 2024 05 06 08 00 00\n    1\n    2\n    3\n" + good(7) + "    extra\n" + good(8) +
+      record_3("L01 2024 05 06 08 00 00", {}) +
+      record_3("G09 2024 05 06 08 00 00", {{11, 115200.0}, {8, 0.9}}) + good(10) + "\n\n");
   std::vector<int> numbers;
   for (const Ephemeris& e : file.ephemerides) numbers.push_back(e.satellite.number);
   CHECK(numbers == std::vector<int>{1, 3, 5, 8, 10});
@@ -137,19 +132,19 @@ TEST_CASE("RINEX 3 navigation: a damaged record costs itself alone", "[rinex]") 
 }
 
 TEST_CASE("RINEX 2 navigation: GPS with two-digit years and numbers side by side", "[rinex]") {
-  const auto file =
-      read(header_line("     2              NAVIGATION DATA", "RINEX VERSION / TYPE") +
-           header_line("    0.9313D-08  0.1490D-07 -0.5960D-07 -0.1192D-06", "ION ALPHA") +
-           header_line("    0.8806D+05  0.4915D+05 -0.1311D+06 -0.3277D+06", "ION BETA") +
-           header_line("", "END OF HEADER") +
-           " 6 99  9  2 17 51 44.0 -.839701388031D-03 -.165982783074D-10  .000000000000D+00\n"
-           "     .910000000000D+02  .934062500000D+02  .116040547840D-08  .162092304801D+00\n"
-           "     .484101474285D-05  .626740418375D-02  .652112066746D-05  .515365489006D+04\n"
-           "     .409904000000D+06 -.242143869400D-07  .329237003460D+00 -.596046447754D-07\n"
-           "     .111541663136D+01  .326593750000D+03  .206958726335D+01 -.638312302555D-08\n"
-           "     .307155651409D-09  .000000000000D+00  .102500000000D+04  .000000000000D+00\n"
-           "     .000000000000D+00  .000000000000D+00  .000000000000D+00  .910000000000D+02\n"
-           "     .406800000000D+06  .000000000000D+00\n");
+  const auto file = read_navigation_text(
+      header_line("     2              NAVIGATION DATA", "RINEX VERSION / TYPE") +
+      header_line("    0.9313D-08  0.1490D-07 -0.5960D-07 -0.1192D-06", "ION ALPHA") +
+      header_line("    0.8806D+05  0.4915D+05 -0.1311D+06 -0.3277D+06", "ION BETA") +
+      header_line("", "END OF HEADER") +
+      " 6 99  9  2 17 51 44.0 -.839701388031D-03 -.165982783074D-10  .000000000000D+00\n"
+      "     .910000000000D+02  .934062500000D+02  .116040547840D-08  .162092304801D+00\n"
+      "     .484101474285D-05  .626740418375D-02  .652112066746D-05  .515365489006D+04\n"
+      "     .409904000000D+06 -.242143869400D-07  .329237003460D+00 -.596046447754D-07\n"
+      "     .111541663136D+01  .326593750000D+03  .206958726335D+01 -.638312302555D-08\n"
+      "     .307155651409D-09  .000000000000D+00  .102500000000D+04  .000000000000D+00\n"
+      "     .000000000000D+00  .000000000000D+00  .000000000000D+00  .910000000000D+02\n"
+      "     .406800000000D+06  .000000000000D+00\n");
   REQUIRE(file.ephemerides.size() == 1);
   const Ephemeris& e = file.ephemerides[0];
   CHECK(to_string(e.satellite) == "G06");
@@ -165,14 +160,14 @@ TEST_CASE("RINEX 2 navigation: GPS with two-digit years and numbers side by side
 }
 
 TEST_CASE("what is no RINEX navigation file is refused", "[rinex]") {
-  CHECK_THROWS_AS(read(""), FileError);
-  CHECK_THROWS_AS(read("x\n"), FileError);
-  CHECK_THROWS_AS(read(kHeader3.substr(0, 100)), FileError);
-  CHECK_THROWS_WITH(
-      read(header_line("     5.01           NAVIGATION DATA     M", "RINEX VERSION / TYPE")),
-      Catch::Contains("5.01") && Catch::Contains("2.00 to 4"));
-  CHECK_THROWS_WITH(
-      read(header_line("     3.05           OBSERVATION DATA    M", "RINEX VERSION / TYPE")),
-      Catch::Contains("not a navigation file"));
-  CHECK(read(kHeader3).ephemerides.empty());
+  CHECK_THROWS_AS(read_navigation_text(""), FileError);
+  CHECK_THROWS_AS(read_navigation_text("x\n"), FileError);
+  CHECK_THROWS_AS(read_navigation_text(kHeader3.substr(0, 100)), FileError);
+  CHECK_THROWS_WITH(read_navigation_text(header_line("     5.01           NAVIGATION DATA     M",
+                                                     "RINEX VERSION / TYPE")),
+                    Catch::Contains("5.01") && Catch::Contains("2.00 to 4"));
+  CHECK_THROWS_WITH(read_navigation_text(header_line("     3.05           OBSERVATION DATA    M",
+                                                     "RINEX VERSION / TYPE")),
+                    Catch::Contains("not a navigation file"));
+  CHECK(read_navigation_text(kHeader3).ephemerides.empty());
 }

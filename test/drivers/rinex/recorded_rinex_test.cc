@@ -65,7 +65,7 @@ Totals scan(const std::string& path) {
   return totals;
 }
 
-Totals read(const std::string& path) {
+Totals read_totals(const std::string& path) {
   Totals totals;
   ObservationReader reader(path);
   RawEpoch epoch;
@@ -107,7 +107,7 @@ TEST_CASE("recorded observations: every value and flag counts once", "[rinex][re
        {"walk/gnss.obs", "drive/gnss.obs", "station/ESBC00DNK_2020177_6H_30S.obs"}) {
     if (!have_shared_data(name)) continue;
     INFO(name);
-    const Totals expected = scan(shared_data(name)), seen = read(shared_data(name));
+    const Totals expected = scan(shared_data(name)), seen = read_totals(shared_data(name));
     CHECK(seen.epochs == expected.epochs);
     CHECK(seen.other_systems == expected.other_systems);
     CHECK(seen.satellites == expected.satellites);

@@ -17,7 +17,7 @@
 namespace leonav {
 namespace {
 
-std::string oracle() {
+std::string rinex4_oracle() {
   const char* python = std::getenv("LEONAV_PYTHON");
   return std::string("'") + (python != nullptr ? python : "python3") +
          "' '" LEONAV_SOURCE_DIR "/test/oracle/rinex4.py' ";
@@ -26,19 +26,19 @@ std::string oracle() {
 // Returns what cssrlib writes of a file of the shared data; nothing where either is missing.
 std::optional<NavigationFile> written(const std::string& mode, const std::string& name) {
   if (!test::have_shared_data(name)) return std::nullopt;
-  if (std::system((oracle() + "--have >/dev/null 2>&1").c_str()) != 0) {
+  if (std::system((rinex4_oracle() + "--have >/dev/null 2>&1").c_str()) != 0) {
     std::cout << "SKIPPED (optional): no Python with cssrlib (LEONAV_PYTHON names another)\n";
     return std::nullopt;
   }
   const test::TemporaryFile output("written.rnx", "");
-  REQUIRE(
-      std::system((oracle() + mode + " '" + test::shared_data(name) + "' '" + output.path() + "'")
-                      .c_str()) == 0);
+  REQUIRE(std::system((rinex4_oracle() + mode + " '" + test::shared_data(name) + "' '" +
+                       output.path() + "'")
+                          .c_str()) == 0);
   return read_navigation(output.path());
 }
 
-using Key = std::tuple<SatelliteId, NavigationMessage, GpsTime, std::uint16_t>;
-Key key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe, e.issue}; }
+using IssueKey = std::tuple<SatelliteId, NavigationMessage, GpsTime, std::uint16_t>;
+IssueKey issue_key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe, e.issue}; }
 
 // The file has twelve decimals, and the square root of A that is A in between.
 void check_same_elements(const Ephemeris& a, const Ephemeris& b) {
@@ -67,12 +67,12 @@ TEST_CASE("Every record that cssrlib writes as RINEX 4 has the elements of the R
     const auto file = written("convert", name);
     if (!file) return;
     CHECK(file->counts.skipped_total() == 0);
-    std::map<Key, Ephemeris> originals;
+    std::map<IssueKey, Ephemeris> originals;
     const NavigationFile original = read_navigation(test::shared_data(name));
-    for (const Ephemeris& e : original.ephemerides) originals.emplace(key_of(e), e);
+    for (const Ephemeris& e : original.ephemerides) originals.emplace(issue_key_of(e), e);
     std::map<NavigationMessage, int> compared;
     for (const Ephemeris& e : file->ephemerides) {
-      const auto found = originals.find(key_of(e));
+      const auto found = originals.find(issue_key_of(e));
       CAPTURE(to_string(e.satellite), e.toe.tow_s(), e.issue);
       REQUIRE(found != originals.end());
       check_same_elements(e, found->second);
@@ -98,12 +98,12 @@ TEST_CASE("Elements and delays that cssrlib writes of the walk's CNAV and B-CNAV
   const auto file = written("cnav", test::kWalkUbx);
   if (!file) return;
   const auto walk = test::decode_walk();
-  std::map<Key, Ephemeris> ours;
-  for (const Ephemeris& e : walk.ephemerides) ours.emplace(key_of(e), e);
+  std::map<IssueKey, Ephemeris> ours;
+  for (const Ephemeris& e : walk.ephemerides) ours.emplace(issue_key_of(e), e);
   CHECK(file->ephemerides.size() == 8);
   for (const Ephemeris& e : file->ephemerides) {
     CHECK(e.message == NavigationMessage::kBeidouCnav1);
-    const auto found = ours.find(key_of(e));
+    const auto found = ours.find(issue_key_of(e));
     CAPTURE(to_string(e.satellite), e.toe.tow_s(), e.issue);
     REQUIRE(found != ours.end());
     check_same_elements(e, found->second);

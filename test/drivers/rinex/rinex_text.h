@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/calendar.h"
+#include "drivers/rinex/navigation_reader.h"
 #include "drivers/rinex/observation_reader.h"
 #include "support/temporary_file.h"
 
@@ -86,6 +88,14 @@ inline std::string record_3(const std::string& head, std::vector<std::pair<int, 
   }
   std::replace(text.begin(), text.end(), 'e', exponent[0]);
   return text + "\n";
+}
+
+// When most of the records are valid: tow 115200, week 2313.
+inline const GpsTime kMonday = from_calendar({2024, 5, 6, 8, 0, 0.0});
+
+inline NavigationFile read_navigation_text(const std::string& text) {
+  const TemporaryFile file("test.nav", text);
+  return read_navigation(file.path());
 }
 
 }  // namespace leonav::test

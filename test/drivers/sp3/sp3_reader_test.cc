@@ -1,33 +1,18 @@
 #include "drivers/sp3/sp3_reader.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
 #include "support/recorded/shared_data.h"
+#include "support/temporary_file.h"
 
 namespace leonav {
 namespace {
 
-// A file that is gone when the test ends.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() /
-               ("leonav_sp3_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".sp3"))
-                  .string()) {
-    std::ofstream(path_) << text;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
+using test::TemporaryFile;
 
 std::string header(const std::string& time_system) {
   return "#dP2024  1  1  0  0  0.00000000       2 ORBIT IGS20 HLM  IGS\n"
@@ -39,19 +24,22 @@ std::string header(const std::string& time_system) {
 
 const std::string kEpoch1 = "*  2024  1  1  0  0  0.00000000\n";
 const std::string kEpoch2 = "*  2024  1  1  0 15  0.00000000\n";
-const std::string kG01 = "PG01  13040.123456 -20000.654321   9000.000001    123.456789\n";
-const std::string kL05 = "PL05   6800.000000   -100.000000     50.500000 999999.999999\n";
+const std::string kPositionG01 = "PG01  13040.123456 -20000.654321   9000.000001    123.456789\n";
+const std::string kPositionL05 = "PL05   6800.000000   -100.000000     50.500000 999999.999999\n";
 const std::string kVelocity = "VG01  12345.000000  12345.000000  12345.000000    123.456789\n";
 
-Sp3File read_text(const std::string& text) { return read_sp3(TemporaryFile(text).path()); }
+Sp3File read_sp3_text(const std::string& text) {
+  return read_sp3(TemporaryFile("a.sp3", text).path());
+}
 
 }  // namespace
 
 TEST_CASE("SP3 positions come in metres and clocks in seconds") {
-  const Sp3File file = read_text(header("GPS") + kEpoch1 + kG01 + kVelocity + "EP  55  55  55\n" +
-                                 kL05 + "PR01   6800.000000   -100.000000     50.500000 1.0\n" +
-                                 "PC60      0.000000      0.000000      0.000000      1.000000\n" +
-                                 kEpoch2 + kG01 + "EOF\n");
+  const Sp3File file =
+      read_sp3_text(header("GPS") + kEpoch1 + kPositionG01 + kVelocity + "EP  55  55  55\n" +
+                    kPositionL05 + "PR01   6800.000000   -100.000000     50.500000 1.0\n" +
+                    "PC60      0.000000      0.000000      0.000000      1.000000\n" + kEpoch2 +
+                    kPositionG01 + "EOF\n");
   CHECK(file.version == 'd');
   CHECK(file.frame == "IGS20");
   CHECK(file.satellites_listed == 3);
@@ -75,7 +63,9 @@ TEST_CASE("SP3 positions come in metres and clocks in seconds") {
 TEST_CASE("SP3 flags of clocks and orbits changed or predicted are read") {
   const std::string row = "PG01  13040.123456 -20000.654321   9000.000001    123.456789 ";
   const auto state_of = [&](const std::string& flags) {
-    return read_text(header("GPS") + kEpoch1 + row + flags + "\nEOF\n").epochs.at(0).states.at(0);
+    return read_sp3_text(header("GPS") + kEpoch1 + row + flags + "\nEOF\n")
+        .epochs.at(0)
+        .states.at(0);
   };
   // Columns 61-73 are accuracies, 75, 76, 79 and 80 the flags.
   const PreciseState plain = state_of(" 5  5  5 100"), event = state_of(" 5  5  5 100 E"),
@@ -88,7 +78,8 @@ TEST_CASE("SP3 flags of clocks and orbits changed or predicted are read") {
   CHECK((all.clock_event && all.maneuver && all.clock_predicted && all.orbit_predicted));
   CHECK((predicted.clock_predicted && predicted.orbit_predicted));
   CHECK_FALSE((predicted.clock_event || predicted.maneuver));
-  const Sp3File counted = read_text(header("GPS") + kEpoch1 + row + "             EP  MP\nEOF\n");
+  const Sp3File counted =
+      read_sp3_text(header("GPS") + kEpoch1 + row + "             EP  MP\nEOF\n");
   CHECK(counted.clock_events == 1);
   CHECK(counted.maneuvers == 1);
   CHECK(counted.predicted == 1);
@@ -97,7 +88,7 @@ TEST_CASE("SP3 flags of clocks and orbits changed or predicted are read") {
 TEST_CASE("SP3 times of other systems become GPS time") {
   const GpsTime midnight = GpsTime::from_week_and_tow(2295, 86400.0);
   const auto offset_of = [&](const std::string& system) {
-    const Sp3File file = read_text(header(system) + kEpoch1 + kG01 + "EOF\n");
+    const Sp3File file = read_sp3_text(header(system) + kEpoch1 + kPositionG01 + "EOF\n");
     return seconds_between(file.epochs.at(0).time, midnight);
   };
   CHECK(offset_of("GPS") == 0.0);
@@ -112,8 +103,8 @@ TEST_CASE("SP3 times of other systems become GPS time") {
 
 TEST_CASE("A damaged SP3 line costs that line and is named") {
   const Sp3File file =
-      read_text(header("GPS") + kEpoch1 + "PG01  13040.12#456 -20000.654321\n" + kL05 +
-                "*  2024 13  1  0 15  0.00000000\n" + kG01 + kEpoch2 + kG01);
+      read_sp3_text(header("GPS") + kEpoch1 + "PG01  13040.12#456 -20000.654321\n" + kPositionL05 +
+                    "*  2024 13  1  0 15  0.00000000\n" + kPositionG01 + kEpoch2 + kPositionG01);
   CHECK(file.truncated);
   CHECK(file.damaged_lines == 2);
   REQUIRE(file.problems.size() == 2);
@@ -124,9 +115,10 @@ TEST_CASE("A damaged SP3 line costs that line and is named") {
 
 TEST_CASE("An SP3 file without anything to use is an error") {
   CHECK_THROWS_AS(read_sp3("no/such/file.sp3"), FileError);
-  CHECK_THROWS_AS(read_text(""), FileError);
-  CHECK_THROWS_WITH(read_text("#aP2024\n"), Catch::Contains(":1: "));
-  CHECK_THROWS_WITH(read_text(header("GPS") + kEpoch1 + "EOF\n"), Catch::Contains("no position"));
+  CHECK_THROWS_AS(read_sp3_text(""), FileError);
+  CHECK_THROWS_WITH(read_sp3_text("#aP2024\n"), Catch::Contains(":1: "));
+  CHECK_THROWS_WITH(read_sp3_text(header("GPS") + kEpoch1 + "EOF\n"),
+                    Catch::Contains("no position"));
 }
 
 TEST_CASE("Every satellite of the recorded SP3 files is read") {

@@ -16,18 +16,19 @@ namespace leonav {
 namespace {
 
 using test::Bytes;
+using test::joined;
 using test::message;
 using test::put;
 
-struct Collector final : test::UbxCollector {
+struct MarkCollector final : test::UbxCollector {
   void on_inertial(const EsfReading& reading) override { readings.push_back(reading); }
   void on_time_mark(const TimeMark& mark) override { marks.push_back(mark); }
   std::vector<EsfReading> readings;
   std::vector<TimeMark> marks;
 };
 
-Collector decode(const Bytes& bytes, std::size_t chunk) {
-  Collector collector;
+MarkCollector decode_ubx(const Bytes& bytes, std::size_t chunk) {
+  MarkCollector collector;
   UbxDecoder decoder;
   for (std::size_t i = 0; i < bytes.size(); i += chunk) {
     decoder.feed(std::span(bytes).subspan(i, std::min(chunk, bytes.size() - i)), &collector);
@@ -56,12 +57,6 @@ Bytes raw(const std::vector<std::uint32_t>& tags, int left_out = 0) {
   return message(0x10, 0x03, payload);
 }
 
-Bytes joined(std::initializer_list<Bytes> parts) {
-  Bytes all;
-  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
-
 Bytes time_mark(std::uint8_t flags, std::uint16_t week, std::uint32_t ms, std::uint32_t ns) {
   Bytes payload = {1, flags, 7, 0};
   put(&payload, week, 2);
@@ -85,7 +80,7 @@ TEST_CASE("Inertial values and pulses are what pyubx2 reads", "[ubx]") {
   REQUIRE(std::system(
               (test::ubx_oracle() + "generate 3 '" + stream.path() + "' >'" + fields.path() + "'")
                   .c_str()) == 0);
-  const Collector found = decode(test::read_bytes(stream.path()), 100);
+  const MarkCollector found = decode_ubx(test::read_bytes(stream.path()), 100);
   std::ifstream text(fields.path());
   std::size_t reading = 0, mark = 0;
   std::optional<std::int64_t> last_ns;
@@ -138,7 +133,7 @@ TEST_CASE("Inertial values and pulses are what pyubx2 reads", "[ubx]") {
 }
 
 TEST_CASE("Samples of one message know when it was sent", "[ubx]") {
-  const Collector found = decode(raw({1000, 1256, 1512}), 50);
+  const MarkCollector found = decode_ubx(raw({1000, 1256, 1512}), 50);
   REQUIRE(found.readings.size() == 3);
   for (const EsfReading& r : found.readings) CHECK(r.sent_ns == found.readings[2].clock_ns);
   CHECK(found.readings[0].clock_ns == 39'062'500);
@@ -149,7 +144,7 @@ TEST_CASE("Samples of one message know when it was sent", "[ubx]") {
 }
 
 TEST_CASE("A missing axis costs its sample, a damaged message itself", "[ubx]") {
-  const Collector found = decode(joined({raw({0, 256}, 17), raw({512})}), 50);
+  const MarkCollector found = decode_ubx(joined({raw({0, 256}, 17), raw({512})}), 50);
   REQUIRE(found.readings.size() == 1);
   CHECK(found.readings[0].clock_ns == 20'000'000);
   CHECK(found.counters.esf.incomplete == 2);
@@ -161,10 +156,10 @@ TEST_CASE("A missing axis costs its sample, a damaged message itself", "[ubx]") 
   Bytes claims_calibrated(8 + 4, 0);
   claims_calibrated[5] = 1 << 3;
   claims_calibrated[4] = 1 << 3;
-  const Collector damaged =
-      decode(joined({message(0x10, 0x03, odd), message(0x10, 0x03, none), message(0x10, 0x02, none),
-                     message(0x10, 0x02, claims_three), message(0x10, 0x02, claims_calibrated)}),
-             1);
+  const MarkCollector damaged = decode_ubx(
+      joined({message(0x10, 0x03, odd), message(0x10, 0x03, none), message(0x10, 0x02, none),
+              message(0x10, 0x02, claims_three), message(0x10, 0x02, claims_calibrated)}),
+      1);
   CHECK(damaged.readings.empty());
   CHECK(damaged.counters.esf.bad_length == 5);
 }
@@ -173,14 +168,14 @@ TEST_CASE("Beside UBX-ESF-RAW the coarser UBX-ESF-MEAS is left out", "[ubx]") {
   Bytes payload = {1, 0, 0, 0, 0, 6 << 3, 0, 0};
   for (const int type : {14, 13, 5, 16, 17, 18}) put(&payload, word(type, 1), 4);
   const Bytes meas = message(0x10, 0x02, payload);
-  const Collector found = decode(joined({meas, raw({0}), meas, raw({256})}), 4096);
+  const MarkCollector found = decode_ubx(joined({meas, raw({0}), meas, raw({256})}), 4096);
   CHECK(found.readings.size() == 3);
   CHECK(found.counters.esf.superseded == 1);
 }
 
 TEST_CASE("An edge has its time, or is counted by the reason why not", "[ubx]") {
-  const auto one = [](const Bytes& bytes) { return decode(bytes, 4096); };
-  const Collector gnss = one(time_mark(kRising | kValid | kGnss, 2300, 1000, 250));
+  const auto one = [](const Bytes& bytes) { return decode_ubx(bytes, 4096); };
+  const MarkCollector gnss = one(time_mark(kRising | kValid | kGnss, 2300, 1000, 250));
   REQUIRE(gnss.marks.size() == 1);
   CHECK(gnss.marks[0].input == 1);
   CHECK(gnss.marks[0].rising ==
@@ -188,7 +183,7 @@ TEST_CASE("An edge has its time, or is counted by the reason why not", "[ubx]") 
   CHECK_FALSE(gnss.marks[0].falling);
   CHECK(gnss.marks[0].accuracy_s == Approx(25e-9));
   // UTC is 18 s behind.
-  const Collector utc = one(time_mark(kFalling | kValid | kUtc | kUtcKnown, 2300, 1000, 0));
+  const MarkCollector utc = one(time_mark(kFalling | kValid | kUtc | kUtcKnown, 2300, 1000, 0));
   REQUIRE(utc.marks.size() == 1);
   CHECK(utc.marks[0].falling ==
         GpsTime::from_nanoseconds(2300 * kNanosecondsPerWeek + 19'001'000'000));
@@ -214,7 +209,7 @@ TEST_CASE("A false start holds no message back", "[ubx]") {
     ends.push_back(stream.size());
     stream.insert(stream.end(), {0xB5, 0x62, 0x01, 0x07, 0x00, 0x18});  // another one
   }
-  Collector found;
+  MarkCollector found;
   UbxDecoder decoder;
   std::vector<std::size_t> came;
   for (std::size_t i = 0; i < stream.size(); ++i) {
@@ -246,10 +241,10 @@ TEST_CASE("Which message counts does not depend on the chunks that it comes in",
                               : static_cast<std::uint8_t>(state >> 16));
   }
   const Bytes stream = joined({outer, starts, raw({512}), wild, outer, raw({768})});
-  const Collector whole = decode(stream, stream.size());
+  const MarkCollector whole = decode_ubx(stream, stream.size());
   CHECK(whole.readings.size() == 4);
   for (const std::size_t chunk : {1, 13, 4096}) {
-    const Collector parts = decode(stream, chunk);
+    const MarkCollector parts = decode_ubx(stream, chunk);
     CHECK(parts.readings.size() == whole.readings.size());
     CHECK(parts.counters.framer.messages == whole.counters.framer.messages);
     CHECK(parts.counters.framer.bytes_skipped == whole.counters.framer.bytes_skipped);

@@ -11,7 +11,8 @@
 namespace leonav {
 namespace {
 
-using Key = std::pair<SatelliteId, char>;  // convbin names components differently: match by band
+// Convbin names components differently: match by band.
+using BandKey = std::pair<SatelliteId, char>;
 
 // RINEX holds three decimals; half of the last one, and the rounding of the sum itself.
 constexpr double kHalfDigit = 0.0005 + 1e-6;
@@ -62,7 +63,7 @@ TEST_CASE("RAWX agrees with RTKLIB's RINEX in every value") {
   long carriers_only_ours_after_first_epoch = 0;
   for (std::size_t k = 0; k < theirs.size(); ++k) {
     REQUIRE(ours.epochs[k].time == theirs[k].time);
-    std::map<Key, SignalObservation> rinex;
+    std::map<BandKey, SignalObservation> rinex;
     for (const auto& o : theirs[k].observations) rinex[{o.satellite, o.code.band}] = o;
     REQUIRE(rinex.size() == theirs[k].observations.size());
     for (const auto& o : ours.epochs[k].observations) {
@@ -120,15 +121,15 @@ TEST_CASE("Loss of lock agrees with RTKLIB but where it is blind or early") {
   const auto theirs = read_rinex(test::shared_data("walk/gnss.obs"));
   REQUIRE(theirs.size() == ours.epochs.size());
 
-  std::map<Key, GpsTime> last_carrier;
-  std::set<Key> seen_by_rtklib;
+  std::map<BandKey, GpsTime> last_carrier;
+  std::set<BandKey> seen_by_rtklib;
   long both = 0, neither = 0, unexplained = 0, theirs_at_first = 0, ours_after_gap = 0;
   for (std::size_t k = 0; k < theirs.size(); ++k) {
-    std::map<Key, SignalObservation> rinex;
+    std::map<BandKey, SignalObservation> rinex;
     for (const auto& o : theirs[k].observations) rinex[{o.satellite, o.code.band}] = o;
     for (const auto& o : ours.epochs[k].observations) {
       if (!convbin_knows(o) || std::isnan(o.carrier_cycles)) continue;
-      const Key key{o.satellite, o.code.band};
+      const BandKey key{o.satellite, o.code.band};
       const bool is_first = !last_carrier.contains(key);
       const double gap_s = is_first ? 0.0 : seconds_between(ours.epochs[k].time, last_carrier[key]);
       last_carrier[key] = ours.epochs[k].time;

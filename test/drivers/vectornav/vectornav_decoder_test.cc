@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "drivers/binary/crc16.h"
+#include "support/bytes/bytes.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using test::Bytes;
+using test::put;
 
-class Collector : public VectornavHandler {
+class VectornavCollector : public VectornavHandler {
  public:
   void on_measurement(const VectornavMeasurement& measurement) override {
     measurements.push_back(measurement);
@@ -24,11 +26,8 @@ class Collector : public VectornavHandler {
   std::vector<VectornavMeasurement> measurements;
 };
 
-void put(Bytes* bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes->push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-Bytes message(std::uint8_t groups, const std::vector<std::uint16_t>& masks, const Bytes& payload) {
+Bytes vectornav_message(std::uint8_t groups, const std::vector<std::uint16_t>& masks,
+                        const Bytes& payload) {
   Bytes bytes = {0xFA, groups};
   for (const std::uint16_t mask : masks) put(&bytes, mask, 2);
   bytes.insert(bytes.end(), payload.begin(), payload.end());
@@ -42,20 +41,21 @@ void put_floats(Bytes* bytes, const std::vector<float>& values) {
   for (const float value : values) put(bytes, std::bit_cast<std::uint32_t>(value), 4);
 }
 
-constexpr std::uint64_t kGps = 1'300'000'000'123'456'789;
+constexpr std::uint64_t kGpsTime_ns = 1'300'000'000'123'456'789;
 
 // TimeStartup, TimeGps and DeltaTheta of the common group; the first increment is `mark` degrees.
 Bytes increments(float mark) {
   Bytes payload;
   put(&payload, 42'000'000, 8);
-  put(&payload, kGps, 8);
+  put(&payload, kGpsTime_ns, 8);
   put_floats(&payload, {0.005F, mark, 2.0F, -3.0F, 0.25F, -0.5F, -0.049F});
-  return message(0x01, {1 << 0 | 1 << 1 | 1 << 11}, payload);
+  return vectornav_message(0x01, {1 << 0 | 1 << 1 | 1 << 11}, payload);
 }
 
-Collector decode(const Bytes& bytes, std::size_t chunk, VectornavCounters* counters = nullptr) {
+VectornavCollector decode_vectornav(const Bytes& bytes, std::size_t chunk,
+                                    VectornavCounters* counters = nullptr) {
   VectornavDecoder decoder;
-  Collector collector;
+  VectornavCollector collector;
   for (std::size_t i = 0; i < bytes.size(); i += chunk) {
     decoder.feed(std::span(bytes).subspan(i, std::min(chunk, bytes.size() - i)), &collector);
   }
@@ -73,10 +73,10 @@ TEST_CASE("The manual's example message has the checksum that is computed", "[ve
 }
 
 TEST_CASE("Increments come with GPS time and the sensor's clock", "[vectornav]") {
-  const Collector found = decode(increments(1.0F), 1);
+  const VectornavCollector found = decode_vectornav(increments(1.0F), 1);
   REQUIRE(found.measurements.size() == 1);
   const VectornavMeasurement& m = found.measurements[0];
-  CHECK(m.gps_time->nanoseconds() == static_cast<std::int64_t>(kGps));
+  CHECK(m.gps_time->nanoseconds() == static_cast<std::int64_t>(kGpsTime_ns));
   CHECK(m.startup_ns == 42'000'000);
   REQUIRE(m.increments);
   CHECK(m.increments->interval_s == static_cast<double>(0.005F));
@@ -90,7 +90,7 @@ TEST_CASE("Fields of the time and IMU groups are found behind those of others", 
   // UncompMag, UncompAccel, UncompGyro, Temp, Accel, AngularRate.
   Bytes payload;
   put_floats(&payload, {10.0F, 20.0F, 30.0F});
-  put(&payload, kGps, 8);
+  put(&payload, kGpsTime_ns, 8);
   put(&payload, 250'000'000, 8);
   for (const int part : {21, 3, 18, 7, 6, 22}) put(&payload, static_cast<std::uint64_t>(part), 1);
   put(&payload, 500, 2);
@@ -101,7 +101,7 @@ TEST_CASE("Fields of the time and IMU groups are found behind those of others", 
                         7.0F, 8.0F, 8.0F, 8.0F});
   const std::vector<std::uint16_t> masks = {1 << 3, 1 << 1 | 1 << 4 | 1 << 6 | 1 << 7 | 1 << 9,
                                             1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 9 | 1 << 10};
-  const auto found = decode(message(0x07, masks, payload), 7).measurements;
+  const auto found = decode_vectornav(vectornav_message(0x07, masks, payload), 7).measurements;
   REQUIRE(found.size() == 1);
   CHECK(found[0].gps_time);
   CHECK(found[0].since_pulse_ns == 250'000'000);
@@ -116,7 +116,7 @@ TEST_CASE("Fields of the time and IMU groups are found behind those of others", 
 
   SECTION("a time that the sensor marks as not valid does not count") {
     payload[status] = 0;
-    const auto marked = decode(message(0x07, masks, payload), 7).measurements;
+    const auto marked = decode_vectornav(vectornav_message(0x07, masks, payload), 7).measurements;
     REQUIRE(marked.size() == 1);
     CHECK_FALSE(marked[0].gps_time);
     CHECK_FALSE(marked[0].utc_time);
@@ -126,9 +126,9 @@ TEST_CASE("Fields of the time and IMU groups are found behind those of others", 
 TEST_CASE("Values beyond any sensor are counted and left out", "[vectornav]") {
   VectornavCounters counters;
   const float infinite = INFINITY;
-  CHECK(decode(increments(infinite), 64, &counters).measurements.empty());
+  CHECK(decode_vectornav(increments(infinite), 64, &counters).measurements.empty());
   CHECK(counters.bad_values == 1);
-  CHECK(decode(increments(400.0F), 64, &counters).measurements.empty());
+  CHECK(decode_vectornav(increments(400.0F), 64, &counters).measurements.empty());
   CHECK(counters.bad_values == 1);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("Damage costs the message that it is in and no other, in chunks of any
   }
   for (const std::size_t chunk : {1, 13, 4096}) {
     VectornavCounters counters;
-    const Collector found = decode(stream, chunk, &counters);
+    const VectornavCollector found = decode_vectornav(stream, chunk, &counters);
     std::size_t next = 0, expected = 0;
     for (std::size_t i = 0; i < kMessages; ++i) {
       if (is_damaged[i]) continue;
@@ -170,7 +170,7 @@ TEST_CASE("Damage costs the message that it is in and no other, in chunks of any
 
 TEST_CASE("Damaged masks hold back no message behind them", "[vectornav]") {
   VectornavDecoder decoder;
-  Collector collector;
+  VectornavCollector collector;
   for (std::size_t k = 0; k < 6; ++k) {
     Bytes one = increments(1.0F);
     // Two more groups with all fields that have a length: the next messages would be inside them.
@@ -188,10 +188,10 @@ namespace {
 // TimeStartup and DeltaTheta, 40 bytes of fields, in which a whole message with TimeStartup lies.
 Bytes message_with_another_inside() {
   Bytes payload(20, 0);
-  const Bytes inner = message(0x01, {1 << 0}, Bytes(8, 7));
+  const Bytes inner = vectornav_message(0x01, {1 << 0}, Bytes(8, 7));
   payload.insert(payload.end(), inner.begin(), inner.end());
   payload.resize(36, 0);
-  return message(0x01, {1 << 0 | 1 << 11}, payload);
+  return vectornav_message(0x01, {1 << 0 | 1 << 11}, payload);
 }
 
 // The lengths of the messages that are found, byte by byte.
@@ -210,8 +210,8 @@ std::vector<std::size_t> found_lengths(VectornavFramer* framer, const Bytes& byt
 TEST_CASE("A message of a known kind is awaited before one that lies inside it", "[vectornav]") {
   VectornavFramer framer;
   const Bytes outer = message_with_another_inside();
-  const Bytes same = message(0x01, {1 << 0 | 1 << 11}, Bytes(36, 0));
-  const Bytes other = message(0x02, {1 << 0 | 1 << 1}, Bytes(16, 0));
+  const Bytes same = vectornav_message(0x01, {1 << 0 | 1 << 11}, Bytes(36, 0));
+  const Bytes other = vectornav_message(0x02, {1 << 0 | 1 << 1}, Bytes(16, 0));
   CHECK(found_lengths(&framer, same) == std::vector<std::size_t>{42});
   // Also where the sensor sends messages of another kind in between.
   CHECK(found_lengths(&framer, other) == std::vector<std::size_t>{22});
@@ -251,7 +251,7 @@ TEST_CASE("A message of a known kind is awaited before one that lies inside it",
 TEST_CASE("A header that is cut off holds back nothing, also at the end of the stream",
           "[vectornav]") {
   VectornavDecoder decoder;
-  Collector collector;
+  VectornavCollector collector;
   Bytes bytes = increments(1.0F);
   bytes.insert(bytes.end(), {0xFA, 0x7F, 0x01});
   decoder.feed(bytes, &collector);
@@ -266,8 +266,8 @@ TEST_CASE("The heave of the attitude group does not hide the increments", "[vect
   put(&payload, 42'000'000, 8);
   put_floats(&payload, {0.005F, 1.0F, 2.0F, -3.0F, 0.25F, -0.5F, -0.049F});
   put_floats(&payload, {0.1F, 0.2F, 0.3F});  // Heave: heave, its rate, the delayed heave
-  const Bytes one = message(0x11, {1 << 0 | 1 << 11, 1 << 12}, payload);
-  const Collector found = decode(one, 1);
+  const Bytes one = vectornav_message(0x11, {1 << 0 | 1 << 11, 1 << 12}, payload);
+  const VectornavCollector found = decode_vectornav(one, 1);
   REQUIRE(found.measurements.size() == 1);
   CHECK(found.measurements[0].increments->delta_velocity_m_s[0] == 0.25);
 }
@@ -278,7 +278,7 @@ TEST_CASE("Random bytes yield nothing and end", "[vectornav]") {
   for (std::uint8_t& byte : stream)
     byte = dice() % 3 == 0 ? 0xFA : static_cast<std::uint8_t>(dice());
   VectornavCounters counters;
-  const Collector found = decode(stream, 4096, &counters);
+  const VectornavCollector found = decode_vectornav(stream, 4096, &counters);
   CHECK(found.measurements.size() < 3);  // a checksum of 16 bits is right by chance now and then
   CHECK(counters.framer.bytes_skipped > stream.size() - 4000);
 }

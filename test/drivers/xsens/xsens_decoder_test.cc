@@ -15,15 +15,17 @@
 
 #include "core/base/calendar.h"
 #include "drivers/binary/wrapped_counter.h"
+#include "support/bytes/bytes.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
 
 namespace leonav {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using test::Bytes;
+using test::joined;
 
-class Collector : public XsensHandler {
+class XsensCollector : public XsensHandler {
  public:
   void on_measurement(const XsensMeasurement& measurement) override {
     measurements.push_back(measurement);
@@ -32,18 +34,12 @@ class Collector : public XsensHandler {
 };
 
 // Of the document: all bytes but the preamble, with the checksum, add up to a multiple of 256.
-Bytes message(std::uint8_t id, const Bytes& payload) {
+Bytes xsens_message(std::uint8_t id, const Bytes& payload) {
   Bytes bytes = {0xFA, 0xFF, id, static_cast<std::uint8_t>(payload.size())};
   bytes.insert(bytes.end(), payload.begin(), payload.end());
   const unsigned sum = std::accumulate(bytes.begin() + 1, bytes.end(), 0U);
   bytes.push_back(static_cast<std::uint8_t>(256 - sum % 256));
   return bytes;
-}
-
-Bytes joined(std::initializer_list<Bytes> parts) {
-  Bytes all;
-  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
 }
 
 // Groups of single precision: 1.0 is 3F 80 00 00, 0.5 is 3F 00 00 00, -2.0 is C0 00 00 00.
@@ -55,15 +51,16 @@ const Bytes kNoTurn = {0x80, 0x30, 16, 0x3F, 0x80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
 
 // Rates, and a packet counter to tell messages by.
 Bytes marked(unsigned mark) {
-  return message(0x36, joined({{0x10, 0x20, 2, static_cast<std::uint8_t>(mark >> 8 & 255),
-                                static_cast<std::uint8_t>(mark & 255)},
-                               kRate,
-                               kForce}));
+  return xsens_message(0x36, joined({{0x10, 0x20, 2, static_cast<std::uint8_t>(mark >> 8 & 255),
+                                      static_cast<std::uint8_t>(mark & 255)},
+                                     kRate,
+                                     kForce}));
 }
 
-Collector decode(const Bytes& bytes, std::size_t chunk, XsensCounters* counters = nullptr) {
+XsensCollector decode_xsens(const Bytes& bytes, std::size_t chunk,
+                            XsensCounters* counters = nullptr) {
   XsensDecoder decoder;
-  Collector collector;
+  XsensCollector collector;
   for (std::size_t i = 0; i < bytes.size(); i += chunk) {
     decoder.feed(std::span(bytes).subspan(i, std::min(chunk, bytes.size() - i)), &collector);
   }
@@ -86,7 +83,7 @@ TEST_CASE("Every field in every precision is what the encoder put there", "[xsen
   std::ifstream file(stream.path(), std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   XsensCounters counters;
-  const auto found = decode(bytes, 1000, &counters).measurements;
+  const auto found = decode_xsens(bytes, 1000, &counters).measurements;
   CHECK(counters.framer.bytes_skipped == 0);
   CHECK(counters.bad_lengths == 0);
   CHECK(counters.bad_values == 0);
@@ -142,14 +139,14 @@ TEST_CASE("A rotation vector has the angle and the axis of its quaternion", "[xs
   // A quarter turn about z: (cos 45, 0, 0, sin 45) degrees; 0x3F3504F3 is the square root of 1/2.
   const Bytes quarter = {0x80, 0x30, 16, 0x3F, 0x35, 0x04, 0xF3, 0,    0,   0,
                          0,    0,    0,  0,    0,    0x3F, 0x35, 0x04, 0xF3};
-  const auto found = decode(message(0x36, joined({quarter, kDeltaV})), 5).measurements;
+  const auto found = decode_xsens(xsens_message(0x36, joined({quarter, kDeltaV})), 5).measurements;
   REQUIRE(found.size() == 1);
   REQUIRE(found[0].increments);
   CHECK(found[0].increments->delta_theta_rad[2] == Approx(1.5707963267948966).epsilon(1e-7));
   CHECK(found[0].increments->delta_theta_rad[0] == 0.0);
   CHECK(found[0].increments->delta_velocity_m_s[2] == -2.0);
   // No turn at all.
-  const auto still = decode(message(0x36, joined({kNoTurn, kDeltaV})), 5).measurements;
+  const auto still = decode_xsens(xsens_message(0x36, joined({kNoTurn, kDeltaV})), 5).measurements;
   REQUIRE(still.size() == 1);
   CHECK(still[0].increments->delta_theta_rad == XsensMeasurement::Vector{0.0, 0.0, 0.0});
 }
@@ -159,29 +156,32 @@ TEST_CASE("Values beyond any sensor and groups of a wrong length are counted and
   XsensCounters counters;
   // 1.0, 0.5, NaN.
   const Bytes wild = {0x80, 0x20, 12, 0x3F, 0x80, 0, 0, 0x3F, 0, 0, 0, 0x7F, 0xC0, 0, 0};
-  CHECK(decode(message(0x36, joined({wild, kForce})), 64, &counters).measurements.empty());
+  CHECK(decode_xsens(xsens_message(0x36, joined({wild, kForce})), 64, &counters)
+            .measurements.empty());
   CHECK(counters.bad_values == 1);
   // A quaternion of length two.
   Bytes long_turn = kNoTurn;
   long_turn[3] = 0x40;
   long_turn[4] = 0;
-  CHECK(decode(message(0x36, joined({long_turn, kDeltaV})), 64, &counters).measurements.empty());
+  CHECK(decode_xsens(xsens_message(0x36, joined({long_turn, kDeltaV})), 64, &counters)
+            .measurements.empty());
   CHECK(counters.bad_values == 1);
   // Bad increments beside good rates cost themselves alone.
   const auto both =
-      decode(message(0x36, joined({long_turn, kDeltaV, kRate, kForce})), 64, &counters);
+      decode_xsens(xsens_message(0x36, joined({long_turn, kDeltaV, kRate, kForce})), 64, &counters);
   REQUIRE(both.measurements.size() == 1);
   CHECK_FALSE(both.measurements[0].increments);
   CHECK(both.measurements[0].rates);
   // SampleTimeFine of three bytes, a rate of two numbers.
   const Bytes short_time = {0x10, 0x60, 3, 1, 2, 3};
   const auto without_time =
-      decode(message(0x36, joined({short_time, kRate, kForce})), 9, &counters);
+      decode_xsens(xsens_message(0x36, joined({short_time, kRate, kForce})), 9, &counters);
   REQUIRE(without_time.measurements.size() == 1);
   CHECK_FALSE(without_time.measurements[0].sample_time_fine);
   CHECK(counters.bad_lengths == 1);
   const Bytes short_rate = {0x80, 0x20, 8, 0, 0, 0, 0, 0, 0, 0, 0};
-  CHECK(decode(message(0x36, joined({short_rate, kForce})), 9, &counters).measurements.empty());
+  CHECK(decode_xsens(xsens_message(0x36, joined({short_rate, kForce})), 9, &counters)
+            .measurements.empty());
   CHECK(counters.bad_lengths == 1);
   CHECK(counters.without_motion == 1);
 }
@@ -192,7 +192,8 @@ TEST_CASE("A sensor at the end of its range says so in the status word", "[xsens
     return Bytes{0xE0, 0x20, 4, 0, high, low, 0x03};
   };
   const auto with = [&](const Bytes& word) {
-    return decode(message(0x36, joined({word, kRate, kForce})), 64, &counters).measurements.at(0);
+    return decode_xsens(xsens_message(0x36, joined({word, kRate, kForce})), 64, &counters)
+        .measurements.at(0);
   };
   CHECK_FALSE(with(status(0, 0)).is_clipped());
   CHECK(with(status(0, 0x01)).is_clipped());        // acceleration, x
@@ -244,7 +245,7 @@ TEST_CASE("Damage of MTData2 costs the message that it is in and no other, in ch
   }
   for (const std::size_t chunk : {1, 13, 4096}) {
     XsensCounters counters;
-    const Collector found = decode(stream, chunk, &counters);
+    const XsensCollector found = decode_xsens(stream, chunk, &counters);
     std::size_t next = 0, expected = 0;
     for (std::size_t i = 0; i < kMessages; ++i) {
       if (is_damaged[i]) continue;
@@ -265,12 +266,12 @@ TEST_CASE("A good checksum alone makes no message: the groups must fill it", "[x
   Bytes payload = {0xC0, 0x20, static_cast<std::uint8_t>(inner.size() + 1)};
   payload.insert(payload.end(), inner.begin(), inner.end());
   XsensCounters counters;
-  const auto found = decode(message(0x36, payload), 4096, &counters).measurements;
+  const auto found = decode_xsens(xsens_message(0x36, payload), 4096, &counters).measurements;
   CHECK(counters.framer.bad_checksums == 1);
   REQUIRE(found.size() == 1);
   CHECK(found[0].packet_counter == 5);
   payload.back() = 0, payload[7] = 0;  // the one inside is none now
-  CHECK(decode(message(0x36, payload), 4096, &counters).measurements.empty());
+  CHECK(decode_xsens(xsens_message(0x36, payload), 4096, &counters).measurements.empty());
   CHECK(counters.framer.bad_groups == 1);
 }
 
@@ -281,7 +282,7 @@ TEST_CASE("A damaged length holds back no message behind it, nor does a false st
     if (is_long) damaged[4] = 0x07, damaged[5] = 0xD0;  // 2000 bytes
     const Bytes stream = joined({marked(0), damaged, {0xFA, 0xFF}, marked(2)});
     XsensDecoder decoder;
-    Collector collector;
+    XsensCollector collector;
     for (const std::uint8_t byte : stream) decoder.feed(std::span(&byte, 1), &collector);
     REQUIRE(collector.measurements.size() == 2);  // before the end of the stream
     CHECK(collector.measurements[1].packet_counter == 2);
@@ -289,12 +290,12 @@ TEST_CASE("A damaged length holds back no message behind it, nor does a false st
   }
   // Other messages have no groups: they wait until an earlier start is known to be none.
   XsensDecoder decoder;
-  Collector collector;
+  XsensCollector collector;
   Bytes inner = joined({{0x10, 0x20, 2, 0, 9}, kRate, kForce, {0xC0, 0x20, 0}});
-  const Bytes other = message(0x3E, {});
+  const Bytes other = xsens_message(0x3E, {});
   inner.back() = static_cast<std::uint8_t>(other.size());
   inner.insert(inner.end(), other.begin(), other.end());
-  for (const std::uint8_t byte : message(0x36, inner)) {
+  for (const std::uint8_t byte : xsens_message(0x36, inner)) {
     decoder.feed(std::span(&byte, 1), &collector);
   }
   REQUIRE(collector.measurements.size() == 1);
@@ -312,7 +313,7 @@ TEST_CASE("Random bytes yield no measurement and end", "[xsens]") {
                        : static_cast<std::uint8_t>(dice());
   }
   XsensCounters counters;
-  const Collector found = decode(stream, 4096, &counters);
+  const XsensCollector found = decode_xsens(stream, 4096, &counters);
   CHECK(found.measurements.empty());
   CHECK(counters.framer.bad_checksums > 100);
   CHECK(counters.framer.bad_groups > 0);

@@ -1,16 +1,10 @@
 // Messages of u-blox receivers, put together byte by byte by the interface description.
 #pragma once
 #include <cstdint>
-#include <vector>
+
+#include "support/bytes/bytes.h"
 
 namespace leonav::test {
-
-using Bytes = std::vector<std::uint8_t>;
-
-// Appends `count` bytes of a value, the lowest first.
-inline void put(Bytes* bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes->push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
 
 // With its frame and checksum.
 inline Bytes message(std::uint8_t message_class, std::uint8_t id, const Bytes& payload) {
