@@ -5,21 +5,22 @@
 #include "drivers/ssr/correction_store.h"
 #include "support/catch.h"
 #include "support/pages/page_oracle.h"
+#include "support/pages/recorded_pages.h"
 #include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {
 
-constexpr const char* kPages = "wire/b2b_189e.txt";
-constexpr const char* kNavigation = "wire/broadcast_189.23P";
+using test::kB2bPages;
+using test::kBroadcast;
 
 // Decodes the hour; every message of clocks makes states at its own time.
 struct Hour {
   Hour() {
-    for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+    for (const Ephemeris& e : read_navigation(test::shared_data(kBroadcast)).ephemerides) {
       store.add(e);
     }
-    PageFileReader reader(test::shared_data(kPages), PageService::kBeidouB2b);
+    PageFileReader reader(test::shared_data(kB2bPages), PageService::kBeidouB2b);
     for (CorrectionPage page; reader.next(&page);) {
       for (const SsrMessage& message : decoder.add(page)) {
         store.add(message);
@@ -51,7 +52,7 @@ bool is_of_old_clock(const test::PageValueKey& state, const test::PageValues& va
 }  // namespace
 
 TEST_CASE("Every value of an hour of PPP-B2b is that of cssrlib, to the last bit") {
-  if (!test::have_shared_data(kPages) || !test::have_shared_data(kNavigation)) return;
+  if (!test::have_shared_data(kB2bPages) || !test::have_shared_data(kBroadcast)) return;
   const Hour hour;
   const B2bCounters& c = hour.decoder.counters();
   CHECK(c.empty == 6834);
@@ -60,7 +61,7 @@ TEST_CASE("Every value of an hour of PPP-B2b is that of cssrlib, to the last bit
   CHECK(hour.store.counters().without_bcnav1 > 0);
   if (!test::have_page_oracle()) return;
   const test::PageValues theirs =
-      test::oracle_values("b2b", test::shared_data(kPages), test::shared_data(kNavigation));
+      test::oracle_values("b2b", test::shared_data(kB2bPages), test::shared_data(kBroadcast));
   for (const char kind : {'O', 'C', 'B', 'S'}) {
     const test::PageComparison found = test::compare(kind, hour.values, theirs);
     CHECK(found.different == 0);

@@ -12,13 +12,14 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/ssr/orbit_correction.h"
 #include "support/catch.h"
+#include "support/pages/recorded_pages.h"
 #include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {
 
-constexpr const char* kPages = "wire/has_gale6_189e.txt";
-constexpr const char* kNavigation = "wire/broadcast_189.23P";
+using test::kBroadcast;
+using test::kHasPages;
 
 // The newest corrections of a satellite, and the elements that they correct.
 struct Satellite {
@@ -47,7 +48,7 @@ CorrectedState state_of(const Satellite& satellite, int sign, GpsTime time) {
 }
 
 Jumps jumps_of_hour() {
-  const NavigationFile navigation = read_navigation(test::shared_data(kNavigation));
+  const NavigationFile navigation = read_navigation(test::shared_data(kBroadcast));
   const auto find = [&](SatelliteId id, const SsrOrbit& orbit) -> const Ephemeris* {
     for (const Ephemeris& e : navigation.ephemerides) {
       if (e.satellite == id && is_corrected_by(e, orbit, SsrService::kGalileoHas)) return &e;
@@ -55,7 +56,7 @@ Jumps jumps_of_hour() {
     return nullptr;
   };
   HasDecoder decoder;
-  PageFileReader reader(test::shared_data(kPages), PageService::kGalileoHas);
+  PageFileReader reader(test::shared_data(kHasPages), PageService::kGalileoHas);
   std::map<SatelliteId, Satellite> before, now;
   Jumps jumps;
   for (CorrectionPage page; reader.next(&page);) {
@@ -93,7 +94,7 @@ Jumps jumps_of_hour() {
 }  // namespace
 
 TEST_CASE("Corrected satellites go on where the broadcast message changes") {
-  if (!test::have_shared_data(kPages) || !test::have_shared_data(kNavigation)) return;
+  if (!test::have_shared_data(kHasPages) || !test::have_shared_data(kBroadcast)) return;
   Jumps jumps = jumps_of_hour();
   REQUIRE(jumps.position_m[1].size() > 20);
   for (auto* of : {&jumps.position_m, &jumps.clock_m}) {

@@ -8,21 +8,22 @@
 #include "drivers/ssr/correction_store.h"
 #include "support/catch.h"
 #include "support/pages/page_oracle.h"
+#include "support/pages/recorded_pages.h"
 #include "support/recorded/shared_data.h"
 
 namespace leonav {
 namespace {
 
-constexpr const char* kPages = "wire/has_gale6_189e.txt";
-constexpr const char* kNavigation = "wire/broadcast_189.23P";
+using test::kBroadcast;
+using test::kHasPages;
 
 // Decodes the hour; every message of clocks makes states at its own time.
 struct Hour {
   Hour() {
-    for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+    for (const Ephemeris& e : read_navigation(test::shared_data(kBroadcast)).ephemerides) {
       store.add(e);
     }
-    PageFileReader reader(test::shared_data(kPages), PageService::kGalileoHas);
+    PageFileReader reader(test::shared_data(kHasPages), PageService::kGalileoHas);
     for (CorrectionPage page; reader.next(&page);) {
       for (const SsrMessage& message : decoder.add(page)) {
         store.add(message);
@@ -48,7 +49,7 @@ struct Hour {
 }  // namespace
 
 TEST_CASE("Every value of an hour of HAS is that of cssrlib, to the last bit") {
-  if (!test::have_shared_data(kPages) || !test::have_shared_data(kNavigation)) return;
+  if (!test::have_shared_data(kHasPages) || !test::have_shared_data(kBroadcast)) return;
   const Hour hour;
   const HasCounters c = hour.decoder.counters();
   CHECK(hour.bad_lines == 0);
@@ -58,7 +59,7 @@ TEST_CASE("Every value of an hour of HAS is that of cssrlib, to the last bit") {
   CHECK(c.pages + c.repeated + c.dummies == 17'145);
   if (!test::have_page_oracle()) return;
   const test::PageValues theirs =
-      test::oracle_values("has", test::shared_data(kPages), test::shared_data(kNavigation));
+      test::oracle_values("has", test::shared_data(kHasPages), test::shared_data(kBroadcast));
   for (const char kind : {'O', 'C', 'B', 'P', 'S'}) {
     const test::PageComparison found = test::compare(kind, hour.values, theirs);
     CHECK(found.different == 0);

@@ -10,8 +10,7 @@ namespace leonav {
 namespace {
 
 using test::decode_rtcm3;
-
-const GpsTime kDay = test::day(2012, 10, 14);
+using test::kDay;
 
 }  // namespace
 

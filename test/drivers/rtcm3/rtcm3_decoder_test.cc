@@ -11,9 +11,10 @@ namespace {
 
 using test::BitEdit;
 using test::decode_rtcm3;
+using test::kDay;
+using test::kMoreFollow;
 
-const GpsTime kDay = test::day(2012, 10, 14);
-constexpr std::size_t kStation = 12, kTime = 24, kMoreFollow = 54, kSatelliteMask = 73;
+constexpr std::size_t kStation = 12, kTime = 24, kSatelliteMask = 73;
 
 // The GPS messages of the recording's first epochs, one second apart, each complete by itself.
 std::vector<std::vector<std::uint8_t>> gps_frames(std::size_t count) {

@@ -28,6 +28,9 @@ inline constexpr const char* kSsrHour = "wire/ssr_idd2023229c.rtc";
 inline GpsTime day(int year, int month, int day_of_month) {
   return from_calendar({year, month, day_of_month, 12, 0, 0.0});
 }
+inline const GpsTime kDay = day(2012, 10, 14);  // of kGmsd7
+
+inline constexpr std::size_t kMoreFollow = 54;  // bit of DF393
 
 struct Rtcm3Collector : Rtcm3Handler {
   void on_epoch(const RawEpoch& epoch) override { epochs.push_back(epoch); }

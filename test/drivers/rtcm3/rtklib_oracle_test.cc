@@ -18,7 +18,7 @@ namespace {
 
 // RINEX holds three decimals; half of the last one, and the rounding of the sum itself.
 constexpr double kHalfDigit = 0.0005 + 1e-6;
-constexpr std::size_t kMoreFollow = 54;  // bit of DF393
+using test::kMoreFollow;
 
 // The frames with one number, each marked as the last of its epoch: convbin accepts an epoch only
 // if all systems agree on its time, which GMSD7's do not.

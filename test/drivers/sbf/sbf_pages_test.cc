@@ -8,6 +8,7 @@
 #include "sbf_streams.h"
 #include "support/catch.h"
 #include "support/pages/pages_in_sbf.h"
+#include "support/pages/recorded_pages.h"
 #include "support/temporary_file.h"
 
 namespace leonav {
@@ -17,8 +18,8 @@ using test::block_of;
 using test::Bytes;
 using test::decode_sbf;
 
-constexpr const char* kHas = "wire/has_gale6_189e.txt";
-constexpr const char* kB2b = "wire/b2b_189e.txt";
+using test::kB2bPages;
+using test::kHasPages;
 
 // Two bits of the last octet are behind the page.
 CorrectionPage without_rest(CorrectionPage page) {
@@ -95,7 +96,7 @@ PageCollector decode_pages(const std::vector<std::vector<std::uint8_t>>& blocks)
 
 TEST_CASE("Recorded pages in blocks of a Septentrio receiver are those of the lines of text") {
   for (const bool is_has : {true, false}) {
-    const char* source = is_has ? kHas : kB2b;
+    const char* source = is_has ? kHasPages : kB2bPages;
     if (!test::have_shared_data(source)) return;
     const test::TemporaryFile place("pages.sbf", "");
     REQUIRE(

@@ -28,8 +28,8 @@ double last_digit(double value) {
   return 0.5001e-12 * std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0);
 }
 
-using Key = std::tuple<SatelliteId, NavigationMessage, GpsTime>;
-Key key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe}; }
+using SetKey = std::tuple<SatelliteId, NavigationMessage, GpsTime>;
+SetKey key_of(const Ephemeris& e) { return {e.satellite, e.message, e.toe}; }
 
 std::vector<std::uint8_t> oracle_bytes(const std::string& arguments) {
   const test::TemporaryFile place("made.sbf", "");
@@ -128,7 +128,7 @@ TEST_CASE("Generated GPSNav and GALNav agree with convbin's sets to the twelfth 
   const auto ours = test::decode_sbf(bytes);
   const NavigationFile theirs = convbin_sets(bytes);
   // Several random sets may have one satellite and time: each of ours must be there.
-  std::multimap<Key, Ephemeris> by_key;
+  std::multimap<SetKey, Ephemeris> by_key;
   for (const Ephemeris& t : theirs.ephemerides) by_key.insert({key_of(t), t});
   long compared = 0;
   for (const Ephemeris& o : ours.ephemerides) {
@@ -154,7 +154,7 @@ TEST_CASE("Raw navigation bits of GPS, Galileo and BeiDou give RTKLIB's ephemeri
   const auto bytes = oracle_bytes("transcode '" + test::shared_data(test::kWalkUbx) + "'");
   const auto ours = test::decode_sbf(bytes);
   const NavigationFile theirs = read_navigation(test::shared_data("walk/gnss.nav"));
-  std::map<Key, Ephemeris> by_key;
+  std::map<SetKey, Ephemeris> by_key;
   for (const Ephemeris& e : ours.ephemerides) by_key[key_of(e)] = e;
   std::set<SatelliteId> satellites;
   for (const Ephemeris& t : theirs.ephemerides) {
@@ -189,7 +189,7 @@ TEST_CASE("Raw I/NAV pages give convbin's ephemerides in what it reads rightly")
   const std::set<std::size_t> at_the_end = {0, 7, 12, 16, 17};
   const auto bytes = oracle_bytes("transcode '" + test::shared_data(test::kWalkUbx) + "'");
   const NavigationFile theirs = convbin_sets(bytes);
-  std::map<Key, Ephemeris> by_key;
+  std::map<SetKey, Ephemeris> by_key;
   for (const Ephemeris& e : test::decode_sbf(bytes).ephemerides) by_key[key_of(e)] = e;
   CHECK(theirs.ephemerides.size() == 6);
   for (const Ephemeris& t : theirs.ephemerides) {

@@ -30,7 +30,8 @@ const std::string& logs() {
   return folder;
 }
 
-std::string words(const std::string& bin, const std::string& out, const std::string& more = "") {
+std::string fleet_words(const std::string& bin, const std::string& out,
+                        const std::string& more = "") {
   return "--bin '" + bin + "' --preset urban " + more + " --out '" + out + "' '" + logs() + "'";
 }
 
@@ -46,7 +47,7 @@ TEST_CASE("Many logs give one report, whatever the number of workers, and are no
   if (!have_fleet()) return;
   const TemporaryFile place("unused", "");
   const std::string one = place.beside("one"), two = place.beside("two");
-  const ProgramRun first = fleet(words(LEONAV_BIN_DIR, one, "--workers 1"));
+  const ProgramRun first = fleet(fleet_words(LEONAV_BIN_DIR, one, "--workers 1"));
   INFO(first.err);
   CHECK(first.exit_code == 1);
   CHECK(first.out == one + "/report.md\n");
@@ -66,7 +67,7 @@ TEST_CASE("Many logs give one report, whatever the number of workers, and are no
   CHECK_FALSE(std::filesystem::exists(one + "/work"));
   CHECK_FALSE(std::filesystem::exists(one + "/runs/one/run"));
 
-  const ProgramRun second = fleet(words(LEONAV_BIN_DIR, two, "--workers 2 --keep"));
+  const ProgramRun second = fleet(fleet_words(LEONAV_BIN_DIR, two, "--workers 2 --keep"));
   CHECK(second.exit_code == 1);
   check_same(one, two);
   CHECK(std::filesystem::exists(two + "/runs/one/run/solution.csv"));
@@ -74,11 +75,11 @@ TEST_CASE("Many logs give one report, whatever the number of workers, and are no
   // What is there is taken; what failed is tried again.
   const std::string result = two + "/runs/one/run.json";
   const auto written = std::filesystem::last_write_time(result);
-  CHECK(fleet(words(LEONAV_BIN_DIR, two, "--resume")).exit_code == 1);
+  CHECK(fleet(fleet_words(LEONAV_BIN_DIR, two, "--resume")).exit_code == 1);
   CHECK(std::filesystem::last_write_time(result) == written);
   check_same(one, two);
   // Another configuration is another run.
-  CHECK(fleet(words(LEONAV_BIN_DIR, two, "--resume --set ekf.carrier=false")).exit_code == 1);
+  CHECK(fleet(fleet_words(LEONAV_BIN_DIR, two, "--resume --set ekf.carrier=false")).exit_code == 1);
   CHECK(std::filesystem::last_write_time(result) != written);
 }
 
@@ -87,13 +88,14 @@ TEST_CASE("A worker that is lost in the middle of a run changes nothing", "[tool
   const TemporaryFile place("unused", "");
   const WaitingPrograms programs(place);
   const std::string disturbed = place.beside("disturbed"), calm = place.beside("calm");
-  const ProgramRun run = programs.disturbed("kill", words(programs.bin, disturbed, "--workers 2"));
+  const ProgramRun run =
+      programs.disturbed("kill", fleet_words(programs.bin, disturbed, "--workers 2"));
   INFO(run.out + run.err);
   CHECK(has(run.out, "a worker killed"));
   CHECK(has(run.out, "exit 1"));
   CHECK(has(run.out, "programs left: 0"));
   CHECK(has(run.err, "1 of 4 runs failed"));
-  CHECK(fleet(words(programs.bin, calm, "--workers 1")).exit_code == 1);
+  CHECK(fleet(fleet_words(programs.bin, calm, "--workers 1")).exit_code == 1);
   check_same(disturbed, calm);
 }
 
@@ -102,7 +104,7 @@ TEST_CASE("A stop ends the programs, and the call goes on with --resume", "[tool
   const TemporaryFile place("unused", "");
   const WaitingPrograms programs(place);
   const std::string out = place.beside("out");
-  const ProgramRun run = programs.disturbed("stop", words(programs.bin, out, "--workers 2"));
+  const ProgramRun run = programs.disturbed("stop", fleet_words(programs.bin, out, "--workers 2"));
   INFO(run.out + run.err);
   CHECK(has(run.out, "exit 130"));
   CHECK(has(run.out, "programs left: 0"));
@@ -110,7 +112,7 @@ TEST_CASE("A stop ends the programs, and the call goes on with --resume", "[tool
   CHECK_FALSE(has(run.err, "Traceback"));
   CHECK_FALSE(std::filesystem::exists(out + "/work"));
   std::ofstream(programs.go) << "\n";
-  const ProgramRun rest = fleet(words(programs.bin, out, "--resume"));
+  const ProgramRun rest = fleet(fleet_words(programs.bin, out, "--resume"));
   CHECK(has(rest.err, "1 of 4 runs failed"));
 }
 
@@ -119,7 +121,7 @@ TEST_CASE("Nothing listens but on 127.0.0.1", "[tools][fleet]") {
   const TemporaryFile place("unused", "");
   const WaitingPrograms programs(place);
   const ProgramRun run =
-      programs.disturbed("listen", words(programs.bin, place.beside("out"), "--workers 2"));
+      programs.disturbed("listen", fleet_words(programs.bin, place.beside("out"), "--workers 2"));
   INFO(run.out + run.err);
   CHECK(has(run.out, "listens scheduler 0100007F\n"));
   CHECK(has(run.out, "listens worker 0100007F\n"));
@@ -142,10 +144,10 @@ if __name__ == "__main__":
 )");
   const ProgramRun run =
       shell("cd '" + place.beside("") + "' && timeout 300 /usr/bin/python3 -B '" + script.path() +
-            "' '" LEONAV_BIN_DIR "/leonav-fleet' " + words(LEONAV_BIN_DIR, theirs));
+            "' '" LEONAV_BIN_DIR "/leonav-fleet' " + fleet_words(LEONAV_BIN_DIR, theirs));
   INFO(run.out + run.err);
   CHECK(has(run.out, "fleet 1 workers 1"));
-  CHECK(fleet(words(LEONAV_BIN_DIR, ours)).exit_code == 1);
+  CHECK(fleet(fleet_words(LEONAV_BIN_DIR, ours)).exit_code == 1);
   check_same(theirs, ours);
 }
 
@@ -167,7 +169,7 @@ TEST_CASE("Integrity is counted where leonav-eval can, and its lack of levels is
     exit 0 ;;
 esac
 )" + real);
-  const ProgramRun run = fleet(words(bin, out));
+  const ProgramRun run = fleet(fleet_words(bin, out));
   INFO(run.err);
   const std::string report = text_of(out + "/report.md");
   INFO(report);

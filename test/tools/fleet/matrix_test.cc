@@ -36,8 +36,8 @@ std::string matrix_text() {
   return text;
 }
 
-std::string words(const std::string& file, const std::string& bin, const std::string& out,
-                  const std::string& more = "") {
+std::string matrix_words(const std::string& file, const std::string& bin, const std::string& out,
+                         const std::string& more = "") {
   return "--matrix '" + file + "' --bin '" + bin + "' --out '" + out + "' " + more;
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("A matrix has a row a scene and estimator, with its verdict; logs do n
   if (!have_fleet()) return;
   const TemporaryFile file("small.yaml", matrix_text());
   const std::string one = file.beside("one"), two = file.beside("two");
-  const ProgramRun first = fleet(words(file.path(), LEONAV_BIN_DIR, one, "--workers 1"));
+  const ProgramRun first = fleet(matrix_words(file.path(), LEONAV_BIN_DIR, one, "--workers 1"));
   INFO(first.err);
   CHECK(first.exit_code == 1);
   CHECK(has(first.err, "8 runs to do, 0 already there"));
@@ -66,19 +66,21 @@ TEST_CASE("A matrix has a row a scene and estimator, with its verdict; logs do n
   CHECK_FALSE(std::filesystem::exists(one + "/work"));
   CHECK_FALSE(std::filesystem::exists(one + "/logs"));
 
-  const ProgramRun second = fleet(words(file.path(), LEONAV_BIN_DIR, two, "--workers 2 --keep"));
+  const ProgramRun second =
+      fleet(matrix_words(file.path(), LEONAV_BIN_DIR, two, "--workers 2 --keep"));
   CHECK(second.exit_code == 1);
   CHECK(text_of(two + "/report.md") == report);
   CHECK(text_of(two + "/report.json") == text_of(one + "/report.json"));
   CHECK(std::filesystem::exists(two + "/logs/city-seed2/run.lcmlog"));
   CHECK(std::filesystem::exists(two + "/runs/city/all/seed2/solution.csv"));
 
-  CHECK(has(fleet(words(file.path(), LEONAV_BIN_DIR, one, "--resume")).err,
+  CHECK(has(fleet(matrix_words(file.path(), LEONAV_BIN_DIR, one, "--resume")).err,
             "0 runs to do, 8 already there"));
   CHECK(text_of(one + "/report.md") == report);
-  CHECK(has(
-      fleet(words(file.path(), LEONAV_BIN_DIR, one, "--resume --duration 50 --rows 'open/*'")).err,
-      "4 runs to do, 0 already there"));
+  CHECK(has(fleet(matrix_words(file.path(), LEONAV_BIN_DIR, one,
+                               "--resume --duration 50 --rows 'open/*'"))
+                .err,
+            "4 runs to do, 0 already there"));
 }
 
 TEST_CASE("A matrix holds errors against their levels, and draws them where it can",
@@ -86,9 +88,10 @@ TEST_CASE("A matrix holds errors against their levels, and draws them where it c
   if (!have_fleet()) return;
   const TemporaryFile file("small.yaml", matrix_text());
   const std::string out = file.beside("out");
-  const std::string all = words(file.path(), LEONAV_BIN_DIR, out,
-                                "--rows 'open/*' --resume --set integrity.risk_per_hour=1e-4 --set "
-                                "integrity.tail_share=0");
+  const std::string all =
+      matrix_words(file.path(), LEONAV_BIN_DIR, out,
+                   "--rows 'open/*' --resume --set integrity.risk_per_hour=1e-4 --set "
+                   "integrity.tail_share=0");
   CHECK(fleet(all).exit_code == 0);
   const std::string report = text_of(out + "/report.md");
   INFO(report);
@@ -129,12 +132,12 @@ TEST_CASE("A worker that is lost in a matrix changes nothing", "[tools][fleet]")
   const WaitingPrograms programs(file);
   const std::string disturbed = file.beside("disturbed"), calm = file.beside("calm");
   const ProgramRun run = programs.disturbed(
-      "kill", words(file.path(), programs.bin, disturbed, "--rows 'open/*' --workers 2"));
+      "kill", matrix_words(file.path(), programs.bin, disturbed, "--rows 'open/*' --workers 2"));
   INFO(run.out + run.err);
   CHECK(has(run.out, "a worker killed"));
   CHECK(has(run.out, "exit 0"));
   CHECK(has(run.out, "programs left: 0"));
-  CHECK(fleet(words(file.path(), programs.bin, calm, "--rows 'open/*'")).exit_code == 0);
+  CHECK(fleet(matrix_words(file.path(), programs.bin, calm, "--rows 'open/*'")).exit_code == 0);
   CHECK(text_of(disturbed + "/report.json") == text_of(calm + "/report.json"));
 }
 
@@ -142,8 +145,8 @@ TEST_CASE("A scene that is not simulated is told run by run", "[tools][fleet]") 
   if (!have_fleet()) return;
   const TemporaryFile file("small.yaml", matrix_text());
   const std::string out = file.beside("out");
-  const ProgramRun run =
-      fleet(words(file.path(), LEONAV_BIN_DIR, out, "--rows '*/GPS'") + " --duration 60000000");
+  const ProgramRun run = fleet(matrix_words(file.path(), LEONAV_BIN_DIR, out, "--rows '*/GPS'") +
+                               " --duration 60000000");
   CHECK(run.exit_code == 1);
   CHECK(has(run.err, "4 of 4 runs failed"));
   const std::string report = text_of(out + "/report.md");
@@ -159,7 +162,7 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
     const std::size_t at = matrix.find(from);
     REQUIRE(at != std::string::npos);
     const TemporaryFile file("wrong.yaml", matrix.replace(at, from.size(), to));
-    const ProgramRun run = fleet(words(file.path(), LEONAV_BIN_DIR, file.beside("out")));
+    const ProgramRun run = fleet(matrix_words(file.path(), LEONAV_BIN_DIR, file.beside("out")));
     INFO(to + ": " + run.err);
     CHECK(run.exit_code == 2);
     CHECK(has(run.err, "wrong.yaml"));
@@ -181,7 +184,8 @@ TEST_CASE("Wrong matrices are named", "[tools][fleet]") {
   says("all: {}", "all: {sets: []}", "axes.systems.all.sets: no such key");
   says("scenes:", "scenes: [", "wrong.yaml:");
   const TemporaryFile file("small.yaml", matrix_text());
-  const ProgramRun row = fleet(words(file.path(), LEONAV_BIN_DIR, file.beside("out"), "--rows x"));
+  const ProgramRun row =
+      fleet(matrix_words(file.path(), LEONAV_BIN_DIR, file.beside("out"), "--rows x"));
   CHECK(row.exit_code == 2);
   CHECK(has(row.err, "--rows x: no row has such a name"));
   CHECK(fleet("--matrix '" + file.path() + "' --list").out ==

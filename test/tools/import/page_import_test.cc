@@ -7,6 +7,7 @@
 #include "drivers/text/parse.h"
 #include "support/catch.h"
 #include "support/pages/pages_in_sbf.h"
+#include "support/pages/recorded_pages.h"
 #include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
@@ -14,9 +15,9 @@
 namespace leonav {
 namespace {
 
-constexpr const char* kHas = "wire/has_gale6_189e.txt";
-constexpr const char* kB2b = "wire/b2b_189e.txt";
-constexpr const char* kNavigation = "wire/broadcast_189.23P";
+using test::kB2bPages;
+using test::kBroadcast;
+using test::kHasPages;
 constexpr const char* kWalk = "walk/gnss.ubx";
 
 struct Imported {
@@ -40,12 +41,12 @@ Imported import_log(const char* source, const std::string& name) {
   const test::TemporaryFile yaml(
       "set.yaml", "observations: a.obs\nnavigation: b.nav\ncorrections: " + name + "\n");
   if (name.ends_with(".sbf")) {
-    REQUIRE(test::write_pages_as_sbf(source == std::string(kHas) ? "has" : "b2b",
+    REQUIRE(test::write_pages_as_sbf(source == std::string(kHasPages) ? "has" : "b2b",
                                      test::shared_data(source), yaml.beside(name)));
   } else {
     std::filesystem::copy_file(test::shared_data(source), yaml.beside(name));
   }
-  std::filesystem::copy_file(test::shared_data(kNavigation), yaml.beside("b.nav"));
+  std::filesystem::copy_file(test::shared_data(kBroadcast), yaml.beside("b.nav"));
   write_observations(yaml.beside("a.obs"));
   Imported result;
   result.report = import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
@@ -71,8 +72,8 @@ using Catch::Contains;
 }  // namespace
 
 TEST_CASE("pages of HAS make states of GPS and Galileo and biases", "[import]") {
-  if (!test::have_shared_data(kHas)) return;
-  const ImportReport report = import_pages(kHas, "pages.has");
+  if (!test::have_shared_data(kHasPages)) return;
+  const ImportReport report = import_pages(kHasPages, "pages.has");
   CHECK(report.corrected_states > 1000);
   CHECK(report.signal_biases > 1000);
   CHECK(left_out(report, "correction that is too old") == 0);
@@ -80,8 +81,8 @@ TEST_CASE("pages of HAS make states of GPS and Galileo and biases", "[import]") 
 }
 
 TEST_CASE("pages of PPP-B2b make states of GPS, and BeiDou's wait for B-CNAV1", "[import]") {
-  if (!test::have_shared_data(kB2b)) return;
-  const ImportReport report = import_pages(kB2b, "pages.b2b");
+  if (!test::have_shared_data(kB2bPages)) return;
+  const ImportReport report = import_pages(kB2bPages, "pages.b2b");
   CHECK(report.corrected_states > 1000);
   CHECK(report.signal_biases == 0);  // they are BeiDou's
   CHECK(left_out(report, "correction of BeiDou whose ephemeris of B-CNAV1 is not there") > 1000);
@@ -89,9 +90,9 @@ TEST_CASE("pages of PPP-B2b make states of GPS, and BeiDou's wait for B-CNAV1", 
 
 TEST_CASE("pages in a Septentrio receiver's file make the log that lines of text make",
           "[import]") {
-  for (const char* source : {kHas, kB2b}) {
+  for (const char* source : {kHasPages, kB2bPages}) {
     if (!test::have_shared_data(source)) return;
-    const Imported lines = import_log(source, source == kHas ? "pages.has" : "pages.b2b");
+    const Imported lines = import_log(source, source == kHasPages ? "pages.has" : "pages.b2b");
     const Imported blocks = import_log(source, "pages.sbf");
     CHECK(blocks.report.corrected_states > 1000);
     CHECK(blocks.report.corrected_states == lines.report.corrected_states);
@@ -103,13 +104,13 @@ TEST_CASE("pages in a Septentrio receiver's file make the log that lines of text
 // GPS is corrected by both services, Galileo by HAS.
 TEST_CASE("of two services the one listed first corrects a system, the other one while it pauses",
           "[import]") {
-  if (!test::have_shared_data(kHas) || !test::have_shared_data(kB2b)) return;
+  if (!test::have_shared_data(kHasPages) || !test::have_shared_data(kB2bPages)) return;
   const auto import = [](const std::string& order, bool is_cut) {
     const test::TemporaryFile yaml(
         "set.yaml", "observations: a.obs\nnavigation: b.nav\ncorrections: [" + order + "]\n");
-    std::filesystem::copy_file(test::shared_data(kHas), yaml.beside("pages.has"));
-    std::filesystem::copy_file(test::shared_data(kNavigation), yaml.beside("b.nav"));
-    std::ifstream from(test::shared_data(kB2b));
+    std::filesystem::copy_file(test::shared_data(kHasPages), yaml.beside("pages.has"));
+    std::filesystem::copy_file(test::shared_data(kBroadcast), yaml.beside("b.nav"));
+    std::ifstream from(test::shared_data(kB2bPages));
     std::ofstream to(yaml.beside("pages.b2b"));
     // Cut: nothing from 04:05:00 to 04:10:00 of BeiDou's time.
     for (std::string line; std::getline(from, line);) {

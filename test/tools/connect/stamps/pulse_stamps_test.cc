@@ -12,8 +12,8 @@ namespace leonav {
 namespace {
 
 using test::gps_at;
-using test::kMillisecond;
-using test::kSecond;
+using test::kMillisecond_ns;
+using test::kSecond_ns;
 using test::kStart;
 
 // A sensor that takes a sample each `spacing_ns`, and a receiver that sees a pulse at each n-th.
@@ -22,11 +22,11 @@ struct PulseRig {
       : drift(drift_ppm * 1e-6), stamper(&clock, {latency_s, 0.0}, &pulses) {}
 
   double drift;
-  std::int64_t spacing_ns = 5 * kMillisecond;
+  std::int64_t spacing_ns = 5 * kMillisecond_ns;
   int every = 200;            // pulses of 1 Hz
   bool marks_pulses = false;  // the sensor marks samples with pulses
   bool has_pulses = true;
-  std::int64_t offset_ns = 77 * kSecond;  // of the sensor's clock
+  std::int64_t offset_ns = 77 * kSecond_ns;  // of the sensor's clock
   GpsClock clock{TimeReference::kGnss, 0.05};
   PulseQueue pulses;
   ImuStamper stamper;
@@ -45,9 +45,9 @@ struct PulseRig {
     long count = 0;
     worst_ms = 0.0;
     for (; now_ns < begin_ns + static_cast<std::int64_t>(seconds * 1e9); now_ns += spacing_ns) {
-      if (now_ns % kSecond == 0) {
-        clock.on_epoch(gps_at(now_ns),
-                       now_ns + 50 * kMillisecond + std::llround(queue_ms(dice) * kMillisecond));
+      if (now_ns % kSecond_ns == 0) {
+        clock.on_epoch(gps_at(now_ns), now_ns + 50 * kMillisecond_ns +
+                                           std::llround(queue_ms(dice) * kMillisecond_ns));
       }
       const bool has_pulse = samples++ % every == 0;
       if (has_pulse && has_pulses) {
@@ -56,12 +56,13 @@ struct PulseRig {
       }
       // The receiver tells of a pulse a tenth of a second later.
       while (!on_the_way.empty() &&
-             nanoseconds_between(gps_at(now_ns), on_the_way.front().time) > 100 * kMillisecond) {
+             nanoseconds_between(gps_at(now_ns), on_the_way.front().time) > 100 * kMillisecond_ns) {
         pulses.push(on_the_way.front());
         on_the_way.pop_front();
       }
       ImuReading reading;
-      reading.arrival_ns = now_ns + 4 * kMillisecond + std::llround(queue_ms(dice) * kMillisecond);
+      reading.arrival_ns =
+          now_ns + 4 * kMillisecond_ns + std::llround(queue_ms(dice) * kMillisecond_ns);
       const auto clock_ns = offset_ns + now_ns + std::llround(static_cast<double>(now_ns) * drift);
       reading.clock_ns = clock_ns / 100'000 * 100'000;  // the clock shows 0.1 ms
       reading.clock_step_s = 1e-4;
@@ -143,7 +144,7 @@ TEST_CASE("A step of the clock is followed and told", "[connect]") {
     CHECK_THAT(rig.stamper.text(), Catch::Contains("1 steps, the last by -0.0014 s"));
   }
   SECTION("by more than the time between samples") {
-    for (const std::int64_t step_ns : {13 * kMillisecond, 3 * kSecond, -40 * kSecond}) {
+    for (const std::int64_t step_ns : {13 * kMillisecond_ns, 3 * kSecond_ns, -40 * kSecond_ns}) {
       PulseRig rig(100.0);
       rig.run(30.0);
       rig.offset_ns += step_ns;

@@ -16,6 +16,7 @@
 #include "drivers/rinex/navigation_reader.h"
 #include "support/catch.h"
 #include "support/pages/pages_in_sbf.h"
+#include "support/pages/recorded_pages.h"
 #include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
 #include "tools/connect/formats/receivers/sbf_format.h"
@@ -24,9 +25,9 @@
 namespace leonav {
 namespace {
 
-constexpr const char* kHas = "wire/has_gale6_189e.txt";
-constexpr const char* kB2b = "wire/b2b_189e.txt";
-constexpr const char* kNavigation = "wire/broadcast_189.23P";
+using test::kB2bPages;
+using test::kBroadcast;
+using test::kHasPages;
 constexpr const char* kWalk = "walk/gnss.ubx";
 
 struct Counts : MessageTarget {
@@ -52,7 +53,7 @@ void feed(StreamFormat* format, std::span<const std::uint8_t> bytes, std::size_t
 
 struct PageRig {
   void add_ephemerides() {
-    for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+    for (const Ephemeris& e : read_navigation(test::shared_data(kBroadcast)).ephemerides) {
       corrections.add(e);
     }
   }
@@ -66,8 +67,8 @@ struct PageRig {
 
 TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
   const bool is_has = GENERATE(true, false);
-  const char* source = is_has ? kHas : kB2b;
-  if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
+  const char* source = is_has ? kHasPages : kB2bPages;
+  if (!test::have_shared_data(source) || !test::have_shared_data(kBroadcast)) return;
   PageRig rig;
   rig.add_ephemerides();
   PageFormat format(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b, &rig.corrections);
@@ -87,9 +88,9 @@ TEST_CASE("Lines of pages become corrected states and biases", "[connect]") {
 
 // No recording has B-CNAV1 of this hour: sets with the issues that the corrections name.
 TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]") {
-  if (!test::have_shared_data(kB2b)) return;
+  if (!test::have_shared_data(kB2bPages)) return;
   PageRig rig;
-  PageFileReader pages(test::shared_data(kB2b), PageService::kBeidouB2b);
+  PageFileReader pages(test::shared_data(kB2bPages), PageService::kBeidouB2b);
   B2bDecoder decoder;
   std::set<std::pair<SatelliteId, std::uint16_t>> known;
   for (CorrectionPage page; pages.next(&page);) {
@@ -109,7 +110,7 @@ TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]")
     }
   }
   PageFormat format(PageService::kBeidouB2b, &rig.corrections);
-  feed(&format, bytes_of(test::shared_data(kB2b)));
+  feed(&format, bytes_of(test::shared_data(kB2bPages)));
   CHECK(rig.counts.of[Channel::kCorrectedStates] > 500);
   CHECK(rig.counts.of[Channel::kBiases] > 50);
   CHECK(rig.shared.services.systems_of(0) == "BeiDou");
@@ -118,8 +119,8 @@ TEST_CASE("With B-CNAV1 PPP-B2b gives states and biases of BeiDou", "[connect]")
 
 TEST_CASE("Of two services the one listed first is used, and the other one's text says so",
           "[connect]") {
-  if (!test::have_shared_data(kHas) || !test::have_shared_data(kB2b) ||
-      !test::have_shared_data(kNavigation)) {
+  if (!test::have_shared_data(kHasPages) || !test::have_shared_data(kB2bPages) ||
+      !test::have_shared_data(kBroadcast)) {
     return;
   }
   std::vector<std::string> told;
@@ -128,7 +129,7 @@ TEST_CASE("Of two services the one listed first is used, and the other one's tex
   SharedCorrections shared({}, {}, &output,
                            [&told](const ServiceChange& c) { told.push_back(to_text(c)); });
   CorrectionOutput of_b2b("beidou", &shared), of_has("galileo", &shared);
-  for (const Ephemeris& e : read_navigation(test::shared_data(kNavigation)).ephemerides) {
+  for (const Ephemeris& e : read_navigation(test::shared_data(kBroadcast)).ephemerides) {
     of_has.add(e);
   }
   PageFormat b2b(PageService::kBeidouB2b, &of_b2b), has(PageService::kGalileoHas, &of_has);
@@ -144,7 +145,7 @@ TEST_CASE("Of two services the one listed first is used, and the other one's tex
       format->feed({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, 0);
     }
   };
-  std::ifstream b2b_lines(test::shared_data(kB2b)), has_lines(test::shared_data(kHas));
+  std::ifstream b2b_lines(test::shared_data(kB2bPages)), has_lines(test::shared_data(kHasPages));
   for (int second = 532'800; second < 532'800 + 360; ++second) {
     if (second < 532'800 + 180) feed_second(&b2b, &b2b_lines, second - 14);
     feed_second(&has, &has_lines, second);
@@ -161,10 +162,10 @@ TEST_CASE("Of two services the one listed first is used, and the other one's tex
 }
 
 TEST_CASE("Without ephemerides the text says that they are missing", "[connect]") {
-  if (!test::have_shared_data(kHas)) return;
+  if (!test::have_shared_data(kHasPages)) return;
   PageRig rig;
   PageFormat format(PageService::kGalileoHas, &rig.corrections);
-  std::vector<std::uint8_t> bytes = bytes_of(test::shared_data(kHas));
+  std::vector<std::uint8_t> bytes = bytes_of(test::shared_data(kHasPages));
   bytes.resize(100'000);
   feed(&format, bytes);
   CHECK(rig.counts.of[Channel::kCorrectedStates] == 0);
@@ -197,8 +198,8 @@ TEST_CASE("Other bytes are no pages, and lines without end take no memory", "[co
 TEST_CASE("A Septentrio receiver's pages give the same messages as lines, where they are used",
           "[connect]") {
   const bool is_has = GENERATE(true, false);
-  const char* source = is_has ? kHas : kB2b;
-  if (!test::have_shared_data(source) || !test::have_shared_data(kNavigation)) return;
+  const char* source = is_has ? kHasPages : kB2bPages;
+  if (!test::have_shared_data(source) || !test::have_shared_data(kBroadcast)) return;
   PageRig of_lines;
   of_lines.add_ephemerides();
   PageFormat lines(is_has ? PageService::kGalileoHas : PageService::kBeidouB2b,
