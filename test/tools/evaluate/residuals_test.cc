@@ -7,7 +7,7 @@
 using namespace leonav;
 
 namespace {
-const std::string kHeader =
+const std::string kColumns =
     "gps_week,gps_tow_s,satellite,observable,signals,observation,innovation,innovation_sigma,"
     "test_ratio,weight_factor,reason,residual,elevation_deg\n";
 std::string row(const std::string& satellite, const std::string& observable,
@@ -21,7 +21,7 @@ std::string row(const std::string& satellite, const std::string& observable,
 TEST_CASE("residuals are those of measurements that counted, by system, observable, elevation") {
   const test::TemporaryFile file(
       "measurements.csv",
-      kHeader + row("G05", "carrier", "used", "0.003", "80") +
+      kColumns + row("G05", "carrier", "used", "0.003", "80") +
           row("G07", "carrier", "downweighted", "-0.004", "20") +
           row("G08", "carrier", "used", "0.02", "15") +
           row("G08", "carrier", "outlier", "5.0", "50") + row("G05", "code", "used", "0.5", "80") +
@@ -44,7 +44,7 @@ TEST_CASE("residuals are those of measurements that counted, by system, observab
 
 TEST_CASE("a file without residuals that counted is an error, as is another file") {
   const test::TemporaryFile none("measurements.csv",
-                                 kHeader + row("G05", "code", "outlier", "1", "20"));
+                                 kColumns + row("G05", "code", "outlier", "1", "20"));
   CHECK_THROWS_AS(read_residuals(none.path()), FileError);
   const test::TemporaryFile other("solution.csv", "gps_week,gps_tow_s\n1,2\n");
   CHECK_THROWS_AS(read_residuals(other.path()), FileError);

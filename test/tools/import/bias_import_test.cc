@@ -10,6 +10,7 @@
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/text/parse.h"
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
@@ -79,14 +80,6 @@ Run import_with(const std::string& biases, const ImportOptions& options = {}) {
     for (const SignalBias& bias : read) run.biases.push_back({arrival, bias});
   }
   return run;
-}
-
-long left_out(const ImportReport& report, const std::string& reason) {
-  long count = 0;
-  for (const ImportReport::Skip& skip : report.skipped) {
-    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
-  }
-  return count;
 }
 
 }  // namespace

@@ -77,11 +77,11 @@ LogCounts read_log(const std::string& path) {
   return counts;
 }
 
-const std::string kObservations =
+const std::string kObservationHeader =
     "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
     "G    1 C1C                                                  SYS / # / OBS TYPES\n"
     "                                                            END OF HEADER\n";
-const std::string kEpochs =
+const std::string kEpochLines =
     "> 2024 05 06 07 08  1.0000000  0  1\nG01  20000000.000\n"
     "> 2024 05 06 07 08  2.0000000  0  1\nG01  20000000.000\n"
     "> 2024 05 06 07 08  3.0000000  0  1\nG01  20000000.000\n";
@@ -184,7 +184,8 @@ TEST_CASE("precise orbits and clocks of the station are there at every epoch",
 
 TEST_CASE("a span of time, and a truncated file", "[import]") {
   const TemporaryFile yaml("set.yaml", "name: s\nobservations: a.obs\n");
-  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs << "> 2024 05 06 07 08  4.00";
+  std::ofstream(yaml.beside("a.obs"))
+      << kObservationHeader << kEpochLines << "> 2024 05 06 07 08  4.00";
   const ImportReport all = import_text(yaml);
   CHECK(all.epochs == 3);
   REQUIRE(all.skipped.size() == 1);
@@ -199,7 +200,7 @@ TEST_CASE("a span of time, and a truncated file", "[import]") {
 
 TEST_CASE("an epoch with a wrong time costs itself, also before the next file", "[import]") {
   const auto epochs_from = [](int first, int count, int wrong) {
-    std::string text = kObservations;
+    std::string text = kObservationHeader;
     for (int i = first; i < first + count; ++i) {
       char line[80];  // an hour ahead where it is wrong, and a loss of lock told there
       std::snprintf(line, sizeof line, "> 2024 05 06 %02d %02d %2d.0000000  0  1\n",
@@ -243,7 +244,8 @@ TEST_CASE("an epoch with a wrong time costs itself, also before the next file", 
 
 TEST_CASE("what costs most of a stream is a warning that nobody overlooks", "[import]") {
   const TemporaryFile yaml("set.yaml", "observations: a.obs\nimu: imu.csv\n");
-  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs << kEpochs << kEpochs << kEpochs;
+  std::ofstream(yaml.beside("a.obs"))
+      << kObservationHeader << kEpochLines << kEpochLines << kEpochLines << kEpochLines;
   std::ofstream imu(yaml.beside("imu.csv"));
   imu << kImuCsvHeader << "\n2313,112028.0,0,0,0,0,0,-9.8\n2313,112028.1,0,0,0,0,0,-9.8\n";
   for (int i = 0; i < 3; ++i) imu << "2313,112028." << i << ",nan,0,0,0,0,-9.8\n";
@@ -272,7 +274,7 @@ TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
     return what;
   };
   using Catch::Contains;
-  const std::string good = kObservations + kEpochs;
+  const std::string good = kObservationHeader + kEpochLines;
   CHECK_THAT(message("name: s\nobservatons: a.obs\n", good),
              Contains("set.yaml:2") && Contains("'observations'"));
   CHECK_THAT(message("imu: [\n", good), Contains("set.yaml"));
@@ -282,7 +284,7 @@ TEST_CASE("damaged inputs stop the import and leave no file", "[import]") {
   CHECK_THAT(message("name: s\n---\nobservations: a.obs\n", good),
              Contains("set.yaml:2") && Contains("second document"));
   CHECK_THAT(message("observations: b.obs\n", good), Contains("b.obs"));
-  CHECK_THAT(message("observations: a.obs\n", kObservations), Contains("no usable epoch"));
+  CHECK_THAT(message("observations: a.obs\n", kObservationHeader), Contains("no usable epoch"));
   CHECK_THAT(message("observations: [a.obs, a.obs]\nnavigation: a.obs\n", good),
              Contains("a.obs:1") && Contains("not a navigation file"));
   CHECK_THAT(message("observations: a.obs\norbits: a.obs\n", good), Contains("a.obs"));
@@ -296,7 +298,7 @@ TEST_CASE("an import writes over no input and nothing but a regular file", "[imp
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   for (const char* name : {"a.obs", "b.obs.part"}) {
-    std::ofstream(yaml.beside(name)) << kObservations << kEpochs;
+    std::ofstream(yaml.beside(name)) << kObservationHeader << kEpochLines;
   }
   std::ofstream(yaml.beside("truth.csv")) << "the truth\n";
   const Dataset dataset = load_dataset(yaml.path());
@@ -310,7 +312,7 @@ TEST_CASE("an import writes over no input and nothing but a regular file", "[imp
   CHECK_THROWS_WITH(write_to("set.yaml"), Contains("is an input"));
   std::filesystem::create_hard_link(yaml.beside("a.obs"), yaml.beside("link"));
   CHECK_THROWS_WITH(write_to("link"), Contains("is an input"));
-  CHECK(text_of(yaml.beside("a.obs")) == kObservations + kEpochs);
+  CHECK(text_of(yaml.beside("a.obs")) == kObservationHeader + kEpochLines);
   CHECK(text_of(yaml.beside("truth.csv")) == "the truth\n");
 
   const std::string pipe = yaml.beside("pipe");
@@ -341,7 +343,7 @@ TEST_CASE("a truth that is not there is a warning", "[import]") {
   const TemporaryFile marked("set.yaml", "---\nobservations: a.obs\n");
   CHECK(load_dataset(marked.path()).observations.size() == 1);
   const TemporaryFile yaml("set.yaml", "observations: a.obs\ntruth: truth.csv\n");
-  std::ofstream(yaml.beside("a.obs")) << kObservations << kEpochs;
+  std::ofstream(yaml.beside("a.obs")) << kObservationHeader << kEpochLines;
   CHECK_THAT(to_string(import_text(yaml)), Catch::Contains("truth.csv is not there"));
   std::ofstream(yaml.beside("truth.csv")) << "the truth\n";
   CHECK_THAT(to_string(import_text(yaml)), !Catch::Contains("truth.csv"));

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "drivers/text/parse.h"
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
@@ -12,25 +13,11 @@
 namespace leonav {
 namespace {
 
+using test::import_error;
+using test::left_out;
+
 constexpr const char* kOemv = "wire/rtklib_oemv_200911218.gps";
 constexpr const char* kIns = "wire/novatel_ins2.gps";
-
-std::string error_of(const std::string& yaml) {
-  try {
-    import_dataset(load_dataset(yaml), {}, yaml + ".lcmlog", nullptr);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
-long left_out(const ImportReport& report, const std::string& reason) {
-  long count = 0;
-  for (const auto& skip : report.skipped) {
-    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
-  }
-  return count;
-}
 
 // A stream of RAWIMUX with a type of IMU, 100 Hz.
 std::string rawimux(std::uint8_t type, int count) {
@@ -84,14 +71,14 @@ TEST_CASE("a NovAtel file under imu gives inertial samples, by its type or a sca
   CHECK(left_out(report, "before its interval is known") == 1);
 
   std::ofstream(yaml.beside("a.oem7"), std::ios::binary) << rawimux(49, 10);
-  CHECK_THAT(error_of(yaml.path()),
+  CHECK_THAT(import_error(yaml.path()),
              Contains("a.oem7") && Contains("type 49") && Contains("imu_scale: [rad, m/s]"));
   std::ofstream(yaml.path()) << "imu: [a.oem7]\nimu_scale: [1e-9, 2e-8]\n";
   CHECK(import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr)
             .imu_samples == 9);
   for (const char* scale : {"[1e-9]", "[1e-9, x]", "[1e-9, 0]", "[1, 2, 3]", "7"}) {
     std::ofstream(yaml.path()) << "imu: [a.oem7]\nimu_scale: " << scale << "\n";
-    CHECK_THAT(error_of(yaml.path()), Contains("set.yaml:2") && Contains("[rad, m/s]"));
+    CHECK_THAT(import_error(yaml.path()), Contains("set.yaml:2") && Contains("[rad, m/s]"));
   }
 }
 
@@ -99,9 +86,9 @@ TEST_CASE("a NovAtel file without what it is listed for is refused", "[import]")
   if (!test::have_shared_data(kIns)) return;
   const test::TemporaryFile yaml("set.yaml", "imu: a.gps\n");
   std::filesystem::copy_file(test::shared_data(kIns), yaml.beside("a.gps"));
-  CHECK_THAT(error_of(yaml.path()), Contains("a.gps") && Contains("no usable inertial sample"));
+  CHECK_THAT(import_error(yaml.path()), Contains("a.gps") && Contains("no usable inertial sample"));
   std::ofstream(yaml.path()) << "observations: a.gps\n";
-  CHECK_THAT(error_of(yaml.path()), Contains("no usable epoch") && Contains("IMURATECORRIMUS"));
+  CHECK_THAT(import_error(yaml.path()), Contains("no usable epoch") && Contains("IMURATECORRIMUS"));
 }
 
 }  // namespace leonav

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "drivers/text/parse.h"
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/pages/pages_in_sbf.h"
 #include "support/pages/recorded_pages.h"
@@ -18,6 +19,7 @@ namespace {
 using test::kB2bPages;
 using test::kBroadcast;
 using test::kHasPages;
+using test::left_out;
 constexpr const char* kWalk = "walk/gnss.ubx";
 
 struct Imported {
@@ -57,14 +59,6 @@ Imported import_log(const char* source, const std::string& name) {
 
 ImportReport import_pages(const char* source, const std::string& name) {
   return import_log(source, name).report;
-}
-
-long left_out(const ImportReport& report, const std::string& reason) {
-  long count = 0;
-  for (const auto& skip : report.skipped) {
-    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
-  }
-  return count;
 }
 
 using Catch::Contains;

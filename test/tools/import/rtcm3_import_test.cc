@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "drivers/text/parse.h"
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
@@ -10,6 +11,8 @@
 
 namespace leonav {
 namespace {
+
+using test::left_out;
 
 constexpr const char* kManyTypes = "wire/rtcm_NTRIP-USCL00CHL0.bin";
 constexpr const char* kGmsd7 = "wire/rtklib_GMSD7_20121014.rtcm3";
@@ -34,14 +37,6 @@ struct Recording {
   }
   test::TemporaryFile yaml;
 };
-
-long left_out(const ImportReport& report, const std::string& reason) {
-  long count = 0;
-  for (const auto& skip : report.skipped) {
-    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
-  }
-  return count;
-}
 
 using Catch::Contains;
 

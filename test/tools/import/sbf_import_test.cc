@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "drivers/text/parse.h"
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/recorded/shared_data.h"
 #include "support/temporary_file.h"
@@ -12,25 +13,11 @@
 namespace leonav {
 namespace {
 
+using test::import_error;
+using test::left_out;
+
 constexpr const char* kEpoch = "wire/sbf_x5_measurements.bin";
 constexpr const char* kPositions = "wire/sbf_sbfdata.bin";
-
-std::string error_of(const std::string& yaml) {
-  try {
-    import_dataset(load_dataset(yaml), {}, yaml + ".lcmlog", nullptr);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
-long left_out(const ImportReport& report, const std::string& reason) {
-  long count = 0;
-  for (const auto& skip : report.skipped) {
-    if (skip.reason.find(reason) != std::string::npos) count += skip.count;
-  }
-  return count;
-}
 
 // A stream of ExtSensorMeas, 100 Hz; the sample at `gap` and the nine after it are missing.
 std::string inertial(int count, int gap = -1) {
@@ -98,9 +85,9 @@ TEST_CASE("a Septentrio file without what it is listed for is refused", "[import
   if (!test::have_shared_data(kPositions)) return;
   const test::TemporaryFile yaml("set.yaml", "imu: a.sbf\n");
   std::filesystem::copy_file(test::shared_data(kPositions), yaml.beside("a.sbf"));
-  CHECK_THAT(error_of(yaml.path()), Contains("a.sbf") && Contains("no usable inertial sample"));
+  CHECK_THAT(import_error(yaml.path()), Contains("a.sbf") && Contains("no usable inertial sample"));
   std::ofstream(yaml.path()) << "observations: a.sbf\n";
-  CHECK_THAT(error_of(yaml.path()), Contains("no usable epoch") && Contains("PVTCartesian"));
+  CHECK_THAT(import_error(yaml.path()), Contains("no usable epoch") && Contains("PVTCartesian"));
 }
 
 }  // namespace leonav

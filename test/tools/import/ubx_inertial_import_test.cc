@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "import_outcome.h"
 #include "support/catch.h"
 #include "support/temporary_file.h"
 #include "tools/import/import.h"
@@ -13,6 +14,7 @@ namespace leonav {
 namespace {
 
 using Catch::Contains;
+using test::import_error;
 
 constexpr int kWeek = 2209;
 
@@ -72,15 +74,6 @@ std::string stream(int seconds, bool with_epochs) {
   return bytes;
 }
 
-std::string error_of(const std::string& yaml) {
-  try {
-    import_dataset(load_dataset(yaml), {}, yaml + ".lcmlog", nullptr);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("Samples of a file are tied to GPS time by the order of messages", "[import]") {
@@ -131,9 +124,9 @@ TEST_CASE("A u-blox file under imu gives inertial samples and says how well they
   }
   CHECK(is_told);
   std::ofstream(yaml.beside("a.ubx"), std::ios::binary) << stream(30, false);
-  CHECK_THAT(error_of(yaml.path()), Contains("a.ubx") && Contains("UBX-RXM-RAWX"));
+  CHECK_THAT(import_error(yaml.path()), Contains("a.ubx") && Contains("UBX-RXM-RAWX"));
   std::ofstream(yaml.beside("a.ubx"), std::ios::binary) << rawx(1.0);
-  CHECK_THAT(error_of(yaml.path()), Contains("switch UBX-ESF-RAW on"));
+  CHECK_THAT(import_error(yaml.path()), Contains("switch UBX-ESF-RAW on"));
 }
 
 }  // namespace leonav

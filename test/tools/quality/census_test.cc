@@ -3,14 +3,13 @@
 #include <memory>
 
 #include "support/catch.h"
+#include "support/start_time.h"
 #include "tools/quality/internal/code_steps.h"
 #include "tools/quality/internal/distribution.h"
 
 using namespace leonav;
 
 namespace {
-
-const GpsTime kStart = GpsTime::from_week_and_tow(2200, 1000.0);
 
 SignalObservation signal(SatelliteId satellite, const char* code) {
   SignalObservation o;
@@ -28,7 +27,7 @@ TEST_CASE("times: interval, gaps, missing and late epochs") {
   auto epoch = std::make_unique<RawEpoch>();
   // Two holes: one epoch at 3, four epochs from 7 to 10. One that goes back.
   for (const double t : {0.0, 1.0, 2.0, 4.0, 5.0, 6.0, 6.0, 11.0, 12.001}) {
-    epoch->time = kStart.plus_seconds(t);
+    epoch->time = test::kAnyTime.plus_seconds(t);
     census.add(*epoch);
   }
   const EpochTimes times = census.times();
@@ -44,7 +43,7 @@ TEST_CASE("an epoch alone, and epochs less than a millisecond apart, have no gap
   Census census(default_gnss_config());
   RawEpoch epoch;
   for (const double t : {0.0, 0.0001, 0.0002, 5.0}) {
-    epoch.time = kStart.plus_seconds(t);
+    epoch.time = test::kAnyTime.plus_seconds(t);
     census.add(epoch);
     CHECK(census.times().gaps == 0);
   }
@@ -56,7 +55,7 @@ TEST_CASE("carriers are paired as the navigator would, by what is there most oft
   const SatelliteId wide{System::kBeidou, 21};
   RawEpoch epoch;
   for (int k = 0; k < 100; ++k) {
-    epoch.time = kStart.plus_seconds(k);
+    epoch.time = test::kAnyTime.plus_seconds(k);
     epoch.observations.clear();
     for (const char* code : {"1C", "1W", "2L", "2W", "5Q"})
       epoch.observations.push_back(signal(all, code));
@@ -87,7 +86,7 @@ TEST_CASE("a step that all codes share is taken out, one satellite's is not") {
   for (int k = 0; k < 60; ++k) {
     if (k == 20) offset_m += 30.0;
     if (k == 40) offset_m -= 45.0;
-    epoch.time = kStart.plus_seconds(k);
+    epoch.time = test::kAnyTime.plus_seconds(k);
     epoch.observations.clear();
     for (std::uint16_t number = 1; number <= 8; ++number) {
       SignalObservation o = signal({System::kGps, number}, "1C");

@@ -5,7 +5,9 @@
 
 #include "daemon/config/effective_config.h"
 #include "daemon/config/load_config.h"
+#include "python_script.h"
 #include "support/catch.h"
+#include "support/has.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
@@ -26,21 +28,9 @@ ProgramRun experiments(const std::string& words) {
   return run;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // What a script prints that imports the experiments' modules.
-std::string python(const std::string& script) {
-  const TemporaryFile file("script.py", "import sys\nsys.path.insert(0, '" LEONAV_SOURCE_DIR
-                                        "/tools/scripts/lib/experiments')\n" +
-                                            script);
-  const std::string out = file.beside("out");
-  const std::string command = "/usr/bin/python3 -B '" + file.path() + "' >'" + out + "' 2>&1";
-  const int status = std::system(command.c_str());
-  INFO(text_of(out));
-  CHECK(status == 0);
-  return text_of(out);
+std::string experiments_script(const std::string& script) {
+  return python_script("lib/experiments", script);
 }
 
 }  // namespace
@@ -181,7 +171,7 @@ TEST_CASE("A drive that is not simulated is reported row by row", "[tools]") {
 }
 
 TEST_CASE("Results that are none are errors that name the file", "[tools]") {
-  const std::string said = python(R"(import os, tempfile
+  const std::string said = experiments_script(R"(import os, tempfile
 import judge
 folder = tempfile.mkdtemp()
 def try_(what, name, text, *arguments):
@@ -214,7 +204,7 @@ print("rmse", judge.numbers_of(path)["rmse"][3])
 }
 
 TEST_CASE("Verdicts compare the seeds that both have, and name proven causes alone", "[tools]") {
-  const std::string said = python(R"(import matrix, report, spread, verdicts
+  const std::string said = experiments_script(R"(import matrix, report, spread, verdicts
 rows = {row.name: row for row in matrix.all_rows(1100, 120, 150)}
 def result(three_d, satellites=6.0, after=None, time=None):
     return {"rmse": [three_d] * 4, "satellites": satellites, "convergence_s": time, "after_convergence": after,
@@ -298,7 +288,7 @@ print(report.gain_lines(pair, {pair[0].name: {1: result(2.0), 2: result(9.0)}, p
 TEST_CASE(
     "The smoother's gain on the filter stands beside the factor graph's on the EKF, no metres",
     "[tools]") {
-  const std::string said = python(R"(import matrix, published, smoother_verdicts
+  const std::string said = experiments_script(R"(import matrix, published, smoother_verdicts
 rows = {row.name: row for row in matrix.all_rows(1100, 120, 150)}
 def result(three_d):
     return {"rmse": [three_d] * 4, "after_convergence": three_d, "within_three_sigma": 0.9}
@@ -339,7 +329,7 @@ lines({"fgo-code-gps-ins": (2.0, 1.0)})
 
 TEST_CASE("Rows of constraints are judged seed by seed, and not where epochs lack an answer",
           "[tools]") {
-  const std::string said = python(R"(import matrix, motion, numpy as np, plots
+  const std::string said = experiments_script(R"(import matrix, motion, numpy as np, plots
 row = {row.name: row for row in matrix.all_rows(1100, 120, 150)}["motion-tactical-car-ekf"]
 def series(error, without=None, few=4):
     epochs = np.arange(3003.0)
@@ -374,7 +364,7 @@ lines([series(0.5), series(0.5, (2040, 2060), 5)])
 }
 
 TEST_CASE("Rows of mismatched drives are those of the matched ones, of other logs", "[tools]") {
-  const std::string said = python(R"(import matrix, report
+  const std::string said = experiments_script(R"(import matrix, report
 rows = {row.name: row for row in matrix.all_rows(1100, 120, 150)}
 found = [row for row in rows.values() if row.group == "mismatch"]
 for row in found:

@@ -3,7 +3,9 @@
 #include <iostream>
 #include <string>
 
+#include "python_script.h"
 #include "support/catch.h"
+#include "support/has.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 
@@ -18,20 +20,8 @@ bool have_numpy() {
 }
 
 // What a script prints that has imported faults.py.
-std::string python(const std::string& script) {
-  const TemporaryFile file("script.py", "import sys\nsys.path.insert(0, '" LEONAV_SOURCE_DIR
-                                        "/tools/scripts/lib')\nimport faults\n" +
-                                            script);
-  const std::string out = file.beside("out");
-  const std::string command = "/usr/bin/python3 -B '" + file.path() + "' >'" + out + "' 2>&1";
-  const int status = std::system(command.c_str());
-  INFO(text_of(out));
-  CHECK(status == 0);
-  return text_of(out);
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+std::string faults_script(const std::string& script) {
+  return python_script("lib", "import faults\n" + script);
 }
 
 // Makes `folder` with the tables of a replay of nine seconds, the truth's first second before it.
@@ -58,7 +48,7 @@ def tables(events, levels={}):
 TEST_CASE("A fault is judged from its begin on: largest error, misleading epochs, who tells of it",
           "[tools]") {
   if (!have_numpy()) return;
-  const std::string said = python(std::string(kTables) + R"(
+  const std::string said = faults_script(std::string(kTables) + R"(
 def show(result):
     size, sigma, levels = result["worst"]
     print(f"worst {size:.3f} {sigma:.4f} {levels.tolist()} sigmas {result['sigmas']:.2f} share {result['share']:.2f} heading {result['heading']:.2f}",
@@ -97,7 +87,7 @@ print("unusual", result["event"][0], sorted(result["kinds"]), f"until {result['u
 
 TEST_CASE("The steadiest satellite is used nearly always, and of these the highest", "[tools]") {
   if (!have_numpy()) return;
-  const std::string said = python(std::string(kTables) + R"(
+  const std::string said = faults_script(std::string(kTables) + R"(
 seen = []
 for i in range(40):
     at = lambda name, used, elevation: seen.append((2300, 100 + i, name, used, elevation))
@@ -117,7 +107,7 @@ print(faults.steadiest(table, 10, 40, "G"), faults.steadiest(table, 0, 10, "G"),
 
 TEST_CASE("A row of the faults' table has the errors with sigma and levels", "[tools]") {
   if (!have_numpy()) return;
-  const std::string said = python(R"(
+  const std::string said = faults_script(R"(
 result = dict(worst=(1.234, 0.5, (3.04, 4.06)), sigmas=2.51, share=0.333, heading=0.256, misleading=0, epochs=898, event=None)
 faults.print_row("a fault", "GPS", "filter", result)
 faults.print_row("a fault", "all", "smoother", result | {"event": ("improbable", 9.4, (0.1, 0.05, (2.0, 3.0)))})

@@ -27,7 +27,7 @@ void ask(std::vector<DetectorInstant>* asked, double from, double to, bool stand
 }
 
 // 10 s driving, 10 s standing, 10 s at 0.1 m/s, 10 s at 0.03 m/s, 10 s standing, 10 s driving.
-Track drive() {
+Track stop_and_go() {
   Track truth;
   for (const double speed : {8.0, 0.0, 0.1, 0.03, 0.0, 8.0}) go(&truth, 10.0, speed);
   return truth;
@@ -41,7 +41,7 @@ TEST_CASE("a stop that is found after a second is found, and nothing is false") 
   ask(&asked, 11.0, 19.8, true);
   ask(&asked, 20.0, 41.0, false);
   ask(&asked, 41.0, 49.8, true);
-  const StopsResult result = evaluate_stops(asked, drive(), {});
+  const StopsResult result = evaluate_stops(asked, stop_and_go(), {});
   CHECK(result.wrong.empty());
   REQUIRE(result.stops.size() == 2);
   CHECK(result.stops[0].found_after_s == Approx(1.0).margin(0.01));
@@ -60,7 +60,7 @@ TEST_CASE("one false at the speed of traffic, one barely moving, one stop missed
   asked.push_back({at(35.0), true});
   ask(&asked, 35.2, 60.0, false);
   asked.push_back({at(45.0), true});
-  const StopsResult result = evaluate_stops(asked, drive(), {});
+  const StopsResult result = evaluate_stops(asked, stop_and_go(), {});
   REQUIRE(result.wrong.size() == 1);
   CHECK(result.wrong[0].second == Approx(0.1).margin(1e-6));
   CHECK(result.fastest_m_s == Approx(0.1).margin(1e-6));
@@ -81,7 +81,7 @@ TEST_CASE("instants in a gap of the truth and stops before the first question ar
   Track truth;
   go(&truth, 5.0, 0.0);
   go(&truth, 5.0, 5.0);
-  const Track after = drive();  // 20 s later
+  const Track after = stop_and_go();  // 20 s later
   for (TrackPoint point : after) {
     point.time = point.time.plus_seconds(30.0);
     truth.push_back(point);
