@@ -42,9 +42,9 @@ auto outage(int first) {
 }
 
 // One kind of run of the drive and what it answers undisturbed.
-struct Drive {
-  Drive(const std::string& label_, const TemporaryFile& place_, const std::string& log_,
-        const std::string& options_, const std::string& judge_)
+struct KindOfRun {
+  KindOfRun(const std::string& label_, const TemporaryFile& place_, const std::string& log_,
+            const std::string& options_, const std::string& judge_)
       : label(label_), place(place_), log(log_), options(options_), judge(judge_) {
     undisturbed = errors_of(place, log, options, judge);
     std::printf("%s, undisturbed: horizontal RMSE %.3f m\n", label.c_str(), undisturbed.rmse);
@@ -86,7 +86,7 @@ TEST_CASE("the drive with one disturbance, GNSS only: every epoch that is there 
   // Without a change the log comes out as it went in: what follows is the disturbance alone.
   CHECK(text_of(edited(place, log, [](int, RawEpoch*) { return true; })) == text_of(log));
 
-  const Drive drive("drive", place, log, config("phone"), judge);
+  const KindOfRun drive("drive", place, log, config("phone"), judge);
   drive.check("a third of the codes +150 m for 30 s", reflected(3), kEpochs, 1.17);
   drive.check("half of the codes +150 m for 30 s", reflected(2), kEpochs, 1.17);
   drive.check("outage of 60 s", outage(300), kEpochs - 60, 1.25);
@@ -98,8 +98,8 @@ TEST_CASE("the drive with one epoch stamped late") {
   if (!programs() || !have_shared_data("drive/dataset.yaml")) return;
   const TemporaryFile place("unused", "");
   const std::string judge = "--remove-offset --truth " + shared_data("drive/truth.csv");
-  const Drive drive("drive, offset removed", place, imported(place, "drive"), config("phone"),
-                    judge);
+  const KindOfRun drive("drive, offset removed", place, imported(place, "drive"), config("phone"),
+                        judge);
   for (const int which : {300, 1000}) {
     for (const int late_ms : {50, 100, 300, 2500}) {
       const auto stamped_late = [=](int n, RawEpoch* epoch) {
@@ -122,7 +122,7 @@ TEST_CASE("the drive with one disturbance and an IMU: every epoch that is there 
   const TemporaryFile place("unused", "");
   const std::string truth = place.beside("truth.csv");
   const std::string log = semi_real_log(place, truth);
-  const Drive drive("semi-real INS", place, log, config("phone_imu"), "--truth " + truth);
+  const KindOfRun drive("semi-real INS", place, log, config("phone_imu"), "--truth " + truth);
   // This car creeps before it starts: taken for standing it would leave a gyro bias of 45 deg/h and
   // 0.61 degrees.
   const double yaw_deg = number_after(text_of(place.beside("errors.json")), "yaw_deg", "rmse");

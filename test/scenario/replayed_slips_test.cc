@@ -52,20 +52,20 @@ struct Arc {
   bool had_one = false;
 };
 
-struct Run {
+struct ReplayedArcs {
   std::map<Place, Arc> arcs;  // of used satellites above the mask
   std::map<Place, std::string> signals;
 };
 
 using Epochs = std::map<long, std::size_t>;  // by time of week
 
-Run replay(const TemporaryFile& place, const std::string& log, const std::string& options,
-           const Epochs& epochs) {
+ReplayedArcs replay(const TemporaryFile& place, const std::string& log, const std::string& options,
+                    const Epochs& epochs) {
   const std::string out = place.beside("result");
   const ProgramRun run = run_program("leonav-replay", options + " --out " + out + " " + log);
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
-  Run result;
+  ReplayedArcs result;
   const auto place_of_row = [&](std::map<std::string, std::string>& row) {
     const auto satellite = satellite_from_string(row["satellite"]);
     REQUIRE(satellite);
@@ -118,7 +118,7 @@ Epochs epochs_of(const std::string& log) {
 
 // The log with the carriers' counts moved from each slip on, on all signals of its bands.
 void write_with_slips(const std::string& log, const std::string& to, const Epochs& epochs,
-                      const std::vector<Injection>& slips, const Run& clean) {
+                      const std::vector<Injection>& slips, const ReplayedArcs& clean) {
   std::map<Place, Injection> by_place;
   for (const Injection& slip : slips) by_place[{slip.epoch, slip.satellite}] = slip;
   std::map<std::pair<SatelliteId, char>, double> cycles;
@@ -147,7 +147,7 @@ void write_with_slips(const std::string& log, const std::string& to, const Epoch
 
 // Arcs begun though nothing slipped and the receiver told nothing; an arc that nothing tested
 // counts.
-long false_ends(const Run& run, const std::set<Place>& slipped) {
+long false_ends(const ReplayedArcs& run, const std::set<Place>& slipped) {
   long count = 0;
   for (const auto& [place, arc] : run.arcs) {
     bool near = false;
@@ -169,7 +169,7 @@ TEST_CASE("slips in the recorded station's log are found by the program as a who
   const std::string systems = " --set gnss.systems=[gps,galileo,beidou]";
   for (const std::string& motion : {std::string(), free_to_move()}) {
     const std::string options = config("station") + systems + motion;
-    const Run clean = replay(place, log, options, epochs);
+    const ReplayedArcs clean = replay(place, log, options, epochs);
     std::vector<SlipRun::Going> going;
     for (const auto& [at, arc] : clean.arcs) {
       const auto signals = clean.signals.find(at);
@@ -180,7 +180,7 @@ TEST_CASE("slips in the recorded station's log are found by the program as a who
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const std::vector<Injection> slips = draw_injections(going, 0.06, kApart, seed);
       write_with_slips(log, slipped_log, epochs, slips, clean);
-      const Run run = replay(place, slipped_log, options, epochs);
+      const ReplayedArcs run = replay(place, slipped_log, options, epochs);
       std::set<Place> slipped;
       for (const Injection& slip : slips) {
         const Place at{slip.epoch, slip.satellite};

@@ -7,6 +7,7 @@
 namespace {
 
 using namespace leonav;
+using test::kDown;
 
 // The forces' axes as rows of `axes`.
 MotionRecord seen_by(const Eigen::Matrix3d& axes, int seconds = 100) {
@@ -29,8 +30,7 @@ Eigen::Matrix3d rows(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const E
 }
 
 constexpr double kDegree = EIGEN_PI / 180.0;
-const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX(), kRight = Eigen::Vector3d::UnitY(),
-                      kDown = Eigen::Vector3d::UnitZ();
+const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX(), kRight = Eigen::Vector3d::UnitY();
 
 ConventionFinding upright(const Eigen::Matrix3d& axes) {
   return check_horizontal_axes_upright(fit_horizontal_axes(seen_by(axes), 3.0));

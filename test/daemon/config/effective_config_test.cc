@@ -7,14 +7,12 @@
 #include "daemon/config/presets.h"
 #include "same_config.h"
 #include "support/catch.h"
+#include "support/has.h"
 
 namespace {
 
 using namespace leonav;
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
+using test::has;
 
 void check_identity(const DaemonConfig& config) {
   for (const Extent extent : {Extent::kAllKeys, Extent::kChanges}) {

@@ -24,8 +24,8 @@ std::string labelled(std::string text, const std::string& label) {
   return text + label + "\n";
 }
 
-const std::string kHeader = labelled("     1.4            M", "ANTEX VERSION / SYST") +
-                            labelled("A", "PCV TYPE / REFANT") + labelled("", "END OF HEADER");
+const std::string kAntexHeader = labelled("     1.4            M", "ANTEX VERSION / SYST") +
+                                 labelled("A", "PCV TYPE / REFANT") + labelled("", "END OF HEADER");
 
 std::string start(const std::string& type, const std::string& grid, const std::string& azimuth) {
   return labelled("", "START OF ANTENNA") + labelled(type, "TYPE / SERIAL NO") +
@@ -38,7 +38,7 @@ std::string frequency(const std::string& name, const std::string& offset, const 
          rows + labelled("   " + name, "END OF FREQUENCY");
 }
 
-const std::string kEnd = labelled("", "END OF ANTENNA");
+const std::string kEndOfAntenna = labelled("", "END OF ANTENNA");
 const std::string kNadirGrid = "     0.0   2.0   1.0";
 const std::string kRow = "   NOAZI    1.00   -2.00    3.50\n";
 const std::string kOffset = "      1.00     -2.00   1500.00";
@@ -46,15 +46,15 @@ const std::string kOffset = "      1.00     -2.00   1500.00";
 std::string satellite(const std::string& name, const std::string& validity = "") {
   return start("BLOCK IIF           " + name + "                 G063      2011-036A", kNadirGrid,
                "0.0") +
-         validity + frequency(name.substr(0, 1) + "01", kOffset, kRow) + kEnd;
+         validity + frequency(name.substr(0, 1) + "01", kOffset, kRow) + kEndOfAntenna;
 }
 
 std::string receiver(const std::string& name, const std::string& up = "    80.00") {
   return start(name, kNadirGrid, "0.0") + frequency("G01", "      1.00     -2.00 " + up, kRow) +
-         kEnd;
+         kEndOfAntenna;
 }
 
-AntexFile read_text(const std::string& text, const AntexSelection& selection = {}) {
+AntexFile read_antex_text(const std::string& text, const AntexSelection& selection = {}) {
   const test::TemporaryFile file("test.atx", text);
   return read_antex(file.path(), selection);
 }
@@ -65,7 +65,7 @@ TEST_CASE("ANTEX values come in metres and radians", "[antex]") {
   const std::string validity =
       labelled("  2011     7    16     0     0    0.0000000", "VALID FROM") +
       labelled("  2020    12    31    23    59   59.9999999", "VALID UNTIL");
-  const AntexFile file = read_text(kHeader + satellite("G05", validity));
+  const AntexFile file = read_antex_text(kAntexHeader + satellite("G05", validity));
   REQUIRE(file.satellites.size() == 1);
   const AntennaPattern& g05 = file.satellites[0];
   CHECK_FALSE(g05.is_receiver);
@@ -84,12 +84,12 @@ TEST_CASE("ANTEX values come in metres and radians", "[antex]") {
 TEST_CASE("Of ANTEX satellites those valid at the time are kept", "[antex]") {
   const std::string until = labelled("  2015     1     1     0     0    0.0000000", "VALID UNTIL");
   const std::string from = labelled("  2015     1     1     0     0    1.0000000", "VALID FROM");
-  const std::string text = kHeader + satellite("G05", until) + satellite("G05", from) +
+  const std::string text = kAntexHeader + satellite("G05", until) + satellite("G05", from) +
                            satellite("R05") + satellite("L07");
-  const AntexFile all = read_text(text);
+  const AntexFile all = read_antex_text(text);
   CHECK(all.satellite_antennas == 3);
   CHECK(all.other_system == 1);
-  const AntexFile now = read_text(text, {from_calendar({2020, 1, 1}), ""});
+  const AntexFile now = read_antex_text(text, {from_calendar({2020, 1, 1}), ""});
   REQUIRE(now.satellites.size() == 2);
   CHECK(now.satellites[0].valid_from.is_set());
   CHECK(now.not_valid == 1);
@@ -98,7 +98,7 @@ TEST_CASE("Of ANTEX satellites those valid at the time are kept", "[antex]") {
 
 TEST_CASE("An ANTEX receiver is found by type and radome, else without radome", "[antex]") {
   const auto find = [](const std::string& text, const std::string& name) {
-    return read_text(kHeader + satellite("G05") + text, {GpsTime(), name});
+    return read_antex_text(kAntexHeader + satellite("G05") + text, {GpsTime(), name});
   };
   const std::string none = receiver("TRM59800.00     NONE", "    11.00");
   const std::string dome = receiver("TRM59800.00     SCIS", "    22.00");
@@ -142,10 +142,10 @@ TEST_CASE("ANTEX receiver values by azimuth are kept, satellites' are not", "[an
   }
   const std::string band = frequency("G01", kOffset, rows);
   const std::string text =
-      kHeader + start("TRM59800.00     NONE", kNadirGrid, "90.0") + band + kEnd +
+      kAntexHeader + start("TRM59800.00     NONE", kNadirGrid, "90.0") + band + kEndOfAntenna +
       start("BLOCK IIF           G05                 G063      2011-036A", kNadirGrid, "90.0") +
-      band + kEnd;
-  const AntexFile file = read_text(text, {GpsTime(), "TRM59800.00 NONE"});
+      band + kEndOfAntenna;
+  const AntexFile file = read_antex_text(text, {GpsTime(), "TRM59800.00 NONE"});
   REQUIRE(file.receiver.size() == 1);
   const AntennaGridView grid = view(file.receiver[0].variation);
   CHECK(grid.azimuths == 5);
@@ -158,7 +158,7 @@ TEST_CASE("ANTEX receiver values by azimuth are kept, satellites' are not", "[an
 
 TEST_CASE("A damaged antenna costs itself alone and is named", "[antex]") {
   const auto check = [](const std::string& bad, long line, const std::string& what) {
-    const AntexFile file = read_text(kHeader + bad + satellite("G07"));
+    const AntexFile file = read_antex_text(kAntexHeader + bad + satellite("G07"));
     INFO(what);
     CHECK(file.satellites.size() == 1);
     CHECK(file.damaged == 1);
@@ -181,17 +181,17 @@ TEST_CASE("A damaged antenna costs itself alone and is named", "[antex]") {
   check(without(good, kRow, ""), 11, "without NOAZI");
   check(without(good, "G01", "E01"), 9, "another system");
   check(without(good, "0.0   2.0   1.0", "0.0  20.0   0.1"), 11, "missing");
-  check(good.substr(0, good.size() - kEnd.size()), 13, "before the last one's end");
-  check(labelled("", "START OF ANTENNA") + kEnd, 5, "without TYPE");
+  check(good.substr(0, good.size() - kEndOfAntenna.size()), 13, "before the last one's end");
+  check(labelled("", "START OF ANTENNA") + kEndOfAntenna, 5, "without TYPE");
 }
 
 TEST_CASE("A cut ANTEX file says so", "[antex]") {
-  const std::string text = kHeader + satellite("G05") + satellite("G07");
-  const std::string first = kHeader + satellite("G05");
+  const std::string text = kAntexHeader + satellite("G05") + satellite("G07");
+  const std::string first = kAntexHeader + satellite("G05");
   int usable = 0;
   for (std::size_t size = 0; size + 1 < text.size(); size += 7) {
     try {
-      const AntexFile file = read_text(text.substr(0, size));
+      const AntexFile file = read_antex_text(text.substr(0, size));
       ++usable;
       CHECK(file.satellites.size() == 1);
       CHECK((file.truncated || size < first.size() + 80));
@@ -204,16 +204,16 @@ TEST_CASE("A cut ANTEX file says so", "[antex]") {
 
 TEST_CASE("What is no ANTEX file of absolute models is an error", "[antex]") {
   CHECK_THROWS_AS(read_antex("no/such/file.atx", {}), FileError);
-  CHECK_THROWS_WITH(read_text(""), Catch::Contains(":1: "));
-  CHECK_THROWS_WITH(read_text("hello\n"), Catch::Contains("expected an ANTEX file"));
-  CHECK_THROWS_WITH(read_text(labelled("     2.0", "ANTEX VERSION / SYST")),
+  CHECK_THROWS_WITH(read_antex_text(""), Catch::Contains(":1: "));
+  CHECK_THROWS_WITH(read_antex_text("hello\n"), Catch::Contains("expected an ANTEX file"));
+  CHECK_THROWS_WITH(read_antex_text(labelled("     2.0", "ANTEX VERSION / SYST")),
                     Catch::Contains(":1: ANTEX version"));
-  CHECK_THROWS_WITH(read_text(labelled("     1.4", "ANTEX VERSION / SYST") +
-                              labelled("R   AOAD/M_T        NONE", "PCV TYPE / REFANT")),
+  CHECK_THROWS_WITH(read_antex_text(labelled("     1.4", "ANTEX VERSION / SYST") +
+                                    labelled("R   AOAD/M_T        NONE", "PCV TYPE / REFANT")),
                     Catch::Contains(":2: models are relative"));
-  CHECK_THROWS_WITH(read_text(labelled("     1.4", "ANTEX VERSION / SYST")),
+  CHECK_THROWS_WITH(read_antex_text(labelled("     1.4", "ANTEX VERSION / SYST")),
                     Catch::Contains("ends within its header"));
-  CHECK_THROWS_WITH(read_text(kHeader + satellite("R01")),
+  CHECK_THROWS_WITH(read_antex_text(kAntexHeader + satellite("R01")),
                     Catch::Contains("1 of systems not used"));
 }
 

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> generated(int seed) {
   return test::stream_bytes(place.path());
 }
 
-using Key = std::tuple<GpsTime, SatelliteId, SignalCode>;
+using SignalKey = std::tuple<GpsTime, SatelliteId, SignalCode>;
 
 struct Agreement {
   long measurements = 0, missing = 0, different = 0;
@@ -44,7 +44,7 @@ bool is_empty(const Words& line) {
 
 Agreement compare_measurements(const std::vector<std::uint8_t>& bytes,
                                const std::vector<Words>& lines) {
-  std::map<Key, SignalObservation> ours;
+  std::map<SignalKey, SignalObservation> ours;
   const auto decoded = test::decode_sbf(bytes);
   for (const RawEpoch& epoch : decoded.epochs) {
     for (const auto& o : epoch.observations) ours[{epoch.time, o.satellite, o.code}] = o;

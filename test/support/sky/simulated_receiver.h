@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/gnss/signals/band_plan.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/scenario/scenario_yaml.h"
 #include "tools/sim/signals/receiver.h"
@@ -51,6 +52,10 @@ inline bool same(const RawEpoch& a, const RawEpoch& b) {
     if (!same(a.observations[i], b.observations[i])) return false;
   }
   return true;
+}
+
+inline double meters(const SignalObservation& o, double cycles) {
+  return cycles * BandPlan().wavelength_m(o.satellite.system, o.code.band);
 }
 
 }  // namespace leonav::test

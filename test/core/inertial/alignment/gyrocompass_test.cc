@@ -9,23 +9,16 @@
 #include "core/earth/rotation.h"
 #include "core/inertial/alignment/alignment.h"
 #include "support/catch.h"
+#include "synthetic_vehicle.h"
 
 namespace leonav {
 namespace {
 
+using test::tactical_imu;
+
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kHour = 3600.0;
 constexpr double kDt = 0.01;
 const Geodetic kWhere{48.0 * kDegree, 11.0 * kDegree, 500.0};
-
-ImuErrorModel tactical() {
-  ImuErrorModel imu;
-  imu.angle_random_walk = 0.05 * kDegree / 60.0;
-  imu.velocity_random_walk = 0.1 / 60.0;
-  imu.gyro_bias = {0.5 * kDegree / kHour, 3600.0};
-  imu.accel_bias = {25e-5, 3600.0};
-  return imu;
-}
 
 struct Stand {
   double heading = 0.0;    // rad
@@ -76,8 +69,8 @@ TEST_CASE("tactical gyros find north while standing, as well as they say") {
   constexpr int kRuns = 200;
   double squares = 0.0, latest = 0.0, worst = 0.0;
   for (int run = 0; run < kRuns; ++run) {
-    const auto found =
-        align({.heading = (-180.0 + 360.0 * run / kRuns) * kDegree}, tactical(), tactical(), &bits);
+    const auto found = align({.heading = (-180.0 + 360.0 * run / kRuns) * kDegree}, tactical_imu(),
+                             tactical_imu(), &bits);
     REQUIRE(found);
     squares += found->error * found->error / (found->sigma * found->sigma);
     latest = std::max(latest, found->after_s);
@@ -93,19 +86,19 @@ TEST_CASE("tactical gyros find north while standing, as well as they say") {
 
 TEST_CASE("what turns with a table, or has gyros beyond their data sheet, finds no north") {
   std::mt19937_64 bits(6);
-  ImuErrorModel bad = tactical();
+  ImuErrorModel bad = tactical_imu();
   bad.gyro_bias.sigma *= 60.0;
   int wrong = 0;
   for (int run = 0; run < 50; ++run) {
-    CHECK_FALSE(
-        align({.heading = 0.1 * run, .turn_rate = 0.01 * kDegree}, tactical(), tactical(), &bits));
-    const auto found = align({.heading = 0.1 * run}, bad, tactical(), &bits);
+    CHECK_FALSE(align({.heading = 0.1 * run, .turn_rate = 0.01 * kDegree}, tactical_imu(),
+                      tactical_imu(), &bits));
+    const auto found = align({.heading = 0.1 * run}, bad, tactical_imu(), &bits);
     wrong += found && std::abs(found->error) > 5.0 * found->sigma ? 1 : 0;
   }
   // A bias of 30 deg/h looks like the Earth's 15 in length and inclination only by chance.
   CHECK(wrong <= 1);
-  ImuErrorModel mems = tactical();
-  mems.gyro_bias.sigma = 1000.0 * kDegree / kHour;
+  ImuErrorModel mems = tactical_imu();
+  mems.gyro_bias.sigma = 1000.0 * kDegree / 3600.0;
   CHECK_FALSE(align({}, mems, mems, &bits));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kHour = 3600.0, kDegree = M_PI / 180.0;
 
-ImuErrorModel tactical() {
+ImuErrorModel degree_per_hour_imu() {
   ImuErrorModel imu;
   imu.angle_random_walk = 0.05 * kDegree / std::sqrt(kHour);
   imu.gyro_bias.sigma = 1.0 * kDegree / kHour;
@@ -22,7 +22,7 @@ ImuErrorModel tactical() {
 }  // namespace
 
 TEST_CASE("the bias of a standstill errs as much as it states, also where white noise is all") {
-  const ImuErrorModel imu = tactical();
+  const ImuErrorModel imu = degree_per_hour_imu();
   std::mt19937_64 bits(7);
   std::normal_distribution<double> normal;
   for (const int windows : {3, 10, 60}) {
@@ -48,7 +48,7 @@ TEST_CASE("the bias of a standstill errs as much as it states, also where white 
 }
 
 TEST_CASE("a turn among the windows is refused, or widens what is stated") {
-  ImuErrorModel imu = tactical();
+  ImuErrorModel imu = degree_per_hour_imu();
   StaticGyroMean standing(imu);
   const Eigen::Vector3d turn(0.0, 0.0, -0.58 * kDegree);
   CHECK_FALSE(standing.is_plausible(turn, 1.0));

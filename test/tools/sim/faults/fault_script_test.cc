@@ -48,10 +48,6 @@ int compare(const std::string& fault, const std::function<bool(double, Satellite
   return count;
 }
 
-double meters(const SignalObservation& o, double cycles) {
-  return cycles * BandPlan().wavelength_m(o.satellite.system, o.code.band);
-}
-
 }  // namespace
 
 TEST_CASE("Outage: nothing of those it meets, everything of the others", "[sim][faults]") {

@@ -31,7 +31,7 @@ std::vector<TruthPoint> points_of(const SplineMotion& motion, bool with_attitude
   return points;
 }
 
-Scenario scenario_of(const std::string& file, const std::string& more = "") {
+Scenario scenario_of_track(const std::string& file, const std::string& more = "") {
   return load_scenario_text("duration_s: 180\n" + more + "route: {file: \"" + file + "\"}",
                             "test.yaml");
 }
@@ -43,7 +43,7 @@ TEST_CASE("A truth file gives the route, its start and its origin", "[sim]") {
   const TemporaryFile place("truth.csv", "");
   for (const bool with_attitude : {true, false}) {
     write_truth_csv(place.path(), points_of(given, with_attitude));
-    const Scenario scenario = scenario_of(place.path());
+    const Scenario scenario = scenario_of_track(place.path());
     CHECK(scenario.start == given.start());
     const SplineMotion motion = drive(scenario);
     CHECK(motion.duration_s() == Approx(180.0));
@@ -60,14 +60,14 @@ TEST_CASE("A truth file gives the route, its start and its origin", "[sim]") {
     CHECK(roll > 0.01);
     CHECK(tilt < 0.006);
   }
-  CHECK(scenario_of(place.path(), "start_gps_week: 2200\n").start ==
+  CHECK(scenario_of_track(place.path(), "start_gps_week: 2200\n").start ==
         GpsTime::from_week_and_tow(2200, 345'600.0));
 }
 
 TEST_CASE("A truth file that is no route is refused with its name", "[sim]") {
   const auto refused = [](const std::string& file) -> std::string {
     try {
-      drive(scenario_of(file));
+      drive(scenario_of_track(file));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -102,25 +102,25 @@ TEST_CASE("A truth file that leaps is refused; rows that are not read are report
   std::vector<TruthPoint> leaping = points;
   for (std::size_t i = 900; i < leaping.size(); ++i) leaping[i].position.latitude *= -1.0;
   write_truth_csv(file.path(), leaping);
-  CHECK_THROWS_WITH(scenario_of(file.path()), Catch::Contains("test.yaml:2: route.file: ") &&
-                                                  Catch::Contains("truth.csv") &&
-                                                  Catch::Contains("500 m/s"));
+  CHECK_THROWS_WITH(scenario_of_track(file.path()), Catch::Contains("test.yaml:2: route.file: ") &&
+                                                        Catch::Contains("truth.csv") &&
+                                                        Catch::Contains("500 m/s"));
   // The fastest that goes: an airliner's 300 m/s.
   std::vector<TruthPoint> fast = points;
   for (std::size_t i = 0; i < fast.size(); ++i) {
     fast[i].position.latitude += 30.0 * static_cast<double>(i) / 6.37e6;
   }
   write_truth_csv(file.path(), fast);
-  CHECK(left_out(scenario_of(file.path()).route.file_report).empty());
+  CHECK(left_out(scenario_of_track(file.path()).route.file_report).empty());
   std::swap(points[300], points[700]);
   write_truth_csv(file.path(), points);
-  const std::string told = left_out(scenario_of(file.path()).route.file_report);
+  const std::string told = left_out(scenario_of_track(file.path()).route.file_report);
   INFO(told);
   CHECK(told.find("2 rows were left out: ") == 0);
   CHECK(told.find("truth.csv:302: ") != std::string::npos);
   points.resize(22);
   points[5].time = points[6].time = points[7].time = points[20].time;
   write_truth_csv(file.path(), points);
-  CHECK_THROWS_WITH(drive(scenario_of(file.path())),
+  CHECK_THROWS_WITH(drive(scenario_of_track(file.path())),
                     Catch::Contains("at least 20") && Catch::Contains("rows were left out"));
 }

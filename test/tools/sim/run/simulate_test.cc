@@ -66,7 +66,7 @@ Content run(const std::string& yaml) {
   return content;
 }
 
-const Content& clean() {
+const Content& clean_run() {
   static const Content content = run(kShort);
   return content;
 }
@@ -82,15 +82,15 @@ double seconds(GpsTime time) {
 }
 
 void require_same_imu(const Content& with) {
-  REQUIRE(with.imu.size() == clean().imu.size());
+  REQUIRE(with.imu.size() == clean_run().imu.size());
   for (std::size_t i = 0; i < with.imu.size(); ++i)
-    REQUIRE(same_sample(with.imu[i].message, clean().imu[i].message));
+    REQUIRE(same_sample(with.imu[i].message, clean_run().imu[i].message));
 }
 
 void require_same_epochs(const Content& with) {
-  REQUIRE(with.epochs.size() == clean().epochs.size());
+  REQUIRE(with.epochs.size() == clean_run().epochs.size());
   for (std::size_t i = 0; i < with.epochs.size(); ++i)
-    REQUIRE(same(with.epochs[i].message, clean().epochs[i].message));
+    REQUIRE(same(with.epochs[i].message, clean_run().epochs[i].message));
 }
 
 }  // namespace
@@ -99,25 +99,25 @@ TEST_CASE("IMU gap: samples of the gap are missing, the others as they were", "[
   const Content with = run(kShort + "faults: [{kind: imu_gap, from_s: 10, to_s: 12.5}]");
   require_same_epochs(with);
   std::size_t i = 0;
-  for (const auto& plain : clean().imu) {
+  for (const auto& plain : clean_run().imu) {
     const double t = seconds(plain.message.time);
     if (t >= 10.0 && t < 12.5) continue;
     REQUIRE(i < with.imu.size());
     REQUIRE(same_sample(with.imu[i++].message, plain.message));
   }
   REQUIRE(i == with.imu.size());
-  REQUIRE(clean().imu.size() - i == 125);
+  REQUIRE(clean_run().imu.size() - i == 125);
 }
 
 TEST_CASE("IMU saturation: clipped where it is beyond, untouched elsewhere", "[sim][faults]") {
   const Content with =
       run(kShort + "faults: [{kind: imu_saturation, from_s: 5, to_s: 25, accel_limit_m_s2: 9.8}]");
   require_same_epochs(with);
-  REQUIRE(with.imu.size() == clean().imu.size());
+  REQUIRE(with.imu.size() == clean_run().imu.size());
   int clipped = 0;
   for (std::size_t i = 0; i < with.imu.size(); ++i) {
     const ImuSample& a = with.imu[i].message;
-    const ImuSample& plain = clean().imu[i].message;
+    const ImuSample& plain = clean_run().imu[i].message;
     const double t = seconds(plain.time), limit = 9.8 * plain.interval_s();
     for (int axis = 0; axis < 3; ++axis) {
       const double v = plain.delta_velocity_b[axis];
@@ -133,9 +133,9 @@ TEST_CASE("IMU saturation: clipped where it is beyond, untouched elsewhere", "[s
 TEST_CASE("Late messages are the same, but later; others keep their place", "[sim][faults]") {
   const Content with = run(kShort + "faults: [{kind: late, from_s: 10, to_s: 15, delay_s: 1.4}]");
   require_same_imu(with);
-  REQUIRE(with.epochs.size() == clean().epochs.size());
+  REQUIRE(with.epochs.size() == clean_run().epochs.size());
   int late = 0;
-  for (const auto& plain : clean().epochs) {
+  for (const auto& plain : clean_run().epochs) {
     const auto found = std::ranges::find_if(
         with.epochs, [&](const auto& e) { return e.message.time == plain.message.time; });
     REQUIRE(found != with.epochs.end());
@@ -152,9 +152,9 @@ TEST_CASE("Duplicates come twice and alike", "[sim][faults]") {
   const Content with =
       run(kShort + "faults: [{kind: duplicate, from_s: 10, to_s: 15, stream: imu}]");
   require_same_epochs(with);
-  REQUIRE(with.imu.size() == clean().imu.size() + 250);
+  REQUIRE(with.imu.size() == clean_run().imu.size() + 250);
   std::size_t i = 0;
-  for (const auto& plain : clean().imu) {
+  for (const auto& plain : clean_run().imu) {
     const double t = seconds(plain.message.time);
     REQUIRE(same_sample(with.imu[i++].message, plain.message));
     if (t >= 10.0 && t < 15.0) REQUIRE(same_sample(with.imu[i++].message, plain.message));
@@ -167,11 +167,11 @@ TEST_CASE("A bad orbit is sent, by as much as scripted and only then", "[sim][fa
           "faults: [{kind: bad_orbit, to_s: 20, satellites: [L05], along_m: 3, radial_m: -4}]");
   require_same_epochs(with);
   require_same_imu(with);
-  REQUIRE(with.states.size() == clean().states.size());
+  REQUIRE(with.states.size() == clean_run().states.size());
   int bad = 0;
   for (std::size_t i = 0; i < with.states.size(); ++i) {
     const PreciseStates& a = with.states[i].message;
-    const PreciseStates& plain = clean().states[i].message;
+    const PreciseStates& plain = clean_run().states[i].message;
     REQUIRE(a.size() == plain.size());
     for (std::size_t j = 0; j < a.size(); ++j) {
       REQUIRE(a[j].clock_s == plain[j].clock_s);
@@ -190,12 +190,12 @@ TEST_CASE("A bad orbit is sent, by as much as scripted and only then", "[sim][fa
 TEST_CASE("A receiver that is reset is silent, then starts anew", "[sim][faults]") {
   const Content with = run(kShort + "faults: [{kind: receiver_reset, from_s: 10, to_s: 13}]");
   require_same_imu(with);
-  REQUIRE(with.epochs.size() == clean().epochs.size() - 3);
+  REQUIRE(with.epochs.size() == clean_run().epochs.size() - 3);
   for (const auto& epoch : with.epochs) {
     const double t = seconds(epoch.message.time);
     REQUIRE((t < 9.5 || t > 12.5));
     const auto plain = std::ranges::find_if(
-        clean().epochs, [&](const auto& e) { return e.message.time == epoch.message.time; });
+        clean_run().epochs, [&](const auto& e) { return e.message.time == epoch.message.time; });
     if (t < 10.0) REQUIRE(same(epoch.message, plain->message));
     for (const SignalObservation& o : epoch.message.observations) {
       if (t > 12.5 && !std::isnan(o.lock_time_s)) REQUIRE(o.lock_time_s <= t - 13.0);

@@ -15,10 +15,6 @@ namespace {
 
 const std::string kDrive = "duration_s: 120\nroute: {standing_s: 20}\n";
 
-double meters(const SignalObservation& o, double cycles) {
-  return cycles * BandPlan().wavelength_m(o.satellite.system, o.code.band);
-}
-
 // Calls `check(before, now, after)` for each signal that three epochs in a row hold by its carrier.
 template <typename Check>
 int for_each_triple(const std::vector<RawEpoch>& epochs, const Check& check) {

@@ -8,13 +8,12 @@
 #include "tools/sim/street/street_slips.h"
 
 using namespace leonav;
-using sim::GaussMarkov;
 using sim::OnOff;
 
 TEST_CASE("A Gauss-Markov process has unit variance and forgets exponentially", "[sim][street]") {
   constexpr int kSteps = 400'000;
   constexpr double kStep = 0.05;  // half a node: nodes and middles
-  GaussMarkov process(17);
+  sim::GaussMarkov process(17);
   std::vector<double> x;
   for (int i = 0; i < kSteps; ++i) x.push_back(process.at(kStep * i).value);
   double sum = 0.0, even = 0.0, odd = 0.0;
@@ -36,7 +35,7 @@ TEST_CASE("A Gauss-Markov process has unit variance and forgets exponentially", 
 
 TEST_CASE("The slope of a Gauss-Markov process is its derivative", "[sim][street]") {
   constexpr double kStep = 1e-5;
-  GaussMarkov process(5);
+  sim::GaussMarkov process(5);
   double worst = 0.0, largest = 0.0;
   for (double argument = 0.003; argument < 20.0; argument += 0.0137) {
     const double before = process.at(argument - kStep).value;

@@ -2,34 +2,26 @@
 // tables.
 #include "tools/connect/formats/receivers/sbf_format.h"
 
-#include <bit>
 #include <numbers>
 #include <vector>
 
-#include "drivers/lcm/decode.h"
+#include "published_inputs.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-constexpr int kWeek = 2367;
-constexpr std::uint32_t kTime_ms = 482'321'000;
+using test::Packed;
+using test::PublishedInputs;
 
-// Numbers one after the other, least significant byte first.
-struct Packed {
-  Packed& add(std::uint64_t value, int size) {
-    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-    return *this;
-  }
-  Packed& real(double value) { return add(std::bit_cast<std::uint64_t>(value), 8); }
-  std::vector<std::uint8_t> bytes;
-};
+constexpr int kBlockWeek = 2367;
+constexpr std::uint32_t kBlockTime_ms = 482'321'000;
 
 std::vector<std::uint8_t> block(std::uint16_t number, std::uint32_t time_ms,
                                 const Packed& payload) {
   Packed covered;
   const std::size_t size = (14 + payload.bytes.size() + 3) / 4 * 4;
-  covered.add(number, 2).add(size, 2).add(time_ms, 4).add(kWeek, 2);
+  covered.add(number, 2).add(size, 2).add(time_ms, 4).add(kBlockWeek, 2);
   for (const std::uint8_t byte : payload.bytes) covered.add(byte, 1);
   while (covered.bytes.size() < size - 4) covered.add(0, 1);
   std::uint32_t crc = 0;
@@ -62,22 +54,9 @@ std::vector<std::uint8_t> ext_sensor(std::uint32_t time_ms, bool has_rate = true
   return block(4050, time_ms, p);
 }
 
-struct Messages : MessageTarget {
-  void take(Channel channel, ByteSpan bytes) override {
-    if (channel == Channel::kGnssEpoch) {
-      REQUIRE(Decoder().decode(bytes, &epochs.emplace_back()).fault == InputFault::kNone);
-    } else {
-      REQUIRE(channel == Channel::kImu);
-      REQUIRE(Decoder().decode(bytes, &samples.emplace_back()).fault == InputFault::kNone);
-    }
-  }
-  std::vector<RawEpoch> epochs;
-  std::vector<ImuSample> samples;
-};
-
-struct Rig {
-  explicit Rig(bool is_inertial) : format({is_inertial, false}, 0.05, 30.0, &clock, &output) {}
-  Messages messages;
+struct SbfRig {
+  explicit SbfRig(bool is_inertial) : format({is_inertial, false}, 0.05, 30.0, &clock, &output) {}
+  PublishedInputs messages;
   MessageOutput output{&messages};
   GpsClock clock{TimeReference::kGnss, 0.05};
   SbfFormat format;
@@ -90,8 +69,8 @@ bool contains(const std::string& text, const char* part) {
 }  // namespace
 
 TEST_CASE("An epoch is published with the last byte of its MeasEpoch", "[connect]") {
-  Rig rig(false);
-  const auto bytes = meas_epoch(kTime_ms);
+  SbfRig rig(false);
+  const auto bytes = meas_epoch(kBlockTime_ms);
   rig.format.feed(std::span(bytes).first(bytes.size() - 1), 1);
   CHECK(rig.messages.epochs.empty());
   rig.format.feed(std::span(bytes).last(1), 2);
@@ -105,9 +84,9 @@ TEST_CASE("An epoch is published with the last byte of its MeasEpoch", "[connect
 TEST_CASE("Septentrio's inertial samples are published where the configuration says so",
           "[connect]") {
   for (const bool is_inertial : {true, false}) {
-    Rig rig(is_inertial);
-    rig.format.feed(meas_epoch(kTime_ms), 1);
-    for (std::uint32_t k = 0; k < 5; ++k) rig.format.feed(ext_sensor(kTime_ms + 10 * k), 1);
+    SbfRig rig(is_inertial);
+    rig.format.feed(meas_epoch(kBlockTime_ms), 1);
+    for (std::uint32_t k = 0; k < 5; ++k) rig.format.feed(ext_sensor(kBlockTime_ms + 10 * k), 1);
     // The first one's interval is not known.
     REQUIRE(rig.messages.samples.size() == (is_inertial ? 4 : 0));
     if (!is_inertial) {
@@ -117,7 +96,7 @@ TEST_CASE("Septentrio's inertial samples are published where the configuration s
     CHECK(rig.format.detail().ends_with("4 inertial samples"));
     const ImuSample& sample = rig.messages.samples.back();
     CHECK(sample.interval_ns == 10'000'000);
-    CHECK(sample.time == GpsTime::from_week_and_tow(kWeek, kTime_ms / 1000.0 + 0.04));
+    CHECK(sample.time == GpsTime::from_week_and_tow(kBlockWeek, kBlockTime_ms / 1000.0 + 0.04));
     constexpr double kDegree = std::numbers::pi / 180.0;
     CHECK((sample.delta_velocity_b - Eigen::Vector3d(0.5, -0.25, -9.8) * 0.01).norm() < 1e-15);
     CHECK((sample.delta_theta_b - Eigen::Vector3d(1, -2, 3) * kDegree * 0.01).norm() < 1e-15);
@@ -127,28 +106,28 @@ TEST_CASE("Septentrio's inertial samples are published where the configuration s
 }
 
 TEST_CASE("Septentrio streams that give nothing to publish are told with the remedy", "[connect]") {
-  Rig text(false);
+  SbfRig text(false);
   const std::string nmea = "$GPGGA,135823.00,5324.0,N,00214.8,W,1,20,0.6,82.7,M,48.5,M,,*00\r\n";
   text.format.feed(std::vector<std::uint8_t>(nmea.begin(), nmea.end()), 1);
   text.format.finish();
   CHECK(contains(text.format.why_no_frames(), "setSBFOutput"));
-  Rig positions(false);
-  positions.format.feed(block(4007, kTime_ms, Packed()), 1);
+  SbfRig positions(false);
+  positions.format.feed(block(4007, kBlockTime_ms, Packed()), 1);
   CHECK(contains(positions.format.why_no_messages(), "PVTGeodetic"));
   CHECK(contains(positions.format.why_no_messages(), "turn on MeasEpoch"));
-  Rig early(false);
+  SbfRig early(false);
   early.format.feed(meas_epoch(0xFFFFFFFF), 1);
   CHECK(contains(early.format.why_no_messages(), "no fix yet"));
   CHECK(early.format.counts().refused == 1);
-  Rig scrambled(false);
-  scrambled.format.feed(meas_epoch(kTime_ms, 0x80), 1);
+  SbfRig scrambled(false);
+  scrambled.format.feed(meas_epoch(kBlockTime_ms, 0x80), 1);
   CHECK(contains(scrambled.format.why_no_messages(), "permission"));
   CHECK(scrambled.messages.epochs.empty());
-  Rig half(true);
-  half.format.feed(ext_sensor(kTime_ms, false), 1);
+  SbfRig half(true);
+  half.format.feed(ext_sensor(kBlockTime_ms, false), 1);
   CHECK(contains(half.format.detail(), "without both"));
-  Rig silent(true);
-  silent.format.feed(meas_epoch(kTime_ms), 1);
+  SbfRig silent(true);
+  silent.format.feed(meas_epoch(kBlockTime_ms), 1);
   CHECK(contains(silent.format.detail(), "turn on ExtSensorMeas"));
 }
 
