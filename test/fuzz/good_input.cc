@@ -12,7 +12,7 @@
 namespace leonav::test {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000, kSecond = 1'000 * kMs, kDay = 86'400 * kSecond;
+constexpr std::int64_t kDay = 86'400 * kSecond;
 
 void expect(bool holds, const char* what) {
   if (!holds) throw Finding(what);

@@ -7,6 +7,8 @@
 
 namespace leonav::test {
 
+inline constexpr std::int64_t kMs = 1'000'000, kSecond = 1'000 * kMs;  // ns
+
 // StageInputs that checks what is always true of the Sequencer's work and keeps what the proof
 // needs. Throws Finding.
 class CheckedStages : public StageInputs {

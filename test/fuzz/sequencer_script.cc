@@ -13,7 +13,7 @@
 namespace leonav::test {
 namespace {
 
-constexpr std::int64_t kUs = 1'000, kMs = 1'000 * kUs, kSecond = 1'000 * kMs;
+constexpr std::int64_t kUs = 1'000;
 // A script ends with the step that reaches this many inputs: longer ones take time and tell nothing
 // that shorter ones do not.
 constexpr std::int64_t kMostInputs = 2500;
