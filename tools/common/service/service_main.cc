@@ -2,9 +2,11 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -55,12 +57,23 @@ void write_text(const char* text) { std::ignore = write(STDERR_FILENO, text, std
   _exit(kExitFailure);
 }
 
+// A stack that cannot grow kills the program without a word. So the memory that the first functions
+// need is asked for in a way that can be refused.
+void require_memory_to_begin() {
+  constexpr std::size_t kLeast_bytes = 4U << 20U;
+  void* const place =
+      mmap(nullptr, kLeast_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (place == MAP_FAILED) throw std::bad_alloc();
+  munmap(place, kLeast_bytes);
+}
+
 }  // namespace
 
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv)) {
+  std::set_terminate(end_at_once);
+  require_memory_to_begin();
   spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
   spdlog::set_pattern(std::string(name) + " %H:%M:%S.%e %l: %v");
-  std::set_terminate(end_at_once);
   try {
     return body(argc, argv);
   } catch (const std::exception& error) {
