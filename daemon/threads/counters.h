@@ -98,7 +98,8 @@ struct EngineCounters {
   Gauge worst_solve_ns, smoother_failures, smoother_iterations;
   // any stage
   std::array<Gauge, kEventKindCount> events;  // that were published, by EventKind
-  Gauge large_jumps;                          // of the solution, above a metre
+  // Jumps of the solution above a metre, and those beyond three of its sigmas among them.
+  Gauge large_jumps, surprising_jumps;
   // Events of each Convention, and a thousand times the value of the last.
   std::array<Gauge, kConventionCount> conventions, convention_milli;
   // main

@@ -17,7 +17,7 @@ enum class EventKind : std::uint8_t {
   kImuGap = 4,         // value: length of the gap, s
   kLateEpoch = 5,      // value: time behind the last issued epoch, s
   kEmptyEpoch = 6,     // value: index of the epoch
-  kSolutionJump = 7,   // value: m
+  kSolutionJump = 7,   // code: 1 if beyond three of its sigmas before; value: m
   kCapacity = 8,       // a fixed table was full; code: which, by stage
   kImprobable = 9,     // code: 0 codes, 1 Dopplers; value: mean ratio of innovations to sigmas
   // A satellite's broadcast elements replace its precise state. code: System, value: its number.

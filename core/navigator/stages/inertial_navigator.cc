@@ -162,9 +162,9 @@ void InertialNavigator::report_jump(const Eigen::Vector3d& old_p_e,
   const double jump_m = (propagation_.state(now).p_e - old_p_e).norm();
   pending_jump_m_ = std::max(pending_jump_m_, jump_m);
   const double sigma_m = std::sqrt(std::max(0.0, old_covariance.topLeftCorner<3, 3>().trace()));
-  if (jump_m > kJumpEvent_m || jump_m > 3.0 * sigma_m) {
-    events_.emit(EventKind::kSolutionJump, 0, jump_m, now);
-  }
+  const bool is_surprise = jump_m > 3.0 * sigma_m;
+  if (jump_m > kJumpEvent_m || is_surprise)
+    events_.emit(EventKind::kSolutionJump, is_surprise ? 1 : 0, jump_m, now);
 }
 
 Source InertialNavigator::source_at(GpsTime now) const {

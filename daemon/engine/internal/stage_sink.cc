@@ -10,6 +10,8 @@ namespace leonav {
 
 namespace {
 
+constexpr double kLargeJump_m = 1.0;
+
 // Returns a protection level as its gauge holds it.
 std::int64_t micro(double level) {
   return std::isnan(level) ? -1 : std::llround(std::min(level * 1e6, 1e15));
@@ -109,7 +111,10 @@ void StageSink::on_epoch(const EpochReport& report) {
 
 void StageSink::on_event(const Event& event) {
   counters_->events[static_cast<std::size_t>(event.kind)].add(1);
-  if (event.kind == EventKind::kSolutionJump && event.value > 1.0) counters_->large_jumps.add(1);
+  if (event.kind == EventKind::kSolutionJump && event.value > kLargeJump_m) {
+    counters_->large_jumps.add(1);
+    if (event.code != 0) counters_->surprising_jumps.add(1);
+  }
   if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));

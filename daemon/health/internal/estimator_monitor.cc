@@ -9,6 +9,8 @@ namespace leonav {
 namespace {
 
 constexpr int kSettledLooks = 30;
+// Wrong axes or stamps contradict epoch after epoch; an epoch of reflected signals does once.
+constexpr std::int64_t kContradictions = 2;
 
 }  // namespace
 
@@ -16,8 +18,8 @@ std::span<const Finding> EstimatorMonitor::look() {
   found_.clear();
   look_at_starts();
   look_at_jumps();
-  if (widened_.look(counters_->widened_predictions.get()))
-    found_.add(HealthReason::kPredictionWidened);
+  widened_.look(counters_->widened_predictions.get());
+  if (widened_.get() >= kContradictions) found_.add(HealthReason::kPredictionWidened);
   if (improbable_.look(event_count(*counters_, EventKind::kImprobable)))
     found_.add(HealthReason::kImprobable);
   if (constraints_left_out_.look(event_count(*counters_, EventKind::kConstraintsLeftOut)))
@@ -33,13 +35,19 @@ void EstimatorMonitor::look_at_starts() {
   found_.add(HealthReason::kFilterStartedOver);
 }
 
-// While it begins, the solution jumps to where it belongs.
+// While it begins, and after an outage, the solution jumps to where it belongs. After an outage its
+// sigma says how far that may be.
 void EstimatorMonitor::look_at_jumps() {
   const auto source = static_cast<Source>(counters_->source.get());
-  const bool answers = source == Source::kEkf || source == Source::kSmoother;
-  answering_looks_ = answers ? answering_looks_ + 1 : 0;
+  const bool has_answer = source != Source::kNone && source != Source::kAligning;
+  const bool has_gnss = has_answer && source != Source::kInsOnly;
+  looks_with_answer_ = has_answer ? looks_with_answer_ + 1 : 0;
+  looks_with_gnss_ = has_gnss ? looks_with_gnss_ + 1 : 0;
   const bool jumped = jumps_.look(counters_->large_jumps.get());
-  if (jumped && answering_looks_ > kSettledLooks) found_.add(HealthReason::kSolutionJumped);
+  const bool surprises = surprising_jumps_.look(counters_->surprising_jumps.get());
+  if ((jumped && looks_with_gnss_ > kSettledLooks) ||
+      (surprises && looks_with_answer_ > kSettledLooks))
+    found_.add(HealthReason::kSolutionJumped);
 }
 
 // The first new epoch may be on its way.

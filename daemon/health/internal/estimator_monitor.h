@@ -5,6 +5,7 @@
 
 #include "daemon/health/internal/findings.h"
 #include "daemon/health/internal/growth_since_look.h"
+#include "daemon/health/internal/recent_growth.h"
 #include "daemon/threads/counters.h"
 
 namespace leonav {
@@ -27,8 +28,9 @@ class EstimatorMonitor {
   const EngineCounters* counters_;
   std::int64_t starts_ = 0;                                   // of the filter
   std::int64_t epochs_at_start_ = 0, received_at_start_ = 0;  // accepted and received until then
-  int answering_looks_ = 0;  // in a row with an answer of filter or smoother
-  GrowthSinceLook jumps_, widened_, improbable_, constraints_left_out_;
+  int looks_with_answer_ = 0, looks_with_gnss_ = 0;           // in a row
+  GrowthSinceLook jumps_, surprising_jumps_, improbable_, constraints_left_out_;
+  RecentGrowth widened_;
   Findings found_;
 };
 

@@ -46,17 +46,47 @@ TEST_CASE("jumps are a reason after thirty looks with an answer, and not before"
   counters.large_jumps.add(1);
   REQUIRE(monitor.look().size() == 1);
   CHECK(monitor.look().empty());
-  set_source(Source::kInsOnly, &counters);  // begins anew
-  monitor.look();
+}
+
+TEST_CASE("after an outage only a jump that the sigma did not foresee is a reason") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  set_source(Source::kEkf, &counters);
+  for (int look = 1; look <= 30; ++look) CHECK(monitor.look().empty());
+  set_source(Source::kInsOnly, &counters);
+  CHECK(monitor.look().empty());
   set_source(Source::kSmoother, &counters);
   counters.large_jumps.add(1);
   CHECK(monitor.look().empty());
+  counters.large_jumps.add(1);
+  counters.surprising_jumps.add(1);
+  REQUIRE(monitor.look().size() == 1);
+
+  set_source(Source::kNone, &counters);  // begins anew
+  CHECK(monitor.look().empty());
+  set_source(Source::kInsOnly, &counters);
+  counters.large_jumps.add(1);
+  counters.surprising_jumps.add(1);
+  CHECK(monitor.look().empty());
+}
+
+TEST_CASE("a prediction that is contradicted once is no reason, twice within ten looks is") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  for (int look = 0; look < 20; ++look) {
+    if (look % 10 == 0) counters.widened_predictions.add(1);
+    CHECK(monitor.look().empty());
+  }
+  counters.widened_predictions.add(1);
+  CHECK(monitor.look().empty());
+  counters.widened_predictions.add(1);
+  REQUIRE(monitor.look().size() == 1);
 }
 
 TEST_CASE("each surprise of the estimator is a finding of its own") {
   EngineCounters counters;
   EstimatorMonitor monitor(&counters);
-  counters.widened_predictions.add(1);
+  counters.widened_predictions.add(2);
   counters.events[static_cast<std::size_t>(EventKind::kImprobable)].add(1);
   counters.events[static_cast<std::size_t>(EventKind::kConstraintsLeftOut)].add(1);
   const auto found = monitor.look();
@@ -64,5 +94,7 @@ TEST_CASE("each surprise of the estimator is a finding of its own") {
   CHECK(found[0].reason == HealthReason::kPredictionWidened);
   CHECK(found[1].reason == HealthReason::kImprobable);
   CHECK(found[2].reason == HealthReason::kConstraintsLeftOut);
-  CHECK(monitor.look().empty());
+  const auto later = monitor.look();
+  REQUIRE(later.size() == 1);
+  CHECK(later[0].reason == HealthReason::kPredictionWidened);  // within ten looks
 }
