@@ -30,5 +30,6 @@ inline constexpr int kBeidouMinusGpsSeconds = -14;
 inline constexpr int kBeidouWeekZeroInGpsWeeks = 1356;
 // Galileo system time equals GPS time up to nanoseconds; its week 0 is GPS week 1024.
 inline constexpr int kGalileoWeekZeroInGpsWeeks = 1024;
+inline constexpr int kGalileoWeekModulus = 4096;
 
 }  // namespace leonav

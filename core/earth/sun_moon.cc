@@ -2,14 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kArcsecond = kDegree / 3600.0;
 constexpr double kAstronomicalUnit = 149'597'870'700.0;  // m, IAU 2012 B2
 constexpr double kSecondsPerDay = 86400.0;
@@ -17,8 +16,6 @@ constexpr double kTtMinusGps = 51.184;   // s: TT = TAI + 32.184, TAI = GPS + 19
 constexpr double kDaysToJ2000 = 7300.5;  // from 1980-01-06 0h to 2000-01-01 12h
 
 // Reducing an angle modulo a turn first keeps its digits when it is multiplied.
-double degrees(double value) { return std::fmod(value, 360.0) * kDegree; }
-
 double seconds_since_gps_epoch(GpsTime time) { return seconds_between(time, GpsTime{}); }
 
 // Delaunay-like arguments of Meeus 47.1-47.6, rad, and the eccentricity factor of eq. 47.6.
@@ -27,11 +24,11 @@ struct Arguments {
 };
 
 Arguments arguments_at(double t) {
-  return {degrees(218.3164477 + t * (481267.88123421 + t * (-0.0015786 + t / 538841.0))),
-          degrees(297.8501921 + t * (445267.1114034 + t * (-0.0018819 + t / 545868.0))),
-          degrees(357.5291092 + t * (35999.0502909 - t * 0.0001536)),
-          degrees(134.9633964 + t * (477198.8675055 + t * (0.0087414 + t / 69699.0))),
-          degrees(93.2720950 + t * (483202.0175233 + t * (-0.0036539 - t / 3526000.0))),
+  return {reduced_angle(218.3164477 + t * (481267.88123421 + t * (-0.0015786 + t / 538841.0))),
+          reduced_angle(297.8501921 + t * (445267.1114034 + t * (-0.0018819 + t / 545868.0))),
+          reduced_angle(357.5291092 + t * (35999.0502909 - t * 0.0001536)),
+          reduced_angle(134.9633964 + t * (477198.8675055 + t * (0.0087414 + t / 69699.0))),
+          reduced_angle(93.2720950 + t * (483202.0175233 + t * (-0.0036539 - t / 3526000.0))),
           1.0 - t * (0.002516 + t * 0.0000074)};
 }
 
@@ -89,9 +86,9 @@ struct Ecliptic {
 
 Ecliptic moon_at(double t) {
   const Arguments a = arguments_at(t);
-  const double a1 = degrees(119.75 + 131.849 * t);    // term of Venus
-  const double a2 = degrees(53.09 + 479264.290 * t);  // term of Jupiter
-  const double a3 = degrees(313.45 + 481266.484 * t);
+  const double a1 = reduced_angle(119.75 + 131.849 * t);    // term of Venus
+  const double a2 = reduced_angle(53.09 + 479264.290 * t);  // term of Jupiter
+  const double a3 = reduced_angle(313.45 + 481266.484 * t);
   double longitude = 3958.0 * std::sin(a1) + 1962.0 * std::sin(a.l - a.f) + 318.0 * std::sin(a2);
   double latitude = -2235.0 * std::sin(a.l) + 382.0 * std::sin(a3);
   double distance = 385'000'560.0;
@@ -112,8 +109,8 @@ Ecliptic moon_at(double t) {
 // Moon's pull on the Earth (6.4", 4671 km) is added, since it is the largest of the remaining
 // terms.
 Ecliptic sun_at(double t) {
-  const double mean_longitude = degrees(280.46646 + t * (36000.76983 + t * 0.0003032));
-  const double m = degrees(357.52911 + t * (35999.05029 - t * 0.0001537));
+  const double mean_longitude = reduced_angle(280.46646 + t * (36000.76983 + t * 0.0003032));
+  const double m = reduced_angle(357.52911 + t * (35999.05029 - t * 0.0001537));
   const double e = 0.016708634 - t * (0.000042037 + t * 0.0000001267);
   const double centre =
       kDegree * ((1.914602 - t * (0.004817 + t * 0.000014)) * std::sin(m) +
@@ -145,9 +142,9 @@ SunMoon sun_moon_positions(GpsTime time) {
   const double t = ((seconds + kTtMinusGps) / kSecondsPerDay - kDaysToJ2000) / 36525.0;
 
   // Nutation (Meeus, chapter 22) is limited to the terms above 0.2".
-  const double node = degrees(125.04452 - 1934.136261 * t);
-  const double sun2 = 2.0 * degrees(280.4665 + 36000.7698 * t);
-  const double moon2 = 2.0 * degrees(218.3165 + 481267.8813 * t);
+  const double node = reduced_angle(125.04452 - 1934.136261 * t);
+  const double sun2 = 2.0 * reduced_angle(280.4665 + 36000.7698 * t);
+  const double moon2 = 2.0 * reduced_angle(218.3165 + 481267.8813 * t);
   const double nutation = kArcsecond * (-17.20 * std::sin(node) - 1.32 * std::sin(sun2) -
                                         0.23 * std::sin(moon2) + 0.21 * std::sin(2.0 * node));
   const double obliquity =
@@ -160,7 +157,7 @@ SunMoon sun_moon_positions(GpsTime time) {
   const double tu = days / 36525.0;
   const double turn = std::fmod(utc, kSecondsPerDay) / kSecondsPerDay * 360.0 + 180.0;
   const double sidereal =
-      degrees(280.46061837 + turn + 0.98564736629 * days + tu * tu * 0.000387933) +
+      reduced_angle(280.46061837 + turn + 0.98564736629 * days + tu * tu * 0.000387933) +
       nutation * std::cos(obliquity);
 
   return {to_earth_fixed(sun_at(t), nutation, obliquity, sidereal),

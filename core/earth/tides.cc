@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kLowestRadius = 6.0e6;  // m: nothing on the Earth's surface lies below
 // IERS Conventions (2010), table 1.1 and section 7.1.1.
@@ -114,8 +114,6 @@ constexpr std::array<Step2Term, 5> kLongPeriod = {{
     {2, 0, 0, 1, 0, -0.05, -0.06, -0.05, -0.03},
 }};
 
-double degrees(double value) { return std::fmod(value, 360.0) * kDegree; }
-
 Eigen::Vector3d step_2(const Place& at, GpsTime time) {
   const double gps_days = seconds_between(time, GpsTime{}) / 86400.0;
   const double t = (gps_days + 51.184 / 86400.0 - 7300.5) / 36525.0;  // TT from J2000, centuries
@@ -126,12 +124,12 @@ Eigen::Vector3d step_2(const Place& at, GpsTime time) {
   const double precession = 1.396971278 * t;
   const double s_mean = 218.31664563 + t * (481267.88194 - t * 0.0014663889);
   const double tau =
-      degrees(hour_angle + 280.4606184 + t * (36000.7700536 + t * 0.00038793) - s_mean);
-  const double s = degrees(s_mean + precession);
-  const double h = degrees(280.46645 + t * (36000.7697489 + t * 0.00030322222));
-  const double p = degrees(83.35324312 + t * (4069.01363525 - t * 0.01032172222));
-  const double n = degrees(234.95544499 + t * (1934.13626197 - t * 0.00207561111));
-  const double ps = degrees(282.93734098 + t * (1.71945766667 + t * 0.00045688889));
+      reduced_angle(hour_angle + 280.4606184 + t * (36000.7700536 + t * 0.00038793) - s_mean);
+  const double s = reduced_angle(s_mean + precession);
+  const double h = reduced_angle(280.46645 + t * (36000.7697489 + t * 0.00030322222));
+  const double p = reduced_angle(83.35324312 + t * (4069.01363525 - t * 0.01032172222));
+  const double n = reduced_angle(234.95544499 + t * (1934.13626197 - t * 0.00207561111));
+  const double ps = reduced_angle(282.93734098 + t * (1.71945766667 + t * 0.00045688889));
   const auto argument = [&](const Step2Term& k) {
     return k.s * s + k.h * h + k.p * p + k.n * n + k.ps * ps;
   };
@@ -188,9 +186,9 @@ Eigen::Vector3d ocean_loading_displacement(const Eigen::Vector3d& p_e, GpsTime t
   const double second_of_day = utc - day * 86400.0;
   // 1975-01-01, 1831 days before the GPS epoch, is day 1; t counts from 1899-12-31 12h.
   const double t = (27392.500528 + 1.000000035 * (day + 1832.0)) / 36525.0;
-  const double h = degrees(279.69668 + t * (36000.768930485 + t * 3.03e-4));
-  const double s = degrees(270.434358 + t * (481267.88314137 + t * (-0.001133 + t * 1.9e-6)));
-  const double p = degrees(334.329653 + t * (4069.0340329575 + t * (-0.010325 - t * 1.2e-5)));
+  const double h = reduced_angle(279.69668 + t * (36000.768930485 + t * 3.03e-4));
+  const double s = reduced_angle(270.434358 + t * (481267.88314137 + t * (-0.001133 + t * 1.9e-6)));
+  const double p = reduced_angle(334.329653 + t * (4069.0340329575 + t * (-0.010325 - t * 1.2e-5)));
 
   Eigen::Vector3d up_west_south = Eigen::Vector3d::Zero();
   for (int i = 0; i < OceanLoading::kConstituents; ++i) {

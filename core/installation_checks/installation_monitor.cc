@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "core/base/angle.h"
 #include "core/installation_checks/internal/horizontal_axes_fit.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = EIGEN_PI / 180.0;
 constexpr double kUpright = 45.0 * kDegree;   // limit of the third axis' tilt
 constexpr double kLongStraight_s = 60.0;      // from the first second with a course to the last
 constexpr int kMinMoving = 20;                // seconds with a course in that span

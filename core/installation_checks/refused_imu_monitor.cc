@@ -1,17 +1,18 @@
 #include "core/installation_checks/refused_imu_monitor.h"
 
+#include "core/installation_checks/internal/mean_force.h"
+
 #include <cmath>
 
 namespace leonav {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s^2
 constexpr int kMinRun = 100;
 // times the expected value: the vehicle may be moving
-constexpr double kLowest = 0.5, kHighest = 2.0;
+constexpr double kLeastShare = 0.5, kMostShare = 2.0;
 
 bool is_about(double value, double expected) {
-  return value > kLowest * expected && value < kHighest * expected;
+  return value > kLeastShare * expected && value < kMostShare * expected;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ ConventionFinding RefusedImuMonitor::add_refused(const ImuSample& sample) {
 }
 
 ConventionFinding RefusedImuMonitor::evaluate() const {
-  const double ratio = speed_ / seconds_ / kGravity;
+  const double ratio = speed_ / seconds_ / kStandardGravity;
   if (!std::isfinite(ratio) || !std::isfinite(angle_)) return {};
   if (is_about(ratio * interval_s_, 1.0)) return {Convention::kRatesAsIncrements, ratio};
   if (is_about(ratio, 1.0)) return {Convention::kGyroRange, angle_ / seconds_};

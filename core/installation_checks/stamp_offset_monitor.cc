@@ -5,17 +5,17 @@
 namespace leonav {
 namespace {
 
-constexpr double kLeapSeconds = 18.0;  // GPS time minus UTC, since 2017
+constexpr double kGpsMinusUtc = 18.0;  // GPS time minus UTC, since 2017
 constexpr double kLeapWithin_s = 2.5;  // latencies, and leap seconds to come
 constexpr double kLatency_s = 5.0;     // longer is no latency
 constexpr double kSame_s = 1.5;        // batches of samples, epochs a second apart
-constexpr int kMinEpochs = 5;
+constexpr int kMinStampEpochs = 5;
 constexpr double kMin_s = 8.0;
 
 }  // namespace
 
 ConventionFinding stamp_finding(double imu_less_gnss_s) {
-  const bool leap = std::abs(std::abs(imu_less_gnss_s) - kLeapSeconds) < kLeapWithin_s;
+  const bool leap = std::abs(std::abs(imu_less_gnss_s) - kGpsMinusUtc) < kLeapWithin_s;
   return {leap ? Convention::kLeapSeconds : Convention::kStampOffset, imu_less_gnss_s};
 }
 
@@ -34,7 +34,7 @@ ConventionFinding StampOffsetMonitor::add_epoch(GpsTime stamp) {
   }
   ++epochs_;
   since_s_ += step_s;
-  if (reported_ || epochs_ < kMinEpochs || since_s_ < kMin_s) return {};
+  if (reported_ || epochs_ < kMinStampEpochs || since_s_ < kMin_s) return {};
   reported_ = true;
   return stamp_finding(offset_s_);
 }

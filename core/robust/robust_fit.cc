@@ -59,8 +59,6 @@ class Fit {
   int unknowns_ = 3;
 };
 
-bool in_use(const FitRow& row) { return row.factor > 0.0 && !row.excluded && !row.single_in_group; }
-
 FitState jacobian_of(const FitRow& row) {
   FitState jacobian = FitState::Zero();
   jacobian.head<3>() = row.direction;
@@ -74,7 +72,7 @@ void Fit::exclude_single_satellite_groups() {
   std::array<Satellites, kMaxSystemTimes> satellites;
   for (FitRow& row : *rows_) {
     row.single_in_group = false;
-    if (in_use(row))
+    if (row.in_use())
       satellites[static_cast<std::size_t>(row.group)].set(static_cast<std::size_t>(row.satellite));
   }
   std::size_t total = 0;
@@ -87,7 +85,7 @@ void Fit::exclude_single_satellite_groups() {
   redundancy_ = -unknowns_;
   for (FitRow& row : *rows_) {
     row.single_in_group = satellites[static_cast<std::size_t>(row.group)].count() < 2;
-    if (in_use(row)) ++redundancy_;
+    if (row.in_use()) ++redundancy_;
   }
   // Two signals of one satellite are two rows but one direction.
   if (total < static_cast<std::size_t>(unknowns_)) redundancy_ = -1;
@@ -100,7 +98,7 @@ Step Fit::step() {
   FitMatrix normal = FitMatrix::Zero();
   FitState right = FitState::Zero();
   for (const FitRow& row : *rows_) {
-    if (!in_use(row)) continue;
+    if (!row.in_use()) continue;
     const FitState jacobian = jacobian_of(row);
     normal += weight_of(row) * jacobian * jacobian.transpose();
     right += weight_of(row) * row.residual * jacobian;
@@ -161,7 +159,7 @@ FitRow* Fit::worst_row(double limit) {
   FitRow* worst = nullptr;
   double largest = limit;
   for (FitRow& row : *rows_) {
-    if (!in_use(row)) continue;
+    if (!row.in_use()) continue;
     const FitState jacobian = jacobian_of(row);
     const double leverage = weight_of(row) * jacobian.dot(inverse_ * jacobian);
     const double free = 1.0 - leverage;

@@ -29,6 +29,8 @@ struct FitRow {
   bool excluded = false;  // by data snooping, permanently
   bool single_in_group =
       false;  // the only satellite of its group: it determines the group's clock and nothing else
+
+  bool in_use() const { return factor > 0.0 && !excluded && !single_in_group; }
 };
 using FitRows = boost::container::static_vector<FitRow, kMaxMeasurements>;
 

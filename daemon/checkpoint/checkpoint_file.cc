@@ -10,6 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/base/angle.h"
 #include "core/navigator/sequencer/input_validation.h"
 #include "daemon/checkpoint/internal/replace_file.h"
 #include "daemon/config/config_file.h"
@@ -18,9 +19,8 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDegreePerHour = kDegree / 3600.0;
-constexpr std::uintmax_t kMostBytes = 4096;
+constexpr std::uintmax_t kMostCheckpointBytes = 4096;
 
 // The text of a file, which allocates nothing: the daemon writes it while it runs.
 class FileText {
@@ -43,7 +43,7 @@ class FileText {
   std::string_view text() const { return {bytes_.data(), size_}; }
 
  private:
-  std::array<char, kMostBytes> bytes_;
+  std::array<char, kMostCheckpointBytes> bytes_;
   std::size_t size_ = 0;
 };
 
@@ -154,7 +154,7 @@ std::optional<Checkpoint> load_checkpoint(const std::string& path) {
   if (error) throw ConfigError(path + ": " + error.message());
   if (!std::filesystem::is_regular_file(status)) throw ConfigError(path + ": is no ordinary file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size == 0 || size > kMostBytes)
+  if (error || size == 0 || size > kMostCheckpointBytes)
     throw ConfigError(path + ": is damaged: " + (size == 0 ? "empty" : "too long"));
   std::ifstream file(path, std::ios::binary);
   std::string text(size, '\0');

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kSumChannel = "CRC32";
 constexpr std::size_t kSumBytes = 4;
-constexpr std::uintmax_t kMostBytes = 1'000'000;
+constexpr std::uintmax_t kMostProductBytes = 1'000'000;
 
 std::uint32_t crc32(std::string_view bytes) {
   boost::crc_32_type crc;
@@ -65,7 +65,7 @@ std::string read_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error))
     throw ConfigError(path + ": is no ordinary file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size > kMostBytes) throw ConfigError(path + ": is damaged: too long");
+  if (error || size > kMostProductBytes) throw ConfigError(path + ": is damaged: too long");
   std::ifstream file(path, std::ios::binary);
   std::string text(size, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(size)))

@@ -1,7 +1,6 @@
 #include "daemon/config/config_groups.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "core/base/capacity.h"
 #include "core/navigator/interface/vehicle_defaults.h"
 #include "daemon/config/lcm_url.h"
@@ -9,7 +8,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilligal = 1e-5;  // m/s^2
 constexpr double kPpm = 1e-6;
 constexpr double kHour = 3600.0;

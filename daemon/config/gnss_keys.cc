@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "daemon/config/config_groups.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // One character of each text into a fixed list; the texts must be single characters from..to.
 template <typename List>

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "daemon/health/internal/findings.h"
+
 namespace leonav {
 namespace {
 
 // Of what a run meets; no limits.
-constexpr std::size_t kDetailBytes = 256, kTextBytes = 2048;
+constexpr std::size_t kTextBytes = 2048;
 
 }  // namespace
 

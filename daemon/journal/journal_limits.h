@@ -1,5 +1,7 @@
 // JournalLimits are the settings of a journal that may change while it is written.
 #pragma once
+#include <cstdint>
+
 #include "daemon/config/daemon_config.h"
 
 namespace leonav {
@@ -12,6 +14,10 @@ struct JournalLimits {
 inline JournalLimits limits_of(const JournalConfig& config) {
   return {config.flush_interval_s, config.piece_mb, config.piece_s, config.total_mb,
           config.kept_mb};
+}
+
+inline std::int64_t bytes_of_megabytes(double megabytes) {
+  return static_cast<std::int64_t>(megabytes * 1e6);
 }
 
 }  // namespace leonav

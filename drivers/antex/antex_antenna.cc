@@ -1,8 +1,8 @@
 #include "drivers/antex/antex_antenna.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/gnss/signals/band_plan.h"
 #include "drivers/text/parse.h"
@@ -10,7 +10,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::string_view kOtherSystems = "RSJI";  // GLONASS, SBAS, QZSS, NavIC
 constexpr int kMaxRows = 361 * 10, kMaxAngles = 1801;
 

@@ -1,7 +1,6 @@
 #include "drivers/binary/gps_lnav_data.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/bit_field.h"
 #include "drivers/binary/week_time.h"
@@ -9,7 +8,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kPreamble = 0x8B;
 constexpr int kWeekModulus = 1024;
 constexpr int kSubframeSeconds = 6;

@@ -4,17 +4,16 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "drivers/text/line_reader.h"
 #include "drivers/text/nearest_word.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kRows = 6;
 constexpr std::size_t kColumns = OceanLoading::kConstituents;
 constexpr double kMaxAmplitude = 0.5;  // m

@@ -1,15 +1,14 @@
 #include "drivers/csv/truth_csv.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::string_view kRequired = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::string_view kTruthColumns = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
 constexpr double kMaxHeight = 1e8;  // m; no vehicle is higher
 
 std::optional<double> read_angle(CsvRows& rows, int column) {
@@ -76,7 +75,7 @@ void TruthColumns::write(CsvWriter& writer, const TruthPoint& point) {
 }
 
 TruthCsv read_truth_csv(const std::string& path) {
-  CsvRows rows(path, kRequired, kTruthCsvHeader);
+  CsvRows rows(path, kTruthColumns, kTruthCsvHeader);
   const TruthColumns columns_of(rows);
   TruthCsv truth;
   while (rows.next()) {

@@ -7,6 +7,7 @@
 
 #include "core/base/capacity.h"
 #include "drivers/lcm/convert.h"
+#include "drivers/lcm/internal/read_message.h"
 #include "drivers/lcm/output_schema.h"
 #include "drivers/lcm/wire.h"
 
@@ -15,14 +16,9 @@ namespace {
 
 using wire::all_finite;
 
-// Runs the generated decoder. Precondition: counts have been checked.
 template <typename T>
-InputFault read(std::span<const std::uint8_t> bytes, T* message) {
-  if (bytes.size() > wire::kMaxMessageBytes) return InputFault::kTooMany;
-  const int size = static_cast<int>(bytes.size());
-  if (message->decode(bytes.data(), 0, size) != size) return InputFault::kUndecodable;
-  const bool is_known = message->schema == static_cast<std::int32_t>(OutputSchema::kNewest);
-  return is_known ? InputFault::kNone : InputFault::kUnknownSchema;
+InputFault read_output(std::span<const std::uint8_t> bytes, T* message) {
+  return read_message(bytes, static_cast<std::int32_t>(OutputSchema::kNewest), message);
 }
 
 bool is_within(double value, double limit) { return std::abs(value) <= limit; }
@@ -53,7 +49,7 @@ void copy(const double (&from)[3], Eigen::Vector3d* to) {
 
 InputFault decode_output(std::span<const std::uint8_t> bytes, Solution* solution) {
   solution_t from{};
-  if (const InputFault fault = read(bytes, &from); fault != InputFault::kNone) return fault;
+  if (const InputFault fault = read_output(bytes, &from); fault != InputFault::kNone) return fault;
   if (!wire::is_time(from.time_ns) || from.source < 0 ||
       from.source > static_cast<std::int8_t>(Source::kSmoother)) {
     return InputFault::kOutOfRange;
@@ -93,7 +89,7 @@ InputFault decode_output(std::span<const std::uint8_t> bytes, EpochInView* epoch
     return InputFault::kTooMany;
   }
   epoch_t from{};
-  if (const InputFault fault = read(bytes, &from); fault != InputFault::kNone) return fault;
+  if (const InputFault fault = read_output(bytes, &from); fault != InputFault::kNone) return fault;
   if (!wire::is_time(from.time_ns) || from.satellites_used < 0) return InputFault::kOutOfRange;
   epoch->time = GpsTime::from_nanoseconds(from.time_ns);
   epoch->satellites_used = from.satellites_used;

@@ -5,6 +5,7 @@
 #include <leonav/refused_t.hpp>
 #include <limits>
 
+#include "drivers/lcm/internal/message_bytes.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
@@ -14,13 +15,6 @@ namespace {
 constexpr std::int64_t kMostCounted = std::numeric_limits<std::int64_t>::max() / 4;
 
 bool is_count(std::int64_t count) { return count >= 0 && count <= kMostCounted; }
-
-template <std::size_t size, typename Message>
-std::array<std::uint8_t, size> bytes_of(const Message& message) {
-  std::array<std::uint8_t, size> bytes{};
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 template <typename Message>
 bool read(ByteSpan bytes, std::size_t size, Message* message) {

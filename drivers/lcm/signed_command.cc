@@ -5,21 +5,11 @@
 #include <leonav/command_nonce_t.hpp>
 #include <leonav/signed_command_t.hpp>
 
+#include "drivers/lcm/internal/message_bytes.h"
 #include "drivers/lcm/internal/read_message.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
-namespace {
-
-template <std::size_t size, typename Message>
-std::array<std::uint8_t, size> bytes_of(const Message& message) {
-  std::array<std::uint8_t, size> bytes{};
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-}  // namespace
-
 std::array<std::uint8_t, kSignedCommandBytes> encode_signed_command(const SignedCommand& command) {
   signed_command_t message{};
   message.sequence = static_cast<std::int64_t>(command.sequence);

@@ -1,15 +1,14 @@
 #include "drivers/navigation_bits/beidou_cnav1.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "drivers/binary/beidou_time.h"
 #include "drivers/binary/bit_field.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::int64_t kHour_s = 3600, kReferenceUnit_s = 300;  // of toe and toc
 constexpr std::uint32_t kHoursOfWeek = 168;
 

@@ -1,7 +1,6 @@
 #include "drivers/navigation_bits/beidou_d2.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/beidou_time.h"
 #include "drivers/binary/bit_field.h"
@@ -9,9 +8,8 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kFrameSeconds = 3;           // one page of subframe 1 per frame
-constexpr double kGroupDelayUnit = 1e-10;  // s
+constexpr int kFrameSeconds = 3;             // one page of subframe 1 per frame
+constexpr double kD2GroupDelayUnit = 1e-10;  // s
 constexpr std::size_t kPageHeaderBits = BeidouSubframe::kHeaderBits + 4;  // with the page number
 
 BitReader after_page_number(const BeidouSubframe& subframe) {
@@ -62,8 +60,8 @@ Ephemeris BeidouD2::decode(const SubframeOrigin& origin) const {
   e.accuracy_m = nominal_accuracy_m(r.take(4));
   r.skip(13);  // week
   e.toc = nearest_beidou_instant(static_cast<std::int64_t>(r.take(17)) * 8, e.transmission_time);
-  e.group_delay_s[0] = r.take_signed(10) * kGroupDelayUnit;
-  e.group_delay_s[1] = r.take_signed(10) * kGroupDelayUnit;
+  e.group_delay_s[0] = r.take_signed(10) * kD2GroupDelayUnit;
+  e.group_delay_s[1] = r.take_signed(10) * kD2GroupDelayUnit;
 
   // The elements of all pages are joined into one run of bits, so that a field that a page boundary
   // splits reads as one. Page 2 holds the ionosphere coefficients, which are not used.

@@ -1,8 +1,8 @@
 #include "drivers/navigation_bits/galileo_fnav.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/bit_field.h"
@@ -12,8 +12,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kWeekModulus = 4096;
 constexpr int kCovered = 6 + 208;  // bits under the CRC
 
 // Position of the issue of data and of the time of week in each page type, from the page's first
@@ -56,7 +54,7 @@ SubframeStatus GalileoFnav::add(std::span<const std::uint32_t, kWords> words,
   const GpsTime sent = nearest_instant(tow_s, origin.now);
   if (position.has_week) {
     const auto week = static_cast<int>(BitReader(bits).skip(position.tow - 12).take(12));
-    if (!week_agrees(week, kWeekModulus, kGalileoWeekZeroInGpsWeeks, sent)) {
+    if (!week_agrees(week, kGalileoWeekModulus, kGalileoWeekZeroInGpsWeeks, sent)) {
       return SubframeStatus::kBadWeek;
     }
   }

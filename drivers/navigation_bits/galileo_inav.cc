@@ -1,7 +1,6 @@
 #include "drivers/navigation_bits/galileo_inav.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/bit_field.h"
@@ -11,8 +10,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kWeekModulus = 4096;
 constexpr int kCoveredEven = 114;  // bits under the CRC: even part without its tail
 constexpr int kCoveredOdd = 82;    // odd part up to the CRC
 
@@ -58,7 +55,7 @@ SubframeStatus GalileoInav::add(std::span<const std::uint32_t, kWords> words,
     const std::uint32_t tow_s = time.take(20);
     if (tow_s >= kSecondsPerWeek) return SubframeStatus::kBadParity;
     const GpsTime sent = nearest_instant(tow_s, origin.now);
-    if (!week_agrees(week, kWeekModulus, kGalileoWeekZeroInGpsWeeks, sent)) {
+    if (!week_agrees(week, kGalileoWeekModulus, kGalileoWeekZeroInGpsWeeks, sent)) {
       return SubframeStatus::kBadWeek;
     }
   }

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 template <typename... Values>
 std::string print(const char* format, Values... values) {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "drivers/nmea/fields.h"
 #include "drivers/nmea/fix_quality.h"
 #include "drivers/nmea/sentence.h"
@@ -13,7 +13,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::size_t kPerGsa = 12, kPerGsv = 4;
 constexpr std::size_t kMostInView = 36;  // nine sentences: their number has one digit
 

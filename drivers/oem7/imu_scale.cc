@@ -1,12 +1,11 @@
 #include "drivers/oem7/imu_scale.h"
+#include "core/base/angle.h"
 
 #include <array>
-#include <numbers>
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kArcsecond = kDegree / 3600.0;
 constexpr double kFoot_m = 0.3048;
 constexpr double kMilligravity_m_s2 = 9.80665e-3;

@@ -4,11 +4,11 @@
 
 #include "drivers/binary/little_endian.h"
 #include "drivers/oem7/oem7_signal.h"
+#include "drivers/oem7/range_count.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::size_t kCountSize = 4;
 constexpr std::size_t kRangeSize = 44, kRangecmpSize = 24;
 
 // Fills in what the tracking status says, and returns whether the values are of use.

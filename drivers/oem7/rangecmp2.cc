@@ -3,11 +3,12 @@
 #include "drivers/binary/little_endian.h"
 #include "drivers/oem7/low_bit_reader.h"
 #include "drivers/oem7/oem7_signal.h"
+#include "drivers/oem7/range_count.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::size_t kCountSize = 4, kSatelliteSize = 10, kSignalSize = 12;
+constexpr std::size_t kSatelliteSize = 10, kSignalSize = 12;
 
 // What all signals of a satellite are given relative to.
 struct SatelliteBlock {

@@ -4,11 +4,11 @@
 
 #include "drivers/binary/little_endian.h"
 #include "drivers/oem7/oem7_signal.h"
+#include "drivers/oem7/range_count.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::size_t kCountSize = 4;
 constexpr double kRangeUnit_m = 0.0005, kCarrierUnit_m = 0.0001, kRateUnit_m_s = 0.0001;
 constexpr double kStrengthUnit = 0.05;  // dB-Hz
 constexpr double kLockCeiling_s = 262.144;

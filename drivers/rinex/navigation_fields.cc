@@ -8,7 +8,7 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kFieldWidth = 19;
+constexpr std::size_t kNavigationWidth = 19;
 
 // Returns the instant with this time of week that is nearest to `reference`.
 GpsTime nearest_with_tow(double tow_s, GpsTime reference) {
@@ -20,7 +20,7 @@ GpsTime nearest_with_tow(double tow_s, GpsTime reference) {
 double field_value(std::string_view field) {
   if (is_blank(field)) return std::numeric_limits<double>::quiet_NaN();
   // A number that is cut off by the end of the line is still a number, but not the one sent.
-  const auto value = field.size() == kFieldWidth ? parse_double(field) : std::nullopt;
+  const auto value = field.size() == kNavigationWidth ? parse_double(field) : std::nullopt;
   return value ? *value : kDamagedField;
 }
 
@@ -33,8 +33,8 @@ void read_fields(std::span<const std::string> lines, bool version_2, std::span<d
   for (std::size_t line = 0; line < lines.size(); ++line) {
     const std::size_t count = line == 0 ? 3 : 4;
     for (std::size_t i = 0; i < count; ++i, ++index) {
-      const std::size_t start = (line == 0 ? first_start : next_start) + i * kFieldWidth;
-      fields[index] = field_value(columns(lines[line], start, kFieldWidth));
+      const std::size_t start = (line == 0 ? first_start : next_start) + i * kNavigationWidth;
+      fields[index] = field_value(columns(lines[line], start, kNavigationWidth));
     }
   }
 }

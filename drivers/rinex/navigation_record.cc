@@ -14,7 +14,7 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kLines = 8;  // of a record in Kepler form
+constexpr std::size_t kKeplerLines = 8;  // of a record in Kepler form
 
 // Fields behind those that all messages share.
 enum Field : std::size_t {
@@ -31,10 +31,8 @@ enum Field : std::size_t {
   kSpare7b,
   kFieldCount
 };
-static_assert(kFieldCount == field_count(kLines));
+static_assert(kFieldCount == field_count(kKeplerLines));
 using Fields = std::array<double, kFieldCount>;
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // Returns whether a field that is used is damaged.
 bool has_damage(const Fields& fields) {
@@ -97,14 +95,14 @@ std::string_view parse_navigation_record(const std::vector<std::string>& lines,
   const auto satellite = satellite_from_string(record_satellite(lines[0], layout));
   if (!satellite) return "satellite name that is not readable";
   if (satellite->system == System::kLeo) return "LEO record (no broadcast message is defined)";
-  if (lines.size() < kLines) return "record with missing lines";
-  for (std::size_t i = kLines; i < lines.size(); ++i) {
+  if (lines.size() < kKeplerLines) return "record with missing lines";
+  for (std::size_t i = kKeplerLines; i < lines.size(); ++i) {
     if (!is_blank(lines[i])) return "record with too many lines";
   }
   const auto toc = record_time(lines[0], layout.is_version_2);
   if (!toc) return "record with a damaged time";
   Fields fields;
-  read_fields(std::span(lines).first(kLines), layout.is_version_2, fields);
+  read_fields(std::span(lines).first(kKeplerLines), layout.is_version_2, fields);
   if (has_damage(fields)) return "record with a damaged number";
   if (!has_elements(fields) || !std::isfinite(fields[kToe])) {
     return "record without one of its elements";

@@ -8,11 +8,10 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kFieldWidth = 16;
+constexpr std::size_t kObservationWidth = 16;
 constexpr int kLossOfLockBit = 1;
 constexpr int kHalfCycleBit = 2;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 int digit_or_zero(std::string_view field, std::size_t column) {
   return column < field.size() && is_digit(field[column]) ? field[column] - '0' : 0;
 }
@@ -134,7 +133,7 @@ void parse_values(std::string_view values, SatelliteId satellite,
 
   const auto read = [&](std::size_t i) {
     const ObservationType& type = types[i];
-    const std::string_view field = columns(values, kFieldWidth * i, kFieldWidth);
+    const std::string_view field = columns(values, kObservationWidth * i, kObservationWidth);
     if (is_blank(field)) return;
     const std::size_t slot = slot_of(satellite, code_of(type, signals), &signals);
     strength_digits.resize(signals.size(), no_digits);

@@ -1,8 +1,8 @@
 #include "drivers/rtcm3/broadcast_ephemeris.h"
 
 #include <cstdlib>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/gnss/orbits/satellite_state.h"
 #include "drivers/binary/accuracy_index.h"
@@ -13,10 +13,9 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr std::uint16_t kGps = 1019, kBeidou = 1042, kGalileoFnav = 1045, kGalileoInav = 1046;
+constexpr std::uint16_t kGpsEphemeris = 1019, kBeidouEphemeris = 1042, kGalileoFnavEphemeris = 1045,
+                        kGalileoInavEphemeris = 1046;
 constexpr int kGpsWeekModulus = 1024;
-constexpr int kGalileoWeekModulus = 4096;
 constexpr double kBeidouGroupDelayUnit = 1e-10;  // s
 
 // What a message says of its times, besides the elements.
@@ -140,11 +139,11 @@ Times take_inav(BitReader r, Ephemeris* e) {
 // Bits of each message up to its last field, its number included.
 std::size_t bits_of(std::uint16_t message_number) {
   switch (message_number) {
-    case kGps:
+    case kGpsEphemeris:
       return 488;
-    case kBeidou:
+    case kBeidouEphemeris:
       return 511;
-    case kGalileoFnav:
+    case kGalileoFnavEphemeris:
       return 496;
     default:
       return 504;
@@ -153,14 +152,14 @@ std::size_t bits_of(std::uint16_t message_number) {
 
 Times take_elements(std::uint16_t message_number, const BitReader& reader, Ephemeris* e) {
   switch (message_number) {
-    case kGps:
+    case kGpsEphemeris:
       e->message = NavigationMessage::kGpsLnav;
       return take_gps(reader, e);
-    case kBeidou:
+    case kBeidouEphemeris:
       e->message = is_beidou_geostationary(e->satellite) ? NavigationMessage::kBeidouD2
                                                          : NavigationMessage::kBeidouD1;
       return take_beidou(reader, e);
-    case kGalileoFnav:
+    case kGalileoFnavEphemeris:
       e->message = NavigationMessage::kGalileoFnav;
       return take_fnav(reader, e);
     default:
@@ -171,9 +170,9 @@ Times take_elements(std::uint16_t message_number, const BitReader& reader, Ephem
 
 System system_of(std::uint16_t message_number) {
   switch (message_number) {
-    case kGps:
+    case kGpsEphemeris:
       return System::kGps;
-    case kBeidou:
+    case kBeidouEphemeris:
       return System::kBeidou;
     default:
       return System::kGalileo;
@@ -192,8 +191,8 @@ int stated_week(System system, int week, GpsTime near) {
 }  // namespace
 
 bool is_broadcast_ephemeris(std::uint16_t message_number) {
-  return message_number == kGps || message_number == kBeidou || message_number == kGalileoFnav ||
-         message_number == kGalileoInav;
+  return message_number == kGpsEphemeris || message_number == kBeidouEphemeris ||
+         message_number == kGalileoFnavEphemeris || message_number == kGalileoInavEphemeris;
 }
 
 EphemerisStatus decode_ephemeris(std::uint16_t message_number,

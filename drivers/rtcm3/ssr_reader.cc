@@ -1,9 +1,9 @@
 #include "drivers/rtcm3/ssr_reader.h"
 
 #include <array>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/binary/bit_field.h"
 #include "drivers/binary/week_time.h"
@@ -13,7 +13,6 @@ namespace leonav {
 namespace {
 
 constexpr std::uint16_t kIgs = 4076;
-constexpr double kPi = std::numbers::pi;
 
 // Seconds by DF391 and IDF004.
 constexpr std::array<int, 16> kIntervals = {1,   2,   5,   10,  15,   30,   60,   120,

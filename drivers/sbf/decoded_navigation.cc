@@ -1,8 +1,8 @@
 #include "drivers/sbf/decoded_navigation.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/binary/accuracy_index.h"
 #include "drivers/binary/beidou_time.h"
@@ -12,11 +12,10 @@
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kUnknown = -2e10;  // "do not use", of real fields
-constexpr int kGpsWeekModulus = 1024, kGalileoWeekModulus = 4096;
+constexpr double kUnknownField = -2e10;  // "do not use", of real fields
+constexpr int kGpsWeekModulus = 1024;
 
-bool is_known(double value) { return std::isfinite(value) && value > kUnknown / 2; }
+bool is_known(double value) { return std::isfinite(value) && value > kUnknownField / 2; }
 
 bool set_satellite(System system, std::uint8_t number, Ephemeris* e) {
   const std::optional<SatelliteId> satellite = satellite_from_sbf(number);

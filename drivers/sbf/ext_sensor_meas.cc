@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "drivers/binary/little_endian.h"
 
 namespace leonav {
 namespace {
 
-constexpr std::size_t kHeadSize = 2;       // number and length of the sub-blocks
-constexpr std::size_t kSubBlockSize = 28;  // source, model, type, information, three reals
+constexpr std::size_t kSensorHeadSize = 2;  // number and length of the sub-blocks
+constexpr std::size_t kSubBlockSize = 28;   // source, model, type, information, three reals
 constexpr std::uint8_t kAcceleration = 0, kAngularRate = 1;
 constexpr double kUnknown = -2e10;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // A vector with the connection that its sensor is at.
 struct Reading {
@@ -37,15 +36,15 @@ bool is_known(const ExtSensorRates::Vector& vector, double unit) {
 
 std::optional<ExtSensorRates> ExtSensorReader::read(GpsTime time,
                                                     std::span<const std::uint8_t> payload) {
-  const std::size_t count = payload.size() < kHeadSize ? 0 : payload[0];
-  const std::size_t size = payload.size() < kHeadSize ? 0 : payload[1];
-  if (payload.size() < kHeadSize + count * size || size < kSubBlockSize) {
+  const std::size_t count = payload.size() < kSensorHeadSize ? 0 : payload[0];
+  const std::size_t size = payload.size() < kSensorHeadSize ? 0 : payload[1];
+  if (payload.size() < kSensorHeadSize + count * size || size < kSubBlockSize) {
     ++counters_.bad_length;
     return std::nullopt;
   }
   std::optional<Reading> acceleration, rate;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* p = payload.data() + kHeadSize + i * size;
+    const std::uint8_t* p = payload.data() + kSensorHeadSize + i * size;
     if (p[2] == kAcceleration && !acceleration) acceleration = reading_at(p, 1.0);
     if (p[2] == kAngularRate && !rate) rate = reading_at(p, kDegree);
   }

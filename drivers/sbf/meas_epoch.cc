@@ -9,7 +9,7 @@ namespace leonav {
 namespace {
 
 // Number of masters, lengths of both sub-blocks, flags, clock jumps, reserved.
-constexpr std::size_t kHeadSize = 6;
+constexpr std::size_t kEpochHeadSize = 6;
 constexpr std::size_t kMasterSize = 20, kSlaveSize = 12;
 constexpr std::uint8_t kE6IsB = 1u << 6, kScrambledFlag = 1u << 7;
 
@@ -138,7 +138,7 @@ MeasEpochStatus read_meas_epoch(std::span<const std::uint8_t> payload,
                                 std::vector<RangeMeasurement>* measurements,
                                 std::uint64_t* other_antennas) {
   measurements->clear();
-  if (payload.size() < kHeadSize) return MeasEpochStatus::kBadLength;
+  if (payload.size() < kEpochHeadSize) return MeasEpochStatus::kBadLength;
   const std::size_t masters = payload[0], master_size = payload[1], slave_size = payload[2];
   const std::uint8_t flags = payload[3];
   if ((flags & kScrambledFlag) != 0) return MeasEpochStatus::kScrambled;
@@ -150,7 +150,7 @@ MeasEpochStatus read_meas_epoch(std::span<const std::uint8_t> payload,
       ++*other_antennas;
     }
   };
-  auto rest = payload.subspan(kHeadSize);
+  auto rest = payload.subspan(kEpochHeadSize);
   for (std::size_t i = 0; i < masters; ++i) {
     if (master_size < kMasterSize || rest.size() < master_size) return MeasEpochStatus::kBadLength;
     const Master master(rest.data(), e6_is_b);

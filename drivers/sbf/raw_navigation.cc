@@ -19,7 +19,7 @@ constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023
                         kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB1c = 4218, kBdsRawB2b = 4242;
 // Satellite, result of the receiver's check, errors, signal, frequency, channel. Of B1C the check
 // is that of subframe 2, and that of subframe 3 stands in place of the errors.
-constexpr std::size_t kHeadSize = 6;
+constexpr std::size_t kRawHeadSize = 6;
 
 struct BlockLayout {
   std::uint16_t number;
@@ -122,7 +122,7 @@ NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
                                            std::span<const std::uint8_t> payload,
                                            NavigationCollector* collector) {
   const BlockLayout& layout = *layout_of(number);
-  if (payload.size() < kHeadSize + layout.words * sizeof(std::uint32_t)) {
+  if (payload.size() < kRawHeadSize + layout.words * sizeof(std::uint32_t)) {
     ++counters_.bad_length;
     return {};
   }
@@ -140,7 +140,7 @@ NavigationUpdate RawNavigationReader::read(std::uint16_t number, GpsTime time,
     return {};
   }
   const NavigationUpdate update =
-      add(number, payload.subspan(kHeadSize), {*satellite, time}, collector);
+      add(number, payload.subspan(kRawHeadSize), {*satellite, time}, collector);
   if (update.ephemeris) {
     made_[static_cast<std::size_t>(update.ephemeris->message)][satellite->number] = time;
   }

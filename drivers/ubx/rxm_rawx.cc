@@ -9,9 +9,9 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kHeaderSize = 16;
+constexpr std::size_t kRawxHeaderSize = 16;
 constexpr std::size_t kBlockSize = 32;
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kRawxVersion = 1;
 
 // Bounds on what a receiver on or near the Earth can measure, with a clock error of tens of
 // milliseconds. Values outside are damage or malice.
@@ -59,11 +59,12 @@ bool is_within(double value, double low, double high) {
 RxmRawxDecoder::RxmRawxDecoder(const RxmRawxOptions& options) : options_(options), lock_{} {}
 
 RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawEpoch* epoch) {
-  if (payload.size() < kHeaderSize || payload.size() != kHeaderSize + payload[11] * kBlockSize) {
+  if (payload.size() < kRawxHeaderSize ||
+      payload.size() != kRawxHeaderSize + payload[11] * kBlockSize) {
     ++counters_.bad_length;
     return RxmRawxStatus::kBadLength;
   }
-  if (payload[13] != kVersion) {
+  if (payload[13] != kRawxVersion) {
     ++counters_.bad_version;
     return RxmRawxStatus::kBadVersion;
   }
@@ -80,7 +81,7 @@ RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawE
   epoch->observations.clear();
   for (std::size_t i = 0; i < payload[11]; ++i) {
     SignalObservation observation;
-    if (decode_measurement(payload.data() + kHeaderSize + i * kBlockSize, epoch->time,
+    if (decode_measurement(payload.data() + kRawxHeaderSize + i * kBlockSize, epoch->time,
                            &observation)) {
       epoch->observations.push_back(observation);
     }

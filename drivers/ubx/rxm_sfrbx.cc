@@ -9,8 +9,8 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kHeaderSize = 8;
-constexpr std::uint8_t kVersion = 2;
+constexpr std::size_t kSfrbxHeaderSize = 8;
+constexpr std::uint8_t kSfrbxVersion = 2;
 constexpr std::size_t kMaxWords = 19;  // BeiDou B-CNAV1, the longest there is
 
 using Words = std::span<const std::uint32_t>;
@@ -43,12 +43,12 @@ RxmSfrbxDecoder::RxmSfrbxDecoder() : collector_(std::make_unique<NavigationColle
 RxmSfrbxDecoder::~RxmSfrbxDecoder() = default;
 
 NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, GpsTime now) {
-  if (payload.size() < kHeaderSize || payload[4] > kMaxWords ||
-      payload.size() != kHeaderSize + payload[4] * sizeof(std::uint32_t)) {
+  if (payload.size() < kSfrbxHeaderSize || payload[4] > kMaxWords ||
+      payload.size() != kSfrbxHeaderSize + payload[4] * sizeof(std::uint32_t)) {
     ++counters_.bad_length;
     return {};
   }
-  if (payload[6] != kVersion) {
+  if (payload[6] != kSfrbxVersion) {
     ++counters_.bad_version;
     return {};
   }
@@ -68,7 +68,7 @@ NavigationUpdate RxmSfrbxDecoder::decode(std::span<const std::uint8_t> payload, 
   }
   std::array<std::uint32_t, kMaxWords> buffer{};
   for (std::size_t i = 0; i < payload[4]; ++i) {
-    buffer[i] = read_u4(payload.data() + kHeaderSize + i * sizeof(std::uint32_t));
+    buffer[i] = read_u4(payload.data() + kSfrbxHeaderSize + i * sizeof(std::uint32_t));
   }
   return add(payload[2], Words(buffer).first(payload[4]), origin);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/binary/little_endian.h"
 
@@ -12,7 +12,6 @@ namespace {
 
 using Vector = VectornavMeasurement::Vector;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Beyond what the sensors measure; the service refuses larger ones too.
 constexpr double kMaxRate_rad_s = 35.0, kMaxForce_m_s2 = 500.0, kMaxInterval_s = 0.1;
 // Before it has the time the sensor counts from zero.

@@ -29,10 +29,6 @@ void run_reader(FuzzBytes bytes, Read read) {
   }
 }
 
-void expect(bool holds, const char* what) {
-  if (!holds) throw Finding(what);
-}
-
 template <typename Rows, typename TimeOf>
 void expect_order(const Rows& rows, TimeOf time_of) {
   for (std::size_t i = 1; i < rows.size(); ++i) {

@@ -18,6 +18,10 @@ class Finding : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+inline void expect(bool holds, const char* what) {
+  if (!holds) throw Finding(what);
+}
+
 struct FuzzTarget {
   std::string_view name;  // of its folder in test/fuzz/corpus
   void (*run)(FuzzBytes bytes) = nullptr;

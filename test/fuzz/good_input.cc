@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::int64_t kDay = 86'400 * kSecond;
 
-void expect(bool holds, const char* what) {
-  if (!holds) throw Finding(what);
-}
-
 // How long the Sequencer may need, from its rules: an accepted stamp lies so far ahead.
 int recovery_seconds(const NavigatorConfig& config) {
   return static_cast<int>(std::ceil(std::max(10.0, 3.0 * config.realtime.epoch_interval_s))) + 3;

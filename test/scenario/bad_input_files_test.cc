@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "support/catch.h"
 #include "support/programs/program_run.h"
@@ -230,7 +231,6 @@ TEST_CASE("a file with more than 99 satellites and an approximate position of ze
   CHECK(result.replay.exit_code == 0);
   REQUIRE(result.solution.rows.size() == crowd.epochs.size());
   for (const auto& row : result.solution.rows) {
-    constexpr double kDegree = 0.017453292519943295;
     const Eigen::Vector3d p_e =
         to_ecef({std::stod(row.at("latitude_deg")) * kDegree,
                  std::stod(row.at("longitude_deg")) * kDegree, std::stod(row.at("height_m"))});

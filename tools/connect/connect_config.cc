@@ -12,7 +12,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kMaxStreams = 64;  // of streams_t
 
 bool is_receiver(const StreamConfig& stream) {

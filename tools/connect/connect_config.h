@@ -16,6 +16,8 @@
 
 namespace leonav {
 
+inline constexpr double kMillisecond = 1e-3;  // s, for keys in milliseconds
+
 enum class FormatKind : std::uint8_t {
   kUbx,
   kRtcm3,

@@ -4,21 +4,16 @@
 #include <boost/asio/ip/address.hpp>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
+#include "core/base/angle.h"
+#include "tools/connect/in_folder.h"
 #include "tools/connect/position_line.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 enum class SourceKind : std::uint8_t { kSerial, kTcp, kNtrip, kTcpServer, kUdp, kInput, kFile };
-
-std::string in_folder(const std::string& folder, const std::string& path) {
-  return path.empty() ? "" : (std::filesystem::path(folder) / path).string();
-}
 
 std::uint16_t read_port(ConfigReader& group, int port) {
   group.integer("port", 0, 65'535, &port);

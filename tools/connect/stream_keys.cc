@@ -6,13 +6,15 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "tools/common/day.h"
+#include "tools/connect/in_folder.h"
 #include "tools/connect/source_keys.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0, kMillisecond = 1e-3, kMegabyte = 1e6;
+constexpr double kMegabyte = 1e6;
 constexpr double kStandardGravity_m_s2 = 9.80665;
 
 const std::vector<std::pair<std::string, LineColumn>> kColumns = {
@@ -23,10 +25,6 @@ const std::vector<std::pair<std::string, LineColumn>> kColumns = {
     {"gps_tow_s", LineColumn::kGpsTowS}, {"clock_s", LineColumn::kClockS},
     {"clock_ms", LineColumn::kClockMs},  {"clock_us", LineColumn::kClockUs},
     {"clock_ns", LineColumn::kClockNs},  {"interval_s", LineColumn::kIntervalS}};
-
-std::string in_folder(const std::string& folder, const std::string& path) {
-  return path.empty() ? "" : (std::filesystem::path(folder) / path).string();
-}
 
 std::vector<LineColumn> read_columns(ConfigReader& group) {
   std::vector<std::string> names;

@@ -1,17 +1,15 @@
 // This unit prints an evaluation: a table for people, JSON for programs.
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "tools/common/format.h"
 #include "tools/evaluate/internal/gyro_heading.h"
 #include "tools/evaluate/statistics.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 using Row = std::pair<const char*, Distribution>;
 

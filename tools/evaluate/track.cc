@@ -1,8 +1,8 @@
 #include "tools/evaluate/track.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "drivers/csv/solution_csv.h"
 #include "drivers/csv/truth_csv.h"
 #include "drivers/rtklib_pos/pos_reader.h"
@@ -51,7 +51,6 @@ TrackPoint surveyed_point(const std::string& text) {
     values[i] = *value;
     begin = end + 1;
   }
-  constexpr double kDegree = std::numbers::pi / 180.0;
   TrackPoint point;
   point.position = {values[0] * kDegree, values[1] * kDegree, values[2]};
   point.v_n = Eigen::Vector3d::Zero();

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "drivers/csv/solution_csv.h"
 
 namespace leonav {
@@ -22,7 +23,5 @@ std::vector<PointAttribute> attributes_of(const SolutionRow& row);
 
 // Returns a decimal number; 9 decimals of a degree are 0.1 mm.
 std::string decimal(double value, int decimals);
-
-inline constexpr double kDegreesPerRadian = 57.295779513082320876798;
 
 }  // namespace leonav

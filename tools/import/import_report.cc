@@ -23,6 +23,12 @@ void ImportReport::skip(std::string_view where, const CapacityLosses& losses) {
   skip(where, usable_text(losses), static_cast<long>(losses.usable));
 }
 
+void skip_all(const std::string& path, const SkipReasons& reasons, ImportReport* report) {
+  for (const auto& [reason, count] : reasons) {
+    report->skip(path, reason, static_cast<long>(count));
+  }
+}
+
 void ImportReport::warn_if_most_lost(const std::string& path, const std::string& what, long lost,
                                      long all) {
   if (2 * lost <= all) return;

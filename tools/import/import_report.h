@@ -1,8 +1,10 @@
 // ImportReport counts what an import used and what it left out, and lists what the recording lacks.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/gps_time.h"
@@ -39,6 +41,10 @@ struct ImportReport {
   // Warns if more than half of a stream was lost: then it differs from the recording too much.
   void warn_if_most_lost(const std::string& path, const std::string& what, long lost, long all);
 };
+
+using SkipReasons = std::vector<std::pair<const char*, std::uint64_t>>;
+// Counts the skipped items of one file by their reasons.
+void skip_all(const std::string& path, const SkipReasons& reasons, ImportReport* report);
 
 // Returns an instant as a date and a time of day in GPS time.
 std::string text_of(GpsTime time);

@@ -3,18 +3,12 @@
 #include <string>
 
 namespace leonav {
-namespace {
-
-Eigen::Vector3d vector(const RawImuIncrements::Vector& from) { return {from[0], from[1], from[2]}; }
-
-}  // namespace
-
 std::optional<ImuSample> Oem7Samples::take(const RawImuIncrements& increments) {
   ImuReading reading;
   reading.gps_time = increments.time;
   reading.are_increments = true;
-  reading.gyro = vector(increments.delta_theta_rad);
-  reading.accel = vector(increments.delta_velocity_m_s);
+  reading.gyro = to_vector(increments.delta_theta_rad);
+  reading.accel = to_vector(increments.delta_velocity_m_s);
   return sampler_.sample(increments.time, reading);
 }
 

@@ -1,18 +1,12 @@
 #include "tools/import/ubx_samples.h"
 
 namespace leonav {
-namespace {
-
-Eigen::Vector3d vector(const EsfReading::Vector& from) { return {from[0], from[1], from[2]}; }
-
-}  // namespace
-
 ImuReading imu_reading(const EsfReading& reading, std::int64_t arrival_ns) {
   ImuReading result;
   result.arrival_ns = arrival_ns;
   result.clock_ns = reading.clock_ns;
-  result.gyro = vector(reading.angular_rate_rad_s);
-  result.accel = vector(reading.specific_force_m_s2);
+  result.gyro = to_vector(reading.angular_rate_rad_s);
+  result.accel = to_vector(reading.specific_force_m_s2);
   return result;
 }
 

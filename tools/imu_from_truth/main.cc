@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
-#include <numbers>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "drivers/csv/imu_csv.h"
 #include "drivers/csv/truth_csv.h"
 #include "tools/common/arguments.h"
@@ -15,6 +15,7 @@
 namespace {
 
 using leonav::Arguments;
+using leonav::kDegree;
 using leonav::UsageError;
 
 constexpr char kName[] = "leonav-imu-from-truth";
@@ -54,7 +55,6 @@ double in_range(const Arguments& arguments, const std::string& name, double low,
 }
 
 leonav::ImuErrorModel error_model(const Arguments& arguments) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr double kHour = 3600.0, kMilligal = 1e-5, kPpm = 1e-6;
   leonav::ImuErrorModel model;
   model.gyro_bias.sigma = in_range(arguments, "--gyro-bias-deg-per-h", 0.0, 1e5) * kDegree / kHour;

@@ -1,22 +1,19 @@
 // This unit writes a quality analysis as JSON: everything in the table, and every slip.
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "tools/common/format.h"
+#include "tools/quality/internal/number.h"
 #include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
-unsigned long long n(std::uint64_t count) { return count; }
-
 std::string text(std::string_view word) { return json_string(std::string(word)); }
 
 std::string cn0_json(const Cn0Distribution& cn0) {
-  return format("{\"count\": %llu, \"mean\": ", n(cn0.count())) + json_number(cn0.mean(), 2) +
+  return format("{\"count\": %llu, \"mean\": ", number(cn0.count())) + json_number(cn0.mean(), 2) +
          ", \"p5\": " + json_number(cn0.percentile(0.05), 1) +
          ", \"p50\": " + json_number(cn0.percentile(0.5), 1) +
          ", \"p95\": " + json_number(cn0.percentile(0.95), 1) + "}";
@@ -27,15 +24,15 @@ std::string signal_json(const SignalQuality& s, bool with_bins) {
   std::string out = format(
       "{\"codes\": %llu, \"carriers\": %llu, \"loss_of_lock\": %llu, \"half_cycles\": %llu, "
       "\"implausible_codes\": %llu, \"codes_without_carrier_pair\": %llu, ",
-      n(s.codes), n(s.carriers), n(s.loss_of_lock), n(s.half_cycles), n(s.implausible),
-      n(s.without_carriers));
+      number(s.codes), number(s.carriers), number(s.loss_of_lock), number(s.half_cycles),
+      number(s.implausible), number(s.without_carriers));
   out += "\"cn0_dbhz\": " + cn0_json(s.cn0_all()) +
          ", \"multipath\": {\"rms_m\": " + json_number(all.rms_m(), 4) +
          format(
              ", \"samples\": %llu, \"arcs\": %llu, \"short_arcs\": %llu, "
              "\"short_arc_samples\": %llu}",
-             n(all.samples), n(s.multipath.arcs), n(s.multipath.short_arcs),
-             n(s.multipath.short_arc_samples));
+             number(all.samples), number(s.multipath.arcs), number(s.multipath.short_arcs),
+             number(s.multipath.short_arc_samples));
   if (!with_bins) return out + "}";
   out += ", \"by_elevation\": [";
   bool first = true;
@@ -48,22 +45,22 @@ std::string signal_json(const SignalQuality& s, bool with_bins) {
            (bin == kNoElevation ? "null" : format("[%zu, %zu]", 10 * bin, 10 * bin + 10));
     out += ", \"cn0_dbhz\": " + cn0_json(s.cn0[bin]) +
            ", \"multipath_rms_m\": " + json_number(mp.rms_m(), 4) +
-           format(", \"multipath_samples\": %llu}", n(mp.samples));
+           format(", \"multipath_samples\": %llu}", number(mp.samples));
   }
   return out + "]}";
 }
 
 std::string system_json(const SystemQuality& s) {
   const auto range = [](const CountRange& r) {
-    return format("{\"mean\": %.3f, \"least\": %llu, \"most\": %llu}", r.mean(), n(r.least),
-                  n(r.most));
+    return format("{\"mean\": %.3f, \"least\": %llu, \"most\": %llu}", r.mean(), number(r.least),
+                  number(r.most));
   };
-  return format("{\"satellites\": %llu, \"seen\": ", n(s.satellites)) + range(s.seen) +
+  return format("{\"satellites\": %llu, \"seen\": ", number(s.satellites)) + range(s.seen) +
          ", \"usable\": " + range(s.usable) + "}";
 }
 
 std::string dop_json(const DopRange& d) {
-  return format("{\"epochs\": %llu, \"median\": ", n(d.epochs)) + json_number(d.median, 4) +
+  return format("{\"epochs\": %llu, \"median\": ", number(d.epochs)) + json_number(d.median, 4) +
          ", \"p95\": " + json_number(d.p95, 4) + ", \"worst\": " + json_number(d.worst, 4) + "}";
 }
 
@@ -75,13 +72,14 @@ std::string epochs_json(const Quality& q) {
   out += format(
       " \"epochs\": %llu, \"interval_s\": %.3f, \"missing_epochs\": %.0f, \"gaps\": %llu, "
       "\"longest_gap_s\": %.3f,\n",
-      n(t.epochs), t.interval_s, t.missing, n(t.gaps), t.longest_gap_s);
+      number(t.epochs), t.interval_s, t.missing, number(t.gaps), t.longest_gap_s);
   out += format(
       " \"epochs_backwards\": %llu, \"epochs_malformed\": %llu, \"epochs_incomplete\": %llu, "
       "\"products_refused\": %llu, \"epochs_solved\": %llu, \"clock_jumps\": %llu, \"code_steps\": "
       "%llu,\n",
-      n(t.backwards), n(q.inputs.refused_epochs), n(q.inputs.incomplete_epochs),
-      n(q.inputs.refused_products), n(q.solved_epochs), n(q.clock_jumps), n(q.code_steps));
+      number(t.backwards), number(q.inputs.refused_epochs), number(q.inputs.incomplete_epochs),
+      number(q.inputs.refused_products), number(q.solved_epochs), number(q.clock_jumps),
+      number(q.code_steps));
   out += std::string(" \"truncated\": ") + (q.inputs.truncated ? "true" : "false") +
          ", \"damage\": " + (q.inputs.damage.empty() ? "null" : json_string(q.inputs.damage)) +
          ",\n";
@@ -98,13 +96,13 @@ std::string satellites_json(const Quality& q) {
     out += format(
         ": {\"epochs\": %llu, \"usable_epochs\": %llu, \"followed_epochs\": %llu, \"slips\": %llu, "
         "\"interruptions\": %llu, \"half_cycle_open_epochs\": %llu, \"one_frequency\": %s, ",
-        n(s.epochs), n(s.usable_epochs), n(s.followed), n(s.slips), n(s.interruptions),
-        n(s.unresolved), s.one_frequency ? "true" : "false");
+        number(s.epochs), number(s.usable_epochs), number(s.followed), number(s.slips),
+        number(s.interruptions), number(s.unresolved), s.one_frequency ? "true" : "false");
     out += "\"highest_elevation_deg\": " + json_number(s.highest_elevation * kDegreesPerRadian, 2) +
            ", \"reasons\": {";
     for (auto reason = s.reasons.begin(); reason != s.reasons.end(); ++reason) {
       out += (reason == s.reasons.begin() ? "" : ", ") + text(to_string(reason->first)) +
-             format(": %llu", n(reason->second));
+             format(": %llu", number(reason->second));
     }
     out += "}, \"signals\": {";
     for (auto signal = s.signals.begin(); signal != s.signals.end(); ++signal) {
@@ -121,12 +119,13 @@ std::string slips_json(const Quality& q) {
   const auto totals = slip_totals(q);
   for (const System system : kSystems) {
     const SlipTotals& t = totals[index_of(system)];
-    out += (system == kSystems.front() ? "" : ", ") + text(to_string(system)) +
-           format(
-               ": {\"followed\": %llu, \"slips\": %llu, \"slips_told\": %llu, \"interruptions\": "
-               "%llu, ",
-               n(t.followed), n(t.slips), n(t.flagged_slips), n(t.interruptions)) +
-           "\"observations_per_slip\": " + json_number(t.observations_per_slip(), 1) + "}";
+    out +=
+        (system == kSystems.front() ? "" : ", ") + text(to_string(system)) +
+        format(
+            ": {\"followed\": %llu, \"slips\": %llu, \"slips_told\": %llu, \"interruptions\": "
+            "%llu, ",
+            number(t.followed), number(t.slips), number(t.flagged_slips), number(t.interruptions)) +
+        "\"observations_per_slip\": " + json_number(t.observations_per_slip(), 1) + "}";
   }
   out += "},\n \"arc_ends\": [";
   for (std::size_t i = 0; i < q.breaks.size(); ++i) {

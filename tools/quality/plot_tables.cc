@@ -1,17 +1,15 @@
 // This unit writes the CSV tables of a quality analysis for the plots.
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/base/angle.h"
 #include "tools/common/format.h"
 #include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 class Table {
  public:

@@ -2,19 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "tools/common/format.h"
+#include "tools/quality/internal/number.h"
 #include "tools/quality/internal/slip_text.h"
 #include "tools/quality/quality.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::size_t kSlipsShown = 20;
-
-unsigned long long n(std::uint64_t count) { return count; }
 
 // Returns a number in `width` columns, a dash if it is not finite.
 std::string cell(double value, int width, int decimals) {
@@ -26,14 +24,14 @@ std::string head(const Quality& q) {
   std::string out = q.log + "\n";
   out += format("  GPS week %d, %.1f s to week %d, %.1f s: %.1f min; %llu epochs", t.first.week(),
                 t.first.tow_s(), t.last.week(), t.last.tow_s(),
-                seconds_between(t.last, t.first) / 60.0, n(t.epochs));
+                seconds_between(t.last, t.first) / 60.0, number(t.epochs));
   if (t.epochs > 1) {
-    out += format(" at %g s, %.0f missing in %llu gaps", t.interval_s, t.missing, n(t.gaps));
+    out += format(" at %g s, %.0f missing in %llu gaps", t.interval_s, t.missing, number(t.gaps));
     if (t.gaps > 0) out += format(" (longest %.1f s)", t.longest_gap_s);
   }
   out += "\n";
   const auto note = [&](std::uint64_t count, const char* what) {
-    if (count > 0) out += format("  %llu %s\n", n(count), what);
+    if (count > 0) out += format("  %llu %s\n", number(count), what);
   };
   note(t.backwards, "epochs left out: out of order in time");
   note(q.inputs.refused_epochs, "epochs left out: malformed messages");
@@ -54,21 +52,21 @@ std::string satellites_and_dop(const Quality& q) {
   out += "              in all   seen: mean  min  max   usable: mean  min  max\n";
   const auto row = [&](const std::string& name, const SystemQuality& s) {
     if (s.satellites == 0) return;
-    out += format("  %-10s%8llu%14.1f%5llu%5llu%15.1f%5llu%5llu\n", name.c_str(), n(s.satellites),
-                  s.seen.mean(), n(s.seen.least), n(s.seen.most), s.usable.mean(),
-                  n(s.usable.least), n(s.usable.most));
+    out += format("  %-10s%8llu%14.1f%5llu%5llu%15.1f%5llu%5llu\n", name.c_str(),
+                  number(s.satellites), s.seen.mean(), number(s.seen.least), number(s.seen.most),
+                  s.usable.mean(), number(s.usable.least), number(s.usable.most));
   };
   for (const System system : kSystems)
     row(std::string(to_string(system)), q.systems[index_of(system)]);
   row("all", q.all_systems);
-  out += format("  point solution in %llu of %llu epochs (%.1f %%)\n", n(q.solved_epochs),
-                n(q.times.epochs),
+  out += format("  point solution in %llu of %llu epochs (%.1f %%)\n", number(q.solved_epochs),
+                number(q.times.epochs),
                 100.0 * static_cast<double>(q.solved_epochs) / static_cast<double>(q.times.epochs));
   out += "\nDilution of precision, usable satellites, a clock per system\n";
   out += "            median     95 %    worst   epochs\n";
   const auto dop = [&](const char* name, const DopRange& d) {
     out += format("  %-8s%s%s%s%9llu\n", name, cell(d.median, 8, 2).c_str(),
-                  cell(d.p95, 9, 2).c_str(), cell(d.worst, 9, 2).c_str(), n(d.epochs));
+                  cell(d.p95, 9, 2).c_str(), cell(d.worst, 9, 2).c_str(), number(d.epochs));
   };
   dop("GDOP", q.gdop);
   dop("PDOP", q.pdop);
@@ -85,15 +83,16 @@ std::string signals(const Quality& q) {
   for (const auto& [key, s] : q.signals) {
     const Cn0Distribution cn0 = s.cn0_all();
     const std::string name = std::string(to_string(key.first)) + " " + to_string(key.second);
-    out += format("  %-13s%11llu%9llu%7llu%7llu%s%s%s%s%s%7llu%7llu\n", name.c_str(), n(s.codes),
-                  n(s.carriers), n(s.loss_of_lock), n(s.half_cycles),
-                  cell(cn0.mean(), 7, 1).c_str(), cell(cn0.percentile(0.05), 6, 1).c_str(),
-                  cell(cn0.percentile(0.5), 6, 1).c_str(), cell(cn0.percentile(0.95), 6, 1).c_str(),
-                  cell(s.multipath.all().rms_m(), 8, 3).c_str(), n(s.multipath.arcs),
-                  n(s.without_carriers + s.multipath.short_arc_samples));
+    out +=
+        format("  %-13s%11llu%9llu%7llu%7llu%s%s%s%s%s%7llu%7llu\n", name.c_str(), number(s.codes),
+               number(s.carriers), number(s.loss_of_lock), number(s.half_cycles),
+               cell(cn0.mean(), 7, 1).c_str(), cell(cn0.percentile(0.05), 6, 1).c_str(),
+               cell(cn0.percentile(0.5), 6, 1).c_str(), cell(cn0.percentile(0.95), 6, 1).c_str(),
+               cell(s.multipath.all().rms_m(), 8, 3).c_str(), number(s.multipath.arcs),
+               number(s.without_carriers + s.multipath.short_arc_samples));
   }
   out += format("  no MP: codes without a pair of carriers, or in arcs of fewer than %llu epochs\n",
-                n(MultipathLevels::kMinSamples));
+                number(MultipathLevels::kMinSamples));
   std::string alone;
   for (const auto& [id, satellite] : q.satellites)
     if (satellite.one_frequency) alone += " " + to_string(id);
@@ -124,8 +123,9 @@ std::string without_orbit(const Quality& q) {
   for (const auto& [id, satellite] : q.satellites) {
     for (const auto& [reason, epochs] : satellite.reasons) {
       if (is_usable(reason) || reason == Reason::kLowElevation) continue;
-      out += format("  %-5s%-20s%8llu of %llu epochs\n", to_string(id).c_str(),
-                    std::string(to_string(reason)).c_str(), n(epochs), n(satellite.epochs));
+      out +=
+          format("  %-5s%-20s%8llu of %llu epochs\n", to_string(id).c_str(),
+                 std::string(to_string(reason)).c_str(), number(epochs), number(satellite.epochs));
     }
   }
   return out.empty() ? "" : "\nSatellites seen but left out, other than below the mask\n" + out;
@@ -136,9 +136,9 @@ std::string satellites(const Quality& q) {
       "\nSatellites: per signal C/N0 mean (dB-Hz) and MP rms (m)\n"
       "       epochs  usable  top deg   slips  signals\n";
   for (const auto& [id, s] : q.satellites) {
-    out +=
-        format("  %-5s%6llu%8llu%s%8llu ", to_string(id).c_str(), n(s.epochs), n(s.usable_epochs),
-               cell(s.highest_elevation * kDegreesPerRadian, 9, 1).c_str(), n(s.slips));
+    out += format("  %-5s%6llu%8llu%s%8llu ", to_string(id).c_str(), number(s.epochs),
+                  number(s.usable_epochs),
+                  cell(s.highest_elevation * kDegreesPerRadian, 9, 1).c_str(), number(s.slips));
     for (const auto& [code, signal] : s.signals) {
       out += "  " + to_string(code) + cell(signal.cn0_all().mean(), 5, 1) +
              cell(signal.multipath.all().rms_m(), 6, 2);

@@ -2,10 +2,10 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "tools/common/arguments.h"
 #include "tools/common/format.h"
 #include "tools/import/log_output.h"
@@ -17,6 +17,7 @@
 namespace {
 
 using leonav::Arguments;
+using leonav::kDegree;
 using leonav::UsageError;
 
 Arguments declare() {
@@ -90,7 +91,6 @@ int overlay(const Arguments& arguments, const std::vector<std::string>& override
 }
 
 int sky_statistics(const Arguments& arguments, const leonav::sim::Scenario& scenario) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const double step_s = arguments.number("--step");
   if (!(step_s > 0.0)) throw UsageError("--step must be above zero");
   const double mask_deg = arguments.number("--mask");

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/base/angle.h"
 #include "drivers/csv/csv_writer.h"
 #include "drivers/csv/solution_csv.h"
 #include "tools/smooth/trajectory.h"
@@ -14,7 +15,6 @@ namespace {
 constexpr std::string_view kResidualsHeader =
     "gps_week,gps_tow_s,satellite,observable,signals,residual,sigma,test_ratio,weight_factor,"
     "elevation_deg";
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void write_residuals(const std::string& path, const LogGraph& graph) {
           .number(sigma, 4)
           .number(std::abs(measurement.residual) / sigma, 3)
           .number(measurement.factor, 4)
-          .number(satellite.elevation * kDegrees, 2)
+          .number(satellite.elevation * kDegreesPerRadian, 2)
           .end_row();
     }
   }

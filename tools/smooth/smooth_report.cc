@@ -6,6 +6,7 @@
 #include <numbers>
 #include <ostream>
 
+#include "core/base/angle.h"
 #include "core/base/median.h"
 #include "core/base/square.h"
 #include "tools/common/format.h"
@@ -16,7 +17,6 @@ namespace {
 using namespace ekf_index;
 using Eigen::Index;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kCommonResidual = 1.5;  // rms over sigma; above, the sigmas are wrong
 
 struct ResidualSums {
@@ -64,8 +64,8 @@ void print_constants(const LogGraph& graph, const BatchResult& result, std::ostr
     const char* unit;
   };
   constexpr std::array<Unit, kMaxVehicle> kUnits = {
-      {{"direction of travel, yaw", kDegrees, "deg"},
-       {"direction of travel, pitch", kDegrees, "deg"},
+      {{"direction of travel, yaw", kDegreesPerRadian, "deg"},
+       {"direction of travel, pitch", kDegreesPerRadian, "deg"},
        {"odometer scale", 100.0, "%"},
        {"lever arm beyond, forward", 1.0, "m"},
        {"lever arm beyond, right", 1.0, "m"},
@@ -116,7 +116,7 @@ void print_smoothed(const LogGraph& graph, const BatchResult& result, std::ostre
                 median_sigma(graph, result, kPosition, 3),
                 median_sigma(graph, result, kVelocity, 3));
   const double attitude = median_sigma(graph, result, kAttitude, 3);
-  if (std::isfinite(attitude)) out << format(", attitude %.4f deg", kDegrees * attitude);
+  if (std::isfinite(attitude)) out << format(", attitude %.4f deg", kDegreesPerRadian * attitude);
   out << "\n";
   print_constants(graph, result, out);
 }

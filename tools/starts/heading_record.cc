@@ -1,21 +1,20 @@
 #include "tools/starts/heading_record.h"
+#include "core/base/angle.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLeast = 5.0 * kDegree;
 constexpr double kSigmas = 5.0;
 constexpr double kMostJustAligned = 45.0 * kDegree;
 constexpr double kMost = 15.0 * kDegree;
 constexpr std::array<double, 3> kAfterAlignment_s = {0.0, 10.0, 20.0};
-constexpr double kRounding_s = 0.05;  // of the epochs' times
-constexpr double kLater_s = 30.5;     // the last epoch until then counts as that at 30 s
+constexpr double kRounding_s = 0.05;     // of the epochs' times
+constexpr double kRecordLater_s = 30.5;  // the last epoch until then counts as that at 30 s
 
 // Returns whether the alignment caused an error at this instant.
 bool is_of_alignment(const HeadingSample& sample) {
@@ -42,7 +41,7 @@ void HeadingRecord::add(double after_s, double error, double sigma) {
   const HeadingSample now{after_s, after_s - *aligned_after_s_, error, sigma};
   last_ = now;
   if (!first_) first_ = now;
-  if (after_s <= kLater_s) at_30_s_ = now;
+  if (after_s <= kRecordLater_s) at_30_s_ = now;
   const auto is_due = [&] {
     return next_ < kAfterAlignment_s.size() &&
            now.since_aligned_s > kAfterAlignment_s[next_] - kRounding_s;
@@ -55,7 +54,7 @@ void HeadingRecord::add(double after_s, double error, double sigma) {
 void HeadingRecord::add_without(double after_s) {
   aligned_after_s_.reset();
   last_.reset();
-  if (after_s <= kLater_s) at_30_s_.reset();
+  if (after_s <= kRecordLater_s) at_30_s_.reset();
 }
 
 std::vector<HeadingSample> HeadingRecord::judged() const {

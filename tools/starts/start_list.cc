@@ -1,13 +1,11 @@
 #include "tools/starts/start_list.h"
+#include "core/base/angle.h"
 
 #include <iomanip>
-#include <numbers>
 #include <ostream>
 
 namespace leonav {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Writes error and sigma in degrees; empty if there was no heading.
 void write_sample(const std::optional<HeadingSample>& sample, std::ostream& out) {

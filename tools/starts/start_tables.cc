@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "tools/common/format.h"
 #include "tools/evaluate/statistics.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kInTime_s = 30.0;
 constexpr double kDriven_s = 15.0;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr std::array<double, 15> kTimes_s = {1.5,  2.1,  3.0,  4.2,  6.0,  8.5,   12.0, 17.0,
                                              24.0, 34.0, 48.0, 68.0, 96.0, 136.0, 192.0};
 constexpr double kMemory_s = 240.0;
-constexpr double kSpacing_s = 0.9;  // samples of a signal that are kept are this far apart
-constexpr double kLimit = 5.0;      // of a standardized innovation
+constexpr double kSpacing_s = 0.9;       // samples of a signal that are kept are this far apart
+constexpr double kMostInnovation = 5.0;  // of a standardized innovation
 // Pairs that what is known beforehand counts as.
 constexpr double kPriorPairs = 150.0;
 constexpr double kLeastVariance = 0.05;
@@ -139,7 +139,7 @@ void ErrorCorrelation::add(const Sample& sample, GpsTime time) {
   if (history == nullptr) return;
   if (history->last.is_set() && seconds_between(time, history->last) < kSpacing_s) return;
   history->last = time;
-  const double u = std::clamp(sample.ratio, -kLimit, kLimit);
+  const double u = std::clamp(sample.ratio, -kMostInnovation, kMostInnovation);
   Lags& lags = lags_[sample.of.observable][sample.of.motion][sample.of.elevation];
   lags[0].count += 1.0;
   lags[0].product += u * u;

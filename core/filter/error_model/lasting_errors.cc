@@ -25,7 +25,7 @@ constexpr int kMinToKeep = 2;        // to take it for wrong still
 constexpr double kFoundAgain = 2.0;  // an error that has grown so is found again
 // The position allows for an L that has grown or fallen so.
 constexpr double kGrown = 1.5, kFallen = 0.5;
-constexpr double kUnknowns = 4.0;  // position and clock
+constexpr double kPointUnknowns = 4.0;  // position and clock
 constexpr double kShareToFind = 1.0 / 3.0, kShareToKeep = 1.0 / 6.0;
 
 double blocks_per_second(System system, double speed_m_s) {
@@ -160,7 +160,7 @@ void LastingErrors::end_epoch(GpsTime time) {
     sigma_m_[i] = std::max(systems_[i].range_sigma_m, of_others_m);
     if (sigma_m_[i] > 0.0) alike += satellites[i];
   }
-  const double factor = std::sqrt(std::max(alike / kUnknowns, 1.0));
+  const double factor = std::sqrt(std::max(alike / kPointUnknowns, 1.0));
   for (double& sigma_m : sigma_m_) sigma_m *= factor;
   note_change();
 }

@@ -11,7 +11,7 @@ namespace {
 // Until something has been seen, errors are taken to be larger than configured: a street is more
 // usual than an open place, and information with too small a variance stays in the state.
 constexpr double kStartScale = 2.0;
-constexpr double kLimit = 2.5;         // k
+constexpr double kMostRatio = 2.5;     // k
 constexpr double kExpected = 0.97756;  // beta: of a standard normal z
 constexpr double kBaseTime_s = 20.0, kTermTime_s = 60.0;
 constexpr double kYoungest_s = 3.0;
@@ -119,7 +119,7 @@ double SigmaScale::sum_of_terms(const ErrorClass& of) const {
 }
 
 double SigmaScale::score(const ErrorClass& of, double squared_ratio) const {
-  const double score = std::min(squared_ratio, kLimit * kLimit) - kExpected;
+  const double score = std::min(squared_ratio, kMostRatio * kMostRatio) - kExpected;
   return sum_of_terms(of) > kSmallestLog ? score : std::max(score, 0.0);
 }
 

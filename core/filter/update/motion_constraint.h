@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/filter/state/filter_state.h"
 #include "core/inertial/strapdown/nav_state.h"
 
@@ -73,8 +73,6 @@ StationaryGyroResidual stationary_gyro_residual(const NavState& state,
                                                 const Eigen::Vector3d& measured_rate_b);
 
 struct MotionConstraintConfig {
-  static constexpr double kDegree = std::numbers::pi / 180.0;
-
   bool non_holonomic = false;                         // neither side nor vertical velocity
   bool zero_velocity = false;                         // at standstill: no velocity, no turn
   double interval_s = 0.2;                            // from one instant to the next

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <utility>
 
 #include "core/gnss/cycle_slips/internal/arc_detectors.h"
+#include "core/gnss/cycle_slips/internal/clock_jump.h"
 #include "core/gnss/cycle_slips/internal/doppler_test.h"
 #include "core/gnss/cycle_slips/internal/nominal_interval.h"
 #include "core/gnss/cycle_slips/internal/slip_decision.h"
 
 namespace leonav {
-namespace {
-
-constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
-
-}  // namespace
+namespace {}  // namespace
 
 struct CarrierArcs::Storage {
   Storage(const CycleSlipConfig& config_in, const BandPlan& bands_in)
@@ -44,7 +40,7 @@ struct CarrierArcs::Storage {
   BandPlan bands;
   std::array<ArcDetectors, kMaxEphemerisSatellites> detectors_of;
   boost::container::static_vector<Current, kMaxSatellites> current;
-  std::bitset<kMaxEphemerisSatellites> seen;  // in this epoch
+  std::array<bool, kMaxEphemerisSatellites> seen{};  // in this epoch
   GpsTime time;
   NominalInterval nominal;
   std::uint32_t last_arc = 0;
@@ -60,14 +56,14 @@ double CarrierArcs::Storage::gap_limit_s(System system, double nominal_s) const 
 void CarrierArcs::Storage::collect(GpsTime now, GpsTime previous,
                                    std::span<const CarrierInput> inputs) {
   current.clear();
-  seen.reset();
+  seen.fill(false);
   const std::size_t count = std::min(inputs.size(), current.capacity());
   for (const CarrierInput& input : inputs.first(count)) {
     current.emplace_back();
     if (!has_carrier(input, bands)) continue;
     const std::size_t index = table_index_of(input.first->satellite);
-    if (index >= detectors_of.size() || seen.test(index)) continue;
-    seen.set(index);
+    if (index >= detectors_of.size() || seen[index]) continue;
+    seen[index] = true;
     Current& entry = current.back();
     entry.detectors = &detectors_of[index];
     entry.detectors->system = input.first->satellite.system;
@@ -191,7 +187,7 @@ void CarrierArcs::process(GpsTime time, std::span<const CarrierInput> inputs, Ar
   if (std::none_of(inputs.begin(), inputs.end(),
                    [&s](const CarrierInput& input) { return has_carrier(input, s.bands); })) {
     s.current.clear();
-    s.seen.reset();
+    s.seen.fill(false);
     epoch->satellites.resize(std::min(inputs.size(), epoch->satellites.capacity()));
     return;
   }
@@ -245,7 +241,7 @@ CarrierStatus CarrierArcs::end_arc(SatelliteId satellite, SlipCause cause) {
   Storage& s = *storage_;
   if (!is_valid(satellite) || index_of(satellite.system) >= kSystemCount) return status;
   const std::size_t index = table_index_of(satellite);
-  if (index >= s.detectors_of.size() || !s.seen.test(index)) return status;
+  if (index >= s.detectors_of.size() || !s.seen[index]) return status;
   Storage::Current entry;
   entry.detectors = &s.detectors_of[index];
   entry.detectors->restart(s.config);
@@ -263,7 +259,7 @@ double CarrierArcs::gap_limit_s(System system, GpsTime time) const {
 void CarrierArcs::reset() {
   for (ArcDetectors& detectors : storage_->detectors_of) detectors.clear();
   storage_->current.clear();
-  storage_->seen.reset();
+  storage_->seen.fill(false);
   storage_->time = {};
   storage_->nominal = {};
   storage_->range_change_applied = true;

@@ -19,7 +19,7 @@ constexpr double kNodeNoise = 1e-3;  // m
 // 1 sigma of the orbit and clock product itself (IGS final: 2-3 cm each, along the line of sight).
 constexpr double kProductSigma = 0.03;  // m
 // 1 sigma of a predicted orbit (IGS ultra-rapid, predicted half: 5 cm).
-constexpr double kPredictedSigma = 0.05;  // m
+constexpr double kPredictedOrbitSigma = 0.05;  // m
 
 // A range of nodes [begin, end) that are linked to each other without a gap: at most
 // kPolynomialNodes, as symmetric around `time` as the nodes allow.
@@ -153,7 +153,7 @@ bool precise_state(const OrbitNode* nodes, std::size_t count, GpsTime time, doub
       clock->drift -
       2.0 * (v_inertial.squaredNorm() - kEarthGravitationalConstant / p.norm()) * kPerC2;
   const double change_m2 = orbit.last_term * orbit.last_term + clock->change_m2;
-  const double predicted_m = a.orbit_predicted || b.orbit_predicted ? kPredictedSigma : 0.0;
+  const double predicted_m = a.orbit_predicted || b.orbit_predicted ? kPredictedOrbitSigma : 0.0;
   state->sigma_change_m = std::sqrt(change_m2);
   state->sigma_m = std::sqrt(kProductSigma * kProductSigma + predicted_m * predicted_m +
                              clock->constant_m2 + change_m2);

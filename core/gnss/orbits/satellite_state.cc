@@ -3,15 +3,13 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/gnss/signals/signal.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The constants with which the elements of each message were fitted.
 struct OrbitConstants {

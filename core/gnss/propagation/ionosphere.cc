@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/gnss/signals/signal.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr KlobucharModel kMediumActivity = {{0.1118e-07, -0.7451e-08, -0.5961e-07, 0.1192e-06},
                                             {0.1167e+06, -0.2294e+06, -0.1311e+06, 0.1049e+07},
                                             true};

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/imu_gap_fill.h"
@@ -12,7 +12,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2; levelling needs no better
 constexpr double kStandstillWindow_s = 1.0;
 constexpr double kMaxUnconfirmed_s = 5.0;  // a velocity confirms at most this long a standstill
 constexpr double kStaticTimeConstant_s = 2.0;
@@ -34,7 +33,6 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
   return quaternion_from_rotation_vector(std::atan2(sine, cosine) / sine * cross);
 }
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kContradiction = 4.0;  // sigmas
 constexpr double kGiveUpNorth = 3.0;    // times the duration that follows from the data sheet
 
@@ -92,7 +90,7 @@ void Alignment::initialize_level(const ImuSample& sample) {
   first_s_ += sample.interval_s();
   if (first_s_ < config_.levelling_window_s) return;
   const Eigen::Vector3d force_l = first_velocity_l_ / first_s_;
-  implausible_ = !(std::abs(force_l.norm() - kGravity) < 0.3 * kGravity);
+  implausible_ = !(std::abs(force_l.norm() - kLevellingGravity) < 0.3 * kLevellingGravity);
   if (!implausible_) {
     q_lb_ = (rotation_between(-force_l, kDown) * q_lb_).normalized();
     levelled_for_s_ = first_s_;
@@ -112,7 +110,7 @@ void Alignment::refine_level(const ImuSample& sample) {
   const double moving =
       static_gyro_.known() ? kMovingKnownBiasTimeConstant_s : kMovingTimeConstant_s;
   const double time_constant = window_is_static_ && !pushed ? kStaticTimeConstant_s : moving;
-  const double gain = 1.0 / (kGravity * std::min(time_constant, levelled_for_s_));
+  const double gain = 1.0 / (kLevellingGravity * std::min(time_constant, levelled_for_s_));
   Eigen::Vector3d correction = -gain * velocity_l.cross(kDown);
   const double limit = 0.1 * dt;  // rad: a shock must not tip the level over
   if (correction.norm() > limit) correction *= limit / correction.norm();

@@ -4,9 +4,9 @@
 // body (forward, right, down), l levelled with an arbitrary heading, n north, east, down, e ECEF.
 #pragma once
 #include <Eigen/Core>
-#include <numbers>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/inertial/alignment/alignment_need.h"
 #include "core/inertial/alignment/course_window.h"
 #include "core/inertial/alignment/external_heading.h"
@@ -20,8 +20,6 @@ namespace leonav {
 
 // Settings of the alignment, in SI units; `ImuErrorModel` supplies the sensor's errors.
 struct AlignmentConfig {
-  static constexpr double kDegree = std::numbers::pi / 180.0;
-
   double levelling_window_s = 1.0;           // the specific force is averaged over this long
   double min_course_speed_m_s = 1.0;         // the course over ground counts above this speed
   double course_window_s = 3.0;              // courses must agree with the gyros for this long

@@ -11,7 +11,6 @@
 namespace leonav {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2; tilts need no better
 constexpr std::size_t kMinEntries = 6;
 constexpr double kMaxSigma = 0.35;     // rad; beyond, the angle of c is not normally distributed
 constexpr double kFloor = 0.01;        // rad: vehicle and IMU are not one rigid body
@@ -88,9 +87,10 @@ VelocityMatching::Solution VelocityMatching::solve(const Eigen::Quaterniond& fir
   using Row = Eigen::Matrix<Complex, kUnknowns, 1>;
   using Normal = Eigen::Matrix<Complex, kUnknowns, kUnknowns>;
   Normal information = Normal::Zero();
-  const double prior[] = {0.0, 0.0, 1.0 / square(config_.level_sigma * kGravity),
-                          1.0 / square(std::max(config_.accel_bias_sigma, 1e-4)),
-                          1.0 / square(std::hypot(rate_sigma, kEarthRotationRate) * kGravity)};
+  const double prior[] = {
+      0.0, 0.0, 1.0 / square(config_.level_sigma * kLevellingGravity),
+      1.0 / square(std::max(config_.accel_bias_sigma, 1e-4)),
+      1.0 / square(std::hypot(rate_sigma, kEarthRotationRate) * kLevellingGravity)};
   for (int i = 0; i < kUnknowns; ++i) information(i, i) = prior[i];
   Row right = Row::Zero();
   double observed = 0.0;
@@ -141,7 +141,7 @@ VelocityMatching::Solution VelocityMatching::solve(const Eigen::Quaterniond& fir
 // Returns the rotation that levels again a frame in which the specific force at rest is `off`
 // (m/s^2) horizontally.
 Eigen::Quaterniond level_again(const std::complex<double>& off) {
-  const Eigen::Vector3d rest(off.real(), off.imag(), -kGravity);
+  const Eigen::Vector3d rest(off.real(), off.imag(), -kLevellingGravity);
   return Eigen::Quaterniond::FromTwoVectors(rest, -Eigen::Vector3d::UnitZ());
 }
 
@@ -168,7 +168,8 @@ std::optional<VelocityMatching::Match> VelocityMatching::match(
   match.heading.heading =
       wrap_to_pi(std::arg(direction(solution.q_last)) + std::arg(solution.x[kTurn]));
   match.q_lb = level_again(solution.off_level) * solution.q_last;
-  match.level_sigma = std::hypot(std::sqrt(solution.level_variance * excess) / kGravity, kFloor);
+  match.level_sigma =
+      std::hypot(std::sqrt(solution.level_variance * excess) / kLevellingGravity, kFloor);
   match.misfit = solution.misfit;
   return match;
 }

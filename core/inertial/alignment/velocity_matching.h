@@ -11,6 +11,8 @@
 
 namespace leonav {
 
+inline constexpr double kLevellingGravity = 9.81;  // m/s^2; levelling needs no better
+
 // The method needs no assumption on how the vehicle moves. In a curve, or while the speed changes,
 // the change of velocity over ground and the integrated specific force are one vector in two
 // frames, and the angle between the frames is the heading. It distinguishes driving in reverse from

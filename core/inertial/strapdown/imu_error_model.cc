@@ -1,11 +1,13 @@
 #include "core/inertial/strapdown/imu_error_model.h"
 
+#include "core/base/angle.h"
+
 #include <numbers>
 
 namespace leonav {
 
 ImuErrorModel consumer_mems_errors() {
-  constexpr double kDegree = std::numbers::pi / 180.0, kHour = 3600.0, kRootHour = 60.0;
+  constexpr double kHour = 3600.0, kRootHour = 60.0;
   constexpr double kMilligal = 1e-5;
   ImuErrorModel imu;
   imu.angle_random_walk = 0.3 * (kDegree / kRootHour);

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kShellShare = 0.94;    // radius of the Earth over that of a shell at 400 km
 constexpr double kMinElevation = 0.17;  // rad
-constexpr float kMinEpochs = 20.0F;
-constexpr int kMinSatellites = 8, kMinOfSystem = 3, kMinFree = 3;
-constexpr double kClear = 5.0;  // sigmas
+constexpr float kMinCodeEpochs = 20.0F;
+constexpr int kMinCodeSatellites = 8, kMinOfSystem = 3, kMinFree = 3;
+constexpr double kClearSlope = 5.0;  // sigmas
 constexpr double kMuchLess = 0.5;
 constexpr double kMin_m = 0.5;  // at zenith, on L1: near the least delay of a quiet night
 
@@ -104,7 +104,7 @@ CodeOrderMonitor::Line CodeOrderMonitor::line(std::size_t exchanged) const {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     for (std::size_t i = first_index; i < first_index + highest; ++i) {
       const Mean& mean = satellites_[i];
-      if (mean.n < kMinEpochs) continue;
+      if (mean.n < kMinCodeEpochs) continue;
       const double slant = mean.slant / mean.n, delay = mean.delay_m[exchanged] / mean.n;
       n += 1.0;
       x += slant;
@@ -123,7 +123,7 @@ CodeOrderMonitor::Line CodeOrderMonitor::line(std::size_t exchanged) const {
   }
   const int free = satellites - systems - 1;
   Line line;
-  line.known = satellites >= kMinSatellites && free >= kMinFree && sxx > 0.0;
+  line.known = satellites >= kMinCodeSatellites && free >= kMinFree && sxx > 0.0;
   if (!line.known) return line;
   line.slope = sxy / sxx;
   line.sigma = std::sqrt(std::max(0.0, syy - line.slope * sxy) / free / sxx);
@@ -137,7 +137,7 @@ ConventionFinding CodeOrderMonitor::evaluate() const {
   const bool fits_better =
       exchanged.sigma < kMuchLess * as_labelled.sigma || as_labelled.slope < 0.0;
   const bool clear =
-      exchanged.slope > kMin_m && exchanged.slope > kClear * exchanged.sigma && fits_better;
+      exchanged.slope > kMin_m && exchanged.slope > kClearSlope * exchanged.sigma && fits_better;
   if (!clear) return {};
   return {Convention::kCodesExchanged, exchanged.slope};
 }

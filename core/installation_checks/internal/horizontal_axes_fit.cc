@@ -1,4 +1,5 @@
 #include "core/installation_checks/internal/horizontal_axes_fit.h"
+#include "core/base/angle.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,13 +8,12 @@
 namespace leonav {
 namespace {
 
-constexpr double kDegree = EIGEN_PI / 180.0;
-constexpr double kMinSquares = 2.0;    // (m/s^2)^2 s, for both forward and right: a bend, a stop
-constexpr double kMaxSigma = 0.1;      // 1 sigma of the map's elements
-constexpr double kMinExplained = 0.6;  // least share of the forces' squares
-constexpr double kLowest = 0.6, kHighest = 1.5;
+constexpr double kMinForceSquares = 2.0;  // (m/s^2)^2 s, for both forward and right: a bend, a stop
+constexpr double kMaxSigma = 0.1;         // 1 sigma of the map's elements
+constexpr double kMinExplained = 0.6;     // least share of the forces' squares
+constexpr double kLeastSize = 0.6, kMostSize = 1.5;
 constexpr double kPure = 0.4;  // largest share of the other part
-constexpr double kRightWithin = 40.0 * kDegree;
+constexpr double kAxesWithin = 40.0 * kDegree;
 
 struct Sums {
   double n = 0.0;
@@ -39,7 +39,7 @@ struct Sums {
 };
 
 bool is_dominant(double size, double other) {
-  return size > kLowest && size < kHighest && other < kPure * size;
+  return size > kLeastSize && size < kMostSize && other < kPure * size;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ bool HorizontalAxesFit::is_turn() const { return known && is_dominant(turn_size,
 bool HorizontalAxesFit::is_mirrored() const {
   return known && is_dominant(mirrored_size, turn_size);
 }
-bool HorizontalAxesFit::is_right() const { return is_turn() && std::abs(turn) < kRightWithin; }
+bool HorizontalAxesFit::is_right() const { return is_turn() && std::abs(turn) < kAxesWithin; }
 
 HorizontalAxesFit fit_horizontal_axes(const MotionRecord& record, double min_speed) {
   HorizontalAxesFit fit;
@@ -57,7 +57,7 @@ HorizontalAxesFit fit_horizontal_axes(const MotionRecord& record, double min_spe
     if (second.has_imu && second.has_course && second.speed >= min_speed) sums.add(second);
   if (!(sums.n > 0.0)) return fit;
   sums.remove_means();
-  if (!(sums.aa(0, 0) > kMinSquares && sums.aa(1, 1) > kMinSquares)) return fit;
+  if (!(sums.aa(0, 0) > kMinForceSquares && sums.aa(1, 1) > kMinForceSquares)) return fit;
   if (!(sums.aa.determinant() > 0.3 * sums.aa(0, 0) * sums.aa(1, 1))) return fit;
   const Eigen::Matrix2d map = sums.fa * sums.aa.inverse();
   const double explained = (map * sums.fa.transpose()).trace();
@@ -76,14 +76,14 @@ HorizontalAxesFit fit_horizontal_axes(const MotionRecord& record, double min_spe
 ConventionFinding check_horizontal_axes_upright(const HorizontalAxesFit& fit) {
   if (fit.is_mirrored()) {
     const double from_exchanged = std::abs(fit.mirrored - 0.5 * EIGEN_PI);
-    const bool exchanged = from_exchanged < kRightWithin;
+    const bool exchanged = from_exchanged < kAxesWithin;
     return {exchanged ? Convention::kForwardRightExchanged : Convention::kMirrored,
             fit.mirrored / kDegree};
   }
   if (!fit.is_turn() || fit.is_right()) return {};
   // The axes measure the world turned by fit.turn, so that they are turned by the opposite angle.
   const double mounting = -fit.turn;
-  const bool backwards = std::abs(mounting) > EIGEN_PI - kRightWithin;
+  const bool backwards = std::abs(mounting) > EIGEN_PI - kAxesWithin;
   return {backwards ? Convention::kBackwards : Convention::kTurned, mounting / kDegree};
 }
 
@@ -92,8 +92,8 @@ ConventionFinding check_horizontal_axes_upside_down(const HorizontalAxesFit& fit
   const double tilt_deg = force.tilt() / kDegree;
   if (fit.is_turn()) return {Convention::kThirdAxisUp, tilt_deg};
   if (!fit.is_mirrored()) return {};
-  if (std::abs(fit.mirrored) < kRightWithin) return {Convention::kForwardLeftUp, tilt_deg};
-  if (std::abs(fit.mirrored - 0.5 * EIGEN_PI) < kRightWithin)
+  if (std::abs(fit.mirrored) < kAxesWithin) return {Convention::kForwardLeftUp, tilt_deg};
+  if (std::abs(fit.mirrored - 0.5 * EIGEN_PI) < kAxesWithin)
     return {Convention::kRightForwardUp, tilt_deg};
   return {Convention::kThirdAxisUp, tilt_deg};
 }

@@ -12,13 +12,13 @@ namespace leonav {
 namespace {
 
 constexpr double kRateTime_s = 0.05;
-constexpr double kShortest_s = 0.5, kLongest_s = 3.0;
-constexpr double kMinImuShare = 0.95;
+constexpr double kShortestPair_s = 0.5, kLongestPair_s = 3.0;
+constexpr double kMinPairImuShare = 0.95;
 constexpr double kOutlier_m_s = 3.0;
 constexpr double kPrior = 0.01;  // rad^2/s^2 in the normal equations, for axes that no turn excites
-constexpr int kMinSeconds = 20;
+constexpr int kMinRotatingSeconds = 20;
 constexpr double kKnownSigma_m = 0.12;
-constexpr double kMinOff_m = 0.6, kClear = 8.0;
+constexpr double kMinOff_m = 0.6, kClearSigmas = 8.0;
 constexpr double kSignShare = 0.4;  // largest distance to the arm with other signs, as a share
 
 }  // namespace
@@ -48,7 +48,7 @@ void LeverArmMonitor::end_second(GpsTime time, const PointSolution* point,
   const bool known = point != nullptr && point->has_velocity && q_eb != nullptr &&
                      q_eb->coeffs().allFinite() && point->v_e.allFinite();
   const double dt = has_start_ ? seconds_between(time, start_) : 0.0;
-  if (known && dt > kShortest_s && dt < kLongest_s && imu_s_ > kMinImuShare * dt) {
+  if (known && dt > kShortestPair_s && dt < kLongestPair_s && imu_s_ > kMinPairImuShare * dt) {
     const Eigen::Matrix3d C_10 = q_0b_.conjugate().toRotationMatrix();
     const Eigen::Vector3d omega_ie_e(0.0, 0.0, kEarthRotationRate);
     const Eigen::Vector3d gravity = gravity_e(point->p_e) - 2.0 * omega_ie_e.cross(point->v_e);
@@ -85,15 +85,15 @@ LeverArmMonitor::Fit LeverArmMonitor::fit() const {
 }
 
 bool LeverArmMonitor::is_known() const {
-  return seconds_ >= kMinSeconds && fit().sigma < kKnownSigma_m;
+  return seconds_ >= kMinRotatingSeconds && fit().sigma < kKnownSigma_m;
 }
 
 ConventionFinding LeverArmMonitor::evaluate() const {
-  if (seconds_ < kMinSeconds) return {};
+  if (seconds_ < kMinRotatingSeconds) return {};
   const Fit found = fit();
   const Eigen::Vector2d configured = lever_arm_b_.head<2>(), measured = found.arm_b.head<2>();
   const double off_m = (measured - configured).norm();
-  const bool clear = off_m > kMinOff_m && off_m > kClear * found.sigma;
+  const bool clear = off_m > kMinOff_m && off_m > kClearSigmas * found.sigma;
   if (!clear) return {};
   for (const Eigen::Vector2d& signs :
        {Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(-1.0, 1.0), Eigen::Vector2d(1.0, -1.0)}) {

@@ -5,24 +5,21 @@
 
 #include "core/base/capacity.h"
 #include "core/base/median.h"
+#include "core/installation_checks/internal/is_near.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s^2
-constexpr int kMinSeconds = 10;
-constexpr double kLowest = 0.7, kHighest = 1.4;  // times gravity: a bad sensor, a rough flight
+constexpr int kMinForceSeconds = 10;
+constexpr double kLeastForce = 0.7,
+                 kMostForce = 1.4;  // times gravity: a bad sensor, a rough flight
 constexpr double kNoGravity = 0.3;
-
-bool is_near(double value, double expected, double share) {
-  return std::abs(value - expected) < share * expected;
-}
 
 }  // namespace
 
 double MeanForce::tilt() const { return std::atan2(mean_b.head<2>().norm(), -mean_b.z()); }
 
-bool MeanForce::known() const { return seconds >= kMinSeconds; }
+bool MeanForce::known() const { return seconds >= kMinForceSeconds; }
 
 MeanForce mean_force(const MotionRecord& record, MotionSeconds which) {
   MeanForce force;
@@ -34,15 +31,15 @@ MeanForce mean_force(const MotionRecord& record, MotionSeconds which) {
   }
   force.seconds = static_cast<int>(sizes.size());
   if (sizes.empty()) return force;
-  force.ratio = median(sizes) / kGravity;
-  force.mean_b /= static_cast<double>(sizes.size()) * kGravity;
+  force.ratio = median(sizes) / kStandardGravity;
+  force.mean_b /= static_cast<double>(sizes.size()) * kStandardGravity;
   return force;
 }
 
 ConventionFinding check_force_size(const MeanForce& force, double imu_interval_s) {
   const double ratio = force.ratio;
-  if (!force.known() || (ratio > kLowest && ratio < kHighest)) return {};
-  if (is_near(ratio, 1.0 / kGravity, 0.1)) return {Convention::kForceInG, ratio};
+  if (!force.known() || (ratio > kLeastForce && ratio < kMostForce)) return {};
+  if (is_near(ratio, 1.0 / kStandardGravity, 0.1)) return {Convention::kForceInG, ratio};
   if (is_near(ratio, imu_interval_s, 0.2) && ratio < 0.09)
     return {Convention::kIncrementsTimesInterval, ratio};
   if (ratio < kNoGravity) return {Convention::kGravityMissing, ratio};

@@ -8,6 +8,8 @@
 
 namespace leonav {
 
+inline constexpr double kStandardGravity = 9.80665;  // m/s^2
+
 // MeanForce holds the mean over the recorded seconds. Over many changes of speed the accelerations
 // cancel, and the mean is minus gravity whatever the vehicle does. Only accelerometers are needed.
 struct MeanForce {

@@ -1,5 +1,7 @@
 #include "core/installation_checks/internal/range_rate_monitor.h"
 
+#include "core/installation_checks/internal/is_near.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -8,19 +10,15 @@ namespace leonav {
 namespace {
 
 constexpr double kLongestInterval_s = 3.0;  // over longer times a rate is not steady
-constexpr double kMinSquares = 1e5;         // (m/s)^2, Dopplers about their mean
-constexpr int kMinEpochs = 8;
-constexpr int kMinSatellites = 3;
+constexpr double kMinDopplerSquares = 1e5;  // (m/s)^2, Dopplers about their mean
+constexpr int kMinRateEpochs = 8;
+constexpr int kMinRateSatellites = 3;
 constexpr double kMinCorrelation = 0.9;  // squared correlation
-constexpr double kRightWithin = 0.1, kBandWithin = 0.03;
+constexpr double kRateWithin = 0.1, kBandWithin = 0.03;
 constexpr double kSignificance = 5.0;  // sigmas
 
 std::size_t band_of(SignalCode code) {
   return code.band >= '0' && code.band <= '9' ? static_cast<std::size_t>(code.band - '0') : 0;
-}
-
-bool is_near(double value, double expected, double share) {
-  return std::abs(value - expected) < share * std::abs(expected);
 }
 
 // Returns whether the factor is the one that results from the other band's name; false if the two
@@ -39,7 +37,7 @@ double RangeRateMonitor::ratio_of(System system, std::size_t a, std::size_t b) c
 }
 
 void RangeRateMonitor::Sums::add(const Sums& epoch) {
-  if (epoch.n < kMinSatellites) return;
+  if (epoch.n < kMinRateSatellites) return;
   xx += epoch.xx - epoch.x * epoch.x / epoch.n;
   xy += epoch.xy - epoch.x * epoch.y / epoch.n;
   yy += epoch.yy - epoch.y * epoch.y / epoch.n;
@@ -47,14 +45,14 @@ void RangeRateMonitor::Sums::add(const Sums& epoch) {
 }
 
 bool RangeRateMonitor::Sums::known() const {
-  return epochs >= kMinEpochs && xx > kMinSquares && xy * xy > kMinCorrelation * xx * yy;
+  return epochs >= kMinRateEpochs && xx > kMinDopplerSquares && xy * xy > kMinCorrelation * xx * yy;
 }
 
 // The sigma comes from the scatter of the codes about the line, with at least three satellites and
 // their mean removed.
 bool RangeRateMonitor::Sums::differs_from_one() const {
   if (!known()) return false;
-  const double scatter = std::max(0.0, yy - xy * factor()) / ((kMinSatellites - 1) * epochs);
+  const double scatter = std::max(0.0, yy - xy * factor()) / ((kMinRateSatellites - 1) * epochs);
   return std::abs(factor() - 1.0) > kSignificance * std::sqrt(scatter / xx);
 }
 
@@ -107,7 +105,7 @@ RangeRateMonitor::Sums RangeRateMonitor::all() const {
 
 bool RangeRateMonitor::is_right() const {
   const Sums sums = all();
-  return sums.known() && is_near(sums.factor(), 1.0, kRightWithin);
+  return sums.known() && is_near(sums.factor(), 1.0, kRateWithin);
 }
 
 // Returns the factor of the first of two bands of the system that certainly have each other's
@@ -144,7 +142,7 @@ ConventionFinding RangeRateMonitor::evaluate() const {
     for (std::size_t band = 1; band < kBands; ++band) {
       if (!bands[band].known()) continue;
       if (known++ == 0) first = bands[band].factor();
-      right += is_near(bands[band].factor(), 1.0, kRightWithin);
+      right += is_near(bands[band].factor(), 1.0, kRateWithin);
       others += is_mislabelled(system, band);
       not_one += bands[band].differs_from_one();
     }
@@ -157,7 +155,7 @@ ConventionFinding RangeRateMonitor::evaluate() const {
   // Bands that contradict each other indicate neither a wrong sign nor a wrong unit.
   const Sums sums = all();
   if (others > 0 || !sums.differs_from_one()) return {};
-  if (is_near(sums.factor(), -1.0, kRightWithin)) return {Convention::kDopplerSign, sums.factor()};
+  if (is_near(sums.factor(), -1.0, kRateWithin)) return {Convention::kDopplerSign, sums.factor()};
   return {Convention::kDopplerUnit, sums.factor()};
 }
 

@@ -3,10 +3,10 @@
 namespace leonav {
 namespace {
 
-constexpr int kMinSatellites = 5;  // one more than needed, so that a wrong one shows
+constexpr int kMinPointSatellites = 5;  // one more than needed, so that a wrong one shows
 constexpr double kMaxPdop = 10.0;
 constexpr double kMaxResidualRms_m = 60.0;
-constexpr double kLeapSeconds = 18.0;
+constexpr double kUtcOffset_s = 18.0;
 constexpr int kEpochs = 5;
 
 RobustConfig switched_on(RobustConfig robust) {
@@ -38,7 +38,7 @@ void SingleEpochSolver::clear() { unsolved_epochs_ = restamped_solved_epochs_ = 
 bool SingleEpochSolver::try_solve(const RawEpoch& raw, const EphemerisStore& ephemeris_store) {
   point_ = solve_point(raw, ephemeris_store, config_, robust_, Eigen::Vector3d::Zero(),
                        measurements_.get());
-  return point_.status == PointStatus::kOk && point_.satellites >= kMinSatellites &&
+  return point_.status == PointStatus::kOk && point_.satellites >= kMinPointSatellites &&
          point_.pdop <= kMaxPdop && point_.residual_rms_m <= kMaxResidualRms_m &&
          point_.p_e.allFinite() && point_.covariance_p_e.allFinite() &&
          most_codes_agree(*measurements_);
@@ -52,7 +52,7 @@ const PointSolution* SingleEpochSolver::solve(const RawEpoch& raw,
   }
   if (++unsolved_epochs_ < kEpochs) return nullptr;
   *restamped_ = raw;
-  restamped_->time = raw.time.plus_seconds(kLeapSeconds);
+  restamped_->time = raw.time.plus_seconds(kUtcOffset_s);
   restamped_solved_epochs_ =
       try_solve(*restamped_, ephemeris_store) ? restamped_solved_epochs_ + 1 : 0;
   return nullptr;
@@ -60,7 +60,7 @@ const PointSolution* SingleEpochSolver::solve(const RawEpoch& raw,
 
 ConventionFinding SingleEpochSolver::evaluate() const {
   if (restamped_solved_epochs_ < kEpochs) return {};
-  return {Convention::kLeapSeconds, kLeapSeconds};
+  return {Convention::kLeapSeconds, kUtcOffset_s};
 }
 
 }  // namespace leonav

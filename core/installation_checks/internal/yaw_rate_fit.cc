@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/angle.h"
 #include "core/installation_checks/stamp_offset_monitor.h"
 
 namespace leonav {
@@ -14,9 +15,9 @@ constexpr double kTurning = 0.05;      // rad/s; below, a lane change or noise
 constexpr double kEnoughTurned = 1.0;  // rad
 constexpr double kMuchTurned = 1.6;    // rad, for conclusions from missing agreement
 constexpr double kFollows = 0.8, kDoesNotFollow = 0.3;  // squared correlation
-constexpr int kMinSeconds = 20;
-constexpr double kLowest = 0.7, kHighest = 1.4, kHardly = 0.3;  // shares of the course's turn
-constexpr double kDegreesPerRadian = 57.29577951;
+constexpr int kMinTurningSeconds = 20;
+constexpr double kLeastTurn = 0.7, kMostTurn = 1.4,
+                 kHardlyTurn = 0.3;  // shares of the course's turn
 constexpr int kLongestLag_s = 45;
 constexpr double kClearlyBetter = 0.03;  // gain of the squared correlation
 
@@ -54,7 +55,7 @@ double median(Ratios ratios) {
   return *middle;
 }
 
-bool is_right(double ratio) { return std::abs(ratio) > kLowest && std::abs(ratio) < kHighest; }
+bool is_right(double ratio) { return std::abs(ratio) > kLeastTurn && std::abs(ratio) < kMostTurn; }
 
 bool is_later_by(const MotionSecond& later, const MotionSecond& earlier, int lag_s) {
   return std::abs(seconds_between(later.time, earlier.time) - lag_s) < 0.5;
@@ -63,11 +64,11 @@ bool is_later_by(const MotionSecond& later, const MotionSecond& earlier, int lag
 }  // namespace
 
 bool YawRateFit::follows() const {
-  return seconds >= kMinSeconds && turned >= kEnoughTurned && correlation >= kFollows;
+  return seconds >= kMinTurningSeconds && turned >= kEnoughTurned && correlation >= kFollows;
 }
 
 bool YawRateFit::contradicts() const {
-  return seconds >= kMinSeconds && turned >= kMuchTurned && correlation <= kDoesNotFollow;
+  return seconds >= kMinTurningSeconds && turned >= kMuchTurned && correlation <= kDoesNotFollow;
 }
 
 YawRateFit fit_yaw_rate(const MotionRecord& record, const Eigen::Vector3d& axis_b, int lag_s) {
@@ -111,11 +112,11 @@ ConventionFinding check_yaw_rate_scale(const YawRateFit& fit, double imu_interva
 ConventionFinding check_yaw_rate_axis(const MotionRecord& record,
                                       const YawRateFit& about_vertical) {
   const bool turned = about_vertical.turned >= kMuchTurned;
-  if (!turned || !(std::abs(about_vertical.slope) < kHardly)) return {};
+  if (!turned || !(std::abs(about_vertical.slope) < kHardlyTurn)) return {};
   for (int axis = 0; axis < 3; ++axis) {
     const YawRateFit fit = fit_yaw_rate(record, Eigen::Vector3d::Unit(axis));
     const double size = std::abs(fit.slope);
-    if (fit.follows() && size > kLowest && size < kHighest)
+    if (fit.follows() && size > kLeastTurn && size < kMostTurn)
       return {Convention::kGyroAxes, axis + 1.0};
   }
   return {};
@@ -131,7 +132,8 @@ ConventionFinding check_yaw_rate_delay(const MotionRecord& record, const MeanFor
     const int lag_s = step % 2 == 1 ? -(step + 1) / 2 : step / 2;
     const YawRateFit fit = fit_yaw_rate(record, down_b, lag_s);
     const double size = std::abs(fit.slope);
-    if (!fit.follows() || fit.turned < kMuchTurned || size < kLowest || size > kHighest) continue;
+    if (!fit.follows() || fit.turned < kMuchTurned || size < kLeastTurn || size > kMostTurn)
+      continue;
     if (fit.correlation < best.correlation + kClearlyBetter) continue;
     best = fit;
     best_lag_s = lag_s;

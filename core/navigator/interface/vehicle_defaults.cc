@@ -1,11 +1,9 @@
 #include "core/navigator/interface/vehicle_defaults.h"
-
-#include <numbers>
+#include "core/base/angle.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRootHour = 60.0;  // sqrt(s) in sqrt(h)
 // A bracket that settles turns by about a tenth of a degree in an hour.
 constexpr double kTravelDirectionRandomWalk = 0.1 * kDegree / kRootHour;  // rad/sqrt(s)

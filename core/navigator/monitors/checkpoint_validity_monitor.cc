@@ -15,7 +15,7 @@ constexpr double kWindow_s = 1.0;       // noise and vibration average out over 
 constexpr double kGoodPosition_m = 10;  // 1 sigma; a larger one proves nothing
 // Tolerance beyond the sigmas, for the error of reflected codes.
 constexpr double kSamePlace_m = 10.0;
-constexpr double kSigmas = 3.0;
+constexpr double kPlaceSigmas = 3.0;
 constexpr double kTurned = 5.0 * kRad;  // in all, beyond the gyros' bias
 // Least sigma of a parked vehicle's heading. It may be moved a little on a slope, by a jack, or by
 // people getting in, and the sigma of the earlier run may be too small.
@@ -66,7 +66,7 @@ void CheckpointValidityMonitor::add(const ImuSample& sample) {
   if (window_s_ < kWindow_s) return;
   turned_ = turned_ || !(window_turn_.norm() < config_.static_gyro_rad_s * window_s_);
   // A slow turn shows in the sum over all samples, beyond the effect of the gyros' bias at rest.
-  const double drifted = kSigmas * rate_sigma_ * all_s_;
+  const double drifted = kPlaceSigmas * rate_sigma_ * all_s_;
   turned_ = turned_ || 2.0 * std::acos(std::min(1.0, std::abs(all_turn_.w()))) > kTurned + drifted;
   window_s_ = 0.0;
   window_turn_.setZero();
@@ -97,7 +97,7 @@ std::optional<CheckpointValidityMonitor::Verdict> CheckpointValidityMonitor::ver
 
   const double distance_m = (filter.p_e - checkpoint_->antenna_p_e).norm();
   const double limit_m =
-      kSamePlace_m + kSigmas * std::hypot(filter.sigma_p, checkpoint_->antenna_sigma);
+      kSamePlace_m + kPlaceSigmas * std::hypot(filter.sigma_p, checkpoint_->antenna_sigma);
   if (!(distance_m <= limit_m)) return Verdict{CheckpointUse::kElsewhere, distance_m, {}};
   const double sigma = std::max(checkpoint_->heading_sigma, kLeastSigma);
   return Verdict{CheckpointUse::kUsed, distance_m, {checkpoint_->heading, sigma}};

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kSigmas = 5.0;                   // of the difference of the two headings
+constexpr double kHeadingSigmas = 5.0;            // of the difference of the two headings
 constexpr double kLeastOff = 10.0 * kPi / 180.0;  // rad; the filter corrects less by itself
 // All velocities for so long, and at least so many, must contradict the heading. One that was
 // confirmed has been kept by the gyros since: reflections pass in less, an error of the gyros does
@@ -108,7 +107,8 @@ std::optional<double> HeadingMonitor::add_velocity(const Eigen::Vector2d& v_n, d
   const double heading = yaw_of(filter.q_nb);
   double off = 0.0;
   const auto test_deviation = [&](double angle, double sigma) {
-    const double limit = std::max(kLeastOff, kSigmas * std::hypot(sigma, filter.heading_sigma));
+    const double limit =
+        std::max(kLeastOff, kHeadingSigmas * std::hypot(sigma, filter.heading_sigma));
     if (std::abs(angle) > limit) off = angle;
   };
   if (config_.max_reverse_speed_m_s > 0.0) {

@@ -20,9 +20,7 @@ constexpr double kBound = 2.5;
 // A vote needs twice as many spare satellites as errors that it must outvote; for one error the L1
 // start suffices.
 constexpr std::size_t kMinRedundancy = 4;
-constexpr double kMinPivotRatio = 1.0e-7;  // a subset of weaker geometry determines nothing
-
-bool in_use(const FitRow& row) { return row.factor > 0.0 && !row.excluded && !row.single_in_group; }
+constexpr double kMinSubsetPivotRatio = 1.0e-7;  // a subset of weaker geometry determines nothing
 
 struct Candidate {
   FitState change = FitState::Zero();
@@ -56,7 +54,7 @@ class Search {
 Search::Search(const FitRows& rows) {
   std::array<bool, kMaxSatellites> seen{};
   for (const FitRow& row : rows) {
-    if (!in_use(row)) continue;
+    if (!row.in_use()) continue;
     rows_.push_back(&row);
     const std::size_t satellite = static_cast<std::size_t>(row.satellite);
     if (seen[satellite]) continue;
@@ -106,7 +104,7 @@ bool Search::fit(Chosen chosen, FitState* change) const {
   }
   const Eigen::LDLT<FitMatrix> factor(normal);
   if (factor.info() != Eigen::Success ||
-      !(factor.vectorD().minCoeff() > kMinPivotRatio * factor.vectorD().maxCoeff())) {
+      !(factor.vectorD().minCoeff() > kMinSubsetPivotRatio * factor.vectorD().maxCoeff())) {
     return false;
   }
   *change = factor.solve(right);

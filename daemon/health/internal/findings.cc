@@ -4,7 +4,7 @@ namespace leonav {
 namespace {
 
 // Enough for what a run meets; no limits.
-constexpr std::size_t kMostFindings = 8, kDetailBytes = 256;
+constexpr std::size_t kMostFindings = 8;
 
 }  // namespace
 

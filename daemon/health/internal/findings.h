@@ -10,6 +10,9 @@
 
 namespace leonav {
 
+// What is reserved for the detail of a reason, so that a usual one takes no memory.
+inline constexpr std::size_t kDetailBytes = 256;
+
 struct Finding {
   HealthReason reason{};
   std::string detail;  // as ActiveReasons::raise() takes it

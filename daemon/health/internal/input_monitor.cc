@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "daemon/health/internal/counter_sums.h"
+#include "daemon/health/internal/findings.h"
 
 namespace leonav {
 namespace {
@@ -11,7 +12,6 @@ constexpr double kImuSilence_s = 0.9;       // look() comes once a second
 constexpr double kOdometerSilence_s = 2.5;  // an increment lasts a second at most
 constexpr double kShare = 0.1;              // of an input, that is rejected
 constexpr std::int64_t kFewMessages = 5;    // fewer say nothing about a share
-constexpr std::size_t kDetailBytes = 256;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "daemon/health/internal/counter_sums.h"
+#include "daemon/health/internal/findings.h"
 #include "daemon/text/alignment_text.h"
 
 namespace leonav {
@@ -13,7 +14,6 @@ constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not co
 // Like the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
-constexpr std::size_t kDetailBytes = 256;
 
 double solution_interval(const NavigatorConfig& config) {
   if (config.motion != MotionModel::kInertial) return config.realtime.epoch_interval_s;

@@ -19,7 +19,7 @@ constexpr std::size_t kMostEventBytes =
     kEventHeaderBytes + kMaxEventChannelBytes + wire::kMaxMessageBytes + 1;
 constexpr std::int64_t kFirstRetryNs = 250'000'000, kLastRetryNs = 8 * kNanosecondsPerSecond;
 // Share of the ring that waits, above which a full disk is made emptier.
-constexpr double kCrowded = 0.4;
+constexpr double kCrowdedRing = 0.4;
 // What a power cut costs at most, beside what was not written yet.
 constexpr std::int64_t kSyncNs = 5 * kNanosecondsPerSecond;
 
@@ -29,8 +29,6 @@ std::vector<std::uint8_t> configuration_of(const DaemonConfig& config) {
   return encode(
       RunConfiguration{"leonavd " LEONAV_VERSION, source.name, effective_text(source), {}});
 }
-
-std::int64_t bytes_of(double megabytes) { return static_cast<std::int64_t>(megabytes * 1e6); }
 
 // What must not be overwritten later. A command asked for the first, and the second is good news.
 bool is_fault(Channel channel, ByteSpan bytes) {
@@ -61,7 +59,7 @@ JournalWriter::JournalWriter(const DaemonConfig& config, JournalCounters* counte
 
 void JournalWriter::write_from(MessageRing* ring) {
   if (new_limits_.take(&limits_)) pieces_.set_limits(limits_);
-  is_crowded_ = ring->waiting() > kCrowded;
+  is_crowded_ = ring->waiting() > kCrowdedRing;
   if (!is_ready(false)) return;
   const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
   for (;;) {
@@ -229,7 +227,7 @@ void JournalWriter::fail(int error) {
 bool JournalWriter::is_piece_full() const {
   if (!begun_ || !pieces_.has_pieces() || buffer_.empty()) return false;
   const auto size = size_ + static_cast<std::int64_t>(buffer_.bytes().size());
-  return size >= bytes_of(limits_.piece_mb) ||
+  return size >= bytes_of_megabytes(limits_.piece_mb) ||
          (limits_.piece_s > 0.0 &&
           static_cast<double>(since_begin_.nanoseconds()) * 1e-9 >= limits_.piece_s);
 }

@@ -17,8 +17,6 @@ namespace {
 
 constexpr int kMostNamesTried = 100;
 
-std::int64_t bytes_of(double megabytes) { return static_cast<std::int64_t>(megabytes * 1e6); }
-
 }  // namespace
 
 PieceSequence::PieceSequence(const JournalConfig& config, DiskCalls* disk,
@@ -121,9 +119,10 @@ void PieceSequence::note_begun() {
 
 // All others leave room for the piece that is written.
 void PieceSequence::apply_limits() {
-  if (limits_.kept_mb > 0.0) pieces_.limit(true, bytes_of(limits_.kept_mb));
+  if (limits_.kept_mb > 0.0) pieces_.limit(true, bytes_of_megabytes(limits_.kept_mb));
   if (limits_.total_mb > 0.0)
-    pieces_.limit(false, bytes_of(limits_.total_mb) - bytes_of(limits_.piece_mb));
+    pieces_.limit(false,
+                  bytes_of_megabytes(limits_.total_mb) - bytes_of_megabytes(limits_.piece_mb));
 }
 
 void PieceSequence::set_limits(const JournalLimits& limits) {
@@ -141,7 +140,7 @@ void PieceSequence::end(bool complete) {
     last_name_ = piece_name_;
   keeps_piece_ = false;
   // For the one that is about to be written: a disk smaller than the limits.
-  if (complete && folder_.free_bytes() < bytes_of(limits_.piece_mb)) make_room();
+  if (complete && folder_.free_bytes() < bytes_of_megabytes(limits_.piece_mb)) make_room();
 }
 
 void PieceSequence::discard() {

@@ -1,4 +1,5 @@
 #include "core/earth/ellipsoid.h"
+#include "core/base/angle.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -12,7 +13,6 @@
 using namespace leonav;
 
 namespace {
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Pair {
   double latitude_deg, longitude_deg, height_m;

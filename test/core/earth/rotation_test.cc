@@ -1,8 +1,8 @@
 #include "core/earth/rotation.h"
+#include "core/base/angle.h"
 
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
 
 #include "support/catch.h"
 
@@ -12,7 +12,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 namespace {
-constexpr double kPi = std::numbers::pi;
 
 // exp([v x]) by its defining series.
 Matrix3d matrix_exponential(const Vector3d& v) {

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
@@ -12,7 +12,6 @@ namespace leonav {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 GpsTime from_utc(const CalendarTime& calendar) { return gps_from_utc(from_calendar(calendar)); }
 

@@ -1,5 +1,6 @@
 // Which axis is forward, by braking and bends.
 #include "core/installation_checks/internal/horizontal_axes_fit.h"
+#include "core/base/angle.h"
 
 #include "level_drive.h"
 #include "support/catch.h"
@@ -29,7 +30,6 @@ Eigen::Matrix3d rows(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const E
   return matrix;
 }
 
-constexpr double kDegree = EIGEN_PI / 180.0;
 const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX(), kRight = Eigen::Vector3d::UnitY();
 
 ConventionFinding upright(const Eigen::Matrix3d& axes) {

@@ -1,6 +1,7 @@
 // The effective text is the whole configuration: it loads as the same, bit for bit.
 #include <string>
 
+#include "core/base/angle.h"
 #include "daemon/config/effective_config.h"
 #include "daemon/config/internal/yaml_text.h"
 #include "daemon/config/load_config.h"
@@ -98,7 +99,6 @@ TEST_CASE("a number is the shortest decimal of the same bits, in the unit of the
   CHECK(number_text(-0.0) == "-0");
   CHECK(number_text(1e-9) == "1e-09");
   CHECK(number_text(1.0 / 3.0) == "0.3333333333333333");
-  constexpr double kDegree = 0.017453292519943295;
   CHECK(number_text(0.573 * kDegree, kDegree) == "0.573");
   CHECK(number_text(1000.0 * (kDegree / 3600.0), kDegree / 3600.0) == "1000");
   CHECK(plain_text("LEONAV_") == "LEONAV_");

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <numbers>
 #include <sstream>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "support/catch.h"
@@ -16,8 +16,6 @@
 
 namespace leonav {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string labelled(std::string text, const std::string& label) {
   text.resize(60, ' ');

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/nmea/sentence.h"
 #include "solution_of.h"
@@ -10,8 +11,6 @@
 
 namespace leonav {
 namespace {
-
-using test::kDegree;
 
 // GPS time by its calendar, which has no leap seconds.
 UtcFields utc(int year, int month, int day, int hour, int minute, double second) {

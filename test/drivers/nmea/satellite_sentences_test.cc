@@ -3,13 +3,12 @@
 
 #include <limits>
 
+#include "core/base/angle.h"
 #include "solution_of.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
-
-using test::kDegree;
 
 SatelliteView view(System system, std::uint16_t number, bool is_used) {
   return {{system, number}, 40.4 * kDegree, 83.6 * kDegree, 46.3, is_used};

@@ -1,13 +1,11 @@
 // Solutions for the tests of sentences.
 #pragma once
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/navigator/interface/solution.h"
 
 namespace leonav::test {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // 48 deg 7.038 min north, 11 deg 31 min east, at 12:35:19 UTC of 2020-06-25 (18 leap seconds).
 inline Solution munich() {

@@ -2,8 +2,8 @@
 // has.
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "drivers/binary/accuracy_index.h"
 #include "oracle_programs.h"
 #include "sbf_streams.h"
@@ -99,7 +99,6 @@ void check(const Agreement& agreement) {
 }
 
 std::vector<double> orbit_of(const Ephemeris& e) {
-  constexpr double kPi = std::numbers::pi;
   return {
       e.sqrt_a,   e.eccentricity, e.m0 / kPi,    e.delta_n / kPi, e.omega0 / kPi, e.omega_dot / kPi,
       e.i0 / kPi, e.i_dot / kPi,  e.omega / kPi, e.cuc,           e.cus,          e.crc,

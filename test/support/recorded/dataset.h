@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/orbits/ephemeris_store.h"
 #include "core/gnss/signals/observation.h"
@@ -34,7 +35,6 @@ struct Dataset {
 };
 
 inline std::vector<TruthPoint> read_truth_points(const std::string& path) {
-  constexpr double kDegree = 0.017453292519943295;
   std::vector<TruthPoint> points;
   std::ifstream file(path);
   std::string line;

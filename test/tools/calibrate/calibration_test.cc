@@ -1,8 +1,8 @@
 // leonav-calibrate: its geometry, and a short simulated drive from end to end.
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 #include "support/catch.h"
 #include "support/programs/program_run.h"
@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Matrix3d rotation_of(const Vector3d& rpy) {
   return rotation_from_euler({rpy.x(), rpy.y(), rpy.z()});

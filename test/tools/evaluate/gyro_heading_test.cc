@@ -1,8 +1,8 @@
 #include "tools/evaluate/internal/gyro_heading.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 #include "support/catch.h"
 
@@ -10,7 +10,6 @@ using namespace leonav;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDelay_s = 0.4, kDrift = 0.2 * kDegree;
 
 // Ten seconds straight, ten seconds of a slalom, and so on, over several rounds.

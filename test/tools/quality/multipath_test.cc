@@ -1,4 +1,5 @@
 #include "tools/quality/internal/multipath.h"
+#include "core/base/angle.h"
 
 #include <cmath>
 #include <numbers>
@@ -92,7 +93,6 @@ TEST_CASE("short arcs are left out and counted") {
 }
 
 TEST_CASE("bins of elevation at their edges") {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   CHECK(elevation_bin(-0.1) == 0);
   CHECK(elevation_bin(9.99 * kDegree) == 0);
   CHECK(elevation_bin(10.01 * kDegree) == 1);

@@ -2,9 +2,9 @@
 // and geometry, a script of its own for code multipath.
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
+#include "core/base/angle.h"
 #include "support/catch.h"
 #include "support/programs/program_run.h"
 #include "support/recorded/rtklib_single.h"
@@ -20,7 +20,6 @@ namespace {
 
 constexpr char kObservations[] = "station/ESBC00DNK_2020177_6H_30S.obs";
 constexpr char kNavigation[] = "station/ESBC00DNK_2020177.nav";
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void import_station(const std::string& path) {
   import_dataset(load_dataset(shared_data("station/dataset.yaml")), {}, path, nullptr);

@@ -1,13 +1,11 @@
 // Which cold starts are called false, and which carried away.
-#include <numbers>
 
-#include "support/catch.h"
 #include "tools/starts/heading_record.h"
+#include "core/base/angle.h"
+#include "support/catch.h"
 
 namespace leonav::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Epochs at `from`, `from` + 1, ... before `to`, s, with one error and sigma, degrees.
 void epochs(HeadingRecord* record, int from, int to, double error, double sigma) {

@@ -1,17 +1,15 @@
 // The table of cold starts: what is counted, and of what a share is.
 #include <algorithm>
-#include <numbers>
 #include <sstream>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "support/catch.h"
 #include "tools/starts/start_list.h"
 #include "tools/starts/start_tables.h"
 
 namespace leonav::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 StartResult start(InitialMotion way, double aligned_s, double error, double error_at_end) {
   StartResult result;

@@ -1,6 +1,7 @@
 // An ImuReading is what one message of an inertial sensor says, whatever its format.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -21,5 +22,10 @@ struct ImuReading {
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // rad/s; of increments rad
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // m/s^2; of increments m/s
 };
+
+// Of three numbers as a decoder gives them.
+inline Eigen::Vector3d to_vector(const std::array<double, 3>& from) {
+  return {from[0], from[1], from[2]};
+}
 
 }  // namespace leonav

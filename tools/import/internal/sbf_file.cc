@@ -8,14 +8,6 @@
 namespace leonav {
 namespace {
 
-using Reasons = std::vector<std::pair<const char*, std::uint64_t>>;
-
-void skip_all(const std::string& path, const Reasons& reasons, ImportReport* report) {
-  for (const auto& [reason, count] : reasons) {
-    report->skip(path, reason, static_cast<long>(count));
-  }
-}
-
 void report_framer(const std::string& path, const SbfFramerCounters& framer, ImportReport* report) {
   skip_all(path,
            {{"block with a wrong checksum", framer.bad_checksums},

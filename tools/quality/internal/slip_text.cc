@@ -5,11 +5,10 @@
 #include <numbers>
 
 #include "tools/common/format.h"
+#include "tools/quality/internal/number.h"
 
 namespace leonav {
 namespace {
-
-unsigned long long n(std::uint64_t count) { return count; }
 
 std::string per_slip(const SlipTotals& totals) {
   const double value = totals.observations_per_slip();
@@ -25,7 +24,7 @@ std::string causes_table(const Quality& quality) {
   for (const auto& [cause, count] : counts) {
     if (count > 0)
       out += format("%s%s %llu", out.empty() ? "  found by: " : ", ",
-                    std::string(to_string(cause)).c_str(), n(count));
+                    std::string(to_string(cause)).c_str(), number(count));
   }
   return out.empty() ? "" : out + "\n";
 }
@@ -75,8 +74,8 @@ std::string slips_table(const Quality& quality, std::size_t shown) {
     const SlipTotals& t = totals[index_of(system)];
     if (t.followed == 0) continue;
     out += format("  %-9s%9llu%8llu%8llu%s%15llu%17llu\n", std::string(to_string(system)).c_str(),
-                  n(t.followed), n(t.slips), n(t.flagged_slips), per_slip(t).c_str(),
-                  n(t.interruptions), n(t.unresolved));
+                  number(t.followed), number(t.slips), number(t.flagged_slips), per_slip(t).c_str(),
+                  number(t.interruptions), number(t.unresolved));
   }
   out +=
       "  carriers: satellite-epochs followed; o/slps: these per slip; told: slips that the "

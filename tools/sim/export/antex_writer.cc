@@ -1,13 +1,10 @@
 #include "tools/sim/export/antex_writer.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "tools/sim/export/text_file.h"
 
 namespace leonav::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 char letter_of(System system) {
   constexpr std::array<char, kSystemCount> letters = {'G', 'E', 'C', 'L'};

@@ -1,4 +1,5 @@
 #include "tools/sim/route/uav_flight.h"
+#include "core/base/angle.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +8,6 @@ namespace leonav::sim {
 
 std::vector<Waypoint> uav_flight(const RouteConfig& route, double duration_s,
                                  GaussianGenerator random) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   // m from the origin: farther out it turns home
   constexpr double kHoverShare = 0.25, kFar = 3000.0;
   std::vector<Waypoint> waypoints(1);

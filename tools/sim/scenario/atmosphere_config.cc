@@ -1,14 +1,7 @@
 #include "tools/sim/scenario/atmosphere_config.h"
-
-#include <numbers>
+#include "core/base/angle.h"
 
 namespace leonav::sim {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-}  // namespace
-
 void read_atmosphere(ConfigReader& group, AtmosphereConfig* a) {
   constexpr Bounds kGradient_mm = {-20.0, 20.0}, kGradient_tecu = {-100.0, 100.0};
   group.number("wet_offset_m", {-0.5, 0.5}, &a->wet_offset_m);

@@ -1,14 +1,12 @@
 #include "tools/sim/scenario/constellation_config.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "daemon/config/config_groups.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Bounds kAngle = {-360.0, 360.0}, kSigma = {0.0, 1e3};
+constexpr Bounds kAngle = {-360.0, 360.0}, kErrorSigma = {0.0, 1e3};
 
 void read_shell(ConfigReader& group, ConstellationConfig* c) {
   OrbitShell shell;
@@ -58,12 +56,12 @@ void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
 
 void read_errors(ConfigReader& group, EphemerisErrors* errors) {
   double all = -1.0;
-  group.number("orbit_error_m", kSigma, &all);
+  group.number("orbit_error_m", kErrorSigma, &all);
   if (all >= 0.0) errors->orbit_m.setConstant(all);
-  group.number("along_error_m", kSigma, &errors->orbit_m[0]);
-  group.number("cross_error_m", kSigma, &errors->orbit_m[1]);
-  group.number("radial_error_m", kSigma, &errors->orbit_m[2]);
-  group.number("clock_error_m", kSigma, &errors->clock_m);
+  group.number("along_error_m", kErrorSigma, &errors->orbit_m[0]);
+  group.number("cross_error_m", kErrorSigma, &errors->orbit_m[1]);
+  group.number("radial_error_m", kErrorSigma, &errors->orbit_m[2]);
+  group.number("clock_error_m", kErrorSigma, &errors->clock_m);
 }
 
 void read_signals(ConfigReader& group, ConstellationConfig* c) {
@@ -102,7 +100,7 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
                                   {"both", ProvidedProducts::kBoth}},
                                  &c->provided);
   read_errors(group, &c->precise);
-  group.number("clock_error_varying_m", kSigma, &c->precise.clock_varying_m);
+  group.number("clock_error_varying_m", kErrorSigma, &c->precise.clock_varying_m);
   group.number("product_update_s", {0.0, 86'400.0}, &c->precise.update_s);
   group.number("node_interval_s", {1.0, 900.0}, &c->node_interval_s);
   group.number("clock_interval_s", {1.0, 900.0}, &c->clock_interval_s);

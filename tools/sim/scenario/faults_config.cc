@@ -1,12 +1,10 @@
 #include "tools/sim/scenario/faults_config.h"
+#include "core/base/angle.h"
 
-#include <numbers>
 #include <string>
 
 namespace leonav::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void read_whom(ConfigReader& group, Fault* fault) {
   std::vector<std::string> names;

@@ -1,13 +1,11 @@
 #include "tools/sim/scenario/imu_config.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "daemon/config/config_groups.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilligal = 1e-5;  // m/s^2
 constexpr double kHour = 3600.0;
 

@@ -1,15 +1,14 @@
 #include "tools/sim/scenario/nominal_constellations.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 360.0 * kDegree;
 constexpr double kGeosynchronous = 42'164'170.0;  // m
 constexpr double kBeidouMedium = 27'906'100.0;

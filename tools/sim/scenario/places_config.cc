@@ -1,11 +1,8 @@
 #include "tools/sim/scenario/places_config.h"
-
-#include <numbers>
+#include "core/base/angle.h"
 
 namespace leonav::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void read_segment(ConfigReader& group, PlacesConfig* places) {
   PlaceSegment segment;

@@ -1,17 +1,15 @@
 #include "tools/sim/scenario/receiver_config.h"
-
-#include <numbers>
+#include "core/base/angle.h"
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Bounds kSigma = {0.0, 1e3}, kShare = {0.0, 1.0}, kSeconds = {0.0, 1e4};
+constexpr Bounds kNoiseSigma = {0.0, 1e3}, kTrackingShare = {0.0, 1.0}, kSeconds = {0.0, 1e4};
 
 void read_noise(ConfigReader& group, NoiseConfig* noise) {
-  group.number("code_m", kSigma, &noise->code_m);
-  group.number("carrier_m", kSigma, &noise->carrier_m);
-  group.number("doppler_m_s", kSigma, &noise->doppler_m_s);
+  group.number("code_m", kNoiseSigma, &noise->code_m);
+  group.number("carrier_m", kNoiseSigma, &noise->carrier_m);
+  group.number("doppler_m_s", kNoiseSigma, &noise->doppler_m_s);
 }
 
 void read_clock(ConfigReader& group, ReceiverClockConfig* clock) {
@@ -50,17 +48,17 @@ void read_tracking(ConfigReader& group, TrackingConfig* tracking) {
   group.number("acquire_s", kSeconds, &tracking->acquire_s);
   group.number("carrier_s", kSeconds, &tracking->carrier_s);
   group.number("slips_per_hour", {0.0, 1e5}, &tracking->slips_per_hour);
-  group.number("told_share", kShare, &tracking->flagged_share);
+  group.number("told_share", kTrackingShare, &tracking->flagged_share);
   group.integer("max_slip_cycles", 1, 1'000'000, &tracking->max_slip_cycles);
-  group.number("half_cycle_share", kShare, &tracking->half_cycle_share);
+  group.number("half_cycle_share", kTrackingShare, &tracking->half_cycle_share);
   group.number("half_cycle_s", kSeconds, &tracking->half_cycle_s);
   if (tracking->hold_dbhz > tracking->acquire_dbhz)
     group.fail("hold_dbhz", "must not be above acquire_dbhz");
 }
 
 void read_multipath(ConfigReader& group, MultipathConfig* multipath) {
-  group.number("code_m", kSigma, &multipath->code_m);
-  group.number("carrier_m", kSigma, &multipath->carrier_m);
+  group.number("code_m", kNoiseSigma, &multipath->code_m);
+  group.number("carrier_m", kNoiseSigma, &multipath->carrier_m);
   group.number("elevation_deg", {1.0, 1e4}, &multipath->elevation, kDegree);
   group.number("time_s", {0.1, 1e5}, &multipath->time_s);
   group.number("length_m", {0.05, 1e5}, &multipath->length_m);

@@ -1,14 +1,13 @@
 #include "tools/sim/scenario/residual_library.h"
+#include "core/base/angle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 namespace leonav::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMaxRows = 5'000'000;
 constexpr char kRemedy[] = "; make the library anew with tools/validate street-residuals";
 

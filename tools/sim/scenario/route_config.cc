@@ -1,13 +1,11 @@
 #include "tools/sim/scenario/route_config.h"
+#include "core/base/angle.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace leonav::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void read_waypoint(ConfigReader& group, RouteConfig* route) {
   Waypoint w;

@@ -1,12 +1,10 @@
 #include "tools/sim/scenario/street_errors_config.h"
+#include "core/base/angle.h"
 
-#include <numbers>
 #include <vector>
 
 namespace leonav::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void read_range(ConfigReader& group, const char* key, Bounds bounds, Range* range) {
   std::vector<double> ends = {range->least, range->most};
@@ -17,17 +15,17 @@ void read_range(ConfigReader& group, const char* key, Bounds bounds, Range* rang
 }
 
 void read_multipath(ConfigReader& group, StreetMultipathConfig* multipath) {
-  constexpr Bounds kSigma = {0.0, 1e3};
-  read_range(group, "code_low_m", kSigma, &multipath->code_low_m);
-  read_range(group, "code_high_m", kSigma, &multipath->code_high_m);
-  read_range(group, "carrier_low_m", kSigma, &multipath->carrier_low_m);
-  read_range(group, "carrier_high_m", kSigma, &multipath->carrier_high_m);
+  constexpr Bounds kStreetSigma = {0.0, 1e3};
+  read_range(group, "code_low_m", kStreetSigma, &multipath->code_low_m);
+  read_range(group, "code_high_m", kStreetSigma, &multipath->code_high_m);
+  read_range(group, "carrier_low_m", kStreetSigma, &multipath->carrier_low_m);
+  read_range(group, "carrier_high_m", kStreetSigma, &multipath->carrier_high_m);
   read_range(group, "time_s", {0.1, 1e5}, &multipath->time_s);
   group.number("episode_s", {1.0, 1e6}, &multipath->episode_s);
   group.number("correlation", {0.0, 1.0}, &multipath->correlation);
 }
 
-constexpr Bounds kShare = {0.0, 1.0}, kMostOfTheTime = {0.0, 0.95}, kDuration_s = {0.1, 1e5};
+constexpr Bounds kStreetShare = {0.0, 1.0}, kMostOfTheTime = {0.0, 0.95}, kDuration_s = {0.1, 1e5};
 
 void read_reflected(ConfigReader& group, StreetReflectedConfig* reflected) {
   group.number("share", kMostOfTheTime, &reflected->share);
@@ -44,11 +42,11 @@ void read_blocked(ConfigReader& group, StreetBlockedConfig* blocked) {
 
 void read_slips(ConfigReader& group, StreetSlipsConfig* slips) {
   group.number("interval_s", {0.1, 1e9}, &slips->interval_s);
-  group.number("single_share", kShare, &slips->single_share);
-  group.number("pair_share", kShare, &slips->pair_share);
+  group.number("single_share", kStreetShare, &slips->single_share);
+  group.number("pair_share", kStreetShare, &slips->pair_share);
   if (slips->single_share + slips->pair_share > 1.0)
     group.fail("pair_share", "and single_share must not add up to more than 1");
-  group.number("told_share", kShare, &slips->told_share);
+  group.number("told_share", kStreetShare, &slips->told_share);
   group.integer("max_cycles", 1, 1'000'000, &slips->max_cycles);
 }
 

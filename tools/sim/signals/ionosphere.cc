@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/capacity.h"
 #include "tools/sim/scenario/random_streams.h"
 
@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kShellHeight = 450e3;  // m
 constexpr double kMeanRadius = 6371e3;
-constexpr double kPi = std::numbers::pi;
 constexpr double kDay_s = 86'400.0;
 constexpr double kGradientReach_km = 500.0;
 

@@ -4,8 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/orbits/satellite_state.h"
@@ -13,7 +13,6 @@
 namespace leonav::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Eigen::Index kElements = 15;
 constexpr Eigen::Index kMostElements = 17;  // with the rates of a LEO satellite
 constexpr double kSampleSigma = 0.01;       // relative to the priors

@@ -56,9 +56,9 @@ OrbitTable orbit_of(const KeplerElements& elements, System system, double margin
 // The horizon is that of the route's origin, with a margin for the length of the route: 100 km are
 // 0.9 degrees.
 bool rises(const Scenario& scenario, const OrbitTable& orbit) {
-  constexpr double kMargin = 2.0 * std::numbers::pi / 180.0, kStep = 20.0;
+  constexpr double kMargin = 2.0 * std::numbers::pi / 180.0, kLookStep = 20.0;
   const Eigen::Vector3d p_e = to_ecef(scenario.route.origin);
-  for (double t = 0.0; t < scenario.duration_s + kStep; t += kStep) {
+  for (double t = 0.0; t < scenario.duration_s + kLookStep; t += kLookStep) {
     if (look_angles(to_earth(orbit.at(t).p_i, t), p_e).elevation > -kMargin) return true;
   }
   return false;

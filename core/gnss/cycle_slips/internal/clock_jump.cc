@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "core/base/capacity.h"
-#include "core/gnss/signals/signal.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
 // Bound on the multipath of a code, far below the 300 km of a millisecond.
 constexpr double kCodeTolerance_m = 60.0;
 // Bound on the range acceleration that the mean of two Dopplers misses: LEO overhead, or a car.

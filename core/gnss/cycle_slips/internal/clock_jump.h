@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/gnss/signals/signal.h"
+
 namespace leonav {
 
 // Changes of one satellite's measurements since the last epoch. NaN: unknown.
@@ -27,6 +29,8 @@ struct ClockJump {
 // Finds the jump that at least two satellites and two thirds of them share. `interval_s` is between
 // the time tags, `nominal_interval_s` that of the epochs before (0: unknown). Nothing moves a range
 // by 150 km in an interval of up to `kMaxJumpInterval_s`; longer intervals are not examined.
+// What the clock of a receiver jumps by, as a range.
+inline constexpr double kMillisecond_m = 1.0e-3 * kSpeedOfLight;
 inline constexpr double kMaxJumpInterval_s = 90.0;
 ClockJump find_clock_jump(std::span<const ClockJumpSample> samples, double interval_s,
                           double nominal_interval_s);

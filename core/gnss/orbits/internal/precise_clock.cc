@@ -11,7 +11,7 @@ namespace {
 
 // 1 sigma of a predicted clock: 1.5 ns after removing what all clocks have in common (IGS products,
 // ultra-rapid, predicted half: standard deviation).
-constexpr double kPredictedSigma = 0.45;  // m
+constexpr double kPredictedClockSigma = 0.45;  // m
 
 double rate(const ClockNode& a, const ClockNode& b) {
   return (b.clock_s - a.clock_s) / seconds_between(b.time, a.time);
@@ -49,7 +49,7 @@ bool interpolate_between(const ClockNode& a, const ClockNode& b, GpsTime time, S
   // the rate is as uncertain as the walk over the interval makes it: the same expression with
   // opposite sign.
   clock->change_m2 = square(clock_walk(system)) * std::abs(since_a * until_b) / interval;
-  clock->constant_m2 = a.predicted || b.predicted ? square(kPredictedSigma) : 0.0;
+  clock->constant_m2 = a.predicted || b.predicted ? square(kPredictedClockSigma) : 0.0;
   return true;
 }
 

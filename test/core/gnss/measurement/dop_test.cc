@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <memory>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
 
@@ -16,7 +17,6 @@ struct Direction {
 };
 
 Eigen::Vector3d unit_ned(const Direction& d) {
-  constexpr double kDegree = 0.017453292519943295;
   const double a = d.azimuth_deg * kDegree, e = d.elevation_deg * kDegree;
   return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), -std::sin(e)};
 }

@@ -1,7 +1,6 @@
 #include "core/gnss/measurement/look_angles.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
 
@@ -35,7 +34,6 @@ TEST_CASE("Zenith, horizon and nadir", "[look_angles]") {
   const auto towards = [&](double x, double y, double z) {
     return look_angles(antenna + 1e7 * Eigen::Vector3d(x, y, z), antenna);
   };
-  constexpr double kPi = std::numbers::pi;
   CHECK(towards(1, 0, 0).elevation == Approx(kPi / 2));
   CHECK(towards(-1, 0, 0).elevation == Approx(-kPi / 2));
   CHECK(towards(0, 1, 0).azimuth == Approx(kPi / 2));  // east

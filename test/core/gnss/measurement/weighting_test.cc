@@ -1,4 +1,5 @@
 #include "core/gnss/measurement/weighting.h"
+#include "core/base/angle.h"
 
 #include <limits>
 
@@ -6,9 +7,7 @@
 
 using namespace leonav;
 
-namespace {
-constexpr double kDegree = 0.017453292519943295;
-}
+namespace {}
 
 TEST_CASE("elevation law: sigma0 above 30 degrees, sigma0 / (2 sin E) below") {
   CHECK(elevation_factor(90.0 * kDegree) == 1.0);

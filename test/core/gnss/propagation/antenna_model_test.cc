@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "antenna_patterns.h"
+#include "core/base/angle.h"
 #include "core/gnss/orbits/satellite_attitude.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
@@ -14,7 +15,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using test::kDegree;
 using test::receiver_pattern;
 using test::satellite_pattern;
 

@@ -1,13 +1,11 @@
 // Antenna patterns written out, for tests.
 #pragma once
 #include <initializer_list>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/gnss/propagation/antenna_model.h"
 
 namespace leonav::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 // `values_mm` at `step_deg` from zero, the same for every azimuth; offset in mm.
 inline AntennaPattern satellite_pattern(SatelliteId id, char band, const Eigen::Vector3d& offset_mm,

@@ -1,14 +1,12 @@
 #include "core/gnss/propagation/ionosphere.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const double kL1 = frequency_hz(System::kGps, '1');
 
 struct Row {

@@ -1,4 +1,5 @@
 #include "core/gnss/propagation/troposphere.h"
+#include "core/base/angle.h"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +9,6 @@
 
 namespace leonav {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Geodetic at(double latitude_deg, double height) { return {latitude_deg * kDegree, 0.1, height}; }
 

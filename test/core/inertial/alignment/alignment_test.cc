@@ -5,6 +5,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "exact_motion.h"
@@ -16,7 +17,6 @@ using namespace leonav::test;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDt = 0.01;
 const Geodetic kWhere{40.0 * kDegree, -105.0 * kDegree, 1600.0};
 const Eigen::Matrix3d kC_en = rotation_ecef_to_ned(kWhere).transpose();

@@ -1,14 +1,12 @@
 #include "core/inertial/alignment/course_window.h"
+#include "core/base/angle.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "support/catch.h"
 
 using namespace leonav;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST_CASE("Courses that agree across the seam at 180 degrees", "[ins]") {
   CourseWindow window(3.0);

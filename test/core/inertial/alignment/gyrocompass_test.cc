@@ -1,10 +1,10 @@
 // North from the Earth's rotation while standing: as good as its sigma says, and never from a
 // turntable.
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/alignment/alignment.h"
@@ -16,7 +16,6 @@ namespace {
 
 using test::tactical_imu;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDt = 0.01;
 const Geodetic kWhere{48.0 * kDegree, 11.0 * kDegree, 500.0};
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kHour = 3600.0, kDegree = M_PI / 180.0;
+constexpr double kHour = 3600.0;
 
 ImuErrorModel degree_per_hour_imu() {
   ImuErrorModel imu;

@@ -1,9 +1,9 @@
 // A vehicle on a plane with the IMU of its grade: speeds and bends as told, forward or in reverse.
 #pragma once
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/imu.h"
@@ -12,7 +12,6 @@
 namespace leonav::test {
 
 inline ImuErrorModel tactical_imu() {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   ImuErrorModel imu;
   imu.angle_random_walk = 0.05 * kDegree / 60.0;
   imu.velocity_random_walk = 0.1 / 60.0;
@@ -22,7 +21,6 @@ inline ImuErrorModel tactical_imu() {
 }
 
 inline ImuErrorModel mems_imu() {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   ImuErrorModel imu = tactical_imu();
   imu.angle_random_walk = 0.3 * kDegree / 60.0;
   imu.gyro_bias = {1000.0 * kDegree / 3600.0, 1000.0};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/inertial/alignment/alignment.h"
 #include "support/catch.h"
 #include "synthetic_vehicle.h"
@@ -14,7 +15,6 @@ namespace {
 
 using test::SyntheticVehicle;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSigma = 0.05;
 
 // Acceleration and curvature at a second.

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 #include "exact_motion.h"
 #include "support/catch.h"
@@ -13,7 +14,6 @@ using namespace leonav::test;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const GpsTime kStart = GpsTime::from_week_and_tow(2400, 345'600.0);
 constexpr std::int64_t k200Hz = 5'000'000;
 constexpr std::int64_t kSecond = kNanosecondsPerSecond;

@@ -1,15 +1,13 @@
 // HeadingMonitor on a vehicle in a bend, whose filter is right about its heading or is not.
 #include "core/navigator/monitors/heading_monitor.h"
 
-#include <numbers>
-
+#include "core/base/angle.h"
 #include "core/inertial/alignment/synthetic_vehicle.h"
 #include "support/catch.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSigma_v = 0.05;
 constexpr double kRight = 0.0, kWrong = 40.0 * kDegree;
 // Too far off to confirm the heading, too near to contradict it: the filter corrects it by itself.

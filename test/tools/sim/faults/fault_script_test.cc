@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/gnss/signals/band_plan.h"
 #include "core/gnss/signals/signal.h"
 #include "support/catch.h"
@@ -82,7 +82,6 @@ TEST_CASE("An outage below an elevation leaves the satellites above it", "[sim][
   fault.from_s = 20.0;
   fault.to_s = 30.0;
   fault.systems = {System::kGps};
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const SatelliteId gps{System::kGps, 5}, other{System::kGalileo, 5};
   CHECK(sim::FaultScript({fault}).is_out(gps, 89.0 * kDegree, 25.0));  // none is above, unless told
   fault.below_elevation = 50.0 * kDegree;

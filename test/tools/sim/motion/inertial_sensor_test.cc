@@ -5,6 +5,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/mechanization.h"
 #include "support/catch.h"
@@ -17,7 +18,7 @@ using namespace leonav::sim;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0, kRate = 200.0;
+constexpr double kRate = 200.0;
 constexpr std::int64_t kInterval = 5'000'000;
 
 InertialSensor sensor_of(const ImuErrorModel& model, const ImuImperfections& imperfections,

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "core/base/angle.h"
 #include "support/catch.h"
 #include "tools/sim/route/drive.h"
 #include "tools/sim/scenario/scenario_yaml.h"
@@ -14,7 +15,6 @@ using namespace leonav::sim;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr SatelliteId kAny{System::kGps, 7};
 
 struct Scene {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "core/gnss/measurement/look_angles.h"
 #include "support/catch.h"
@@ -12,8 +13,6 @@ using namespace leonav;
 using namespace leonav::sim;
 
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180.0;
 
 TrueSky nominal_sky() {
   return build_sky(load_scenario_text("duration_s: 7200\n", "scenario.yaml"));

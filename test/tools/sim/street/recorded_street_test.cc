@@ -1,10 +1,10 @@
 // Street errors from a library of residuals: what is drawn is what was recorded, and a file that is
 // none is refused.
 #include "tools/sim/street/recorded_street.h"
+#include "core/base/angle.h"
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "support/catch.h"
 #include "support/sky/simulated_receiver.h"
@@ -17,7 +17,6 @@ using sim::StreetEffect;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const std::string kHeader = std::string(sim::kResidualLibraryHeader) + "\n";
 
 // A piece of `rows` rows a second apart: the code's error of row i is first + i metres, its Doppler

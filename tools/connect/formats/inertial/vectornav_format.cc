@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace leonav {
-namespace {
-
-Eigen::Vector3d vector(const VectornavMeasurement::Vector& from) {
-  return {from[0], from[1], from[2]};
-}
-
-}  // namespace
-
 void VectornavFormat::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
   arrival_ns_ = arrival_ns;
   bytes_ += bytes.size();
@@ -33,11 +25,11 @@ void VectornavFormat::on_measurement(const VectornavMeasurement& measurement) {
   if (measurement.increments) {
     reading.are_increments = true;
     reading.interval_s = measurement.increments->interval_s;
-    reading.gyro = vector(measurement.increments->delta_theta_rad);
-    reading.accel = vector(measurement.increments->delta_velocity_m_s);
+    reading.gyro = to_vector(measurement.increments->delta_theta_rad);
+    reading.accel = to_vector(measurement.increments->delta_velocity_m_s);
   } else {
-    reading.gyro = vector(measurement.rates->angular_rate_rad_s);
-    reading.accel = vector(measurement.rates->specific_force_m_s2);
+    reading.gyro = to_vector(measurement.rates->angular_rate_rad_s);
+    reading.accel = to_vector(measurement.rates->specific_force_m_s2);
   }
   take(reading);
 }

@@ -2,9 +2,9 @@
 // tables.
 #include "tools/connect/formats/receivers/sbf_format.h"
 
-#include <numbers>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "published_inputs.h"
 #include "support/catch.h"
 
@@ -97,7 +97,6 @@ TEST_CASE("Septentrio's inertial samples are published where the configuration s
     const ImuSample& sample = rig.messages.samples.back();
     CHECK(sample.interval_ns == 10'000'000);
     CHECK(sample.time == GpsTime::from_week_and_tow(kBlockWeek, kBlockTime_ms / 1000.0 + 0.04));
-    constexpr double kDegree = std::numbers::pi / 180.0;
     CHECK((sample.delta_velocity_b - Eigen::Vector3d(0.5, -0.25, -9.8) * 0.01).norm() < 1e-15);
     CHECK((sample.delta_theta_b - Eigen::Vector3d(1, -2, 3) * kDegree * 0.01).norm() < 1e-15);
     CHECK(rig.format.data_time()->nanoseconds == sample.time.nanoseconds());
