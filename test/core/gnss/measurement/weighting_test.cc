@@ -1,13 +1,11 @@
 #include "core/gnss/measurement/weighting.h"
-#include "core/base/angle.h"
 
 #include <limits>
 
+#include "core/base/angle.h"
 #include "support/catch.h"
 
 using namespace leonav;
-
-namespace {}
 
 TEST_CASE("elevation law: sigma0 above 30 degrees, sigma0 / (2 sin E) below") {
   CHECK(elevation_factor(90.0 * kDegree) == 1.0);
