@@ -51,7 +51,7 @@ void read_pulse(ConfigReader& group, PulseConfig* pulse) {
   group.text("stream", &pulse->stream);
   group.integer("input", 0, 1, &pulse->input.input);
   group.choice<bool>("edge", {{"rising", false}, {"falling", true}}, &pulse->input.is_falling);
-  group.number("delay_ms", {-1000.0, 1000.0}, &pulse->input.delay_s, kMillisecond);
+  group.number("delay_ms", {-1000.0, 1000.0}, &pulse->input.delay_s, kKeyMillisecond_s);
 }
 
 // A pulse needs who sends it and who sees it.
@@ -132,7 +132,7 @@ ConnectConfig load_connect_config(const std::string& path,
       group.choice<TimeReference>("reference",
                                   {{"gnss", TimeReference::kGnss}, {"host", TimeReference::kHost}},
                                   &config.reference);
-      group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kMillisecond);
+      group.number("gnss_latency_ms", {0.0, 10'000.0}, &config.gnss_latency_s, kKeyMillisecond_s);
       group.group("pulse", [&](ConfigReader& pulse) { read_pulse(pulse, &config.pulse); });
     });
     root.group("corrections", [&](ConfigReader& group) {

@@ -16,7 +16,7 @@
 
 namespace leonav {
 
-inline constexpr double kMillisecond = 1e-3;  // s, for keys in milliseconds
+inline constexpr double kKeyMillisecond_s = 1e-3;  // s, for keys in milliseconds
 
 enum class FormatKind : std::uint8_t {
   kUbx,

@@ -158,13 +158,13 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
   if (is_ubx || is_oem7 || is_sbf) group.boolean("inertial", &stream->is_inertial);
   if (is_oem7) read_imu_scale(group, &stream->imu_scale);
   if (is_ubx && stream->is_inertial) {
-    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
+    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kKeyMillisecond_s);
   }
   if (stream->format == FormatKind::kUbx || stream->format == FormatKind::kRtcm3 ||
       stream->format == FormatKind::kOem7 || stream->format == FormatKind::kSbf) {
     group.number("repeat_ephemerides_s", {0.0, 3600.0}, &stream->repeat_s);
   } else if (!has_pages) {
-    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kMillisecond);
+    group.number("latency_ms", {0.0, 1000.0}, &stream->stamps.latency_s, kKeyMillisecond_s);
   }
   group.text("record", &stream->record);
   double record_limit_mb = static_cast<double>(stream->record_limit_bytes) / kMegabyte;

@@ -30,14 +30,15 @@ struct Sums {
 
 struct Group {
   Sums high;
-  std::array<Sums, kElevationBins.size()> bins;
+  std::array<Sums, kResidualElevations.size()> bins;
 };
 
 std::size_t bin_of(double elevation_deg) {
-  const auto next = std::upper_bound(kElevationBins.begin(), kElevationBins.end(), elevation_deg);
-  return next == kElevationBins.begin()
+  const auto next =
+      std::upper_bound(kResidualElevations.begin(), kResidualElevations.end(), elevation_deg);
+  return next == kResidualElevations.begin()
              ? 0
-             : static_cast<std::size_t>(next - kElevationBins.begin()) - 1;
+             : static_cast<std::size_t>(next - kResidualElevations.begin()) - 1;
 }
 
 }  // namespace
@@ -80,9 +81,9 @@ std::vector<ResidualRow> read_residuals(const std::string& path) {
 std::string to_table(const std::vector<ResidualRow>& rows) {
   std::string out =
       format("residuals, rms (mean)   from %.0f deg     count", kResidualElevation_deg);
-  for (std::size_t i = 0; i < kElevationBins.size(); ++i) {
-    const double end = i + 1 < kElevationBins.size() ? kElevationBins[i + 1] : 90.0;
-    out += format("  %8.0f-%.0f deg", kElevationBins[i], end);
+  for (std::size_t i = 0; i < kResidualElevations.size(); ++i) {
+    const double end = i + 1 < kResidualElevations.size() ? kResidualElevations[i + 1] : 90.0;
+    out += format("  %8.0f-%.0f deg", kResidualElevations[i], end);
   }
   out += "\n";
   for (const ResidualRow& row : rows) {

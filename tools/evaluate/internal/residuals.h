@@ -7,7 +7,7 @@
 namespace leonav {
 
 // Lower bounds of the elevation bins, degrees; the last one ends at the zenith.
-inline constexpr std::array<double, 6> kElevationBins = {0.0, 10.0, 20.0, 30.0, 45.0, 60.0};
+inline constexpr std::array<double, 6> kResidualElevations = {0.0, 10.0, 20.0, 30.0, 45.0, 60.0};
 inline constexpr double kResidualElevation_deg = 20.0;  // limit of good reception
 
 // Residuals in one elevation bin.
@@ -20,7 +20,7 @@ struct ResidualBin {
 struct ResidualRow {
   std::string system, observable;  // "gps", "carrier"
   ResidualBin high;                // at kResidualElevation_deg and above
-  std::array<ResidualBin, kElevationBins.size()> bins;
+  std::array<ResidualBin, kResidualElevations.size()> bins;
 };
 
 // Reads measurements.csv of leonav-replay and takes the rows that were used or downweighted. Throws
