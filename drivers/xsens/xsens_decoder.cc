@@ -67,6 +67,7 @@ std::optional<Vector> rotation_vector(const Quaternion& q) {
 
 // The motion of one message before its parts are put together.
 struct Motion {
+  bool has_delta_q = false, has_delta_v = false;  // whatever they hold
   std::optional<Quaternion> delta_q;
   std::optional<Vector> delta_v, acceleration, rate;
 };
@@ -99,12 +100,14 @@ bool read_group(const DataGroup& group, XsensMeasurement* m, Motion* motion) {
       if (has(4)) m->sample_time_coarse = read_big_u4(p);
       return has(4);
     case kDeltaV:
+      motion->has_delta_v = true;
       return vector(&motion->delta_v);
     case kAcceleration:
       return vector(&motion->acceleration);
     case kRateOfTurn:
       return vector(&motion->rate);
     case kDeltaQ:
+      motion->has_delta_q = true;
       motion->delta_q = read_xsens_numbers<4>(group.data, group.precision());
       return motion->delta_q.has_value();
     case kStatusWord:
@@ -164,6 +167,7 @@ void XsensDecoder::decode(std::span<const std::uint8_t> payload, XsensHandler* h
   for (DataGroup group; groups.next(&group);) {
     if (!read_group(group, &measurement, &motion)) ++counters_.bad_lengths;
   }
+  counters_.unpaired += motion.has_delta_q != motion.has_delta_v;
   const bool has_increments = motion.delta_q && motion.delta_v;
   const bool has_rates = motion.rate && motion.acceleration;
   if (!has_increments && !has_rates) {

@@ -57,6 +57,7 @@ struct XsensCounters {
   XsensFramerCounters framer;
   std::uint64_t measurements = 0;    // with increments or rates
   std::uint64_t without_motion = 0;  // MTData2 without a pair of increments or of rates
+  std::uint64_t unpaired = 0;        // MTData2 with DeltaQ alone or DeltaV alone
   std::uint64_t other_messages = 0;  // framed, but not MTData2: answers, errors, MTData
   std::uint64_t old_data = 0;        // of those, MTData (0x32), the sensors' former output
   std::uint64_t bad_lengths = 0;     // groups of another length than their kind has: left out

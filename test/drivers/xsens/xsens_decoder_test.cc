@@ -184,6 +184,9 @@ TEST_CASE("Values beyond any sensor and groups of a wrong length are counted and
             .measurements.empty());
   CHECK(counters.bad_lengths == 1);
   CHECK(counters.without_motion == 1);
+  CHECK(counters.unpaired == 0);
+  decode_xsens(xsens_message(0x36, joined({kDeltaV, kRate, kForce})), 9, &counters);
+  CHECK(counters.unpaired == 1);
 }
 
 TEST_CASE("A sensor at the end of its range says so in the status word", "[xsens]") {

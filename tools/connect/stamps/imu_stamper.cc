@@ -123,8 +123,10 @@ std::string ImuStamper::text() const {
       break;
   }
   if (!line_.is_ready()) return "no stamps yet: too few readings with a clock";
-  return gps_->is_known() ? "readings contradict the clock that they had before"
-                          : "no stamps yet: GPS time is not known, as no receiver's epoch has come";
+  return gps_->is_known()
+             ? "readings contradict the clock that they had before"
+             : "no stamps yet: GPS time is not known, as no receiver's epoch has come; its stream "
+               "belongs into the same configuration";
 }
 
 }  // namespace leonav

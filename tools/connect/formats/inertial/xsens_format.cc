@@ -1,9 +1,12 @@
 #include "tools/connect/formats/inertial/xsens_format.h"
 
+#include <utility>
+
 namespace leonav {
 namespace {
 
 constexpr std::int64_t kTick_ns = 100'000;  // of SampleTimeFine
+constexpr int kUntilTrust = 400;            // so many measurements without an unpaired increment
 
 Eigen::Vector3d forward_right_down(const XsensMeasurement::Vector& from) {
   return {from[0], -from[1], -from[2]};
@@ -16,8 +19,23 @@ void XsensFormat::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival
   decoder_.feed(bytes, this);
 }
 
+bool XsensFormat::are_whole() {
+  const std::uint64_t unpaired = decoder_.counters().unpaired;
+  if (std::exchange(unpaired_, unpaired) != unpaired) {
+    until_trust_ = kUntilTrust;
+  } else if (until_trust_ > 0) {
+    --until_trust_;
+  }
+  return until_trust_ == 0;
+}
+
 // Increments are exact where rates are samples, so they come first.
 void XsensFormat::on_measurement(const XsensMeasurement& measurement) {
+  const bool uses_increments = are_whole() && measurement.increments;
+  if (!uses_increments && !measurement.rates) {
+    ++left_out_;
+    return;
+  }
   ImuReading reading;
   reading.arrival_ns = arrival_ns_;
   reading.gps_time = measurement.utc_time;
@@ -28,7 +46,7 @@ void XsensFormat::on_measurement(const XsensMeasurement& measurement) {
   if (measurement.status) {
     reading.has_pulse = (*measurement.status & XsensMeasurement::kSyncOut) != 0;
   }
-  if (measurement.increments) {
+  if (uses_increments) {
     reading.are_increments = true;
     reading.gyro = forward_right_down(measurement.increments->delta_theta_rad);
     reading.accel = forward_right_down(measurement.increments->delta_velocity_m_s);
@@ -67,6 +85,10 @@ std::string XsensFormat::why_no_messages() const {
   if (c.old_data > 0) {
     return "MTData arrives, the sensors' former output: set an output configuration, which makes "
            "it MTData2";
+  }
+  if (left_out_ > 0 || (c.measurements == 0 && c.unpaired > 0)) {
+    return "DeltaQ and DeltaV do not come in the same messages, so that motion would be missing: "
+           "give both the same rate in the output configuration";
   }
   if (c.measurements == 0 && c.bad_values > 0)
     return "every value is beyond what a sensor measures";

@@ -21,8 +21,13 @@ class XsensFormat final : public ImuFormat, private XsensHandler {
 
  private:
   void on_measurement(const XsensMeasurement& measurement) override;
+  // Whether increments hold the whole motion. Where DeltaQ and DeltaV come at different rates, one
+  // of them lies in other messages as well.
+  bool are_whole();
 
   XsensDecoder decoder_;
+  std::uint64_t unpaired_ = 0, left_out_ = 0;
+  int until_trust_ = 0;  // measurements
   WrappedCounter sample_time_{32};
   std::int64_t arrival_ns_ = 0;  // of the bytes at hand
 };

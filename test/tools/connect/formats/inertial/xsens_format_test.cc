@@ -102,6 +102,26 @@ TEST_CASE("Increments come before rates, and cover one interval where a message 
   }
 }
 
+TEST_CASE("Increments of different rates are left out, because motion would be missing",
+          "[connect]") {
+  XsensRig rig;
+  std::uint32_t ms = 0;
+  const auto feed = [&](bool has_turn) {
+    BigEndian p = utc((ms += 1) * 1'000'000);
+    p.vector(0x4010, 0.0F, 0.0F, 0.05F);
+    if (has_turn) p.group(0x8030, 16).single(1.0F).single(0.0F).single(0.0F).single(0.0F);
+    rig.format.feed(message(0x36, p), 1);
+  };
+  for (int k = 0; k < 60; ++k) feed(k % 2 == 0);
+  CHECK(rig.messages.samples.empty());
+  CHECK(rig.format.why_no_messages().find("give both the same rate") != std::string::npos);
+  // 400 measurements later the rates are taken for equal.
+  for (int k = 0; k < 390; ++k) feed(true);
+  CHECK(rig.messages.samples.empty());
+  for (int k = 0; k < 60; ++k) feed(true);
+  CHECK(rig.messages.samples.size() > 20);
+}
+
 TEST_CASE("The clock of the sensor goes on where it wraps", "[connect]") {
   XsensRig rig;
   std::uint32_t ticks = 0xFFFFFFFF - 40'000;  // it wraps after four seconds
