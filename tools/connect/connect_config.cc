@@ -143,6 +143,8 @@ ConnectConfig load_connect_config(const std::string& path,
     root.groups("streams", [&](ConfigReader& group) {
       read_stream(group, folder, &config.streams.emplace_back());
     });
+    // A stream with an error is not read to its end, so that what it is is not known.
+    if (!source.errors.empty()) return;
     refuse_conflicts(root, config.streams);
     refuse_lonely_pulse(root, config);
   });

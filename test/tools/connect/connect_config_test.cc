@@ -299,6 +299,11 @@ TEST_CASE("A mistake is told with its line and the remedy", "[connect]") {
   CHECK_THAT(
       problem(stream(serial + ", format: ubx") + "  - {name: b, source: stdin, format: ubx}\n"),
       Catch::Contains("two receivers"));
+  // The caster's stream is not read as far as 'corrections'.
+  CHECK_THAT(problem(stream(serial + ", format: ubx") +
+                     "  - {name: b, source: ntrip, host: c, mountpoint: m, format: rtcm3, "
+                     "corrections: true, credentials_file: /nowhere/to/be/found}\n"),
+             Catch::Contains("credentials_file") && !Catch::Contains("two receivers"));
   const std::string columns = "gyro_x, gyro_y, gyro_z, accel_x, accel_y, accel_z";
   const auto lines = [&](const std::string& line, const std::string& more = "") {
     return problem(stream(serial + ", format: imu_line, line: {" + line + "}" + more));
