@@ -25,6 +25,8 @@ int leap_seconds(GpsTime time);
 // former.
 GpsTime gps_from_utc(GpsTime reading);
 
+// A week beyond this one, of the year 2137, is no receiver's: newer messages have 13 bits for it.
+inline constexpr int kLastGpsWeek = 8191;
 // BeiDou time is GPS time minus 14 s (BDS-SIS-ICD 3.3); its week 0 is GPS week 1356.
 inline constexpr int kBeidouMinusGpsSeconds = -14;
 inline constexpr int kBeidouWeekZeroInGpsWeeks = 1356;

@@ -19,8 +19,6 @@ std::string padded(std::string_view text, std::size_t width) {
   return result;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 bool is_other_satellite(std::string_view name) {
   return name.size() == 3 && kOtherSystems.find(name[0]) != std::string_view::npos &&
          is_digit(name[1]) && is_digit(name[2]);

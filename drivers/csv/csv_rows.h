@@ -13,6 +13,10 @@
 
 namespace leonav {
 
+// What a row needs, to be a position at a time.
+inline constexpr std::string_view kPositionColumns =
+    "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
+
 // Counts of a reader's rows. A bad row excludes only itself.
 struct CsvReport {
   long rows = 0;                      // used

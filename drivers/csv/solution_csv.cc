@@ -7,8 +7,6 @@
 namespace leonav {
 namespace {
 
-constexpr std::string_view kSolutionColumns =
-    "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
 constexpr std::string_view kPrediction = "prediction";
 
 void write_vector(CsvWriter& writer, const std::optional<Eigen::Vector3d>& vector, double unit,
@@ -88,7 +86,7 @@ void SolutionCsvWriter::write(const SolutionRow& row) {
 void SolutionCsvWriter::close() { writer_.close(); }
 
 SolutionCsv read_solution_csv(const std::string& path) {
-  CsvRows rows(path, kSolutionColumns, kSolutionCsvHeader);
+  CsvRows rows(path, kPositionColumns, kSolutionCsvHeader);
   const TruthColumns pva(rows);
   constexpr std::array<std::string_view, 9> kSigmaNames = {
       "std_north_m",    "std_east_m",   "std_down_m",    "std_v_north_m_s", "std_v_east_m_s",

@@ -8,7 +8,6 @@
 namespace leonav {
 namespace {
 
-constexpr std::string_view kTruthColumns = "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m";
 constexpr double kMaxHeight = 1e8;  // m; no vehicle is higher
 
 std::optional<double> read_angle(CsvRows& rows, int column) {
@@ -75,7 +74,7 @@ void TruthColumns::write(CsvWriter& writer, const TruthPoint& point) {
 }
 
 TruthCsv read_truth_csv(const std::string& path) {
-  CsvRows rows(path, kTruthColumns, kTruthCsvHeader);
+  CsvRows rows(path, kPositionColumns, kTruthCsvHeader);
   const TruthColumns columns_of(rows);
   TruthCsv truth;
   while (rows.next()) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 
 namespace leonav {
@@ -17,7 +18,6 @@ using Vector = ImuLine::Vector;
 // their interval by who makes samples of them.
 constexpr double kMaxRate_rad_s = 35.0, kMaxForce_m_s2 = 500.0;
 constexpr double kMaxClock_ns = 4e18;  // 127 years
-constexpr int kMaxWeek = 8191;
 
 bool are_within(const Vector& values, double limit) {
   return std::all_of(values.begin(), values.end(),
@@ -165,7 +165,8 @@ bool ImuLineDecoder::read(ImuLine* line) {
       if (std::abs(*clock) * unit_ns > kMaxClock_ns) return false;
     }
   }
-  const bool has_gps = week >= 1.0 && week <= kMaxWeek && tow_s >= 0.0 && tow_s < kSecondsPerWeek;
+  const bool has_gps =
+      week >= 1.0 && week <= kLastGpsWeek && tow_s >= 0.0 && tow_s < kSecondsPerWeek;
   if (has_gps) line->gps_time = GpsTime::from_week_and_tow(static_cast<int>(week), tow_s);
   line->gyro = turned(gyro, layout_.axes, layout_.gyro_unit);
   line->accel = turned(accel, layout_.axes, layout_.accel_unit);

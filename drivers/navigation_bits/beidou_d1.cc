@@ -9,7 +9,6 @@ namespace leonav {
 namespace {
 
 constexpr int kSubframeSeconds = 6;
-constexpr double kD1GroupDelayUnit = 1e-10;  // s
 
 BitReader after_header(const BeidouSubframe& subframe) {
   BitReader reader(subframe.bits);
@@ -58,8 +57,8 @@ Ephemeris BeidouD1::decode(const SubframeOrigin& origin) const {
   e.accuracy_m = nominal_accuracy_m(r.take(4));
   r.skip(13);  // week
   e.toc = nearest_beidou_instant(static_cast<std::int64_t>(r.take(17)) * 8, e.transmission_time);
-  e.group_delay_s[0] = r.take_signed(10) * kD1GroupDelayUnit;
-  e.group_delay_s[1] = r.take_signed(10) * kD1GroupDelayUnit;
+  e.group_delay_s[0] = r.take_signed(10) * kBeidouGroupDelayUnit;
+  e.group_delay_s[1] = r.take_signed(10) * kBeidouGroupDelayUnit;
   r.skip(8 * 8);  // BeiDou's own ionosphere coefficients
   e.af2 = r.scaled_signed(11, -66);
   e.af0 = r.scaled_signed(24, -33);

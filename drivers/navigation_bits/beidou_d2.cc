@@ -8,8 +8,7 @@
 namespace leonav {
 namespace {
 
-constexpr int kFrameSeconds = 3;             // one page of subframe 1 per frame
-constexpr double kD2GroupDelayUnit = 1e-10;  // s
+constexpr int kFrameSeconds = 3;  // one page of subframe 1 per frame
 constexpr std::size_t kPageHeaderBits = BeidouSubframe::kHeaderBits + 4;  // with the page number
 
 BitReader after_page_number(const BeidouSubframe& subframe) {
@@ -60,8 +59,8 @@ Ephemeris BeidouD2::decode(const SubframeOrigin& origin) const {
   e.accuracy_m = nominal_accuracy_m(r.take(4));
   r.skip(13);  // week
   e.toc = nearest_beidou_instant(static_cast<std::int64_t>(r.take(17)) * 8, e.transmission_time);
-  e.group_delay_s[0] = r.take_signed(10) * kD2GroupDelayUnit;
-  e.group_delay_s[1] = r.take_signed(10) * kD2GroupDelayUnit;
+  e.group_delay_s[0] = r.take_signed(10) * kBeidouGroupDelayUnit;
+  e.group_delay_s[1] = r.take_signed(10) * kBeidouGroupDelayUnit;
 
   // The elements of all pages are joined into one run of bits, so that a field that a page boundary
   // splits reads as one. Page 2 holds the ionosphere coefficients, which are not used.

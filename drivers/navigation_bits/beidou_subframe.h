@@ -9,6 +9,7 @@
 namespace leonav {
 
 inline constexpr std::size_t kBeidouWords = 10;
+inline constexpr double kBeidouGroupDelayUnit = 1e-10;  // s
 
 // A subframe's information bits: 26 in word one and 22 in each of the others. Check bits are left
 // out, so that a field split over two words reads as one.

@@ -1,5 +1,6 @@
 #include "drivers/oem7/oem7_framer.h"
 
+#include "core/base/calendar.h"
 #include "drivers/binary/crc_of_piece.h"
 #include "drivers/binary/little_endian.h"
 #include "drivers/oem7/crc32.h"
@@ -11,12 +12,11 @@ constexpr std::uint8_t kSync2 = 0x44, kLongHeader = 0x12, kShortHeader = 0x13;
 constexpr std::size_t kLongSize = 28, kShortSize = Oem7Framing::kMinHeader;
 constexpr std::uint8_t kTimeUnknown = 20;  // time status UNKNOWN
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
-constexpr int kMaxWeek = 8191;  // the year 2137
 
 using Crc32OfPiece = CrcOfPiece<crc32_next, crc32_product, std::uint32_t{0x80000000}>;
 
 GpsTime time_of(int week, std::uint32_t milliseconds) {
-  if (week < 1 || week > kMaxWeek || milliseconds >= kSecondsPerWeek * 1000) return {};
+  if (week < 1 || week > kLastGpsWeek || milliseconds >= kSecondsPerWeek * 1000) return {};
   return GpsTime::from_nanoseconds(week * kNanosecondsPerWeek +
                                    milliseconds * kNanosecondsPerMillisecond);
 }

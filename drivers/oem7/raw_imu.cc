@@ -1,12 +1,12 @@
 #include "drivers/oem7/raw_imu.h"
 
+#include "core/base/calendar.h"
 #include "drivers/binary/little_endian.h"
 
 namespace leonav {
 namespace {
 
 constexpr std::uint16_t kRawimu = 268, kRawimus = 325, kRawimux = 1461, kRawimusx = 1462;
-constexpr int kMaxWeek = 8191;  // the year 2137
 constexpr std::uint8_t kSensorError = 1, kEncrypted = 2;
 
 // Both layouts begin with four bytes that hold the week: the short one nothing else, the extended
@@ -14,7 +14,7 @@ constexpr std::uint8_t kSensorError = 1, kEncrypted = 2;
 constexpr std::size_t kSeconds = 4, kCounts = 16, kSize = 40;
 
 GpsTime time_of(std::uint32_t week, double tow_s) {
-  if (week < 1 || week > kMaxWeek) return {};
+  if (week < 1 || week > kLastGpsWeek) return {};
   if (!(tow_s >= 0.0 && tow_s < static_cast<double>(kSecondsPerWeek))) return {};
   return GpsTime::from_week_and_tow(static_cast<int>(week), tow_s);
 }

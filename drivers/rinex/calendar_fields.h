@@ -8,7 +8,6 @@
 namespace leonav {
 
 // Returns whether the text has blanks only.
-constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(std::string_view text);
 
 // Parses date and time from five integers and seconds with up to nine decimals. The decimals are

@@ -3,17 +3,15 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
+#include "core/base/angle.h"
 #include "core/base/calendar.h"
 #include "drivers/text/parse.h"
 #include "drivers/text/stamp_order.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 // A time is "2021/04/28 22:19:22.430" or "2155 339562.430".
 bool parse_time(const std::string& first, const std::string& second, GpsTime* time) {
@@ -42,8 +40,7 @@ bool parse_row(const std::string& line, bool ecef, PosRow* row) {
   if (ecef) {
     row->position = to_geodetic(position);
   } else {
-    row->position = {position.x() * kRadiansPerDegree, position.y() * kRadiansPerDegree,
-                     position.z()};
+    row->position = {position.x() * kDegree, position.y() * kDegree, position.z()};
     if (has_sigma) row->sigma_neu = sigma;
   }
   return true;

@@ -16,6 +16,8 @@ class FileError : public std::runtime_error {
   FileError(const std::string& file, long line, const std::string& message);
 };
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 // Returns `text` without blanks and tabs at its ends.
 std::string_view trim(std::string_view text);
 

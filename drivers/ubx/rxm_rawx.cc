@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/calendar.h"
 #include "drivers/binary/little_endian.h"
 #include "drivers/ubx/ubx_signal.h"
 
@@ -20,7 +21,6 @@ constexpr double kMaxPseudorange = 1e8;  // m
 constexpr double kMaxCarrier = 1e10;     // cycles
 constexpr double kMaxDoppler = 1e5;      // Hz
 constexpr int kMaxCn0 = 80;              // dBHz
-constexpr int kMaxWeek = 8191;           // 2137: 13 bits, as in the newer messages
 constexpr int kLockTimeCeiling = 64500;  // ms: the counter stays there
 constexpr int kNoCarrierStd = 15;        // cpStdev: no estimate
 
@@ -71,7 +71,8 @@ RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawE
   const double tow_s = read_r8(payload.data());
   const int week = read_u2(payload.data() + 8);
   // The receiver sends week zero before it has the time.
-  if (!is_within(tow_s, 0.0, static_cast<double>(kSecondsPerWeek)) || week < 1 || week > kMaxWeek) {
+  if (!is_within(tow_s, 0.0, static_cast<double>(kSecondsPerWeek)) || week < 1 ||
+      week > kLastGpsWeek) {
     ++counters_.bad_time;
     return RxmRawxStatus::kBadTime;
   }

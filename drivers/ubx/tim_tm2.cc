@@ -10,12 +10,11 @@ constexpr std::size_t kSize = 28;
 constexpr std::uint8_t kNewFalling = 1 << 2, kTimeIsValid = 1 << 6, kNewRising = 1 << 7;
 constexpr int kReceiverTime = 0, kUtc = 2;  // of the time base in bits 3 and 4
 constexpr std::uint8_t kUtcIsKnown = 1 << 5;
-constexpr int kMaxMarkWeek = 8191;  // the year 2137
 constexpr std::uint32_t kMillisecondsPerWeek = 604'800'000, kNanosecondsPerMillisecond = 1'000'000;
 
 std::optional<GpsTime> edge_time(int week, std::uint32_t tow_ms, std::uint32_t tow_ns,
                                  bool is_utc) {
-  if (week < 1 || week > kMaxMarkWeek || tow_ms >= kMillisecondsPerWeek ||
+  if (week < 1 || week > kLastGpsWeek || tow_ms >= kMillisecondsPerWeek ||
       tow_ns >= kNanosecondsPerMillisecond) {
     return std::nullopt;
   }

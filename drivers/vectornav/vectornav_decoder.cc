@@ -15,7 +15,7 @@ using Vector = VectornavMeasurement::Vector;
 // Beyond what the sensors measure; the service refuses larger ones too.
 constexpr double kMaxRate_rad_s = 35.0, kMaxForce_m_s2 = 500.0, kMaxInterval_s = 0.1;
 // Before it has the time the sensor counts from zero.
-constexpr int kFirstWeek = 1024, kLastWeek = 8191;
+constexpr int kFirstWeek = 1024;
 
 // Bits of TimeStatus.
 constexpr std::uint8_t kTimeOk = 1, kDateOk = 2, kUtcOk = 4;
@@ -84,7 +84,7 @@ bool are_within(const Vector& values, double limit) {
 std::optional<GpsTime> gps_time(std::uint64_t nanoseconds) {
   constexpr auto week_ns = static_cast<std::uint64_t>(kNanosecondsPerWeek);
   const std::uint64_t week = nanoseconds / week_ns;
-  if (week < kFirstWeek || week > kLastWeek) return std::nullopt;
+  if (week < kFirstWeek || week > kLastGpsWeek) return std::nullopt;
   return GpsTime::from_nanoseconds(static_cast<std::int64_t>(nanoseconds));
 }
 

@@ -143,7 +143,7 @@ ConnectConfig load_connect_config(const std::string& path,
     root.groups("streams", [&](ConfigReader& group) {
       read_stream(group, folder, &config.streams.emplace_back());
     });
-    // A stream with an error is not read to its end, so that what it is is not known.
+    // A stream with an error is not read to its end, so its kind may not be known.
     if (!source.errors.empty()) return;
     refuse_conflicts(root, config.streams);
     refuse_lonely_pulse(root, config);

@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/gnss/signals/satellite.h"
 
 namespace leonav {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 constexpr std::string_view kEpochsHeader =
     "gps_week,gps_tow_s,epoch,empty,source,satellites,pdop,hdop,vdop,clock_gps_m,clock_galileo_m,"
@@ -166,8 +164,8 @@ void ResultFiles::write_satellites(const EpochReport& report) {
         .text(to_string(satellite.satellite))
         .text(to_string(satellite.reason))
         .number(is_used(satellite.reason) ? 1.0 : 0.0, 0)
-        .number(satellite.elevation * kDegrees, 2)
-        .number(satellite.azimuth * kDegrees, 2)
+        .number(satellite.elevation * kDegreesPerRadian, 2)
+        .number(satellite.azimuth * kDegreesPerRadian, 2)
         .number(satellite.cn0_dbhz, 1)
         .number(satellite.ephemeris_age_s, 1)
         .text(name_of(satellite.source))
@@ -193,7 +191,7 @@ void ResultFiles::write_measurements(const EpochReport& report) {
         .number(aiding.weight_factor, 4)
         .text(to_string(aiding.reason))
         .number(aiding.residual, 4)
-        .number(elevation_of(report, aiding.satellite) * kDegrees, 2)
+        .number(elevation_of(report, aiding.satellite) * kDegreesPerRadian, 2)
         .end_row();
   }
 }

@@ -12,8 +12,6 @@
 #include "core/gnss/cycle_slips/internal/slip_decision.h"
 
 namespace leonav {
-namespace {}  // namespace
-
 struct CarrierArcs::Storage {
   Storage(const CycleSlipConfig& config_in, const BandPlan& bands_in)
       : config(config_in), bands(bands_in) {}

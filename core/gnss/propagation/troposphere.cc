@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/angle.h"
+
 namespace leonav {
 namespace {
 
 constexpr double kLowestHeight = -500.0;     // m
 constexpr double kHighestHeight = 11'000.0;  // m, above which the standard atmosphere is isothermal
-constexpr double kRadToDeg = 180.0 / std::numbers::pi;
 
 double clamped_height(const Geodetic& antenna) {
   return std::clamp(antenna.height, kLowestHeight, kHighestHeight);
@@ -84,8 +85,9 @@ ZenithDelays saastamoinen_zenith_delays(const Geodetic& antenna, double relative
 }
 
 TroposphereMapping niell_mapping(const Geodetic& antenna, double elevation, GpsTime time) {
-  const double sine = std::sin(std::clamp(elevation, 1.0 / kRadToDeg, std::numbers::pi / 2.0));
-  const double latitude_deg = std::abs(antenna.latitude) * kRadToDeg;
+  const double sine =
+      std::sin(std::clamp(elevation, 1.0 / kDegreesPerRadian, std::numbers::pi / 2.0));
+  const double latitude_deg = std::abs(antenna.latitude) * kDegreesPerRadian;
 
   Fraction hydrostatic = at_latitude(kHydrostaticAverage, latitude_deg);
   if (time.is_set()) {

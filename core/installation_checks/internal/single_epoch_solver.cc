@@ -1,12 +1,13 @@
 #include "core/installation_checks/internal/single_epoch_solver.h"
 
+#include "core/base/calendar.h"
+
 namespace leonav {
 namespace {
 
 constexpr int kMinPointSatellites = 5;  // one more than needed, so that a wrong one shows
 constexpr double kMaxPdop = 10.0;
 constexpr double kMaxResidualRms_m = 60.0;
-constexpr double kUtcOffset_s = 18.0;
 constexpr int kEpochs = 5;
 
 RobustConfig switched_on(RobustConfig robust) {
@@ -52,7 +53,8 @@ const PointSolution* SingleEpochSolver::solve(const RawEpoch& raw,
   }
   if (++unsolved_epochs_ < kEpochs) return nullptr;
   *restamped_ = raw;
-  restamped_->time = raw.time.plus_seconds(kUtcOffset_s);
+  restamped_by_s_ = leap_seconds(raw.time);
+  restamped_->time = raw.time.plus_seconds(restamped_by_s_);
   restamped_solved_epochs_ =
       try_solve(*restamped_, ephemeris_store) ? restamped_solved_epochs_ + 1 : 0;
   return nullptr;
@@ -60,7 +62,7 @@ const PointSolution* SingleEpochSolver::solve(const RawEpoch& raw,
 
 ConventionFinding SingleEpochSolver::evaluate() const {
   if (restamped_solved_epochs_ < kEpochs) return {};
-  return {Convention::kLeapSeconds, kUtcOffset_s};
+  return {Convention::kLeapSeconds, restamped_by_s_};
 }
 
 }  // namespace leonav

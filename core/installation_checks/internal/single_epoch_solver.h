@@ -32,6 +32,7 @@ class SingleEpochSolver {
   std::unique_ptr<MeasurementEpoch> measurements_;
   std::unique_ptr<RawEpoch> restamped_;
   int unsolved_epochs_ = 0, restamped_solved_epochs_ = 0;  // epochs in a row
+  double restamped_by_s_ = 0.0;                            // GPS time minus UTC
 };
 
 }  // namespace leonav

@@ -2,24 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/earth/rotation.h"
 #include "core/inertial/strapdown/imu_gap_fill.h"
 
 namespace leonav {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 1.0;       // noise and vibration average out over this time
 constexpr double kGoodPosition_m = 10;  // 1 sigma; a larger one proves nothing
 // Tolerance beyond the sigmas, for the error of reflected codes.
 constexpr double kSamePlace_m = 10.0;
 constexpr double kPlaceSigmas = 3.0;
-constexpr double kTurned = 5.0 * kRad;  // in all, beyond the gyros' bias
+constexpr double kTurned = 5.0 * kDegree;  // in all, beyond the gyros' bias
 // Least sigma of a parked vehicle's heading. It may be moved a little on a slope, by a jack, or by
 // people getting in, and the sigma of the earlier run may be too small.
-constexpr double kLeastSigma = 2.0 * kRad;
+constexpr double kLeastSigma = 2.0 * kDegree;
 // The clock of a receiver that has just started is slightly wrong.
 constexpr double kFutureTolerated_s = 1.0;
 

@@ -11,7 +11,7 @@ namespace leonav {
 namespace {
 
 constexpr double kRequiredEvidence_s = 30.0;   // epochs against the filter, in sum
-constexpr double kLongestRejection_s = 10.0;   // so that a verdict needs three epochs at least
+constexpr double kLongestEvidence_s = 10.0;    // so that a verdict needs three epochs at least
 constexpr double kMaxCodeMultipath_m = 100.0;  // largest error that reflections may cause
 constexpr double kMaxSignalDetour_m = 300.0;
 constexpr double kClockShare = 10.0;  // common innovation of the codes over their discrepancy
@@ -44,7 +44,7 @@ RejectionVerdict MeasurementRejectionMonitor::add(const EkfUpdateResult& result,
                                                   const MeasurementEpoch& epoch, GpsTime time) {
   const double passed_s = last_.is_set() ? seconds_between(time, last_) : 0.0;
   last_ = time;
-  const double interval_s = std::clamp(passed_s, 0.0, kLongestRejection_s);
+  const double interval_s = std::clamp(passed_s, 0.0, kLongestEvidence_s);
   Kind codes, dopplers, held;
   std::array<bool, kMaxSystemTimes> systems{};
   for (std::size_t i = 0; i < std::min(result.innovations.size(), epoch.measurements.size()); ++i) {

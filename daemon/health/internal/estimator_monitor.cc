@@ -9,7 +9,7 @@ namespace leonav {
 namespace {
 
 constexpr int kSettledLooks = 30;
-// Wrong axes or stamps contradict epoch after epoch; an epoch of reflected signals does once.
+// Looks. Wrong axes or stamps contradict epoch after epoch; reflected signals do so once.
 constexpr std::int64_t kContradictions = 2;
 
 }  // namespace
@@ -18,8 +18,9 @@ std::span<const Finding> EstimatorMonitor::look() {
   found_.clear();
   look_at_starts();
   look_at_jumps();
-  widened_.look(counters_->widened_predictions.get());
-  if (widened_.get() >= kContradictions) found_.add(HealthReason::kPredictionWidened);
+  looks_widened_ += widened_.look(counters_->widened_predictions.get()) ? 1 : 0;
+  recently_widened_.look(looks_widened_);
+  if (recently_widened_.get() >= kContradictions) found_.add(HealthReason::kPredictionWidened);
   if (improbable_.look(event_count(*counters_, EventKind::kImprobable)))
     found_.add(HealthReason::kImprobable);
   if (constraints_left_out_.look(event_count(*counters_, EventKind::kConstraintsLeftOut)))

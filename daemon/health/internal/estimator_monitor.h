@@ -29,8 +29,9 @@ class EstimatorMonitor {
   std::int64_t starts_ = 0;                                   // of the filter
   std::int64_t epochs_at_start_ = 0, received_at_start_ = 0;  // accepted and received until then
   int looks_with_answer_ = 0, looks_with_gnss_ = 0;           // in a row
-  GrowthSinceLook jumps_, surprising_jumps_, improbable_, constraints_left_out_;
-  RecentGrowth widened_;
+  GrowthSinceLook jumps_, surprising_jumps_, widened_, improbable_, constraints_left_out_;
+  std::int64_t looks_widened_ = 0;  // in which a prediction was widened
+  RecentGrowth recently_widened_;
   Findings found_;
 };
 

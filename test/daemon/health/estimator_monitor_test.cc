@@ -62,7 +62,7 @@ TEST_CASE("after an outage only a jump that the sigma did not foresee is a reaso
   counters.surprising_jumps.add(1);
   REQUIRE(monitor.look().size() == 1);
 
-  set_source(Source::kNone, &counters);  // begins anew
+  set_source(Source::kNone, &counters);  // the thirty looks begin again
   CHECK(monitor.look().empty());
   set_source(Source::kInsOnly, &counters);
   counters.large_jumps.add(1);
@@ -77,7 +77,7 @@ TEST_CASE("a prediction that is contradicted once is no reason, twice within ten
     if (look % 10 == 0) counters.widened_predictions.add(1);
     CHECK(monitor.look().empty());
   }
-  counters.widened_predictions.add(1);
+  counters.widened_predictions.add(2);  // codes and Dopplers of one epoch
   CHECK(monitor.look().empty());
   counters.widened_predictions.add(1);
   REQUIRE(monitor.look().size() == 1);
@@ -86,7 +86,9 @@ TEST_CASE("a prediction that is contradicted once is no reason, twice within ten
 TEST_CASE("each surprise of the estimator is a finding of its own") {
   EngineCounters counters;
   EstimatorMonitor monitor(&counters);
-  counters.widened_predictions.add(2);
+  counters.widened_predictions.add(1);
+  CHECK(monitor.look().empty());
+  counters.widened_predictions.add(1);
   counters.events[static_cast<std::size_t>(EventKind::kImprobable)].add(1);
   counters.events[static_cast<std::size_t>(EventKind::kConstraintsLeftOut)].add(1);
   const auto found = monitor.look();

@@ -16,7 +16,7 @@ bool is_surely_step(double off_ns) {
          off_ns > static_cast<double>(EnvelopeLine::kLate_ns);
 }
 // A second contradicts the line by more than this many sigmas, and more than this.
-constexpr double kLateSigmas = 5.0, kLeastLate_ns = 2e6;
+constexpr double kContradictingSigmas = 5.0, kLeastContradiction_ns = 2e6;
 
 // Three years; a clock that is further away belongs to another line.
 constexpr std::int64_t kFar_ns = 100'000'000'000'000'000;
@@ -64,7 +64,7 @@ void EnvelopeLine::close_second() {
   const Point point = *earliest_;
   earliest_.reset();
   const double off_ns = point.delay_ns - delay_at(point.x_ns);
-  const double odd_ns = std::max(kLateSigmas * sigma_s_ * 1e9, kLeastLate_ns);
+  const double odd_ns = std::max(kContradictingSigmas * sigma_s_ * 1e9, kLeastContradiction_ns);
   // While the line has no slope yet it may be off by more than its sigma says.
   const bool is_settled = points_.size() >= kSlopeAfter;
   const bool is_odd = std::abs(off_ns) > (is_settled ? odd_ns : static_cast<double>(kEarly_ns));

@@ -32,10 +32,7 @@ bool XsensFormat::are_whole() {
 // Increments are exact where rates are samples, so they come first.
 void XsensFormat::on_measurement(const XsensMeasurement& measurement) {
   const bool uses_increments = are_whole() && measurement.increments;
-  if (!uses_increments && !measurement.rates) {
-    ++left_out_;
-    return;
-  }
+  if (!uses_increments && !measurement.rates) return;
   ImuReading reading;
   reading.arrival_ns = arrival_ns_;
   reading.gps_time = measurement.utc_time;
@@ -86,7 +83,7 @@ std::string XsensFormat::why_no_messages() const {
     return "MTData arrives, the sensors' former output: set an output configuration, which makes "
            "it MTData2";
   }
-  if (left_out_ > 0 || (c.measurements == 0 && c.unpaired > 0)) {
+  if (until_trust_ > 0 || (c.measurements == 0 && c.unpaired > 0)) {
     return "DeltaQ and DeltaV do not come in the same messages, so that motion would be missing: "
            "give both the same rate in the output configuration";
   }

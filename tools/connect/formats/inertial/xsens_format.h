@@ -26,8 +26,8 @@ class XsensFormat final : public ImuFormat, private XsensHandler {
   bool are_whole();
 
   XsensDecoder decoder_;
-  std::uint64_t unpaired_ = 0, left_out_ = 0;
-  int until_trust_ = 0;  // measurements
+  std::uint64_t unpaired_ = 0;
+  int until_trust_ = 0;  // so many measurements more
   WrappedCounter sample_time_{32};
   std::int64_t arrival_ns_ = 0;  // of the bytes at hand
 };

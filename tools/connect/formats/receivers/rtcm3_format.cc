@@ -101,7 +101,10 @@ FormatCounts Rtcm3Format::counts() const {
   counts.frames = c.framer.frames;
   // Ephemerides, which come again and again, must not hide that no correction can be used.
   const bool has_corrections = is_service_ && last_ssr_.is_set();
-  counts.messages = ssr_messages_ + (has_corrections ? 0 : receiver_.messages());
+  // A service of ephemerides alone lives as long as it sends them, new or not.
+  const std::uint64_t of_ephemerides =
+      receiver_.messages() + (is_service_ ? c.ephemerides.repeated : 0);
+  counts.messages = ssr_messages_ + (has_corrections ? 0 : of_ephemerides);
   counts.epochs = receiver_.epochs();
   counts.empty_epochs = receiver_.empty_epochs();
   counts.damaged = c.framer.bad_checksums + c.framer.incomplete + c.framer.too_short;

@@ -427,6 +427,20 @@ TEST_CASE("Corrections of a service make states with a receiver's ephemerides", 
   CHECK(service.data_time()->nanoseconds == kTime.nanoseconds());
 }
 
+TEST_CASE("A service that sends the same ephemerides again is alive", "[connect]") {
+  Ephemerides ephemerides;
+  MessageOutput output(&ephemerides);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true, &corrections);
+  for (int k = 1; k <= 3; ++k) {
+    service.feed(gps_ephemeris(3), host_ns(kTime.plus_seconds(10.0 * k)));
+    CHECK(service.counts().messages == static_cast<std::uint64_t>(k));
+  }
+  CHECK(ephemerides.list.size() == 1);
+}
+
 TEST_CASE("Corrections that are too old are told with what may be wrong", "[connect]") {
   PublishedCorrections messages;
   MessageOutput output(&messages);
