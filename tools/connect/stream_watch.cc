@@ -44,6 +44,7 @@ void StreamWatch::on_open(std::int64_t now_ns) {
   unreadable_since_ns_.reset();
   no_data_since_ns_.reset();
   last_epoch_ns_.reset();
+  last_sample_ns_.reset();
   intervals_s_.clear();
   recent_.clear();
   set(StreamState::kConnecting, "open");
@@ -121,7 +122,8 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   const FormatCounts counts = format.counts();
   const bool new_bytes = bytes_ > bytes_seen_, new_frames = counts.frames > seen_.frames,
              new_messages = counts.messages > seen_.messages,
-             new_epochs = counts.epochs > seen_.epochs;
+             new_epochs = counts.epochs > seen_.epochs,
+             new_samples = counts.samples.value_or(0) > seen_.samples.value_or(0);
   bytes_seen_ = bytes_;
   seen_ = counts;
   recent_.push_back(counts);
@@ -142,12 +144,14 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
   }
   if (new_epochs) note_epoch(now_ns);
   if (counts.epochs + counts.empty_epochs > 0 && !last_epoch_ns_) last_epoch_ns_ = now_ns;
+  if (new_samples || (counts.samples && new_frames && !last_sample_ns_)) last_sample_ns_ = now_ns;
   // Half the share ends it, so that the state does not change each second.
   const double least_share = (state_ == StreamState::kDamaged ? 0.5 : 1.0) * limits_.damaged_share;
   if (silence_s(now_ns) > limits_.silent_s) {
     unreadable_since_ns_.reset();
     no_data_since_ns_.reset();
     last_epoch_ns_.reset();
+    last_sample_ns_.reset();
     set(StreamState::kSilent,
         leonav::format("open, but no byte for %.0f s: ", silence_s(now_ns)) + silence_remedy_);
   } else if (age_s(unreadable_since_ns_, now_ns) > limits_.unreadable_s) {
@@ -161,7 +165,14 @@ void StreamWatch::look(std::int64_t now_ns, const StreamFormat& format) {
     // Inertial samples, ephemerides and corrections must not hide it.
     const std::string text = damage(counts, 2.0 * limits_.damaged_share);
     set(StreamState::kNoData, text.empty() ? no_epochs(now_ns) : text);
-  } else if (const std::string text = damage(counts, least_share); !text.empty()) {
+  } else if (age_s(last_sample_ns_, now_ns) > limits_.no_data_s) {
+    // Nor must epochs hide that the samples are missing which the configuration asks for.
+    set(StreamState::kNoData,
+        leonav::format("no inertial sample for %.0f s: ", age_s(last_sample_ns_, now_ns)) +
+            format.why_no_samples());
+  } else if (const std::string text = damage(counts, least_share);
+             counts.frames > recent_.front().frames && !text.empty()) {
+    // Where nothing is whole, it will be unreadable in a few seconds, or starts.
     set(StreamState::kDamaged, text);
   } else if (new_messages) {
     set(StreamState::kGood, format.detail());

@@ -15,7 +15,9 @@ enum class StreamState : std::uint8_t {
   kWaiting,     // could not be opened or broke off; tried again later
   kSilent,      // open, but no byte comes
   kUnreadable,  // bytes come, but no whole message
-  kNoData,   // whole messages come, but nothing to publish, or a receiver's epochs have no signals
+  // Whole messages come, but nothing to publish, or a receiver's epochs have no signals, or samples
+  // of its inertial sensor are asked for and missing.
+  kNoData,
   kDamaged,  // messages are published, but many arrive damaged
   kGood,     // messages are published
   kEnded,    // finished for good
@@ -27,8 +29,8 @@ const char* name_of(StreamState state);
 struct WatchLimits {
   double silent_s = 3.0;      // without a byte
   double unreadable_s = 5.0;  // with bytes, but without a whole message
-  // With whole messages, but without one published, or without a receiver's epoch that has signals;
-  // of a receiver with rare epochs three times their interval, where that is longer.
+  // With whole messages, but without one published, or without a receiver's epoch that has signals
+  // (of one with rare epochs three times their interval, where that is longer), or without samples.
   double no_data_s = 10.0;
   double damaged_share = 0.1;  // of the messages of the last looks, and at least three of them
 };
@@ -94,6 +96,7 @@ class StreamWatch {
   // Of the last epoch with signals, or since when the next one is awaited; unset: the receiver has
   // sent no epoch at all.
   Instant last_epoch_ns_;
+  Instant last_sample_ns_;          // the same of samples that are asked for
   std::deque<double> intervals_s_;  // between the last epochs
   std::uint64_t bytes_ = 0, bytes_seen_ = 0, failures_ = 0;
   FormatCounts seen_;                // at the last look

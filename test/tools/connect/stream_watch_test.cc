@@ -16,6 +16,7 @@ class FakeFormat : public StreamFormat {
   std::string detail() const override { return "all is well"; }
   std::string why_no_frames() const override { return "is the baud rate right?"; }
   std::string why_no_messages() const override { return "switch it on"; }
+  std::string why_no_samples() const override { return "log RAWIMUSXB"; }
   FormatCounts now;
 };
 
@@ -120,6 +121,44 @@ TEST_CASE("A receiver whose epochs have stopped is told although it sends inerti
   rig.watch.on_open(rig.now_ns);
   rig.seconds(10, 100, 5, 5);
   CHECK(rig.watch.state() == StreamState::kGood);
+}
+
+TEST_CASE("Samples that are asked for and do not come are told although epochs come", "[connect]") {
+  const bool had_samples = GENERATE(true, false);
+  WatchRig rig;
+  rig.format.now.samples = 0;
+  rig.epochs = 1;
+  rig.watch.on_open(rig.now_ns);
+  // Samples are awaited from the first whole message on.
+  if (had_samples) {
+    for (int i = 0; i < 20; ++i) {
+      ++*rig.format.now.samples;
+      rig.seconds(1, 100, 5, 5);
+    }
+    rig.seconds(10, 100, 5, 5);
+  } else {
+    rig.seconds(11, 100, 5, 5);
+  }
+  CHECK(rig.watch.state() == StreamState::kGood);
+  rig.seconds(1, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kNoData);
+  CHECK(rig.watch.text() == "no inertial sample for 11 s: log RAWIMUSXB");
+  ++*rig.format.now.samples;
+  rig.seconds(1, 100, 5, 5);
+  CHECK(rig.watch.state() == StreamState::kGood);
+}
+
+TEST_CASE("Where no message has been whole yet, damage is not told before its cause", "[connect]") {
+  WatchRig rig;
+  rig.watch.on_open(rig.now_ns);
+  for (int i = 0; i < 6; ++i) {
+    rig.format.now.damaged += 10;
+    rig.seconds(1, 100, 0, 0);
+    CHECK(rig.watch.state() == StreamState::kConnecting);
+  }
+  rig.format.now.damaged += 10;
+  rig.seconds(1, 100, 0, 0);
+  CHECK(rig.watch.state() == StreamState::kUnreadable);
 }
 
 TEST_CASE("A receiver whose antenna is cut is told, since its start or later", "[connect]") {

@@ -16,6 +16,8 @@ struct FormatCounts {
   std::uint64_t messages = 0;  // published; of corrections those with states
   // Of these the receiver's epochs, with signals and without. Other messages do not stand for them.
   std::uint64_t epochs = 0, empty_epochs = 0;
+  // Of these the samples of a receiver's inertial sensor; unset: they are not asked for.
+  std::optional<std::uint64_t> samples;
   std::uint64_t damaged = 0;  // refused by checksum, length or number of columns
   std::uint64_t refused = 0;  // whole, but with values or times that cannot be used
 };
@@ -38,6 +40,8 @@ class StreamFormat {
   // sentence without a full stop.
   virtual std::string why_no_frames() const = 0;
   virtual std::string why_no_messages() const = 0;
+  // What the format tells of a receiver's inertial sensor whose samples are missing, with a remedy.
+  virtual std::string why_no_samples() const { return ""; }
   // 1 sigma of the stamps against GPS time, s; NaN where they are the device's own.
   virtual double stamp_sigma_s() const;
 };

@@ -40,6 +40,7 @@ FormatCounts Oem7Format::counts() const {
                    c.ephemerides.bad_subframes + c.ephemerides.not_sane +
                    c.ephemerides.bad_ionosphere;
   if (options_.is_inertial) {
+    counts.samples = sent_samples_;
     counts.refused += c.imu.bad_length + c.imu.bad_time + c.imu.sensor_errors + c.imu.encrypted +
                       c.imu.unknown_scale + s.out_of_order + s.impossible;
   }

@@ -32,6 +32,7 @@ class Oem7Format final : public StreamFormat, private Oem7Handler {
   std::string detail() const override;
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
+  std::string why_no_samples() const override { return inertial_text(); }
 
  private:
   void on_epoch(const RawEpoch& epoch) override;

@@ -44,6 +44,7 @@ FormatCounts SbfFormat::counts() const {
                    c.decoded.bad_week + c.decoded.bad_subframes + c.decoded.not_sane +
                    c.decoded.bad_ionosphere;
   if (options_.is_inertial) {
+    counts.samples = sent_samples_;
     counts.refused +=
         c.imu.bad_length + c.imu.without_time + c.imu.bad_value + s.out_of_order + s.impossible;
   }

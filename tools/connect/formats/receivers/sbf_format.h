@@ -34,6 +34,7 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
   std::string detail() const override;
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
+  std::string why_no_samples() const override { return inertial_text(); }
 
  private:
   void on_epoch(const RawEpoch& epoch) override;

@@ -79,6 +79,7 @@ FormatCounts UbxFormat::counts() const {
                    c.sfrbx.wrong_satellite + c.sfrbx.not_sane + c.esf.bad_length +
                    c.time_marks.bad_length + c.time_marks.bad_time + pages_.refused();
   if (options_.is_inertial) {
+    counts.samples = imu_.messages();
     counts.messages += imu_.messages();
     counts.refused += c.esf.incomplete + imu_.refused();
   }

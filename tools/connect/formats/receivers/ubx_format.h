@@ -39,6 +39,7 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   double stamp_sigma_s() const override;
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
+  std::string why_no_samples() const override { return inertial_text(); }
 
  private:
   void on_epoch(const RawEpoch& epoch) override;
