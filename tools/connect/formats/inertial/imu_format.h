@@ -19,7 +19,14 @@ class ImuFormat : public StreamFormat {
 
  protected:
   // Publishes the reading as a sample, or counts why not.
-  void take(const ImuReading& reading) { output_.take(reading); }
+  void take(const ImuReading& reading) {
+    has_time_ = has_time_ || reading.gps_time || reading.clock_ns;
+    output_.take(reading);
+  }
+  // Returns why nothing is published, and `remedy` where no reading has had a time of the sensor.
+  std::string why_no_samples_of(const std::string& remedy) const {
+    return output_.text() + (has_time_ ? "" : "; " + remedy);
+  }
   // Adds what was published, and what was refused behind the decoder.
   void add_to(FormatCounts* counts) const {
     counts->messages += output_.messages();
@@ -28,6 +35,7 @@ class ImuFormat : public StreamFormat {
 
  private:
   ImuOutput output_;
+  bool has_time_ = false;  // GPS time or the sensor's own clock, in any reading
 };
 
 }  // namespace leonav

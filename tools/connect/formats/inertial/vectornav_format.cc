@@ -61,8 +61,8 @@ std::string VectornavFormat::why_no_messages() const {
     return "the messages hold no motion: add DeltaTheta of the common group, or AngularRate and "
            "Accel of the IMU group, to the binary output";
   }
-  return ImuFormat::why_no_messages() +
-         "; the output should hold TimeGps, or at least TimeStartup, of the common group";
+  return why_no_samples_of(
+      "the output should hold TimeGps, or at least TimeStartup, of the common group");
 }
 
 }  // namespace leonav

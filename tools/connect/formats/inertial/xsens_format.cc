@@ -98,7 +98,7 @@ std::string XsensFormat::why_no_messages() const {
     return "the messages hold no motion: add DeltaQ and DeltaV, or RateOfTurn and Acceleration, "
            "with one rate to the output configuration";
   }
-  return ImuFormat::why_no_messages() + "; the output should hold SampleTimeFine";
+  return why_no_samples_of("the output should hold SampleTimeFine");
 }
 
 }  // namespace leonav

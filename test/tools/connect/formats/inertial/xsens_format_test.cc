@@ -122,6 +122,17 @@ TEST_CASE("Increments of different rates are left out, because motion would be m
   CHECK(rig.messages.samples.size() > 20);
 }
 
+TEST_CASE("A time is asked for where the sensor gives none, and not where it does", "[connect]") {
+  const bool has_time = GENERATE(true, false);
+  XsensRig rig;
+  BigEndian p;
+  if (has_time) p.group(0x1060, 4).add(20'000, 4);  // SampleTimeFine
+  p.vector(0x8020, 1.0F, 2.0F, 3.0F).vector(0x4020, 4.0F, 5.0F, 9.8F);
+  rig.format.feed(message(0x36, p), 1);
+  CHECK(rig.messages.samples.empty());
+  CHECK((rig.format.why_no_messages().find("SampleTimeFine") == std::string::npos) == has_time);
+}
+
 TEST_CASE("The clock of the sensor goes on where it wraps", "[connect]") {
   XsensRig rig;
   std::uint32_t ticks = 0xFFFFFFFF - 40'000;  // it wraps after four seconds
