@@ -46,6 +46,8 @@ enum class Convention : std::uint8_t {
   kOrbits = 28,            // codes contradict orbits or clocks for minutes; value: m, 1 sigma
 };
 inline constexpr std::size_t kConventionCount = 29;
+// Mistakes that can come right by themselves are found again so often while they last.
+inline constexpr double kFoundAgain_s = 60.0;
 // Returns the name of the event code: "force_in_g", ...
 std::string_view to_string(Convention convention);
 

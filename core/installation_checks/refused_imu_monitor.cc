@@ -18,17 +18,16 @@ bool is_about(double value, double expected) {
 }  // namespace
 
 ConventionFinding RefusedImuMonitor::add_refused(const ImuSample& sample) {
-  if (reported_ || !sample.delta_velocity_b.allFinite() || !sample.delta_theta_b.allFinite())
-    return {};
-  if (run_ == 0) seconds_ = speed_ = angle_ = 0.0;
+  if (!sample.delta_velocity_b.allFinite() || !sample.delta_theta_b.allFinite()) return {};
+  if (run_ == 0) seconds_ = speed_ = angle_ = due_s_ = 0.0;
   ++run_;
   interval_s_ = sample.interval_s();
   seconds_ += interval_s_;
   speed_ += sample.delta_velocity_b.norm();
   angle_ += sample.delta_theta_b.norm();
-  if (run_ < kMinRun || !(seconds_ > 0.0)) return {};
+  if (run_ < kMinRun || !(seconds_ > due_s_)) return {};
   const ConventionFinding finding = evaluate();
-  reported_ = static_cast<bool>(finding);
+  if (finding) due_s_ = seconds_ + kFoundAgain_s;
   return finding;
 }
 

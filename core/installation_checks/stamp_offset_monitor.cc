@@ -30,12 +30,13 @@ ConventionFinding StampOffsetMonitor::add_epoch(GpsTime stamp) {
     epochs_ = std::abs(offset_s) > kLatency_s ? 1 : 0;
     offset_s_ = offset_s;
     since_s_ = 0.0;
+    due_s_ = kMin_s;
     return {};
   }
   ++epochs_;
   since_s_ += step_s;
-  if (reported_ || epochs_ < kMinStampEpochs || since_s_ < kMin_s) return {};
-  reported_ = true;
+  if (epochs_ < kMinStampEpochs || since_s_ < due_s_) return {};
+  due_s_ = since_s_ + kFoundAgain_s;
   return stamp_finding(offset_s_);
 }
 

@@ -22,7 +22,8 @@ class StampOffsetMonitor {
     imu_ = stamp;
     ++samples_;
   }
-  // Adds the stamp of an epoch that is plausible by itself; returns a finding once.
+  // Adds the stamp of an epoch that is plausible by itself; returns a finding, and again each
+  // minute while it lasts.
   ConventionFinding add_epoch(GpsTime stamp);
 
  private:
@@ -30,8 +31,8 @@ class StampOffsetMonitor {
   GpsTime last_epoch_;
   std::uint64_t samples_ = 0, samples_at_epoch_ = 0;
   double offset_s_ = 0.0, since_s_ = 0.0;
-  int epochs_ = 0;  // successive epochs with this offset
-  bool reported_ = false;
+  double due_s_ = 0.0;  // since_s_ at which it is reported
+  int epochs_ = 0;      // successive epochs with this offset
 };
 
 }  // namespace leonav

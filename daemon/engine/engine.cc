@@ -24,7 +24,7 @@ Engine::Engine(const DaemonConfig& config, MessageTarget* target, EngineHooks ho
       journal_(config, hooks_.disk_call),
       inertial_ring_(kInertialRing, &inertial_wakeup_),
       gnss_ring_(&gnss_wakeup_),
-      checkpoint_writer_(config.checkpoint),
+      checkpoint_writer_(config.checkpoint, hooks_.checkpoint_write),
       io_sink_(kInputRingBytes, &out_wakeup_, &counters_),
       inertial_sink_(kInertialOutBytes, &out_wakeup_, &counters_),
       gnss_sink_(kGnssOutBytes, &out_wakeup_, &counters_, checkpoint_writer_.latest()),
@@ -132,9 +132,9 @@ bool Engine::finish() {
     inertial_thread_.join();
     gnss_thread_.join();
     if (smoother_ != nullptr) smoother_->finish();
-    checkpoint_writer_.finish();
     publisher_.finish();
     journal_.finish();
+    checkpoint_writer_.finish();
   }
   finished_ = true;
   return journal_.error().empty();

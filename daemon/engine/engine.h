@@ -29,6 +29,7 @@ struct EngineHooks {
   std::function<void(std::uint64_t epoch)> before_epoch;      // in `gnss`
   std::function<void(std::uint64_t epoch)> before_iteration;  // in `smoother`
   DiskHook disk_call;                                         // in `journal`
+  CheckpointHook checkpoint_write;                            // in `file`
 };
 
 // It is everything of the daemon but the LCM socket. Threads: the caller of receive() is `io`. The

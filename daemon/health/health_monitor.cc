@@ -21,7 +21,7 @@ std::span<const std::uint8_t> HealthMonitor::next(double now_s, std::string_view
   reasons_.begin(now_s);
   if (!stalled_threads.empty()) reasons_.raise(HealthReason::kThreadHangs, stalled_threads);
   raise(inputs_.look(now_s));
-  raise(conventions_.look());
+  raise(conventions_.look(now_s));
   raise(estimator_.look());
   raise(solution_.look(now_s, &inputs_, estimator_));
   raise(measurements_.look());

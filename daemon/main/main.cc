@@ -47,6 +47,8 @@ void warn_of(const std::string& text) {
 // After the threads have ended. Returns the exit code.
 int tell_end(Engine* engine, bool is_complete, bool io_failed, const std::string& lcm_url) {
   JournalLog::tell_kept(&engine->journal());
+  if (const std::string problem = engine->checkpoint_error(); !problem.empty())
+    spdlog::warn("the last checkpoint is not written: {}", problem);
   if (!is_complete) {
     spdlog::error("{}", engine->journal().error());
     return kExitJournal;
@@ -64,6 +66,7 @@ int tell_end(Engine* engine, bool is_complete, bool io_failed, const std::string
 }
 
 int run(const CommandLine& command_line) {
+  std::signal(SIGHUP, SIG_IGN);  // until there is something to reload
   DaemonConfig config = command_line.load();
   set_log_level(config.log.level);
   const std::unique_ptr<CommandGate> gate = configured_gate(config);

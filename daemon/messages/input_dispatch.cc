@@ -55,7 +55,9 @@ void InputDispatch::accept() {
 void InputDispatch::refuse(const RefusedInputs& refused) {
   counters_.received[index_of(refused.channel)] += refused.count;
   counters_.refused[index_of(refused.channel)] += refused.count;
-  counters_.refused_as[index_of(refused.channel)] = refused.fault;
+  const auto fault = static_cast<std::size_t>(refused.fault);
+  if (fault < kInputFaultCount)
+    counters_.refused_by[index_of(refused.channel)][fault] += refused.count;
   sequencer_->on_refused(refused.fault, refused.count);
 }
 

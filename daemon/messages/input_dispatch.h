@@ -34,9 +34,9 @@ class InputDispatch {
 
   struct Counters {
     std::array<std::uint64_t, kInputChannels.size()> received{};  // by channel, bad ones too
-    // Of these, those that refuse() counted, and the fault of the last one.
+    // Of these, those that refuse() counted, in all and by fault.
     std::array<std::uint64_t, kInputChannels.size()> refused{};
-    std::array<InputFault, kInputChannels.size()> refused_as{};
+    std::array<std::array<std::uint64_t, kInputFaultCount>, kInputChannels.size()> refused_by{};
     // Numbers missing from the senders' sequences: messages lost on the way.
     std::array<std::uint64_t, kInputChannels.size()> lost{};
   };

@@ -1,7 +1,9 @@
 #include "daemon/service/lcm_link.h"
 
+#include "daemon/link/message_limit.h"
 #include "daemon/threads/process_threads.h"
 #include "daemon/threads/wall_clock.h"
+#include "drivers/lcm/wire.h"
 
 namespace leonav {
 namespace {
@@ -16,9 +18,14 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine
                          CommandGate* gate)
     : engine_(engine), gate_(gate), prefix_(config.prefix) {
   const std::set<pid_t> before = threads_of_process();
+  const MessageLimit limit;
   lcm_ = open_lcm(config.url);
-  for (const Channel channel : kInputChannels) subscribe(config, name_of(channel), &on_message);
+  for (const Channel channel : kInputChannels) {
+    // A checkpoint comes from the file alone: who could send one could set the heading.
+    if (channel != Channel::kCheckpoint) subscribe(config, name_of(channel), &on_message);
+  }
   if (gate_) subscribe(config, kSignedCommandChannel, &on_signed_command);
+  refused_ = limit.apply(wire::kMaxMessageBytes);
   for (const pid_t thread : threads_of_process()) {
     if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
   }

@@ -21,7 +21,8 @@ class LcmReceiver {
   LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
               CommandGate* gate = nullptr);
 
-  // The settings of that thread that the system refused, as a text; empty: none.
+  // The first setting of that thread or of its socket that the system refused, as a text; empty:
+  // none.
   const std::string& refused() const { return refused_; }
 
   // Passes the messages received within `timeout_ms` to the engine, and publishes COMMAND_NONCE

@@ -61,8 +61,9 @@ struct EngineCounters {
   // io
   Gauge io_rounds;  // polls for messages, with or without one
   std::array<Gauge, kInputChannels.size()> received, refused, lost;
-  std::array<Gauge, kInputChannels.size()> refused_as;  // InputFault of the last one
-  std::array<Gauge, 16> rejected;                       // by InputFault
+  // By channel and InputFault.
+  std::array<std::array<Gauge, kInputFaultCount>, kInputChannels.size()> refused_by;
+  std::array<Gauge, 16> rejected;                                         // by InputFault
   std::array<std::array<Gauge, 16>, kStreams.size()> rejected_of_stream;  // of these, the same
   Gauge odometer_age_ms;                                                  // -1: none came
   Gauge accepted_odometer, late_odometer;

@@ -54,7 +54,7 @@ std::string replace_file(const std::string& path, std::string_view content) {
   }
   kEnding.copy(beside.data() + path.copy(beside.data(), path.size()), kEnding.size());
   const int descriptor =
-      open(beside.data(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+      open(beside.data(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
   if (descriptor < 0) return failure(beside.data(), "cannot be made");
   const bool written = write_all(descriptor, content) && fsync(descriptor) == 0;
   std::string problem = written ? "" : failure(beside.data(), "cannot be written");

@@ -20,7 +20,8 @@ void copy_input_counters(const InputDispatch& dispatch, const Sequencer& sequenc
   for (std::size_t i = 0; i < kInputChannels.size(); ++i) {
     counters->received[i].set(static_cast<std::int64_t>(inputs.received[i]));
     counters->refused[i].set(static_cast<std::int64_t>(inputs.refused[i]));
-    counters->refused_as[i].set(static_cast<std::int64_t>(inputs.refused_as[i]));
+    for (std::size_t fault = 0; fault < kInputFaultCount; ++fault)
+      counters->refused_by[i][fault].set(static_cast<std::int64_t>(inputs.refused_by[i][fault]));
     counters->lost[i].set(static_cast<std::int64_t>(inputs.lost[i]));
   }
   const Sequencer::Counters& from = sequencer.counters();

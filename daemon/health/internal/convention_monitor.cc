@@ -5,18 +5,38 @@
 #include "daemon/text/convention_text.h"
 
 namespace leonav {
+namespace {
 
-std::span<const Finding> ConventionMonitor::look() {
+constexpr double kHold_s = 2.0 * kFoundAgain_s;
+
+bool can_mend_itself(Convention convention) {
+  return convention == Convention::kLeapSeconds || convention == Convention::kStampOffset ||
+         convention == Convention::kGyroRange;
+}
+
+}  // namespace
+
+std::span<const Finding> ConventionMonitor::look(double now_s) {
   found_.clear();
-  std::array<std::optional<std::int64_t>, kConventionCount> milli;
+  bool has_changed = false;
   for (std::size_t i = 0; i < kConventionCount; ++i) {
-    if (counters_->conventions[i].get() != 0) milli[i] = counters_->convention_milli[i].get();
+    Suspicion& one = suspected_[i];
+    const bool was_active = one.is_active;
+    const std::int64_t events = counters_->conventions[i].get();
+    if (std::exchange(one.events, events) != events) {
+      one.last_s = now_s;
+      one.is_active = true;
+      if (!was_active) one.milli = counters_->convention_milli[i].get();
+    } else if (can_mend_itself(static_cast<Convention>(i)) && now_s - one.last_s > kHold_s) {
+      one.is_active = false;
+    }
+    has_changed = has_changed || one.is_active != was_active;
   }
-  if (std::exchange(suspected_, milli) != milli) {
+  if (has_changed) {
     suspicions_.clear();
     for (std::size_t i = 0; i < kConventionCount; ++i) {
-      if (!milli[i]) continue;
-      const double value = static_cast<double>(*milli[i]) * 1e-3;
+      if (!suspected_[i].is_active) continue;
+      const double value = static_cast<double>(suspected_[i].milli) * 1e-3;
       const std::string text = convention_text(static_cast<Convention>(i), value);
       suspicions_ += (suspicions_.empty() ? "" : "; ") + text;
     }

@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -12,21 +11,28 @@
 namespace leonav {
 
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
-// mended and the daemon is started again.
+// mended and the daemon is started again; where it can mend itself, as stamps of a receiver that
+// learns the leap seconds, until it has not been found for two minutes.
 class ConventionMonitor {
  public:
   explicit ConventionMonitor(const EngineCounters* counters) : counters_(counters) {}
 
-  // Once a second; valid until the next call.
-  std::span<const Finding> look();
+  // Once a second, with a clock that never goes back; valid until the next call.
+  std::span<const Finding> look(double now_s);
   // Each with its remedy; empty: none.
   const std::string& suspicions() const { return suspicions_; }
 
  private:
+  struct Suspicion {
+    bool is_active = false;
+    std::int64_t events = 0;
+    std::int64_t milli = 0;  // the value when it became active, in thousandths
+    double last_s = 0.0;     // of the last event
+  };
+
   const EngineCounters* counters_;
   std::string suspicions_;
-  // The values that suspicions_ tells, in thousandths.
-  std::array<std::optional<std::int64_t>, kConventionCount> suspected_;
+  std::array<Suspicion, kConventionCount> suspected_;
   Findings found_;
 };
 

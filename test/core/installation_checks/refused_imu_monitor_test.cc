@@ -33,6 +33,15 @@ TEST_CASE("rates handed in as increments", "[conventions]") {
   CHECK(finding.value == Approx(200.0).epsilon(0.01));
 }
 
+TEST_CASE("samples that are refused for minutes are found again each minute", "[conventions]") {
+  RefusedImuMonitor watch;
+  int found = 0;
+  for (int i = 0; i < 200 * 130; ++i) {
+    if (watch.add_refused(sample_of(0.5, 0.049))) ++found;
+  }
+  CHECK(found == 3);
+}
+
 TEST_CASE("gyros out of range while gravity is right", "[conventions]") {
   CHECK(found(sample_of(0.5, 0.049), 200).convention == Convention::kGyroRange);
 }

@@ -33,6 +33,16 @@ TEST_CASE("the leap seconds are called so", "[conventions]") {
   CHECK(found_in_stamps(604800.0, 20).convention == Convention::kStampOffset);
 }
 
+TEST_CASE("an offset that stays is found again each minute", "[conventions]") {
+  StampOffsetMonitor watch;
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    for (int k = 0; k < 100; ++k) watch.add_imu(kStart.plus_seconds(i + 0.01 * k - 18.0));
+    if (watch.add_epoch(kStart.plus_seconds(i + 0.9))) ++found;
+  }
+  CHECK(found == 4);  // after 8, 68, 128 and 188 s
+}
+
 TEST_CASE("a few epochs, or an IMU that has stopped, say nothing of stamps", "[conventions]") {
   CHECK(!found_in_stamps(-18.0, 6));
   CHECK(!found_in_stamps(0.0, 60, false));

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <filesystem>
+#include <mutex>
 #include <thread>
 
 #include "core/earth/ellipsoid.h"
@@ -266,6 +268,35 @@ TEST_CASE("what keeps a checkpoint from being written is reported") {
   keeper.latest()->set(parked());
   CHECK(comes_true([&] { return !keeper.error().empty(); }));
   keeper.finish();
+}
+
+TEST_CASE("a disk that does not answer is told, and holds up no end") {
+  const test::TemporaryFile folder("unused", "");
+  // What the thread goes on using must live as long as the process.
+  static std::mutex mutex;
+  static std::condition_variable changed;
+  static bool is_free = false;
+  const auto wait = [] {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [] { return is_free; });
+  };
+  {
+    CheckpointWriter keeper({folder.beside("checkpoint.yaml"), 10.0}, wait);
+    keeper.start();
+    keeper.latest()->set(parked());
+    CHECK(comes_true([&] { return keeper.error().find("does not answer") != std::string::npos; }));
+    const auto begin = std::chrono::steady_clock::now();
+    keeper.finish();
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(10));
+    CHECK_FALSE(std::filesystem::exists(folder.beside("checkpoint.yaml")));
+  }
+  {
+    const std::lock_guard lock(mutex);
+    is_free = true;
+  }
+  changed.notify_all();
+  // The thread that was left to itself goes on.
+  CHECK(comes_true([&] { return std::filesystem::exists(folder.beside("checkpoint.yaml")); }));
 }
 
 TEST_CASE("the latest of many values is taken, once") {

@@ -13,6 +13,11 @@ SHORT, FRAGMENT = struct.Struct(">4sI"), struct.Struct(">4sIIIHH")
 MOST_BYTES = 65000  # of one datagram's data
 
 
+def begun(number, channel, size):
+    """The first datagram of a message that claims to have so many bytes and never goes on."""
+    return FRAGMENT.pack(b"LC03", number, size, 0, 0, 5000) + channel.encode() + b"\0" + bytes(20)
+
+
 def datagrams(number, channel, data):
     """The datagrams of a message."""
     name = channel.encode() + b"\0"
@@ -38,6 +43,10 @@ class Sender:
     def send(self, channel, data):
         for datagram in datagrams(self.number, channel, data):
             self.send_bytes(datagram)
+        self.number = (self.number + 1) & 0xFFFFFFFF
+
+    def begin(self, channel, size):
+        self.send_bytes(begun(self.number, channel, size))
         self.number = (self.number + 1) & 0xFFFFFFFF
 
     def send_bytes(self, datagram):

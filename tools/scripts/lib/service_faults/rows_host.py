@@ -8,6 +8,7 @@ import threading
 import time
 
 from service_faults import disks, said, stream
+from service_faults.drive import IMU
 from service_faults.process_status import status_kb
 from service_faults.row import Expected, Row, fault
 from service_faults.run import ROUTE
@@ -206,7 +207,7 @@ def mapped_kb(run):
 
 
 def measure_memory(run):
-    status = {name: status_kb(run.daemon.process.pid, name) for name in ("VmRSS", "VmLck")}
+    status = {name: status_kb(run.daemon.process.pid, name) for name in ("VmRSS", "VmHWM", "VmLck")}
     run.memory = getattr(run, "memory", []) + [(status, mapped_kb(run))]
 
 
@@ -222,6 +223,17 @@ def memory_is_small(run, outputs, result):
     words = [f"{name} {kb / 1024:.1f}" for name, kb in mapped[:8]]
     run.notes.append(f"resident {first['VmRSS'] / 1024:.1f} MB at the start, {last['VmRSS'] / 1024:.1f} MB after a minute, locked "
                      f"{last['VmLck'] / 1024:.1f} MB; " + ", ".join(words))
+
+
+def begin_long_message(run):
+    run.sender.begin(IMU, 2**28 - 1)
+
+
+def not_grown(run, outputs, result):
+    (first, _), (last, _) = run.memory
+    grown = last["VmHWM"] - first["VmRSS"]
+    result.at_most("grown", grown, MOST_GROWTH_KB, "kB")
+    run.notes.append(f"resident {first['VmRSS'] / 1024:.1f} MiB before it, {grown} kB more at most")
 
 
 def reload(run):
@@ -267,6 +279,9 @@ ROWS = [
         judge=damage_is_told, expected=Expected(allowed=ANY, ok_s=45, back_s=10), quick=True),
     Row("memory", "none: what is resident, everything locked", begin_s=5, end_s=65, after_s=5,
         actions=((5, measure_memory), (65, measure_memory)), judge=memory_is_small, expected=Expected(allowed=ANY)),
+    Row("fragments", "ten datagrams a second that each begin a message of 256 MB, for 20 s", end_s=80, after_s=20,
+        actions=((59.5, measure_memory), *((60 + k / 10, begin_long_message) for k in range(200)), (81, measure_memory)), judge=not_grown,
+        expected=Expected(), quick=True),
     Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
     Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
     Row("sigterm-under-load", "SIGTERM after 20 s of junk at ten times the nominal rate", begin_s=40, after_s=30, until_stopped=True,

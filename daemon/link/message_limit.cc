@@ -1,0 +1,65 @@
+#include "daemon/link/message_limit.h"
+
+#include <linux/filter.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <iterator>
+
+namespace leonav {
+namespace {
+
+// "LCM UDP Multicast Protocol Description" (LCM documentation), numbers are big endian: magic word
+// (4 bytes), number of the message (4), of a fragment then the size of the whole message (4). The
+// filter sees the UDP header (8 bytes) in front.
+constexpr std::uint32_t kUdpHeaderBytes = 8, kMagicAt = kUdpHeaderBytes,
+                        kSizeAt = kUdpHeaderBytes + 8, kFragmentMagic = 0x4C433033;  // "LC03"
+
+std::set<int> udp_sockets() {
+  std::set<int> sockets;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    int descriptor = 0, type = 0;
+    socklen_t size = sizeof type;
+    if (std::from_chars(name.data(), name.data() + name.size(), descriptor).ec == std::errc() &&
+        getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_DGRAM)
+      sockets.insert(descriptor);
+  }
+  return sockets;
+}
+
+}  // namespace
+
+MessageLimit::MessageLimit() : before_(udp_sockets()) {}
+
+std::string MessageLimit::apply(std::uint32_t most_bytes) const {
+  // A datagram that is too short for the word that is loaded is dropped.
+  std::array<sock_filter, 6> program = {{
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kMagicAt),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kFragmentMagic, 0, 2),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kSizeAt),
+      BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, most_bytes, 1, 0),
+      BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFF),  // the whole datagram
+      BPF_STMT(BPF_RET | BPF_K, 0),
+  }};
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  const std::set<int> now = udp_sockets();
+  std::set<int> opened;
+  std::set_difference(now.begin(), now.end(), before_.begin(), before_.end(),
+                      std::inserter(opened, opened.end()));
+  for (const int socket : opened) {
+    if (setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)
+      return std::string("messages of LCM that claim too much memory are not dropped: ") +
+             std::strerror(errno);
+  }
+  return "";
+}
+
+}  // namespace leonav
