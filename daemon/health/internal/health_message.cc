@@ -30,7 +30,7 @@ double resident_megabytes() {
   const char* const second = std::find(static_cast<const char*>(text.data()), end, ' ');
   long pages = 0;
   if (second != end) std::from_chars(second + 1, end, pages);
-  return static_cast<double>(pages * sysconf(_SC_PAGESIZE)) / 1e6;
+  return static_cast<double>(pages * sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 // The counts of a message. A name is given in parts, which are joined in its place.
