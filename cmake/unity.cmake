@@ -1,5 +1,5 @@
 # Several sources of a target compiled as one: most of a build's time goes into headers and templates, which are
-# then parsed once for all of them. A cold build takes half the time; after a change to one source its
+# then parsed once for all of them. A cold build is quicker; after a change to one source its
 # neighbours are compiled as well, for which -DLEONAV_UNITY=OFF is there. With gcc alone, so that a build with clang
 # still finds a source that does not include what it uses. Names of one target's sources must differ, those
 # in unnamed namespaces too: share what is the same thing, and name what is not for what it is.
