@@ -124,7 +124,7 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
   OrbitAndClock corrections{s.orbit, s.orbit_is.reference, clock.values, clock.is.reference, 0.0};
   const bool has_high_rate =
       s.high_rate_is.reference.is_set() && s.high_rate_is.source == clock.is.source &&
-      s.high_rate_is.reference >= clock.is.reference &&
+      s.high_rate_is.sent >= clock.is.sent &&
       is_within(time, s.high_rate_is.reference, options_.max_high_rate_age_s);
   if (has_high_rate) corrections.high_rate_clock_m = s.high_rate_m;
   CorrectedState state = apply(corrections, *broadcast, time);

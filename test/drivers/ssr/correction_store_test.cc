@@ -214,6 +214,41 @@ TEST_CASE("Reference times, accuracies and high-rate clocks are taken") {
         kTime.plus_seconds(5.0));
 }
 
+TEST_CASE(
+    "A high-rate clock sent with or after its clock is added all through the clock's interval") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  store.add(orbit(0.0, 17));
+  const auto rapid_at = [&](double time_s, std::uint8_t issue = 0) {
+    SsrMessage rapid = message(SsrKind::kHighRateClock, time_s);
+    rapid.issue = issue;
+    rapid.satellites[0].high_rate_clock_m = 0.5;
+    store.add(rapid);
+    return rapid;
+  };
+  const auto clock_m = [&](const SsrMessage& m, double time_s) {
+    const GpsTime time = kTime.plus_seconds(time_s);
+    const auto states = store.states(m, time);
+    REQUIRE(states.size() == 1);
+    return kSpeedOfLight * (states[0].clock_s - broadcast_state(elements(kG05, 17), time).clock_s);
+  };
+  SsrMessage c = clock(0.0, 1.0);
+  c.update_interval_s = 30.0;  // its reference time is 15 s
+  store.add(c);
+  for (const double time_s : {0.0, 1.0, 14.0, 15.0, 29.0}) {
+    CAPTURE(time_s);
+    const SsrMessage rapid = rapid_at(time_s);
+    CHECK(clock_m(rapid, time_s) == Approx(1.5).margin(1e-6));
+  }
+  // It was made for the clock before, and says nothing of the next one.
+  c.time = kTime.plus_seconds(30.0);
+  store.add(c);
+  CHECK(clock_m(c, 30.0) == Approx(1.0).margin(1e-6));
+  CHECK(clock_m(rapid_at(31.0), 31.0) == Approx(1.5).margin(1e-6));
+  // Nor is one of another solution added.
+  CHECK(clock_m(rapid_at(32.0, 3), 32.0) == Approx(1.0).margin(1e-6));
+}
+
 TEST_CASE("Corrections that say for how long they hold, and of which point, are believed") {
   CorrectionStore store;
   store.add(elements(kG05, 17));
