@@ -157,12 +157,18 @@ bool has_clocks(const SsrMessage& message) {
 
 std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time) {
   std::vector<SignalBias> biases;
+  const auto add = [&](SatelliteId satellite, BiasKind kind, const SsrBias& bias) {
+    biases.push_back({satellite, bias.code, kind, time, -bias.bias_m});
+    const bool is_p_of_has = message.service == SsrService::kGalileoHas &&
+                             satellite.system == System::kGps && bias.code == SignalCode{'2', 'P'};
+    if (is_p_of_has) biases.push_back({satellite, {'2', 'W'}, kind, time, -bias.bias_m});
+  };
   for (const SsrSatellite& satellite : message.satellites) {
     for (const SsrBias& bias : satellite.code_biases) {
-      biases.push_back({satellite.satellite, bias.code, BiasKind::kCode, time, -bias.bias_m});
+      add(satellite.satellite, BiasKind::kCode, bias);
     }
     for (const SsrBias& bias : satellite.phase_biases) {
-      biases.push_back({satellite.satellite, bias.code, BiasKind::kPhase, time, -bias.bias_m});
+      add(satellite.satellite, BiasKind::kPhase, bias);
     }
   }
   std::erase_if(biases, [](const SignalBias& bias) { return !is_sane(bias); });

@@ -394,6 +394,31 @@ TEST_CASE("Biases are turned to what is subtracted") {
   CHECK(biases[0].kind == BiasKind::kCode);
 }
 
+TEST_CASE("The L2 P bias of GPS in HAS is that of P(Y) too, and the pair 1C/2W has its delay") {
+  SsrMessage m = message(SsrKind::kCodeBias, 0.0);
+  m.service = SsrService::kGalileoHas;
+  m.satellites[0].code_biases = {{{'1', 'C'}, -3.36}, {{'2', 'L'}, -5.4}, {{'2', 'P'}, -5.54}};
+  SignalBiasStore has;
+  for (const SignalBias& bias : biases_of(m, kTime)) CHECK(has.add(bias));
+  const auto single = has.code_delay(kG05, kTime, {'2', 'W'});
+  REQUIRE(single);
+  CHECK(single->delay_m == Approx(5.54));
+  const auto pair = has.code_delay(kG05, kTime, {'1', 'C'}, {'2', 'W'});
+  REQUIRE(pair);
+  const double squares = std::pow(1575.42 / 1227.60, 2);
+  CHECK(pair->delay_m == Approx((squares * 3.36 - 5.54) / (squares - 1.0)));
+  m.satellites[0].phase_biases = {{{'2', 'P'}, 0.1}};
+  CHECK(biases_of(m, kTime).size() == 6);
+  // Others have numbers of their own for P and P(Y), and other systems no P(Y).
+  m.satellites[0].phase_biases.clear();
+  m.service = SsrService::kIgs;
+  CHECK(biases_of(m, kTime).size() == 3);
+  m.service = SsrService::kGalileoHas;
+  m.satellites[0].satellite = {System::kBeidou, 20};
+  m.satellites[0].code_biases = {{{'1', 'P'}, 1.0}};
+  CHECK(biases_of(m, kTime).size() == 1);
+}
+
 TEST_CASE("Any satellites and times in any order make valid states or none") {
   std::mt19937 random(3);
   CorrectionStore store;
