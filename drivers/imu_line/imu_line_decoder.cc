@@ -48,16 +48,24 @@ double clock_unit_ns(LineColumn column) {
 
 }  // namespace
 
+void ImuLineDecoder::begin_connection() {
+  text_.clear();
+  is_first_ = is_dropped_ = true;
+}
+
 void ImuLineDecoder::feed(std::span<const std::uint8_t> bytes, ImuLineHandler* handler) {
   for (const std::uint8_t byte : bytes) {
     if (byte == '\n' || byte == '\r') {
-      if (!overflows_) decode(text_, handler);
+      if (!is_dropped_) decode(text_, handler);
+      counters_.first_lines += is_first_;
       text_.clear();
-      overflows_ = false;
+      is_dropped_ = is_first_ = false;
+    } else if (is_dropped_) {
+      continue;
     } else if (text_.size() < kMaxLine) {
       text_.push_back(static_cast<char>(byte));
-    } else if (!overflows_) {
-      overflows_ = true;
+    } else {
+      is_dropped_ = true;
       ++counters_.too_long;
     }
   }
