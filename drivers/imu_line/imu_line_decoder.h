@@ -56,6 +56,7 @@ class ImuLineDecoder {
 
  private:
   void decode(std::string_view text, ImuLineHandler* handler);
+  bool has_prefix(std::string_view text) const;
   bool take_checksum(std::string_view* text);
   void split(std::string_view text);
   bool read(ImuLine* line);

@@ -132,6 +132,27 @@ TEST_CASE("Prefix, blanks and checksum", "[imu_line]") {
   CHECK(counters.other_lines == 1);
 }
 
+TEST_CASE("A prefix is a whole word, or ends with a sign", "[imu_line]") {
+  using enum LineColumn;
+  LineLayout how;
+  how.columns = {kGyroX, kGyroY, kGyroZ, kAccelX, kAccelY, kAccelZ};
+  ImuLineCounters counters;
+  const auto count = [&](const std::string& prefix, char separator, const std::string& text) {
+    how.prefix = prefix;
+    how.separator = separator;
+    return decode(how, text, &counters).lines.size();
+  };
+  // The lines of IMU2 have one column less, so that "2" would be their first.
+  CHECK(count("IMU", ',', "IMU,0,0,0,0,0,-9.8\nIMU2,0,0,0,0,-9.8\n") == 1);
+  CHECK(counters.other_lines == 1);
+  CHECK(count("IMU", ',', "IMUX,0,0,0,0,0,-9.8\nIMU, 0,0,0,0,0,-9.8\nIMU 0,0,0,0,0,-9.8\n") == 2);
+  CHECK(count("IMU", ' ', "IMU 0 0 0 0 0 -9.8\nIMU\t0 0 0 0 0 -9.8\nIMU2 0 0 0 0 -9.8\n") == 2);
+  CHECK(count("IMU,", ',', "IMU,0,0,0,0,0,-9.8\n") == 1);
+  CHECK(count("A:", ',', "A:0,0,0,0,0,-9.8\nB:0,0,0,0,0,-9.8\n") == 1);
+  CHECK(count("IMU", ',', "IMU\nIMU,\n") == 0);
+  CHECK(counters.bad_columns == 2);
+}
+
 TEST_CASE("The end of one connection and the beginning of the next make no line", "[imu_line]") {
   using enum LineColumn;
   LineLayout how;
