@@ -58,8 +58,6 @@ std::string limit_text() { return std::to_string(kMaxObservations) + " that an e
 
 }  // namespace
 
-EpochCapacity::EpochCapacity(const GnssConfig& config) : config_(config) {}
-
 void EpochCapacity::fit(std::vector<SignalObservation>* signals, RawEpoch* epoch) {
   if (!std::is_sorted(signals->begin(), signals->end(), comes_before))
     std::sort(signals->begin(), signals->end(), comes_before);

@@ -26,10 +26,6 @@ struct CapacityLosses {
 // preference.
 class EpochCapacity {
  public:
-  // `config` gives the preferred bands and attributes of each system. Those who read a recording or
-  // a receiver do not know the navigator's configuration, and take the default one.
-  explicit EpochCapacity(const GnssConfig& config = default_gnss_config());
-
   // Sorts `signals` by satellite and code, and makes them the observations of `epoch`; there is at
   // most one per satellite and code. What does not fit is counted in losses().
   void fit(std::vector<SignalObservation>* signals, RawEpoch* epoch);
@@ -38,7 +34,9 @@ class EpochCapacity {
  private:
   void keep_usable(std::vector<SignalObservation>* signals);
 
-  GnssConfig config_;
+  // The preferred bands and attributes of each system: who reads a recording or a receiver does not
+  // know the navigator's configuration, and takes the default one.
+  GnssConfig config_ = default_gnss_config();
   CapacityLosses losses_;
 };
 

@@ -48,24 +48,45 @@ double clock_unit_ns(LineColumn column) {
 
 }  // namespace
 
+void ImuLineDecoder::begin_connection() {
+  text_.clear();
+  is_first_ = is_dropped_ = true;
+}
+
 void ImuLineDecoder::feed(std::span<const std::uint8_t> bytes, ImuLineHandler* handler) {
   for (const std::uint8_t byte : bytes) {
     if (byte == '\n' || byte == '\r') {
-      if (!overflows_) decode(text_, handler);
+      if (!is_dropped_) decode(text_, handler);
+      counters_.first_lines += is_first_;
       text_.clear();
-      overflows_ = false;
+      is_dropped_ = is_first_ = false;
+    } else if (is_dropped_) {
+      continue;
     } else if (text_.size() < kMaxLine) {
       text_.push_back(static_cast<char>(byte));
-    } else if (!overflows_) {
-      overflows_ = true;
+    } else {
+      is_dropped_ = true;
       ++counters_.too_long;
     }
   }
 }
 
+// A word must end where the prefix ends, so that "IMU" is not found in "IMU2". A prefix that ends
+// with a separator or another sign, as "$", ends by itself.
+bool ImuLineDecoder::has_prefix(std::string_view text) const {
+  const std::string& prefix = layout_.prefix;
+  if (!text.starts_with(prefix)) return false;
+  if (prefix.empty() || text.size() == prefix.size()) return true;
+  const auto is_of_word = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+  };
+  const char next = text[prefix.size()];
+  return !is_of_word(prefix.back()) || next == layout_.separator || next == ' ' || next == '\t';
+}
+
 void ImuLineDecoder::decode(std::string_view text, ImuLineHandler* handler) {
   if (text.empty()) return;  // also between CR and LF
-  if (trim(text).empty() || !text.starts_with(layout_.prefix)) {
+  if (trim(text).empty() || !has_prefix(text)) {
     ++counters_.other_lines;
     return;
   }

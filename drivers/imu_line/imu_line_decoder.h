@@ -32,6 +32,7 @@ class ImuLineHandler {
 
 struct ImuLineCounters {
   std::uint64_t lines = 0;        // decoded
+  std::uint64_t first_lines = 0;  // of a connection, which may have lost their beginning
   std::uint64_t other_lines = 0;  // empty, or without the prefix
   std::uint64_t bad_checksums = 0;
   std::uint64_t bad_columns = 0;  // another number of columns
@@ -47,11 +48,15 @@ class ImuLineDecoder {
   // Precondition: problem_of(layout) is empty.
   explicit ImuLineDecoder(LineLayout layout) : layout_(std::move(layout)) {}
 
+  // A connection begins, in which the sender may be in the middle of a line: what the last one left
+  // of a line is dropped, and so is everything up to the next end of a line.
+  void begin_connection();
   void feed(std::span<const std::uint8_t> bytes, ImuLineHandler* handler);
   const ImuLineCounters& counters() const { return counters_; }
 
  private:
   void decode(std::string_view text, ImuLineHandler* handler);
+  bool has_prefix(std::string_view text) const;
   bool take_checksum(std::string_view* text);
   void split(std::string_view text);
   bool read(ImuLine* line);
@@ -59,8 +64,9 @@ class ImuLineDecoder {
 
   LineLayout layout_;
   ImuLineCounters counters_;
-  std::string text_;        // of the line that is not complete yet
-  bool overflows_ = false;  // that line is too long, and dropped up to its end
+  std::string text_;         // of the line that is not complete yet
+  bool is_dropped_ = false;  // that line is too long or the first one, and dropped up to its end
+  bool is_first_ = false;    // that line may have lost its beginning
   std::vector<std::string_view> fields_;
   double last_clock_ = 0.0;    // as the sensor wrote it, in its units
   double before_wraps_ = 0.0;  // what its clock had counted before it began again at zero

@@ -28,7 +28,9 @@ enum class LineColumn : std::uint8_t {
 struct LineLayout {
   std::vector<LineColumn> columns;
   char separator = ',';  // ' ' stands for any number of blanks and tabs
-  std::string prefix;    // lines that begin otherwise are left out; empty: none do
+  // Lines that begin otherwise are left out; empty: none are. A separator or a blank must follow a
+  // prefix whose last character is a letter or a digit.
+  std::string prefix;
   bool has_checksum =
       false;  // "$...*HH" as in NMEA 0183: HH is the exclusive or of what is between
   int clock_bits =

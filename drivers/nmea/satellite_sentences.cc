@@ -14,7 +14,7 @@ namespace leonav {
 namespace {
 
 constexpr std::size_t kPerGsa = 12, kPerGsv = 4;
-constexpr std::size_t kMostInView = 36;  // nine sentences: their number has one digit
+constexpr std::size_t kMostInView = 36;  // nine GSV of a system: their number has one digit
 
 struct NmeaSystem {
   System system;
@@ -44,11 +44,12 @@ std::string dop_field(double dop) {
                       2);
 }
 
-std::string gsa_sentence(char mode, const std::vector<SatelliteView>& used, const SkyView* sky,
-                         const NmeaSystem& system) {
+// Names the satellites from `first` on, as many as one sentence has room for.
+std::string gsa_sentence(char mode, const std::vector<SatelliteView>& used, std::size_t first,
+                         const SkyView* sky, const NmeaSystem& system) {
   Sentence sentence(std::string(system.talker) + "GSA");
   sentence.field("A").field(std::string(1, mode));
-  for (std::size_t i = 0; i < kPerGsa; ++i) {
+  for (std::size_t i = first; i < first + kPerGsa; ++i) {
     sentence.field(i < used.size() ? two_digits(used[i].satellite.number) : "");
   }
   for (const double dop : {sky ? sky->pdop : 0.0, sky ? sky->hdop : 0.0, sky ? sky->vdop : 0.0}) {
@@ -85,9 +86,11 @@ std::string gsa_sentences(const Solution& solution, const SkyView* sky) {
   for (const NmeaSystem& system : kNmeaSystems) {
     if (!has_satellites) break;
     const std::vector<SatelliteView> used = of_system(*sky, system, true);
-    if (!used.empty()) lines += gsa_sentence(mode, used, sky, system);
+    for (std::size_t first = 0; first < used.size(); first += kPerGsa) {
+      lines += gsa_sentence(mode, used, first, sky, system);
+    }
   }
-  return lines.empty() ? gsa_sentence(mode, {}, nullptr, kNmeaSystems[0]) : lines;
+  return lines.empty() ? gsa_sentence(mode, {}, 0, nullptr, kNmeaSystems[0]) : lines;
 }
 
 std::string gsv_sentences(const SkyView* sky) {

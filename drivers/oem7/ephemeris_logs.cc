@@ -33,6 +33,33 @@ EphemerisStatus sane(const Ephemeris& e) {
   return is_sane(e) ? EphemerisStatus::kOk : EphemerisStatus::kNotSane;
 }
 
+// The bits are packed as in RINEX: E1-B in bits 0-2, E5a in bits 3-5, E5b in bits 6-8.
+std::uint16_t fnav_health(unsigned e5a_invalid, unsigned e5a_health) {
+  return static_cast<std::uint16_t>((e5a_invalid << 3) | (e5a_health << 4));
+}
+
+std::uint16_t inav_health(unsigned e1b_invalid, unsigned e1b_health, unsigned e5b_invalid,
+                          unsigned e5b_health) {
+  return static_cast<std::uint16_t>(e1b_invalid | (e1b_health << 1) | (e5b_invalid << 6) |
+                                    (e5b_health << 7));
+}
+
+// Takes what GALINAVEPHEMERIS and GALFNAVEPHEMERIS hold in the same order: behind the health and
+// before the delay between E1 and E5b.
+void take_galileo_set(FieldReader* f, GpsTime near, Ephemeris* e) {
+  e->transmission_time = near;
+  e->issue = f->half();
+  e->accuracy_m = galileo_sisa_m(f->byte());
+  f->skip(1);  // of I/NAV the signals that the set came from
+  e->toe = nearest_instant_of(f->number(), near);
+  e->toc = nearest_instant_of(f->number(), near);
+  for (double* field : {&e->m0, &e->delta_n, &e->eccentricity, &e->sqrt_a, &e->i0, &e->i_dot,
+                        &e->omega0, &e->omega, &e->omega_dot, &e->cuc, &e->cus, &e->crc, &e->crs,
+                        &e->cic, &e->cis, &e->af0, &e->af1, &e->af2, &e->group_delay_s[0]}) {
+    *field = f->real();
+  }
+}
+
 GpsLnavBits subframe_at(std::span<const std::uint8_t> payload, std::size_t offset) {
   GpsLnavBits bits{};
   std::copy_n(payload.begin() + static_cast<std::ptrdiff_t>(offset), bits.size(), bits.begin());
@@ -160,6 +187,43 @@ EphemerisStatus read_bdsephemeris(std::span<const std::uint8_t> payload, GpsTime
   return sane(e);
 }
 
+EphemerisStatus read_galinavephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                      Ephemeris* ephemeris) {
+  constexpr std::size_t kSize = 184;
+  if (payload.size() != kSize) return EphemerisStatus::kBadLength;
+  Ephemeris& e = *ephemeris;
+  e = {};
+  FieldReader f(payload);
+  if (!set_satellite(System::kGalileo, f.number(), &e)) return EphemerisStatus::kBadSatellite;
+  e.message = NavigationMessage::kGalileoInav;
+  const unsigned e5b_health = f.byte() & 3u, e5b_invalid = f.byte() & 1u;
+  f.skip(2);
+  const unsigned e1b_health = f.byte() & 3u, e1b_invalid = f.byte() & 1u;
+  f.skip(2);
+  e.health = inav_health(e1b_invalid, e1b_health, e5b_invalid, e5b_health);
+  take_galileo_set(&f, near, &e);
+  e.group_delay_s[1] = f.real();
+  if (!e.toe.is_set() || !e.toc.is_set()) return EphemerisStatus::kBadTime;
+  return sane(e);
+}
+
+EphemerisStatus read_galfnavephemeris(std::span<const std::uint8_t> payload, GpsTime near,
+                                      Ephemeris* ephemeris) {
+  constexpr std::size_t kSize = 172;
+  if (payload.size() != kSize) return EphemerisStatus::kBadLength;
+  Ephemeris& e = *ephemeris;
+  e = {};
+  FieldReader f(payload);
+  if (!set_satellite(System::kGalileo, f.number(), &e)) return EphemerisStatus::kBadSatellite;
+  e.message = NavigationMessage::kGalileoFnav;
+  const unsigned e5a_health = f.byte() & 3u, e5a_invalid = f.byte() & 1u;
+  f.skip(2);
+  e.health = fnav_health(e5a_invalid, e5a_health);
+  take_galileo_set(&f, near, &e);
+  if (!e.toe.is_set() || !e.toc.is_set()) return EphemerisStatus::kBadTime;
+  return sane(e);
+}
+
 EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime near,
                                   GalileoSets* sets) {
   constexpr std::size_t kSize = 220;
@@ -200,12 +264,10 @@ EphemerisStatus read_galephemeris(std::span<const std::uint8_t> payload, GpsTime
   Ephemeris fnav = e, inav = e;
   read_clock(&fnav);
   read_clock(&inav);
-  // The bits are packed as in RINEX: E1-B in bits 0-2, E5a in bits 3-5, E5b in bits 6-8.
   fnav.message = NavigationMessage::kGalileoFnav;
-  fnav.health = static_cast<std::uint16_t>((e5a_invalid << 3) | (e5a_health << 4));
+  fnav.health = fnav_health(e5a_invalid, e5a_health);
   inav.message = NavigationMessage::kGalileoInav;
-  inav.health = static_cast<std::uint16_t>(e1b_invalid | (e1b_health << 1) | (e5b_invalid << 6) |
-                                           (e5b_health << 7));
+  inav.health = inav_health(e1b_invalid, e1b_health, e5b_invalid, e5b_health);
   fnav.group_delay_s[0] = inav.group_delay_s[0] = f.real();
   inav.group_delay_s[1] = f.real();
   if (!e.toe.is_set()) return EphemerisStatus::kBadTime;

@@ -12,7 +12,8 @@ namespace leonav {
 namespace {
 
 constexpr std::uint16_t kGpsephem = 7, kIonutc = 8, kRawephem = 41, kRange = 43, kRangecmp = 140;
-constexpr std::uint16_t kGalephemeris = 1122, kRangecmp2 = 1273, kBdsephemeris = 1696;
+constexpr std::uint16_t kGalephemeris = 1122, kRangecmp2 = 1273, kGalinavephemeris = 1309;
+constexpr std::uint16_t kGalfnavephemeris = 1310, kBdsephemeris = 1696;
 constexpr std::uint16_t kInsconfig = 1945, kRangecmp4 = 2050;
 constexpr std::uint8_t kSecondAntenna = 1;
 
@@ -140,7 +141,8 @@ bool Oem7Decoder::take_ranges(const Oem7Message& message, Oem7Handler* handler) 
 bool Oem7Decoder::take_navigation(const Oem7Message& message, Oem7Handler* handler) {
   State& s = *state_;
   const bool is_ephemeris = message.id == kRawephem || message.id == kGpsephem ||
-                            message.id == kGalephemeris || message.id == kBdsephemeris;
+                            message.id == kGalephemeris || message.id == kGalinavephemeris ||
+                            message.id == kGalfnavephemeris || message.id == kBdsephemeris;
   if (is_ephemeris && !message.time.is_set()) {
     ++s.ephemerides.without_time;
     return true;
@@ -160,6 +162,12 @@ bool Oem7Decoder::take_navigation(const Oem7Message& message, Oem7Handler* handl
       return true;
     case kGalephemeris:
       s.give_galileo(message.payload, message.time, handler);
+      return true;
+    case kGalinavephemeris:
+      s.give(read_galinavephemeris(message.payload, message.time, &e), e, handler);
+      return true;
+    case kGalfnavephemeris:
+      s.give(read_galfnavephemeris(message.payload, message.time, &e), e, handler);
       return true;
     case kBdsephemeris:
       s.give(read_bdsephemeris(message.payload, message.time, &e), e, handler);

@@ -124,7 +124,7 @@ std::optional<CorrectedState> CorrectionStore::state(SatelliteId id, const Satel
   OrbitAndClock corrections{s.orbit, s.orbit_is.reference, clock.values, clock.is.reference, 0.0};
   const bool has_high_rate =
       s.high_rate_is.reference.is_set() && s.high_rate_is.source == clock.is.source &&
-      s.high_rate_is.reference >= clock.is.reference &&
+      s.high_rate_is.sent >= clock.is.sent &&
       is_within(time, s.high_rate_is.reference, options_.max_high_rate_age_s);
   if (has_high_rate) corrections.high_rate_clock_m = s.high_rate_m;
   CorrectedState state = apply(corrections, *broadcast, time);
@@ -157,12 +157,18 @@ bool has_clocks(const SsrMessage& message) {
 
 std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time) {
   std::vector<SignalBias> biases;
+  const auto add = [&](SatelliteId satellite, BiasKind kind, const SsrBias& bias) {
+    biases.push_back({satellite, bias.code, kind, time, -bias.bias_m});
+    const bool is_p_of_has = message.service == SsrService::kGalileoHas &&
+                             satellite.system == System::kGps && bias.code == SignalCode{'2', 'P'};
+    if (is_p_of_has) biases.push_back({satellite, {'2', 'W'}, kind, time, -bias.bias_m});
+  };
   for (const SsrSatellite& satellite : message.satellites) {
     for (const SsrBias& bias : satellite.code_biases) {
-      biases.push_back({satellite.satellite, bias.code, BiasKind::kCode, time, -bias.bias_m});
+      add(satellite.satellite, BiasKind::kCode, bias);
     }
     for (const SsrBias& bias : satellite.phase_biases) {
-      biases.push_back({satellite.satellite, bias.code, BiasKind::kPhase, time, -bias.bias_m});
+      add(satellite.satellite, BiasKind::kPhase, bias);
     }
   }
   std::erase_if(biases, [](const SignalBias& bias) { return !is_sane(bias); });

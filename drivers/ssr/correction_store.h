@@ -105,7 +105,10 @@ CorrectionSource source_of(const SsrMessage& message);
 // Returns whether states are to be made after a message: it has clocks. Orbits come before the
 // clocks of the same time, and only with them are they of one issue.
 bool has_clocks(const SsrMessage& message);
-// Returns the biases of a message as delays to be subtracted, received at `time`.
+// Returns the biases of a message as delays to be subtracted, received at `time`. That of L2 P of
+// GPS in HAS, which has no number for P(Y), serves 2P and 2W: the P code is encrypted, and what
+// stations measured is P(Y) tracked without the key, which RINEX names 2W. RTCM and IGS number
+// both.
 std::vector<SignalBias> biases_of(const SsrMessage& message, GpsTime time);
 
 }  // namespace leonav

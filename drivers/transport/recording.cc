@@ -1,5 +1,9 @@
 #include "drivers/transport/recording.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <condition_variable>
@@ -24,6 +28,24 @@ constexpr std::uint32_t kMaxBlock = 1U << 20;
 constexpr std::size_t kBatch = 1U << 16;
 // Small pieces, so that a file keeps a receiver's pace.
 constexpr std::size_t kPiece = 256;
+
+// Returns the open file; nullptr: it cannot be opened, and errno says why. Reading waits in the one
+// thread of all streams, so that only a regular file may be read, whose bytes are there. O_NONBLOCK
+// keeps a named pipe from waiting for its writer before it can be refused.
+std::FILE* open_regular(const std::string& path) {
+  const int number = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (number < 0) return nullptr;
+  struct stat status = {};
+  if (fstat(number, &status) != 0 || !S_ISREG(status.st_mode)) {
+    close(number);
+    throw FileError(path, 0,
+                    S_ISDIR(status.st_mode)
+                        ? "is a directory; name a file of a stream's bytes"
+                        : "is a device or a pipe and no file; read a device with 'source: serial', "
+                          "a pipe with 'source: stdin'");
+  }
+  return fdopen(number, "rb");
+}
 
 }  // namespace
 
@@ -154,10 +176,7 @@ std::string RecordingWriter::error() const {
 }
 
 BlockReader::BlockReader(const std::string& path) : path_(path) {
-  if (std::filesystem::is_directory(path)) {
-    throw FileError(path, 0, "is a directory; name a file of a stream's bytes");
-  }
-  file_.reset(std::fopen(path.c_str(), "rb"));
+  file_.reset(open_regular(path));
   if (file_ == nullptr) {
     throw FileError(path, 0,
                     std::string("cannot be opened (") + std::strerror(errno) +
@@ -198,9 +217,6 @@ bool BlockReader::next_recorded(Block* block) {
 }
 
 std::optional<std::int64_t> first_arrival_ns(const std::string& path) {
-  std::error_code ignored;
-  // Of a pipe nothing must be taken away.
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   try {
     BlockReader reader(path);
     BlockReader::Block block;

@@ -70,7 +70,7 @@ class BlockReader {
     std::vector<std::uint8_t> bytes;
   };
 
-  // Throws FileError where the file cannot be opened.
+  // Throws FileError where the path cannot be opened or is no regular file.
   explicit BlockReader(const std::string& path);
 
   bool is_recording() const { return is_recording_; }

@@ -18,7 +18,7 @@ struct RxmSfrbxCounters : NavigationCounters {
   std::uint64_t bad_version = 0;
   std::uint64_t bad_satellite = 0;
   std::uint64_t other_system = 0;  // SBAS, QZSS, GLONASS, IMES, NavIC
-  std::uint64_t without_time = 0;  // received before a RAWX had given the week
+  std::uint64_t without_time = 0;  // no RAWX has given the time, or none for too long
 };
 
 // The decoder collects the subframes of every satellite. It reports an ephemeris when it is

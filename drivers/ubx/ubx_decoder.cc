@@ -34,6 +34,8 @@ void UbxDecoder::feed(std::span<const std::uint8_t> bytes, UbxHandler* handler) 
   }
 }
 
+void UbxDecoder::forget_time() { state_->now = {}; }
+
 void UbxDecoder::finish(UbxHandler* handler) {
   state_->framer.finish();
   drain(handler);

@@ -53,6 +53,9 @@ class UbxDecoder {
   ~UbxDecoder();
 
   void feed(std::span<const std::uint8_t> bytes, UbxHandler* handler);
+  // The time of the last RAWX is too long ago to be that of the next subframes: they are counted as
+  // without time until a RAWX comes. Who knows when bytes arrive calls it.
+  void forget_time();
   // Ends the stream and decodes the bytes that a false sync near the end still holds back.
   void finish(UbxHandler* handler);
   UbxCounters counters() const;

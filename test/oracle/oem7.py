@@ -3,6 +3,8 @@
 
   oem7.py fields FILE        one line of numbers for each measurement, ephemeris, set of coefficients and inertial sample
   oem7.py generate SEED >OUT messages of every log that leonav reads, with random fields, packed by the manual's tables
+  oem7.py examples >OUT      the manual's ASCII examples of GALINAVEPHEMERIS and GALFNAVEPHEMERIS, made binary by the package.
+                             Their headers name the same definitions of the fields (dbe9, 02cd) as the package has
   oem7.py --have             exits 0 if novatel-edie is there
 
 Numbers are printed so that they are read back to the last bit. Messages that name another source than the first antenna
@@ -206,6 +208,23 @@ def make_galephemeris(rnd):
                                 rnd.uniform(-2e-8, 2e-8))
 
 
+def make_galileo_set(rnd):
+    """From the issue to the delay between E1 and E5a, which I/NAV and F/NAV have in common."""
+    o, toe = orbit(rnd), 511200 + 600 * rnd.randrange(12)
+    return struct.pack("<HBBII", rnd.randrange(1024), 107, 3, toe, toe + 60) + struct.pack(
+        "<19d", o["m0"], o["dn"], o["e"], 5440.6 + rnd.uniform(-1, 1), o["i0"], o["idot"], o["o0"], o["w"], o["odot"], *o["c"],
+        *o["f"], rnd.uniform(-2e-8, 2e-8))
+
+
+def make_galinavephemeris(rnd):
+    health = [rnd.randrange(2) * 3, rnd.randrange(2), 0, 0, rnd.randrange(2) * 3, rnd.randrange(2), 0, 0]
+    return struct.pack("<I8B", rnd.randrange(1, 37), *health) + make_galileo_set(rnd) + struct.pack("<d", rnd.uniform(-2e-8, 2e-8))
+
+
+def make_galfnavephemeris(rnd):
+    return struct.pack("<I4B", rnd.randrange(1, 37), rnd.randrange(2) * 3, rnd.randrange(2), 0, 0) + make_galileo_set(rnd)
+
+
 def make_bdsephemeris(rnd):
     o, toe = orbit(rnd), 511200 + 3600 * rnd.randrange(2)
     number = rnd.randrange(1, 60)
@@ -236,6 +255,8 @@ def generate(seed):
     for k in range(300):
         yield long_message(7, make_gpsephem(rnd), START_MS)
         yield long_message(1122, make_galephemeris(rnd), START_MS)
+        yield long_message(1309, make_galinavephemeris(rnd), START_MS)
+        yield long_message(1310, make_galfnavephemeris(rnd), START_MS)
         yield long_message(1696, make_bdsephemeris(rnd), START_MS)
         yield long_message(8, make_ionutc(rnd), START_MS)
     for k in range(300):
@@ -255,12 +276,15 @@ def as_of_first_antenna(data):
         yield changed + struct.pack("<I", crc32(changed))
 
 
+GALILEO_SET = ("ecc m0 delta_n omega0 omega_dot i0 i_dot omega cuc cus crc crs cic cis toc af0 af1 af2 sisa e1_e5a_bgd")
 EPHEMERIDES = {
     "GPSEPHEM": "satellite_id tow health7 iode1 iodc toe toc a ecc m0 delta_n omega0 omega_dot i0 i_dot omega cuc cus crc crs cic "
                 "cis af0 af1 af2 tgd eph_var",
     "GALEPHEMERIS": "sat_id fnav_received inav_received e1_b_health e5a_health e5b_health e1_bdvs e5a_dvs e5b_dvs iod_nav t0e "
                     "root_a ecc m0 delta_n omega0 omega_dot i0 i_dot omega cuc cus crc crs cic cis fnavt0c fnav_af0 fnav_af1 "
                     "fnav_af2 inavt0c inav_af0 inav_af1 inav_af2 e1_e5a_bgd e1_e5b_bgd",
+    "GALINAVEPHEMERIS": "sat_id e5b_health e5b_dvs e1b_health e1b_dvs io_dnav toe root_a " + GALILEO_SET + " e1_e5b_bgd",
+    "GALFNAVEPHEMERIS": "sat_id e5a_health e5a_dvs io_dnav toe root_a " + GALILEO_SET,
     "BDSEPHEMERIS": "satellite_id sat_h1 iode iodc toe toc root_a eccentricity m0 delta_n omega0 omega_dot i0 i_dot omega cuc cus crc crs "
                     "cic cis a0 a1 a2 tgd1 tgd2 ura",
     "IONUTC": "a0 a1 a2 a3 b0 b1 b2 b3"}
@@ -297,12 +321,36 @@ def print_fields(path):
                 print("RAWIMU", numbers(message, SAMPLE))
 
 
+EXAMPLES = (
+    "GALINAVEPHEMERISA,USB1,21,54.0,SATTIME,2209,504514.000,02000020,dbe9,16809;2,0,0,0,0,0,0,0,0,68,107,3,501600,501600,"
+    "1.94195529e+00,3.0676e-09,3.055053530e-04,5.44060316e+03,9.740321573e-01,5.6931e-10,6.473214246e-01,3.503504077e-01,"
+    "-5.8141708e-09,7.6238e-06,4.7404e-06,2.409e+02,1.610e+02,-5.0291e-08,2.9802e-08,2.989528002e-04,2.359002e-12,0.0,"
+    "-6.985e-10,-1.630e-09*96bd12ad",
+    "GALFNAVEPHEMERISA,USB1,21,35.5,SATTIME,2209,504150.000,02000020,02cd,16809;2,0,0,0,0,68,107,0,501600,501600,"
+    "1.94195529e+00,3.0676e-09,3.055053530e-04,5.44060316e+03,9.740321573e-01,5.6931e-10,6.473214246e-01,3.503504077e-01,"
+    "-5.8141708e-09,7.6238e-06,4.7404e-06,2.409e+02,1.610e+02,-5.0291e-08,2.9802e-08,2.989536151e-04,2.359002e-12,0.0,"
+    "-6.985e-10*e65b02c5")
+
+
+def examples():
+    import novatel_edie
+    from novatel_edie import oem
+    parser = oem.Parser()
+    for text in EXAMPLES:
+        parser.write(f"#{text}\r\n".encode())
+    for message in parser:
+        yield bytes(message.encode(novatel_edie.ENCODE_FORMAT.BINARY).message)
+
+
 def main():
     if sys.argv[1:] == ["--have"]:
         import novatel_edie  # noqa: F401
     elif len(sys.argv) == 3 and sys.argv[1] == "fields":
         print_fields(sys.argv[2])
         # The package complains at its own end; what was asked for is printed.
+        sys.stdout.flush()
+    elif sys.argv[1:] == ["examples"]:
+        sys.stdout.buffer.write(b"".join(examples()))
         sys.stdout.flush()
     elif len(sys.argv) == 3 and sys.argv[1] == "generate":
         sys.stdout.buffer.write(b"".join(generate(int(sys.argv[2]))))

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""What the PyPI package pyubx2 reads in u-blox bytes of inertial sensors and time marks, as an oracle for drivers/ubx.
+"""What the PyPI package pyubx2 reads in u-blox bytes, as an oracle for drivers/ubx.
 
-  ubx.py generate SEED OUT   writes messages of random contents to OUT, and prints what pyubx2 reads in them
+  ubx.py rawx FILE           prints every measurement of UBX-RXM-RAWX: GPS time (ns), satellite, RINEX code, code (m), carrier
+                             (cycles), Doppler (Hz), C/N0 (dB-Hz), lock time (ms), whether the half cycle is known; nan: not measured
+  ubx.py generate SEED OUT   writes messages of inertial sensors and time marks with random contents to OUT, and prints what
+                             pyubx2 reads in them
   ubx.py --have              exits 0 if pyubx2 is there
 
-A line is `meas` or `raw`, the time tag (ms, or ticks of 24 bits), the rates about x, y, z as whole numbers of 2^-12 degrees/s, the
+Of generated messages a line is `meas` or `raw`, the time tag (ms, or ticks of 24 bits), the rates about x, y, z as whole numbers of 2^-12 degrees/s, the
 forces along x, y, z as those of 2^-10 m/s^2, and the temperature as that of 0.01 degrees, or -. Or it is `mark`, the input, the
 count of rising edges, the GPS time of the rising and of the falling edge (ns, or -), and the accuracy (ns).
 """
@@ -124,9 +127,38 @@ def fields(path):
                 print("mark", message.ch, message.count, rising, falling, message.accEst)
 
 
+# Of the interface description: letter of a gnssId, and the RINEX code of each sigId.
+SIGNALS = {0: ("G", {0: "1C", 3: "2L", 4: "2S", 6: "5I", 7: "5Q"}),
+           2: ("E", {0: "1C", 1: "1B", 3: "5I", 4: "5Q", 5: "7I", 6: "7Q", 8: "6B", 9: "6C", 10: "6A"}),
+           3: ("C", {0: "2I", 1: "2I", 2: "7I", 3: "7I", 4: "6I", 5: "1P", 6: "1D", 7: "5P", 8: "5D", 10: "6I"})}
+
+
+def measurements(path):
+    from pyubx2 import UBXReader
+    with open(path, "rb") as file:
+        for _, message in UBXReader(file, protfilter=2, quitonerror=0):
+            if message is None or message.identity != "RXM-RAWX":
+                continue
+            time_ns = message.week * WEEK_NS + round(message.rcvTow * 1e9)
+            for index in range(1, message.numMeas + 1):
+                def get(name):
+                    return getattr(message, f"{name}_{index:02d}")
+                letter, codes = SIGNALS.get(get("gnssId"), ("", {}))
+                if get("sigId") not in codes:
+                    continue
+                # A carrier of 0 cycles (with a half cycle added -0.5), or of a deviation of 0.06 cycles and more, is none.
+                has_carrier = get("cpValid") and get("cpMes") not in (0.0, -0.5) and get("cpStd") <= 14
+                print(time_ns, f"{letter}{get('svId'):02d}", codes[get("sigId")], repr(get("prMes")) if get("prValid") else "nan",
+                      repr(get("cpMes")) if has_carrier else "nan", repr(get("doMes")), get("cno") or "nan", get("locktime"),
+                      int(bool(get("halfCyc"))))
+
+
 def main():
     if sys.argv[1:] == ["--have"]:
         import pyubx2  # noqa: F401
+        return
+    if sys.argv[1] == "rawx":
+        measurements(sys.argv[2])
         return
     with open(sys.argv[3], "wb") as file:
         for data in stream(random.Random(int(sys.argv[2]))):

@@ -27,6 +27,28 @@ bool is_one_word(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < '\x7F'; });
 }
 
+// Returns whether the text can be a name or an address alone. Whoever knows other programs may
+// write user, password, port and mountpoint before and behind it.
+bool is_host(const std::string& text) {
+  if (!is_one_word(text) || text.find_first_of("@/") != std::string::npos) return false;
+  boost::system::error_code no_address;
+  boost::asio::ip::make_address_v6(text, no_address);
+  return !no_address || text.find(':') == std::string::npos;
+}
+
+// The message must not quote what was written: a password may be in it.
+std::string read_host(ConfigReader& group, const std::string& remedy) {
+  std::string host;
+  group.text("host", &host);
+  if (!is_host(host)) {
+    group.fail("host",
+               "must be a name or an address alone, such as caster.example or 192.168.1.10; "
+               "the port has its own key, 'port'" +
+                   remedy);
+  }
+  return host;
+}
+
 SerialOptions read_serial(ConfigReader& group) {
   SerialOptions options;
   int baud = 115'200;
@@ -39,8 +61,7 @@ SerialOptions read_serial(ConfigReader& group) {
 
 TcpOptions read_tcp(ConfigReader& group) {
   TcpOptions options;
-  group.text("host", &options.host);
-  if (options.host.empty()) group.fail("host", "must be the server's name or address");
+  options.host = read_host(group, "");
   options.port = read_port(group, 0);
   return options;
 }
@@ -77,8 +98,9 @@ void read_position(ConfigReader& group, NtripOptions* options) {
 
 NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
   NtripOptions options;
-  group.text("host", &options.host);
-  if (!is_one_word(options.host)) group.fail("host", "must be the caster's name or address");
+  options.host = read_host(group,
+                           ", and so has the 'mountpoint'; user and password belong into the file "
+                           "that 'credentials_file' names");
   options.port = read_port(group, options.port);
   group.text("mountpoint", &options.mountpoint);
   if (!is_one_word(options.mountpoint) || options.mountpoint.find('/') != std::string::npos) {

@@ -67,7 +67,9 @@ std::string SerialEndpoint::text_of(const error_code& error) const {
            " baud; use a rate that port and sensor have, such as 115200, 230400, 460800, 921600";
   }
   if (error == errc::inappropriate_io_control_operation) {
-    return what + "is no serial port; name a device such as /dev/ttyACM0, or use the kind 'file'";
+    return what +
+           "is no serial port; name a device such as /dev/ttyACM0, or read a file with 'source: "
+           "file', a pipe with 'source: stdin'";
   }
   if (error == errc::io_error || error == asio::error::eof) {
     return what + "is gone; was the sensor unplugged or switched off?";

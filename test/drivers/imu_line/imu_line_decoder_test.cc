@@ -132,6 +132,56 @@ TEST_CASE("Prefix, blanks and checksum", "[imu_line]") {
   CHECK(counters.other_lines == 1);
 }
 
+TEST_CASE("A prefix is a whole word, or ends with a sign", "[imu_line]") {
+  using enum LineColumn;
+  LineLayout how;
+  how.columns = {kGyroX, kGyroY, kGyroZ, kAccelX, kAccelY, kAccelZ};
+  ImuLineCounters counters;
+  const auto count = [&](const std::string& prefix, char separator, const std::string& text) {
+    how.prefix = prefix;
+    how.separator = separator;
+    return decode(how, text, &counters).lines.size();
+  };
+  // The lines of IMU2 have one column less, so that "2" would be their first.
+  CHECK(count("IMU", ',', "IMU,0,0,0,0,0,-9.8\nIMU2,0,0,0,0,-9.8\n") == 1);
+  CHECK(counters.other_lines == 1);
+  CHECK(count("IMU", ',', "IMUX,0,0,0,0,0,-9.8\nIMU, 0,0,0,0,0,-9.8\nIMU 0,0,0,0,0,-9.8\n") == 2);
+  CHECK(count("IMU", ' ', "IMU 0 0 0 0 0 -9.8\nIMU\t0 0 0 0 0 -9.8\nIMU2 0 0 0 0 -9.8\n") == 2);
+  CHECK(count("IMU,", ',', "IMU,0,0,0,0,0,-9.8\n") == 1);
+  CHECK(count("A:", ',', "A:0,0,0,0,0,-9.8\nB:0,0,0,0,0,-9.8\n") == 1);
+  CHECK(count("IMU", ',', "IMU\nIMU,\n") == 0);
+  CHECK(counters.bad_columns == 2);
+}
+
+TEST_CASE("The end of one connection and the beginning of the next make no line", "[imu_line]") {
+  using enum LineColumn;
+  LineLayout how;
+  how.columns = {kGyroX, kGyroY, kGyroZ, kAccelX, kAccelY, kAccelZ};
+  ImuLineDecoder decoder(how);
+  LineCollector collector;
+  const auto feed = [&](const std::string& text) {
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    decoder.feed(bytes, &collector);
+  };
+  const std::string line = "0.005,0,0,0,0,-9.8\r\n";
+  decoder.begin_connection();
+  feed(line + line + "3");
+  decoder.begin_connection();
+  feed(line + line);
+  // A line that began before the connection has lost what came first, here digits of a number.
+  decoder.begin_connection();
+  feed("05,0,0,0,0,-9.8\r\n" + line);
+  // Nor does a line without end, whose connection has gone, cost the next ones.
+  feed(std::string(5000, 'a'));
+  decoder.begin_connection();
+  feed(std::string(5000, 'a') + "\n" + line);
+  REQUIRE(collector.lines.size() == 4);
+  for (const ImuLine& each : collector.lines) CHECK(each.gyro[0] == 0.005);
+  CHECK(decoder.counters().first_lines == 4);
+  CHECK(decoder.counters().too_long == 1);
+  CHECK(decoder.counters().bad_columns == 0);
+}
+
 TEST_CASE("A layout that cannot be read is refused with the reason", "[imu_line]") {
   using enum LineColumn;
   CHECK(problem_of(layout()).empty());

@@ -53,14 +53,34 @@ TEST_CASE("Each system has sentences of its own", "[nmea]") {
   CHECK(seen[3] == "GBGSV,1,1,01,60,40,084,46,0");
 }
 
+TEST_CASE("Of a system with more satellites in use each is named, twelve in a sentence", "[nmea]") {
+  SkyView sky;
+  sky.pdop = 1.5;
+  sky.hdop = 0.9;
+  sky.vdop = 1.2;
+  for (std::uint16_t number = 1; number <= 26; ++number) {
+    sky.satellites.push_back(view(System::kBeidou, number, number != 2));
+  }
+  for (std::uint16_t number = 1; number <= 12; ++number) {
+    sky.satellites.push_back(view(System::kGps, number, true));
+  }
+  const auto used = bodies(gsa_sentences(test::munich(), &sky));
+  REQUIRE(used.size() == 4);
+  CHECK(used[0] == "GPGSA,A,3,01,02,03,04,05,06,07,08,09,10,11,12,1.50,0.90,1.20,1");
+  CHECK(used[1] == "GBGSA,A,3,01,03,04,05,06,07,08,09,10,11,12,13,1.50,0.90,1.20,4");
+  CHECK(used[2] == "GBGSA,A,3,14,15,16,17,18,19,20,21,22,23,24,25,1.50,0.90,1.20,4");
+  CHECK(used[3] == "GBGSA,A,3,26,,,,,,,,,,,,1.50,0.90,1.20,4");
+}
+
 TEST_CASE("No more than the sentences have room for", "[nmea]") {
   SkyView sky;
   for (std::uint16_t number = 1; number <= 63; ++number) {
     sky.satellites.push_back(view(System::kBeidou, number, true));
   }
   const auto used = bodies(gsa_sentences(test::munich(), &sky));
-  REQUIRE(used.size() == 1);
+  REQUIRE(used.size() == 6);
   CHECK(used[0] == "GBGSA,A,3,01,02,03,04,05,06,07,08,09,10,11,12,,,,4");
+  CHECK(used[5] == "GBGSA,A,3,61,62,63,,,,,,,,,,,,,4");
   const auto seen = bodies(gsv_sentences(&sky));
   REQUIRE(seen.size() == 9);
   CHECK(seen[8].starts_with("GBGSV,9,9,36,33,"));

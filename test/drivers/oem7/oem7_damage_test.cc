@@ -13,8 +13,8 @@ namespace {
 
 using test::decode_oem7;
 
-constexpr std::uint16_t kUsed[] = {7,    8,    41,   43,   140,  268,  325,
-                                   1122, 1273, 1461, 1462, 1696, 1945, 2050};
+constexpr std::uint16_t kUsed[] = {7,    8,    41,   43,   140,  268,  325,  1122,
+                                   1273, 1309, 1310, 1461, 1462, 1696, 1945, 2050};
 
 std::vector<std::uint8_t> random_bytes(std::mt19937* random, std::size_t size) {
   std::vector<std::uint8_t> bytes(size);

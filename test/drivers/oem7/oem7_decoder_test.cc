@@ -273,6 +273,61 @@ TEST_CASE("Inertial data that cannot be used are counted by their reason") {
   REQUIRE(decode_oem7(with_type).increments.size() == 1);
 }
 
+TEST_CASE(
+    "OEM7's logs of Galileo are read in the length of their tables, and refused in any other") {
+  const auto log_of = [](std::uint16_t id, bool is_inav, double sqrt_a, std::uint32_t toe_s) {
+    Bytes bytes;
+    bytes.u4(11).u4(0);
+    if (is_inav) bytes.u1(2).u1(0).u2(0);  // E1-B is out of service
+    bytes.u2(68).u1(107).u1(3).u4(toe_s).u4(501'600);
+    for (const double value : {1.9, 3e-9, 3e-4, sqrt_a, 0.97, 5e-10, 0.6, 0.3, -5e-9})
+      bytes.r8(value);
+    for (const double value : {7e-6, 4e-6, 240.0, 161.0, -5e-8, 2e-8, 3e-4, 2e-12, 0.0, -7e-10}) {
+      bytes.r8(value);
+    }
+    if (is_inav) bytes.r8(-1.6e-9);
+    return std::pair{id, bytes.list};
+  };
+  const auto inav = log_of(1309, true, 5440.6, 501'600).second;
+  const auto fnav = log_of(1310, false, 5440.6, 501'600).second;
+  CHECK(inav.size() == 184);
+  CHECK(fnav.size() == 172);
+  std::vector<std::uint8_t> stream = message_of({1309}, inav);
+  join(&stream, message_of({1310}, fnav));
+  join(&stream, message_of({1309}, inav));
+  const auto good = decode_oem7(stream);
+  REQUIRE(good.ephemerides.size() == 2);
+  CHECK(good.counters.ephemerides.repeated == 1);
+  CHECK(good.counters.unused.empty());
+  CHECK(good.ephemerides[0].message == NavigationMessage::kGalileoInav);
+  CHECK(good.ephemerides[0].health == 2 << 1);
+  CHECK(good.ephemerides[0].group_delay_s[1] == -1.6e-9);
+  CHECK(good.ephemerides[1].message == NavigationMessage::kGalileoFnav);
+  CHECK(good.ephemerides[1].health == 0);
+
+  // The fields of early firmware, and lengths around those of the tables.
+  stream.clear();
+  for (const std::size_t size : {0u, 171u, 173u, 180u, 183u, 185u, 188u}) {
+    auto longer = inav;
+    longer.resize(size);
+    join(&stream, message_of({1309}, longer));
+    join(&stream, message_of({1310}, longer));
+  }
+  join(&stream, message_of({1309}, log_of(1309, true, 54.0, 501'600).second));
+  join(&stream, message_of({1310}, log_of(1310, false, 5440.6, 604'800).second));
+  join(&stream, message_of({1309, test::kTime_ms, 0, 20}, inav));
+  auto number = inav;
+  number[0] = 200;
+  join(&stream, message_of({1309}, number));
+  const auto bad = decode_oem7(stream);
+  CHECK(bad.ephemerides.empty());
+  CHECK(bad.counters.ephemerides.bad_length == 14);
+  CHECK(bad.counters.ephemerides.not_sane == 1);
+  CHECK(bad.counters.ephemerides.bad_time == 1);
+  CHECK(bad.counters.ephemerides.without_time == 1);
+  CHECK(bad.counters.ephemerides.bad_satellite == 1);
+}
+
 TEST_CASE("Logs that are not used are counted by number, and have names") {
   std::vector<std::uint8_t> stream = message_of({42}, std::vector<std::uint8_t>(72));
   join(&stream, message_of({1336}, std::vector<std::uint8_t>(228)));

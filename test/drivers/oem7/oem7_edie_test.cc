@@ -98,7 +98,7 @@ TEST_CASE("Measurements of a recorded RANGECMP agree with novatel-edie to the la
   if (!test::have_edie() || !test::have_shared_data(test::kOemv)) return;
   const std::string path = test::shared_data(test::kOemv);
   const Agreement agreement = compare_measurements(test::stream_bytes(path), fields_of(path));
-  CHECK(agreement.measurements > 700);
+  CHECK(agreement.measurements == 828);
   CHECK(agreement.missing == 0);
   CHECK(agreement.different == 0);
   CHECK(agreement.range_m == 0.0);
@@ -114,12 +114,14 @@ TEST_CASE("Generated measurements of every range log agree with novatel-edie") {
     double doppler_hz;   // half a unit of single precision, in which the package holds them
     bool has_lock_time;  // otherwise the package continues the lower bounds of RANGECMP4
   };
+  long measurements = 0;
   for (const Log& log : {Log{43, 0.0, true}, Log{140, 0.0, true}, Log{1273, 0.00025, true},
                          Log{2050, 0.00025, false}}) {
     for (const int seed : {1, 2, 3}) {
       const Agreement agreement = compare_generated(seed, log.id);
       CAPTURE(log.id, seed, agreement.range_m, agreement.carrier_cycles, agreement.doppler_hz,
               agreement.lock_s);
+      measurements += agreement.measurements;
       CHECK(agreement.measurements > 500);
       CHECK(agreement.missing == 0);
       CHECK(agreement.different == 0);
@@ -129,6 +131,7 @@ TEST_CASE("Generated measurements of every range log agree with novatel-edie") {
       CHECK(agreement.doppler_hz <= log.doppler_hz);
     }
   }
+  CHECK(measurements == 17'600);
 }
 
 TEST_CASE("Generated ephemerides and coefficients agree with novatel-edie to the last bit") {
@@ -172,6 +175,22 @@ TEST_CASE("Generated ephemerides and coefficients agree with novatel-edie to the
              tow(e.toe) - 14.0, tow(e.toc) - 14.0, e.sqrt_a});
       check(line, 8, orbit_of(e));
       check(line, 22, {e.af0, e.af1, e.af2, e.group_delay_s[0], e.group_delay_s[1], e.accuracy_m});
+    } else if (line[0] == "GALINAVEPHEMERIS" || line[0] == "GALFNAVEPHEMERIS") {
+      const bool is_inav = line[0] == "GALINAVEPHEMERIS";
+      const std::size_t at = is_inav ? 6 : 4;  // of the issue
+      const auto bit = [&](std::size_t k) { return static_cast<int>(number(line[k])); };
+      const Ephemeris& e = ours.ephemerides.at(next++);
+      CHECK(e.message ==
+            (is_inav ? NavigationMessage::kGalileoInav : NavigationMessage::kGalileoFnav));
+      CHECK(e.satellite == SatelliteId{System::kGalileo, static_cast<std::uint16_t>(bit(1))});
+      CHECK(e.health == (is_inav ? bit(5) | bit(4) << 1 | bit(3) << 6 | bit(2) << 7
+                                 : bit(3) << 3 | bit(2) << 4));
+      CHECK(e.accuracy_m == 3.12);  // index 107
+      check(line, at, {double(e.issue), tow(e.toe), e.sqrt_a});
+      check(line, at + 3, orbit_of(e));
+      check(line, at + 17, {tow(e.toc), e.af0, e.af1, e.af2, 107.0, e.group_delay_s[0]});
+      if (is_inav) check(line, at + 23, {e.group_delay_s[1]});
+      if (!is_inav) CHECK(e.group_delay_s[1] == 0.0);
     } else if (line[0] == "GALEPHEMERIS") {
       const auto bit = [&](std::size_t k) { return static_cast<int>(number(line[k])); };
       for (const bool is_inav : {true, false}) {
@@ -192,9 +211,51 @@ TEST_CASE("Generated ephemerides and coefficients agree with novatel-edie to the
     }
   }
   CHECK(next == ours.ephemerides.size());
-  CHECK(next > 900);
+  CHECK(next == 1701);
   CHECK(next_model == 300);
-  CHECK(compared > 20'000);
+  CHECK(compared == 42'621);
+}
+
+TEST_CASE(
+    "The manual's examples of Galileo's logs, made binary by novatel-edie, give their numbers") {
+  if (!test::have_edie()) return;
+  const test::TemporaryFile stream("examples.bin", "");
+  REQUIRE(test::run(test::oem7_oracle() + "examples >'" + stream.path() + "' 2>/dev/null"));
+  const auto ours = test::decode_oem7(test::stream_bytes(stream.path()));
+  CHECK(ours.counters.unused.empty());
+  REQUIRE(ours.ephemerides.size() == 2);
+  for (const Ephemeris& e : ours.ephemerides) {
+    CHECK(e.satellite == SatelliteId{System::kGalileo, 2});
+    CHECK(e.health == 0);
+    CHECK(e.issue == 68);
+    CHECK(e.accuracy_m == 3.12);
+    CHECK(e.toe == GpsTime::from_week_and_tow(2209, 501'600.0));
+    CHECK(e.toc == e.toe);
+    CHECK(e.m0 == 1.94195529);
+    CHECK(e.delta_n == 3.0676e-09);
+    CHECK(e.eccentricity == 3.055053530e-04);
+    CHECK(e.sqrt_a == 5440.60316);
+    CHECK(e.i0 == 0.9740321573);
+    CHECK(e.i_dot == 5.6931e-10);
+    CHECK(e.omega0 == 0.6473214246);
+    CHECK(e.omega == 0.3503504077);
+    CHECK(e.omega_dot == -5.8141708e-09);
+    CHECK(std::array{e.cuc, e.cus, e.crc, e.crs, e.cic, e.cis} ==
+          std::array{7.6238e-06, 4.7404e-06, 240.9, 161.0, -5.0291e-08, 2.9802e-08});
+    CHECK(e.af1 == 2.359002e-12);
+    CHECK(e.af2 == 0.0);
+    CHECK(e.group_delay_s[0] == -6.985e-10);
+  }
+  CHECK(ours.ephemerides[0].message == NavigationMessage::kGalileoInav);
+  CHECK(ours.ephemerides[0].transmission_time == GpsTime::from_week_and_tow(2209, 504'514.0));
+  CHECK(ours.ephemerides[0].af0 == 2.989528002e-04);
+  // Word 5 of the same satellite in the manual's example of GALINAVRAWEPHEMERIS: -3 and -7 times
+  // 2^-32 s.
+  CHECK(ours.ephemerides[0].group_delay_s[1] == Approx(-7 * 0x1p-32).epsilon(1e-3));
+  CHECK(ours.ephemerides[0].group_delay_s[0] == Approx(-3 * 0x1p-32).epsilon(1e-3));
+  CHECK(ours.ephemerides[1].message == NavigationMessage::kGalileoFnav);
+  CHECK(ours.ephemerides[1].af0 == 2.989536151e-04);
+  CHECK(ours.ephemerides[1].group_delay_s[1] == 0.0);
 }
 
 TEST_CASE("Generated inertial samples agree with novatel-edie, turned and scaled") {

@@ -214,6 +214,41 @@ TEST_CASE("Reference times, accuracies and high-rate clocks are taken") {
         kTime.plus_seconds(5.0));
 }
 
+TEST_CASE(
+    "A high-rate clock sent with or after its clock is added all through the clock's interval") {
+  CorrectionStore store;
+  store.add(elements(kG05, 17));
+  store.add(orbit(0.0, 17));
+  const auto rapid_at = [&](double time_s, std::uint8_t issue = 0) {
+    SsrMessage rapid = message(SsrKind::kHighRateClock, time_s);
+    rapid.issue = issue;
+    rapid.satellites[0].high_rate_clock_m = 0.5;
+    store.add(rapid);
+    return rapid;
+  };
+  const auto clock_m = [&](const SsrMessage& m, double time_s) {
+    const GpsTime time = kTime.plus_seconds(time_s);
+    const auto states = store.states(m, time);
+    REQUIRE(states.size() == 1);
+    return kSpeedOfLight * (states[0].clock_s - broadcast_state(elements(kG05, 17), time).clock_s);
+  };
+  SsrMessage c = clock(0.0, 1.0);
+  c.update_interval_s = 30.0;  // its reference time is 15 s
+  store.add(c);
+  for (const double time_s : {0.0, 1.0, 14.0, 15.0, 29.0}) {
+    CAPTURE(time_s);
+    const SsrMessage rapid = rapid_at(time_s);
+    CHECK(clock_m(rapid, time_s) == Approx(1.5).margin(1e-6));
+  }
+  // It was made for the clock before, and says nothing of the next one.
+  c.time = kTime.plus_seconds(30.0);
+  store.add(c);
+  CHECK(clock_m(c, 30.0) == Approx(1.0).margin(1e-6));
+  CHECK(clock_m(rapid_at(31.0), 31.0) == Approx(1.5).margin(1e-6));
+  // Nor is one of another solution added.
+  CHECK(clock_m(rapid_at(32.0, 3), 32.0) == Approx(1.0).margin(1e-6));
+}
+
 TEST_CASE("Corrections that say for how long they hold, and of which point, are believed") {
   CorrectionStore store;
   store.add(elements(kG05, 17));
@@ -357,6 +392,31 @@ TEST_CASE("Biases are turned to what is subtracted") {
   REQUIRE(biases.size() == 1);
   CHECK(biases[0].bias_m == -1.5);
   CHECK(biases[0].kind == BiasKind::kCode);
+}
+
+TEST_CASE("The L2 P bias of GPS in HAS is that of P(Y) too, and the pair 1C/2W has its delay") {
+  SsrMessage m = message(SsrKind::kCodeBias, 0.0);
+  m.service = SsrService::kGalileoHas;
+  m.satellites[0].code_biases = {{{'1', 'C'}, -3.36}, {{'2', 'L'}, -5.4}, {{'2', 'P'}, -5.54}};
+  SignalBiasStore has;
+  for (const SignalBias& bias : biases_of(m, kTime)) CHECK(has.add(bias));
+  const auto single = has.code_delay(kG05, kTime, {'2', 'W'});
+  REQUIRE(single);
+  CHECK(single->delay_m == Approx(5.54));
+  const auto pair = has.code_delay(kG05, kTime, {'1', 'C'}, {'2', 'W'});
+  REQUIRE(pair);
+  const double squares = std::pow(1575.42 / 1227.60, 2);
+  CHECK(pair->delay_m == Approx((squares * 3.36 - 5.54) / (squares - 1.0)));
+  m.satellites[0].phase_biases = {{{'2', 'P'}, 0.1}};
+  CHECK(biases_of(m, kTime).size() == 6);
+  // Others have numbers of their own for P and P(Y), and other systems no P(Y).
+  m.satellites[0].phase_biases.clear();
+  m.service = SsrService::kIgs;
+  CHECK(biases_of(m, kTime).size() == 3);
+  m.service = SsrService::kGalileoHas;
+  m.satellites[0].satellite = {System::kBeidou, 20};
+  m.satellites[0].code_biases = {{{'1', 'P'}, 1.0}};
+  CHECK(biases_of(m, kTime).size() == 1);
 }
 
 TEST_CASE("Any satellites and times in any order make valid states or none") {

@@ -1,10 +1,13 @@
 // Recordings: written, read, cut short, damaged; and files played at their pace.
 #include "drivers/transport/recording.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -88,6 +91,30 @@ TEST_CASE("The first arrival is known of a recording with a whole block alone", 
   CHECK(first_arrival_ns(text.path()) == std::nullopt);
   CHECK(first_arrival_ns(empty.path()) == std::nullopt);
   CHECK(first_arrival_ns(text.beside("none.leoraw")) == std::nullopt);
+}
+
+TEST_CASE("A pipe or a device is no file, and is refused at once with the remedy", "[transport]") {
+  const test::TemporaryFile place("unused", "");
+  const std::string fifo = place.beside("fifo");
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  // Without a writer, and with one that sends nothing, reading would wait for ever.
+  CHECK_THROWS_WITH(BlockReader(fifo), Catch::Contains("stdin"));
+  const int silent = open(fifo.c_str(), O_RDWR);
+  REQUIRE(silent >= 0);
+  CHECK_THROWS_WITH(BlockReader(fifo), Catch::Contains("stdin"));
+  // Nor is anything taken from it.
+  REQUIRE(write(silent, "abc", 3) == 3);
+  CHECK_THROWS_AS(BlockReader(fifo), FileError);
+  CHECK(first_arrival_ns(fifo) == std::nullopt);
+  char got[3];
+  CHECK(read(silent, got, 3) == 3);
+  close(silent);
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE((master >= 0 && grantpt(master) == 0 && unlockpt(master) == 0));
+  CHECK_THROWS_WITH(BlockReader(ptsname(master)), Catch::Contains("'source: serial'"));
+  close(master);
+  CHECK_THROWS_WITH(BlockReader(std::filesystem::temp_directory_path()),
+                    Catch::Contains("is a directory"));
 }
 
 TEST_CASE("A recording that exists is kept, and one that is cut short ends there", "[transport]") {

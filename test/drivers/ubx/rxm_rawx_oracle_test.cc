@@ -1,12 +1,17 @@
-// RAWX against RTKLIB's convbin: every number of walk/gnss.obs.
+// RAWX against RTKLIB's convbin, every number of walk/gnss.obs, and against pyubx2.
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "drivers/rinex/observation_reader.h"
+#include "drivers/ubx/oracle_program.h"
 #include "drivers/ubx/walk_recording.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
 
 namespace leonav {
 namespace {
@@ -154,6 +159,52 @@ TEST_CASE("Loss of lock agrees with RTKLIB but where it is blind or early") {
   CHECK(neither == 26971);
   CHECK(theirs_at_first == 21);
   CHECK(ours_after_gap == 19);
+}
+
+TEST_CASE("RAWX agrees with pyubx2 in every value, to the last bit") {
+  if (!test::have_shared_data(test::kWalkUbx) || !test::have_pyubx2()) return;
+  using Key = std::tuple<GpsTime, SatelliteId, SignalCode>;
+  std::map<Key, SignalObservation> left;
+  for (const RawEpoch& epoch : test::decode_walk().epochs) {
+    for (const auto& o : epoch.observations) left[{epoch.time, o.satellite, o.code}] = o;
+  }
+  const test::TemporaryFile place("rawx.txt", "");
+  const std::string command = test::ubx_oracle() + "rawx '" + test::shared_data(test::kWalkUbx) +
+                              "' >'" + place.path() + "'";
+  REQUIRE(std::system(command.c_str()) == 0);
+  std::ifstream lines(place.path());
+  long signals = 0, carriers = 0, missing = 0, different = 0;
+  const auto differ = [](double ours, double theirs) {
+    return ours != theirs && !(std::isnan(ours) && std::isnan(theirs));
+  };
+  std::int64_t time_ns = 0, lock_ms = 0;
+  std::string satellite, code, range_m, carrier_cycles, doppler_hz, cn0_dbhz;
+  bool is_half_cycle_known = false;
+  while (lines >> time_ns >> satellite >> code >> range_m >> carrier_cycles >> doppler_hz >>
+         cn0_dbhz >> lock_ms >> is_half_cycle_known) {
+    ++signals;
+    const auto found = left.find({GpsTime::from_nanoseconds(time_ns),
+                                  *satellite_from_string(satellite), *signal_from_string(code)});
+    if (found == left.end()) {
+      ++missing;
+      continue;
+    }
+    const SignalObservation& o = found->second;
+    const bool has_carrier = !std::isnan(std::stod(carrier_cycles));
+    carriers += has_carrier;
+    different += differ(o.pseudorange_m, std::stod(range_m)) ||
+                 differ(o.carrier_cycles, std::stod(carrier_cycles)) ||
+                 differ(o.doppler_hz, std::stod(doppler_hz)) ||
+                 differ(o.cn0_dbhz, std::stod(cn0_dbhz)) ||
+                 differ(o.lock_time_s, static_cast<double>(lock_ms) * 1e-3) ||
+                 (has_carrier && o.half_cycle_ambiguous == is_half_cycle_known);
+    left.erase(found);
+  }
+  CHECK(signals == 36'271);
+  CHECK(carriers == 32'070);
+  CHECK(missing == 0);
+  CHECK(left.empty());
+  CHECK(different == 0);
 }
 
 // An oracle of its own for the one signal that convbin leaves out: the Doppler of one satellite on

@@ -219,6 +219,19 @@ TEST_CASE("A stream of a caster, of a client and of datagrams is described", "[c
              Catch::Contains("mountpoint"));
   CHECK_THAT(problem("name: a, source: ntrip, host: \"b\\r\\nX: y\", mountpoint: B, format: rtcm3"),
              Catch::Contains("host"));
+  // As others write it; the message must not quote what may be a password.
+  for (const char* host : {"joe:secret-word@caster.example", "http://caster.example/secret-word",
+                           "caster.example:2101:secret-word", "joe@secret-word"}) {
+    const std::string written = std::string(", host: \"") + host + "\", ";
+    CHECK_THAT(problem("name: a, source: ntrip" + written + "mountpoint: B, format: rtcm3"),
+               Catch::Contains("host") && Catch::Contains("credentials_file"));
+    CHECK_THAT(problem("name: a, source: tcp" + written + "port: 1, format: rtcm3"),
+               Catch::Contains("host") && Catch::Contains("'port'"));
+  }
+  for (const char* host : {"::1", "fe80::1%lo", "192.168.1.10", "caster_1.example"}) {
+    const std::string written = std::string(", host: \"") + host + "\", ";
+    CHECK(problem("name: a, source: tcp" + written + "port: 1, format: rtcm3") == "none");
+  }
   chmod(credentials.path().c_str(), 0644);
   CHECK_THAT(problem(caster), Catch::Contains("chmod 600"));
 

@@ -40,7 +40,7 @@ std::string ImuLineFormat::why_no_frames() const {
     return "lines arrive whose columns are no numbers, or beyond any sensor: see 'line.columns' "
            "and the units";
   }
-  if (c.other_lines > 0) return "no line begins with 'line.prefix'";
+  if (c.other_lines > 0) return "no line begins with 'line.prefix' and a separator";
   return "bytes arrive but no line: is the baud rate right, and does the sensor write text?";
 }
 

@@ -15,6 +15,7 @@ class ImuLineFormat final : public ImuFormat, private ImuLineHandler {
         are_increments_(layout.are_increments),
         decoder_(std::move(layout)) {}
 
+  void on_open() override { decoder_.begin_connection(); }
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
   FormatCounts counts() const override;
   std::string why_no_frames() const override;

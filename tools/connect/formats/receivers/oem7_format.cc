@@ -101,7 +101,8 @@ std::string Oem7Format::why_no_messages() const {
   }
   if (!others.empty()) others += ")";
   return "NovAtel messages arrive, but no range log" + others +
-         ": log RANGECMPB ONTIME 1, RAWEPHEMB, GALEPHEMERISB and BDSEPHEMERISB ONCHANGED" +
+         ": log RANGECMPB ONTIME 1, RAWEPHEMB, GALINAVEPHEMERISB, GALFNAVEPHEMERISB and "
+         "BDSEPHEMERISB ONCHANGED" +
          (options_.is_inertial ? ", and RAWIMUSXB ONNEW" : "");
 }
 

@@ -5,11 +5,17 @@
 namespace leonav {
 
 void UbxFormat::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
+  // Subframes hold no time of reception, and get that of the last epoch.
+  constexpr std::int64_t kLongestEpochAge_ns = 60'000'000'000;
+  if (arrival_ns - epoch_arrival_ns_ > kLongestEpochAge_ns) decoder_.forget_time();
   arrival_ns_ = arrival_ns;
   decoder_.feed(bytes, this);
 }
 
-void UbxFormat::on_epoch(const RawEpoch& epoch) { receiver_.send(epoch, arrival_ns_); }
+void UbxFormat::on_epoch(const RawEpoch& epoch) {
+  epoch_arrival_ns_ = arrival_ns_;
+  receiver_.send(epoch, arrival_ns_);
+}
 void UbxFormat::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
 void UbxFormat::on_klobuchar(const KlobucharModel& model) {
   receiver_.send(model, receiver_.last_epoch().plus_seconds(latency_s_));

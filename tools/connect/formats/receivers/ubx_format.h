@@ -60,7 +60,8 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   ImuOutput imu_;
   std::uint64_t sent_pulses_ = 0, other_pulses_ = 0;  // handed on; of another input or edge
   UbxDecoder decoder_;
-  std::int64_t arrival_ns_ = 0;  // of the bytes at hand
+  std::int64_t arrival_ns_ = 0;        // of the bytes at hand
+  std::int64_t epoch_arrival_ns_ = 0;  // of the last epoch
 };
 
 }  // namespace leonav
