@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/messages/input_dispatch.h"
+#include "daemon/process/one_blas_thread.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/bench/growth.h"
 #include "tools/bench/process_measures.h"
@@ -20,6 +21,10 @@
 namespace {
 
 using leonav::Times;
+
+// OpenBLAS would have started its threads by main(): the service has one thread too.
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    leonav::start_with_one_blas_thread;
 
 struct Message {
   leonav::Channel channel;

@@ -8,6 +8,7 @@
 #include "core/smoother/batch/batch_smoother.h"
 #include "core/smoother/ceres/log_ceres.h"
 #include "daemon/config/effective_config.h"
+#include "daemon/process/one_blas_thread.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/common/configuration_options.h"
@@ -21,6 +22,10 @@
 namespace {
 
 using namespace leonav;
+
+// OpenBLAS would have started its threads by main(): they take time and change the last bits.
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    start_with_one_blas_thread;
 
 constexpr double kPassShare = 0.3;  // of the work, roughly: the pass of the filter
 
