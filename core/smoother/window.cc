@@ -251,11 +251,14 @@ FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe) {
 }
 
 EkfCorrection process_error(const Keyframe& before, const Keyframe& keyframe) {
-  EkfCorrection error =
-      active_part(keyframe.active, difference(keyframe.state, keyframe.process_factor.to));
-  error.noalias() -=
-      keyframe.process_factor.F *
-      active_part(before.active, difference(before.state, keyframe.process_factor.from));
+  return process_error(before.active, before.state, keyframe, keyframe.state);
+}
+
+EkfCorrection process_error(const ActiveStates& active_before, const FilterState& before,
+                            const Keyframe& keyframe, const FilterState& state) {
+  EkfCorrection error = active_part(keyframe.active, difference(state, keyframe.process_factor.to));
+  error.noalias() -= keyframe.process_factor.F *
+                     active_part(active_before, difference(before, keyframe.process_factor.from));
   return error;
 }
 
