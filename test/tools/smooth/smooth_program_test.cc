@@ -177,6 +177,29 @@ TEST_CASE("leonav-smooth is nearer to the truth than the filter") {
   CHECK(std::sqrt(smoothed) < 0.95 * std::sqrt(filter));
 }
 
+TEST_CASE("at a rate both of two drives in one log have their rows") {
+  if (!have_programs("leonav-smooth", "leonav-replay")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog"), twice = place.beside("twice.lcmlog");
+  write_log(drive(), log);
+  write_file(twice, text_of(log) + text_of(log));
+  for (const std::string program : {"leonav-smooth --solver chain", "leonav-replay"}) {
+    CAPTURE(program);
+    const auto rows = [&](const std::string& of) {
+      const std::string name = program.substr(0, program.find(' '));
+      const ProgramRun run =
+          run_program(name, program.substr(name.size()) + " " + kCar + "--rate 1 --out " +
+                                quoted(place.beside("out")) + " " + quoted(of));
+      CAPTURE(run.err);
+      CHECK(run.exit_code == 0);
+      return read_solution_csv(place.beside("out/solution.csv")).rows.size();
+    };
+    const std::size_t once = rows(log);
+    REQUIRE(once > 40);
+    CHECK(rows(twice) > 2 * once - 10);
+  }
+}
+
 TEST_CASE("leonav-smooth takes a log that is cut short up to there, and says so") {
   if (!have_programs("leonav-smooth")) return;
   const TemporaryFile place("unused", "");
