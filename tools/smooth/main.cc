@@ -1,4 +1,7 @@
 // leonav-smooth estimates a whole log at once: every epoch from all measurements before and after.
+#include <unistd.h>
+
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -133,7 +136,9 @@ int run(int argc, char** argv) {
   const JournalScan scan = scan_journal(log, config.lcm.prefix);
   require_inputs(scan, log, config.lcm.prefix);
   std::filesystem::create_directories(out);
-  write_text(out + "/configuration.yaml", effective_text(config.source));
+  // Nothing is written before the result is there: tables of an earlier run keep their
+  // configuration if this one fails.
+  if (::access(out.c_str(), W_OK) != 0) throw std::runtime_error(out + ": cannot be written");
   LogGraph graph(navigator.vehicle.lever_arm_b);
   BatchResult result;
   PassCounts pass;
@@ -160,6 +165,7 @@ int run(int argc, char** argv) {
   summary << "epochs of the log: " << pass.epochs << "\nrestarts of the filter: " << pass.resets
           << "\n";
   print_smoothed(graph, result, summary);
+  write_text(out + "/configuration.yaml", effective_text(config.source));
   const long rows = write_solution(out + "/solution.csv", graph, result, rate_hz);
   write_forward(out + "/forward.csv", graph, result);
   write_residuals(out + "/residuals.csv", graph);

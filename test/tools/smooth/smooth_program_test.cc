@@ -200,6 +200,21 @@ TEST_CASE("at a rate both of two drives in one log have their rows") {
   }
 }
 
+TEST_CASE("a run of leonav-smooth that fails leaves the tables of an earlier one as they were") {
+  if (!have_programs("leonav-smooth")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  write_log(drive(), log);
+  const auto smooth = [&](const std::string& options) {
+    return run_program("leonav-smooth", kCar + "--solver chain " + options + "--out " +
+                                            quoted(place.beside("out")) + " " + quoted(log));
+  };
+  REQUIRE(smooth("").exit_code == 0);
+  const std::string before = text_of(place.beside("out/configuration.yaml"));
+  REQUIRE(smooth("--set gnss.elevation_mask_deg=89 ").exit_code == 1);
+  CHECK(text_of(place.beside("out/configuration.yaml")) == before);
+}
+
 TEST_CASE("leonav-smooth takes a log that is cut short up to there, and says so") {
   if (!have_programs("leonav-smooth")) return;
   const TemporaryFile place("unused", "");
