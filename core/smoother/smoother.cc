@@ -199,6 +199,7 @@ bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
   const bool minimized = minimizer_->solve(window_, lever_arm_b_, &corrections_);
   minimizer_->limit(nullptr);
   result->iterations = std::max(1, minimizer_->iterations());
+  result->left_to_chain = !minimized;
   double moved_m = 0.0;
   if (minimized && !move_states(corrections_, 1.0, &window_, &moved_m)) return false;
   if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;

@@ -39,6 +39,7 @@ struct SmootherResult {
   int iterations = 0;
   bool converged = false;
   int shortened = 0;  // steps of which only a part was taken, or none, because the cost would rise
+  bool left_to_chain = false;  // the minimizer has found no step, and the chain has taken one
   bool has_attitude = false;
   NavState state;  // at the newest keyframe
   InertialCovariance covariance = InertialCovariance::Zero();

@@ -158,4 +158,34 @@ TEST_CASE("where a process's noise is not definite the cost is not known, and th
   CHECK(std::isnan(cost_rise(window, before.get(), drive.lever_b())));
 }
 
+namespace {
+
+// Never finds a step.
+class Helpless final : public WindowSolver {
+ public:
+  bool solve(const Window&, const Eigen::Vector3d&, WindowCorrections*) override { return false; }
+};
+
+}  // namespace
+
+TEST_CASE("a solve that the minimizer leaves to the chain says so") {
+  Drive drive{DriveOptions{}};
+  SmootherConfig config;
+  config.window = 5;
+  ProcessPropagationConfig repropagation;
+  repropagation.ekf = drive.config();
+  repropagation.imu = mems();
+  repropagation.motion = Drive::motion();
+  Smoother helpless(config, drive.config().robust, drive.lever_b(), repropagation,
+                    std::make_unique<Helpless>());
+  const auto chain = smoother_of(drive, config);
+  for (int epoch = 1; epoch <= 8; ++epoch) {
+    const KeyframeInput& input = drive.step();
+    const SmootherResult result = solve(input, &helpless);
+    CHECK(result.left_to_chain);
+    if (epoch > 1) CHECK(result.status == SmootherStatus::kOk);
+    CHECK_FALSE(solve(input, chain.get()).left_to_chain);
+  }
+}
+
 }  // namespace leonav
