@@ -21,6 +21,7 @@
 #include "tools/smooth/keyframe_collector.h"
 #include "tools/smooth/result_tables.h"
 #include "tools/smooth/smooth_report.h"
+#include "tools/smooth/solver_choice.h"
 
 namespace {
 
@@ -52,8 +53,9 @@ Arguments declare() {
               "smallest interval of the epochs used; 0: all. For long logs at high rates", "0")
       .option(
           "--solver", "NAME",
-          "ceres; chain: forward and backward passes, faster, in less memory; or auto: ceres for "
-          "up to 20000 epochs,\n                   chain for more",
+          "ceres; chain: forward and backward passes, faster, in less memory; or auto: ceres where "
+          "half of the free memory\n                   is enough for it and the log has at most "
+          "three million measurements, else chain",
           "auto")
       .option("--iterations", "N", "at most", "20");
   return arguments;
@@ -67,9 +69,6 @@ double number_within(const Arguments& arguments, const std::string& name, double
   text << name << ": must be " << least << " to " << most;
   throw UsageError(text.str());
 }
-
-// Ceres needs some 0.4 MB an epoch with the satellites of four systems.
-constexpr int kMostForCeres = 20'000;
 
 std::string solver_name(const Arguments& arguments) {
   std::string name = arguments.get("--solver");
@@ -127,7 +126,7 @@ int run(int argc, char** argv) {
   BatchConfig batch;
   batch.max_iterations = static_cast<int>(number_within(arguments, "--iterations", 1.0, 1000.0));
   const double interval_s = number_within(arguments, "--interval", 0.0, 3600.0);
-  std::string solver = solver_name(arguments);
+  SolverChoice solver{solver_name(arguments), "as asked for"};
   auto [config, origin, other_run] = choose_configuration(log, arguments);
   NavigatorConfig& navigator = config.navigator;
   navigator.smoother.keyframe_interval_s = interval_s;
@@ -154,13 +153,15 @@ int run(int argc, char** argv) {
       // Most logs need half a dozen iterations; what is left shrinks with each.
       bar.show(1.0 - (1.0 - kPassShare) * std::pow(0.7, iteration + share));
     };
-    if (solver == "auto") solver = graph.size() > kMostForCeres ? "chain" : "ceres";
-    result = smooth(batch, solver_of(solver), inertial ? &processes : nullptr, progress, &graph);
+    if (solver.name == "auto") solver = choose_solver(measurements_of(graph), available_memory());
+    result =
+        smooth(batch, solver_of(solver.name), inertial ? &processes : nullptr, progress, &graph);
   }
   if (!result.solved) throw std::runtime_error(log + ": the epochs have no unique solution");
 
   std::ostringstream summary;
-  summary << "configuration: " << origin << "\nsolver: " << solver << "\n";
+  summary << "configuration: " << origin << "\nsolver: " << solver.name << " (" << solver.reason
+          << ")\n";
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
   summary << "epochs of the log: " << pass.epochs << "\nrestarts of the filter: " << pass.resets
           << "\n";

@@ -136,7 +136,7 @@ TEST_CASE("leonav-smooth gives every epoch of a drive, the same by either solver
     CHECK(std::filesystem::file_size(place.beside("chain/" + name)) > 0);
   }
   CHECK(text_of(place.beside("ceres/summary.txt")) == ceres.out);
-  CHECK_THAT(ceres.out, Contains("solver: ceres"));
+  CHECK_THAT(ceres.out, Contains("solver: ceres (as asked for)"));
   CHECK_THAT(ceres.out, Contains("converged: yes"));
   CHECK_THAT(ceres.out, Contains("segments: 1"));
   CHECK(ceres.err.empty());
