@@ -70,6 +70,12 @@ double number_within(const Arguments& arguments, const std::string& name, double
   throw UsageError(text.str());
 }
 
+int whole_number_within(const Arguments& arguments, const std::string& name, int least, int most) {
+  const double value = number_within(arguments, name, least, most);
+  if (value != std::floor(value)) throw UsageError(name + ": must be a whole number");
+  return static_cast<int>(value);
+}
+
 std::string solver_name(const Arguments& arguments) {
   std::string name = arguments.get("--solver");
   if (name != "ceres" && name != "chain" && name != "auto")
@@ -124,7 +130,7 @@ int run(int argc, char** argv) {
   std::optional<double> rate_hz;
   if (arguments.has("--rate")) rate_hz = number_within(arguments, "--rate", 0.001, 1000.0);
   BatchConfig batch;
-  batch.max_iterations = static_cast<int>(number_within(arguments, "--iterations", 1.0, 1000.0));
+  batch.max_iterations = whole_number_within(arguments, "--iterations", 1, 1000);
   const double interval_s = number_within(arguments, "--interval", 0.0, 3600.0);
   SolverChoice solver{solver_name(arguments), "as asked for"};
   auto [config, origin, other_run] = choose_configuration(log, arguments);

@@ -81,6 +81,7 @@ TEST_CASE("leonav-smooth refuses a wrong command line with exit code 2") {
   refused("--preset car --solver qr " + rest, "--solver: must be auto, ceres or chain");
   refused("--preset car --rate 0 " + rest, "--rate: must be 0.001 to 1000");
   refused("--preset car --iterations 0 " + rest, "--iterations");
+  refused("--preset car --iterations 2.7 " + rest, "--iterations: must be a whole number");
   refused("--preset car --interval -1 " + rest, "--interval");
   refused("--preset car " + quoted(place.path()), "--out");
   refused("--preset car --out " + quoted(place.beside("out")), "expected one log file");
@@ -213,6 +214,18 @@ TEST_CASE("a run of leonav-smooth that fails leaves the tables of an earlier one
   const std::string before = text_of(place.beside("out/configuration.yaml"));
   REQUIRE(smooth("--set gnss.elevation_mask_deg=89 ").exit_code == 1);
   CHECK(text_of(place.beside("out/configuration.yaml")) == before);
+}
+
+TEST_CASE("with too few iterations for the IMU to bridge anything leonav-smooth says that alone") {
+  if (!have_programs("leonav-smooth")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  write_log(drive(), log);
+  const ProgramRun run =
+      run_program("leonav-smooth", kCar + "--solver chain --iterations 1 --out " +
+                                       quoted(place.beside("out")) + " " + quoted(log));
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("--iterations 3 or more") && !Contains("inertial connection"));
 }
 
 TEST_CASE("leonav-smooth takes a log that is cut short up to there, and says so") {
