@@ -269,7 +269,7 @@ void Smoother::finish(SmootherResult* result) {
     add_lagged(result);
 }
 
-void Smoother::add_lagged(SmootherResult* result) const {
+void Smoother::add_lagged(SmootherResult* result) {
   const Keyframe& oldest = window_.at(0);
   LaggedState& lagged = result->lagged;
   rts_solver_.oldest_covariance(window_, &lagged.covariance);

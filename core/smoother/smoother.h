@@ -101,7 +101,7 @@ class Smoother {
   double sigma_m() const { return std::min(filter_sigma_m_, window_sigma_m_); }
   WindowAgainstFilter against_filter(const Keyframe& newest) const;
   void finish(SmootherResult* result);
-  void add_lagged(SmootherResult* result) const;
+  void add_lagged(SmootherResult* result);
 
   SmootherConfig config_;
   RobustConfig robust_;

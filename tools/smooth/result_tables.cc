@@ -1,7 +1,6 @@
 #include "tools/smooth/result_tables.h"
 
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "core/base/angle.h"

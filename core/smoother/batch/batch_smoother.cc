@@ -84,7 +84,6 @@ BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProces
     result.solved = solve_chain(*graph, share, &result.last);
     BatchIteration beyond;
     if (result.solved) apply(result.last, graph, &beyond);
-    result.chain_apart_m = beyond.moved_m;
   }
   return result;
 }

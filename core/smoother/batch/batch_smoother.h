@@ -35,8 +35,7 @@ struct BatchResult {
   bool extension_left_out = false;
   LogProcesses::Extension extension;
   std::vector<BatchIteration> iterations;
-  double chain_apart_m = 0.0;  // the largest step of a position by the chain beyond the solver's
-  LogCorrections last;         // with the covariances at the solution
+  LogCorrections last;  // with the covariances at the solution
 };
 
 // Iterates from the states that the graph holds and leaves the smoothed ones there. Every iteration
