@@ -18,9 +18,14 @@ double row_of(const LinearMeasurement& linear, int state) {
 }
 
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b) {
+  return antenna_of(keyframe, keyframe.state, lever_arm_b);
+}
+
+AntennaMotion antenna_of(const Keyframe& keyframe, const FilterState& state,
+                         const Eigen::Vector3d& lever_arm_b) {
   AntennaMotion antenna =
-      antenna_motion(keyframe.state.nav, keyframe.measured_rate_b, lever_arm_b,
-                     keyframe.has_attitude, keyframe.state.vehicle, keyframe.acceleration_e);
+      antenna_motion(state.nav, keyframe.measured_rate_b, lever_arm_b, keyframe.has_attitude,
+                     state.vehicle, keyframe.acceleration_e);
   antenna.p_e += keyframe.vertical_antenna_offset_e;
   return antenna;
 }
@@ -40,7 +45,11 @@ LinearMeasurement linearize(const MeasuredObservable& measurement,
 
 LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,
                             const AntennaMotion& antenna) {
-  const FilterState& state = keyframe.state;
+  return linearize(measurement, keyframe, keyframe.state, antenna);
+}
+
+LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,
+                            const FilterState& state, const AntennaMotion& antenna) {
   LinearMeasurement linear =
       linearize(measurement.measurement,
                 keyframe.satellites[measurement.measurement.satellite_index], state, antenna);

@@ -29,6 +29,11 @@ LinearMeasurement linearize(const MeasuredObservable& measurement,
 AntennaMotion antenna_of(const Keyframe& keyframe, const Eigen::Vector3d& lever_arm_b);
 LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,
                             const AntennaMotion& antenna);
+// The same at another state of the keyframe.
+AntennaMotion antenna_of(const Keyframe& keyframe, const FilterState& state,
+                         const Eigen::Vector3d& lever_arm_b);
+LinearMeasurement linearize(const KeyframeMeasurement& measurement, const Keyframe& keyframe,
+                            const FilterState& state, const AntennaMotion& antenna);
 
 // The contribution of a keyframe's measurements to the normal equations of its active states.
 struct MeasurementInformation {

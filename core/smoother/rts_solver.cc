@@ -390,7 +390,7 @@ void RtsSolver::lead_gradient(Step* step) {
   gradient_.noalias() -= information_ * kept;
 }
 
-void RtsSolver::oldest_covariance(const Window& window, PoseCovariance* covariance) const {
+void RtsSolver::oldest_covariance(const Window& window, PoseCovariance* covariance) {
   const ActiveStates& active = window.at(0).active;
   Index poses = 0;
   while (poses < active.core_size() && active.core[static_cast<std::size_t>(poses)] < kPoseStates)

@@ -47,7 +47,7 @@ class RtsSolver final : public WindowSolver {
 
   // Returns the covariance of the oldest keyframe's position, velocity and attitude, from all of
   // the window, after the last solve() of it.
-  void oldest_covariance(const Window& window, PoseCovariance* covariance) const;
+  void oldest_covariance(const Window& window, PoseCovariance* covariance);
 
   // Marginalizes the oldest keyframe: computes the prior that it leaves on the next one, at the
   // keyframes' states. Returns false if that is not finite. Precondition: at least two keyframes.

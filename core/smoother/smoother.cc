@@ -73,6 +73,7 @@ Smoother::Smoother(const SmootherConfig& config, const RobustConfig& robust,
       rts_solver_(window_.capacity()),
       minimizer_(std::move(minimizer)),
       repropagator_(repropagation),
+      step_(window_.capacity()),
       saved_(std::make_unique<Saved[]>(static_cast<std::size_t>(window_.capacity()))),
       next_prior_(std::make_unique<WindowPrior>()) {}
 
@@ -157,29 +158,36 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   }
   while (result.iterations < std::max(1, config_.max_iterations)) {
     if (result.iterations > 0 && !budget->may_iterate(result.iterations)) break;
-    double moved_sigmas = 0.0;
     // The iteration that fails counts: a replay has to make it too.
-    if (!iterate(result.iterations++, &moved_sigmas)) {
+    if (!iterate(result.iterations++, &result)) {
       result.status = SmootherStatus::kSingular;
       failed_ = true;
       return result;
     }
-    result.converged = moved_sigmas < config_.converged_sigmas;
     if (result.converged) break;
   }
   finish(&result);
   return result;
 }
 
-// Does one iteration: weights, one step, and the length of that step in sigmas.
-bool Smoother::iterate(int iteration, double* moved_sigmas) {
+// Does one iteration: weights and one step, which is short enough or not.
+bool Smoother::iterate(int iteration, SmootherResult* result) {
   if (robust_.enabled && config_.reweigh && sigma_m() < kVague_m)
     weights_.update_factors(iteration == 0, lever_arm_b_, &window_);
-  double moved_m = 0.0;
-  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_) || !apply_corrections(&moved_m))
-    return false;
-  *moved_sigmas = moved_m / std::max(sigma_m(), 1e-6);
+  if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_) || !take_step(result)) return false;
+  result->converged = step_.share() == 1.0 && is_converged(step_.moved_m());
   return true;
+}
+
+// Takes the chain's step.
+bool Smoother::take_step(SmootherResult* result) {
+  if (!step_.take(corrections_, lever_arm_b_, &window_)) return false;
+  result->shortened += step_.share() < 1.0 ? 1 : 0;
+  return true;
+}
+
+bool Smoother::is_converged(double moved_m) const {
+  return moved_m / std::max(sigma_m(), 1e-6) < config_.converged_sigmas;
 }
 
 // Lets the minimizer take all steps at weights that are decided once. The chain then gives the
@@ -191,27 +199,15 @@ bool Smoother::minimize(SolveBudget* budget, SmootherResult* result) {
   const bool minimized = minimizer_->solve(window_, lever_arm_b_, &corrections_);
   minimizer_->limit(nullptr);
   result->iterations = std::max(1, minimizer_->iterations());
+  result->left_to_chain = !minimized;
   double moved_m = 0.0;
-  if (minimized && !apply_corrections(&moved_m)) return false;
-  moved_m = 0.0;  // what is left
+  if (minimized && !move_states(corrections_, 1.0, &window_, &moved_m)) return false;
   if (!rts_solver_.solve(window_, lever_arm_b_, &corrections_)) return false;
-  if (!minimized) return apply_corrections(&moved_m);
+  if (!minimized) return take_step(result);
+  moved_m = 0.0;  // what is left
   for (const EkfCorrection& left : corrections_)
     moved_m = std::max(moved_m, left.segment<3>(kPosition).norm());
-  result->converged = moved_m < config_.converged_sigmas * std::max(sigma_m(), 1e-6);
-  return true;
-}
-
-// Adds the corrections to the keyframes' states; `moved_m` is the largest step of a position.
-bool Smoother::apply_corrections(double* moved_m) {
-  for (int i = 0; i < window_.size(); ++i) {
-    Keyframe& keyframe = window_.at(i);
-    const EkfCorrection error =
-        full_error(keyframe.active, corrections_[static_cast<std::size_t>(i)]);
-    *moved_m = std::max(*moved_m, error.segment<3>(kPosition).norm());
-    leonav::add(error, keyframe.has_attitude, &keyframe.state);
-    if (!is_finite(keyframe.state)) return false;
-  }
+  result->converged = is_converged(moved_m);
   return true;
 }
 
@@ -273,7 +269,7 @@ void Smoother::finish(SmootherResult* result) {
     add_lagged(result);
 }
 
-void Smoother::add_lagged(SmootherResult* result) const {
+void Smoother::add_lagged(SmootherResult* result) {
   const Keyframe& oldest = window_.at(0);
   LaggedState& lagged = result->lagged;
   rts_solver_.oldest_covariance(window_, &lagged.covariance);

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "core/filter/state/covariance_blocks.h"
+#include "core/smoother/internal/descending_step.h"
 #include "core/smoother/internal/divergence_test.h"
 #include "core/smoother/internal/window_weights.h"
 #include "core/smoother/repropagation.h"
@@ -37,6 +38,8 @@ struct SmootherResult {
   SmootherStatus status = SmootherStatus::kNoFilter;
   int iterations = 0;
   bool converged = false;
+  int shortened = 0;  // steps of which only a part was taken, or none, because the cost would rise
+  bool left_to_chain = false;  // the minimizer has found no step, and the chain has taken one
   bool has_attitude = false;
   NavState state;  // at the newest keyframe
   InertialCovariance covariance = InertialCovariance::Zero();
@@ -91,13 +94,14 @@ class Smoother {
   void restore();
   void repropagate();
   void marginalize_and_drop_oldest();
-  bool iterate(int iteration, double* moved_sigmas);
+  bool iterate(int iteration, SmootherResult* result);
+  bool take_step(SmootherResult* result);
   bool minimize(SolveBudget* budget, SmootherResult* result);
-  bool apply_corrections(double* moved_m);
+  bool is_converged(double moved_m) const;
   double sigma_m() const { return std::min(filter_sigma_m_, window_sigma_m_); }
   WindowAgainstFilter against_filter(const Keyframe& newest) const;
   void finish(SmootherResult* result);
-  void add_lagged(SmootherResult* result) const;
+  void add_lagged(SmootherResult* result);
 
   SmootherConfig config_;
   RobustConfig robust_;
@@ -109,6 +113,7 @@ class Smoother {
   Repropagator repropagator_;
   DivergenceTest believed_;
   WindowCorrections corrections_;
+  DescendingStep step_;
   std::unique_ptr<Saved[]> saved_;
   std::unique_ptr<WindowPrior> next_prior_;
   // The filter at the newest keyframe. Without an attitude its position is compared at the antenna.

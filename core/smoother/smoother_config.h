@@ -30,8 +30,8 @@ struct SmootherConfig {
   // over these epochs is tested; 0: each code is tested by itself only.
   double code_alike_s = 5.0;
   // Time within which a further iteration of a solve must end, at the pace of those before it; 0:
-  // no limit but the deadline. It acts in the service only: the journal records the number of
-  // iterations that resulted.
+  // no limit but the deadline. It acts in the service with an IMU only: the journal records the
+  // number of iterations that resulted.
   double time_limit_s = 0.25;
   // A solve ends when the largest correction of a position is below this, in sigmas of the filter's
   // position or, if it is smaller, the window's. The states move on from solve to solve, so that a

@@ -48,7 +48,7 @@ Index whole_index(const ActiveStates& active, Index i) {
 
 constexpr double kUnknownAmbiguity = 1e3;  // m, 1 sigma of one that begins anew
 
-bool make_link(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
+bool make_process_factor(const KeyframeInput& input, const Keyframe& before, Keyframe* keyframe) {
   ProcessFactor& process_factor = keyframe->process_factor;
   const ActiveStates& rows = keyframe->active;
   const ActiveStates& columns = before.active;
@@ -201,7 +201,7 @@ bool Window::append(const KeyframeInput& input) {
   copy_data(input, &keyframe);
   keyframe.process_factor.from = input.from;
   keyframe.process_factor.to = input.prior;
-  if (!make_link(input, before, &keyframe)) return false;
+  if (!make_process_factor(input, before, &keyframe)) return false;
   keyframe.state = predicted_state(before, keyframe);
   ++size_;
   return true;
@@ -251,11 +251,14 @@ FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe) {
 }
 
 EkfCorrection process_error(const Keyframe& before, const Keyframe& keyframe) {
-  EkfCorrection error =
-      active_part(keyframe.active, difference(keyframe.state, keyframe.process_factor.to));
-  error.noalias() -=
-      keyframe.process_factor.F *
-      active_part(before.active, difference(before.state, keyframe.process_factor.from));
+  return process_error(before.active, before.state, keyframe, keyframe.state);
+}
+
+EkfCorrection process_error(const ActiveStates& active_before, const FilterState& before,
+                            const Keyframe& keyframe, const FilterState& state) {
+  EkfCorrection error = active_part(keyframe.active, difference(state, keyframe.process_factor.to));
+  error.noalias() -= keyframe.process_factor.F *
+                     active_part(active_before, difference(before, keyframe.process_factor.from));
   return error;
 }
 

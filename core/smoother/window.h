@@ -71,7 +71,9 @@ bool can_bridge(const Window& window, const KeyframeInput& input);
 
 // Returns the state of `keyframe` that the process factor predicts from `before`.
 FilterState predicted_state(const Keyframe& before, const Keyframe& keyframe);
-// Returns (x - to) - F (x_before - from), in active states.
+// Returns (x - to) - F (x_before - from), in active states: at the keyframes' states, or at others.
 EkfCorrection process_error(const Keyframe& before, const Keyframe& keyframe);
+EkfCorrection process_error(const ActiveStates& active_before, const FilterState& before,
+                            const Keyframe& keyframe, const FilterState& state);
 
 }  // namespace leonav

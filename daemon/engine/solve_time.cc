@@ -36,28 +36,37 @@ int satellites_of(const GnssConfig& config) {
   return std::clamp(sum, 4, static_cast<int>(kMaxArcs));
 }
 
-// Drops all outputs.
-class NoSink final : public OutputSink {
+// Drops all outputs, and counts the solves with a result.
+class CountingSink final : public OutputSink {
+ public:
+  int solved = 0;
+
+ private:
   void on_solution(const Solution&) override {}
   void on_epoch(const EpochReport&) override {}
   void on_event(const Event&) override {}
   void on_decision(const Decision&) override {}
-  void on_smoother(const SmootherReport&) override {}
+  void on_smoother(const SmootherReport& report) override {
+    solved += report.status == SmootherStatus::kOk ? 1 : 0;
+  }
 };
 
 class OneIteration final : public SolveBudget {
   bool may_iterate(int) override { return false; }
 };
 
+double keyframe_interval_s(const NavigatorConfig& config) {
+  return std::max(config.smoother.keyframe_interval_s, config.realtime.epoch_interval_s);
+}
+
 // Keyframes of a vehicle that stands at zero latitude and longitude, its axes those of ECEF.
 class StandingVehicle {
  public:
   StandingVehicle(const NavigatorConfig& config, int satellites)
-      : interval_s_(
-            std::max(config.smoother.keyframe_interval_s, config.realtime.epoch_interval_s)) {
+      : interval_s_(keyframe_interval_s(config)) {
     keyframe_.valid = true;
     keyframe_.follows_previous = true;
-    keyframe_.has_attitude = true;
+    keyframe_.has_attitude = config.motion == MotionModel::kInertial;
     keyframe_.has_gnss = true;
     keyframe_.block_complete = true;
     FilterState& state = keyframe_.state;
@@ -70,6 +79,10 @@ class StandingVehicle {
     keyframe_.process.begin(size);
     keyframe_.process.noise.topLeftCorner(kSize, kSize) =
         EkfCovariance::Identity(kSize, kSize) * 1e-8;
+    if (keyframe_.has_attitude) return;
+    // Attitude and errors of the IMU are no states.
+    for (int i = kAttitude; i < kInsSize; ++i)
+      keyframe_.covariance(i, i) = keyframe_.process.noise(i, i) = 0.0;
   }
 
   const KeyframeInput& next() {
@@ -143,11 +156,16 @@ class StandingVehicle {
 
 }  // namespace
 
+TimeToSolve time_to_solve(const NavigatorConfig& config) {
+  if (config.motion == MotionModel::kInertial) return {config.realtime.smoother_deadline_s(), 1};
+  return {keyframe_interval_s(config), std::max(1, config.smoother.max_iterations)};
+}
+
 SolveTime measure_solve_time(const NavigatorConfig& config) {
   SolveTime time;
   time.satellites = satellites_of(config.gnss);
   TimedMailbox<SmootherAnchor> mailbox;
-  NoSink sink;
+  CountingSink sink;
   OneIteration budget;
   const auto stage = std::make_unique<SmootherStage>(config, &mailbox, &sink);
   const auto vehicle = std::make_unique<StandingVehicle>(config, time.satellites);
@@ -155,12 +173,14 @@ SolveTime measure_solve_time(const NavigatorConfig& config) {
   for (int i = -config.smoother.window; i < kMeasuredSolves; ++i) {
     const KeyframeInput& keyframe = vehicle->next();
     if (i >= 0) mailbox.open(keyframe.index);  // otherwise it is added, not solved
+    const int solved_before = sink.solved;
     const Stopwatch watch;
     stage->process(keyframe, &budget);
     if (i < 0) continue;
     solves_s[static_cast<std::size_t>(i)] = static_cast<double>(watch.nanoseconds()) * 1e-9;
+    time.solved += sink.solved - solved_before;
     SmootherAnchor taken;
-    if (mailbox.take(keyframe.index, &taken) && taken.status == SmootherStatus::kOk) ++time.solved;
+    mailbox.take(keyframe.index, &taken);  // makes room for the next
   }
   std::nth_element(solves_s.begin(), solves_s.begin() + kMeasuredSolves / 2, solves_s.end());
   time.solve_s = solves_s[kMeasuredSolves / 2];
@@ -168,17 +188,34 @@ SolveTime measure_solve_time(const NavigatorConfig& config) {
 }
 
 void require_in_time(const NavigatorConfig& config, const SolveTime& time) {
-  const double deadline_s =
-      std::max(config.realtime.deadline_ekf_s, config.realtime.deadline_smoother_s);
-  if (time.solve_s <= 0.5 * deadline_s) return;
-  std::array<char, 256> text{};
-  std::snprintf(
+  const TimeToSolve available = time_to_solve(config);
+  const double needed_s = available.iterations * time.solve_s;
+  if (needed_s <= 0.5 * available.limit_s) return;
+  const RealtimeConfig& realtime = config.realtime;
+  std::array<char, 640> text{};
+  const int written = std::snprintf(
       text.data(), text.size(),
       "smoother.window: one iteration over %d keyframes with %d satellites takes %.1f ms on this "
-      "machine, more than half of realtime.deadline_smoother_ms (%.0f); shorten the window, "
-      "lengthen the "
-      "deadline or set estimator: ekf",
-      config.smoother.window, time.satellites, time.solve_s * 1e3, deadline_s * 1e3);
+      "machine; ",
+      config.smoother.window, time.satellites, time.solve_s * 1e3);
+  const auto used = static_cast<std::size_t>(written);
+  if (config.motion == MotionModel::kInertial) {
+    std::snprintf(text.data() + used, text.size() - used,
+                  "that is more than half of the smoother's deadline of %.0f ms, the larger one of "
+                  "realtime.deadline_smoother_ms (%.0f) and realtime.deadline_ekf_ms (%.0f); "
+                  "shorten the window, lengthen the deadline or set estimator: ekf",
+                  available.limit_s * 1e3, realtime.deadline_smoother_s * 1e3,
+                  realtime.deadline_ekf_s * 1e3);
+  } else {
+    std::snprintf(text.data() + used, text.size() - used,
+                  "smoother.max_iterations (%d) of them are more than half of the %.0f ms between "
+                  "two keyframes, the larger one of realtime.epoch_interval_s (%g) and "
+                  "smoother.keyframe_interval_s (%g), and without an IMU there is no deadline that "
+                  "ends a solve; shorten the window, lengthen smoother.keyframe_interval_s or set "
+                  "estimator: ekf",
+                  available.iterations, available.limit_s * 1e3, realtime.epoch_interval_s,
+                  config.smoother.keyframe_interval_s);
+  }
   throw ConfigError(text.data());
 }
 

@@ -16,12 +16,22 @@ struct SolveTime {
 // Measures, in the caller's thread, solves of a full window: a vehicle that stands at zero latitude
 // under as many satellites as the configured systems have in view under an open sky, at most as
 // many as the configuration uses; codes and Dopplers on two frequencies, one carrier, 200 IMU
-// samples a second. Slips, vehicle constants and a second iteration come on top. Allocates.
-// Precondition: the configuration's estimator is the smoother, with an IMU.
+// samples a second where there is an IMU. Slips, vehicle constants and a second iteration come on
+// top. Allocates. Precondition: the configuration's estimator is the smoother.
 SolveTime measure_solve_time(const NavigatorConfig& config);
 
-// Throws ConfigError where a solve takes more than half of the time until its deadline: the filter
-// needs some of that time too, and a machine is not always as quick.
+// The time that a solve has, and how many iterations it makes at least.
+struct TimeToSolve {
+  double limit_s = 0.0;
+  int iterations = 1;
+};
+
+// With an IMU it is the smoother's deadline, before which one iteration must end. Without one there
+// is no deadline, and elapsed time ends no solve: all iterations must end before the next keyframe.
+TimeToSolve time_to_solve(const NavigatorConfig& config);
+
+// Throws ConfigError where they take more than half of that time: the filter needs some of it too,
+// and a machine is not always as quick.
 void require_in_time(const NavigatorConfig& config, const SolveTime& time);
 
 }  // namespace leonav

@@ -8,7 +8,7 @@
 namespace leonav {
 
 void check_solve_time(const NavigatorConfig& config) {
-  if (config.estimator != Estimator::kSmoother || config.motion != MotionModel::kInertial) return;
+  if (config.estimator != Estimator::kSmoother) return;
   SolveTime time;
   // Not in `main`, whose stack would stay as large. That of the thread goes to `gnss`: it is too
   // large for the threads before it.
@@ -21,10 +21,11 @@ void check_solve_time(const NavigatorConfig& config) {
     return spdlog::warn("the smoother's time could not be measured");
   require_in_time(config, time);
   spdlog::info(
-      "an iteration over {} keyframes with {} satellites takes {:.1f} ms here, the deadline is "
-      "{:.0f} ms",
+      "an iteration over {} keyframes with {} satellites takes {:.1f} ms here, {} {:.0f} ms",
       config.smoother.window, time.satellites, time.solve_s * 1e3,
-      config.realtime.deadline_smoother_s * 1e3);
+      config.motion == MotionModel::kInertial ? "the smoother's deadline is"
+                                              : "keyframes come every",
+      time_to_solve(config).limit_s * 1e3);
 }
 
 }  // namespace leonav

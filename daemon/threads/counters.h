@@ -96,7 +96,8 @@ struct EngineCounters {
   // The same of what is said about its calibration.
   Gauge calibration_use, calibration_milli;
   // smoother
-  Gauge worst_solve_ns, smoother_failures, smoother_iterations;
+  Gauge worst_solve_ns, smoother_failures, smoother_iterations, smoother_shortened,
+      smoother_left_to_chain;
   // any stage
   std::array<Gauge, kEventKindCount> events;  // that were published, by EventKind
   // Jumps of the solution above a metre, and those beyond three of its sigmas among them.

@@ -2,30 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include "core/smoother/ceres/ceres_solver.h"
-#include "core/smoother/ceres/window_graph.h"
 #include "core/smoother/rts_solver.h"
 #include "daemon/messages/input_dispatch.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/bench/process_measures.h"
+#include "tools/bench/solver_agreement.h"
 #include "tools/bench/stopwatch.h"
 #include "tools/bench/timed_stages.h"
 
 namespace leonav {
 namespace {
 
-using Eigen::Index;
-
-constexpr int kSteps = 8;  // of Gauss and Newton, far more than it takes
-constexpr double kMostCost = 1e-9, kMostSigmas = 1e-6;
-constexpr double kRangeRounding_m = 4e-9;  // of 2e7 m in a double
-constexpr int kTimedApart = 10;            // solves from one timed window to the next, at least
+constexpr int kTimedApart = 10;  // solves from one timed window to the next, at least
 
 struct LinearSolver {
   const char* name;
@@ -40,35 +34,6 @@ constexpr std::array<LinearSolver, 5> kLinearSolvers = {
      {"Ceres, CXSparse, Schur", LogCeresLinear::kSparseSchur, LogCeresLibrary::kCxSparse},
      {"Ceres, dense Schur", LogCeresLinear::kDenseSchur, LogCeresLibrary::kDefault}}};
 
-void apply(const WindowCorrections& corrections, Window* window) {
-  for (int i = 0; i < window->size(); ++i) {
-    Keyframe& keyframe = window->at(i);
-    add(full_error(keyframe.active, corrections[static_cast<std::size_t>(i)]),
-        keyframe.has_attitude, &keyframe.state);
-  }
-}
-
-// Displaces every estimate by a sigma of the newest keyframe, to and fro.
-void displace(const EkfCorrection& sigmas, Window* window) {
-  for (int i = 0; i < window->size(); ++i) {
-    Keyframe& keyframe = window->at(i);
-    EkfCorrection error = EkfCorrection::Zero(keyframe.active.size());
-    const Index core = std::min(keyframe.active.core_size(), sigmas.size());
-    for (Index j = 0; j < core; ++j) error(j) = ((i + j) % 2 == 0 ? 1.0 : -1.0) * sigmas(j);
-    add(full_error(keyframe.active, error), keyframe.has_attitude, &keyframe.state);
-  }
-}
-
-// The least sigma of a carrier with weight in the window, m.
-double least_carrier_sigma(const Window& window) {
-  double least = 1.0;
-  for (int i = 0; i < window.size(); ++i)
-    for (const KeyframeMeasurement& m : window.at(i).measurements)
-      if (m.measurement.observable == Observable::kCarrier && m.factor > 0.0)
-        least = std::min(least, std::sqrt(m.gain_variance));
-  return least;
-}
-
 // Returns how many satellites have weight in a keyframe.
 double satellites(const Keyframe& keyframe) {
   std::array<bool, kMaxSatellites> used{};
@@ -80,44 +45,15 @@ double satellites(const Keyframe& keyframe) {
 class Comparison {
  public:
   Comparison(const NavigatorConfig& config, int window)
-      : lever_arm_b_(config.vehicle.lever_arm_b), chain_(window), ceres_(precise()) {}
+      : lever_arm_b_(config.vehicle.lever_arm_b),
+        agreement_(lever_arm_b_, window),
+        chain_(window) {}
 
   // `index` counts the solves of the smoother.
   void add(const Window& window, long index) {
-    if (window.size() < 2) return;
-    Window by_chain(window), by_ceres(window);
-    EkfCovariance covariance;
-    if (!chain_.solve(window, lever_arm_b_, &corrections_)) return;
-    chain_.newest_covariance(&covariance);
-    const EkfCorrection sigmas = covariance.diagonal().cwiseSqrt();
-    displace(sigmas.head(window.newest().active.core_size()), &by_chain);
-    displace(sigmas.head(window.newest().active.core_size()), &by_ceres);
-    if (!graph_of(window, lever_arm_b_)) {
-      ++not_given_;
-      return;
-    }
-    ++windows_;
+    if (window.size() < 2 || !agreement_.add(window)) return;
     satellites_.push_back(satellites(window.newest()));
-    const bool chain = iterate(&by_chain);
-    const bool ceres = ceres_.solve(by_ceres, lever_arm_b_, &corrections_);
-    if (ceres) apply(corrections_, &by_ceres);
-    if (chain != ceres) ++(chain ? only_chain_ : only_ceres_);
-    if (!chain || !ceres) return;
-    const double cost = cost_of(by_chain), other = cost_of(by_ceres);
-    const double rounding = kRangeRounding_m / least_carrier_sigma(window);
-    const double cost_apart = std::abs(cost - other) / std::max(cost, 1.0);
-    // The roundings of residuals add up as the root of their squares.
-    const double cost_allowed =
-        std::max(kMostCost, 3.0 * rounding * std::sqrt(2.0 / std::max(cost, 1.0)));
-    most_cost_ = std::max(most_cost_, cost_apart);
-    most_of_allowed_ = std::max(most_of_allowed_, cost_apart / cost_allowed);
-    const EkfCorrection apart = active_part(
-        by_chain.newest().active, difference(by_chain.newest().state, by_ceres.newest().state));
-    const double allowed = std::max(kMostSigmas, 3.0 * rounding);
-    const double sigmas_apart = apart.cwiseQuotient(sigmas).cwiseAbs().maxCoeff();
-    most_sigmas_ = std::max(most_sigmas_, sigmas_apart);
-    most_of_allowed_ = std::max(most_of_allowed_, sigmas_apart / allowed);
-    if (windows_ > 1 && index < timed_ + kTimedApart) return;
+    if (agreement_.counts().windows > 1 && index < timed_ + kTimedApart) return;
     timed_ = index;
     time_steps(window);
   }
@@ -125,51 +61,19 @@ class Comparison {
   void print() const {
     std::vector<double> satellites = satellites_;
     std::sort(satellites.begin(), satellites.end());
+    const SolverAgreement::Counts& counts = agreement_.counts();
     std::printf("windows: %ld, with noise that Ceres is not given: %ld; satellites: median %.0f\n",
-                windows_, not_given_, satellites.empty() ? 0 : quantile_below(satellites, 0.5));
-    std::printf("minimum found by the chain alone: %ld, by Ceres alone: %ld\n", only_chain_,
-                only_ceres_);
-    std::printf("largest difference of cost: %.2e of it; of the newest states: %.2e sigma\n",
-                most_cost_, most_sigmas_);
-    std::printf("largest share of what rounding allows: %.2f\n", most_of_allowed_);
+                counts.windows, counts.not_given,
+                satellites.empty() ? 0 : quantile_below(satellites, 0.5));
+    agreement_.print();
     const double chain_ms = print_times("chain, one step", chain_times_, 0.0);
     for (std::size_t i = 0; i < kLinearSolvers.size(); ++i)
       print_times(kLinearSolvers[i].name, ceres_times_[i], chain_ms);
   }
 
-  void require() const {
-    if (windows_ == 0) throw std::runtime_error("the log gave the smoother no window");
-    if (only_chain_ + only_ceres_ > 0)
-      throw std::runtime_error("one solver has found a minimum where the other has not");
-    if (!(most_of_allowed_ < 1.0)) throw std::runtime_error("the solvers differ");
-  }
+  void require() const { agreement_.require(); }
 
  private:
-  static LogCeresOptions precise() {
-    LogCeresOptions options;
-    options.threads = 1;
-    options.max_iterations = 50;
-    options.last_steps = 3;
-    return options;
-  }
-
-  bool iterate(Window* window) {
-    for (int i = 0; i < kSteps; ++i) {
-      if (!chain_.solve(*window, lever_arm_b_, &corrections_)) return false;
-      apply(corrections_, window);
-    }
-    return is_finite(window->newest().state);
-  }
-
-  double cost_of(const Window& window) const {
-    LogCeresOptions none;
-    none.max_iterations = 0;
-    LogCorrections unused;
-    LogCeresSummary summary;
-    solve_by_ceres(graph_of(window, lever_arm_b_)->graph, none, &unused, &summary);
-    return summary.cost_before;
-  }
-
   void time_steps(const Window& window) {
     const Stopwatch watch;
     chain_.solve(window, lever_arm_b_, &corrections_);
@@ -203,11 +107,10 @@ class Comparison {
   }
 
   Eigen::Vector3d lever_arm_b_;
+  SolverAgreement agreement_;
   RtsSolver chain_;
-  CeresSolver ceres_;
   WindowCorrections corrections_;
-  long timed_ = 0, windows_ = 0, not_given_ = 0, only_chain_ = 0, only_ceres_ = 0;
-  double most_cost_ = 0.0, most_sigmas_ = 0.0, most_of_allowed_ = 0.0;
+  long timed_ = 0;
   std::vector<double> satellites_;
   Times chain_times_;
   std::array<Times, kLinearSolvers.size()> ceres_times_;

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "daemon/process/one_blas_thread.h"
 #include "tools/calibrate/print_calibration.h"
 #include "tools/common/arguments.h"
 #include "tools/common/configuration_options.h"
@@ -11,6 +12,10 @@
 namespace {
 
 using namespace leonav;
+
+// OpenBLAS would have started its threads by main(): they take time and change the last bits.
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    start_with_one_blas_thread;
 
 Arguments declare() {
   Arguments arguments(

@@ -85,21 +85,18 @@ ResultFiles::ResultFiles(const std::string& folder, std::optional<double> rate_h
       measurements_(folder + "/measurements.csv", kMeasurementsHeader),
       events_(folder + "/events.csv", kEventsHeader),
       folder_(folder) {
-  if (rate_hz) interval_ns_ = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
+  if (rate_hz) grid_.emplace(*rate_hz);
 }
 
 void ResultFiles::add(const Solution& solution) {
-  if (!interval_ns_ || solution.source == Source::kNone || solution.time < next_row_) return;
+  if (!grid_ || solution.source == Source::kNone || !grid_->takes(solution.time)) return;
   solution_.write(to_solution_row(solution, satellites_, pdop_));
-  // The grid is anchored to GPS time, so that rows of different runs coincide.
-  next_row_ =
-      GpsTime::from_nanoseconds((solution.time.nanoseconds() / *interval_ns_ + 1) * *interval_ns_);
 }
 
 void ResultFiles::add(const EpochReport& report) {
   satellites_ = report.satellites_used;
   pdop_ = report.pdop > 0.0 ? std::optional(report.pdop) : std::nullopt;
-  if (!interval_ns_ && report.solution.source != Source::kNone) {
+  if (!grid_ && report.solution.source != Source::kNone) {
     write_row();
     row_ = to_solution_row(report.solution, satellites_, pdop_);
     row_epoch_ = report.index;

@@ -14,6 +14,7 @@
 #include "core/navigator/interface/solution.h"
 #include "drivers/csv/csv_writer.h"
 #include "drivers/csv/solution_csv.h"
+#include "tools/replay/row_grid.h"
 
 namespace leonav {
 
@@ -42,8 +43,7 @@ class ResultFiles {
   void write_measurements(const EpochReport& report);
   void write_constraints(const EpochReport& report);
 
-  std::optional<std::int64_t> interval_ns_;
-  GpsTime next_row_;
+  std::optional<RowGrid> grid_;
   std::optional<int> satellites_;
   std::optional<double> pdop_;
   std::optional<SolutionRow> row_;  // row of the last epoch, not written yet

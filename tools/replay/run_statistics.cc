@@ -67,6 +67,8 @@ void RunStatistics::add(const Decision& decision) {
 void RunStatistics::add(const SmootherReport& report) {
   ++smoother_statuses_[std::string(to_string(report.status))];
   smoother_iterations_ += static_cast<std::uint64_t>(report.iterations);
+  smoother_shortened_ += static_cast<std::uint64_t>(report.shortened);
+  smoother_left_to_chain_ += report.left_to_chain ? 1 : 0;
 }
 
 void RunStatistics::print(std::ostream& out) const {
@@ -79,6 +81,9 @@ void RunStatistics::print(std::ostream& out) const {
         << "\nsmoother deadline misses: " << smoother_misses_
         << "\nkeyframes skipped: " << keyframes_skipped_
         << "\nsmoother iterations: " << smoother_iterations_ << "\n";
+    if (smoother_shortened_ > 0) out << "smoother steps shortened: " << smoother_shortened_ << "\n";
+    if (smoother_left_to_chain_ > 0)
+      out << "smoother solves that Ceres left to the chain: " << smoother_left_to_chain_ << "\n";
     print_map(out, "smoother results", smoother_statuses_);
   }
   if (epochs_ > 0) {

@@ -45,7 +45,7 @@ class RunStatistics {
   std::uint64_t solutions_ = 0, epochs_ = 0, empty_epochs_ = 0, epochs_without_position_ = 0,
                 commits_ = 0, misses_ = 0, carrier_arcs_ = 0, arcs_joined_ = 0,
                 smoother_commits_ = 0, smoother_misses_ = 0, keyframes_skipped_ = 0,
-                smoother_iterations_ = 0;
+                smoother_iterations_ = 0, smoother_shortened_ = 0, smoother_left_to_chain_ = 0;
   double used_sum_ = 0.0;
   std::array<std::uint64_t, kSystemCount> used_of_{};
   double largest_jump_m_ = 0.0;

@@ -1,4 +1,7 @@
 // leonav-smooth estimates a whole log at once: every epoch from all measurements before and after.
+#include <unistd.h>
+
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,6 +11,7 @@
 #include "core/smoother/batch/batch_smoother.h"
 #include "core/smoother/ceres/log_ceres.h"
 #include "daemon/config/effective_config.h"
+#include "daemon/process/one_blas_thread.h"
 #include "drivers/lcm/channels.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/common/configuration_options.h"
@@ -17,10 +21,15 @@
 #include "tools/smooth/keyframe_collector.h"
 #include "tools/smooth/result_tables.h"
 #include "tools/smooth/smooth_report.h"
+#include "tools/smooth/solver_choice.h"
 
 namespace {
 
 using namespace leonav;
+
+// OpenBLAS would have started its threads by main(): they take time and change the last bits.
+__attribute__((section(".preinit_array"), used)) const auto kBeforeLibraries =
+    start_with_one_blas_thread;
 
 constexpr double kPassShare = 0.3;  // of the work, roughly: the pass of the filter
 
@@ -44,8 +53,9 @@ Arguments declare() {
               "smallest interval of the epochs used; 0: all. For long logs at high rates", "0")
       .option(
           "--solver", "NAME",
-          "ceres; chain: forward and backward passes, faster, in less memory; or auto: ceres for "
-          "up to 20000 epochs,\n                   chain for more",
+          "ceres; chain: forward and backward passes, faster, in less memory; or auto: ceres where "
+          "half of the free memory\n                   is enough for it and the log has at most "
+          "three million measurements, else chain",
           "auto")
       .option("--iterations", "N", "at most", "20");
   return arguments;
@@ -60,8 +70,11 @@ double number_within(const Arguments& arguments, const std::string& name, double
   throw UsageError(text.str());
 }
 
-// Ceres needs some 0.4 MB an epoch with the satellites of four systems.
-constexpr int kMostForCeres = 20'000;
+int whole_number_within(const Arguments& arguments, const std::string& name, int least, int most) {
+  const double value = number_within(arguments, name, least, most);
+  if (value != std::floor(value)) throw UsageError(name + ": must be a whole number");
+  return static_cast<int>(value);
+}
 
 std::string solver_name(const Arguments& arguments) {
   std::string name = arguments.get("--solver");
@@ -117,9 +130,9 @@ int run(int argc, char** argv) {
   std::optional<double> rate_hz;
   if (arguments.has("--rate")) rate_hz = number_within(arguments, "--rate", 0.001, 1000.0);
   BatchConfig batch;
-  batch.max_iterations = static_cast<int>(number_within(arguments, "--iterations", 1.0, 1000.0));
+  batch.max_iterations = whole_number_within(arguments, "--iterations", 1, 1000);
   const double interval_s = number_within(arguments, "--interval", 0.0, 3600.0);
-  std::string solver = solver_name(arguments);
+  SolverChoice solver{solver_name(arguments), "as asked for"};
   auto [config, origin, other_run] = choose_configuration(log, arguments);
   NavigatorConfig& navigator = config.navigator;
   navigator.smoother.keyframe_interval_s = interval_s;
@@ -128,7 +141,9 @@ int run(int argc, char** argv) {
   const JournalScan scan = scan_journal(log, config.lcm.prefix);
   require_inputs(scan, log, config.lcm.prefix);
   std::filesystem::create_directories(out);
-  write_text(out + "/configuration.yaml", effective_text(config.source));
+  // Nothing is written before the result is there: tables of an earlier run keep their
+  // configuration if this one fails.
+  if (::access(out.c_str(), W_OK) != 0) throw std::runtime_error(out + ": cannot be written");
   LogGraph graph(navigator.vehicle.lever_arm_b);
   BatchResult result;
   PassCounts pass;
@@ -144,17 +159,20 @@ int run(int argc, char** argv) {
       // Most logs need half a dozen iterations; what is left shrinks with each.
       bar.show(1.0 - (1.0 - kPassShare) * std::pow(0.7, iteration + share));
     };
-    if (solver == "auto") solver = graph.size() > kMostForCeres ? "chain" : "ceres";
-    result = smooth(batch, solver_of(solver), inertial ? &processes : nullptr, progress, &graph);
+    if (solver.name == "auto") solver = choose_solver(measurements_of(graph), available_memory());
+    result =
+        smooth(batch, solver_of(solver.name), inertial ? &processes : nullptr, progress, &graph);
   }
   if (!result.solved) throw std::runtime_error(log + ": the epochs have no unique solution");
 
   std::ostringstream summary;
-  summary << "configuration: " << origin << "\nsolver: " << solver << "\n";
+  summary << "configuration: " << origin << "\nsolver: " << solver.name << " (" << solver.reason
+          << ")\n";
   if (!other_run.empty()) summary << "note: " << other_run << "\n";
   summary << "epochs of the log: " << pass.epochs << "\nrestarts of the filter: " << pass.resets
           << "\n";
   print_smoothed(graph, result, summary);
+  write_text(out + "/configuration.yaml", effective_text(config.source));
   const long rows = write_solution(out + "/solution.csv", graph, result, rate_hz);
   write_forward(out + "/forward.csv", graph, result);
   write_residuals(out + "/residuals.csv", graph);

@@ -1,12 +1,12 @@
 #include "tools/smooth/result_tables.h"
 
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "core/base/angle.h"
 #include "drivers/csv/csv_writer.h"
 #include "drivers/csv/solution_csv.h"
+#include "tools/replay/row_grid.h"
 #include "tools/smooth/trajectory.h"
 
 namespace leonav {
@@ -26,13 +26,9 @@ long write_solution(const std::string& path, const LogGraph& graph, const BatchR
     writer.write(to_solution_row(solution, std::nullopt, std::nullopt));
   };
   if (rate_hz) {
-    const auto interval_ns = static_cast<std::int64_t>(std::llround(1e9 / *rate_hz));
-    GpsTime next;
+    RowGrid grid(*rate_hz);
     trajectory.for_each_sample([&](const Solution& solution) {
-      if (solution.time < next) return;
-      write(solution);
-      next =
-          GpsTime::from_nanoseconds((solution.time.nanoseconds() / interval_ns + 1) * interval_ns);
+      if (grid.takes(solution.time)) write(solution);
     });
   } else {
     for (int k = 0; k < graph.size(); ++k) write(trajectory.at(k));

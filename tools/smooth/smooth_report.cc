@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
 #include "core/base/angle.h"
@@ -130,9 +129,17 @@ std::vector<std::string> smoothing_warnings(const LogGraph& graph, const BatchRe
   if (residuals[static_cast<std::size_t>(Observable::kCode)].rms() > kCommonResidual)
     warnings.push_back(
         "codes do not fit their sigmas; is a convention wrong? leonav-eval --quality shows which");
+  if (residuals[static_cast<std::size_t>(Observable::kCarrier)].rms() > kCommonResidual)
+    warnings.push_back(
+        "carriers do not fit their sigmas; is carrier_sigma_m or the lever arm wrong? "
+        "residuals.csv shows which satellites do not");
   int segments = 0;
   for (int k = 0; k < graph.size(); ++k) segments += graph.at(k).process.exists ? 0 : 1;
-  if (segments > 1)
+  if (result.extension_left_out)
+    warnings.push_back(
+        "with so few iterations the IMU bridges no outage, and epochs before the alignment get no "
+        "attitude; --iterations 3 or more");
+  else if (segments > 1)
     warnings.push_back(format(
         "the log falls into %d parts without an inertial connection; each is smoothed by itself",
         segments));

@@ -1,6 +1,7 @@
 // NavigatorConfig is the whole configuration of the navigator, in SI units and radians.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "core/filter/state/ekf_config.h"
 #include "core/gnss/measurement/gnss_config.h"
@@ -32,6 +33,9 @@ struct RealtimeConfig {
   double deadline_ekf_s = 0.2;       // D_ekf, from the issue of an epoch to the filter's deadline
   double deadline_smoother_s = 0.5;  // D_smoother, the same for the smoother
   double epoch_interval_s = 1.0;     // expected interval of GNSS epochs
+  // Returns the deadline that is in force for the smoother: not before the filter's.
+  double smoother_deadline_s() const { return std::max(deadline_ekf_s, deadline_smoother_s); }
+
   // Latency of an epoch up to which no empty epoch replaces it.
   double gnss_latency_allowance_s = 0.5;
 

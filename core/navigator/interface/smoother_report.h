@@ -14,8 +14,10 @@ struct SmootherReport {
   SmootherStatus status = SmootherStatus::kNoFilter;
   int iterations = 0;
   bool converged = false;
-  int keyframes = 0;  // number of keyframes in the window
-  int used = 0;       // measurements of this keyframe with a weight factor above zero
+  int shortened = 0;  // steps of which only a part was taken, or none, because the cost would rise
+  bool left_to_chain = false;  // Ceres has found no step, and the chain has taken one
+  int keyframes = 0;           // number of keyframes in the window
+  int used = 0;                // measurements of this keyframe with a weight factor above zero
   // At the oldest keyframe of a full window, from all of the window; source kNone: there is none.
   // It has no protection levels.
   Solution lagged;

@@ -200,8 +200,7 @@ void Sequencer::open_at_inertial_stage(const EpochWork& work) {
   const RealtimeConfig& realtime = config_.realtime;
   EpochIssued issued{work.index, work.time, imu_.time().plus_seconds(realtime.deadline_ekf_s), {}};
   if (config_.estimator == Estimator::kSmoother)
-    issued.deadline_smoother =
-        imu_.time().plus_seconds(std::max(realtime.deadline_ekf_s, realtime.deadline_smoother_s));
+    issued.deadline_smoother = imu_.time().plus_seconds(realtime.smoother_deadline_s());
   last_deadline_smoother_ = issued.deadline_smoother;
   stages_->push_inertial(issued);
 }

@@ -112,6 +112,8 @@ void SmootherStage::report(const KeyframeInput& input, const SmootherResult& res
   report.status = result.status;
   report.iterations = result.iterations;
   report.converged = result.converged;
+  report.shortened = result.shortened;
+  report.left_to_chain = result.left_to_chain;
   report.keyframes = smoother_.window().size();
   report.used = result.used;
   if (update.anchor.valid) report.solution = solution_of(update.anchor, Source::kSmoother);

@@ -55,6 +55,7 @@ void apply(const LogCorrections& corrections, LogGraph* graph, BatchIteration* i
 BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProcesses* processes,
                    const std::function<void(int, double)>& progress, LogGraph* graph) {
   BatchResult result;
+  result.extension_left_out = processes != nullptr;
   for (int i = 0; i < config.max_iterations; ++i) {
     BatchIteration iteration;
     iteration.cost = reweigh(config, i == 0, graph);
@@ -65,21 +66,24 @@ BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProces
     apply(result.last, graph, &iteration);
     // Not behind the last one: the covariances are those of the states that it had.
     if (i + 1 == config.max_iterations && !solver) processes = nullptr;
-    if (processes != nullptr && i + 1 == kIterationsBeforeExtension)
+    if (processes != nullptr && i + 1 == kIterationsBeforeExtension) {
       result.extension = processes->extend(graph);
-    else if (processes != nullptr)
+      result.extension_left_out = false;
+    } else if (processes != nullptr) {
       iteration.reintegrated = processes->reintegrate(graph);
+    }
     result.iterations.push_back(iteration);
     result.converged =
         i >= kIterationsBeforeExtension && iteration.moved_sigmas < config.converged_sigmas;
     if (result.converged) break;
   }
   if (solver) {
-    result.solved = solve_chain(
-        *graph, [](double) {}, &result.last);
+    const auto share = [&](double done) {
+      progress(static_cast<int>(result.iterations.size()), done);
+    };
+    result.solved = solve_chain(*graph, share, &result.last);
     BatchIteration beyond;
     if (result.solved) apply(result.last, graph, &beyond);
-    result.chain_apart_m = beyond.moved_m;
   }
   return result;
 }

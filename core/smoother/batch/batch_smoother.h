@@ -31,10 +31,11 @@ struct BatchIteration {
 struct BatchResult {
   bool solved = false;
   bool converged = false;
+  // There were too few iterations for `processes`: nothing was extended or bridged.
+  bool extension_left_out = false;
   LogProcesses::Extension extension;
   std::vector<BatchIteration> iterations;
-  double chain_apart_m = 0.0;  // the largest step of a position by the chain beyond the solver's
-  LogCorrections last;         // with the covariances at the solution
+  LogCorrections last;  // with the covariances at the solution
 };
 
 // Iterates from the states that the graph holds and leaves the smoothed ones there. Every iteration
@@ -42,7 +43,8 @@ struct BatchResult {
 // false: then they stay as the graph has them), and then takes a step. From the third iteration on
 // the inertial factors are those of `processes`; nullptr: the filter's stay, as they do without an
 // IMU. `solver` takes the steps (nullptr: the chain); the covariances are the chain's in either
-// case. `progress` gets the iteration and the share of it that is done.
+// case. `progress` gets the iteration and the share of it that is done; the pass of the chain after
+// the solver's iterations counts as one more.
 BatchResult smooth(const BatchConfig& config, const LogSolver& solver, LogProcesses* processes,
                    const std::function<void(int, double)>& progress, LogGraph* graph);
 

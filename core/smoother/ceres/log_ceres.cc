@@ -160,8 +160,6 @@ bool solve_by_ceres(const LogGraph& graph, const LogCeresOptions& options,
   ceres::Solve(solver, &problem, &solved);
   const bool failed = solved.termination_type == ceres::FAILURE;
   summary->iterations = static_cast<int>(solved.iterations.size()) - 1 + (failed ? 1 : 0);
-  summary->linear_s = solved.linear_solver_time_in_seconds;
-  summary->total_s = solved.total_time_in_seconds;
   summary->cost_before = solved.initial_cost;
   summary->cost_after = solved.final_cost;
   summary->parameters = solved.num_parameters;

@@ -43,8 +43,7 @@ struct LogCeresSummary {
   int iterations = 0;  // steps tried, a last one that failed included
   double cost_before = 0.0, cost_after = 0.0;
   int parameters = 0, residuals = 0;
-  double linear_s = 0.0, total_s = 0.0;  // wall time of the linear solver, and of all in Ceres
-  std::string message;                   // why it ended
+  std::string message;  // why it ended
 };
 
 // Computes the corrections that lead from the graph's estimates to the minimum at its present

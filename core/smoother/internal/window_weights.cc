@@ -26,8 +26,7 @@ int oldest_within(double horizon_s, const Window& window) {
 
 }  // namespace
 
-double WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_arm_b,
-                                     Window* window) {
+void WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_arm_b, Window* window) {
   const int oldest = oldest_within(horizon_s_, *window);
   for (int i = oldest; i < window->size(); ++i) {
     Keyframe& keyframe = window->at(i);
@@ -36,14 +35,11 @@ double WindowWeights::update_factors(bool first, const Eigen::Vector3d& lever_ar
       measurement.residual = linearize(measurement, keyframe, antenna).residual;
   }
   gather_means(*window, oldest);
-  double change = 0.0;
   for (int i = oldest; i < window->size(); ++i) {
     Keyframe& keyframe = window->at(i);
-    const bool keep = first && !keyframe.weights_decided;
-    change = std::max(change, keep ? 1.0 : reweigh(&keyframe));
+    if (!first || keyframe.weights_decided) reweigh(&keyframe);
     keyframe.weights_decided = true;
   }
-  return change;
 }
 
 // The errors of the white part are independent after `correlation_time_s`. Over n such intervals
@@ -88,8 +84,7 @@ WindowWeights::CodeMean* WindowWeights::find_mean(SatelliteId satellite, SignalC
   return nullptr;
 }
 
-double WindowWeights::reweigh(Keyframe* keyframe) {
-  double change = 0.0;
+void WindowWeights::reweigh(Keyframe* keyframe) {
   for (KeyframeMeasurement& measurement : keyframe->measurements) {
     double factor =
         igg3_factor(measurement.residual / std::sqrt(measurement.variance), robust_.k0, robust_.k1);
@@ -97,10 +92,8 @@ double WindowWeights::reweigh(Keyframe* keyframe) {
       if (const CodeMean* mean =
               find_mean(satellite_of(*keyframe, measurement), measurement.measurement.code))
         factor = std::min(factor, igg3_factor(mean->ratio, robust_.k0, robust_.k1));
-    change = std::max(change, std::abs(factor - measurement.factor));
     measurement.factor = factor;
   }
-  return change;
 }
 
 }  // namespace leonav

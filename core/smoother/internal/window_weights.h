@@ -26,11 +26,11 @@ class WindowWeights {
   WindowWeights(const RobustConfig& robust, double horizon_s, double correlation_time_s)
       : robust_(robust), horizon_s_(horizon_s), correlation_time_s_(correlation_time_s) {}
 
-  // Decides the factors at the keyframes' estimates and returns the largest change of one.
+  // Decides the factors at the keyframes' estimates.
   //
   // In the `first` iteration, keyframes whose weights were not decided before keep the filter's
   // factors.
-  double update_factors(bool first, const Eigen::Vector3d& lever_arm_b, Window* window);
+  void update_factors(bool first, const Eigen::Vector3d& lever_arm_b, Window* window);
 
  private:
   struct CodeMean {
@@ -45,7 +45,7 @@ class WindowWeights {
   };
   void gather_means(const Window& window, int oldest);
   CodeMean* find_mean(SatelliteId satellite, SignalCode code);
-  double reweigh(Keyframe* keyframe);
+  void reweigh(Keyframe* keyframe);
 
   RobustConfig robust_;
   double horizon_s_, correlation_time_s_;

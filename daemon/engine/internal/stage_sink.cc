@@ -137,6 +137,8 @@ void StageSink::on_smoother(const SmootherReport& report) {
   if (report.status == SmootherStatus::kSingular || report.status == SmootherStatus::kDiverged)
     counters_->smoother_failures.add(1);
   counters_->smoother_iterations.add(report.iterations);
+  counters_->smoother_shortened.add(report.shortened);
+  counters_->smoother_left_to_chain.add(report.left_to_chain ? 1 : 0);
   encoder_.on_smoother(report);
 }
 

@@ -127,6 +127,8 @@ void add_counts(const EngineCounters& of, Counts* counts) {
   counts->add("smoother commits", of.smoother_commits.get());
   counts->add("smoother failures", of.smoother_failures.get());
   counts->add("smoother iterations", of.smoother_iterations.get());
+  counts->add("smoother steps shortened", of.smoother_shortened.get());
+  counts->add("smoother solves left to chain", of.smoother_left_to_chain.get());
   counts->add("keyframes skipped", of.keyframes_skipped.get());
   counts->add("published", of.published.get());
   counts->add("health dropped", of.unpublished.get());

@@ -33,7 +33,9 @@ struct DriveOptions {
   bool whole_cycles = false;                    // is what a satellite's arcs differ by
   bool joined = false;                          // the smoother is told joins of its first two arcs
   Eigen::Vector3d sigma_rpy{0.02, 0.02, 0.08};  // rad, of the attitude that the filter is given
-  int aligned_at = 0;                           // epoch at whose end it is given that; 0: the start
+  Eigen::Vector3d misaligned_rpy{0.0, 0.0, 0.0};  // rad, that is beyond
+  int straight_epochs = 0;                        // at the start, without acceleration or turn
+  int aligned_at = 0;  // epoch at whose end it is given that; 0: the start
   // Epoch at which the filter starts over from a point solution, and at whose end it has an
   // attitude again; 0: never.
   int restarted_at = 0, aligned_again_at = 0;
@@ -142,7 +144,8 @@ class Drive {
   // Gives the filter the true attitude with an error of its sigmas.
   void align() {
     const Eigen::Vector3d& sigma_rpy = options_.sigma_rpy;
-    const Eigen::Vector3d rotation = options_.noise * sigma_rpy.cwiseProduct(noise_.normal3());
+    const Eigen::Vector3d rotation =
+        options_.noise * sigma_rpy.cwiseProduct(noise_.normal3()) + options_.misaligned_rpy;
     filter_.set_attitude(
         quaternion_from_rotation_vector(C_en_at(truth().p_e) * -rotation) * truth().q_eb, sigma_rpy,
         Eigen::Vector3d::Zero(), mems().gyro_bias.sigma);
@@ -223,8 +226,9 @@ class Drive {
     Eigen::Vector3d rate_b = Eigen::Vector3d::Zero();
     for (int k = 0; k < kPerEpoch; ++k) {
       const double t = epoch_ - 1 + k * kStep;
-      const Maneuver maneuver{.yaw_rate = 0.4 * std::sin(0.5 * t),
-                              .acceleration = std::cos(0.7 * t)};
+      const double share = epoch_ > options_.straight_epochs ? 1.0 : 0.0;
+      const Maneuver maneuver{.yaw_rate = share * 0.4 * std::sin(0.5 * t),
+                              .acceleration = share * std::cos(0.7 * t)};
       ImuSample ideal = ideal_sample(truth(), maneuver, kStep);
       if (options_.constrained) keep_on_rails(&ideal);
       advance_errors(model, kStep, &errors_, &noise_);

@@ -123,7 +123,7 @@ TEST_CASE("the rows by lever arm and time offset are the slopes of residuals") {
   }
 }
 
-TEST_CASE("a link's Jacobians are the slopes of its error, far from where it was linearized") {
+TEST_CASE("a process factor's Jacobians are its error's slopes, far from its linearization") {
   Eigen::Vector3d lever_b;
   const bool inertial = GENERATE(true, false);
   const auto window = window_of_two(inertial, &lever_b);

@@ -57,7 +57,7 @@ double apart_m(const NavState& a, const NavState& b) { return (a.p_e - b.p_e).no
 
 }  // namespace
 
-TEST_CASE("a link whose start has turned away is integrated anew, one that is near is not") {
+TEST_CASE("a process factor whose start has turned away is integrated anew, a near one not") {
   Pair near;
   near.displace(kAttitude + 2, 5e-4);
   near.repropagation();
@@ -79,7 +79,7 @@ TEST_CASE("a link whose start has turned away is integrated anew, one that is ne
   CHECK(far.repropagator().repropagations() == 1);  // it begins there now
 }
 
-TEST_CASE("the Jacobian of a link that was integrated anew is the slope of its end") {
+TEST_CASE("the Jacobian of a process factor that was integrated anew is the slope of its end") {
   Pair rig;
   rig.displace(kAttitude + 1, 0.1);
   rig.repropagation();
@@ -125,7 +125,7 @@ TEST_CASE("a heading that turns the whole window is repropagated by two factors 
         is_far(smoother->window().at(k - 1).state, smoother->window().at(k).process_factor.from));
 }
 
-TEST_CASE("a block that is not whole leaves its link as it is") {
+TEST_CASE("a block that is not whole leaves its process factor as it is") {
   Pair rig;
   rig.displace(kAttitude, 0.1);
   rig.keyframe().block_complete = false;

@@ -57,6 +57,7 @@ inline Eigen::MatrixXd change_of_difference(const ActiveStates& active, const Fi
 struct DenseStep {
   Eigen::VectorXd correction;  // of all keyframes' active states, oldest first
   Eigen::MatrixXd covariance;
+  double cost = 0.0;  // half the sum of the whitened residuals' squares, but for a constant
   std::vector<Eigen::Index> first;  // of each keyframe
 };
 
@@ -134,6 +135,7 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
       r(row++) = weight * linear.residual;
     }
   }
+  step.cost = 0.5 * r.squaredNorm();
   const Eigen::VectorXd scale = J.colwise().norm().cwiseInverse();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J * scale.asDiagonal());
   step.correction = scale.asDiagonal() * Eigen::VectorXd(qr.solve(r));

@@ -70,3 +70,16 @@ TEST_CASE("what became of checkpoints is counted, and each epoch's goes to who k
   REQUIRE(checkpoints.take(&taken));
   CHECK(taken.heading == 1.5);
 }
+
+TEST_CASE("the counters know of steps that were shortened and of solves left to the chain") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  StageSink sink(1 << 20, &wakeup, &counters);
+  SmootherReport report;
+  report.shortened = 2;
+  sink.on_smoother(report);
+  report.left_to_chain = true;
+  sink.on_smoother(report);
+  CHECK(counters.smoother_shortened.get() == 4);
+  CHECK(counters.smoother_left_to_chain.get() == 1);
+}

@@ -32,6 +32,11 @@ TEST_CASE("a full sky is measured, and a limit that is not kept is no success") 
   CHECK(solves.exit_code == 0);
   CHECK_THAT(solves.out, Contains("keyframes at most 5; allocations per solve 0.000"));
   CHECK(bench(smoother + "--max-solve-ms 1e-6").exit_code == 1);
+  CHECK(bench(smoother + "--max-solve-ratio 1e3").exit_code == 0);
+  const ProgramRun uneven = bench(smoother + "--max-solve-ratio 0.5");
+  CHECK(uneven.exit_code == 1);
+  CHECK_THAT(uneven.err, Contains("over their median") && Contains("--max-solve-ratio"));
+  CHECK_THAT(bench("--max-solve-ratio 2").err, Contains("nothing was solved"));
 }
 
 TEST_CASE("a synthetic drive refuses slips without carriers") {

@@ -158,10 +158,14 @@ TEST_CASE("the report counts what was smoothed, and warns of what a user must kn
   BatchResult result = smoothed.result;
   result.converged = false;
   const std::vector<std::string> warnings = smoothing_warnings(parted, result);
-  REQUIRE(warnings.size() == 3);
+  REQUIRE(warnings.size() == 4);
   CHECK_THAT(warnings[0], Catch::Contains("not converged"));
   CHECK_THAT(warnings[1], Catch::Contains("codes do not fit their sigmas"));
-  CHECK_THAT(warnings[2], Catch::Contains("2 parts"));
+  CHECK_THAT(warnings[2], Catch::Contains("carriers do not fit their sigmas"));
+  CHECK_THAT(warnings[3], Catch::Contains("2 parts"));
+
+  result.extension_left_out = true;
+  CHECK_THAT(smoothing_warnings(parted, result)[3], Catch::Contains("--iterations 3 or more"));
 }
 
 }  // namespace leonav::test

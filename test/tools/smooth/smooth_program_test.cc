@@ -81,6 +81,7 @@ TEST_CASE("leonav-smooth refuses a wrong command line with exit code 2") {
   refused("--preset car --solver qr " + rest, "--solver: must be auto, ceres or chain");
   refused("--preset car --rate 0 " + rest, "--rate: must be 0.001 to 1000");
   refused("--preset car --iterations 0 " + rest, "--iterations");
+  refused("--preset car --iterations 2.7 " + rest, "--iterations: must be a whole number");
   refused("--preset car --interval -1 " + rest, "--interval");
   refused("--preset car " + quoted(place.path()), "--out");
   refused("--preset car --out " + quoted(place.beside("out")), "expected one log file");
@@ -136,7 +137,7 @@ TEST_CASE("leonav-smooth gives every epoch of a drive, the same by either solver
     CHECK(std::filesystem::file_size(place.beside("chain/" + name)) > 0);
   }
   CHECK(text_of(place.beside("ceres/summary.txt")) == ceres.out);
-  CHECK_THAT(ceres.out, Contains("solver: ceres"));
+  CHECK_THAT(ceres.out, Contains("solver: ceres (as asked for)"));
   CHECK_THAT(ceres.out, Contains("converged: yes"));
   CHECK_THAT(ceres.out, Contains("segments: 1"));
   CHECK(ceres.err.empty());
@@ -175,6 +176,56 @@ TEST_CASE("leonav-smooth is nearer to the truth than the filter") {
   }
   WARN("rms: filter " << std::sqrt(filter) << " m, smoothed " << std::sqrt(smoothed) << " m");
   CHECK(std::sqrt(smoothed) < 0.95 * std::sqrt(filter));
+}
+
+TEST_CASE("at a rate both of two drives in one log have their rows") {
+  if (!have_programs("leonav-smooth", "leonav-replay")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog"), twice = place.beside("twice.lcmlog");
+  write_log(drive(), log);
+  write_file(twice, text_of(log) + text_of(log));
+  for (const std::string program : {"leonav-smooth --solver chain", "leonav-replay"}) {
+    CAPTURE(program);
+    const auto rows = [&](const std::string& of) {
+      const std::string name = program.substr(0, program.find(' '));
+      const ProgramRun run =
+          run_program(name, program.substr(name.size()) + " " + kCar + "--rate 1 --out " +
+                                quoted(place.beside("out")) + " " + quoted(of));
+      CAPTURE(run.err);
+      CHECK(run.exit_code == 0);
+      return read_solution_csv(place.beside("out/solution.csv")).rows.size();
+    };
+    const std::size_t once = rows(log);
+    REQUIRE(once > 40);
+    CHECK(rows(twice) > 2 * once - 10);
+  }
+}
+
+TEST_CASE("a run of leonav-smooth that fails leaves the tables of an earlier one as they were") {
+  if (!have_programs("leonav-smooth")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  write_log(drive(), log);
+  const auto smooth = [&](const std::string& options) {
+    return run_program("leonav-smooth", kCar + "--solver chain " + options + "--out " +
+                                            quoted(place.beside("out")) + " " + quoted(log));
+  };
+  REQUIRE(smooth("").exit_code == 0);
+  const std::string before = text_of(place.beside("out/configuration.yaml"));
+  REQUIRE(smooth("--set gnss.elevation_mask_deg=89 ").exit_code == 1);
+  CHECK(text_of(place.beside("out/configuration.yaml")) == before);
+}
+
+TEST_CASE("with too few iterations for the IMU to bridge anything leonav-smooth says that alone") {
+  if (!have_programs("leonav-smooth")) return;
+  const TemporaryFile place("unused", "");
+  const std::string log = place.beside("run.lcmlog");
+  write_log(drive(), log);
+  const ProgramRun run =
+      run_program("leonav-smooth", kCar + "--solver chain --iterations 1 --out " +
+                                       quoted(place.beside("out")) + " " + quoted(log));
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("--iterations 3 or more") && !Contains("inertial connection"));
 }
 
 TEST_CASE("leonav-smooth takes a log that is cut short up to there, and says so") {

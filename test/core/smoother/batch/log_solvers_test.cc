@@ -55,4 +55,21 @@ TEST_CASE("a whole log: the chain leads where Ceres leads") {
   CHECK(apart(by_chain, by_ceres, chain.last) < 1e-5);
 }
 
+TEST_CASE("the pass of the chain after a solver's iterations has progress too") {
+  LogGraph graph = graph_of(DriveOptions{}, 20);
+  BatchConfig config;
+  config.robust.enabled = false;
+  config.max_iterations = 3;
+  double last = 0.0;
+  const BatchResult result = smooth(
+      config,
+      [](const LogGraph& given, LogCorrections* corrections) {
+        LogCeresSummary summary;
+        return solve_by_ceres(given, {}, corrections, &summary);
+      },
+      nullptr, [&](int iteration, double share) { last = iteration + share; }, &graph);
+  REQUIRE(result.solved);
+  CHECK(last == Approx(static_cast<double>(result.iterations.size()) + 1.0));
+}
+
 }  // namespace leonav
