@@ -17,6 +17,7 @@
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -159,7 +160,7 @@ TEST_CASE("a journal of a run with ocean loading and polar motion verifies witho
                         [&](Channel channel, ByteSpan bytes) {
                           engine.receive(channel, bytes, 1);
                           if (channel != Channel::kGnssEpoch) return;
-                          while (!engine.idle()) std::this_thread::yield();
+                          while (!engine.idle()) test::wait_a_moment();
                         });
     REQUIRE(engine.finish());
   }

@@ -17,6 +17,7 @@
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -65,7 +66,7 @@ void run_with_misses(const DaemonConfig& config, Observer* observer) {
   hooks.before_epoch = [&](std::uint64_t epoch) {
     if (!must_miss(epoch)) return;
     held = epoch;
-    while (observer->last_decided < epoch && !ended) std::this_thread::yield();
+    while (observer->last_decided < epoch && !ended) test::wait_a_moment();
   };
   Engine engine(config, observer, hooks);
   engine.start();
@@ -76,7 +77,7 @@ void run_with_misses(const DaemonConfig& config, Observer* observer) {
         // Once the miss is decided the worker is waited for again, however late
         // a busy machine wakes it: no other epoch misses.
         while (!(held > observer->last_decided ? engine.idle_but_gnss() : engine.idle()))
-          std::this_thread::yield();
+          test::wait_a_moment();
       });
   ended = true;
   REQUIRE(engine.finish());

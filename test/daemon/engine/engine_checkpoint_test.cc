@@ -12,6 +12,7 @@
 #include "engine_runs.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ bool run_engine(const DaemonConfig& config, const std::vector<test::Input>& list
   if (checkpoint) receive_saved(*checkpoint, engine->get());
   for (const test::Input& input : list) {
     (*engine)->receive(input.channel, input.bytes, 1);
-    while (!(*engine)->idle()) std::this_thread::yield();
+    while (!(*engine)->idle()) test::wait_a_moment();
   }
   REQUIRE((*engine)->finish());
   *counters = &(*engine)->counters();
@@ -126,7 +127,7 @@ TEST_CASE("an old or a hostile checkpoint is counted and changes nothing of the 
     engine.receive(Channel::kCheckpoint, encoder.encode(checkpoint, 1), 1);
     for (const test::Input& input : list) {
       engine.receive(input.channel, input.bytes, 1);
-      while (!engine.idle()) std::this_thread::yield();
+      while (!engine.idle()) test::wait_a_moment();
     }
     REQUIRE(engine.finish());
     CHECK(engine.counters().checkpoints_used.get() == 0);

@@ -9,6 +9,7 @@
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -64,7 +65,7 @@ TEST_CASE("the journal of a run with a key replays without it", "[commands]") {
                             send(taken);
                           }
                         }
-                        while (!engine.idle()) std::this_thread::yield();
+                        while (!engine.idle()) test::wait_a_moment();
                       });
   REQUIRE(engine.finish());
   const std::size_t command = index_of(Channel::kCommand);

@@ -5,6 +5,7 @@
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -54,7 +55,7 @@ TEST_CASE("a run with an odometer replays from its journal bit for bit") {
   engine.start();
   for (const test::Input& input : list) {
     engine.receive(input.channel, input.bytes, 1);
-    while (!engine.idle()) std::this_thread::yield();
+    while (!engine.idle()) test::wait_a_moment();
   }
   REQUIRE(engine.finish());
   CHECK(engine.counters().accepted_odometer.get() == 600);

@@ -5,6 +5,7 @@
 
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -33,7 +34,7 @@ TEST_CASE("orbits of every satellite and an epoch at once keep no input waiting 
     if (epoch != 5) return;
     holding = true;
     // A full ring frees the stage, or this test could not end.
-    while (!released && held->gnss_ring().waits == 0) std::this_thread::yield();
+    while (!released && held->gnss_ring().waits == 0) test::wait_a_moment();
   };
   test::Collector outputs;
   Engine engine(test::drive_config(), &outputs, hooks);
@@ -51,7 +52,7 @@ TEST_CASE("orbits of every satellite and an epoch at once keep no input waiting 
       }
     }
     engine.receive(channel, bytes, 1);
-    while (!holding && !engine.idle()) std::this_thread::yield();
+    while (!holding && !engine.idle()) test::wait_a_moment();
   });
   CHECK(orbit_messages == 2);
   CHECK(engine.gnss_ring().waits == 0);

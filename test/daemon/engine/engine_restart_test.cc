@@ -9,6 +9,7 @@
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -42,7 +43,7 @@ Collector run_held(const std::vector<Input>& list, const std::string& journal) {
   std::atomic<bool> released{false};
   EngineHooks hooks;
   hooks.before_epoch = [&](std::uint64_t epoch) {
-    while (epoch == kHeldEpoch && !released) std::this_thread::yield();
+    while (epoch == kHeldEpoch && !released) test::wait_a_moment();
   };
   DaemonConfig config = test::drive_config();
   config.journal.path = journal;
@@ -55,12 +56,12 @@ Collector run_held(const std::vector<Input>& list, const std::string& journal) {
     engine.receive(input.channel, input.bytes, ++stamp);
     if (input.channel == Channel::kGnssEpoch) ++epochs;
     if (input.channel == Channel::kCommand) {
-      while (!engine.idle_but_gnss()) std::this_thread::yield();
+      while (!engine.idle_but_gnss()) test::wait_a_moment();
       CHECK(engine.counters().source.get() == static_cast<std::int64_t>(Source::kNone));
       released = true;
     }
     const bool held = epochs == kHeldEpoch && !released;
-    while (!(held ? engine.idle_but_gnss() : engine.idle())) std::this_thread::yield();
+    while (!(held ? engine.idle_but_gnss() : engine.idle())) test::wait_a_moment();
   }
   released = true;
   CHECK(engine.finish());

@@ -11,6 +11,7 @@
 
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -93,7 +94,7 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0,
     if (iteration != (hold == Hold::kBefore ? 0 : 1)) return;
     const std::uint64_t until = std::min<std::uint64_t>(samples.load() + 150, list.size());
     held_until = until;
-    while (samples.load() < until) std::this_thread::yield();  // 0.75 s of data
+    while (samples.load() < until) test::wait_a_moment();  // 0.75 s of data
   };
   Collector outputs;
   DaemonConfig config = smoother_config();
@@ -106,7 +107,7 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0,
     ++samples;
     while (!engine.idle() && !(samples.load() < held_until.load() && is_done(engine.gnss_work()) &&
                                is_done(engine.inertial_work())))
-      std::this_thread::yield();
+      test::wait_a_moment();
   }
   REQUIRE(engine.finish());
   return outputs;

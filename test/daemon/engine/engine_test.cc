@@ -9,6 +9,7 @@
 #include "daemon/engine/engine.h"
 #include "engine_runs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -53,7 +54,7 @@ Collector run_engine(Pace pace, const std::string& journal) {
   for (const Input& input : inputs()) {
     engine.receive(input.channel, input.bytes, ++stamp);
     // Around an epoch the result must be in before the next sample asks for it.
-    while (pace == Pace::kStepByStep && !engine.idle()) std::this_thread::yield();
+    while (pace == Pace::kStepByStep && !engine.idle()) test::wait_a_moment();
   }
   REQUIRE(engine.finish());
   return outputs;
@@ -103,7 +104,7 @@ TEST_CASE("a journal on a full disk is reported, and costs no output") {
   engine.start();
   for (const Input& input : inputs()) {
     engine.receive(input.channel, input.bytes, 1);
-    while (!engine.idle()) std::this_thread::yield();  // without misses, as the reference
+    while (!engine.idle()) test::wait_a_moment();  // without misses, as the reference
   }
   CHECK_FALSE(engine.finish());
   CHECK(engine.journal().error().find("/dev/full: cannot be written") == 0);

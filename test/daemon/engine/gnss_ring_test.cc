@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "support/catch.h"
+#include "support/wait_a_moment.h"
 
 using namespace leonav;
 
@@ -128,7 +129,7 @@ TEST_CASE("epochs that find no room in the ring to gnss wait, and none is lost")
   std::thread producer([&] {
     for (std::uint64_t i = 0; i < kEpochs; ++i) ring.push(*epoch_of(i, 10, kMaxImuBlock, 0));
   });
-  while (ring.statistics().waits == 0) std::this_thread::yield();
+  while (ring.statistics().waits == 0) test::wait_a_moment();
   std::uint64_t next = 0;
   bool same = true;
   while (next < kEpochs)

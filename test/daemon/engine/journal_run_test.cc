@@ -16,6 +16,7 @@
 #include "engine_runs.h"
 #include "support/has.h"
 #include "support/programs/program_run.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -43,7 +44,7 @@ void feed(Engine* engine, double duration_s, Each each) {
                       [&](Channel channel, ByteSpan bytes) {
                         engine->receive(channel, bytes, 1);
                         if (channel != Channel::kGnssEpoch) return;
-                        while (!engine->idle()) std::this_thread::yield();
+                        while (!engine->idle()) test::wait_a_moment();
                         each();
                       });
 }
@@ -134,7 +135,7 @@ TEST_CASE("while the disk blocks, SOLUTION and HEALTH go on, and no thread count
     hanging += threads.stalled_threads();
   });
   // Nothing has come back from the disk, and all is published.
-  while (!engine.idle()) std::this_thread::yield();
+  while (!engine.idle()) test::wait_a_moment();
   CHECK(outputs.groups[0].size() > 4'000);
   CHECK(outputs.groups[2].size() >= 28);
   CHECK(engine.counters().unpublished.get() == 0);
@@ -290,7 +291,7 @@ TEST_CASE(
         test::synthetic_drive(test::noisy_drive(20.0)), [&](Channel channel, ByteSpan bytes) {
           engine.receive(channel, bytes, 1);
           if (channel == Channel::kGnssEpoch) {
-            while (!engine.idle()) std::this_thread::yield();
+            while (!engine.idle()) test::wait_a_moment();
             refuse(Channel::kGnssEpoch, Bytes(bytes.begin(), bytes.end() - 1),
                    InputFault::kUndecodable);
             // Told by itself and also known by the Sequencer, with a count of its own.

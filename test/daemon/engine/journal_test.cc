@@ -22,6 +22,7 @@
 #include "support/drive/drive_inputs.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ void record(const std::string& path, double duration_s,
                       [&](Channel channel, ByteSpan bytes) {
                         engine.receive(channel, bytes, 1);
                         if (channel != Channel::kGnssEpoch) return;
-                        while (!engine.idle()) std::this_thread::yield();
+                        while (!engine.idle()) test::wait_a_moment();
                       });
   REQUIRE(engine.finish());
   REQUIRE(engine.counters().misses.get() == 0);

@@ -15,6 +15,7 @@
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 #include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -50,7 +51,7 @@ class Watched {
 
   void receive(Channel channel, ByteSpan bytes) {
     engine_->receive(channel, bytes, 1);
-    while (!engine_->idle()) std::this_thread::yield();
+    while (!engine_->idle()) test::wait_a_moment();
   }
 
   // "status: why" at `now_s`.
@@ -215,7 +216,7 @@ TEST_CASE("a journal that cannot be written is a FAULT in HEALTH, and none of th
                                 "permissions of its disk");
   CHECK(watched.fault() == Fault::kNone);
   fails = false;
-  while (!watched.engine()->journal().failure().empty()) std::this_thread::yield();
+  while (!watched.engine()->journal().failure().empty()) test::wait_a_moment();
   // It stays for a while.
   CHECK(watched.at(61.0).starts_with("FAULT: journal ("));
   watched.receive(Channel::kCommand, Encoder().encode(Command(), test::kSkyEpoch, 1));

@@ -14,6 +14,7 @@
 #include "support/catch.h"
 #include "support/drive/drive_inputs.h"
 #include "support/programs/daemon_program.h"
+#include "support/wait_a_moment.h"
 
 namespace {
 
@@ -71,12 +72,12 @@ std::string abstract_name() { return "@leonav-test-" + std::to_string(getpid());
 struct HeldTarget final : MessageTarget {
   std::atomic<bool> hold{false};
   void take(Channel, ByteSpan) override {
-    while (hold) std::this_thread::yield();
+    while (hold) test::wait_a_moment();
   }
 };
 
 void wait_until_idle(const Engine& engine) {
-  while (!engine.idle()) std::this_thread::yield();
+  while (!engine.idle()) test::wait_a_moment();
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
   std::atomic<bool> hold_gnss{false};
   EngineHooks hooks;
   hooks.before_epoch = [&](std::uint64_t) {
-    while (hold_gnss) std::this_thread::yield();
+    while (hold_gnss) test::wait_a_moment();
   };
   HeldTarget target;
   Engine engine(test::drive_config(), &target, hooks);
@@ -180,7 +181,7 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
                         }
                         engine.receive(channel, bytes, 1);
                         if (!epoch) return;
-                        while (!engine.idle_but_gnss()) std::this_thread::yield();
+                        while (!engine.idle_but_gnss()) test::wait_a_moment();
                         said.push_back(look());  // the work is new
                         said.push_back(look());
                         said.push_back(watch.stalled_threads());  // `io` may well wait behind it
