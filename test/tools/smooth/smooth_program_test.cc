@@ -1,4 +1,5 @@
 // leonav-smooth as a user runs it.
+#include <algorithm>
 #include <cmath>
 
 #include "drivers/csv/solution_csv.h"
@@ -193,9 +194,11 @@ TEST_CASE("at a rate both of two drives in one log have their rows") {
                                 quoted(place.beside("out")) + " " + quoted(of));
       CAPTURE(run.err);
       CHECK(run.exit_code == 0);
-      return read_solution_csv(place.beside("out/solution.csv")).rows.size();
+      // Lines: a reader of solutions takes those whose times ascend.
+      const std::string table = text_of(place.beside("out/solution.csv"));
+      return std::count(table.begin(), table.end(), '\n') - 1;
     };
-    const std::size_t once = rows(log);
+    const auto once = rows(log);
     REQUIRE(once > 40);
     CHECK(rows(twice) > 2 * once - 10);
   }
