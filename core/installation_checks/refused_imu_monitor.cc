@@ -2,12 +2,13 @@
 
 #include "core/installation_checks/internal/mean_force.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace leonav {
 namespace {
 
-constexpr int kMinRun = 100;
+constexpr int kMinRun = 100, kLongestRun = 2 * kMinRun;
 // times the expected value: the vehicle may be moving
 constexpr double kLeastShare = 0.5, kMostShare = 2.0;
 
@@ -20,7 +21,8 @@ bool is_about(double value, double expected) {
 ConventionFinding RefusedImuMonitor::add_refused(const ImuSample& sample) {
   if (!sample.delta_velocity_b.allFinite() || !sample.delta_theta_b.allFinite()) return {};
   if (run_ == 0) seconds_ = speed_ = angle_ = due_s_ = 0.0;
-  ++run_;
+  // So that it is over soon after the last one, however long it was.
+  run_ = std::min(run_ + 1, kLongestRun);
   interval_s_ = sample.interval_s();
   seconds_ += interval_s_;
   speed_ += sample.delta_velocity_b.norm();

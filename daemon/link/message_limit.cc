@@ -20,16 +20,22 @@ namespace {
 constexpr std::uint32_t kUdpHeaderBytes = 8, kMagicAt = kUdpHeaderBytes,
                         kSizeAt = kUdpHeaderBytes + 8, kFragmentMagic = 0x4C433033;  // "LC03"
 
+// -1: it is no socket.
+int option(int descriptor, int name) {
+  int value = 0;
+  socklen_t size = sizeof value;
+  return getsockopt(descriptor, SOL_SOCKET, name, &value, &size) == 0 ? value : -1;
+}
+
 std::set<int> udp_sockets() {
   std::set<int> sockets;
   std::error_code error;
   for (std::filesystem::directory_iterator entry("/proc/self/fd", error), end;
        !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    int descriptor = 0, type = 0;
-    socklen_t size = sizeof type;
+    int descriptor = 0;
     if (std::from_chars(name.data(), name.data() + name.size(), descriptor).ec == std::errc() &&
-        getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_DGRAM)
+        option(descriptor, SO_TYPE) == SOCK_DGRAM && option(descriptor, SO_DOMAIN) == AF_INET)
       sockets.insert(descriptor);
   }
   return sockets;
@@ -54,10 +60,11 @@ std::string MessageLimit::apply(std::uint32_t most_bytes) const {
   std::set<int> opened;
   std::set_difference(now.begin(), now.end(), before_.begin(), before_.end(),
                       std::inserter(opened, opened.end()));
+  const std::string consequence = "messages of LCM that claim too much memory are not dropped: ";
+  if (opened.empty()) return consequence + "its socket is not found in /proc/self/fd";
   for (const int socket : opened) {
     if (setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)
-      return std::string("messages of LCM that claim too much memory are not dropped: ") +
-             std::strerror(errno);
+      return consequence + std::strerror(errno);
   }
   return "";
 }

@@ -32,7 +32,8 @@ namespace {
 
 using namespace leonav;
 
-// Of which the journal may take Journal::kLongestEnd_s. A service manager waits for 20 s.
+// Of which the journal may take Journal::kLongestEnd_s, and then the checkpoint
+// CheckpointWriter::kLongestEnd_s. A service manager waits for 20 s.
 constexpr unsigned kLongestEnd_s = 15;
 
 // OpenBLAS would have started its threads by main().

@@ -1,5 +1,6 @@
 #include "daemon/service/lcm_link.h"
 
+#include "daemon/config/lcm_url.h"
 #include "daemon/link/message_limit.h"
 #include "daemon/threads/process_threads.h"
 #include "daemon/threads/wall_clock.h"
@@ -20,18 +21,25 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine
   const std::set<pid_t> before = threads_of_process();
   const MessageLimit limit;
   lcm_ = open_lcm(config.url);
+  if (udpm_address(config.url)) {
+    // liblcm opens its sockets with the first subscription: to a channel that nobody sends on, so
+    // that no message is taken before the limit holds.
+    lcm_subscription_t* first = subscribe(config, "LIMIT", &on_nothing);
+    refused_ = limit.apply(wire::kMaxMessageBytes);
+    lcm_unsubscribe(lcm_->getUnderlyingLCM(), first);
+  }
   for (const Channel channel : kInputChannels) {
     // A checkpoint comes from the file alone: who could send one could set the heading.
     if (channel != Channel::kCheckpoint) subscribe(config, name_of(channel), &on_message);
   }
   if (gate_) subscribe(config, kSignedCommandChannel, &on_signed_command);
-  refused_ = limit.apply(wire::kMaxMessageBytes);
   for (const pid_t thread : threads_of_process()) {
     if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
   }
 }
 
-void LcmReceiver::subscribe(const LcmConfig& config, std::string_view channel, Handler handler) {
+lcm_subscription_t* LcmReceiver::subscribe(const LcmConfig& config, std::string_view channel,
+                                           Handler handler) {
   const std::string name = prefix_ + std::string(channel);
   // The C++ interface would allocate the channel's name for each message, and crash where liblcm
   // cannot start its thread, which it does with the first subscription.
@@ -42,6 +50,7 @@ void LcmReceiver::subscribe(const LcmConfig& config, std::string_view channel, H
                    "' starts no thread that receives; see the message above; give it more memory "
                    "or threads (MemoryMax= and TasksMax= of its unit, ulimit -v and -u)");
   lcm_subscription_set_queue_capacity(subscription, config.receive_queue);
+  return subscription;
 }
 
 bool LcmReceiver::receive(int timeout_ms) {
@@ -51,6 +60,8 @@ bool LcmReceiver::receive(int timeout_ms) {
   }
   return lcm_->handleTimeout(timeout_ms) >= 0;
 }
+
+void LcmReceiver::on_nothing(const lcm_recv_buf_t*, const char*, void*) {}
 
 void LcmReceiver::on_message(const lcm_recv_buf_t* buffer, const char* name, void* self) {
   const auto* receiver = static_cast<const LcmReceiver*>(self);

@@ -31,7 +31,8 @@ class LcmReceiver {
 
  private:
   using Handler = void (*)(const lcm_recv_buf_t* buffer, const char* name, void* self);
-  void subscribe(const LcmConfig& config, std::string_view channel, Handler handler);
+  lcm_subscription_t* subscribe(const LcmConfig& config, std::string_view channel, Handler handler);
+  static void on_nothing(const lcm_recv_buf_t* buffer, const char* name, void* self);
   static void on_message(const lcm_recv_buf_t* buffer, const char* name, void* self);
   static void on_signed_command(const lcm_recv_buf_t* buffer, const char* name, void* self);
 

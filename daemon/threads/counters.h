@@ -104,6 +104,8 @@ struct EngineCounters {
   Gauge large_jumps, surprising_jumps;
   // Events of each Convention, and a thousand times the value of the last.
   std::array<Gauge, kConventionCount> conventions, convention_milli;
+  // Of these events, those of the Sequencer, which come again each minute while the mistake lasts.
+  std::array<Gauge, kConventionCount> lasting_conventions;
   // main
   Gauge unpublished;  // messages of HEALTH that found no room
   // out

@@ -119,6 +119,7 @@ void StageSink::on_event(const Event& event) {
     counters_->convention_milli[event.code].set(
         std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
     counters_->conventions[event.code].add(1);
+    if (event.stage == Stage::kSequencer) counters_->lasting_conventions[event.code].add(1);
   }
   if (event.kind == EventKind::kCheckpoint) count_checkpoint(event, counters_);
   encoder_.on_event(event);

@@ -9,11 +9,6 @@ namespace {
 
 constexpr double kHold_s = 2.0 * kFoundAgain_s;
 
-bool can_mend_itself(Convention convention) {
-  return convention == Convention::kLeapSeconds || convention == Convention::kStampOffset ||
-         convention == Convention::kGyroRange;
-}
-
 }  // namespace
 
 std::span<const Finding> ConventionMonitor::look(double now_s) {
@@ -27,7 +22,7 @@ std::span<const Finding> ConventionMonitor::look(double now_s) {
       one.last_s = now_s;
       one.is_active = true;
       if (!was_active) one.milli = counters_->convention_milli[i].get();
-    } else if (can_mend_itself(static_cast<Convention>(i)) && now_s - one.last_s > kHold_s) {
+    } else if (events == counters_->lasting_conventions[i].get() && now_s - one.last_s > kHold_s) {
       one.is_active = false;
     }
     has_changed = has_changed || one.is_active != was_active;

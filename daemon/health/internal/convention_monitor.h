@@ -11,8 +11,9 @@
 namespace leonav {
 
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
-// mended and the daemon is started again; where it can mend itself, as stamps of a receiver that
-// learns the leap seconds, until it has not been found for two minutes.
+// mended and the daemon is started again. What the Sequencer finds it finds again each minute while
+// it lasts, as stamps of a receiver that does not know the leap seconds yet: that stays until it
+// has not been found for two minutes.
 class ConventionMonitor {
  public:
   explicit ConventionMonitor(const EngineCounters* counters) : counters_(counters) {}
