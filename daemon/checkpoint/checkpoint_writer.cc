@@ -13,6 +13,7 @@
 #include "daemon/checkpoint/internal/replace_file.h"
 #include "daemon/checkpoint/products_file.h"
 #include "daemon/threads/counters.h"
+#include "daemon/threads/leave_to_process.h"
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
 
@@ -20,7 +21,7 @@ namespace leonav {
 namespace {
 
 constexpr std::chrono::seconds kLook(1);
-constexpr double kStalled_s = 2.0;  // a write that takes longer is told, as with the journal
+constexpr double kStalled_s = 2.0;  // error() tells of a write that takes longer
 
 double seconds(const Stopwatch& watch) { return static_cast<double>(watch.nanoseconds()) * 1e-9; }
 
@@ -36,6 +37,7 @@ class CheckpointWriter::State {
   void ask_for_end();
   bool has_ended() const { return has_ended_.load(std::memory_order_acquire); }
   std::string error() const;
+  std::string no_answer() const { return config_.path + ": the disk does not answer"; }
 
   LatestValue<Checkpoint> latest;
   ProductStore products;
@@ -91,7 +93,7 @@ void CheckpointWriter::State::ask_for_end() {
 std::string CheckpointWriter::State::error() const {
   const std::int64_t since_ns = waiting_since_ns_.get();
   if (since_ns != 0 && static_cast<double>(monotonic_ns() - since_ns) * 1e-9 > kStalled_s)
-    return config_.path + ": the disk does not answer";
+    return no_answer();
   const std::lock_guard lock(mutex_);
   return error_;
 }
@@ -164,13 +166,7 @@ CheckpointWriter::CheckpointWriter(const CheckpointConfig& config, CheckpointHoo
 // A thread that the disk holds goes on using its state, for as long as the process lives.
 CheckpointWriter::~CheckpointWriter() {
   finish();
-  if (abandoned_) leave(state_.release());
-}
-
-// Keeps it within reach, so that it is no leak.
-void CheckpointWriter::leave(State* state) {
-  static std::atomic<State*> last{nullptr};
-  state->left_before = last.exchange(state);
+  if (abandoned_) leave_to_process(state_.release());
 }
 
 void CheckpointWriter::start() {
@@ -194,6 +190,8 @@ void CheckpointWriter::finish() {
   state_->thread.detach();
 }
 
-std::string CheckpointWriter::error() const { return state_->error(); }
+std::string CheckpointWriter::error() const {
+  return abandoned_ ? state_->no_answer() : state_->error();
+}
 
 }  // namespace leonav

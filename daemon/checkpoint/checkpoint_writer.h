@@ -42,7 +42,6 @@ class CheckpointWriter {
 
  private:
   class State;
-  static void leave(State* state);
 
   std::unique_ptr<State> state_;
   bool has_file_ = false, is_running_ = false, abandoned_ = false;

@@ -12,6 +12,7 @@
 #include "daemon/journal/internal/kept_names.h"
 #include "daemon/journal/internal/recorded_outputs.h"
 #include "daemon/messages/output_selection.h"
+#include "daemon/threads/leave_to_process.h"
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wall_clock.h"
 #include "drivers/lcm/event_log.h"
@@ -76,13 +77,7 @@ Journal::Journal(const DaemonConfig& config, DiskHook hook)
 // A thread that the disk holds goes on using its state, for as long as the process lives.
 Journal::~Journal() {
   finish();
-  if (abandoned_) leave(state_.release());
-}
-
-// Keeps it within reach, so that it is no leak.
-void Journal::leave(State* state) {
-  static std::atomic<State*> last{nullptr};
-  state->left_before = last.exchange(state);
+  if (abandoned_) leave_to_process(state_.release());
 }
 
 void Journal::open() {

@@ -70,7 +70,6 @@ class Journal {
 
  private:
   struct State;
-  static void leave(State* state);
   void fail(const std::string& reason);
   std::string text_of(std::int64_t error) const;
   void count_lost(Channel channel);

@@ -16,8 +16,8 @@ struct SolverChoice {
 long measurements_of(const LogGraph& graph);
 
 // Returns the memory that a process can still take on this machine without swapping, bytes: what
-// the system calls available, and what is left to its control group where that has a limit;
-// nullopt: the system does not tell.
+// the system calls available, and in a container what is left to its control group where that has
+// a limit; nullopt: the system does not tell.
 std::optional<double> available_memory();
 
 // Chooses Ceres where it needs at most half of `available_bytes` and would not take hours, the

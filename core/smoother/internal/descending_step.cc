@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kSmallestShare = 0.125;
 // Positions are known to 1e-9 m, and what a process allows them beside the velocities is some
-// micrometres over a tenth of a second: rounding changes the cost of a window by a thousandth.
+// micrometres over a tenth of a second: rounding changes the cost, a number without unit, by less
+// than this.
 constexpr double kRounding = 1e-3;
 
 }  // namespace
