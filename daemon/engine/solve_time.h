@@ -10,14 +10,15 @@ inline constexpr int kMeasuredSolves = 9;
 struct SolveTime {
   int satellites = 0;    // of the measured keyframes
   int solved = 0;        // of kMeasuredSolves, those with a result
-  double solve_s = 0.0;  // median of solves with one iteration, wall time
+  double solve_s = 0.0;  // median of solves with one iteration, processor time
 };
 
 // Measures, in the caller's thread, solves of a full window: a vehicle that stands at zero latitude
 // under as many satellites as the configured systems have in view under an open sky, at most as
 // many as the configuration uses; codes and Dopplers on two frequencies, one carrier, 200 IMU
 // samples a second where there is an IMU. Slips, vehicle constants and a second iteration come on
-// top. Allocates. Precondition: the configuration's estimator is the smoother.
+// top. Processor time, because what runs beside the start is not there for ever. Allocates.
+// Precondition: the configuration's estimator is the smoother.
 SolveTime measure_solve_time(const NavigatorConfig& config);
 
 // The time that a solve has, and how many iterations it makes at least.

@@ -2,8 +2,9 @@
 // other work.
 #pragma once
 #include <chrono>
-#include <ctime>
 #include <vector>
+
+#include "daemon/threads/thread_time.h"
 
 namespace leonav {
 
@@ -35,19 +36,14 @@ class Stopwatch {
   void stop(Times* times) const {
     // The wall time is read first, because reading the processor time takes longer.
     const double wall_s = std::chrono::duration<double>(Clock::now() - wall_).count();
-    times->processor_s.push_back(processor_now_s() - processor_s_);
+    times->processor_s.push_back(thread_processor_s() - processor_s_);
     times->wall_s.push_back(wall_s);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static double processor_now_s() {  // of this thread
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
 
-  double processor_s_ = processor_now_s();
+  double processor_s_ = thread_processor_s();
   Clock::time_point wall_ = Clock::now();
 };
 
