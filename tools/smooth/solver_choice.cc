@@ -1,6 +1,7 @@
 #include "tools/smooth/solver_choice.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "tools/common/format.h"
@@ -13,11 +14,20 @@ constexpr double kBytesPerMeasurement = 2000.0;
 constexpr long kMostMeasurements = 3'000'000;
 constexpr double kGigabyte = 1e9;
 
-std::optional<double> number_in(const std::string& path) {
+std::optional<double> number_in(const std::filesystem::path& path) {
   std::ifstream file(path);
   double value = 0.0;
   if (file >> value) return value;
   return std::nullopt;
+}
+
+// The folder of this process's group below the mount of control groups (version 2): what follows
+// "0::/" in its line.
+std::filesystem::path group_in(const std::string& membership) {
+  std::ifstream file(membership);
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("0::/")) return line.substr(4);
+  return {};
 }
 
 }  // namespace
@@ -28,17 +38,27 @@ long measurements_of(const LogGraph& graph) {
   return sum;
 }
 
+std::optional<double> left_to_group(const std::string& mount, const std::string& membership) {
+  std::optional<double> left;
+  const std::filesystem::path root(mount);
+  // The limits of all groups above hold as well.
+  for (std::filesystem::path group = root / group_in(membership);; group = group.parent_path()) {
+    const auto limit = number_in(group / "memory.max");
+    const auto used = number_in(group / "memory.current");
+    if (limit && used) left = std::min(left.value_or(*limit), std::max(0.0, *limit - *used));
+    if (group == root || !group.has_relative_path()) return left;
+  }
+}
+
 std::optional<double> available_memory() {
   std::optional<double> available;
   std::ifstream file("/proc/meminfo");
   std::string key, unit;
   for (double kilobytes = 0.0; file >> key >> kilobytes; std::getline(file, unit))
     if (key == "MemAvailable:") available = 1024.0 * kilobytes;
-  const auto limit = number_in("/sys/fs/cgroup/memory.max");
-  const auto used = number_in("/sys/fs/cgroup/memory.current");
-  if (!limit || !used) return available;
-  const double left = std::max(0.0, *limit - *used);
-  return available ? std::min(*available, left) : left;
+  const auto left = left_to_group("/sys/fs/cgroup", "/proc/self/cgroup");
+  if (!left) return available;
+  return std::min(available.value_or(*left), *left);
 }
 
 SolverChoice choose_solver(long measurements, std::optional<double> available_bytes) {

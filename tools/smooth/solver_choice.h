@@ -15,9 +15,14 @@ struct SolverChoice {
 // Returns how many measurements the graph's keyframes have together.
 long measurements_of(const LogGraph& graph);
 
-// Returns the memory that a process can still take on this machine without swapping, bytes: what
-// the system calls available, and in a container what is left to its control group where that has
-// a limit; nullopt: the system does not tell.
+// Returns what is left of the smallest limit of a process's control group (version 2) and of those
+// above it, bytes; nullopt: none has one. `membership` is the process's file of /proc, `mount` the
+// folder of all groups.
+std::optional<double> left_to_group(const std::string& mount, const std::string& membership);
+
+// Returns the memory that this process can still take on this machine without swapping, bytes: what
+// the system calls available, and at most what is left to its control group; nullopt: the system
+// does not tell.
 std::optional<double> available_memory();
 
 // Chooses Ceres where it needs at most half of `available_bytes` and would not take hours, the

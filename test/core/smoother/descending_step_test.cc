@@ -53,9 +53,11 @@ TEST_CASE("what the cost rises by is what the whitened residuals of the whole wi
   options.arc_epochs = GENERATE(1'000'000, 5);
   options.joined = GENERATE(false, true);
   options.inertial = GENERATE(false, true);
+  options.constrained = options.inertial && GENERATE(false, true);
   Drive drive(options);
   Window window(kKeyframes);
   fill(&drive, &window);
+  REQUIRE(window.newest().process_factor.has_information == options.constrained);
   // Those that have left the window stand in the prior, whose gradient then counts too.
   const int left = GENERATE(0, 3);
   for (int i = 0; i < left; ++i) feed(drive.step(), drive.lever_b(), &window);

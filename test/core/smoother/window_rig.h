@@ -72,6 +72,30 @@ inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd covariance) {
   return root * scale.asDiagonal();
 }
 
+// Motion constraints: V D V^T is their information, D^(1/2) V^T its root, row by row. What the
+// information does not see it does not move, and has no row.
+inline void set_information_rows(const ProcessFactor& factor, const Keyframe& before,
+                                 Eigen::Ref<Eigen::MatrixXd> J, Eigen::Ref<Eigen::VectorXd> r) {
+  const Eigen::Index core = before.active.core_size();
+  const Eigen::MatrixXd information = factor.information.topLeftCorner(core, core);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(core);
+  for (Eigen::Index i = 0; i < core; ++i)
+    if (information(i, i) > 0.0) scale(i) = 1.0 / std::sqrt(information(i, i));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(scale.asDiagonal() * information *
+                                                             scale.asDiagonal());
+  const EkfCorrection moved = active_part(before.active, difference(before.state, factor.from));
+  for (Eigen::Index i = 0; i < core; ++i) {
+    const double size = parts.eigenvalues()(i);
+    if (size < 1e-12) continue;
+    const Eigen::VectorXd direction = parts.eigenvectors().col(i);
+    const Eigen::VectorXd root = std::sqrt(size) * direction.cwiseQuotient(scale);
+    J.row(i) = root.transpose() *
+               change_of_difference(before.active, before.state, factor.from).topRows(core);
+    r(i) = direction.dot(scale.cwiseProduct(factor.gradient.head(core))) / std::sqrt(size) -
+           root.dot(moved.head(core));
+  }
+}
+
 inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b) {
   DenseStep step;
   Eigen::Index states = 0, rows = 0;
@@ -81,6 +105,8 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
     rows += window.at(i).active.size() +
             static_cast<Eigen::Index>(window.at(i).measurements.size() +
                                       (i > 0 ? window.at(i).process_factor.joins.size() : 0));
+    if (i > 0 && window.at(i).process_factor.has_information)
+      rows += window.at(i - 1).active.core_size();
   }
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, states);
   Eigen::VectorXd r = Eigen::VectorXd::Zero(rows);
@@ -122,6 +148,14 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
         J(row, ambiguities + join.to) = weight;
         J(row, ambiguities + join.from) = -weight;
         r(row++) = weight * (join.difference_m - (value_m(join.to) - value_m(join.from)));
+      }
+      if (keyframe.process_factor.has_information) {
+        const Eigen::Index core = before.active.core_size();
+        set_information_rows(
+            keyframe.process_factor, before,
+            J.block(row, step.first[static_cast<std::size_t>(k) - 1], core, before.active.size()),
+            r.segment(row, core));
+        row += core;
       }
     }
     const AntennaMotion antenna = antenna_of(keyframe, lever_b);
