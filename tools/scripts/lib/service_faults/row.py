@@ -31,6 +31,7 @@ class Row:
     options: tuple = ()  # of leonavd
     daemon: dict = dataclasses.field(default_factory=dict)  # other keys of Daemon
     knows_heading: bool = True
+    heading_off_deg: float = 0.0  # what is taken for known is off by so much
     settled_s: float = 40.0  # errors and gaps count from here on at the earliest
     change: object = None  # of the messages: a function of row and messages
     before: object = None  # a function of the Run: before the daemon starts

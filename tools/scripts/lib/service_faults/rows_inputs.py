@@ -1,9 +1,10 @@
 """Faults of the messages that come in: stamps, gaps, values, junk."""
 from service_faults import stream
-from service_faults.drive import EPOCH, IMU
+from service_faults.drive import EPOCH, IMU, STANDING_S
 from service_faults.row import Row, fault
 
 HOUR_S = 3600
+FILTER_RESET, HEADING = 2, 6  # kind of event, its code
 NO_IMU = "no usable IMU"
 # A gap of the IMU costs the heading: half a minute until it is found again, and HEALTH keeps events for a minute.
 ALIGNS_S, KEPT_S = 30, 60
@@ -13,6 +14,11 @@ AFTER_GAP = {"ok_s": ALIGNS_S + KEPT_S, "back_s": 3, "worst_m": 8}
 def imu_gap(seconds, **keys):
     return Row(f"imu-gap-{seconds:g}s", f"IMU silent for {seconds:g} s", end_s=60 + seconds,
                change=lambda row, messages: stream.without(IMU, row.begin_s, row.end_s)(messages), **keys)
+
+
+def diverges(run, outputs, result):
+    """Filter and window contradict their measurements, are given up, and begin anew."""
+    result.at_most("event `filter_reset` of the heading", run.note_event(outputs, FILTER_RESET, (HEADING,), "filter_reset"), 30)
 
 
 def gnss_ahead(row, messages):
@@ -48,6 +54,9 @@ ROWS = [
     Row("imu-frozen", "IMU sends the same values for 10 s, its stamps go on", end_s=70, after_s=100,
         change=lambda row, messages: stream.imu_frozen(row.begin_s, row.end_s)(messages),
         expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=13, **AFTER_GAP)),
+    Row("heading-off", "a heading that is taken for known to a degree is 150 degrees off: filter and smoother diverge", begin_s=STANDING_S, end_s=STANDING_S, after_s=130,
+        heading_off_deg=150, settled_s=STANDING_S, judge=diverges,
+        expected=fault("DEGRADED", reason=".", told_s=20, worst_m=12, sigmas=8, ok_s=120, back_s=60)),
     Row("junk", "junk at ten times the nominal rate on all input channels for 20 s", end_s=80, after_s=40,
         change=lambda row, messages: stream.junk(row.begin_s, row.end_s, 10)(messages),
         expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=25), quick=True),

@@ -1,6 +1,4 @@
 """Faults of satellites, their orbits, and the antenna."""
-import math
-
 from service_faults import stream
 from service_faults.row import Expected, Row, fault
 
@@ -25,24 +23,16 @@ CLOCK_STEP, SATELLITE_FAULT = 12, 23  # kinds of events
 GALILEO_CLOCK = 17
 
 
-def note_event(run, outputs, kind, code, name):
-    """Seconds from the fault's begin to its event."""
-    found = next((event.t - run.row.begin_s for event in outputs.events if event.t >= run.row.begin_s and event.kind == kind
-                  and event.code in code), math.inf)
-    run.notes.append(f"event `{name}` after {found:.0f} s" if math.isfinite(found) else f"no event `{name}`")
-    return found
-
-
 def one_satellite(run, outputs, result):
     strongest = stream.strongest(run.drive.messages(), 0, run.row.begin_s, run.row.end_s)
     result.must(strongest == NUMBER, f"not {SATELLITE} but G{strongest:02d} arrives best: set it in rows_satellites.py")
     # No condition: an outlier that is left out needs no event.
-    note_event(run, outputs, SATELLITE_FAULT, range(4), "satellite_fault")
+    run.note_event(outputs, SATELLITE_FAULT, range(4), "satellite_fault")
 
 
 def whole_system(run, outputs, result):
     """The same error of all its ranges is that of a clock: the position does not suffer, and the event says so."""
-    result.at_most("event `clock_step` of Galileo", note_event(run, outputs, CLOCK_STEP, (GALILEO_CLOCK,), "clock_step"), 30)
+    result.at_most("event `clock_step` of Galileo", run.note_event(outputs, CLOCK_STEP, (GALILEO_CLOCK,), "clock_step"), 30)
 
 
 CONTRADICTS = "contradict|off by a metre|drift away"

@@ -1,4 +1,5 @@
 """One row in a network and mount namespace of its own: drive, daemon, fault, recording."""
+import math
 import subprocess
 import time
 
@@ -37,9 +38,16 @@ class Run:
 
     def make_daemon(self, **keys):
         row = self.row
-        heading_deg = self.drive.heading_deg() if self.drive and row.knows_heading else None
+        heading_deg = self.drive.heading_deg() + row.heading_off_deg if self.drive and row.knows_heading else None
         self.daemon = Daemon(self.bin, self.folder, row.options, heading_deg=heading_deg, **row.daemon, **keys)
         return self.daemon
+
+    def note_event(self, outputs, kind, codes, name):
+        """Seconds from the fault's begin to its event."""
+        found = next((event.t - self.row.begin_s for event in outputs.events if event.t >= self.row.begin_s and event.kind == kind
+                      and event.code in codes), math.inf)
+        self.notes.append(f"event `{name}` after {found:.0f} s" if math.isfinite(found) else f"no event `{name}`")
+        return found
 
     def journals(self):
         """The first pieces of all runs of the daemon."""
