@@ -15,7 +15,7 @@ import sys
 import numpy as np
 
 import lcm_log
-from smooth import CAR, FAMILIES, SEEDS, SYSTEMS, estimate, geometric_mean, print_table, rms, run, simulate, verdict, with_settings
+from smooth import CAR, FAMILIES, SEEDS, SYSTEMS, choose, estimate, geometric_mean, print_table, rms, run, simulate, verdict, with_settings
 from fleet import measure
 
 DURATION_S = 600.0
@@ -397,22 +397,6 @@ def judge(results):
     print_table(("event", "estimator", "0 to 30 s, over the filter's", "30 to 120 s, over the filter's", "from 120 s on, over that without the event",
                  "all after the first, over that of logs that begin there"), rows)
     return all([verdict(kept, text) for kept, text in verdicts])
-
-
-def choose(scenes="", seeds=""):
-    """Leaves only these scenes and seeds, each a list with commas; empty: all."""
-    global SEEDS
-    wanted = [scene.strip() for scene in scenes.split(",") if scene.strip()]
-    for scene in wanted:
-        if scene not in FAMILIES:
-            sys.exit(f"no scene '{scene}'; there are: {', '.join(FAMILIES)}")
-    for scene in list(FAMILIES):
-        if wanted and scene not in wanted:
-            del FAMILIES[scene]
-    try:
-        SEEDS = [int(seed) for seed in seeds.split(",") if seed.strip()] or SEEDS
-    except ValueError:
-        sys.exit(f"seeds are whole numbers with commas, not '{seeds}'")
 
 
 def main():

@@ -54,10 +54,12 @@ leonav_package_packages=(lintian dpkg-dev file default-jdk-headless liblcm-java 
                          python3-numpy python3-pandas python3-matplotlib python3-yaml python3-distributed)
 leonav_fleet_packages=(python3-distributed python3-dask python3-cryptography python3-numpy python3-yaml)
 
-# build PRESET [CMAKE_ARGUMENT...]
+# build PRESET [CMAKE_ARGUMENT...] [-- TARGET...]
 build() {
   local preset=$1; shift
-  local configure=("$@")
+  local configure=() targets=()
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do configure+=("$1"); shift; done
+  [ $# -lt 2 ] || targets=(--target "${@:2}")
   mkdir -p "$leonav_root/build"
   # One at a time: two that configure the same folder fail in each other's steps.
   local lock
@@ -66,7 +68,7 @@ build() {
   say "Building ($preset)"
   cmake -S "$leonav_root" --preset "$preset" "${configure[@]}" -B "$leonav_root/build/$preset" >"$leonav_root/build/$preset.configure.log" 2>&1 ||
     { cat "$leonav_root/build/$preset.configure.log" >&2; fail "configuration failed"; }
-  (cd "$leonav_root" && cmake --build --preset "$preset" -- --quiet) || fail "the build failed"
+  (cd "$leonav_root" && cmake --build --preset "$preset" "${targets[@]}" -- --quiet) || fail "the build failed"
   exec {lock}>&-
 }
 

@@ -1,6 +1,6 @@
 """Errors, sigmas, time and memory of leonav-smooth beside the causal estimators; Markdown tables to standard output.
 
-  smooth.py BIN OUT streets|tunnels|recorded|size     exits with 1 if a bound does not hold
+  smooth.py BIN OUT streets|tunnels|recorded|size [SCENES [SEEDS]]     exits with 1 if a bound does not hold
 """
 import json
 import os
@@ -22,7 +22,7 @@ from golden.inputs import MEMS_SETTINGS  # noqa: E402
 
 STREETS = yaml.safe_load((ROOT / "config/matrix/streets.yaml").read_text())
 ALIGNMENT = STREETS["set"]
-SEEDS = (1, 2, 3)
+SEEDS = [1, 2, 3]
 CAR = [*ALIGNMENT, "vehicle.kind=car"]
 SYSTEMS = {"all": "gnss.systems=[gps, galileo, beidou, leo]", "GPS": "gnss.systems=[gps]"}
 STREETS_S, SETTLE_S = 1200.0, 120.0
@@ -106,6 +106,21 @@ def rms(values):
 
 def geometric_mean(values):
     return float(np.exp(np.mean(np.log(values))))
+
+
+def choose(scenes="", seeds=""):
+    """Leaves only these scenes and seeds, each a list with commas; empty: all."""
+    wanted = [scene.strip() for scene in scenes.split(",") if scene.strip()]
+    for scene in wanted:
+        if scene not in FAMILIES:
+            sys.exit(f"no scene '{scene}'; there are: {', '.join(FAMILIES)}")
+    for scene in list(FAMILIES):
+        if wanted and scene not in wanted:
+            del FAMILIES[scene]
+    try:
+        SEEDS[:] = [int(seed) for seed in seeds.split(",") if seed.strip()] or SEEDS
+    except ValueError:
+        sys.exit(f"seeds are whole numbers with commas, not '{seeds}'")
 
 
 # Simulated streets.
@@ -290,8 +305,9 @@ PARTS = {"streets": streets, "tunnels": tunnels, "recorded": recorded, "size": s
 
 
 def main():
-    if len(sys.argv) != 4 or sys.argv[3] not in PARTS:
+    if len(sys.argv) not in (4, 5, 6) or sys.argv[3] not in PARTS:
         sys.exit(__doc__)
+    choose(*sys.argv[4:])
     out = pathlib.Path(sys.argv[2]) / sys.argv[3]
     out.mkdir(parents=True, exist_ok=True)
     return 0 if PARTS[sys.argv[3]](pathlib.Path(sys.argv[1]).resolve(), out) else 1
