@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/rotation.h"
 #include "core/navigator/interface/filter_estimate.h"
@@ -91,7 +92,10 @@ std::optional<AttitudeInitializer::CheckpointVerdict> AttitudeInitializer::disca
 bool AttitudeInitializer::contradicts_motion(double heading, double sigma,
                                              const Ekf& filter) const {
   constexpr double kSlow = 3.0;  // m/s
-  constexpr double kSigmas = 3.0, kTurn = std::numbers::pi / 4.0;
+  constexpr double kSigmas = 3.0, kMost = std::numbers::pi / 4.0;
+  // The mounting and the axle's slip, and what a turn adds: an antenna at a distance L from the
+  // axle moves across by L times the rate, at a lateral acceleration a by L a / v^2 of its speed v.
+  constexpr double kAlong = std::numbers::pi / 12.0, kSwing_m2_s2 = 3.0 * 5.0;
   // A heading can be watched only where the vehicle drives along its axis.
   if (!inertial_ || !config_.heading_watch || !filter.initialized()) return false;
   const Eigen::Matrix3d C_ne = rotation_ecef_to_ned(to_geodetic(filter.antenna_position_e()));
@@ -100,7 +104,8 @@ bool AttitudeInitializer::contradicts_motion(double heading, double sigma,
   if (!(speed > kSlow && speed > 10.0 * speed_sigma)) return false;
   const double off = wrap_to_pi(heading - std::atan2(velocity.y(), velocity.x()));
   const double from_axis = std::min(std::abs(off), std::numbers::pi - std::abs(off));
-  return from_axis > kTurn + kSigmas * std::hypot(sigma, speed_sigma / speed);
+  const double allowed = std::min(kMost, kAlong + kSwing_m2_s2 / square(speed));
+  return from_axis > allowed + kSigmas * std::hypot(sigma, speed_sigma / speed);
 }
 
 std::optional<AttitudeInitializer::TurnedAttitude> AttitudeInitializer::set_heading(

@@ -59,8 +59,9 @@ class AttitudeInitializer {
     Eigen::Vector3d sigma_rpy;  // rad
   };
   // Returns whether the vehicle drives in another direction than this heading, forward or in
-  // reverse, by more than 45 degrees and three sigmas. False while its velocity is not known, and
-  // for what may move in any direction.
+  // reverse, by more than three sigmas and what its body may be turned against the antenna's
+  // velocity: 45 degrees up to 5 m/s, 24 at 10 m/s, 19 at 15 m/s. False while its velocity is not
+  // known, and for what may move in any direction.
   bool contradicts_motion(double heading, double sigma, const Ekf& filter) const;
   // Takes a heading and its sigma, rad, from a command. If the filter has an attitude, it returns
   // that attitude turned to the heading; else it keeps the heading for the alignment and returns

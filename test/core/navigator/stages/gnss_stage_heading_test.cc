@@ -53,13 +53,14 @@ TEST_CASE("commands are answered; a heading across the motion is refused, a reve
     };
     command(heading + 1.5, 7);
     command(heading + 1.5, std::nullopt);  // refused as well, and nobody is told
+    command(heading - 0.8, 6);             // at 8 m/s no antenna moves across that fast
     command(heading + std::numbers::pi, 8);
     command(heading, 9);
   });
   std::vector<std::pair<int, double>> answers;
   for (const Event& event : sink.events)
     if (event.kind == EventKind::kCommand) answers.emplace_back(event.code, event.value);
-  CHECK(answers == std::vector<std::pair<int, double>>{{1, 7.0}, {0, 8.0}, {0, 9.0}});
+  CHECK(answers == std::vector<std::pair<int, double>>{{1, 7.0}, {1, 6.0}, {0, 8.0}, {0, 9.0}});
   CHECK(worst_error(sink, drive, 60.0, 90.0) < 1.0);
 }
 
