@@ -195,8 +195,8 @@ void require_in_time(const NavigatorConfig& config, const SolveTime& time) {
   std::array<char, 640> text{};
   const int written = std::snprintf(
       text.data(), text.size(),
-      "smoother.window: one iteration over %d keyframes with %d satellites takes %.1f ms on this "
-      "machine; ",
+      "smoother.window: one iteration over %d keyframes with %d satellites takes %.1f ms of "
+      "processor time on this machine; ",
       config.smoother.window, time.satellites, time.solve_s * 1e3);
   const auto used = static_cast<std::size_t>(written);
   if (config.motion == MotionModel::kInertial) {

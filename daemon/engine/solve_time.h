@@ -17,7 +17,8 @@ struct SolveTime {
 // under as many satellites as the configured systems have in view under an open sky, at most as
 // many as the configuration uses; codes and Dopplers on two frequencies, one carrier, 200 IMU
 // samples a second where there is an IMU. Slips, vehicle constants and a second iteration come on
-// top. Processor time, because what runs beside the start is not there for ever. Allocates.
+// top. Processor time does not depend on what runs beside the start; a quota of a container or of a
+// hypervisor, which it does not see either, shows as missed deadlines. Allocates.
 // Precondition: the configuration's estimator is the smoother.
 SolveTime measure_solve_time(const NavigatorConfig& config);
 

@@ -21,7 +21,8 @@ void check_solve_time(const NavigatorConfig& config) {
     return spdlog::warn("the smoother's time could not be measured");
   require_in_time(config, time);
   spdlog::info(
-      "an iteration over {} keyframes with {} satellites takes {:.1f} ms here, {} {:.0f} ms",
+      "an iteration over {} keyframes with {} satellites takes {:.1f} ms of processor time here, "
+      "{} {:.0f} ms",
       config.smoother.window, time.satellites, time.solve_s * 1e3,
       config.motion == MotionModel::kInertial ? "the smoother's deadline is"
                                               : "keyframes come every",

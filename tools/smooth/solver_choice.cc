@@ -21,6 +21,15 @@ std::optional<double> number_in(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+// The number behind a word.
+std::optional<double> number_of(const std::string& word, const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string key;
+  for (double value = 0.0; file >> key >> value;)
+    if (key == word) return value;
+  return std::nullopt;
+}
+
 // The folder of this process's group below the mount of control groups (version 2): what follows
 // "0::/" in its line.
 std::filesystem::path group_in(const std::string& membership) {
@@ -45,7 +54,10 @@ std::optional<double> left_to_group(const std::string& mount, const std::string&
   for (std::filesystem::path group = root / group_in(membership);; group = group.parent_path()) {
     const auto limit = number_in(group / "memory.max");
     const auto used = number_in(group / "memory.current");
-    if (limit && used) left = std::min(left.value_or(*limit), std::max(0.0, *limit - *used));
+    if (limit && used) {
+      const double taken = *used - number_of("inactive_file", group / "memory.stat").value_or(0.0);
+      left = std::min(left.value_or(*limit), std::max(0.0, *limit - taken));
+    }
     if (group == root || !group.has_relative_path()) return left;
   }
 }

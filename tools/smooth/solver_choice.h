@@ -15,9 +15,10 @@ struct SolverChoice {
 // Returns how many measurements the graph's keyframes have together.
 long measurements_of(const LogGraph& graph);
 
-// Returns what is left of the smallest limit of a process's control group (version 2) and of those
-// above it, bytes; nullopt: none has one. `membership` is the process's file of /proc, `mount` the
-// folder of all groups.
+// Returns the smallest of what is left of the limits of a process's control group (version 2) and
+// of those above it, bytes; nullopt: none has one. Files that the system keeps in memory and can
+// drop (inactive_file of memory.stat) count as left. `membership` is the process's file of /proc,
+// `mount` the folder of all groups.
 std::optional<double> left_to_group(const std::string& mount, const std::string& membership);
 
 // Returns the memory that this process can still take on this machine without swapping, bytes: what

@@ -44,6 +44,11 @@ TEST_CASE("the tightest limit of the groups above a process counts") {
   CHECK(left() == 3000.0);
   write_file(job + "/memory.max", "600\n");
   CHECK(left() == 500.0);
+  // A larger limit of which more is taken.
+  write_file(user + "/memory.current", "4900\n");
+  CHECK(left() == 100.0);
+  write_file(user + "/memory.stat", "anon 4600\ninactive_file 300\n");
+  CHECK(left() == 400.0);
   write_file(job + "/memory.current", "700\n");
   CHECK(left() == 0.0);
   // A system without groups, or with those of version 1 alone.

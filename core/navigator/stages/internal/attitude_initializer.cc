@@ -93,8 +93,9 @@ bool AttitudeInitializer::contradicts_motion(double heading, double sigma,
                                              const Ekf& filter) const {
   constexpr double kSlow = 3.0;  // m/s
   constexpr double kSigmas = 3.0, kMost = std::numbers::pi / 4.0;
-  // The mounting and the axle's slip, and what a turn adds: an antenna at a distance L from the
-  // axle moves across by L times the rate, at a lateral acceleration a by L a / v^2 of its speed v.
+  // On wheels: the mounting and the axle's slip, and what a turn adds. An antenna at a distance L
+  // of 3 m from the axle moves across by L times the rate, at a lateral acceleration a of 5 m/s^2
+  // by L a / v^2 of its speed v. Wind and current push boats and aircraft sideways at any speed.
   constexpr double kAlong = std::numbers::pi / 12.0, kSwing_m2_s2 = 3.0 * 5.0;
   // A heading can be watched only where the vehicle drives along its axis.
   if (!inertial_ || !config_.heading_watch || !filter.initialized()) return false;
@@ -104,7 +105,8 @@ bool AttitudeInitializer::contradicts_motion(double heading, double sigma,
   if (!(speed > kSlow && speed > 10.0 * speed_sigma)) return false;
   const double off = wrap_to_pi(heading - std::atan2(velocity.y(), velocity.x()));
   const double from_axis = std::min(std::abs(off), std::numbers::pi - std::abs(off));
-  const double allowed = std::min(kMost, kAlong + kSwing_m2_s2 / square(speed));
+  const bool on_wheels = config_.max_reverse_speed_m_s > 0.0;
+  const double allowed = on_wheels ? std::min(kMost, kAlong + kSwing_m2_s2 / square(speed)) : kMost;
   return from_axis > allowed + kSigmas * std::hypot(sigma, speed_sigma / speed);
 }
 

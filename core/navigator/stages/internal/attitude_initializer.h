@@ -60,8 +60,8 @@ class AttitudeInitializer {
   };
   // Returns whether the vehicle drives in another direction than this heading, forward or in
   // reverse, by more than three sigmas and what its body may be turned against the antenna's
-  // velocity: 45 degrees up to 5 m/s, 24 at 10 m/s, 19 at 15 m/s. False while its velocity is not
-  // known, and for what may move in any direction.
+  // velocity: 45 degrees, and on wheels 24 at 10 m/s and 19 at 15 m/s. False while its velocity is
+  // not known, and for what may move in any direction.
   bool contradicts_motion(double heading, double sigma, const Ekf& filter) const;
   // Takes a heading and its sigma, rad, from a command. If the filter has an attitude, it returns
   // that attitude turned to the heading; else it keeps the heading for the alignment and returns
