@@ -11,6 +11,18 @@
 namespace leonav::test {
 namespace {
 
+// Feeds the drive, and calls `tell` once, before the first epoch from 50 s on.
+template <typename Tell>
+void feed_and_tell(const SyntheticDrive& drive, Navigator* pipeline, Tell tell) {
+  bool told = false;
+  feed(drive, pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
+    const double t = seconds(raw.time);
+    if (told || t < 50.0) return;
+    told = true;
+    tell(t, sequencer);
+  });
+}
+
 TEST_CASE("a restart in mid-drive aligns again and is where it was; a heading spares the wait") {
   const SyntheticDrive drive = drive_of(90.0);
   const NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
@@ -40,11 +52,7 @@ TEST_CASE("commands are answered; a heading across the motion is refused, a reve
   config.alignment.heading_watch = true;  // it drives along its axis
   RecordingSink sink;
   Navigator pipeline(config, &sink);
-  bool told = false;
-  feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
-    const double t = seconds(raw.time);
-    if (told || t < 50.0) return;
-    told = true;
+  feed_and_tell(drive, &pipeline, [&](double t, Sequencer* sequencer) {
     const double heading = heading_at(drive, t);
     const auto command = [&](double value, std::optional<std::uint64_t> sequence) {
       Command one{CommandKind::kSetHeading, value, 0.05};
@@ -74,11 +82,7 @@ TEST_CASE("on wheels less of a side slip is believed, the faster it drives") {
     config.alignment.max_reverse_speed_m_s = on_wheels ? 5.0 : 0.0;
     RecordingSink sink;
     Navigator pipeline(config, &sink);
-    bool told = false;
-    feed(drive, &pipeline, [&](const RawEpoch& raw, Sequencer* sequencer) {
-      const double t = seconds(raw.time);
-      if (told || t < 50.0) return;
-      told = true;
+    feed_and_tell(drive, &pipeline, [&](double t, Sequencer* sequencer) {
       Command one{CommandKind::kSetHeading, heading_at(drive, t) + off, 0.01};
       one.sequence = 1;
       sequencer->on_command(one);
