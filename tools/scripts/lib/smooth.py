@@ -28,6 +28,7 @@ SYSTEMS = {"all": "gnss.systems=[gps, galileo, beidou, leo]", "GPS": "gnss.syste
 STREETS_S, SETTLE_S = 1200.0, 120.0
 FAMILIES = {"city": ("urban", ["places=city"]), "dense city": ("urban", ["places=dense_city"]), "correlated": ("correlated", []),
             "recorded": ("recorded", [])}
+RESIDUALS = ROOT / "residuals-output/residuals.csv"  # of the scenario recorded
 LAGGED = "fixed lag"  # the smoother's state at its oldest keyframe
 ESTIMATORS = ("filter", "smoother", LAGGED, "whole log", "forward")
 
@@ -114,6 +115,12 @@ def choose(scenes="", seeds=""):
     for scene in wanted:
         if scene not in FAMILIES:
             sys.exit(f"no scene '{scene}'; there are: {', '.join(FAMILIES)}")
+    if not RESIDUALS.exists():
+        told = f"the scene 'recorded' needs {RESIDUALS.relative_to(ROOT)}, which tools/validate street-residuals makes"
+        if "recorded" in wanted:
+            sys.exit(told)
+        print(f"Left out: {told}.\n")
+        del FAMILIES["recorded"]
     for scene in list(FAMILIES):
         if wanted and scene not in wanted:
             del FAMILIES[scene]
