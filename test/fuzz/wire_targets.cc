@@ -60,6 +60,13 @@ CorrectionServices services_with_ephemerides() {
   return services;
 }
 
+// Its buffers are large; it keeps nothing of an input but its count of messages.
+MessageOutput* checked_output() {
+  static CheckedMessages messages;
+  static MessageOutput output{&messages};
+  return &output;
+}
+
 // What leonav-connect has around a format. What is always the same is made once and copied.
 struct Surroundings {
   Surroundings() : clock(made_clock()) {}
@@ -74,8 +81,7 @@ struct Surroundings {
   }
 
   std::int64_t arrival_ns = kBegin_ns + 2'000'000'000;
-  CheckedMessages messages;
-  MessageOutput output{&messages};
+  MessageOutput& output = *checked_output();
   SharedCorrections shared{CorrectionOptions{}, ServiceChoiceOptions{}, &output};
   CorrectionOutput corrections{kStream, &shared};
   GpsClock clock;

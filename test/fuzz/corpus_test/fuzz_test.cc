@@ -1,103 +1,19 @@
 // Every target over its corpus and over mutations of it, the same ones each time. What finds new
 // inputs is libFuzzer (tools/validate fuzz); what it has found stays in the corpus.
-#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "support/catch.h"
 #include "test/fuzz/byte_script.h"
+#include "test/fuzz/corpus_test/mutator.h"
 #include "test/fuzz/fuzz_target.h"
 #include "test/fuzz/good_input.h"
 #include "test/fuzz/sequencer_script.h"
 
 namespace leonav::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Bytes = std::vector<std::uint8_t>;
-
-struct Seed {
-  std::string name;
-  Bytes bytes;
-};
-
-std::vector<Seed> corpus_of(std::string_view target) {
-  std::vector<Seed> seeds;
-  const fs::path folder = fs::path(LEONAV_SOURCE_DIR) / "test/fuzz/corpus" / target;
-  if (!fs::is_directory(folder)) return seeds;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    std::ifstream file(entry.path(), std::ios::binary);
-    seeds.push_back({entry.path().filename(), {std::istreambuf_iterator<char>(file), {}}});
-  }
-  std::sort(seeds.begin(), seeds.end(),
-            [](const Seed& a, const Seed& b) { return a.name < b.name; });
-  return seeds;
-}
-
-// Mutations of a corpus, by a generator that begins the same each time.
-class Mutator {
- public:
-  explicit Mutator(const std::vector<Seed>* seeds) : seeds_(seeds) {}
-
-  Bytes next() {
-    Bytes bytes = any_seed();
-    for (std::size_t n = 1 + below(6); n > 0; --n) change(&bytes);
-    return bytes;
-  }
-
- private:
-  std::size_t below(std::size_t limit) { return limit == 0 ? 0 : dice_() % limit; }
-  const Bytes& any_seed() { return (*seeds_)[below(seeds_->size())].bytes; }
-  static auto at(Bytes* bytes, std::size_t place) {
-    return bytes->begin() + static_cast<std::ptrdiff_t>(place);
-  }
-  void change(Bytes* bytes);
-
-  const std::vector<Seed>* seeds_;
-  std::mt19937_64 dice_{1};
-};
-
-void Mutator::change(Bytes* bytes) {
-  constexpr std::uint8_t kEdges[] = {0x00, 0x01, 0x7F, 0x80, 0xFF, '0', '9', '-', '.', '\n', ' '};
-  const std::size_t size = bytes->size(), place = below(size), length = below(size - place) % 64;
-  switch (below(8)) {
-    case 0:  // a bit
-      if (size > 0) (*bytes)[place] ^= static_cast<std::uint8_t>(1U << below(8));
-      return;
-    case 1:  // a byte at an edge
-      if (size > 0) (*bytes)[place] = kEdges[below(std::size(kEdges))];
-      return;
-    case 2:  // any byte
-      if (size > 0) (*bytes)[place] = static_cast<std::uint8_t>(dice_());
-      return;
-    case 3:  // less
-      bytes->erase(at(bytes, place), at(bytes, place + length));
-      return;
-    case 4: {  // twice
-      const Bytes part(at(bytes, place), at(bytes, place + length));
-      bytes->insert(at(bytes, below(size + 1)), part.begin(), part.end());
-      return;
-    }
-    case 5: {  // the beginning of one and the end of another
-      const Bytes& other = any_seed();
-      const std::size_t from = below(other.size() + 1);
-      bytes->resize(place);
-      bytes->insert(bytes->end(), other.begin() + static_cast<std::ptrdiff_t>(from), other.end());
-      return;
-    }
-    case 6:  // numbers at an edge
-      for (std::size_t i = 0; i < std::min<std::size_t>(length, 8); ++i)
-        (*bytes)[place + i] = kEdges[below(5)];
-      return;
-    default:  // cut off
-      if (below(4) == 0) bytes->resize(place);
-  }
-}
 
 void run(const FuzzTarget& target, const Bytes& bytes) {
   try {
