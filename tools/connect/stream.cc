@@ -105,9 +105,17 @@ void Stream::look() {
     spdlog::log(is_bad ? spdlog::level::warn : spdlog::level::info, "{}: {}{}{}", name_,
                 name_of(state), watch_.text().empty() ? "" : ": ", watch_.text());
   }
+  tell_news();
   if (watch_.silence_s(now_ns) > reconnect_after_s_) {
     source_->reconnect(
         leonav::format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
+  }
+}
+
+void Stream::tell_news() {
+  for (const FormatNews& news : format_->take_news()) {
+    spdlog::log(news.is_warning ? spdlog::level::warn : spdlog::level::info, "{}: {}", name_,
+                news.text);
   }
 }
 

@@ -43,6 +43,7 @@ class Stream final : public ByteSink {
   void on_failure(const std::string& why, double retry_s) override;
   void on_end(const std::string& why) override;
   std::optional<DataTime> data_time() const override { return format_->data_time(); }
+  void tell_news();
   void look_at_recording();
   void tell_recording_error();
 

@@ -18,6 +18,7 @@ void ReceiverOutput::note_step(GpsTime time) {
   const double step_s = seconds_between(time, last_epoch_);
   if (step_s >= 0.0 && step_s < kLongestGap_s) return;
   ++time_steps_;
+  monitor_.start_over();
   last_step_s_ = step_s;
 }
 
@@ -27,6 +28,7 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns, bool h
   note_step(epoch.time);
   last_epoch_ = epoch.time;
   last_signals_ = epoch.observations.size();
+  monitor_.on_epoch(epoch);
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
@@ -46,6 +48,7 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
     return;
   }
   output_->send(sent);
+  output_->note_orbit(sent.satellite, sent.toe);
   if (corrections_ != nullptr) corrections_->add(sent);
   repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
   ++messages_;
@@ -77,6 +80,8 @@ std::string ReceiverOutput::detail() const {
     text += format("; its time has stepped %llu times, the last by %.0f s",
                    static_cast<unsigned long long>(time_steps_), last_step_s_);
   }
+  const std::string missing = monitor_.text();
+  if (!missing.empty()) text += "; " + missing;
   return text;
 }
 

@@ -7,8 +7,9 @@
 
 #include "drivers/transport/byte_source.h"
 #include "tools/connect/formats/outputs/correction_output.h"
-#include "tools/connect/formats/outputs/ephemeris_repeater.h"
+#include "tools/connect/formats/outputs/ephemeris_monitor.h"
 #include "tools/connect/formats/outputs/message_output.h"
+#include "tools/connect/formats/outputs/ephemeris_repeater.h"
 #include "tools/connect/stamps/gps_clock.h"
 
 namespace leonav {
@@ -17,11 +18,16 @@ namespace leonav {
 // leonav-import writes. Besides, ephemerides are repeated.
 class ReceiverOutput {
  public:
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if given,
-  // gets the ephemerides too. The pointers must outlive this object.
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if
+  // given, gets the ephemerides too. `remedy`: as of EphemerisMonitor. The pointers must outlive
+  // this object.
   ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output,
-                 CorrectionOutput* corrections = nullptr)
-      : clock_(clock), output_(output), corrections_(corrections), repeater_(repeat_s, output) {}
+                 CorrectionOutput* corrections = nullptr, EphemerisMonitor::Remedy remedy = nullptr)
+      : clock_(clock),
+        output_(output),
+        corrections_(corrections),
+        repeater_(repeat_s, output),
+        monitor_(&output->orbits(), remedy) {}
 
   // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock. `has_own_week`:
   // its week comes from the receiver, and not from the host's clock.
@@ -44,6 +50,8 @@ class ReceiverOutput {
   std::optional<DataTime> data_time() const;
   // What came, in a few words; empty while nothing has come.
   std::string detail() const;
+  // What is wrong since the last call, a sentence without a full stop; empty: nothing new is.
+  std::string take_news() { return monitor_.take_news(); }
 
  private:
   GpsClock* clock_;
@@ -52,6 +60,7 @@ class ReceiverOutput {
   MessageOutput* output_;
   CorrectionOutput* corrections_;
   EphemerisRepeater repeater_;
+  EphemerisMonitor monitor_;
   GpsTime last_epoch_;
   std::uint64_t time_steps_ = 0;
   double last_step_s_ = 0.0;

@@ -22,7 +22,7 @@ class Oem7Format final : public StreamFormat, private Oem7Handler {
       : options_(options),
         latency_s_(latency_s),
         output_(output),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         decoder_({options.imu_scale}) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
@@ -33,8 +33,10 @@ class Oem7Format final : public StreamFormat, private Oem7Handler {
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
   std::string why_no_samples() const override { return inertial_text(); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;

@@ -87,6 +87,17 @@ std::string Rtcm3Format::week_text() const {
                    : "'date' says: is it the day of the recording?");
 }
 
+const char* Rtcm3Format::ephemeris_remedy(System system) {
+  switch (system) {
+    case System::kGps:
+      return "let the sender send 1019, or add a stream of broadcast ephemerides";
+    case System::kGalileo:
+      return "let the sender send 1045 or 1046, or add a stream of broadcast ephemerides";
+    default:
+      return "let the sender send 1042, or add a stream of broadcast ephemerides";
+  }
+}
+
 std::string Rtcm3Format::station_text() const {
   const EpochAssemblyCounters epochs = decoder_.counters().epochs;
   if (epochs.station_changes == 0) return "";

@@ -14,16 +14,17 @@ namespace leonav {
 class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
  public:
   // `day`: an instant within three days of the stream's beginning; unset: the stream is live.
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `is_service`: the stream
-  // is a correction service's, and observations in it are those of some station. `corrections`, if
-  // given, gets ephemerides and corrections. The pointers must outlive this object.
+  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `is_service`: the
+  // stream is a correction service's, and observations in it are those of some station.
+  // `corrections`, if given, gets ephemerides and corrections. The pointers must outlive this
+  // object.
   Rtcm3Format(GpsTime day, double repeat_s, GpsClock* clock, MessageOutput* output,
               bool is_service = false, CorrectionOutput* corrections = nullptr)
       : is_live_(!day.is_set()),
         is_service_(is_service),
         clock_(clock),
         corrections_(corrections),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         decoder_({day}) {}
 
   void on_open() override { decoder_.allow_other_station(); }
@@ -34,8 +35,10 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   std::string detail() const override;
   std::string why_no_frames() const override;
   std::string why_no_messages() const override { return joined({why_none(), host_doubt()}); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_stated_toe(GpsTime time) override { clock_->confirm_host(time, arrival_ns_); }
@@ -52,8 +55,8 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   CorrectionOutput* corrections_;
   ReceiverOutput receiver_;
   Rtcm3Decoder decoder_;
-  std::int64_t arrival_ns_ = 0;  // of the bytes at hand
-  GpsTime last_epoch_;           // also of a station; and its arrival
+  std::int64_t arrival_ns_ = 0;          // of the bytes at hand
+  GpsTime last_epoch_;                   // also of a station; and its arrival
   std::int64_t last_epoch_ns_ = 0;
   GpsTime last_ssr_;                                     // time of the newest correction
   std::uint64_t ssr_messages_ = 0, station_epochs_ = 0;  // published; left out

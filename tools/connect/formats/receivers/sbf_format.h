@@ -24,7 +24,7 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
       : options_(options),
         latency_s_(latency_s),
         output_(output),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         pages_(options.uses_pages, corrections) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
@@ -35,8 +35,10 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
   std::string why_no_samples() const override { return inertial_text(); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
