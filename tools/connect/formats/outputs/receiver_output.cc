@@ -33,10 +33,10 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns, bool h
   output_->note_time(epoch.time);
   ++messages_;
   ++(epoch.observations.empty() ? empty_epochs_ : epochs_);
-  repeat_ephemerides(epoch.time);
+  repeat_navigation(epoch.time);
 }
 
-void ReceiverOutput::repeat_ephemerides(GpsTime now) {
+void ReceiverOutput::repeat_navigation(GpsTime now) {
   messages_ += static_cast<std::uint64_t>(repeater_.repeat(now));
 }
 
@@ -57,11 +57,13 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
 
 void ReceiverOutput::send(const KlobucharModel& model, GpsTime received) {
   output_->send(model, received);
+  repeater_.remember(model, last_epoch_);
   ++messages_;
 }
 
 void ReceiverOutput::send(const std::vector<SignalBias>& biases) {
   output_->send(std::span<const SignalBias>(biases));
+  repeater_.remember(biases, last_epoch_);
   ++messages_;
 }
 

@@ -9,16 +9,16 @@
 #include "tools/connect/formats/outputs/correction_output.h"
 #include "tools/connect/formats/outputs/ephemeris_monitor.h"
 #include "tools/connect/formats/outputs/message_output.h"
-#include "tools/connect/formats/outputs/ephemeris_repeater.h"
+#include "tools/connect/formats/outputs/navigation_repeater.h"
 #include "tools/connect/stamps/gps_clock.h"
 
 namespace leonav {
 
 // Every format of receivers sends through it, so that all of them publish the same messages as
-// leonav-import writes. Besides, ephemerides are repeated.
+// leonav-import writes. Besides, what it takes from navigation messages is repeated.
 class ReceiverOutput {
  public:
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if
+  // `repeat_s`: as of NavigationRepeater. The epochs' arrivals set `clock`. `corrections`, if
   // given, gets the ephemerides too. `remedy`: as of EphemerisMonitor. The pointers must outlive
   // this object.
   ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output,
@@ -36,10 +36,11 @@ class ReceiverOutput {
   void send(const Ephemeris& ephemeris);
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);
+  // Of one satellite.
   void send(const std::vector<SignalBias>& biases);
 
-  // Sends ephemerides again that are due, as every epoch does; for a stream without epochs.
-  void repeat_ephemerides(GpsTime now);
+  // Sends again what is due, as every epoch does; for a stream without epochs.
+  void repeat_navigation(GpsTime now);
 
   GpsTime last_epoch() const { return last_epoch_; }
   std::uint64_t messages() const { return messages_; }  // published
@@ -59,7 +60,7 @@ class ReceiverOutput {
 
   MessageOutput* output_;
   CorrectionOutput* corrections_;
-  EphemerisRepeater repeater_;
+  NavigationRepeater repeater_;
   EphemerisMonitor monitor_;
   GpsTime last_epoch_;
   std::uint64_t time_steps_ = 0;

@@ -11,10 +11,10 @@ namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every range
 // log, EPHEMERIS and IONOSPHERE of the logs with navigation data, IMU of RAWIMU and its relatives,
-// which have GPS time. Besides, ephemerides are repeated.
+// which have GPS time. Besides, what navigation messages gave is repeated.
 class Oem7Format final : public StreamFormat, private Oem7Handler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput. The pointers must outlive
   // this object.
   Oem7Format(const Oem7StreamOptions& options, double latency_s, double repeat_s, GpsClock* clock,

@@ -44,7 +44,7 @@ void Rtcm3Format::on_ssr(const SsrMessage& message) {
   if (message.time > last_ssr_) last_ssr_ = message.time;
   const GpsTime now = time_of_arrival(message.time);
   ssr_messages_ += static_cast<std::uint64_t>(corrections_->take(message, now));
-  if (is_service_) receiver_.repeat_ephemerides(now);
+  if (is_service_) receiver_.repeat_navigation(now);
 }
 
 // A receiver's epochs know it best, then the host; of a file the messages' own times are all.

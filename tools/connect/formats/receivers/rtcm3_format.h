@@ -14,7 +14,7 @@ namespace leonav {
 class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
  public:
   // `day`: an instant within three days of the stream's beginning; unset: the stream is live.
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `is_service`: the
+  // `repeat_s`: as of NavigationRepeater. The epochs' arrivals set `clock`. `is_service`: the
   // stream is a correction service's, and observations in it are those of some station.
   // `corrections`, if given, gets ephemerides and corrections. The pointers must outlive this
   // object.

@@ -13,10 +13,10 @@ namespace leonav {
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
 // MeasEpoch, EPHEMERIS, IONOSPHERE and BIASES of the blocks with navigation data, CORRECTED_STATES
 // and BIASES of the pages in GALRawCNAV and BDSRawB2b, IMU of ExtSensorMeas, which has GPS time.
-// Besides, ephemerides are repeated.
+// Besides, what navigation messages gave is repeated.
 class SbfFormat final : public StreamFormat, private SbfHandler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`. `corrections`, if given, gets the ephemerides too; it must be
   // given where the options use pages. The pointers must outlive this object.
   SbfFormat(const SbfStreamOptions& options, double latency_s, double repeat_s, GpsClock* clock,

@@ -13,11 +13,11 @@ namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
 // UBX-RXM-RAWX; EPHEMERIS, IONOSPHERE and BIASES as UBX-RXM-SFRBX completes them; CORRECTED_STATES
-// and BIASES of the pages of E6-B. Besides, ephemerides are repeated. Samples of
+// and BIASES of the pages of E6-B. Besides, what navigation messages gave is repeated. Samples of
 // UBX-ESF-RAW or UBX-ESF-MEAS are stamped by arrivals.
 class UbxFormat final : public StreamFormat, private UbxHandler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput, and must be given where the
   // options use pages. `pulses` gets the times of UBX-TIM-TM2; nullptr: nobody needs them. The
   // pointers must outlive this object.
