@@ -61,7 +61,7 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 }
 
 std::string Rtcm3Format::detail() const {
-  return joined({week_text(), receiver_.detail(), station_text(),
+  return joined({week_text(), receiver_.detail(), station_text(), station_.text(),
                  summary_of(decoder_.counters().losses),
                  last_ssr_.is_set() ? corrections_->detail() : "", host_doubt()});
 }
@@ -104,6 +104,24 @@ std::string Rtcm3Format::station_text() const {
   return leonav::format("its station has changed %llu times, the last from %d to %d",
                         static_cast<unsigned long long>(epochs.station_changes),
                         int{epochs.station_before}, int{epochs.station});
+}
+
+std::vector<FormatNews> Rtcm3Format::take_news() {
+  std::vector<FormatNews> news = warnings_of({receiver_.take_news(), station_.take_news()});
+  const std::string unused = unused_news();
+  if (!unused.empty()) news.push_back({false, unused});
+  return news;
+}
+
+// Each number once.
+std::string Rtcm3Format::unused_news() {
+  std::string text;
+  for (const auto& [number, count] : decoder_.counters().unused) {
+    if (!told_unused_.insert(number).second) continue;
+    text += (text.empty() ? "not used: " : ", ") + std::to_string(number) + " " +
+            std::string(unused_message_text(number));
+  }
+  return text;
 }
 
 FormatCounts Rtcm3Format::counts() const {
