@@ -29,15 +29,19 @@ def wait_for(what, done):
     fail(f"30 s passed without {what}")
 
 
-def recorded(path):
-    """The bytes of a recording, as far as it has been written out."""
-    data, found = path.read_bytes(), b""
+def blocks(path):
+    """The blocks of a recording, as far as it has been written out."""
+    data, found = path.read_bytes(), []
     at = len("leonav recording 1\n")
     while at + 12 <= len(data):
         length = struct.unpack_from("<qI", data, at)[1]
-        found += data[at + 12:at + 12 + length]
+        found.append(data[at + 12:at + 12 + length])
         at += 12 + length
     return found
+
+
+def recorded(path):
+    return b"".join(blocks(path))
 
 
 class Run:
@@ -114,6 +118,10 @@ def tcp_server(work):
     run.says("the client closed the connection")
     if run.finish() != sent:
         fail("tcp_server: the recording is not what was sent")
+    found = blocks(run.record)
+    begun = [len(b"".join(found[:i])) for i, one in enumerate(found) if not one]
+    if begun != [0, len(sent) // 3, 2 * len(sent) // 3]:
+        fail(f"tcp_server: the recording has connections that begin at {begun}")
     print(f"tcp_server: {len(sent)} bytes of three clients, as they were sent")
 
 
