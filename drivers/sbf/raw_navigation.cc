@@ -15,11 +15,17 @@ namespace {
 // A set is broadcast for one to four hours: one that is missing for so long comes no more.
 constexpr double kLongestRawAge_s = 7200.0;
 
-constexpr std::uint16_t kGpsRawCa = 4017, kGalRawFnav = 4022, kGalRawInav = 4023,
-                        kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB1c = 4218, kBdsRawB2b = 4242;
+constexpr std::uint16_t kGpsRawCa = 4017, kGpsRawL2c = 4018, kGpsRawL5 = 4019, kGalRawFnav = 4022,
+                        kGalRawInav = 4023, kGalRawCnav = 4024, kBdsRaw = 4047, kBdsRawB1c = 4218,
+                        kBdsRawB2a = 4219, kBdsRawB2b = 4242;
 // Satellite, result of the receiver's check, errors, signal, frequency, channel. Of B1C the check
 // is that of subframe 2, and that of subframe 3 stands in place of the errors.
 constexpr std::size_t kRawHeadSize = 6;
+
+// CNAV: 300 bits with the preamble. B-CNAV2: 576 symbols behind the preamble, of which the first
+// 288 are the bits of the message and the others the code LDPC(96,48), by which the receiver has
+// corrected them.
+constexpr std::size_t kCnavWords = 10, kBcnav2Words = 18;
 
 struct BlockLayout {
   std::uint16_t number;
@@ -28,11 +34,14 @@ struct BlockLayout {
 };
 constexpr BlockLayout kLayouts[] = {
     {kGpsRawCa, System::kGps, GpsLnav::kWords},
+    {kGpsRawL2c, System::kGps, kCnavWords},
+    {kGpsRawL5, System::kGps, kCnavWords},
     {kGalRawFnav, System::kGalileo, GalileoFnav::kWords},
     {kGalRawInav, System::kGalileo, GalileoInav::kWords},
     {kGalRawCnav, System::kGalileo, kGalileoPageWords},
     {kBdsRaw, System::kBeidou, kBeidouWords},
     {kBdsRawB1c, System::kBeidou, kBcnav1Words},
+    {kBdsRawB2a, System::kBeidou, kBcnav2Words},
     {kBdsRawB2b, System::kBeidou, kB2bFrameWords},
 };
 constexpr std::size_t kMaxWords = kBcnav1Words;
@@ -158,6 +167,9 @@ NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const 
   switch (number) {
     case kGpsRawCa:
       return collector->add_gps_lnav(gps_words(words.first<GpsLnav::kWords>()), origin);
+    case kGpsRawL2c:
+    case kGpsRawL5:
+      return collector->add_gps_cnav(bytes_of(words.first<kCnavWords>()), origin);
     case kGalRawInav:
       return collector->add_galileo_inav(galileo_inav_words(words.first<GalileoInav::kWords>()),
                                          origin);
@@ -167,6 +179,8 @@ NavigationUpdate RawNavigationReader::add(std::uint16_t number, std::span<const 
       return add_galileo_page(words, origin);
     case kBdsRawB1c:
       return add_beidou_b1c(words, origin, collector);
+    case kBdsRawB2a:
+      return collector->add_bcnav2(bytes_of(words.first<kBcnav2Words>()), origin);
     case kBdsRawB2b:
       return add_beidou_b2b(words, origin, collector);
     default:

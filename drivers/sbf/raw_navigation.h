@@ -1,5 +1,6 @@
-// This unit reads the blocks with raw navigation bits: GPSRawCA (4017), GALRawFNAV (4022),
-// GALRawINAV (4023), GALRawCNAV (4024), BDSRaw (4047), BDSRawB1C (4218) and BDSRawB2b (4242).
+// This unit reads the blocks with raw navigation bits: GPSRawCA (4017), GPSRawL2C (4018),
+// GPSRawL5 (4019), GALRawFNAV (4022), GALRawINAV (4023), GALRawCNAV (4024), BDSRaw (4047),
+// BDSRawB1C (4218), BDSRawB2a (4219) and BDSRawB2b (4242).
 // Source: mosaic-X5 Reference Guide, chapters of these names.
 #pragma once
 #include <array>

@@ -33,7 +33,11 @@ class FileSource final : public ByteSource {
     if (!is_open_) {
       is_open_ = true;
       sink_->on_open();
-    } else if (!block_.bytes.empty()) {
+    } else if (block_.bytes.empty()) {
+      // The first connection has begun with the file.
+      if (has_brought_bytes_) sink_->on_open();
+    } else {
+      has_brought_bytes_ = true;
       sink_->on_bytes(block_.bytes,
                       reader_.is_recording() ? block_.arrival_ns : clocks_->arrival_ns());
     }
@@ -65,7 +69,7 @@ class FileSource final : public ByteSource {
   BlockReader reader_;
   boost::asio::steady_timer timer_;
   ByteSink* sink_ = nullptr;
-  bool is_open_ = false;
+  bool is_open_ = false, has_brought_bytes_ = false;
   BlockReader::Block block_;
   std::int64_t last_ns_ = 0, interval_ns_ = 0;
 };

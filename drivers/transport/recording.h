@@ -2,7 +2,8 @@
 //
 // A recording begins with the line "leonav recording 1". Blocks follow, each of them the time of
 // arrival (8 bytes, nanoseconds since 1970), a length (4 bytes) and so many bytes of the stream;
-// numbers are little endian.
+// numbers are little endian. A block without bytes says that a connection has begun, whose first
+// bytes the next block has.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -36,6 +37,7 @@ class RecordingWriter {
 
   // They wait for nothing, and return false once writing has failed; error() then says why.
   bool write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes);
+  bool write_opening(std::int64_t arrival_ns) { return write(arrival_ns, {}); }
   bool flush();
   // Nothing more will be written: what is queued goes to the file, which is then closed.
   void end();
@@ -66,8 +68,8 @@ class RecordingWriter {
 class BlockReader {
  public:
   struct Block {
-    std::int64_t arrival_ns = 0;  // 0: not a recording
-    std::vector<std::uint8_t> bytes;
+    std::int64_t arrival_ns = 0;      // 0: not a recording
+    std::vector<std::uint8_t> bytes;  // none: a connection has begun
   };
 
   // Throws FileError where the path cannot be opened or is no regular file.

@@ -4,6 +4,7 @@
   sbf.py fields FILE         one line of numbers for each measurement, ephemeris and set of coefficients
   sbf.py generate SEED >OUT  blocks of every kind that leonav reads, with random fields, packed by the guide's tables
   sbf.py transcode FILE >OUT the subframes of a u-blox recording as blocks of raw navigation bits
+  sbf.py cnav FILE >OUT      its CNAV and B-CNAV2 as blocks GPSRawL2C, GPSRawL5 and BDSRawB2a
   sbf.py has FILE >OUT       lines of pages of Galileo HAS (E6-B) as blocks GALRawCNAV
   sbf.py b2b FILE >OUT       lines of pages of PPP-B2b as blocks BDSRawB2b, between which are some of B-CNAV3
   sbf.py --have              exits 0 if pysbf2 is there
@@ -180,7 +181,23 @@ def as_block(system, number, signal, words, now):
     return None
 
 
-def transcode(path):
+def as_cnav_block(system, number, signal, words, now):
+    """The same of CNAV and B-CNAV2, whose code behind the bits is random: nobody reads it."""
+    if system == 0 and signal in (3, 4, 6, 7) and len(words) == 10:
+        name, kind, satellite, source = (("GPSRawL2C", 4018, number, 3) if signal < 5 else ("GPSRawL5", 4019, number, 4))
+        bits, count = bits_of(words, 32)[:300], 10
+    elif system == 3 and signal in (7, 8) and len(words) == 9:
+        name, kind, satellite, source = "BDSRawB2a", 4219, number + (140 if number <= 40 else 182), 14
+        bits, count = bits_of(words, 32) + format(random.Random(number).getrandbits(288), "0288b"), 18
+    else:
+        return None
+    made = block(kind, struct.pack("<BBBBBB", satellite, 1, 0, source, 0, 7) + words_of(bits, count), *now)
+    head = {"TOW": now[0], "WNc": now[2], "SVID": satellite, "CRCPassed": 1, "SigIdx": source, "RxChannel": 7}
+    check_by_pysbf2(name, made, head, words_of(bits, count))
+    return made
+
+
+def transcode(path, arrange=as_block):
     with open(path, "rb") as file:
         data = file.read()
     now = None
@@ -190,7 +207,7 @@ def transcode(path):
             now = (round(tow * 1000), 0, week)
         elif kind == 0x0213 and now:
             system, number, signal, _, count = struct.unpack_from("<5B", payload)
-            made = as_block(system, number, signal, struct.unpack_from(f"<{count}I", payload, 8), now)
+            made = arrange(system, number, signal, struct.unpack_from(f"<{count}I", payload, 8), now)
             if made:
                 yield made
 
@@ -315,6 +332,8 @@ def main():
         sys.stdout.buffer.write(b"".join(generate(int(sys.argv[2]))))
     elif len(sys.argv) == 3 and sys.argv[1] == "transcode":
         sys.stdout.buffer.write(b"".join(transcode(sys.argv[2])))
+    elif len(sys.argv) == 3 and sys.argv[1] == "cnav":
+        sys.stdout.buffer.write(b"".join(transcode(sys.argv[2], as_cnav_block)))
     elif len(sys.argv) == 3 and sys.argv[1] in ("has", "b2b"):
         sys.stdout.buffer.write(b"".join(page_blocks(*sys.argv[1:])))
     else:

@@ -49,14 +49,25 @@ void Stream::finish() {
 void Stream::on_open() {
   watch_.on_open(clock_->now_ns());
   format_->on_open();
+  opening_is_due_ = true;
   told_failure_.clear();
   spdlog::info("{}: {} is open", name_, source_text_);
 }
 
 void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
-  if (is_recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
+  if (is_recording_) record(bytes, arrival_ns);
   watch_.on_bytes(bytes.size(), clock_->now_ns());
   format_->feed(bytes, arrival_ns);
+}
+
+// The beginning of a connection has the time of its first bytes, so that a recording has one order
+// of times whatever the source's clock is.
+void Stream::record(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
+  const bool is_opening = std::exchange(opening_is_due_, false);
+  if ((is_opening && !recording_->write_opening(arrival_ns)) ||
+      !recording_->write(arrival_ns, bytes)) {
+    tell_recording_error();
+  }
 }
 
 void Stream::on_waiting(const std::string& what) {
@@ -105,9 +116,17 @@ void Stream::look() {
     spdlog::log(is_bad ? spdlog::level::warn : spdlog::level::info, "{}: {}{}{}", name_,
                 name_of(state), watch_.text().empty() ? "" : ": ", watch_.text());
   }
+  tell_news();
   if (watch_.silence_s(now_ns) > reconnect_after_s_) {
     source_->reconnect(
         leonav::format("no byte for %.0f s: the connection may be dead", reconnect_after_s_));
+  }
+}
+
+void Stream::tell_news() {
+  for (const FormatNews& news : format_->take_news()) {
+    spdlog::log(news.is_warning ? spdlog::level::warn : spdlog::level::info, "{}: {}", name_,
+                news.text);
   }
 }
 

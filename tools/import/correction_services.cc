@@ -1,11 +1,12 @@
 #include "tools/import/correction_services.h"
 
 #include "tools/common/format.h"
+#include "tools/common/system_name.h"
 
 namespace leonav {
 namespace {
 
-const char* name_of(SsrService service) {
+const char* service_name(SsrService service) {
   switch (service) {
     case SsrService::kRtcm:
       return "SSR of RTCM";
@@ -17,20 +18,6 @@ const char* name_of(SsrService service) {
       break;
   }
   return "PPP-B2b";
-}
-
-const char* name_of(System system) {
-  switch (system) {
-    case System::kGps:
-      return "GPS";
-    case System::kGalileo:
-      return "Galileo";
-    case System::kBeidou:
-      return "BeiDou";
-    case System::kLeo:
-      break;
-  }
-  return "LEO";
 }
 
 }  // namespace
@@ -60,7 +47,7 @@ CorrectionServices::Service& CorrectionServices::service_of(const ServiceId& id)
 }
 
 std::string CorrectionServices::name_of(const ServiceId& id) const {
-  return "'" + streams_.at(id.stream) + "' (" + leonav::name_of(id.service) + ")";
+  return "'" + streams_.at(id.stream) + "' (" + service_name(id.service) + ")";
 }
 
 std::vector<SignalBias> CorrectionServices::keep(Service* service, const SsrMessage& message,

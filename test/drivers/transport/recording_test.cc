@@ -37,7 +37,10 @@ void write_three(const std::string& path) {
 class PlayedFile : public ByteSink {
  public:
   using Steady = ArrivalClock::Steady;
-  void on_open() override { opened = Steady::now(); }
+  void on_open() override {
+    opened = Steady::now();
+    opened_after.push_back(count);
+  }
   void on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override {
     count += bytes.size();
     arrivals_ns.push_back(arrival_ns);
@@ -48,6 +51,7 @@ class PlayedFile : public ByteSink {
 
   Steady::time_point opened;
   std::size_t count = 0;
+  std::vector<std::size_t> opened_after;  // so many bytes
   std::vector<std::int64_t> arrivals_ns;
   std::vector<Steady::time_point> times;
   std::string end;
@@ -275,10 +279,32 @@ TEST_CASE("A recording is played by its arrivals, at any speed", "[transport]") 
   const PlayedFile sink = play(path, 0.5);
   CHECK(sink.end == "end");
   CHECK(sink.count == 5003);
-  REQUIRE(sink.arrivals_ns.size() == 2);  // the empty block brings nothing
+  REQUIRE(sink.arrivals_ns.size() == 2);  // the empty block brings no bytes
   CHECK(sink.arrivals_ns[1] == 1'050'000'000);
   const std::chrono::duration<double> apart = sink.times[1] - sink.times[0];
   CHECK(apart.count() > 0.095);
+}
+
+TEST_CASE("A recording knows where a connection began, and so does who plays it", "[transport]") {
+  const test::TemporaryFile place("unused", "");
+  const std::string path = place.beside("a.leoraw");
+  {
+    RecordingWriter writer(path);
+    REQUIRE(writer.write_opening(1'000'000'000));
+    REQUIRE(writer.write(1'000'000'000, Bytes{1, 2, 3}));
+    REQUIRE(writer.write(1'001'000'000, Bytes{4}));
+    REQUIRE(writer.write_opening(1'002'000'000));
+    REQUIRE(writer.write(1'002'000'000, Bytes{5}));
+    REQUIRE(writer.close());
+  }
+  CHECK(first_arrival_ns(path) == 1'000'000'000);
+  const PlayedFile sink = play(path, 10.0);
+  CHECK(sink.end == "end");
+  CHECK(sink.opened_after == std::vector<std::size_t>{0, 4});
+  CHECK(sink.arrivals_ns == std::vector<std::int64_t>{1'000'000'000, 1'001'000'000, 1'002'000'000});
+  // A recording of before, without the first one.
+  write_three(place.beside("b.leoraw"));
+  CHECK(play(place.beside("b.leoraw"), 10.0).opened_after == std::vector<std::size_t>{0, 5003});
 }
 
 TEST_CASE("A file without times is played without waiting", "[transport]") {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """sources_live_test.py BIN_DIR WORK_DIR: leonav-connect with an NTRIP caster, a client that connects, and datagrams.
 
-Every byte must be in the recording as it was sent; no password may be in any text of the program or in the recording. Runs
-in a network namespace of its own; exit 77: none can be made here.
+Every byte must be in the recording as it was sent; no password may be in any text of the program or in the recording. A
+receiver without ephemerides, and messages that are not used, are told once. Runs in a network namespace of its own; exit 77:
+none can be made here.
 """
 import os
 import pathlib
@@ -18,6 +19,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path += [str(HERE.parent), str(ROOT / "test/drivers/transport")]
 import caster  # noqa: E402
+import ubx_bytes  # noqa: E402
 from live_program import enter_namespace, fail  # noqa: E402
 
 
@@ -29,15 +31,19 @@ def wait_for(what, done):
     fail(f"30 s passed without {what}")
 
 
-def recorded(path):
-    """The bytes of a recording, as far as it has been written out."""
-    data, found = path.read_bytes(), b""
+def blocks(path):
+    """The blocks of a recording, as far as it has been written out."""
+    data, found = path.read_bytes(), []
     at = len("leonav recording 1\n")
     while at + 12 <= len(data):
         length = struct.unpack_from("<qI", data, at)[1]
-        found += data[at + 12:at + 12 + length]
+        found.append(data[at + 12:at + 12 + length])
         at += 12 + length
     return found
+
+
+def recorded(path):
+    return b"".join(blocks(path))
 
 
 class Run:
@@ -114,6 +120,12 @@ def tcp_server(work):
     run.says("the client closed the connection")
     if run.finish() != sent:
         fail("tcp_server: the recording is not what was sent")
+    found = blocks(run.record)
+    begun = [len(b"".join(found[:i])) for i, one in enumerate(found) if not one]
+    if begun != [0, len(sent) // 3, 2 * len(sent) // 3]:
+        fail(f"tcp_server: the recording has connections that begin at {begun}")
+    if run.text.read_text(encoding="utf-8").count("info: server: not used: 1029 text\n") != 1:
+        fail("tcp_server: the message that is not used is not told once")
     print(f"tcp_server: {len(sent)} bytes of three clients, as they were sent")
 
 
@@ -132,6 +144,20 @@ def udp(work):
     if run.finish() != sent:
         fail("udp: the recording is not what was sent")
     print(f"udp: {len(sent)} bytes of 50 datagrams, as they were sent")
+
+
+def without_ephemerides(work):
+    """Ninety seconds of a receiver whose UBX-RXM-SFRBX is not switched on."""
+    begin, locks = 1432000000, {}
+    seen = {name: {"C1C": (2.3e7, " "), "S1C": (45.0, " ")} for name in ("G01", "G02", "E01", "E02", "E03")}
+    (work / "epochs.ubx").write_bytes(b"".join(ubx_bytes.rawx((begin + second, 0.0), seen, locks) for second in range(90)))
+    config = work / "silent.yaml"
+    config.write_text("playback_speed: 100\nstreams:\n  - {name: receiver, source: file, path: epochs.ubx, format: ubx}\n")
+    done = subprocess.run([BIN / "leonav-connect", config], stderr=subprocess.PIPE, check=True, timeout=60, text=True)
+    told = "warning: receiver: 2 GPS and 3 Galileo satellites without an ephemeris: switch UBX-RXM-SFRBX on for this port of the receiver\n"
+    if done.stderr.count(told) != 1:
+        fail(f"ephemerides that are missing are not told once: {done.stderr}")
+    print("a receiver without ephemerides: told once")
 
 
 def service_manager(work):
@@ -165,6 +191,7 @@ def main():
     ntrip(work)
     tcp_server(work)
     udp(work)
+    without_ephemerides(work)
     service_manager(work)
 
 

@@ -14,4 +14,12 @@ std::string joined(std::initializer_list<std::string> parts) {
   return all;
 }
 
+std::vector<FormatNews> warnings_of(std::initializer_list<std::string> texts) {
+  std::vector<FormatNews> news;
+  for (const std::string& text : texts) {
+    if (!text.empty()) news.push_back({true, text});
+  }
+  return news;
+}
+
 }  // namespace leonav

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "drivers/transport/byte_source.h"
 
@@ -20,6 +21,12 @@ struct FormatCounts {
   std::optional<std::uint64_t> samples;
   std::uint64_t damaged = 0;  // refused by checksum, length or number of columns
   std::uint64_t refused = 0;  // whole, but with values or times that cannot be used
+};
+
+// Something that the log tells once, a sentence without a full stop.
+struct FormatNews {
+  bool is_warning = true;
+  std::string text;
 };
 
 class StreamFormat {
@@ -42,11 +49,15 @@ class StreamFormat {
   virtual std::string why_no_messages() const = 0;
   // What the format tells of a receiver's inertial sensor whose samples are missing, with a remedy.
   virtual std::string why_no_samples() const { return ""; }
+  // What is to be logged since the last call.
+  virtual std::vector<FormatNews> take_news() { return {}; }
   // 1 sigma of the stamps against GPS time, s; NaN where they are the device's own.
   virtual double stamp_sigma_s() const;
 };
 
 // Returns the parts that are not empty, with semicolons between them.
 std::string joined(std::initializer_list<std::string> parts);
+// Returns those that are not empty as news.
+std::vector<FormatNews> warnings_of(std::initializer_list<std::string> texts);
 
 }  // namespace leonav

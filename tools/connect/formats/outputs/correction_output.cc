@@ -48,6 +48,9 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
   if (!result.states.empty()) {
     shared_->output->send(std::span<const CorrectedState>(result.states), result.source);
     shared_->output->note_time(now);
+    for (const CorrectedState& state : result.states) {
+      shared_->output->note_orbit(state.satellite, state.time);
+    }
     ++published;
   }
   if (result.change && shared_->on_change) shared_->on_change(*result.change);

@@ -3,6 +3,7 @@
 #include "core/base/gps_time.h"
 #include "daemon/messages/encoding_sink.h"
 #include "drivers/lcm/input_messages.h"
+#include "tools/connect/formats/outputs/known_orbits.h"
 
 namespace leonav {
 
@@ -23,12 +24,17 @@ class MessageOutput {
     if (time > last_time_) last_time_ = time;
   }
 
+  // Takes note of an ephemeris or a state that was sent, with its reference time.
+  void note_orbit(SatelliteId satellite, GpsTime reference) { orbits_.note(satellite, reference); }
+
+  const KnownOrbits& orbits() const { return orbits_; }
   GpsTime last_time() const { return last_time_; }
   std::uint64_t sent() const { return sent_; }
 
  private:
   MessageTarget* target_;
   InputMessages messages_;
+  KnownOrbits orbits_;
   GpsTime last_time_;
   std::uint64_t sent_ = 0;
 };

@@ -18,6 +18,7 @@ void ReceiverOutput::note_step(GpsTime time) {
   const double step_s = seconds_between(time, last_epoch_);
   if (step_s >= 0.0 && step_s < kLongestGap_s) return;
   ++time_steps_;
+  monitor_.start_over();
   last_step_s_ = step_s;
 }
 
@@ -27,14 +28,15 @@ void ReceiverOutput::send(const RawEpoch& epoch, std::int64_t arrival_ns, bool h
   note_step(epoch.time);
   last_epoch_ = epoch.time;
   last_signals_ = epoch.observations.size();
+  monitor_.on_epoch(epoch);
   output_->send(epoch);
   output_->note_time(epoch.time);
   ++messages_;
   ++(epoch.observations.empty() ? empty_epochs_ : epochs_);
-  repeat_ephemerides(epoch.time);
+  repeat_navigation(epoch.time);
 }
 
-void ReceiverOutput::repeat_ephemerides(GpsTime now) {
+void ReceiverOutput::repeat_navigation(GpsTime now) {
   messages_ += static_cast<std::uint64_t>(repeater_.repeat(now));
 }
 
@@ -46,6 +48,7 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
     return;
   }
   output_->send(sent);
+  output_->note_orbit(sent.satellite, sent.toe);
   if (corrections_ != nullptr) corrections_->add(sent);
   repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
   ++messages_;
@@ -54,11 +57,13 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
 
 void ReceiverOutput::send(const KlobucharModel& model, GpsTime received) {
   output_->send(model, received);
+  repeater_.remember(model, last_epoch_);
   ++messages_;
 }
 
 void ReceiverOutput::send(const std::vector<SignalBias>& biases) {
   output_->send(std::span<const SignalBias>(biases));
+  repeater_.remember(biases, last_epoch_);
   ++messages_;
 }
 
@@ -77,6 +82,8 @@ std::string ReceiverOutput::detail() const {
     text += format("; its time has stepped %llu times, the last by %.0f s",
                    static_cast<unsigned long long>(time_steps_), last_step_s_);
   }
+  const std::string missing = monitor_.text();
+  if (!missing.empty()) text += "; " + missing;
   return text;
 }
 

@@ -7,21 +7,27 @@
 
 #include "drivers/transport/byte_source.h"
 #include "tools/connect/formats/outputs/correction_output.h"
-#include "tools/connect/formats/outputs/ephemeris_repeater.h"
+#include "tools/connect/formats/outputs/ephemeris_monitor.h"
 #include "tools/connect/formats/outputs/message_output.h"
+#include "tools/connect/formats/outputs/navigation_repeater.h"
 #include "tools/connect/stamps/gps_clock.h"
 
 namespace leonav {
 
 // Every format of receivers sends through it, so that all of them publish the same messages as
-// leonav-import writes. Besides, ephemerides are repeated.
+// leonav-import writes. Besides, what it takes from navigation messages is repeated.
 class ReceiverOutput {
  public:
-  // `repeat_s`: as of EphemerisRepeater. The epochs' arrivals set `clock`. `corrections`, if given,
-  // gets the ephemerides too. The pointers must outlive this object.
+  // `repeat_s`: as of NavigationRepeater. The epochs' arrivals set `clock`. `corrections`, if
+  // given, gets the ephemerides too. `remedy`: as of EphemerisMonitor. The pointers must outlive
+  // this object.
   ReceiverOutput(double repeat_s, GpsClock* clock, MessageOutput* output,
-                 CorrectionOutput* corrections = nullptr)
-      : clock_(clock), output_(output), corrections_(corrections), repeater_(repeat_s, output) {}
+                 CorrectionOutput* corrections = nullptr, EphemerisMonitor::Remedy remedy = nullptr)
+      : clock_(clock),
+        output_(output),
+        corrections_(corrections),
+        repeater_(repeat_s, output),
+        monitor_(&output->orbits(), remedy) {}
 
   // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock. `has_own_week`:
   // its week comes from the receiver, and not from the host's clock.
@@ -30,10 +36,11 @@ class ReceiverOutput {
   void send(const Ephemeris& ephemeris);
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);
+  // Of one satellite.
   void send(const std::vector<SignalBias>& biases);
 
-  // Sends ephemerides again that are due, as every epoch does; for a stream without epochs.
-  void repeat_ephemerides(GpsTime now);
+  // Sends again what is due, as every epoch does; for a stream without epochs.
+  void repeat_navigation(GpsTime now);
 
   GpsTime last_epoch() const { return last_epoch_; }
   std::uint64_t messages() const { return messages_; }  // published
@@ -44,6 +51,8 @@ class ReceiverOutput {
   std::optional<DataTime> data_time() const;
   // What came, in a few words; empty while nothing has come.
   std::string detail() const;
+  // What is wrong since the last call, a sentence without a full stop; empty: nothing new is.
+  std::string take_news() { return monitor_.take_news(); }
 
  private:
   GpsClock* clock_;
@@ -51,7 +60,8 @@ class ReceiverOutput {
 
   MessageOutput* output_;
   CorrectionOutput* corrections_;
-  EphemerisRepeater repeater_;
+  NavigationRepeater repeater_;
+  EphemerisMonitor monitor_;
   GpsTime last_epoch_;
   std::uint64_t time_steps_ = 0;
   double last_step_s_ = 0.0;

@@ -53,6 +53,21 @@ std::optional<DataTime> Oem7Format::data_time() const {
   return DataTime{true, time.nanoseconds()};
 }
 
+// ONCHANGED sends what there is when it is asked for, and then what is new: nothing at first to a
+// program that comes later.
+const char* Oem7Format::ephemeris_remedy(System system) {
+  switch (system) {
+    case System::kGps:
+      return "log RAWEPHEMB ONCHANGED; if it is logged already, once more, which sends it at once";
+    case System::kGalileo:
+      return "log GALINAVEPHEMERISB and GALFNAVEPHEMERISB ONCHANGED; if they are logged already, "
+             "once more, which sends them at once";
+    default:
+      return "log BDSEPHEMERISB ONCHANGED; if it is logged already, once more, which sends it at "
+             "once";
+  }
+}
+
 std::string Oem7Format::inertial_text() const {
   const RawImuCounters imu = decoder_.counters().imu;
   if (!options_.is_inertial) {

@@ -11,10 +11,10 @@ namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every range
 // log, EPHEMERIS and IONOSPHERE of the logs with navigation data, IMU of RAWIMU and its relatives,
-// which have GPS time. Besides, ephemerides are repeated.
+// which have GPS time. Besides, what navigation messages gave is repeated.
 class Oem7Format final : public StreamFormat, private Oem7Handler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput. The pointers must outlive
   // this object.
   Oem7Format(const Oem7StreamOptions& options, double latency_s, double repeat_s, GpsClock* clock,
@@ -22,7 +22,7 @@ class Oem7Format final : public StreamFormat, private Oem7Handler {
       : options_(options),
         latency_s_(latency_s),
         output_(output),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         decoder_({options.imu_scale}) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
@@ -33,8 +33,10 @@ class Oem7Format final : public StreamFormat, private Oem7Handler {
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
   std::string why_no_samples() const override { return inertial_text(); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;

@@ -44,7 +44,7 @@ void Rtcm3Format::on_ssr(const SsrMessage& message) {
   if (message.time > last_ssr_) last_ssr_ = message.time;
   const GpsTime now = time_of_arrival(message.time);
   ssr_messages_ += static_cast<std::uint64_t>(corrections_->take(message, now));
-  if (is_service_) receiver_.repeat_ephemerides(now);
+  if (is_service_) receiver_.repeat_navigation(now);
 }
 
 // A receiver's epochs know it best, then the host; of a file the messages' own times are all.
@@ -61,7 +61,7 @@ std::optional<DataTime> Rtcm3Format::data_time() const {
 }
 
 std::string Rtcm3Format::detail() const {
-  return joined({week_text(), receiver_.detail(), station_text(),
+  return joined({week_text(), receiver_.detail(), station_text(), station_.text(),
                  summary_of(decoder_.counters().losses),
                  last_ssr_.is_set() ? corrections_->detail() : "", host_doubt()});
 }
@@ -87,12 +87,41 @@ std::string Rtcm3Format::week_text() const {
                    : "'date' says: is it the day of the recording?");
 }
 
+const char* Rtcm3Format::ephemeris_remedy(System system) {
+  switch (system) {
+    case System::kGps:
+      return "let the sender send 1019, or add a stream of broadcast ephemerides";
+    case System::kGalileo:
+      return "let the sender send 1045 or 1046, or add a stream of broadcast ephemerides";
+    default:
+      return "let the sender send 1042, or add a stream of broadcast ephemerides";
+  }
+}
+
 std::string Rtcm3Format::station_text() const {
   const EpochAssemblyCounters epochs = decoder_.counters().epochs;
   if (epochs.station_changes == 0) return "";
   return leonav::format("its station has changed %llu times, the last from %d to %d",
                         static_cast<unsigned long long>(epochs.station_changes),
                         int{epochs.station_before}, int{epochs.station});
+}
+
+std::vector<FormatNews> Rtcm3Format::take_news() {
+  std::vector<FormatNews> news = warnings_of({receiver_.take_news(), station_.take_news()});
+  const std::string unused = unused_news();
+  if (!unused.empty()) news.push_back({false, unused});
+  return news;
+}
+
+// Each number once.
+std::string Rtcm3Format::unused_news() {
+  std::string text;
+  for (const auto& [number, count] : decoder_.counters().unused) {
+    if (!told_unused_.insert(number).second) continue;
+    text += (text.empty() ? "not used: " : ", ") + std::to_string(number) + " " +
+            std::string(unused_message_text(number));
+  }
+  return text;
 }
 
 FormatCounts Rtcm3Format::counts() const {

@@ -57,6 +57,17 @@ std::optional<DataTime> SbfFormat::data_time() const {
   return DataTime{true, time.nanoseconds()};
 }
 
+const char* SbfFormat::ephemeris_remedy(System system) {
+  switch (system) {
+    case System::kGps:
+      return "turn on GPSRawCA or GPSNav";
+    case System::kGalileo:
+      return "turn on GALRawINAV or GALNav";
+    default:
+      return "turn on BDSRaw or BDSNav";
+  }
+}
+
 std::string SbfFormat::inertial_text() const {
   const ExtSensorCounters imu = decoder_.counters().imu;
   if (!options_.is_inertial) {

@@ -13,10 +13,10 @@ namespace leonav {
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
 // MeasEpoch, EPHEMERIS, IONOSPHERE and BIASES of the blocks with navigation data, CORRECTED_STATES
 // and BIASES of the pages in GALRawCNAV and BDSRawB2b, IMU of ExtSensorMeas, which has GPS time.
-// Besides, ephemerides are repeated.
+// Besides, what navigation messages gave is repeated.
 class SbfFormat final : public StreamFormat, private SbfHandler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`. `corrections`, if given, gets the ephemerides too; it must be
   // given where the options use pages. The pointers must outlive this object.
   SbfFormat(const SbfStreamOptions& options, double latency_s, double repeat_s, GpsClock* clock,
@@ -24,7 +24,7 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
       : options_(options),
         latency_s_(latency_s),
         output_(output),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         pages_(options.uses_pages, corrections) {}
 
   void feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) override;
@@ -35,8 +35,10 @@ class SbfFormat final : public StreamFormat, private SbfHandler {
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
   std::string why_no_samples() const override { return inertial_text(); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;

@@ -38,6 +38,14 @@ void UbxFormat::on_time_mark(const TimeMark& mark) {
   pulses_->push({edge->plus_seconds(-input.delay_s), mark.accuracy_s});
 }
 
+// B-CNAV1 of B1C has no group delays of B1I.
+const char* UbxFormat::ephemeris_remedy(System system) {
+  return system == System::kBeidou
+             ? "switch UBX-RXM-SFRBX on for this port of the receiver, and B1I "
+               "(CFG-SIGNAL-BDS_B1_ENA)"
+             : "switch UBX-RXM-SFRBX on for this port of the receiver";
+}
+
 std::string UbxFormat::inertial_text() const {
   const EsfCounters esf = decoder_.counters().esf;
   if (!options_.is_inertial) {

@@ -13,11 +13,11 @@ namespace leonav {
 
 // The messages are those that leonav-import writes from the same bytes: GNSS_EPOCH of every
 // UBX-RXM-RAWX; EPHEMERIS, IONOSPHERE and BIASES as UBX-RXM-SFRBX completes them; CORRECTED_STATES
-// and BIASES of the pages of E6-B. Besides, ephemerides are repeated. Samples of UBX-ESF-RAW or
-// UBX-ESF-MEAS are stamped by arrivals.
+// and BIASES of the pages of E6-B. Besides, what navigation messages gave is repeated. Samples of
+// UBX-ESF-RAW or UBX-ESF-MEAS are stamped by arrivals.
 class UbxFormat final : public StreamFormat, private UbxHandler {
  public:
-  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of EphemerisRepeater. The
+  // `latency_s`: an epoch arrives so long after its time. `repeat_s`: as of NavigationRepeater. The
   // epochs' arrivals set `clock`; `corrections`: as of ReceiverOutput, and must be given where the
   // options use pages. `pulses` gets the times of UBX-TIM-TM2; nullptr: nobody needs them. The
   // pointers must outlive this object.
@@ -27,7 +27,7 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
       : latency_s_(latency_s),
         options_(options),
         pulses_(pulses),
-        receiver_(repeat_s, clock, output, corrections),
+        receiver_(repeat_s, clock, output, corrections, ephemeris_remedy),
         pages_(options.uses_pages, corrections),
         imu_(clock, options.stamps, output) {}
 
@@ -40,8 +40,10 @@ class UbxFormat final : public StreamFormat, private UbxHandler {
   std::string why_no_frames() const override;
   std::string why_no_messages() const override;
   std::string why_no_samples() const override { return inertial_text(); }
+  std::vector<FormatNews> take_news() override { return warnings_of({receiver_.take_news()}); }
 
  private:
+  static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
   void on_klobuchar(const KlobucharModel& model) override;
