@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "core/navigator/navigator.h"
+#include "mutator.h"
 #include "support/catch.h"
 #include "support/drive/synthetic_drive.h"
-#include "test/fuzz/corpus_test/mutator.h"
 #include "test/fuzz/sequencer_script.h"
 
 namespace leonav::test {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "mutator.h"
 #include "support/catch.h"
 #include "test/fuzz/byte_script.h"
-#include "test/fuzz/corpus_test/mutator.h"
 #include "test/fuzz/fuzz_target.h"
 #include "test/fuzz/good_input.h"
 #include "test/fuzz/sequencer_script.h"

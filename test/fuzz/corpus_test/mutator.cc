@@ -1,4 +1,4 @@
-#include "test/fuzz/corpus_test/mutator.h"
+#include "mutator.h"
 
 #include <algorithm>
 #include <filesystem>
