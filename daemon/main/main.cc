@@ -72,6 +72,7 @@ int run(const CommandLine& command_line) {
   set_log_level(config.log.level);
   const std::unique_ptr<CommandGate> gate = configured_gate(config);
   prepare_memory();
+  start_log_thread();
   const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
   std::signal(SIGPIPE, SIG_IGN);

@@ -1,4 +1,5 @@
 """Faults of the machine that leonavd runs on: disks, memory, clock, network, processes, configuration."""
+import fcntl
 import math
 import os
 import re
@@ -246,6 +247,77 @@ def reload_is_told(run, outputs, result):
     result.must(run.daemon.has_said("SIGHUP: .* read again, nothing has changed"), "leonavd did not say that it has read its configuration")
 
 
+PIPE_BYTES = 4096
+RELOADS = 1200  # each is a line of some 80 bytes: more than the daemon keeps
+
+
+class LogPipe:
+    """leonavd's standard error goes through a small pipe to a thread that writes its text file, and can stop reading."""
+
+    def __init__(self, run):
+        self.run, self.reads, self.is_over = run, threading.Event(), False
+        self.reads.set()
+        programs, fifo = run.folder / "bin", run.folder / "log.fifo"
+        programs.mkdir(exist_ok=True)
+        for old in (fifo, *programs.iterdir()):
+            old.unlink(missing_ok=True)
+        os.mkfifo(fifo)
+        self.end = os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)
+        fcntl.fcntl(self.end, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
+        for program in run.bin.iterdir():
+            if program.name != "leonavd":
+                programs.joinpath(program.name).symlink_to(program)
+        script = programs / "leonavd"
+        script.write_text(f"#!/bin/sh\nexec {run.bin}/leonavd \"$@\" 2>{fifo}\n")
+        script.chmod(0o755)
+        run.bin = programs
+        self.thread = threading.Thread(target=self.copy, daemon=True)
+        self.thread.start()
+
+    def copy(self):
+        while not self.is_over:
+            self.reads.wait()
+            try:
+                part = os.read(self.end, PIPE_BYTES)
+            except BlockingIOError:
+                part = b""
+            if part:
+                with open(self.run.daemon.text_file(), "ab") as text:
+                    text.write(part)
+            else:
+                time.sleep(0.005)
+
+
+def open_log_pipe(run):
+    run.log = LogPipe(run)
+
+
+def stall_log(run):
+    run.log.reads.clear()
+
+
+def read_log_again(run):
+    run.log.reads.set()
+
+
+def close_log_pipe(run):
+    run.log.reads.set()
+    time.sleep(0.1)  # the last lines
+    run.log.is_over = True
+    run.log.thread.join(timeout=5)
+
+
+def health_goes_on(run, outputs, result):
+    """HEALTH once a second all the time; afterwards the log says what it lost, and goes on to its end."""
+    times = [one.t for one in outputs.health if one.t >= run.row.begin_s]
+    gap = max((b - a for a, b in zip(times, times[1:])), default=math.inf)
+    result.at_most("longest time without HEALTH", gap, 1.5)
+    lost = re.search(r"warning: log: (\d+) lines? lost", run.daemon.said())
+    result.must(lost, "the log did not say how many lines are lost")
+    result.must(run.daemon.has_said("stopped; "), "the log does not go on to its end")
+    run.notes.append(f"at most {gap:.1f} s between two HEALTH, {lost[1] if lost else 'no'} lines lost")
+
+
 def much_junk(row, messages):
     return stream.junk(row.begin_s, row.duration_s, 10)(messages)
 
@@ -285,6 +357,9 @@ ROWS = [
         actions=((59.5, measure_memory), *((60 + k / 10, begin_long_message) for k in range(200)), (81, measure_memory)), judge=not_grown,
         expected=Expected(), quick=True),
     Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
+    Row("log-stalled", "nobody reads the log for 30 s, and it gets more lines than the daemon keeps", end_s=90, after_s=15, before=open_log_pipe,
+        actions=((60, stall_log), *((60 + k * 28 / RELOADS, reload) for k in range(RELOADS)), (90, read_log_again)), after=close_log_pipe,
+        judge=health_goes_on, expected=Expected(), quick=True),
     Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
     Row("sigterm-under-load", "SIGTERM after 20 s of junk at ten times the nominal rate", begin_s=40, after_s=30, until_stopped=True,
         change=much_junk, actions=((60, stop_under_load),), judge=stops_in_time,

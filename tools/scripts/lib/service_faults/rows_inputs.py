@@ -56,7 +56,7 @@ ROWS = [
         expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=13, **AFTER_GAP)),
     Row("heading-off", "a heading that is taken for known to a degree is 150 degrees off", begin_s=STANDING_S, end_s=STANDING_S, after_s=130,
         heading_off_deg=150, settled_s=STANDING_S, judge=begins_anew,
-        expected=fault("DEGRADED", reason="aligning", worst_m=12, sigmas=6, ok_s=KEPT_S + 10)),
+        expected=fault("DEGRADED", reason="the heading contradicts the motion", worst_m=12, sigmas=6, ok_s=KEPT_S + 10)),
     Row("junk", "junk at ten times the nominal rate on all input channels for 20 s", end_s=80, after_s=40,
         change=lambda row, messages: stream.junk(row.begin_s, row.end_s, 10)(messages),
         expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=25), quick=True),
