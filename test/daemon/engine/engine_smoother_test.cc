@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <leonav/event_t.hpp>
+#include <leonav/smoother_t.hpp>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -132,12 +133,12 @@ int resets_of(const Collector& outputs, ResetCause cause) {
 }
 
 int reports_of(const Collector& outputs, SmootherStatus status) {
-  Decoder decoder;
   int reports = 0;
   for (const Bytes& bytes : outputs.groups[kSmoother]) {
-    SmootherReport report;
-    REQUIRE(decoder.decode(bytes, &report).fault == InputFault::kNone);
-    reports += report.status == status ? 1 : 0;
+    smoother_t report{};
+    const int size = static_cast<int>(bytes.size());
+    REQUIRE(report.decode(bytes.data(), 0, size) == size);
+    reports += report.status == static_cast<int>(status) ? 1 : 0;
   }
   return reports;
 }
