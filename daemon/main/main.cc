@@ -81,7 +81,7 @@ int run(const CommandLine& command_line) {
   const ServiceManager manager;
   warn_of(manager.problem());
   LcmPublisher publisher(config.lcm);
-  Engine engine(config, &publisher, drill_hooks(config.drill));
+  Engine engine(config, &publisher, drill_hooks(config));
   // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
   std::optional<ProcessSignals> signals(std::in_place);
   LcmReceiver receiver(config.lcm, config.threads.io, &engine, gate.get());
