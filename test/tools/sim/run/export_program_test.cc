@@ -55,6 +55,52 @@ TEST_CASE("A run's files give the solution that its log gives, to the digits of 
   CHECK(worst < 0.02);
 }
 
+TEST_CASE("Low satellites by elements from a table give the solution within its sigma") {
+  if (!test::have_programs("leonav-sim", "leonav-import", "leonav-replay")) return;
+  const test::TemporaryFile place(
+      "scenario.yaml",
+      "duration_s: 120\nimu: {enabled: false}\nreceiver: {lever_arm_b_m: [0, 0, 0]}\n"
+      "satellites: {gps: {enabled: false}, galileo: {enabled: false}, beidou: {enabled: false}, "
+      "leo: {told: broadcast}}\n");
+  const auto sim = test::run_program(
+      "leonav-sim", quoted(place.path()) + " -o " + quoted(place.beside("run.lcmlog")) +
+                        " --export " + quoted(place.beside("files")));
+  INFO(sim.err);
+  REQUIRE(sim.exit_code == 0);
+  // No other file has an orbit of them.
+  CHECK_FALSE(std::filesystem::exists(place.beside("files/run.nav")));
+  CHECK_FALSE(std::filesystem::exists(place.beside("files/leo.sp3")));
+  const auto import =
+      test::run_program("leonav-import", quoted(place.beside("files/dataset.yaml")) + " -o " +
+                                             quoted(place.beside("imported.lcmlog")));
+  INFO(import.err);
+  REQUIRE(import.exit_code == 0);
+  const std::string out = place.beside("out");
+  const auto run = test::run_program(
+      "leonav-replay",
+      "--preset demo --set 'gnss.systems=[leo]' --set ekf.motion=constant_velocity --set "
+      "'vehicle.lever_arm_b_m=[0, 0, 0]' " +
+          quoted(place.beside("imported.lcmlog")) + " --out " + quoted(out));
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const SolutionCsv solution = read_solution_csv(out + "/solution.csv");
+  const TruthCsv truth = read_truth_csv(place.beside("files/truth.csv"));
+  int compared = 0, within = 0;
+  for (const SolutionRow& row : solution.rows) {
+    for (const TruthPoint& point : truth.points) {
+      if (point.time != row.pva.time) continue;
+      const Eigen::Vector3d error = to_ecef(row.pva.position) - to_ecef(point.position);
+      ++compared;
+      within += error.norm() < 3.0 * row.sigma_p_n->norm();
+      INFO(seconds_between(row.pva.time, solution.rows[0].pva.time)
+           << " s: " << error.norm() << " m");
+      CHECK(error.norm() < 10.0);
+    }
+  }
+  CHECK(compared > 100);
+  CHECK(within == compared);
+}
+
 TEST_CASE("RTKLIB reads the files, and positions by each system of GPS, Galileo and BeiDou") {
   if (!test::have_programs("leonav-sim") || !test::have_rtklib()) return;
   // Without an ionosphere one frequency does, and the messages' group delays must be right.
