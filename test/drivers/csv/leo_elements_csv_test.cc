@@ -33,7 +33,17 @@ Ephemeris elements(std::uint16_t number) {
 const std::string kMinimal(kLeoElementsColumns);
 // toe, then transmission, sqrt_a and the other elements.
 std::string row(const std::string& satellite, const std::string& sqrt_a = "2736") {
-  return satellite + ",2300,600,300," + sqrt_a + ",0.001,0,0,0.3,0,0.9,0,1.7,0,0,0,0,0,0,1e-4,0\n";
+  std::string text = satellite;
+  text.append(",2300,600,300,").append(sqrt_a);
+  return text.append(",0.001,0,0,0.3,0,0.9,0,1.7,0,0,0,0,0,0,1e-4,0\n");
+}
+
+// A table of the columns that must be there.
+std::string table(const std::vector<std::string>& rows) {
+  std::string text = kMinimal;
+  text.append("\n");
+  for (const std::string& one : rows) text.append(one);
+  return text;
 }
 
 LeoElementsCsv read(const std::string& text) {
@@ -71,7 +81,7 @@ TEST_CASE("elements are read as the bits that were written", "[csv]") {
 }
 
 TEST_CASE("columns that are left out have their defaults", "[csv]") {
-  const LeoElementsCsv file = read(kMinimal + "\n" + row("M05"));
+  const LeoElementsCsv file = read(table({row("M05")}));
   REQUIRE(file.ephemerides.size() == 1);
   const Ephemeris& e = file.ephemerides[0];
   CHECK(e.satellite == SatelliteId{System::kLeo, 105});
@@ -83,8 +93,8 @@ TEST_CASE("columns that are left out have their defaults", "[csv]") {
 
 TEST_CASE("a bad row of elements costs itself and is named", "[csv]") {
   const LeoElementsCsv file =
-      read(kMinimal + "\n" + row("L01") + row("G01") + row("L02", "2.736e6") + row("L03", "") +
-           row("L04", "x") + row("L05") + "L06,2300\n");
+      read(table({row("L01"), row("G01"), row("L02", "2.736e6"), row("L03", ""), row("L04", "x"),
+                  row("L05"), "L06,2300\n"}));
   CHECK(file.ephemerides.size() == 2);
   CHECK(file.report.skipped == 5);
   REQUIRE(file.report.problems.size() == 5);
@@ -97,6 +107,6 @@ TEST_CASE("a bad row of elements costs itself and is named", "[csv]") {
 TEST_CASE("a table without one of the elements is refused, with the column", "[csv]") {
   std::string header = kMinimal;
   header.erase(header.find(",cic_rad"), 8);
-  CHECK_THROWS_WITH(read(header + "\n"), Contains(":1") && Contains("'cic_rad'"));
-  CHECK_THROWS(read(kMinimal + "\n" + row("G01")));
+  CHECK_THROWS_WITH(read(header), Contains(":1") && Contains("'cic_rad'"));
+  CHECK_THROWS(read(table({row("G01")})));
 }
