@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/smoother/linearization.h"
@@ -29,6 +30,7 @@ constexpr double kVague_m = 5.0;
 // Process factors that are repropagated after one solve: a new heading moves all attitudes of the
 // window at once.
 constexpr int kMostRepropagations = 2;
+constexpr double kDrilledError_m = 1e5;
 
 double position_sigma(const EkfCovariance& covariance) {
   return std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace()));
@@ -147,6 +149,8 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   result.status = newest_follows_ ? SmootherStatus::kOk
                   : window_lost_  ? SmootherStatus::kSingular
                                   : SmootherStatus::kStarted;
+  if (fails_on_purpose(DrilledFailure::kSingular))
+    window_.newest().state.nav.p_e.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (minimizer_ != nullptr) {
     if (!minimize(budget, &result)) {
       result.status = SmootherStatus::kSingular;
@@ -168,6 +172,12 @@ SmootherResult Smoother::solve(SolveBudget* budget) {
   }
   finish(&result);
   return result;
+}
+
+// Depends on the epoch's number alone, so that a replay fails at the same ones.
+bool Smoother::fails_on_purpose(DrilledFailure failure) const {
+  return config_.drill_failure_every > 0 && config_.drill_failure == failure &&
+         window_.newest().index % static_cast<std::uint64_t>(config_.drill_failure_every) == 0;
 }
 
 // Does one iteration: weights and one step, which is short enough or not.
@@ -233,6 +243,8 @@ WindowAgainstFilter Smoother::against_filter(const Keyframe& newest) const {
 }
 
 void Smoother::finish(SmootherResult* result) {
+  if (fails_on_purpose(DrilledFailure::kDiverged))
+    window_.newest().state.nav.p_e.x() += kDrilledError_m;
   const Keyframe& newest = window_.newest();
   result->has_attitude = newest.has_attitude;
   result->state = newest.state.nav;

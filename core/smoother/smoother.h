@@ -87,6 +87,7 @@ class Smoother {
     boost::container::static_vector<double, kMaxMeasurements> factors;
     bool weights_decided = false;
   };
+  bool fails_on_purpose(DrilledFailure failure) const;
   bool has_all_of_window(const KeyframeInput& input) const;
   bool append(const KeyframeInput& input);
   bool filter_is_younger() const { return restarted_.is_set(); }

@@ -16,6 +16,12 @@ enum class CeresLoss : unsigned char {
   kCauchy
 };
 
+// What a solve that fails on purpose suffers from.
+enum class DrilledFailure : unsigned char {
+  kSingular,  // before it the newest keyframe's position is no number
+  kDiverged   // behind its steps that position is 100 km off
+};
+
 // Settings of the smoother; the names of the configuration keys are those of group `smoother`.
 struct SmootherConfig {
   SmootherSolver solver = SmootherSolver::kChain;
@@ -39,6 +45,10 @@ struct SmootherConfig {
   double converged_sigmas = 1.0;
 
   bool fixed_lag = true;  // give the oldest keyframe's state too, once the window is full
+
+  // A drill: the solve of every so many-th epoch fails on purpose. 0: none does.
+  int drill_failure_every = 0;
+  DrilledFailure drill_failure = DrilledFailure::kSingular;
 
   bool operator==(const SmootherConfig&) const = default;
 };

@@ -188,6 +188,11 @@ void read_smoother(ConfigReader& group, SmootherConfig* config) {
   group.number("time_limit_ms", {0.0, 1e4}, &config->time_limit_s, kMillisecond);
   group.number("converged_sigmas", {1e-9, 1.0}, &config->converged_sigmas);
   group.boolean("fixed_lag", &config->fixed_lag);
+  group.integer("drill_failure_every", 0, 1000000, &config->drill_failure_every);
+  group.choice<DrilledFailure>(
+      "drill_failure",
+      {{"singular", DrilledFailure::kSingular}, {"diverged", DrilledFailure::kDiverged}},
+      &config->drill_failure);
 }
 
 void read_robust(ConfigReader& group, RobustConfig* config) {

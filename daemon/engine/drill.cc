@@ -9,7 +9,12 @@
 
 namespace leonav {
 
-EngineHooks drill_hooks(const DrillConfig& drill) {
+EngineHooks drill_hooks(const DaemonConfig& config) {
+  const SmootherConfig& smoother = config.navigator.smoother;
+  if (smoother.drill_failure_every > 0)
+    spdlog::warn("drill: the solve of the smoother fails at every {}. epoch",
+                 smoother.drill_failure_every);
+  const DrillConfig& drill = config.drill;
   EngineHooks hooks;
   if (drill.late_solve_every == 0) return hooks;
   spdlog::warn("drill: the smoother waits {} s at every {}. epoch", drill.late_solve_s,

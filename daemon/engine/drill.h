@@ -4,7 +4,8 @@
 
 namespace leonav {
 
-// Empty hooks where the configuration asks for no delay.
-EngineHooks drill_hooks(const DrillConfig& drill);
+// Empty hooks where the configuration asks for no delay. Says which drills are on, those without a
+// delay too.
+EngineHooks drill_hooks(const DaemonConfig& config);
 
 }  // namespace leonav

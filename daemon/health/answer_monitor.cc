@@ -3,12 +3,27 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/navigator/interface/input_fault.h"
+
 namespace leonav {
+namespace {
+
+// Inputs of the channel that were refused for nothing but their time.
+std::int64_t refused_for_time(const EngineCounters& counters, Channel channel) {
+  const auto stream = std::find(kStreams.begin(), kStreams.end(), channel) - kStreams.begin();
+  const auto& rejected = counters.rejected_of_stream[static_cast<std::size_t>(stream)];
+  return rejected[static_cast<std::size_t>(InputFault::kTimeBackwards)].get() +
+         rejected[static_cast<std::size_t>(InputFault::kTooFarAhead)].get();
+}
+
+}  // namespace
 
 bool AnswerMonitor::stands_still(bool expects_imu) {
   EngineCounters& counters = engine_->counters();
   const std::int64_t solution_ns = counters.solution_time_ns.get();
-  const std::int64_t imu = counters.accepted_imu.get(), epochs = counters.accepted_epochs.get();
+  const std::int64_t imu = counters.accepted_imu.get() + refused_for_time(counters, Channel::kImu);
+  const std::int64_t epochs = counters.accepted_epochs.get() + counters.late_epochs.get() +
+                              refused_for_time(counters, Channel::kGnssEpoch);
   const bool is_new = std::exchange(solution_ns_, solution_ns) != solution_ns;
   const bool has_imu = std::exchange(imu_, imu) != imu || !expects_imu;
   const bool has_epoch = std::exchange(epochs_, epochs) != epochs;

@@ -12,8 +12,12 @@ class AnswerMonitor {
  public:
   explicit AnswerMonitor(Engine* engine) : engine_(engine) {}
 
-  // Returns whether there has been an answer, inputs of each kind that it needs are accepted,
+  // Returns whether there has been an answer, good inputs of each kind that it needs come,
   // satellites are used, and yet no new SOLUTION has come for a minute. Call it once a second.
+  //
+  // An input is good if it is used, or refused for its time alone: a Sequencer that is wrong about
+  // the time refuses everything. Other faults are the sender's (bytes that nobody can read, values
+  // that nothing measures, the same stamp again): they would be there after a restart too.
   bool stands_still(bool expects_imu);
 
  private:

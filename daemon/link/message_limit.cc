@@ -1,24 +1,18 @@
 #include "daemon/link/message_limit.h"
 
-#include <linux/filter.h>
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 
+#include "daemon/link/datagram_filter.h"
+
 namespace leonav {
 namespace {
-
-// "LCM UDP Multicast Protocol Description" (LCM documentation), numbers are big endian: magic word
-// (4 bytes), number of the message (4), of a fragment then the size of the whole message (4). The
-// filter sees the UDP header (8 bytes) in front.
-constexpr std::uint32_t kUdpHeaderBytes = 8, kMagicAt = kUdpHeaderBytes,
-                        kSizeAt = kUdpHeaderBytes + 8, kFragmentMagic = 0x4C433033;  // "LC03"
 
 // -1: it is no socket.
 int option(int descriptor, int name) {
@@ -45,22 +39,16 @@ std::set<int> udp_sockets() {
 
 MessageLimit::MessageLimit() : before_(udp_sockets()) {}
 
-std::string MessageLimit::apply(std::uint32_t most_bytes) const {
-  // A datagram that is too short for the word that is loaded is dropped.
-  std::array<sock_filter, 6> program = {{
-      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kMagicAt),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kFragmentMagic, 0, 2),
-      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kSizeAt),
-      BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, most_bytes, 1, 0),
-      BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFF),  // the whole datagram
-      BPF_STMT(BPF_RET | BPF_K, 0),
-  }};
+std::string MessageLimit::apply(std::uint32_t most_bytes,
+                                const std::vector<std::string>& channels) const {
+  std::vector<sock_filter> program = datagram_filter(most_bytes, channels);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   const std::set<int> now = udp_sockets();
   std::set<int> opened;
   std::set_difference(now.begin(), now.end(), before_.begin(), before_.end(),
                       std::inserter(opened, opened.end()));
-  const std::string consequence = "messages of LCM that claim too much memory are not dropped: ";
+  const std::string consequence =
+      "messages of LCM that claim too much memory or are no inputs are not dropped: ";
   if (opened.empty()) return consequence + "its socket is not found in /proc/self/fd";
   for (const int socket : opened) {
     if (setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)

@@ -15,6 +15,7 @@
 #include "daemon/health/health_reason.h"
 #include "daemon/journal/journal_check.h"
 #include "daemon/main/configured_gate.h"
+#include "daemon/text/events_document.h"
 #include "tools/common/configuration_options.h"
 
 namespace leonav {
@@ -42,7 +43,8 @@ CommandLine::CommandLine()
             "wrong")
       .flag("--changes", "with --check: print only the keys that differ from the defaults")
       .flag("--reference", "print every key with its default, its range and its meaning")
-      .flag("--reasons", "print every reason of HEALTH with what to do, as a table in Markdown");
+      .flag("--reasons", "print every reason of HEALTH with what to do, as a table in Markdown")
+      .flag("--events", "print every kind of event with its code and value, as tables in Markdown");
 }
 
 bool CommandLine::asks_for_run(int argc, char** argv) {
@@ -53,6 +55,10 @@ bool CommandLine::asks_for_run(int argc, char** argv) {
   }
   if (arguments_.has("--reasons")) {
     std::cout << health_reasons_as_markdown();
+    return false;
+  }
+  if (arguments_.has("--events")) {
+    std::cout << events_as_markdown();
     return false;
   }
   const bool checks = arguments_.has("--check");

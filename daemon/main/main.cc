@@ -72,6 +72,7 @@ int run(const CommandLine& command_line) {
   set_log_level(config.log.level);
   const std::unique_ptr<CommandGate> gate = configured_gate(config);
   prepare_memory();
+  start_log_thread();
   const ChannelLock lock(config.lcm);
   check_solve_time(config.navigator);
   std::signal(SIGPIPE, SIG_IGN);
@@ -80,7 +81,7 @@ int run(const CommandLine& command_line) {
   const ServiceManager manager;
   warn_of(manager.problem());
   LcmPublisher publisher(config.lcm);
-  Engine engine(config, &publisher, drill_hooks(config.drill));
+  Engine engine(config, &publisher, drill_hooks(config));
   // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
   std::optional<ProcessSignals> signals(std::in_place);
   LcmReceiver receiver(config.lcm, config.threads.io, &engine, gate.get());

@@ -4,14 +4,15 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <tuple>
+
+#include "daemon/log/patient_write.h"
 
 namespace leonav {
 namespace {
 
 extern "C" void end_at_once(int) {
-  constexpr char kText[] = "leonavd: error: a thread does not end; ended without it\n";
-  std::ignore = write(STDERR_FILENO, kText, sizeof kText - 1);
+  write_where_there_is_room(STDERR_FILENO,
+                            "leonavd: error: a thread does not end; ended without it\n", 0);
   _exit(EXIT_FAILURE);
 }
 

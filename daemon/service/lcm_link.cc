@@ -1,5 +1,8 @@
 #include "daemon/service/lcm_link.h"
 
+#include <utility>
+#include <vector>
+
 #include "daemon/config/lcm_url.h"
 #include "daemon/link/message_limit.h"
 #include "daemon/threads/process_threads.h"
@@ -18,6 +21,11 @@ ByteSpan bytes_of(const lcm_recv_buf_t* buffer) {
 LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine* engine,
                          CommandGate* gate)
     : engine_(engine), gate_(gate), prefix_(config.prefix) {
+  // A checkpoint comes from the file alone: who could send one could set the heading.
+  std::vector<std::pair<std::string, Handler>> inputs;
+  for (const Channel channel : kInputChannels)
+    if (channel != Channel::kCheckpoint) inputs.emplace_back(name_of(channel), &on_message);
+  if (gate_) inputs.emplace_back(kSignedCommandChannel, &on_signed_command);
   const std::set<pid_t> before = threads_of_process();
   const MessageLimit limit;
   lcm_ = open_lcm(config.url);
@@ -25,14 +33,12 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine
     // liblcm opens its sockets with the first subscription: to a channel that nobody sends on, so
     // that no message is taken before the limit holds.
     lcm_subscription_t* first = subscribe(config, "LIMIT", &on_nothing);
-    refused_ = limit.apply(wire::kMaxMessageBytes);
+    std::vector<std::string> channels;
+    for (const auto& [name, handler] : inputs) channels.push_back(prefix_ + name);
+    refused_ = limit.apply(wire::kMaxMessageBytes, channels);
     lcm_unsubscribe(lcm_->getUnderlyingLCM(), first);
   }
-  for (const Channel channel : kInputChannels) {
-    // A checkpoint comes from the file alone: who could send one could set the heading.
-    if (channel != Channel::kCheckpoint) subscribe(config, name_of(channel), &on_message);
-  }
-  if (gate_) subscribe(config, kSignedCommandChannel, &on_signed_command);
+  for (const auto& [name, handler] : inputs) subscribe(config, name, handler);
   for (const pid_t thread : threads_of_process()) {
     if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
   }

@@ -18,7 +18,7 @@ namespace leonav {
 class Gauge {
  public:
   void set(std::int64_t value) { value_.store(value, std::memory_order_release); }
-  void add(std::int64_t value) { value_.fetch_add(value, std::memory_order_relaxed); }
+  void add(std::int64_t value) { value_.fetch_add(value, std::memory_order_release); }
   void raise_to(std::int64_t value) {
     if (value > get()) set(value);
   }
@@ -48,6 +48,13 @@ struct LearnedGauge {
   Gauge time_ms;        // of their correlation; 0: not learned by this property
 };
 using LearnedGauges = std::array<LearnedGauge, 1 + kLearnedClassNames.size()>;
+
+// What one stage has found of one Convention.
+struct ConventionGauge {
+  Gauge events;
+  Gauge void_events;  // of these, those of before the last time step of the inputs
+  Gauge milli;        // a thousand times the value of the last
+};
 
 // The last ones of these enumerations.
 inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::kFaulty) + 1;
@@ -102,10 +109,10 @@ struct EngineCounters {
   std::array<Gauge, kEventKindCount> events;  // that were published, by EventKind
   // Jumps of the solution above a metre, and those beyond three of its sigmas among them.
   Gauge large_jumps, surprising_jumps;
-  // Events of each Convention, and a thousand times the value of the last.
-  std::array<Gauge, kConventionCount> conventions, convention_milli;
-  // Of these events, those of the Sequencer, which come again each minute while the mistake lasts.
-  std::array<Gauge, kConventionCount> lasting_conventions;
+  // Findings of the GNSS stage, by Convention, and those of the Sequencer, which come again each
+  // minute while the mistake lasts.
+  std::array<ConventionGauge, kConventionCount> conventions, lasting_conventions;
+  Gauge reset_cause;  // of the last event kFilterReset: ResetCause
   // main
   Gauge unpublished;  // messages of HEALTH that found no room
   // out

@@ -1,11 +1,13 @@
 // The readers of files, each to the end of the file.
 #include <utility>
 
+#include "core/gnss/orbits/satellite_state.h"
 #include "drivers/antex/antex_reader.h"
 #include "drivers/bias_sinex/bias_sinex_reader.h"
 #include "drivers/blq/blq_reader.h"
 #include "drivers/clk/clock_reader.h"
 #include "drivers/csv/imu_csv.h"
+#include "drivers/csv/leo_elements_csv.h"
 #include "drivers/csv/solution_csv.h"
 #include "drivers/csv/truth_csv.h"
 #include "drivers/rinex/navigation_reader.h"
@@ -100,6 +102,15 @@ void read_samples(const std::string& path) {
   }
 }
 
+void read_elements(const std::string& path) {
+  const LeoElementsCsv file = read_leo_elements_csv(path);
+  expect(!file.ephemerides.empty(), "no set of elements");
+  for (const Ephemeris& one : file.ephemerides) {
+    expect(is_sane(one) && one.satellite.system == System::kLeo, "elements that are not sane");
+    expect(one.transmission_time.is_set(), "elements without a time of transmission");
+  }
+}
+
 void read_trajectory(const std::string& path) {
   const TruthCsv file = read_truth_csv(path);
   expect(!file.points.empty(), "no point");
@@ -128,6 +139,7 @@ std::vector<FuzzTarget> file_targets() {
       {"bias_sinex", [](FuzzBytes b) { run_reader(b, read_biases); }},
       {"blq", [](FuzzBytes b) { run_reader(b, read_loading); }},
       {"imu_csv", [](FuzzBytes b) { run_reader(b, read_samples); }},
+      {"leo_elements", [](FuzzBytes b) { run_reader(b, read_elements); }},
       {"truth_csv", [](FuzzBytes b) { run_reader(b, read_trajectory); }},
       {"solution_csv", [](FuzzBytes b) { run_reader(b, read_solution); }},
       {"rtklib_pos", [](FuzzBytes b) { run_reader(b, read_positions); }},

@@ -7,6 +7,7 @@
 #include "daemon/config/config_file.h"
 #include "daemon/config/config_groups.h"
 #include "daemon/config/load_config.h"
+#include "tools/connect/product_keys.h"
 #include "tools/connect/stream_keys.h"
 
 namespace leonav {
@@ -97,6 +98,11 @@ bool has_only_files(const ConnectConfig& config) {
   });
 }
 
+double product_repeat_s(const ConnectConfig& config) {
+  const auto receiver = std::find_if(config.streams.begin(), config.streams.end(), is_receiver);
+  return receiver == config.streams.end() ? StreamConfig().repeat_s : receiver->repeat_s;
+}
+
 const char* name_of(FormatKind format) {
   switch (format) {
     case FormatKind::kUbx:
@@ -126,6 +132,7 @@ ConnectConfig load_connect_config(const std::string& path,
   const std::string folder = std::filesystem::path(path).parent_path().string();
   ConnectConfig config;
   ConfigSource source{path};
+  const auto products = std::make_shared<FileProducts>();
   read_yaml(read_config_file(path), overrides, &source, [&](ConfigReader& root) {
     root.group("lcm", [&](ConfigReader& group) { read_lcm(group, &config.lcm); });
     root.group("time", [&](ConfigReader& group) {
@@ -137,7 +144,9 @@ ConnectConfig load_connect_config(const std::string& path,
     });
     root.group("corrections", [&](ConfigReader& group) {
       read_corrections(group, &config.corrections, &config.services);
+      read_correction_files(group, {folder, &source.errors}, products.get());
     });
+    read_leo_files(root, {folder, &source.errors}, products.get());
     root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
     root.groups("streams", [&](ConfigReader& group) {
@@ -148,6 +157,12 @@ ConnectConfig load_connect_config(const std::string& path,
     refuse_conflicts(root, config.streams);
     refuse_lonely_pulse(root, config);
   });
+  if (!config.corrections.at_antenna && products->antennas.empty()) {
+    products->report.warnings.push_back(
+        "corrections.point is mass_centre, and no corrections.antenna_models say where the "
+        "satellites' antennas are: ranges are off by up to metres, most of it common to all");
+  }
+  config.products = products;
   return config;
 }
 

@@ -1,5 +1,6 @@
 // ConnectConfig is the configuration of leonav-connect.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "drivers/imu_line/line_layout.h"
 #include "drivers/oem7/imu_scale.h"
 #include "drivers/ssr/correction_store.h"
+#include "tools/connect/formats/outputs/product_output.h"
 #include "tools/connect/formats/receivers/ubx_options.h"
 #include "tools/connect/source_options.h"
 #include "tools/connect/stamps/gps_clock.h"
@@ -61,6 +63,7 @@ struct ConnectConfig {
   double playback_speed = 1.0;
   CorrectionOptions corrections;
   ServiceChoiceOptions services;
+  std::shared_ptr<const FileProducts> products = std::make_shared<FileProducts>();
   double status_interval_s = 10.0;  // of the text for each stream; 0: only changes
   std::vector<StreamConfig> streams;
 };
@@ -68,10 +71,14 @@ struct ConnectConfig {
 // Whether all arrivals are those of files, with which the host's present clock has nothing to do.
 bool has_only_files(const ConnectConfig& config);
 
+// How often what comes from files is sent: as the receiver's ephemerides are.
+double product_repeat_s(const ConnectConfig& config);
+
 const char* name_of(FormatKind format);
 
 // Reads a configuration file with the overrides of a command line ("key=value"). Paths in it are
-// relative to its folder. Throws ConfigError with file, line, key and remedy.
+// relative to its folder. Files of products are read here. Throws ConfigError with file, line, key
+// and remedy.
 ConnectConfig load_connect_config(const std::string& path,
                                   const std::vector<std::string>& overrides);
 

@@ -25,6 +25,7 @@
 #include "tools/connect/formats/inertial/vectornav_format.h"
 #include "tools/connect/formats/inertial/xsens_format.h"
 #include "tools/connect/formats/outputs/message_output.h"
+#include "tools/connect/formats/outputs/product_output.h"
 #include "tools/connect/formats/pages/page_format.h"
 #include "tools/connect/formats/receivers/oem7_format.h"
 #include "tools/connect/formats/receivers/rtcm3_format.h"
@@ -70,12 +71,17 @@ struct Connector::State {
       : config(configuration),
         publisher(config.lcm),
         output(&publisher),
+        products(config.products, product_repeat_s(config), &output),
         corrections(config.corrections, config.services, &output, tell_change),
         gps(config.reference, config.gnss_latency_s, arrivals_begin_ns(config, clock.now_ns()),
             host_question(config)),
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {
+    output.listen_to_time([this](GpsTime time) { products.send_due(time); });
+    corrections.on_biases = [this](std::span<const SignalBias> biases) {
+      products.yield_to(biases);
+    };
     for (const StreamConfig& stream : config.streams) {
       correction_outputs.try_emplace(stream.name, stream.name, &corrections);
       streams.push_back(
@@ -94,6 +100,7 @@ struct Connector::State {
   void each_second();
   std::optional<double> compare_clocks();
   void watch_host();
+  void tell_products();
   void publish_status();
   bool all_have_ended() const {
     return std::all_of(streams.begin(), streams.end(),
@@ -103,6 +110,7 @@ struct Connector::State {
   ConnectConfig config;
   LcmPublisher publisher;
   MessageOutput output;
+  ProductOutput products;
   SharedCorrections corrections;
   // One of each stream, also of those without corrections: their ephemerides are corrected.
   std::map<std::string, CorrectionOutput> correction_outputs;
@@ -117,6 +125,7 @@ struct Connector::State {
   ServiceManager manager;
   std::uint64_t seconds = 0;
   bool host_was_wrong = false;  // by the receiver's epochs
+  std::optional<ProductOutput::Holding> told_products;
   bool was_stopped = false;
 };
 
@@ -207,6 +216,7 @@ void Connector::State::each_second() {
   ++seconds;
   for (const auto& stream : streams) stream->look();
   watch_host();
+  tell_products();
   publish_status();
   manager.feed_watchdog();  // the one thread that reads all streams is alive
   const auto interval = static_cast<std::uint64_t>(config.status_interval_s);
@@ -237,6 +247,29 @@ void Connector::State::watch_host() {
   } else {
     spdlog::info("the host's clock agrees with the receiver's epochs");
   }
+}
+
+// Once the time is known, and whenever files have no more that holds.
+void Connector::State::tell_products() {
+  if (!products.has_begun()) return;
+  const ProductOutput::Holding now = products.holding();
+  if (!told_products) {
+    spdlog::info(
+        "of files hold now: {} models of antennas' bands, biases of {} signals, {} sets of "
+        "elements "
+        "of LEO satellites",
+        now.antennas, now.biases, now.leo_elements);
+  }
+  const auto warn = [](bool is_given, std::size_t before, std::size_t holding, const char* what) {
+    if (!is_given || holding > 0 || before == 0) return;
+    spdlog::warn("{}: none holds now; give files of this day and start leonav-connect again", what);
+  };
+  const ProductOutput::Holding before = told_products.value_or(ProductOutput::Holding{1, 1, 1});
+  const FileProducts& given = *config.products;
+  warn(!given.antennas.empty(), before.antennas, now.antennas, "corrections.antenna_models");
+  warn(!given.biases.empty(), before.biases, now.biases, "corrections.biases");
+  warn(!given.leo_elements.empty(), before.leo_elements, now.leo_elements, "leo_elements");
+  told_products = now;
 }
 
 void Connector::State::publish_status() {

@@ -10,6 +10,14 @@ namespace {
 
 using namespace leonav;
 
+// What the files of products leave out.
+void tell(const ImportReport& report) {
+  for (const ImportReport::Skip& skip : report.skipped) {
+    spdlog::info("left out: {} x {} ({})", skip.count, skip.reason, skip.where);
+  }
+  for (const std::string& warning : report.warnings) spdlog::warn("{}", warning);
+}
+
 int connect_main(int argc, char** argv) {
   Arguments arguments(
       "leonav-connect", "CONFIG.yaml [options]",
@@ -41,6 +49,7 @@ int connect_main(int argc, char** argv) {
   }
   const std::string path = arguments.positional().front();
   const ConnectConfig config = load_connect_config(path, arguments.all("--set"));
+  tell(config.products->report);
   if (arguments.has("--check")) {
     spdlog::info("{}: good, {} streams", path, config.streams.size());
     return 0;

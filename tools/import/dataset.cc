@@ -156,6 +156,7 @@ class DatasetParser {
   const std::vector<std::pair<std::string, std::vector<std::string>*>> lists_ = {
       {"observations", &dataset_.observations},
       {"navigation", &dataset_.navigation},
+      {"leo_elements", &dataset_.leo_elements},
       {"orbits", &dataset_.orbits},
       {"clocks", &dataset_.clocks},
       {"biases", &dataset_.biases},
@@ -169,8 +170,8 @@ class DatasetParser {
 
 std::vector<std::string> Dataset::files() const {
   std::vector<std::string> all = {path};
-  for (const auto* paths : {&observations, &navigation, &orbits, &clocks, &biases, &corrections,
-                            &antenna_models, &imu, &truth}) {
+  for (const auto* paths : {&observations, &navigation, &leo_elements, &orbits, &clocks, &biases,
+                            &corrections, &antenna_models, &imu, &truth}) {
     all.insert(all.end(), paths->begin(), paths->end());
   }
   return all;

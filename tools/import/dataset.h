@@ -19,9 +19,10 @@ struct Dataset {
   std::vector<std::string>
       observations;                     // in order of time; ObservationSource says of which formats
   std::vector<std::string> navigation;  // RINEX, .rtcm3 or .rtcm
-  std::vector<std::string> orbits;      // SP3
-  std::vector<std::string> clocks;      // RINEX clock
-  std::vector<std::string> biases;      // Bias-SINEX, of the product of orbits and clocks
+  std::vector<std::string> leo_elements;  // broadcast elements of LEO satellites, in a table
+  std::vector<std::string> orbits;        // SP3
+  std::vector<std::string> clocks;        // RINEX clock
+  std::vector<std::string> biases;        // Bias-SINEX, of the product of orbits and clocks
   // RTCM 3 with SSR (.rtcm3, .rtcm) or pages of HAS (.has, .ubx, .sbf) or PPP-B2b (.b2b, .sbf), in
   // order of time
   std::vector<std::string> corrections;

@@ -13,6 +13,7 @@
 
 #include "drivers/clk/clock_reader.h"
 #include "drivers/csv/imu_csv.h"
+#include "drivers/csv/leo_elements_csv.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/parse.h"
@@ -48,6 +49,7 @@ class Import {
     check_output(output, dataset_.files());
     warn_of_missing();
     load_navigation();
+    load_leo_elements();
     load_orbits();
     load_corrections();
     load_imu();
@@ -85,6 +87,7 @@ class Import {
   void warn_of_missing();
   void warn_of_missing_ephemerides();
   void load_navigation();
+  void load_leo_elements();
   void load_orbits();
   void load_clocks(GpsTime start);
   std::vector<ImuSample> read_imu(const std::string& path);
@@ -207,6 +210,15 @@ void Import::load_navigation() {
     navigation_.insert(navigation_.end(), file.ephemerides.begin(), file.ephemerides.end());
     navigation_delays_.insert(navigation_delays_.end(), file.delays.begin(), file.delays.end());
     if (file.klobuchar.valid && !klobuchar_.valid) klobuchar_ = file.klobuchar;
+  }
+}
+
+void Import::load_leo_elements() {
+  for (const std::string& path : dataset_.leo_elements) {
+    const LeoElementsCsv file = read_leo_elements_csv(path);
+    report_.skip(file.report.problems.empty() ? path : file.report.problems.front(), "unusable row",
+                 file.report.skipped);
+    navigation_.insert(navigation_.end(), file.ephemerides.begin(), file.ephemerides.end());
   }
 }
 

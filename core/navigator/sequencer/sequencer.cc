@@ -74,13 +74,16 @@ bool Sequencer::lay_on_timeline(ImuSample* sample) {
   return true;
 }
 
-// Removes everything, because it belongs to the old time, and restarts the filter.
+// Removes everything, because it belongs to the old time, and restarts the filter. What the
+// monitors have gathered compares with stamps of the old time, too.
 void Sequencer::start_new_time(double jump_s) {
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_.clear();
   epochs_.clear();
   imu_since_epoch_.clear();
   odometer_.clear();
+  refused_imu_ = RefusedImuMonitor();
+  stamp_offset_ = StampOffsetMonitor();
   last_deadline_smoother_ = GpsTime();
   push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
 }

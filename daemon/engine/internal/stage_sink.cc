@@ -56,6 +56,26 @@ void count_checkpoint(const Event& event, EngineCounters* counters) {
   (used ? counters->checkpoints_used : counters->checkpoints_ignored).add(1);
 }
 
+auto& conventions_of(Stage stage, EngineCounters* counters) {
+  return stage == Stage::kSequencer ? counters->lasting_conventions : counters->conventions;
+}
+
+void count_convention(const Event& event, EngineCounters* counters) {
+  if (event.code >= kConventionCount) return;
+  ConventionGauge& gauge = conventions_of(event.stage, counters)[event.code];
+  gauge.milli.set(std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
+  gauge.events.add(1);
+}
+
+// Where the time of the inputs has stepped, what a stage has found before holds no more: it looks
+// anew, and finds again what is still wrong.
+void note_reset(const Event& event, EngineCounters* counters) {
+  counters->reset_cause.set(event.code);
+  if (event.code != static_cast<std::uint8_t>(ResetCause::kTimeBase)) return;
+  for (ConventionGauge& gauge : conventions_of(event.stage, counters))
+    gauge.void_events.set(gauge.events.get());
+}
+
 }  // namespace
 
 void StageSink::on_solution(const Solution& solution) {
@@ -110,17 +130,13 @@ void StageSink::on_epoch(const EpochReport& report) {
 }
 
 void StageSink::on_event(const Event& event) {
+  if (event.kind == EventKind::kFilterReset) note_reset(event, counters_);
   counters_->events[static_cast<std::size_t>(event.kind)].add(1);
   if (event.kind == EventKind::kSolutionJump && event.value > kLargeJump_m) {
     counters_->large_jumps.add(1);
     if (event.code != 0) counters_->surprising_jumps.add(1);
   }
-  if (event.kind == EventKind::kConventionSuspect && event.code < kConventionCount) {
-    counters_->convention_milli[event.code].set(
-        std::llround(std::clamp(event.value * 1e3, -1e15, 1e15)));
-    counters_->conventions[event.code].add(1);
-    if (event.stage == Stage::kSequencer) counters_->lasting_conventions[event.code].add(1);
-  }
+  if (event.kind == EventKind::kConventionSuspect) count_convention(event, counters_);
   if (event.kind == EventKind::kCheckpoint) count_checkpoint(event, counters_);
   encoder_.on_event(event);
 }

@@ -13,7 +13,8 @@ namespace leonav {
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
 // mended and the daemon is started again. What the Sequencer finds it finds again each minute while
 // it lasts, as stamps of a receiver that does not know the leap seconds yet: that stays until it
-// has not been found for two minutes.
+// has not been found for two minutes. A time step of the inputs ends all of them: the stages look
+// anew, so that a clock that was wrong for a while leaves no blame on the IMU.
 class ConventionMonitor {
  public:
   explicit ConventionMonitor(const EngineCounters* counters) : counters_(counters) {}
@@ -24,16 +25,25 @@ class ConventionMonitor {
   const std::string& suspicions() const { return suspicions_; }
 
  private:
+  // What a stage suspects.
   struct Suspicion {
     bool is_active = false;
     std::int64_t events = 0;
-    std::int64_t milli = 0;  // the value when it became active, in thousandths
-    double last_s = 0.0;     // of the last event
+    double last_s = 0.0;  // of the last event
   };
+  // Of one convention.
+  struct Suspected {
+    Suspicion once, lasting;
+    std::int64_t milli = 0;  // the value when it became active, in thousandths
+
+    bool is_active() const { return once.is_active || lasting.is_active; }
+  };
+
+  static void look_at(const ConventionGauge& gauge, bool lasts, double now_s, Suspicion* one);
 
   const EngineCounters* counters_;
   std::string suspicions_;
-  std::array<Suspicion, kConventionCount> suspected_;
+  std::array<Suspected, kConventionCount> suspected_;
   Findings found_;
 };
 

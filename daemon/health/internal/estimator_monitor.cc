@@ -4,6 +4,7 @@
 
 #include "core/navigator/interface/solution.h"
 #include "daemon/health/internal/counter_sums.h"
+#include "daemon/text/reset_text.h"
 
 namespace leonav {
 namespace {
@@ -33,7 +34,8 @@ void EstimatorMonitor::look_at_starts() {
   if (std::exchange(starts_, starts) == starts) return;
   epochs_at_start_ = counters_->accepted_epochs.get();
   received_at_start_ = counters_->received[index_of(Channel::kGnssEpoch)].get();
-  found_.add(HealthReason::kFilterStartedOver);
+  found_.add(HealthReason::kFilterStartedOver,
+             reset_text(static_cast<ResetCause>(counters_->reset_cause.get())));
 }
 
 // While it begins, and after an outage, the solution jumps to where it belongs. After an outage its

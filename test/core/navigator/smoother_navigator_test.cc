@@ -247,6 +247,49 @@ TEST_CASE("a smoother's recorded misses and iterations are obeyed") {
   CHECK(first.solutions.back().source == Source::kSmoother);
 }
 
+TEST_CASE("where a solve fails the filter answers, with its event, and the smoother comes back") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive(90.0));
+  NavigatorConfig config = smoother_config(drive.options);
+  RecordingSink of_filter, well, drilled;
+  const auto run_into = [&](RecordingSink* sink) {
+    Navigator navigator(config, sink);
+    feed(drive, &navigator);
+  };
+  run_into(&well);
+  config.smoother.drill_failure_every = GENERATE(20, 1);
+  config.smoother.drill_failure = GENERATE(DrilledFailure::kSingular, DrilledFailure::kDiverged);
+  if (config.smoother.drill_failure_every > 1)
+    config.smoother.solver = GENERATE(SmootherSolver::kChain, SmootherSolver::kCeres);
+  run_into(&drilled);
+  config.estimator = Estimator::kEkf;
+  run_into(&of_filter);
+  const bool singular = config.smoother.drill_failure == DrilledFailure::kSingular;
+  const auto every = static_cast<std::uint64_t>(config.smoother.drill_failure_every);
+  REQUIRE(drilled.solutions.size() == well.solutions.size());
+  std::uint64_t failures = 0;
+  for (const SmootherReport& report : drilled.smoothed) {
+    if (report.index % every != 0) continue;
+    ++failures;
+    CHECK(report.status == (singular ? SmootherStatus::kSingular : SmootherStatus::kDiverged));
+    CHECK(report.solution.source == Source::kNone);
+  }
+  CHECK(failures >= (every == 1 ? 50 : 3));
+  CHECK(drilled.count(EventKind::kSmootherFailed) > 0);  // thinned
+  int by_filter = 0, by_smoother = 0;
+  for (const Solution& solution : drilled.solutions) {
+    if (solution.anchor_epoch % every == 0) CHECK(solution.source != Source::kSmoother);
+    by_filter += solution.source == Source::kEkf ? 1 : 0;
+    by_smoother += solution.source == Source::kSmoother ? 1 : 0;
+  }
+  CHECK(by_filter > 200);
+  if (every == 1)
+    CHECK(by_smoother == 0);
+  else
+    CHECK(drilled.solutions.back().source == Source::kSmoother);
+  CHECK(rms_error(drilled.solutions, drive, 40.0) <
+        1.03 * rms_error(of_filter.solutions, drive, 40.0));
+}
+
 TEST_CASE("epochs between two keyframes: the smoother's anchor goes on, with GNSS behind it") {
   SyntheticDriveOptions options = noisy_drive(90.0);
   options.epoch_interval_s = 0.2;

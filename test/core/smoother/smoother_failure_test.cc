@@ -82,6 +82,42 @@ TEST_CASE("what cannot be solved is reported, and the smoother starts over") {
   }
 }
 
+TEST_CASE("a drilled failure is found as a true one is, and the smoother starts over") {
+  SmootherConfig config;
+  config.drill_failure_every = 10;
+  config.drill_failure = GENERATE(DrilledFailure::kSingular, DrilledFailure::kDiverged);
+  const bool singular = config.drill_failure == DrilledFailure::kSingular;
+  Drive drive{DriveOptions{}};
+  const auto smoother = smoother_of(drive, config);
+  for (int epoch = 1; epoch <= 40; ++epoch) {
+    const KeyframeInput& input = drive.step();
+    CAPTURE(input.index);
+    const SmootherResult result = solve(input, smoother.get());
+    if (input.index % 10 == 0) {
+      CHECK(result.status == (singular ? SmootherStatus::kSingular : SmootherStatus::kDiverged));
+    } else if (epoch > 1) {
+      CHECK(result.status ==
+            (input.index % 10 == 1 ? SmootherStatus::kStarted : SmootherStatus::kOk));
+      CHECK((result.state.p_e - drive.truth().p_e).norm() < 10.0);
+    }
+  }
+}
+
+TEST_CASE("a drilled failure that came too late leaves no trace") {
+  SmootherConfig config;
+  config.drill_failure_every = 10;
+  config.drill_failure = GENERATE(DrilledFailure::kSingular, DrilledFailure::kDiverged);
+  Drive drive{DriveOptions{}};
+  const auto with = smoother_of(drive, config), without = smoother_of(drive, SmootherConfig());
+  for (int epoch = 1; epoch <= 40; ++epoch) {
+    const KeyframeInput& input = drive.step();
+    const bool in_time = input.index % 10 != 0;
+    const SmootherResult failed = solve(input, with.get(), in_time);
+    const SmootherResult other = solve(input, without.get(), in_time);
+    if (in_time) CHECK((failed.state.p_e - other.state.p_e).norm() == 0.0);
+  }
+}
+
 TEST_CASE("a covariance that is none starts nothing") {
   Drive drive{DriveOptions{}};
   const auto smoother = smoother_of(drive, 5);

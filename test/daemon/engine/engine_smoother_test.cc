@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cstdint>
 #include <leonav/event_t.hpp>
+#include <leonav/smoother_t.hpp>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -82,7 +84,7 @@ Collector replay(const std::vector<Decision>& decisions,
 
 bool is_done(const WorkCount& work) { return work.done == work.pushed; }
 
-Collector run_engine(Hold hold, double time_limit_s = 0.0,
+Collector run_engine(Hold hold, const DaemonConfig& config,
                      const std::vector<Input>& list = whole_drive()) {
   std::atomic<std::uint64_t> samples{0}, held_until{0};
   std::uint64_t last_epoch = 0;
@@ -97,8 +99,6 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0,
     while (samples.load() < until) test::wait_a_moment();  // 0.75 s of data
   };
   Collector outputs;
-  DaemonConfig config = smoother_config();
-  config.navigator.smoother.time_limit_s = time_limit_s;
   Engine engine(config, &outputs, hooks);
   engine.start();
   std::int64_t stamp = 0;
@@ -113,6 +113,13 @@ Collector run_engine(Hold hold, double time_limit_s = 0.0,
   return outputs;
 }
 
+Collector run_engine(Hold hold, double time_limit_s = 0.0,
+                     const std::vector<Input>& list = whole_drive()) {
+  DaemonConfig config = smoother_config();
+  config.navigator.smoother.time_limit_s = time_limit_s;
+  return run_engine(hold, config, list);
+}
+
 int resets_of(const Collector& outputs, ResetCause cause) {
   int resets = 0;
   for (const Bytes& bytes : outputs.groups[kGnssEvents]) {
@@ -123,6 +130,17 @@ int resets_of(const Collector& outputs, ResetCause cause) {
     resets += reset && event.code == static_cast<int>(cause) ? 1 : 0;
   }
   return resets;
+}
+
+int reports_of(const Collector& outputs, SmootherStatus status) {
+  int reports = 0;
+  for (const Bytes& bytes : outputs.groups[kSmoother]) {
+    smoother_t report{};
+    const int size = static_cast<int>(bytes.size());
+    REQUIRE(report.decode(bytes.data(), 0, size) == size);
+    reports += report.status == static_cast<int>(status) ? 1 : 0;
+  }
+  return reports;
 }
 
 int missed_of(const std::vector<Decision>& decisions, Decision::Subject subject) {
@@ -155,6 +173,18 @@ TEST_CASE("a smoother that is late leaves the filter's answer, and its run repla
   CHECK(late.groups[0].size() == in_time.groups[0].size());
   CHECK(late.groups[kSmoother].size() >= 15);
   check_same(replay(decisions), late);
+}
+
+TEST_CASE("solves that fail by a drill fail in the replay too, with and without misses") {
+  const auto [failure, hold, status] =
+      GENERATE(std::tuple(DrilledFailure::kSingular, Hold::kNever, SmootherStatus::kSingular),
+               std::tuple(DrilledFailure::kDiverged, Hold::kBefore, SmootherStatus::kDiverged));
+  DaemonConfig config = smoother_config();
+  config.navigator.smoother.drill_failure_every = 4;
+  config.navigator.smoother.drill_failure = failure;
+  const Collector live = run_engine(hold, config);
+  CHECK(reports_of(live, status) >= 10);
+  check_same(test::run_navigator(config.navigator, whole_drive(), decisions_of(live)), live);
 }
 
 TEST_CASE("solves that time has cut short replay with as many iterations, the last ones too") {

@@ -83,3 +83,35 @@ TEST_CASE("the counters know of steps that were shortened and of solves left to 
   CHECK(counters.smoother_shortened.get() == 4);
   CHECK(counters.smoother_left_to_chain.get() == 1);
 }
+
+TEST_CASE("a time step voids what its stage has found, and nothing that another has") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  StageSink sink(1 << 20, &wakeup, &counters);
+  const auto emit = [&](Stage stage, EventKind kind, auto code) {
+    Event event;
+    event.stage = stage;
+    event.kind = kind;
+    event.code = static_cast<std::uint8_t>(code);
+    event.value = 18.0;
+    sink.on_event(event);
+  };
+  const auto leap = static_cast<std::size_t>(Convention::kLeapSeconds);
+  const ConventionGauge &once = counters.conventions[leap],
+                        &lasting = counters.lasting_conventions[leap];
+  emit(Stage::kGnss, EventKind::kConventionSuspect, Convention::kLeapSeconds);
+  emit(Stage::kSequencer, EventKind::kConventionSuspect, Convention::kLeapSeconds);
+  CHECK(once.milli.get() == 18'000);
+  emit(Stage::kGnss, EventKind::kFilterReset, ResetCause::kHeading);
+  CHECK(once.void_events.get() == 0);
+  CHECK(counters.reset_cause.get() == static_cast<int>(ResetCause::kHeading));
+  emit(Stage::kGnss, EventKind::kFilterReset, ResetCause::kTimeBase);
+  CHECK(once.void_events.get() == 1);
+  CHECK(lasting.void_events.get() == 0);
+  emit(Stage::kSequencer, EventKind::kFilterReset, ResetCause::kTimeBase);
+  CHECK(lasting.void_events.get() == 1);
+  emit(Stage::kGnss, EventKind::kConventionSuspect, Convention::kLeapSeconds);
+  CHECK(once.events.get() == 2);
+  CHECK(once.void_events.get() == 1);
+  CHECK(lasting.events.get() == 1);
+}

@@ -15,10 +15,10 @@ class Looks {
  public:
   Looks() : engine_(test::drive_config(), &target_), monitor_(&engine_) {
     engine_.counters().satellites_used[0].set(8);
-    look(true, true);  // the first answer
   }
   bool look(bool has_input, bool has_answer) {
     EngineCounters& counters = engine_.counters();
+    receive(has_input ? 200 : 0, has_input ? 1 : 0);
     if (has_input) {
       counters.accepted_imu.add(200);
       counters.accepted_epochs.add(1);
@@ -26,9 +26,36 @@ class Looks {
     if (has_answer) counters.solution_time_ns.add(1'000'000'000);
     return monitor_.stands_still(true);
   }
+  // Both streams come, and the Sequencer rejects all of it by this fault.
+  bool look_rejecting(InputFault imu, InputFault epochs) {
+    receive(200, 1);
+    reject(Channel::kImu, imu, 200);
+    reject(Channel::kGnssEpoch, epochs, 1);
+    return monitor_.stands_still(true);
+  }
+  // Both streams come, and are refused as they are decoded.
+  bool look_refusing() {
+    receive(200, 1);
+    engine_.counters().refused[index_of(Channel::kImu)].add(200);
+    engine_.counters().refused[index_of(Channel::kGnssEpoch)].add(1);
+    engine_.counters().rejected[static_cast<std::size_t>(InputFault::kUndecodable)].add(201);
+    return monitor_.stands_still(true);
+  }
   EngineCounters& counters() { return engine_.counters(); }
+  bool look() { return monitor_.stands_still(true); }
 
  private:
+  void receive(std::int64_t imu, std::int64_t epochs) {
+    engine_.counters().received[index_of(Channel::kImu)].add(imu);
+    engine_.counters().received[index_of(Channel::kGnssEpoch)].add(epochs);
+  }
+  void reject(Channel channel, InputFault fault, std::int64_t count) {
+    const std::size_t stream = channel == Channel::kImu ? 0 : 1,
+                      of = static_cast<std::size_t>(fault);
+    engine_.counters().rejected_of_stream[stream][of].add(count);
+    engine_.counters().rejected[of].add(count);
+  }
+
   Discard target_;
   Engine engine_;
   AnswerMonitor monitor_;
@@ -38,16 +65,68 @@ class Looks {
 
 TEST_CASE("an answer that stands still for a minute while inputs come is found, and not before") {
   Looks looks;
+  looks.look(true, true);
   for (int second = 1; second < 60; ++second) CHECK_FALSE(looks.look(true, false));
   CHECK(looks.look(true, false));
   CHECK_FALSE(looks.look(true, true));  // it goes on
 }
 
+TEST_CASE("an answer that ends because all inputs are rejected for their time is found") {
+  for (const InputFault imu : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
+    for (const InputFault epochs : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
+      Looks looks;
+      looks.look(true, true);
+      for (int second = 1; second < 60; ++second) CHECK_FALSE(looks.look_rejecting(imu, epochs));
+      CHECK(looks.look_rejecting(imu, epochs));
+      CHECK_FALSE(looks.look(true, true));
+    }
+  }
+}
+
+TEST_CASE("epochs that are all too late are found like others that are rejected for their time") {
+  Looks looks;
+  looks.look(true, true);
+  bool found = false;
+  for (int second = 1; second <= 60; ++second) {
+    CHECK_FALSE(found);
+    looks.counters().accepted_imu.add(200);
+    looks.counters().late_epochs.add(1);
+    found = looks.look();
+  }
+  CHECK(found);
+}
+
 TEST_CASE("no answer without inputs or satellites is nothing that a restart mends") {
   Looks silent, blind;
+  silent.look(true, true);
+  blind.look(true, true);
   blind.counters().satellites_used[0].set(0);
   for (int second = 0; second < 200; ++second) {
     CHECK_FALSE(silent.look(false, false));
     CHECK_FALSE(blind.look(true, false));
+  }
+}
+
+TEST_CASE("inputs that are their sender's fault are nothing that a restart mends") {
+  Looks junk;
+  junk.look(true, true);
+  for (int second = 0; second < 200; ++second) CHECK_FALSE(junk.look_refusing());
+  for (const InputFault fault : {InputFault::kNotFinite, InputFault::kOutOfRange,
+                                 InputFault::kDuplicate, InputFault::kNotSane}) {
+    Looks both, imu, epochs;
+    for (Looks* looks : {&both, &imu, &epochs}) looks->look(true, true);
+    for (int second = 0; second < 200; ++second) {
+      CHECK_FALSE(both.look_rejecting(fault, fault));
+      CHECK_FALSE(imu.look_rejecting(fault, InputFault::kTooFarAhead));
+      CHECK_FALSE(epochs.look_rejecting(InputFault::kTooFarAhead, fault));
+    }
+  }
+}
+
+TEST_CASE("a restart that brings no answer is not followed by another one") {
+  Looks restarted;  // without an answer since it has begun
+  for (int second = 0; second < 200; ++second) {
+    CHECK_FALSE(restarted.look(true, false));
+    CHECK_FALSE(restarted.look_rejecting(InputFault::kTimeBackwards, InputFault::kTooFarAhead));
   }
 }

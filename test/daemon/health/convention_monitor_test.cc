@@ -1,6 +1,7 @@
 // How long HEALTH keeps a convention that was broken.
 #include "daemon/health/internal/convention_monitor.h"
 
+#include <array>
 #include <string>
 
 #include "support/catch.h"
@@ -11,9 +12,14 @@ using namespace leonav;
 
 void tell(EngineCounters* counters, Convention convention, double value, bool comes_again = true) {
   const auto i = static_cast<std::size_t>(convention);
-  counters->conventions[i].set(counters->conventions[i].get() + 1);
-  if (comes_again) counters->lasting_conventions[i].set(counters->lasting_conventions[i].get() + 1);
-  counters->convention_milli[i].set(static_cast<std::int64_t>(1e3 * value));
+  auto& gauges = comes_again ? counters->lasting_conventions : counters->conventions;
+  gauges[i].milli.set(static_cast<std::int64_t>(1e3 * value));
+  gauges[i].events.add(1);
+}
+
+// What a StageSink does at a time step.
+void void_all(std::array<ConventionGauge, kConventionCount>* gauges) {
+  for (ConventionGauge& gauge : *gauges) gauge.void_events.set(gauge.events.get());
 }
 
 }  // namespace
@@ -40,4 +46,32 @@ TEST_CASE("stamps that have come right are forgotten after two minutes, axes nev
     CHECK(watch.look(183.0).size() == 1);
     CHECK(watch.look(100'000.0).size() == 1);
   }
+}
+
+TEST_CASE("a time step of the inputs ends what the stage had found, until it finds it again") {
+  for (const bool comes_again : {false, true}) {
+    CAPTURE(comes_again);
+    EngineCounters counters;
+    ConventionMonitor monitor(&counters);
+    tell(&counters, Convention::kStampOffset, -3.0, comes_again);
+    CHECK(monitor.look(1.0).size() == 1);
+    // The other stage's time step says nothing about it.
+    void_all(comes_again ? &counters.conventions : &counters.lasting_conventions);
+    CHECK(monitor.look(2.0).size() == 1);
+    void_all(comes_again ? &counters.lasting_conventions : &counters.conventions);
+    CHECK(monitor.look(3.0).empty());
+    CHECK(monitor.suspicions().empty());
+    CHECK(monitor.look(4.0).empty());
+    tell(&counters, Convention::kStampOffset, -25.0, comes_again);
+    CHECK(monitor.look(5.0).size() == 1);
+    CHECK(monitor.suspicions().find("25") != std::string::npos);
+  }
+}
+
+TEST_CASE("what was found and ended by a time step between two looks is never told") {
+  EngineCounters counters;
+  ConventionMonitor monitor(&counters);
+  tell(&counters, Convention::kTurned, 170.0, false);
+  void_all(&counters.conventions);
+  CHECK(monitor.look(1.0).empty());
 }

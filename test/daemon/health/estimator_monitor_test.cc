@@ -12,7 +12,25 @@ void set_source(Source source, EngineCounters* counters) {
   counters->source.set(static_cast<std::int64_t>(source));
 }
 
+void start_over(ResetCause cause, EngineCounters* counters) {
+  counters->reset_cause.set(static_cast<std::int64_t>(cause));
+  counters->events[static_cast<std::size_t>(EventKind::kFilterReset)].add(1);
+}
+
 }  // namespace
+
+TEST_CASE("a filter that starts over again is told with the last cause") {
+  EngineCounters counters;
+  EstimatorMonitor monitor(&counters);
+  start_over(ResetCause::kOutage, &counters);
+  start_over(ResetCause::kLockedOut, &counters);
+  REQUIRE(monitor.look().size() == 1);
+  CHECK(monitor.look().empty());
+  start_over(ResetCause::kOutage, &counters);
+  const auto found = monitor.look();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].detail == "an outage has lost the position");
+}
 
 TEST_CASE(
     "a filter that starts over raises its reason at one look, and waits until two epochs have "
@@ -22,10 +40,11 @@ TEST_CASE(
   counters.accepted_epochs.set(100);
   CHECK(monitor.look().empty());
   CHECK_FALSE(monitor.waits_for_epoch());
-  counters.events[static_cast<std::size_t>(EventKind::kFilterReset)].add(1);
+  start_over(ResetCause::kHeading, &counters);
   const auto found = monitor.look();
   REQUIRE(found.size() == 1);
   CHECK(found[0].reason == HealthReason::kFilterStartedOver);
+  CHECK(found[0].detail == "the heading contradicts the motion");
   CHECK(monitor.waits_for_epoch());
   counters.accepted_epochs.set(101);  // may be on its way
   CHECK(monitor.look().empty());

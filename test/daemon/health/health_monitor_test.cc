@@ -189,7 +189,9 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
       return true;
     });
     CHECK(before == "OK: ekf");
-    const std::string started_over = "the filter has started over: the events filter_reset say why";
+    const std::string started_over =
+        "the filter has started over (by the command restart): normal once after an outage or a "
+        "command; the events filter_reset have the numbers";
     CHECK(after.find("FAULT: no solution yet (") == 0);
     CHECK(after.find(started_over + "none") != std::string::npos);
     const bool inertial = motion == MotionModel::kInertial;

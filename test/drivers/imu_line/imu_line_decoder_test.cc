@@ -174,7 +174,8 @@ TEST_CASE("The end of one connection and the beginning of the next make no line"
   // Nor does a line without end, whose connection has gone, cost the next ones.
   feed(std::string(5000, 'a'));
   decoder.begin_connection();
-  feed(std::string(5000, 'a') + "\n" + line);
+  std::string endless(5000, 'a');
+  feed(endless.append("\n").append(line));
   REQUIRE(collector.lines.size() == 4);
   for (const ImuLine& each : collector.lines) CHECK(each.gyro[0] == 0.005);
   CHECK(decoder.counters().first_lines == 4);

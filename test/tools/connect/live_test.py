@@ -6,7 +6,8 @@ What leonav-connect publishes must be what leonav-import writes: GNSS messages t
 sensor's 32-bit numbers. LCM is UDP, and the logger loses messages where the machine is busy: how many were published is
 what the program says, and messages are compared by their sequence. Its recordings, played as files, must give the same once more. Then a sensor without GPS time,
 with a clock that drifts, must be stamped by arrivals within what its sigma says, and an Xsens sensor whose pulses the receiver
-sees within what its clock shows. Runs in a network namespace of its own;
+sees within what its clock shows. Antenna models, biases and elements of LEO satellites in files must come as the import has
+them, and the antenna's must move the solution of leonav-replay by what they say. Runs in a network namespace of its own;
 exit 77: none can be made here.
 """
 import bisect
@@ -31,6 +32,7 @@ from live_program import enter_namespace, fail  # noqa: E402
 from serial_terminal import SerialTerminal  # noqa: E402
 
 SPEED = 4.0
+RAISED_M = 3.0
 IMU = struct.Struct(">qqqiq6d")  # fingerprint, time, sequence, schema, interval, increments
 
 
@@ -115,7 +117,7 @@ def same_imu(expected, run, found, where):
 
 def simulate(work):
     """Exports a short drive; returns (GPS time in ns, bytes) of every message of receiver and sensor, and the import's log."""
-    subprocess.run([BIN / "leonav-sim", ROOT / "config/scenario/open_sky.yaml", "--set", "duration_s=40", "--set", "route.standing_s=5",
+    subprocess.run([BIN / "leonav-sim", ROOT / "config/scenario/open_sky.yaml", "--set", "duration_s=40", "--set", "route.standing_s=5", "--set", "satellites.leo.told=both",
                     "--export", work / "export", "-o", work / "run.lcmlog"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     locks, receiver, waiting = {}, [], None
     for instant, satellites in ubx_bytes.epochs(work / "export/run.obs"):
@@ -180,6 +182,77 @@ streams:
     found = run.finish(stop=False)
     same_gnss(expected, run, found, "recordings")
     same_imu(expected, run, found, "recordings")
+
+
+def antenna_file(path):
+    """Models of a satellite and of a receiver's antenna that is RAISED_M above its reference point."""
+    label = lambda text, what: f"{text:<60}{what}\n"
+    antenna = lambda name, up_m: (
+        label("", "START OF ANTENNA") + label(name, "TYPE / SERIAL NO") + label("     0.0", "DAZI") + label("     0.0   1.0   1.0", "ZEN1 / ZEN2 / DZEN") +
+        "".join(label("   " + band, "START OF FREQUENCY") + label(f"{0:10.2f}{0:10.2f}{1e3 * up_m:10.2f}", "NORTH / EAST / UP") +
+                "   NOAZI    0.00    0.00\n" + label("   " + band, "END OF FREQUENCY") for band in ("G01", "G02")) + label("", "END OF ANTENNA"))
+    path.write_text(label("     1.4            M", "ANTEX VERSION / SYST") + label("A", "PCV TYPE / REFANT") + label("", "END OF HEADER") +
+                    antenna(f"{'BLOCK IIF':<20}{'G05':<20}{'G063':<10}{'2011-036A'}", 1.25) + antenna("TRM59800.00     NONE", RAISED_M))
+
+
+def bias_file(path):
+    record = lambda prn, code, value: f" OSB       {prn:<3}           {code:<4}      2000:001:00000 2090:001:00000 ns   {value:21.4f} {0.01:11.4f}\n"
+    path.write_text("%=BIA 1.00 TST 2024:127:00000 TST 2000:001:00000 2090:001:00000 A 00000002\n+BIAS/DESCRIPTION\n TIME_SYSTEM  G\n"
+                    "-BIAS/DESCRIPTION\n+BIAS/SOLUTION\n" + record("G05", "C1C", 1.5) + record("E11", "C5Q", -2.5) + "-BIAS/SOLUTION\n%=ENDBIA\n")
+
+
+def without_antennas(work, log):
+    """The same log without its ANTENNA messages."""
+    stripped = work / f"{log.stem}_stripped.lcmlog"
+    lcm_log.write(stripped, (one for one in lcm_log.messages(log) if one[1] != "LEONAV_ANTENNA"))
+    return stripped
+
+
+def heights(work, log):
+    """{time: height} of leonav-replay without IMU."""
+    out = work / f"{log.stem}_result"
+    subprocess.run([BIN / "leonav-replay", "--preset", "demo", "--set", "ekf.motion=constant_velocity", log, "--out", out], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    lines = [line.split(",") for line in (out / "solution.csv").read_text().splitlines()]
+    time_column, height_column = lines[0].index("gps_tow_s"), lines[0].index("height_m")
+    return {line[time_column]: float(line[height_column]) for line in lines[1:]}
+
+
+def products_of_files(work):
+    """What comes of files live is what an import makes of them, and serves."""
+    antenna_file(work / "models.atx")
+    bias_file(work / "biases.bia")
+    keys = 'antenna_models: models.atx\n{0}receiver_antenna: TRM59800.00     NONE\n{0}biases: biases.bia\n'
+    (work / "products.yaml").write_text("observations: receiver.ubx\nimu: export/imu.csv\nleo_elements: export/leo_elements.csv\n" + keys.format(""))
+    subprocess.run([BIN / "leonav-import", work / "products.yaml", "-o", work / "products.lcmlog"], check=True, stdout=subprocess.DEVNULL)
+    streams = "streams:\n  - {name: receiver, source: file, path: receiver.leoraw, format: ubx, repeat_ephemerides_s: 5}\n"
+    run = Run(work, "files", f"playback_speed: 4\nleo_elements: export/leo_elements.csv\ncorrections:\n  {keys.format('  ')}{streams}")
+    found = run.finish(stop=False)
+    plain = Run(work, "no_files", f"playback_speed: 4\n{streams}")
+    if {"LEONAV_ANTENNA", "LEONAV_BIASES"} & set(plain.finish(stop=False)):
+        fail("antenna models or biases come without a file")
+    expected = channels(work / "products.lcmlog")
+    # Each message has the time of its sending, behind which all else must be equal.
+    rest = lambda of, name: {payload[24:] for payload in of.get(name, {}).values()}
+    antennas = rest(expected, "LEONAV_ANTENNA")
+    if len(antennas) != 4 or rest(found, "LEONAV_ANTENNA") != antennas:
+        fail(f"{len(rest(found, 'LEONAV_ANTENNA'))} antenna models came live, {len(antennas)} of the import")
+    if rest(found, "LEONAV_BIASES") != rest(expected, "LEONAV_BIASES") or not rest(expected, "LEONAV_BIASES"):
+        fail("the biases that came live are not those of the import")
+    low = lambda of: {payload[24:] for payload in of["LEONAV_EPHEMERIS"].values() if struct.unpack_from(">i", payload, 24)[0] == 2}
+    if not low(expected) or low(found) != low(expected):
+        fail(f"elements of LEO satellites: {len(low(found))} live, {len(low(expected))} of the import")
+    if len(found["LEONAV_ANTENNA"]) < 3 * len(antennas):
+        fail("antenna models are not repeated")
+    print(f"files: {len(antennas)} antenna models, biases, {len(low(found))} sets of elements, equal to those of the import")
+    steps = {}
+    for name, log in (("live", run.log), ("import", work / "products.lcmlog")):
+        with_models, without = heights(work, log), heights(work, without_antennas(work, log))
+        steps[name] = max((time_, without[time_] - with_models[time_]) for time_ in set(with_models) & set(without))[1]
+    print("files: the model of an antenna 3 m up lowers the last solution by " + ", ".join(f"{step:.3f} m ({name})" for name, step in steps.items()))
+    # Codes are averaged, so that the whole of it does not show in half a minute.
+    if not 0.7 * RAISED_M < steps["live"] < 1.1 * RAISED_M or abs(steps["live"] - steps["import"]) > 0.2 * RAISED_M:
+        fail("the receiver antenna's model does not serve")
 
 
 def recording(path, messages, delay):
@@ -275,6 +348,7 @@ def main():
     sensor = list(vectornav_bytes.messages(work / "export/imu.csv", "gps"))
     live(work, receiver, sensor, expected)
     played_again(work, expected)
+    products_of_files(work)
     own_clock(work, receiver, expected)
     own_pulses(work, receiver, expected)
 

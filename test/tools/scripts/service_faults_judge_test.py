@@ -3,6 +3,8 @@
 sends is what LCM receives."""
 import pathlib
 import sys
+import tempfile
+import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.dont_write_bytecode = True
@@ -10,10 +12,10 @@ sys.path[:0] = [str(ROOT / folder) for folder in ("tools/scripts/lib", "tools/py
 try:
     import numpy as np
     from leonav.live import Assembler
-    from service_faults import judge, stream
+    from service_faults import judge, rows_satellites, stream
     from service_faults.datagrams import datagrams
-    from service_faults.drive import IMU, stamp_ns
-    from service_faults.recorded import Health, Outputs
+    from service_faults.drive import GPS, IMU, LEO, START_S, WEEK, stamp_ns
+    from service_faults.recorded import Epoch, Health, IN_USE, Outputs
     from service_faults.row import Expected, Row, fault
 except ImportError as error:
     print(f"SKIPPED: {error}")
@@ -36,7 +38,7 @@ def outputs(bad=(), gaps=(), error=0.5, sigma=0.4, ends=200):
         made.health.append(Health(t, *now, "smoother"))
     t = np.arange(0, ends, 0.1)
     made.t = t[[not any(begin <= one < end for begin, end in gaps) for one in t]]
-    made.time, made.events = made.t.copy(), []
+    made.time, made.events, made.epochs = made.t.copy(), [], []
     made.error, made.sigma = np.full(len(made.t), error), np.full(len(made.t), sigma)
     return made
 
@@ -78,6 +80,67 @@ def solution_is_judged():
     check("stamps of another time are found", failures(row, other_time))
 
 
+def health_goes_on():
+    def found(made):
+        result = judge.Judgement()
+        judge.judge_continuity(Row("row", "text", begin_s=60, end_s=70), made, result, 200)
+        return result
+    check("HEALTH each second goes on", not found(outputs([(62, 80, "DEGRADED", TOLD)])).failures)
+    check("two changes are counted", found(outputs([(62, 80, "DEGRADED", TOLD)])).numbers["health_changes"] == 2)
+    silent = outputs()
+    silent.health = [one for one in silent.health if not 100 <= one.t < 104]
+    check("four silent seconds are found", found(silent).failures)
+    silent.health = silent.health[:150]
+    check("an end of HEALTH is found", found(silent).failures)
+    check("a text that changes each second is found",
+          found(outputs([(t, t + 1, "DEGRADED", f"for {t} s") for t in range(62, 80)])).failures)
+
+
+def missing_solutions_are_counted():
+    check("none is missing", outputs().missing_stamps(60, 80, 0.1) == (0, 200))
+    check("two seconds are missing", outputs(gaps=[(69.95, 71.95)]).missing_stamps(60, 80, 0.1) == (20, 200))
+    twice = outputs(gaps=[(69.95, 71.95)])
+    twice.time[:20] = twice.time[20:40]
+    check("what comes twice is no replacement", twice.missing_stamps(60, 80, 0.1) == (20, 200))
+
+
+def run_with(folder, reason):
+    """A run whose replay says of a satellite's code what reason(t) is."""
+    (folder / "replay").mkdir(exist_ok=True)
+    lines = ["gps_week,gps_tow_s,satellite,observable,innovation,reason"]
+    for t in range(1, 160):
+        lines += [f"{WEEK},{START_S - WEEK * 604800 + t},{rows_satellites.SATELLITE},{observable},1.5,{why}"
+                  for observable, why in (("doppler", "used"), ("code", reason(t)))]
+    (folder / "replay" / "measurements.csv").write_text("\n".join(lines) + "\n")
+    return types.SimpleNamespace(row=Row("row", "text", begin_s=60, end_s=120), folder=folder, notes=[])
+
+
+def a_satellite_without_a_fault_is_found():
+    def fails(reason):
+        result = judge.Judgement()
+        with tempfile.TemporaryDirectory() as folder:
+            rows_satellites.code_is_left_out(run_with(pathlib.Path(folder), reason), result)
+        return result.failures
+    check("a code that is left out", not fails(lambda t: "outlier" if 60 <= t < 120 else "used"))
+    check("a code that is down-weighted", not fails(lambda t: "downweighted" if 65 <= t < 120 else "used"))
+    check("no fault is found", fails(lambda t: "used"))
+    check("a fault of all the time is found", fails(lambda t: "outlier"))
+    check("a short fault is found", fails(lambda t: "outlier" if 60 <= t < 90 else "used"))
+
+
+def leo_that_stays_is_found():
+    def fails(is_used):
+        result, made = judge.Judgement(), outputs()
+        made.epochs = [Epoch(t + 0.5, {(GPS, 1): IN_USE[0], (LEO, 100): IN_USE[0] if is_used(t) else 4}, 0.1) for t in range(160)]
+        run = types.SimpleNamespace(row=Row("row", "text", begin_s=60, end_s=120), notes=[])
+        rows_satellites.leo_is_gone(run, made, result)
+        return result.failures
+    check("LEO is gone", not fails(lambda t: not 60 <= t < 120))
+    check("LEO that stays is found", fails(lambda t: True))
+    check("LEO that never was is found", fails(lambda t: False))
+    check("LEO that does not come back is found", fails(lambda t: t < 60))
+
+
 def messages_arrive():
     for size in (10, 64990, 65001, 200000):
         data, assembler = bytes(range(256)) * (size // 256 + 1), Assembler()
@@ -93,11 +156,17 @@ def messages_change_within_their_span():
     late = stream.shifted(IMU, 3600, 2, 3)(drive)
     check("ten are an hour ahead", [t for t, _, data in late if stamp_ns(data)] == [t for t, _, _ in drive[20:30]])
     check("zeros are zeros", stream.IMU_FORMAT.unpack(stream.imu_zeros(2, 3)(drive)[25][2])[5:] == (0,) * 6)
+    names = {name for _, name, _ in stream.new_names(2, 3, 500)(drive)}
+    check("each name is another one", len(names) == 501)
     check("junk comes at its rate", 2200 < len(stream.junk(2, 3, 10)(drive)) < 2400)
 
 
 health_is_judged()
 solution_is_judged()
+health_goes_on()
+missing_solutions_are_counted()
+a_satellite_without_a_fault_is_found()
+leo_that_stays_is_found()
 messages_arrive()
 messages_change_within_their_span()
 print("the judgement tells what it must")

@@ -1,22 +1,23 @@
 #include "tools/common/service/service_main.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cstddef>
-#include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
-#include <tuple>
 
 #include "daemon/config/load_config.h"
 #include "daemon/link/open_lcm.h"
+#include "daemon/log/log_writer.h"
+#include "daemon/log/patient_write.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/common/arguments.h"
+#include "tools/common/service/log_sink.h"
 
 namespace leonav {
 namespace {
@@ -36,7 +37,14 @@ const char* text_of(const std::exception& error) {
   return error.what();
 }
 
-void write_text(const char* text) { std::ignore = write(STDERR_FILENO, text, std::strlen(text)); }
+// Of the process; made before anything is logged.
+std::shared_ptr<LogWriter> log_writer;
+
+// An end must come, whether somebody reads or not.
+void write_text(const char* text) {
+  constexpr int kLongest_ms = 200;
+  write_where_there_is_room(STDERR_FILENO, text, kLongest_ms);
+}
 
 // Memory may be short, so nothing here allocates. Destructors would wait for threads that may wait
 // for this one.
@@ -72,14 +80,21 @@ void require_memory_to_begin() {
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv)) {
   std::set_terminate(end_at_once);
   require_memory_to_begin();
-  spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
+  log_writer = std::make_shared<LogWriter>(STDERR_FILENO, name);
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>(name, std::make_shared<LogSink>(log_writer)));
   spdlog::set_pattern(std::string(name) + " %H:%M:%S.%e %l: %v");
+  int code = 0;
   try {
-    return body(argc, argv);
+    code = body(argc, argv);
   } catch (const std::exception& error) {
     spdlog::error("{}", text_of(error));
-    return exit_code_of(error);
+    code = exit_code_of(error);
   }
+  log_writer->finish();
+  return code;
 }
+
+void start_log_thread() { log_writer->start(); }
 
 }  // namespace leonav

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/gnss/propagation/signal_bias_store.h"
+#include "tools/import/bias_files.h"
 #include "tools/import/import_report.h"
 
 namespace leonav {
@@ -26,9 +27,5 @@ std::vector<ScheduledBiases> load_biases(const std::vector<std::string>& paths, 
 // Returns the messages of biases that arrive together.
 std::vector<ScheduledBiases> in_messages(
     const std::map<GpsTime, std::vector<SignalBias>>& by_arrival);
-
-// Longer than an epoch is late, and short against the validity of a bias: of each signal the store
-// keeps two.
-inline constexpr double kBiasLead_s = 60.0;
 
 }  // namespace leonav

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Makes a stream of SSR messages (RTCM 3) from precise products, as a service would have sent it.
 
-  ssr_from_products.py --nav FILE --sp3 FILE... --clk FILE --from WEEK:SECONDS --to WEEK:SECONDS -o OUT.rtcm3
+  ssr_from_products.py --nav FILE --sp3 FILE... --clk FILE --from WEEK:SECONDS --to WEEK:SECONDS [--biases FILE] -o OUT.rtcm3
 
 Orbits (1057, 1240) every 60 s and clocks (1058, 1241) every 30 s of GPS and Galileo (I/NAV): the products minus the
 broadcast message, rounded as the messages are. Orbits are those of the centre of mass. A clock holds until the next
-one: c1 and c2 are zero, and nothing later than its time is in it. It shares no code with the decoder: bits, broadcast
+one: c1 and c2 are zero, and nothing later than its time is in it. With --biases also code biases (1059, 1242) every 60 s:
+of each line of the file (satellite, signal, metres that the code has too much) what takes them away. It shares no code with the decoder: bits, broadcast
 orbit and interpolation are its own. Sources: RTCM 10403.3, 3.5.12; IS-GPS-200, table 20-IV; Galileo OS-SIS-ICD 5.1.
 """
 import argparse
@@ -278,6 +279,33 @@ def encode_clocks(system, t, rows):
     return frame(bits.bytes())
 
 
+# Identifiers of signals: DF380 and DF382.
+SIGNAL = {"G": "1C 1P 1W 1Y 1M 2C 2D 2S 2L 2X 2P 2W 2Y 2M 5I 5Q 5X 1S 1L 1X".split(),
+          "E": "1A 1B 1C 1X 1Z 5I 5Q 5X 7I 7Q 7X 8I 8Q 8X 6A 6B 6C 6X 6Z".split()}
+
+
+def read_biases(path):
+    """{satellite: [(signal, metres), ...]}"""
+    biases = collections.defaultdict(list)
+    for line in open(path):
+        satellite, signal, metres = line.split()
+        biases[satellite].append((signal, float(metres)))
+    return biases
+
+
+def bias_message(system, t, biases):
+    """What is sent is to be added to the codes (DF383)."""
+    of = {sat: rows for sat, rows in biases.items() if sat[0] == system}
+    bits = header({"G": 1059, "E": 1242}[system], t, 6, len(of), False)
+    for sat, rows in sorted(of.items()):
+        bits.put(int(sat[1:]), 6)
+        bits.put(len(rows), 5)
+        for signal, metres in rows:
+            bits.put(SIGNAL[system].index(signal), 5)
+            bits.put(-metres, 14, 1e-2)
+    return frame(bits.bytes()), len(of)
+
+
 def orbit_message(system, t, orbits, in_force):
     rows = orbit_rows(system, t, orbits, in_force)
     return encode_orbits(system, t, rows), len(rows)
@@ -295,10 +323,12 @@ def main():
     parser.add_argument("--clk", required=True)
     parser.add_argument("--from", required=True, dest="start", metavar="WEEK:SECONDS")
     parser.add_argument("--to", required=True, metavar="WEEK:SECONDS")
+    parser.add_argument("--biases", metavar="FILE")
     parser.add_argument("-o", required=True, dest="out")
     words = parser.parse_args()
     instant = lambda text: int(text.split(":")[0]) * WEEK + int(text.split(":")[1])
     sets, orbits, clocks = read_nav(words.nav), read_sp3(words.sp3), read_clk(words.clk)
+    biases = read_biases(words.biases) if words.biases else {}
     satellites = sorted(set(sets) & set(orbits) & set(clocks))
     messages = satellites_sent = 0
     in_force = {}
@@ -307,6 +337,7 @@ def main():
             if t % ORBIT_INTERVAL == 0:
                 in_force = {sat: s for sat in satellites if (s := chosen_set(sets[sat], t))}
                 made = [orbit_message(system, t, orbits, in_force) for system in "GE"]
+                made += [bias_message(system, t, biases) for system in "GE" if biases]
             else:
                 made = []
             made += [clock_message(system, t, orbits, clocks, in_force) for system in "GE"]

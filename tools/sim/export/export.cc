@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "drivers/csv/imu_csv.h"
+#include "drivers/csv/leo_elements_csv.h"
 #include "tools/sim/export/antex_writer.h"
 #include "tools/sim/export/clock_writer.h"
 #include "tools/sim/export/rinex_navigation_writer.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr const char* kAntennaName = "LEONAV_ZERO     NONE";
 constexpr const char *kObservations = "run.obs", *kNavigation = "run.nav", *kClocks = "run.clk",
                      *kAntennas = "antennas.atx", *kImu = "imu.csv", *kTruth = "truth.csv",
-                     *kDataset = "dataset.yaml";
+                     *kDataset = "dataset.yaml", *kLeoElements = "leo_elements.csv";
 constexpr const char *kToldOrbits =
                          "Simulated by leonav-sim: what the receiver is told, errors included",
                      *kTrueOrbits =
@@ -35,8 +36,8 @@ std::vector<SignalCode> plan_of(const Scenario& scenario, System system) {
 }  // namespace
 
 std::vector<std::string> export_files(const ExportOptions& options) {
-  std::vector<std::string> names = {kObservations, kNavigation, kClocks, kAntennas,
-                                    kImu,          kTruth,      kDataset};
+  std::vector<std::string> names = {kObservations, kNavigation, kClocks,  kAntennas,
+                                    kImu,          kTruth,      kDataset, kLeoElements};
   for (const System system : kSystems) names.push_back(orbit_file(system));
   for (std::string& name : names) {
     name = (std::filesystem::path(options.folder) / name).string();
@@ -92,8 +93,11 @@ void Export::write(const Products& products, const BroadcastMessages& messages,
   write_products(renamed_ ? renamed_->products() : products);
   const std::vector<Ephemeris> ephemerides =
       renamed_ ? renamed_->elements(messages) : messages.ephemerides;
-  has_navigation_ = !ephemerides.empty();
+  const auto is_leo = [](const Ephemeris& e) { return e.satellite.system == System::kLeo; };
+  has_navigation_ = !std::all_of(ephemerides.begin(), ephemerides.end(), is_leo);
   if (has_navigation_) write_rinex_navigation(path(kNavigation), ephemerides);
+  has_leo_elements_ = std::any_of(ephemerides.begin(), ephemerides.end(), is_leo);
+  if (has_leo_elements_) write_leo_elements_csv(path(kLeoElements), ephemerides);
   if (renamed_) {
     write_antex(path(kAntennas), renamed_->antennas(antennas), kAntennaName);
   } else {
@@ -128,6 +132,7 @@ void Export::write_dataset() const {
   entry("name", "simulated");
   entry("observations", kObservations);
   if (has_navigation_) entry("navigation", kNavigation);
+  if (has_leo_elements_) entry("leo_elements", kLeoElements);
   std::string orbits;
   for (const std::string& name : orbit_files_) orbits += (orbits.empty() ? "" : ", ") + name;
   if (!orbits.empty()) entry("orbits", "[" + orbits + "]");

@@ -26,8 +26,9 @@ struct ExportOptions {
 // Returns every file that an export to the folder may write.
 std::vector<std::string> export_files(const ExportOptions& options);
 
-// Export writes run.obs, run.nav, one SP3 file per system (gps.sp3, ...), run.clk, antennas.atx,
-// imu.csv, truth.csv, and the dataset.yaml that lists them. All functions throw FileError.
+// Export writes run.obs, run.nav, leo_elements.csv, one SP3 file per system (gps.sp3, ...),
+// run.clk, antennas.atx, imu.csv, truth.csv, and the dataset.yaml that lists them. All functions
+// throw FileError.
 class Export {
  public:
   // `scenario` and `sky` must outlive this object.
@@ -52,7 +53,7 @@ class Export {
   GpsTime last_epoch_;
   std::vector<ImuSample> imu_;
   std::vector<std::string> orbit_files_;
-  bool has_navigation_ = false, has_clocks_ = false;
+  bool has_navigation_ = false, has_leo_elements_ = false, has_clocks_ = false;
 };
 
 }  // namespace leonav::sim

@@ -15,12 +15,13 @@ namespace {
 
 std::string quoted(const std::string& path) { return "'" + path + "'"; }
 
-SolutionCsv replayed(const test::TemporaryFile& place, const std::string& log) {
+SolutionCsv replayed(
+    const test::TemporaryFile& place, const std::string& log,
+    const std::string& options = "--set 'gnss.systems=[gps,galileo,beidou,leo]' ") {
   const std::string out = place.beside(log + "_out");
-  const auto run = test::run_program("leonav-replay",
-                                     "--preset demo --set "
-                                     "'gnss.systems=[gps,galileo,beidou,leo]' " +
-                                         quoted(place.beside(log)) + " --out " + quoted(out));
+  const auto run =
+      test::run_program("leonav-replay", "--preset demo " + options + quoted(place.beside(log)) +
+                                             " --out " + quoted(out));
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   return read_solution_csv(out + "/solution.csv");
@@ -53,6 +54,51 @@ TEST_CASE("A run's files give the solution that its log gives, to the digits of 
   }
   INFO("worst " << worst << " m");
   CHECK(worst < 0.02);
+}
+
+TEST_CASE("Low satellites by elements from a table give the solution within its sigma") {
+  if (!test::have_programs("leonav-sim", "leonav-import", "leonav-replay")) return;
+  const test::TemporaryFile place(
+      "scenario.yaml",
+      "duration_s: 120\nimu: {enabled: false}\nreceiver: {lever_arm_b_m: [0, 0, 0]}\n"
+      "satellites: {gps: {enabled: false}, galileo: {enabled: false}, beidou: {enabled: false}, "
+      "leo: {told: broadcast}}\n");
+  const auto sim = test::run_program(
+      "leonav-sim", quoted(place.path()) + " -o " + quoted(place.beside("run.lcmlog")) +
+                        " --export " + quoted(place.beside("files")));
+  INFO(sim.err);
+  REQUIRE(sim.exit_code == 0);
+  // No other file has an orbit of them.
+  CHECK_FALSE(std::filesystem::exists(place.beside("files/run.nav")));
+  CHECK_FALSE(std::filesystem::exists(place.beside("files/leo.sp3")));
+  const auto import =
+      test::run_program("leonav-import", quoted(place.beside("files/dataset.yaml")) + " -o " +
+                                             quoted(place.beside("imported.lcmlog")));
+  INFO(import.err);
+  REQUIRE(import.exit_code == 0);
+  const std::string alone =
+      "--set 'gnss.systems=[leo]' --set ekf.motion=constant_velocity --set "
+      "'vehicle.lever_arm_b_m=[0, 0, 0]' ";
+  const SolutionCsv log = replayed(place, "run.lcmlog", alone),
+                    files = replayed(place, "imported.lcmlog", alone);
+  // With ten low satellites in view, few of them high, it is not at every epoch.
+  REQUIRE(files.rows.size() > 60);
+  REQUIRE(log.rows.size() == files.rows.size());
+  const TruthCsv truth = read_truth_csv(place.beside("files/truth.csv"));
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < files.rows.size(); ++i) {
+    const SolutionRow& row = files.rows[i];
+    REQUIRE(row.pva.time == log.rows[i].pva.time);
+    const Eigen::Vector3d p_e = to_ecef(row.pva.position);
+    INFO("epoch " << i);
+    CHECK((p_e - to_ecef(log.rows[i].pva.position)).norm() < 0.02);
+    for (const TruthPoint& point : truth.points) {
+      if (point.time != row.pva.time) continue;
+      ++compared;
+      CHECK((p_e - to_ecef(point.position)).norm() < 3.0 * row.sigma_p_n->norm());
+    }
+  }
+  CHECK(compared == files.rows.size());
 }
 
 TEST_CASE("RTKLIB reads the files, and positions by each system of GPS, Galileo and BeiDou") {

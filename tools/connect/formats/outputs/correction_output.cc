@@ -43,7 +43,9 @@ int CorrectionOutput::take(const SsrMessage& message, GpsTime now) {
   int published = result.is_left_out ? 1 : 0;
   // Not counted: a service sends biases also while none of its corrections can be used.
   if (!result.biases.empty()) {
-    shared_->output->send(std::span<const SignalBias>(result.biases));
+    const std::span<const SignalBias> biases(result.biases);
+    if (shared_->on_biases) shared_->on_biases(biases);
+    shared_->output->send(biases);
   }
   if (!result.states.empty()) {
     shared_->output->send(std::span<const CorrectedState>(result.states), result.source);

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,7 @@ struct SharedCorrections {
   CorrectionServices services;
   MessageOutput* output;
   std::function<void(const ServiceChange&)> on_change;
+  std::function<void(std::span<const SignalBias>)> on_biases;  // of all that are published
 };
 
 // Each stream has one. CORRECTED_STATES come with every message that has clocks, of its satellites,

@@ -1,5 +1,8 @@
 // The MessageOutput publishes what streams decode, as one sender with one count for each channel.
 #pragma once
+#include <functional>
+#include <utility>
+
 #include "core/base/gps_time.h"
 #include "daemon/messages/encoding_sink.h"
 #include "drivers/lcm/input_messages.h"
@@ -22,7 +25,10 @@ class MessageOutput {
   // The time of the latest measurement sent, for the status.
   void note_time(GpsTime time) {
     if (time > last_time_) last_time_ = time;
+    if (on_time_) on_time_(time);
   }
+  // `listener` is told each of these times.
+  void listen_to_time(std::function<void(GpsTime)> listener) { on_time_ = std::move(listener); }
 
   // Takes note of an ephemeris or a state that was sent, with its reference time.
   void note_orbit(SatelliteId satellite, GpsTime reference) { orbits_.note(satellite, reference); }
@@ -37,6 +43,7 @@ class MessageOutput {
   KnownOrbits orbits_;
   GpsTime last_time_;
   std::uint64_t sent_ = 0;
+  std::function<void(GpsTime)> on_time_;
 };
 
 }  // namespace leonav

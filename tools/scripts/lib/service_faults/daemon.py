@@ -11,7 +11,7 @@ from service_faults.drive import HEADING_SIGMA_DEG, ROOT
 
 START_S = 60  # of a busy machine
 STOP_S = 30
-OUTPUTS = "LEONAV_(HEALTH|SOLUTION|EVENT)"
+OUTPUTS = "LEONAV_(HEALTH|SOLUTION|EVENT|EPOCH)"
 
 
 class NoStart(Exception):

@@ -18,6 +18,11 @@ def begun(number, channel, size):
     return FRAGMENT.pack(b"LC03", number, size, 0, 0, 5000) + channel.encode() + b"\0" + bytes(20)
 
 
+def gone_on(number, size):
+    """A later datagram of a message whose first one has never come."""
+    return FRAGMENT.pack(b"LC03", number, size, 0, 1, 5000) + bytes(20)
+
+
 def datagrams(number, channel, data):
     """The datagrams of a message."""
     name = channel.encode() + b"\0"
@@ -47,6 +52,10 @@ class Sender:
 
     def begin(self, channel, size):
         self.send_bytes(begun(self.number, channel, size))
+        self.number = (self.number + 1) & 0xFFFFFFFF
+
+    def go_on(self, size):
+        self.send_bytes(gone_on(self.number, size))
         self.number = (self.number + 1) & 0xFFFFFFFF
 
     def send_bytes(self, datagram):

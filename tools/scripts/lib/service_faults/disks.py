@@ -62,8 +62,27 @@ def thaw(run):
     subprocess.run(["fsfreeze", "-u", folder(run)], check=False, stderr=subprocess.DEVNULL)
 
 
+def link_pieces(run):
+    """Other names for the journal's pieces, which outlive those that are removed."""
+    for piece in run.daemon.journal.parent.iterdir():
+        if not (whole(run) / piece.name).exists():
+            os.link(piece, whole(run) / piece.name)
+
+
+def whole(run):
+    return run.folder / "whole"
+
+
 def remove(run):
+    whole(run).mkdir(exist_ok=True)
+    link_pieces(run)
     shutil.rmtree(run.daemon.journal.parent)
+
+
+def pieces_of_both(run):
+    """The folder of the pieces that were removed and of those behind them."""
+    link_pieces(run)
+    return [whole(run)]
 
 
 def make_again(run):

@@ -11,9 +11,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[4]
 PREFIX = "LEONAV_"
 IMU, EPOCH, ORBITS = PREFIX + "IMU", PREFIX + "GNSS_EPOCH", PREFIX + "ORBIT_CLOCK"
 PRODUCTS = {PREFIX + name for name in ("EPHEMERIS", "IONOSPHERE", "ORBIT_CLOCK", "CORRECTED_STATES", "BIASES")}
+GPS, LEO = 0, 3  # numbers of systems in messages
+IMU_INTERVAL_S = 0.005
 STANDING_S = 10
 WEEK, TOW_S = 2136, 345600  # of the start
-START_NS = (WEEK * 604800 + TOW_S) * 10**9
+START_S = WEEK * 604800 + TOW_S
+START_NS = START_S * 10**9
 # So that a row shows its fault and not the alignment: the heading is known from the start, as behind a checkpoint.
 HEADING_SIGMA_DEG = 1
 

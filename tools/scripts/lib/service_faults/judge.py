@@ -8,6 +8,8 @@ from service_faults.recorded import Outputs, Truth
 
 SETTLED_BEFORE_S = 10  # errors and gaps count from so long before the fault on
 
+CHANGES_WITHIN_S = 20  # one each second would be twenty
+
 LATE_S = 0.3  # a message that leaves later than this is a fault that the row does not mean
 
 
@@ -88,10 +90,21 @@ def judge_solution(row, outputs, result, last_s):
     result.must(off == 0, f"{off} SOLUTION are stamped with another time than now")
 
 
+def judge_continuity(row, outputs, result, last_s):
+    """HEALTH of a leonavd that runs comes once a second, and its text changes only with the case."""
+    result.numbers["health_gap_s"] = None if row.health_by_log else outputs.longest_health_gap(0, last_s)
+    changes = outputs.health_changes(max(row.begin_s - SETTLED_BEFORE_S, 0), last_s)
+    result.numbers["health_changes"] = len(changes)
+    if not row.health_by_log:
+        result.at_most("longest time without HEALTH", result.numbers["health_gap_s"], row.expected.health_gap_s)
+    most = max((sum(t <= other < t + CHANGES_WITHIN_S for other in changes) for t in changes), default=0)
+    result.at_most(f"changes of HEALTH within {CHANGES_WITHIN_S} s", most, row.expected.health_changes, "")
+
+
 def replay(row, run, result):
     """Each journal of the run has to replay byte for byte."""
     words = []
-    for journal in run.journals():
+    for journal in row.journals(run) if row.journals else run.journals():
         out = run.folder / f"replay{len(words) or ''}"
         done = subprocess.run([run.bin / "leonav-replay", journal, "--verify", "--out", out], capture_output=True, text=True, check=False)
         out.mkdir(exist_ok=True)
@@ -113,6 +126,7 @@ def judged(row, run):
         outputs.health = said.health_of(run.daemon.said(), run.begin_wall_s, run.last_s)
     outputs.health = [one for one in outputs.health if one.t <= run.last_s]  # behind it nothing comes any more
     judge_health(row, outputs, result)
+    judge_continuity(row, outputs, result, run.last_s)
     judge_solution(row, outputs, result, run.last_s)
     expected_codes = row.expected.exit_codes
     result.must(tuple(run.daemon.codes) == expected_codes, f"exit codes {run.daemon.codes}, expected {list(expected_codes)}")

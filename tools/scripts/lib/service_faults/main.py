@@ -30,8 +30,9 @@ from service_faults.run import Run, make_network  # noqa: E402
 
 NONE = Row("none", "none", after_s=60)
 ROWS = [NONE, *rows_inputs.ROWS, *rows_satellites.ROWS, *rows_host.ROWS]
-HEADER = """| fault | HEALTH said | after, s | OK again after, s | longest gap of SOLUTION, s | worst error, m (1 sigma) | largest error / sigma | replay | as expected |
-|---|---|---|---|---|---|---|---|---|"""
+HEADER = """| fault | HEALTH said | after, s | OK again after, s | its longest gap, s | its changes | longest gap of SOLUTION, s | worst error, m (1 sigma) | largest error / sigma | replay | as expected |
+|---|---|---|---|---|---|---|---|---|---|---|"""
+NO_NUMBERS = "- | " * (HEADER.splitlines()[0].count("|") - 3)
 
 
 def run_row(row, bin_dir, out):
@@ -60,15 +61,16 @@ def number(value, digits=1):
 def table_row(row, result):
     begin = f"| {row.text} | "
     if "skipped" in result:
-        return begin + f"- | - | - | - | - | - | - | skipped: {result['skipped']} |"
+        return begin + f"{NO_NUMBERS}skipped: {result['skipped']} |"
     n, notes = result["numbers"], "; ".join(result["notes"])
     verdict = ("yes" if not result["failures"] else "NO: " + "; ".join(result["failures"])).replace("|", "/")
     verdict += f" ({notes})" if notes else ""
     if not n:
-        return begin + f"- | - | - | - | - | - | - | {verdict} |"
+        return begin + f"{NO_NUMBERS}{verdict} |"
     worst = f"{n['worst_m']:.2f} ({n['sigma_m']:.2f})" if math.isfinite(n["worst_m"]) else "-"
-    return begin + (f"`{n['told'].replace('|', '/')}` | {number(n['told_s'])} | {number(n['ok_s'])} | {number(n['gap_s'])} | {worst} "
-                    f"| {number(n['sigmas'])} | {n['replay']} | {verdict} |")
+    return begin + (f"`{n['told'].replace('|', '/')}` | {number(n['told_s'])} | {number(n['ok_s'])} "
+                    f"| {number(n['health_gap_s'])} | {n['health_changes']} | {number(n['gap_s'])} | {worst} | {number(n['sigmas'])} "
+                    f"| {n['replay']} | {verdict} |")
 
 
 def run_alone(row, words, namespace):

@@ -11,6 +11,8 @@ class Expected:
     told_s: float = 5.0
     ok_s: float = 10.0
     gap_s: float = 0.5
+    health_gap_s: float = 2.5  # it comes once a second
+    health_changes: int = 12  # of status or text, within any 20 s
     worst_m: float = 2.0
     sigmas: float = 5.0
     back_s: float = 2.0
@@ -37,6 +39,7 @@ class Row:
     before: object = None  # a function of the Run: before the daemon starts
     actions: tuple = ()  # (s, function of the Run) while the drive is played
     after: object = None  # a function of the Run: when the daemon has ended
+    journals: object = None  # a function of the Run: what is replayed, instead of its journals
     judge: object = None  # a function of Run, Outputs and Judgement: what else has to hold
     check: object = None  # instead of a drive: a function of Run and Judgement
     skipped: object = None  # a function that says why the row cannot run here, "" if it can

@@ -1,4 +1,5 @@
 """Faults of the machine that leonavd runs on: disks, memory, clock, network, processes, configuration."""
+import fcntl
 import math
 import os
 import re
@@ -8,7 +9,8 @@ import threading
 import time
 
 from service_faults import disks, said, stream
-from service_faults.drive import IMU
+from service_faults.drive import IMU, PREFIX
+from service_faults.recorded import FILTER, SMOOTHER
 from service_faults.process_status import status_kb
 from service_faults.row import Expected, Row, fault
 from service_faults.run import ROUTE
@@ -57,6 +59,35 @@ def second_is_refused(run, outputs, result):
     result.at_most("the second ends", run.second_s, 5)
     result.must("another leonavd" in run.second_text, f"the second said: {run.second_text.strip()[-200:]}")
     run.notes.append(f"exit code {code} after {run.second_s:.1f} s")
+
+
+SMOOTHER_FAILED = 16  # kind of event; its code is what failed
+SINGULAR, DIVERGED = 3, 4
+
+
+def no_worse_than_filter(run, outputs, result):
+    """The filter's errors are those of its own answers at the epochs."""
+    row, end = run.row, run.last_s - 1
+    worst = outputs.worst(max(row.begin_s, row.settled_s), end)[0]
+    filter_m = max((one.error for one in outputs.epochs_within(max(row.begin_s, row.settled_s), end)), default=math.nan)
+    run.notes.append(f"worst error {worst:.2f} m, of the filter {filter_m:.2f} m")
+    # Between epochs the inertial answer moves away from the filter's by centimetres.
+    result.must(worst <= filter_m + 0.1, f"worst error {worst:.2f} m, of the filter {filter_m:.2f} m")
+
+
+def fails_once(run, outputs, result):
+    begin = run.row.begin_s
+    result.at_most("event `smoother_failed`", run.note_event(outputs, SMOOTHER_FAILED, (DIVERGED,), "smoother_failed"), 5)
+    result.must(outputs.share_of(SMOOTHER, begin - 10, begin) == 1, "the smoother does not answer before")
+    result.must(outputs.share_of(FILTER, begin, begin + 5) > 0, "the filter does not answer")
+    result.must(outputs.share_of(SMOOTHER, run.last_s - 10, run.last_s - 1) == 1, "the smoother does not answer at the end")
+    no_worse_than_filter(run, outputs, result)
+
+
+def never_answers(run, outputs, result):
+    result.at_most("event `smoother_failed`", run.note_event(outputs, SMOOTHER_FAILED, (SINGULAR,), "smoother_failed"), 5)
+    result.must(outputs.share_of(FILTER, run.row.settled_s, run.last_s - 1) == 1, "not all is the filter's")
+    no_worse_than_filter(run, outputs, result)
 
 
 def delete_route(run):
@@ -229,6 +260,15 @@ def begin_long_message(run):
     run.sender.begin(IMU, 2**28 - 1)
 
 
+NAMES, FRAGMENT_BYTES = 100_000, 30_000
+
+
+def send_fragments(run):
+    """The begin of a message on a channel that nobody has, and the middle of another one."""
+    run.sender.begin(f"{PREFIX}FRAGMENT_{run.sender.number}", FRAGMENT_BYTES)
+    run.sender.go_on(FRAGMENT_BYTES)
+
+
 def not_grown(run, outputs, result):
     (first, _), (last, _) = run.memory
     grown = last["VmHWM"] - first["VmRSS"]
@@ -246,6 +286,77 @@ def reload_is_told(run, outputs, result):
     result.must(run.daemon.has_said("SIGHUP: .* read again, nothing has changed"), "leonavd did not say that it has read its configuration")
 
 
+PIPE_BYTES = 4096
+RELOADS = 1200  # each is a line of some 80 bytes: more than the daemon keeps
+
+
+class LogPipe:
+    """leonavd's standard error goes through a small pipe to a thread that writes its text file, and can stop reading."""
+
+    def __init__(self, run):
+        self.run, self.reads, self.is_over = run, threading.Event(), False
+        self.reads.set()
+        programs, fifo = run.folder / "bin", run.folder / "log.fifo"
+        programs.mkdir(exist_ok=True)
+        for old in (fifo, *programs.iterdir()):
+            old.unlink(missing_ok=True)
+        os.mkfifo(fifo)
+        self.end = os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)
+        fcntl.fcntl(self.end, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
+        for program in run.bin.iterdir():
+            if program.name != "leonavd":
+                programs.joinpath(program.name).symlink_to(program)
+        script = programs / "leonavd"
+        script.write_text(f"#!/bin/sh\nexec {run.bin}/leonavd \"$@\" 2>{fifo}\n")
+        script.chmod(0o755)
+        run.bin = programs
+        self.thread = threading.Thread(target=self.copy, daemon=True)
+        self.thread.start()
+
+    def copy(self):
+        while not self.is_over:
+            self.reads.wait()
+            try:
+                part = os.read(self.end, PIPE_BYTES)
+            except BlockingIOError:
+                part = b""
+            if part:
+                with open(self.run.daemon.text_file(), "ab") as text:
+                    text.write(part)
+            else:
+                time.sleep(0.005)
+
+
+def open_log_pipe(run):
+    run.log = LogPipe(run)
+
+
+def stall_log(run):
+    run.log.reads.clear()
+
+
+def read_log_again(run):
+    run.log.reads.set()
+
+
+def close_log_pipe(run):
+    run.log.reads.set()
+    time.sleep(0.1)  # the last lines
+    run.log.is_over = True
+    run.log.thread.join(timeout=5)
+
+
+def health_goes_on(run, outputs, result):
+    """HEALTH once a second all the time; afterwards the log says what it lost, and goes on to its end."""
+    times = [one.t for one in outputs.health if one.t >= run.row.begin_s]
+    gap = max((b - a for a, b in zip(times, times[1:])), default=math.inf)
+    result.at_most("longest time without HEALTH", gap, 1.5)
+    lost = re.search(r"warning: log: (\d+) lines? lost", run.daemon.said())
+    result.must(lost, "the log did not say how many lines are lost")
+    result.must(run.daemon.has_said("stopped; "), "the log does not go on to its end")
+    run.notes.append(f"at most {gap:.1f} s between two HEALTH, {lost[1] if lost else 'no'} lines lost")
+
+
 def much_junk(row, messages):
     return stream.junk(row.begin_s, row.duration_s, 10)(messages)
 
@@ -259,8 +370,8 @@ ROWS = [
         skipped=disks.why_no_freeze, before=disks.mount_loop, actions=((60, disks.freeze), (90, disks.thaw)), after=disks.thaw,
         expected=fault("DEGRADED", reason="the disk does not answer", told_s=10, ok_s=15)),
     Row("folder-removed", "journal's folder removed, and made again after 30 s", end_s=90, after_s=40,
-        actions=((60, disks.remove), (90, disks.make_again)),
-        expected=fault("DEGRADED", "FAULT", reason="journal", told_s=10, ok_s=20, replays=False)),
+        actions=((60, disks.remove), (90, disks.make_again)), journals=disks.pieces_of_both,
+        expected=fault("DEGRADED", "FAULT", reason="journal", told_s=10, ok_s=20)),
     Row("kill-restart", "kill -9 in motion, started at once, no orbits sent again", begin_s=145, end_s=145, after_s=100,
         knows_heading=False, change=lambda row, messages: stream.products_stop(row.begin_s)(messages),
         actions=((145, kill_and_start),), judge=first_answers,
@@ -276,6 +387,13 @@ ROWS = [
     Row("smoother-late", "smoother late at every third epoch (drill)", begin_s=0, end_s=120, after_s=0,
         options=("--set", "drill.late_solve_every=3"),
         expected=fault("DEGRADED", reason="smoother late", told_s=60, stays=True, ok_s=None, back_s=None)),
+    # Of the epochs of this drive the 60th alone is one of them.
+    Row("smoother-fails", "one solve of the smoother diverges (drill)", begin_s=59, end_s=60, after_s=50, judge=fails_once,
+        options=("--set", "smoother.drill_failure_every=60", "--set", "smoother.drill_failure=diverged"),
+        expected=fault("DEGRADED", reason="smoother failed", ok_s=10)),
+    Row("smoother-never-answers", "every solve of the smoother is singular (drill)", begin_s=0, end_s=120, after_s=0, judge=never_answers,
+        options=("--set", "smoother.drill_failure_every=1"),
+        expected=fault("DEGRADED", reason="smoother failed", told_s=30, stays=True, ok_s=None, back_s=None)),
     Row("comma", "configuration begins with a comma, 2 GB of memory", check=comma, quick=True),
     Row("checkpoint-damaged", "checkpoint and ephemerides are junk at the start", begin_s=0, end_s=0, after_s=60, before=damage_checkpoints,
         judge=damage_is_told, expected=Expected(allowed=ANY, ok_s=45, back_s=10), quick=True),
@@ -284,7 +402,14 @@ ROWS = [
     Row("fragments", "ten datagrams a second that each begin a message of 256 MB, for 20 s", end_s=80, after_s=20,
         actions=((59.5, measure_memory), *((60 + k / 10, begin_long_message) for k in range(200)), (81, measure_memory)), judge=not_grown,
         expected=Expected(), quick=True),
+    Row("new-names", f"{NAMES:,} messages on as many channels, for 40 s", end_s=100, after_s=20,
+        change=lambda row, messages: stream.new_names(row.begin_s, row.end_s, NAMES)(messages),
+        actions=((59.5, measure_memory), *((60 + k / 25, send_fragments) for k in range(1000)), (101, measure_memory)), judge=not_grown,
+        expected=Expected()),
     Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
+    Row("log-stalled", "nobody reads the log for 30 s, and it gets more lines than the daemon keeps", end_s=90, after_s=15, before=open_log_pipe,
+        actions=((60, stall_log), *((60 + k * 28 / RELOADS, reload) for k in range(RELOADS)), (90, read_log_again)), after=close_log_pipe,
+        judge=health_goes_on, expected=Expected(), quick=True),
     Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
     Row("sigterm-under-load", "SIGTERM after 20 s of junk at ten times the nominal rate", begin_s=40, after_s=30, until_stopped=True,
         change=much_junk, actions=((60, stop_under_load),), judge=stops_in_time,

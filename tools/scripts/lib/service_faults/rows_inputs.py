@@ -1,6 +1,6 @@
 """Faults of the messages that come in: stamps, gaps, values, junk."""
 from service_faults import stream
-from service_faults.drive import EPOCH, IMU, STANDING_S
+from service_faults.drive import EPOCH, IMU, IMU_INTERVAL_S, STANDING_S
 from service_faults.row import Row, fault
 
 HOUR_S = 3600
@@ -8,6 +8,7 @@ FILTER_RESET, HEADING = 2, 6  # kind of event, its code
 NO_IMU = "no usable IMU"
 # A gap of the IMU costs the heading: half a minute until it is found again, and HEALTH keeps events for a minute.
 ALIGNS_S, KEPT_S = 30, 60
+BEFORE_S = 20  # what is usual is measured over so long before a fault
 AFTER_GAP = {"ok_s": ALIGNS_S + KEPT_S, "back_s": 3, "worst_m": 8}
 
 
@@ -19,6 +20,24 @@ def imu_gap(seconds, **keys):
 def begins_anew(run, outputs, result):
     """The heading monitor restarts the filter."""
     result.at_most("event `filter_reset` of the heading", run.note_event(outputs, FILTER_RESET, (HEADING,), "filter_reset"), 30)
+
+
+def measure_journal(run):
+    run.journal_bytes.append(sum(piece.stat().st_size for piece in run.daemon.journal.parent.iterdir()))
+
+
+MOST_MISSING, MOST_JOURNAL_MB_S = 0.001, 1.0
+
+
+def junk_costs_little(run, outputs, result):
+    """SOLUTION that did not come while junk came, and what the junk took of the journal's disk."""
+    row = run.row
+    missing, steps = outputs.missing_stamps(row.begin_s, row.end_s, IMU_INTERVAL_S)
+    before, first, last = run.journal_bytes
+    usual, rate = ((b - a) / seconds / 1e6 for a, b, seconds in ((before, first, BEFORE_S), (first, last, row.end_s - row.begin_s)))
+    result.at_most("SOLUTION missing", missing / steps, MOST_MISSING, "of all")
+    result.at_most("journal", rate, MOST_JOURNAL_MB_S, "MB/s")
+    run.notes.append(f"{missing} of {steps} SOLUTION missing; journal {rate:.2f} MB/s, {usual:.2f} before")
 
 
 def gnss_ahead(row, messages):
@@ -56,8 +75,9 @@ ROWS = [
         expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=13, **AFTER_GAP)),
     Row("heading-off", "a heading that is taken for known to a degree is 150 degrees off", begin_s=STANDING_S, end_s=STANDING_S, after_s=130,
         heading_off_deg=150, settled_s=STANDING_S, judge=begins_anew,
-        expected=fault("DEGRADED", reason="aligning", worst_m=12, sigmas=6, ok_s=KEPT_S + 10)),
+        expected=fault("DEGRADED", reason="the heading contradicts the motion", worst_m=12, sigmas=6, ok_s=KEPT_S + 10)),
     Row("junk", "junk at ten times the nominal rate on all input channels for 20 s", end_s=80, after_s=40,
-        change=lambda row, messages: stream.junk(row.begin_s, row.end_s, 10)(messages),
+        change=lambda row, messages: stream.junk(row.begin_s, row.end_s, 10)(messages), judge=junk_costs_little,
+        actions=((60 - BEFORE_S, measure_journal), (60, measure_journal), (80, measure_journal)),
         expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=25), quick=True),
 ]

@@ -21,14 +21,14 @@ class Run:
     def __init__(self, row, bin_dir, out):
         self.row, self.bin, self.folder = row, bin_dir, out / row.name
         self.drives = out / "drives"
-        self.sender, self.notes = Sender(), []
+        self.sender, self.notes, self.journal_bytes = Sender(), [], []
         self.drive = self.daemon = None
         self.begin_wall_s = self.last_s = self.late_s = 0.0
         self.starts = 0  # of the daemon, where a row has several
 
     def clear(self):
         self.folder.mkdir(parents=True, exist_ok=True)
-        for pattern in ("leonavd*.txt", "checkpoint*", "journal/*", "disk/*"):
+        for pattern in ("leonavd*.txt", "checkpoint*", "journal/*", "disk/*", "whole/*"):
             for old in self.folder.glob(pattern):
                 old.unlink()
 

@@ -93,6 +93,23 @@ def products_stop(begin):
     return lambda messages: [message for message in messages if message[1] not in PRODUCTS or message[0] < begin]
 
 
+def products_late(begin):
+    """What was to come of them before then comes at once."""
+    def result(messages):
+        late = [message for message in messages if message[1] in PRODUCTS and message[0] < begin]
+        kept = [message for message in messages if message[1] not in PRODUCTS or message[0] >= begin]
+        return added(kept, [(begin + 0.001 * k, name, data) for k, (_, name, data) in enumerate(late)])
+    return result
+
+
+def new_names(begin, end, count):
+    """So many messages, each on a channel of its own that nobody has: half of them begin as channels of leonav do."""
+    def result(messages):
+        more = [(begin + k * (end - begin) / count, f"{PREFIX if k % 2 else 'NEW_'}{k:06d}", b"nothing") for k in range(count)]
+        return added(messages, more)
+    return result
+
+
 def observations(data):
     return OBSERVATION.iter_unpack(data[EPOCH_BYTES:])
 

@@ -1,0 +1,186 @@
+#include "daemon/log/log_writer.h"
+
+#include <pthread.h>
+
+#include <array>
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <thread>
+#include <utility>
+
+#include "daemon/log/patient_write.h"
+#include "daemon/threads/counters.h"
+#include "daemon/threads/leave_to_process.h"
+#include "daemon/threads/realtime_thread.h"
+#include "daemon/threads/wakeup.h"
+
+namespace leonav {
+namespace {
+
+constexpr std::size_t kPartBytes = 4096;  // that are written at once
+constexpr std::size_t kNoteBytes = 128;   // of the line about lost ones
+constexpr int kLongestDirectWait_ms = 200;
+
+double seconds_of(const Stopwatch& watch) {
+  return static_cast<double>(watch.nanoseconds()) * 1e-9;
+}
+
+}  // namespace
+
+// What the thread uses, which may outlive the writer.
+class LogWriter::State {
+ public:
+  State(int of_log, std::string name);
+
+  void start();
+  void push(std::string_view line);
+  void drop_line();
+  void ask_for_end();
+  bool has_ended() const { return has_ended_.load(std::memory_order_acquire); }
+  std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  // A line about those that were lost since the last one; empty: none were.
+  std::string_view note();
+
+  int descriptor;
+  bool is_blocked = false;  // at the last direct write
+  RealtimeThread thread;
+  State* left_before = nullptr;
+
+ private:
+  void run();
+
+  std::string name_;
+  boost::lockfree::spsc_queue<char> queue_{kQueueBytes};
+  Wakeup wakeup_;
+  std::atomic<std::uint64_t> lost_{0}, untold_{0};
+  std::atomic<bool> stop_{false}, has_ended_{false};
+  std::array<char, kPartBytes> part_{};
+  std::array<char, kNoteBytes> note_{};
+};
+
+LogWriter::State::State(int of_log, std::string name) : descriptor(of_log), name_(std::move(name)) {
+  tzset();  // it allocates
+  // Every page is touched once, so that the process does not grow as the queue goes round.
+  while (queue_.push(part_.data(), part_.size()) > 0) {
+  }
+  queue_.reset();
+}
+
+// Signals are for `main`, and a pipe without a reader must be the failure of a write.
+void LogWriter::State::start() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  try {
+    thread.start(
+        "log", ThreadConfig(), [this] { run(); }, RealtimeThread::kSmallStackBytes);
+  } catch (...) {
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    throw;
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void LogWriter::State::push(std::string_view line) {
+  if (untold_.load(std::memory_order_acquire) > 0 || queue_.write_available() < line.size())
+    drop_line();
+  else
+    queue_.push(line.data(), line.size());
+  wakeup_.notify();
+}
+
+void LogWriter::State::drop_line() {
+  lost_.fetch_add(1, std::memory_order_relaxed);
+  untold_.fetch_add(1, std::memory_order_release);
+}
+
+void LogWriter::State::ask_for_end() {
+  stop_.store(true, std::memory_order_release);
+  wakeup_.notify();
+}
+
+std::string_view LogWriter::State::note() {
+  const std::uint64_t count = untold_.exchange(0, std::memory_order_acq_rel);
+  if (count == 0) return {};
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  tm local{};
+  localtime_r(&now.tv_sec, &local);
+  const int size = std::snprintf(note_.data(), note_.size(),
+                                 "%.60s %02d:%02d:%02d.%03d warning: log: %llu line%s lost\n",
+                                 name_.c_str(), local.tm_hour, local.tm_min, local.tm_sec,
+                                 static_cast<int>(now.tv_nsec / 1'000'000),
+                                 static_cast<unsigned long long>(count), count == 1 ? "" : "s");
+  return {note_.data(), static_cast<std::size_t>(size)};
+}
+
+void LogWriter::State::run() {
+  for (;;) {
+    const std::uint32_t ticket = wakeup_.ticket();
+    // Read before looking for lines, so that what was pushed before it was set is still written.
+    const bool last_round = stop_.load(std::memory_order_acquire);
+    if (const std::size_t size = queue_.pop(part_.data(), part_.size()); size > 0) {
+      write_whole(descriptor, {part_.data(), size});
+    } else if (const std::string_view text = note(); !text.empty()) {
+      write_whole(descriptor, text);
+    } else if (last_round) {
+      has_ended_.store(true, std::memory_order_release);
+      return;
+    } else {
+      wakeup_.wait(ticket);
+    }
+  }
+}
+
+LogWriter::LogWriter(int descriptor, std::string name)
+    : state_(std::make_unique<State>(descriptor, std::move(name))) {}
+
+// A thread that its reader holds goes on using its state, for as long as the process lives.
+LogWriter::~LogWriter() {
+  finish();
+  if (abandoned_) leave_to_process(state_.release());
+}
+
+void LogWriter::start() {
+  if (is_running_ || abandoned_) return;
+  state_->start();
+  is_running_ = true;
+}
+
+void LogWriter::write(std::string_view line) {
+  if (is_running_)
+    state_->push(line);
+  else if (abandoned_)
+    state_->drop_line();
+  else
+    write_directly(line);
+}
+
+// Once nobody has read for a moment, the next lines are not waited for.
+void LogWriter::write_directly(std::string_view line) {
+  const int longest_ms = state_->is_blocked ? 0 : kLongestDirectWait_ms;
+  state_->is_blocked = !wait_for_room(state_->descriptor, longest_ms);
+  if (state_->is_blocked) return state_->drop_line();
+  write_where_there_is_room(state_->descriptor, state_->note(), longest_ms);
+  state_->is_blocked = !write_where_there_is_room(state_->descriptor, line, longest_ms);
+  if (state_->is_blocked) state_->drop_line();
+}
+
+void LogWriter::finish() {
+  if (!std::exchange(is_running_, false)) return;
+  state_->ask_for_end();
+  const Stopwatch watch;
+  while (!state_->has_ended() && seconds_of(watch) < kLongestEnd_s)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (state_->has_ended()) return state_->thread.join();
+  abandoned_ = true;
+  state_->thread.detach();
+}
+
+std::uint64_t LogWriter::lost() const { return state_->lost(); }
+
+}  // namespace leonav

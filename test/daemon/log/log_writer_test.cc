@@ -1,0 +1,179 @@
+// Lines of the log, whether somebody reads them or not.
+#include "daemon/log/log_writer.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/threads/counters.h"
+#include "support/catch.h"
+#include "tools/common/allocations/allocation_counter.h"
+
+namespace {
+
+using namespace leonav;
+
+double seconds_since(const Stopwatch& watch) {
+  return static_cast<double>(watch.nanoseconds()) * 1e-9;
+}
+
+// A pipe with little room. One of one page is full for poll() once anything is in it.
+class Pipe {
+ public:
+  explicit Pipe(int pages = 4) {
+    REQUIRE(pipe2(ends_, O_CLOEXEC) == 0);
+    REQUIRE(fcntl(ends_[1], F_SETPIPE_SZ, 4096 * pages) >= 4096 * pages);
+  }
+  ~Pipe() {
+    close_reader();
+    close(ends_[1]);
+  }
+  int in() const { return ends_[1]; }
+  void close_reader() {
+    if (ends_[0] >= 0) close(ends_[0]);
+    ends_[0] = -1;
+  }
+  // Waits for a part of what comes; its bytes.
+  std::size_t read_some(char* to, std::size_t room) const {
+    const ssize_t size = read(ends_[0], to, room);
+    return size > 0 ? static_cast<std::size_t>(size) : 0;
+  }
+  // What comes, until a line holds `last`, for 10 s at most.
+  std::vector<std::string> lines_until(const std::string& last) {
+    std::string text;
+    const Stopwatch watch;
+    while (text.find(last) == text.npos || text.back() != '\n') {
+      pollfd place{ends_[0], POLLIN, 0};
+      if (seconds_since(watch) > 10.0) break;
+      if (poll(&place, 1, 100) <= 0) continue;
+      char part[512];
+      const std::size_t size = read_some(part, sizeof part);
+      if (size == 0) break;
+      text.append(part, size);
+    }
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
+std::string line_of(int number) { return "line " + std::to_string(number) + "\n"; }
+
+// More than pipe and queue have room for.
+int write_too_much(LogWriter* writer) {
+  constexpr int kLines = 20'000;
+  for (int i = 0; i < kLines; ++i) writer->write(line_of(i));
+  return kLines;
+}
+
+}  // namespace
+
+TEST_CASE("the lines of the log come out in order, before and after the writer has its thread") {
+  Pipe pipe;
+  LogWriter writer(pipe.in(), "program");
+  writer.write("first\n");
+  writer.start();
+  writer.write("second\n");
+  writer.finish();
+  writer.write("third\n");
+  CHECK(pipe.lines_until("third") == std::vector<std::string>{"first", "second", "third"});
+  CHECK(writer.lost() == 0);
+}
+
+TEST_CASE("a log that nobody reads lets nobody wait, and says what was lost once it is read") {
+  Pipe pipe;
+  LogWriter writer(pipe.in(), "program");
+  writer.start();
+  const Stopwatch watch;
+  const int written = write_too_much(&writer);
+  CHECK(seconds_since(watch) < 2.0);
+  const std::uint64_t lost = writer.lost();
+  REQUIRE(lost > 0);
+
+  const std::vector<std::string> lines = pipe.lines_until("lost");
+  REQUIRE(lines.size() == static_cast<std::size_t>(written) - lost + 1);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i)
+    CHECK(lines[i] + "\n" == line_of(static_cast<int>(i)));
+  CHECK(lines.back().starts_with("program "));
+  CHECK(lines.back().ends_with(" warning: log: " + std::to_string(lost) + " lines lost"));
+
+  writer.write("it goes on\n");
+  CHECK(pipe.lines_until("on") == std::vector<std::string>{"it goes on"});
+  CHECK(writer.lost() == lost);
+}
+
+TEST_CASE("the end of a log that nobody reads comes in time") {
+  Pipe pipe;
+  auto writer = std::make_unique<LogWriter>(pipe.in(), "program");
+  writer->start();
+  write_too_much(writer.get());
+  const Stopwatch watch;
+  writer->finish();
+  writer->write("too late\n");
+  CHECK(writer->lost() > 0);
+  writer.reset();
+  CHECK(seconds_since(watch) < LogWriter::kLongestEnd_s + 1.0);
+  pipe.lines_until("lost");  // lets the thread go
+}
+
+TEST_CASE("the end of a log that is read waits until all is written") {
+  Pipe pipe;
+  LogWriter writer(pipe.in(), "program");
+  writer.start();
+  for (int i = 0; i < 300; ++i) writer.write(line_of(i));
+  writer.finish();
+  CHECK(pipe.lines_until("line 299").size() == 300);
+}
+
+TEST_CASE("without a thread a log that nobody reads costs a moment, and tells what was lost") {
+  Pipe pipe;
+  LogWriter writer(pipe.in(), "program");
+  const Stopwatch watch;
+  const int written = write_too_much(&writer);
+  CHECK(seconds_since(watch) < 2.0);
+  const std::uint64_t lost = writer.lost();
+  REQUIRE(lost > 0);
+  pipe.lines_until(line_of(written - 1 - static_cast<int>(lost)));
+  writer.write("it goes on\n");
+  const std::vector<std::string> lines = pipe.lines_until("goes on");
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].ends_with(" warning: log: " + std::to_string(lost) + " lines lost"));
+  CHECK(lines[1] == "it goes on");
+}
+
+TEST_CASE("a reader that has gone ends no program that logs") {
+  Pipe pipe;
+  pipe.close_reader();
+  LogWriter writer(pipe.in(), "program");
+  writer.start();  // the test has not set SIGPIPE aside: the thread blocks it
+  for (int i = 0; i < 10; ++i) writer.write(line_of(i));
+  writer.finish();
+  SUCCEED("the program is still there");
+}
+
+TEST_CASE("a log allocates nothing once it has begun") {
+  Pipe pipe;
+  LogWriter writer(pipe.in(), "program");
+  writer.start();
+  start_counting_allocations();
+  for (int i = 0; i < 20'000; ++i) writer.write("a line that is always the same\n");
+  CHECK(stop_counting_allocations() == 0);
+  REQUIRE(writer.lost() > 0);
+  start_counting_allocations();
+  char part[4096];
+  const Stopwatch watch;
+  for (std::string_view text; text.find("lost") == text.npos && seconds_since(watch) < 10.0;)
+    text = {part, pipe.read_some(part, sizeof part)};
+  CHECK(stop_counting_allocations() == 0);
+}
