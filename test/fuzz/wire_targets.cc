@@ -60,11 +60,10 @@ CorrectionServices services_with_ephemerides() {
   return services;
 }
 
-// Its buffers are large; it keeps nothing of an input but its count of messages.
-MessageOutput* checked_output() {
-  static CheckedMessages messages;
-  static MessageOutput output{&messages};
-  return &output;
+// Its buffers are large. From one input to the next nothing stays in it but the counts of messages.
+InputMessages* shared_messages() {
+  static InputMessages messages;
+  return &messages;
 }
 
 // What leonav-connect has around a format. What is always the same is made once and copied.
@@ -81,7 +80,8 @@ struct Surroundings {
   }
 
   std::int64_t arrival_ns = kBegin_ns + 2'000'000'000;
-  MessageOutput& output = *checked_output();
+  CheckedMessages messages;
+  MessageOutput output{&messages, shared_messages()};
   SharedCorrections shared{CorrectionOptions{}, ServiceChoiceOptions{}, &output};
   CorrectionOutput corrections{kStream, &shared};
   GpsClock clock;

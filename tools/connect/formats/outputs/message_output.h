@@ -1,6 +1,7 @@
 // The MessageOutput publishes what streams decode, as one sender with one count for each channel.
 #pragma once
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "core/base/gps_time.h"
@@ -13,12 +14,18 @@ namespace leonav {
 class MessageOutput {
  public:
   // `target` must outlive this object.
-  explicit MessageOutput(MessageTarget* target) : target_(target) {}
+  explicit MessageOutput(MessageTarget* target)
+      : target_(target), own_(std::in_place), messages_(&*own_) {}
+  // Encodes with the buffers of others, whose counts go on. Both must outlive this object.
+  MessageOutput(MessageTarget* target, InputMessages* messages)
+      : target_(target), messages_(messages) {}
+  MessageOutput(const MessageOutput&) = delete;
+  MessageOutput& operator=(const MessageOutput&) = delete;
 
   // The arguments are those of InputMessages::encode().
   template <typename... Values>
   void send(const Values&... values) {
-    const InputMessage message = messages_.encode(values...);
+    const InputMessage message = messages_->encode(values...);
     target_->take(message.channel, message.bytes);
     ++sent_;
   }
@@ -39,7 +46,8 @@ class MessageOutput {
 
  private:
   MessageTarget* target_;
-  InputMessages messages_;
+  std::optional<InputMessages> own_;
+  InputMessages* messages_;
   KnownOrbits orbits_;
   GpsTime last_time_;
   std::uint64_t sent_ = 0;
