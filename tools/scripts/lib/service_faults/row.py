@@ -44,6 +44,7 @@ class Row:
     check: object = None  # instead of a drive: a function of Run and Judgement
     skipped: object = None  # a function that says why the row cannot run here, "" if it can
     has_route: bool = True
+    loses_route: bool = False  # while the drive is played: the network refuses messages, as it does in no other row
     health_by_log: bool = False  # as leonavd's own log has it
     until_stopped: bool = False  # the drive ends with the daemon
     quick: bool = False
