@@ -84,9 +84,9 @@ def solution_is_judged():
 
 
 def health_goes_on():
-    def found(made):
+    def found(made, **keys):
         result = judge.Judgement()
-        judge.judge_continuity(Row("row", "text", begin_s=60, end_s=70), made, result, 200)
+        judge.judge_continuity(Row("row", "text", begin_s=60, end_s=70, expected=Expected(**keys)), made, result, 200)
         return result
     check("HEALTH each second goes on", not found(outputs([(62, 80, "DEGRADED", TOLD)])).failures)
     check("two changes are counted", found(outputs([(62, 80, "DEGRADED", TOLD)])).numbers["health_changes"] == 2)
@@ -97,6 +97,11 @@ def health_goes_on():
     check("an end of HEALTH is found", found(silent).failures)
     check("a text that changes each second is found",
           found(outputs([(t, t + 1, "DEGRADED", f"for {t} s") for t in range(62, 80)])).failures)
+    flaps = [(t, t + 2, "DEGRADED", TOLD) for t in (60, 66, 72)]
+    check("six changes within twenty seconds are found", found(outputs(flaps)).failures)
+    check("where so many are expected they are none", not found(outputs(flaps), health_changes=6).failures)
+    check("four are none", not found(outputs(flaps[:2])).failures)
+    check("six within a minute are none", not found(outputs([(t, t + 2, "DEGRADED", TOLD) for t in (60, 90, 120)])).failures)
 
 
 def missing_solutions_are_counted():

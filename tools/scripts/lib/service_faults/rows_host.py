@@ -13,7 +13,7 @@ from service_faults.datagrams import FRAGMENT
 from service_faults.drive import IMU, PREFIX
 from service_faults.recorded import FILTER, SMOOTHER
 from service_faults.process_status import status_kb
-from service_faults.row import Expected, Row, fault
+from service_faults.row import ALIGNING_CHANGES, Expected, Row, fault
 from service_faults.run import ROUTE
 from service_faults.witness import Witness
 
@@ -420,13 +420,14 @@ ROWS = [
     Row("kill-restart", "kill -9 in motion, started at once, no orbits sent again", begin_s=145, end_s=145, after_s=100,
         knows_heading=False, change=lambda row, messages: stream.products_stop(row.begin_s)(messages),
         actions=((145, kill_and_start),), judge=first_answers,
-        expected=fault("DEGRADED", "FAULT", reason="no solution yet|aligning", gap_s=7, worst_m=6, ok_s=90, back_s=7, exit_codes=(-9, 0))),
+        expected=fault("DEGRADED", "FAULT", reason="no solution yet|aligning", gap_s=7, worst_m=6, ok_s=90, back_s=7, exit_codes=(-9, 0),
+                       health_changes=ALIGNING_CHANGES)),
     Row("second-instance", "a second leonavd on the same channels", after_s=20, actions=((60, start_second),), judge=second_is_refused,
         expected=Expected(), quick=True),
     Row("no-route", "no multicast route at the start", has_route=False, check=no_route, quick=True),
     Row("route-removed", "multicast route removed for 15 s", end_s=75, after_s=100, actions=((60, delete_route), (75, restore_route)),
         loses_route=True, health_by_log=True,
-        expected=fault("DEGRADED", "FAULT", reason=r"no usable IMU \(nothing comes", gap_s=18, ok_s=90, back_s=3, worst_m=8)),
+        expected=fault("DEGRADED", "FAULT", reason=r"no usable IMU \(nothing comes", gap_s=18, ok_s=90, back_s=3, worst_m=8, health_changes=12)),
     Row("host-clock", "host clock steps by an hour", after_s=40, skipped=why_no_faketime, before=fake_clock, actions=((60, step_clock),),
         judge=clock_has_stepped, expected=Expected()),
     Row("smoother-late", "smoother late at every third epoch (drill)", begin_s=0, end_s=120, after_s=0,
@@ -459,5 +460,6 @@ ROWS = [
     Row("little-memory", "memory limited to " + ", ".join(map(str, MEMORY_MB)) + " MB", check=little_memory),
     Row("sigterm-under-load", "SIGTERM after 20 s of junk at ten times the nominal rate", begin_s=40, after_s=30, until_stopped=True,
         change=much_junk, actions=((60, stop_under_load),), judge=stops_in_time,
-        expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=None, gap_s=None, back_s=None), quick=True),
+        expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=None, gap_s=None, back_s=None,
+                       health_changes=8), quick=True),
 ]
