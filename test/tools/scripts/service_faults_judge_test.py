@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """service_faults_judge_test.py: the judgement of tools/faults tells what is not as expected, and nothing where all is; what it
-sends is what LCM receives."""
+sends is what LCM receives. So do the bounds of tools/validate service-load."""
+import os
 import pathlib
 import sys
 import tempfile
@@ -8,15 +9,17 @@ import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / folder) for folder in ("tools/scripts/lib", "tools/python")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("tools/scripts/lib", "tools/python", "test/tools")]
 try:
     import numpy as np
     from leonav.live import Assembler
-    from service_faults import judge, rows_satellites, stream
-    from service_faults.datagrams import datagrams
+    from service_faults import judge, load, rows_host, rows_satellites, stream
+    from service_faults.allocations import Counted
+    from service_faults.datagrams import begun, datagrams, gone_on
     from service_faults.drive import GPS, IMU, LEO, START_S, WEEK, stamp_ns
     from service_faults.recorded import Epoch, Health, IN_USE, Outputs
     from service_faults.row import Expected, Row, fault
+    from service_faults.stalls import StallProbes, stood_still_ns
 except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
@@ -81,9 +84,9 @@ def solution_is_judged():
 
 
 def health_goes_on():
-    def found(made):
+    def found(made, **keys):
         result = judge.Judgement()
-        judge.judge_continuity(Row("row", "text", begin_s=60, end_s=70), made, result, 200)
+        judge.judge_continuity(Row("row", "text", begin_s=60, end_s=70, expected=Expected(**keys)), made, result, 200)
         return result
     check("HEALTH each second goes on", not found(outputs([(62, 80, "DEGRADED", TOLD)])).failures)
     check("two changes are counted", found(outputs([(62, 80, "DEGRADED", TOLD)])).numbers["health_changes"] == 2)
@@ -94,6 +97,11 @@ def health_goes_on():
     check("an end of HEALTH is found", found(silent).failures)
     check("a text that changes each second is found",
           found(outputs([(t, t + 1, "DEGRADED", f"for {t} s") for t in range(62, 80)])).failures)
+    flaps = [(t, t + 2, "DEGRADED", TOLD) for t in (60, 66, 72)]
+    check("six changes within twenty seconds are found", found(outputs(flaps)).failures)
+    check("where so many are expected they are none", not found(outputs(flaps), health_changes=6).failures)
+    check("four are none", not found(outputs(flaps[:2])).failures)
+    check("six within a minute are none", not found(outputs([(t, t + 2, "DEGRADED", TOLD) for t in (60, 90, 120)])).failures)
 
 
 def missing_solutions_are_counted():
@@ -161,6 +169,86 @@ def messages_change_within_their_span():
     check("junk comes at its rate", 2200 < len(stream.junk(2, 3, 10)(drive)) < 2400)
 
 
+def a_fault_that_does_not_leave_is_found():
+    def fails(refused=0, late_s=0.0, **keys):
+        result = judge.Judgement()
+        judge.judge_sent(Row("row", "text", **keys), types.SimpleNamespace(sender=types.SimpleNamespace(refused=refused), late_s=late_s), result)
+        return result.failures
+    check("all was sent", not fails())
+    check("a refused datagram is found", fails(refused=1))
+    check("late messages are found", fails(late_s=0.4))
+    check("a lost route refuses", not fails(refused=300, loses_route=True))
+    check("a route that stays is found", fails(loses_route=True))
+
+
+def a_fault_that_does_not_arrive_is_found():
+    kinds = {"long": begun(7, IMU, rows_host.LONG_BYTES), "fragment": gone_on(7, rows_host.FRAGMENT_BYTES),
+             "name": datagrams(7, list(stream.new_names(2, 3, 1)([]))[0][1], b"nothing")[0]}
+    for kind, datagram in kinds.items():
+        check(f"{kind} is known", rows_host.kind_of(datagram) == kind)
+    check("a begin of a fragment is one", rows_host.kind_of(begun(7, "LEONAV_FRAGMENT_7", rows_host.FRAGMENT_BYTES)) == "fragment")
+    check("a sample is none of them", rows_host.kind_of(datagrams(7, IMU, b"sample")[0]) is None)
+    check("a long good message is none of them", rows_host.kind_of(datagrams(7, IMU, bytes(100_000))[0]) is None)
+
+    def fails(**arrived):
+        result = judge.Judgement()
+        rows_host.arrives({"name": 1000, "fragment": 20}, types.SimpleNamespace(arrived=arrived, notes=[]), result)
+        return result.failures
+    check("all arrive", not fails(name=1000, fragment=20))
+    check("a busy machine may lose some", not fails(name=600, fragment=11))
+    check("nothing arrives", len(fails()) == 2)
+    check("one kind does not arrive", len(fails(name=1000)) == 1)
+
+
+def stalls_of_one_processor_are_no_stall_of_all():
+    one, other = [(10, 20), (30, 40)], [(15, 35)]
+    check("no stall", stood_still_ns([[], []], 0, 100) == 0)
+    check("some processor stood still", stood_still_ns([one, other], 0, 100) == 30)
+    check("both stood still", stood_still_ns([one, other], 0, 100, least=2) == 10)
+    check("only within the span", stood_still_ns([one, other], 12, 18) == 6)
+    check("only within the span of both", stood_still_ns([one, other], 12, 18, least=2) == 3)
+    check("stalls that meet do not count twice", stood_still_ns([[(10, 20)], [(20, 30)]], 0, 100) == 20)
+    check("stalls that meet are none of both", stood_still_ns([[(10, 20)], [(20, 30)]], 0, 100, least=2) == 0)
+    still = load.still_while([one, other], [(10, 20), (15, 20), (50, 60)])
+    check("two delays of one, one of both", load.still_text(still) == "2 of 3 | 1 of 3")
+    check("without probes nothing is known", load.still_text(load.still_while(None, [(10, 20)])) == "- | -")
+    check("no stall is known to be none", load.still_text(load.still_while([[], []], [(10, 20)])) == "0 of 1 | 0 of 1")
+
+
+def probes_without_priority_know_nothing():
+    def refuse(*_):
+        raise PermissionError
+    allowed, os.sched_setscheduler = os.sched_setscheduler, refuse
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            probes = StallProbes(pathlib.Path(folder) / "stalls.csv")
+            probes.start()
+            check("probes without priority know nothing", probes.stop() is None)
+    finally:
+        os.sched_setscheduler = allowed
+
+
+def allocations_are_counted():
+    check("none", Counted({"gnss": 0}).is_none() and Counted({"gnss": 0}).text() == "0")
+    some = Counted({"out": 0, "main": 5, "gnss": 2})
+    check("some", not some.is_none() and some.text() == "gnss 2, main 5")
+
+
+def bounds_under_load_hold_without_priorities():
+    good = {"missing": 0, "out_of_order": 0, "delays_ms": np.full(100, 0.2), "privileged": True, "allocated": Counted({"gnss": 0}),
+            "resident_kb": np.array([100.0, 100.0]), "locked_kb": 90, "code": 0}
+    check("all bounds hold", not load.failures(good))
+    slow = {**good, "delays_ms": np.full(100, 20.0)}
+    check("delays are found", len(load.failures(slow)) == 2)
+    check("delays of others have no bound", not load.failures({**slow, "privileged": False}))
+    for what, value in {"missing": 1, "out_of_order": 1, "allocated": Counted({"gnss": 1}), "resident_kb": np.array([100.0, 104.0]),
+                        "code": 1}.items():
+        for privileged in (True, False):
+            check(f"{what} is found", len(load.failures({**good, what: value, "privileged": privileged})) == 1)
+    check("pages that are not locked come", not load.failures({**good, "resident_kb": np.array([100.0, 104.0]), "locked_kb": 0}))
+    check("not that many", load.failures({**good, "resident_kb": np.array([100.0, 3000.0]), "locked_kb": 0}))
+
+
 health_is_judged()
 solution_is_judged()
 health_goes_on()
@@ -169,4 +257,10 @@ a_satellite_without_a_fault_is_found()
 leo_that_stays_is_found()
 messages_arrive()
 messages_change_within_their_span()
+a_fault_that_does_not_leave_is_found()
+a_fault_that_does_not_arrive_is_found()
+stalls_of_one_processor_are_no_stall_of_all()
+probes_without_priority_know_nothing()
+allocations_are_counted()
+bounds_under_load_hold_without_priorities()
 print("the judgement tells what it must")

@@ -19,17 +19,19 @@ class NoStart(Exception):
 
 
 class Daemon:
-    """leonavd with the preset urban, a car, the smoother, journal and checkpoint."""
+    """leonavd with the preset urban or the file `config`, a car, the smoother, journal and checkpoint."""
 
-    def __init__(self, bin_dir, folder, options=(), journal_folder="journal", heading_deg=None, environment=(), memory_mb=None):
+    def __init__(self, bin_dir, folder, options=(), journal_folder="journal", heading_deg=None, environment=(), memory_mb=None,
+                 config=None):
         self.bin, self.folder, self.options, self.memory_mb = bin_dir, folder, list(options), memory_mb
         self.journal = folder / journal_folder / "run.journal"
         self.checkpoint = folder / "checkpoint.yaml"
         self.heading_deg, self.environment = heading_deg, dict(environment)
+        self.configuration = ["--config", config] if config else ["--preset", "urban"]
         self.process, self.starts, self.codes = None, 0, []
 
     def command(self):
-        words = ["--preset", "urban", "--set", "vehicle.kind=car", "--set", "estimator=smoother", "--set", f"lcm.url={URL}",
+        words = [*self.configuration, "--set", "vehicle.kind=car", "--set", "estimator=smoother", "--set", f"lcm.url={URL}",
                  "--journal", self.journal, "--set", f"checkpoint.path={self.checkpoint}"]
         if self.heading_deg is not None:
             words += ["--set", f"alignment.initial_heading_deg={self.heading_deg}",

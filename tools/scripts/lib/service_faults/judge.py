@@ -98,7 +98,16 @@ def judge_continuity(row, outputs, result, last_s):
     if not row.health_by_log:
         result.at_most("longest time without HEALTH", result.numbers["health_gap_s"], row.expected.health_gap_s)
     most = max((sum(t <= other < t + CHANGES_WITHIN_S for other in changes) for t in changes), default=0)
+    result.numbers["health_changes_at_once"] = most
     result.at_most(f"changes of HEALTH within {CHANGES_WITHIN_S} s", most, row.expected.health_changes, "")
+
+
+def judge_sent(row, run, result):
+    """Else the row would show another fault, or none."""
+    refused = run.sender.refused
+    result.must(row.loses_route or refused == 0, f"the network refused {refused} datagrams")
+    result.must(refused > 0 or not row.loses_route, "the network refused no datagram")
+    result.must(run.late_s < LATE_S, f"this machine was too slow: messages left up to {run.late_s:.1f} s late")
 
 
 def replay(row, run, result):
@@ -133,5 +142,5 @@ def judged(row, run):
     replay(row, run, result)
     if row.judge:
         row.judge(run, outputs, result)
-    result.must(run.late_s < LATE_S, f"this machine was too slow: messages left up to {run.late_s:.1f} s late")
+    judge_sent(row, run, result)
     return result

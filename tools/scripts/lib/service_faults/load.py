@@ -31,7 +31,7 @@ from service_faults.daemon import Daemon, Recorder  # noqa: E402
 from service_faults.datagrams import Sender  # noqa: E402
 from service_faults.drive import IMU, PREFIX, STANDING_S, Drive, stamp_ns  # noqa: E402
 from service_faults.process_status import status_kb  # noqa: E402
-from service_faults.stalls import StallProbes, overlap_ns  # noqa: E402
+from service_faults.stalls import StallProbes, stood_still_ns  # noqa: E402
 
 OUR_PRIORITY = 80
 WARM_UP_S = STANDING_S + 50  # the window is full, and every buffer has been used
@@ -39,6 +39,7 @@ REAL_TIME = ["--set", "realtime.lock_memory=true"]
 ORDINARY = [word for thread in ("io", "ins", "gnss", "smoother", "out") for word in ("--set", f"realtime.{thread}.priority=0")]
 # Of the runs with real-time priorities.
 MOST_99_MS, MOST_999_MS = 1.0, 5.0
+MOST_GROWTH_KB = 1024  # of memory that the system does not lock: its pages come as they are touched
 LARGEST = 20  # delays that are looked at one by one
 ROWS = {"real-time": ("real-time priorities, memory locked", REAL_TIME, True),
         "ordinary": ("ordinary", ORDINARY, True),
@@ -139,16 +140,27 @@ def judged(folder, log, sent, begin, stalls):
     answered = [(stamp, arrival - sent_at[stamp]) for stamp, arrival in zip(stamps.tolist(), arrivals.tolist()) if stamp in sent_at]
     delays = np.array([delay for _, delay in answered]) * 1e-6
     largest = sorted(answered, key=lambda one: -one[1])[:LARGEST]
-    of_machine = sum(1 for stamp, delay in largest if overlap_ns(stalls, sent_at[stamp], sent_at[stamp] + delay) > delay / 2)
     np.savetxt(folder / "delays.csv", np.array([(stamp * 1e-9, delay * 1e-6) for stamp, delay in answered]).reshape(-1, 2),
                fmt=["%.3f", "%.4f"], delimiter=",", header="gps_s,delay_ms", comments="")
     memory = np.loadtxt(folder / "memory.txt", ndmin=2)
     memory = memory[(memory[:, 0] >= begin + WARM_UP_S) & (memory[:, 1] > 0)]
     return {"samples": len(counted), "missing": int(len(np.setdiff1d(counted[:, 0], stamps))),
             "out_of_order": int(np.count_nonzero(np.diff(stamps) <= 0)), "delays_ms": delays,
-            "largest": len(largest), "of_machine": of_machine,
+            "still": still_while(stalls, [(sent_at[stamp], sent_at[stamp] + delay) for stamp, delay in largest]),
             "resident_kb": memory[:, 1], "locked_kb": memory[-1, 2], "files": memory[:, 3],
             "misses": (int(health["ekf_misses"]), int(health["smoother_misses"])) if health else None}
+
+
+def still_while(stalls, spans):
+    """Of how many time spans more than half some processor stood still, and all of them at once; None where nobody knows."""
+    if stalls is None:
+        return None
+    return [(sum(stood_still_ns(stalls, begin, end, least) > (end - begin) / 2 for begin, end in spans), len(spans))
+            for least in (1, len(stalls))]
+
+
+def still_text(still):
+    return " | ".join(f"{count} of {of}" for count, of in still) if still else "- | -"
 
 
 def row(name, r):
@@ -156,18 +168,19 @@ def row(name, r):
     ekf, smoother = r["misses"] or ("-", "-")
     return (f"| {name} | {r['samples']} | {r['missing']} | {r['out_of_order']} | " + " | ".join(f"{v:.2f}" for v in q) +
             f" | {ekf} / {smoother} | {r['resident_kb'][0] / 1024:.2f} | {r['resident_kb'].max() - r['resident_kb'].min():.0f} "
-            f"| {r['locked_kb'] / 1024:.1f} | {r['of_machine']} of {r['largest']} | {r['allocated'].text()} |")
+            f"| {r['locked_kb'] / 1024:.1f} | {still_text(r['still'])} | {r['allocated'].text()} |")
 
 
 def failures(r):
     if not len(r["delays_ms"]):
         return ["no solution came"]
     q99, q999 = np.quantile(r["delays_ms"], [0.99, 0.999])
+    grown_kb = r["resident_kb"].max() - r["resident_kb"].min()
     bounds = {f"{r['missing']} solutions are missing": r["missing"] > 0, f"{r['out_of_order']} are out of order": r["out_of_order"] > 0,
-              f"99 % of delays are below {q99:.2f} ms only": q99 > MOST_99_MS,
-              f"99.9 % of delays are below {q999:.2f} ms only": q999 > MOST_999_MS,
+              f"99 % of delays are below {q99:.2f} ms only": r["privileged"] and q99 > MOST_99_MS,
+              f"99.9 % of delays are below {q999:.2f} ms only": r["privileged"] and q999 > MOST_999_MS,
               f"heap allocations: {r['allocated'].text()}": not r["allocated"].is_none(),
-              "resident memory changes": r["resident_kb"].max() > r["resident_kb"].min(),
+              f"resident memory changes by {grown_kb:.0f} kB": grown_kb > (0 if r["locked_kb"] else MOST_GROWTH_KB),
               f"exit code {r['code']}": r["code"] != 0}
     return [text for text, broken in bounds.items() if broken]
 
@@ -182,17 +195,17 @@ def main():
     enter_namespace()
     words.out.mkdir(parents=True, exist_ok=True)
     print("| scheduling | IMU samples | without SOLUTION | out of order | delay, ms: median | 99 % | 99.9 % | largest "
-          "| misses of filter / smoother | resident, MB | its change, kB | locked, MB | largest delays while the machine stood still "
-          "| heap allocations |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
-    broken = []
+          "| misses of filter / smoother | resident, MB | its change, kB | locked, MB | largest delays while some processor stood still "
+          "| while all did | heap allocations |\n" + "|---" * 15 + "|", flush=True)
+    broken, privileged = [], True
     for name in words.rows:
         result = run(words, name)
         print(row(ROWS[name][0], result), flush=True)
-        if not result["privileged"]:
-            print("\nReal-time priorities are not allowed here: the delays are also those of the sender and of the recorder.")
-            return 0
+        privileged = privileged and result["privileged"]
         if name != "ordinary":
             broken += [f"{name}: {text}" for text in failures(result)]
+    if not privileged:
+        print("\nReal-time priorities are not allowed here: the delays are also those of the sender and of the recorder, and have no bound.")
     for text in broken:
         print(f"bound: {text}")
     return 1 if broken else 0

@@ -2,6 +2,9 @@
 import dataclasses
 
 
+ALIGNING_CHANGES = 8  # of HEALTH within 20 s: an alignment alone tells five steps
+
+
 @dataclasses.dataclass
 class Expected:
     """None: not asked. Times are s from the fault's begin or, of what has to come back, from its end."""
@@ -12,7 +15,7 @@ class Expected:
     ok_s: float = 10.0
     gap_s: float = 0.5
     health_gap_s: float = 2.5  # it comes once a second
-    health_changes: int = 12  # of status or text, within any 20 s
+    health_changes: int = 4  # of status or text, within any 20 s
     worst_m: float = 2.0
     sigmas: float = 5.0
     back_s: float = 2.0
@@ -44,6 +47,7 @@ class Row:
     check: object = None  # instead of a drive: a function of Run and Judgement
     skipped: object = None  # a function that says why the row cannot run here, "" if it can
     has_route: bool = True
+    loses_route: bool = False  # while the drive is played: the network refuses messages, as it does in no other row
     health_by_log: bool = False  # as leonavd's own log has it
     until_stopped: bool = False  # the drive ends with the daemon
     quick: bool = False

@@ -1,7 +1,7 @@
 """Faults of the messages that come in: stamps, gaps, values, junk."""
 from service_faults import stream
 from service_faults.drive import EPOCH, IMU, IMU_INTERVAL_S, STANDING_S
-from service_faults.row import Row, fault
+from service_faults.row import ALIGNING_CHANGES, Row, fault
 
 HOUR_S = 3600
 FILTER_RESET, HEADING = 2, 6  # kind of event, its code
@@ -9,7 +9,9 @@ NO_IMU = "no usable IMU"
 # A gap of the IMU costs the heading: half a minute until it is found again, and HEALTH keeps events for a minute.
 ALIGNS_S, KEPT_S = 30, 60
 BEFORE_S = 20  # what is usual is measured over so long before a fault
-AFTER_GAP = {"ok_s": ALIGNS_S + KEPT_S, "back_s": 3, "worst_m": 8}
+AFTER_GAP = {"ok_s": ALIGNS_S + KEPT_S, "back_s": 3, "worst_m": 8, "health_changes": ALIGNING_CHANGES}
+# Of HEALTH, where inputs are rejected before or while it aligns: each set of causes is another text.
+REJECTS_AND_ALIGNS = 12
 
 
 def imu_gap(seconds, **keys):
@@ -53,20 +55,21 @@ ROWS = [
     Row("imu-hour-ahead", "IMU stamps step by an hour and stay", end_s=120, after_s=0,
         change=lambda row, messages: stream.shifted(IMU, HOUR_S, row.begin_s, row.end_s)(messages),
         expected=fault("DEGRADED", "FAULT", reason="(IMU|GNSS).*(time_backwards|too_far_ahead)", stays=True,
-                       gap_s=None, ok_s=None, back_s=None)),
+                       gap_s=None, ok_s=None, back_s=None, health_changes=6)),
     Row("imu-hour-ahead-30s", "IMU stamps step by an hour, and back after 30 s", end_s=90, after_s=100,
         change=lambda row, messages: stream.shifted(IMU, HOUR_S, row.begin_s, row.end_s)(messages),
         expected=fault("DEGRADED", "FAULT", reason="(IMU|GNSS).*(time_backwards|too_far_ahead)", gap_s=45, worst_m=10, back_s=15,
-                       ok_s=ALIGNS_S + 2 * KEPT_S)),
+                       ok_s=ALIGNS_S + 2 * KEPT_S, health_changes=REJECTS_AND_ALIGNS)),
     Row("imu-clock-steps", "IMU clock steps by 0.5 s, and back after 30 s", end_s=90, after_s=100,
         change=lambda row, messages: stream.shifted(IMU, 0.5, row.begin_s, row.end_s)(messages),
-        expected=fault("DEGRADED", reason="IMU|time stamps", told_s=10, gap_s=3, worst_m=10, ok_s=ALIGNS_S + KEPT_S)),
+        expected=fault("DEGRADED", reason="IMU|time stamps", told_s=10, gap_s=3, worst_m=10, ok_s=ALIGNS_S + KEPT_S,
+                       health_changes=REJECTS_AND_ALIGNS)),
     imu_gap(0.1, after_s=40, expected=fault("DEGRADED", reason="gaps|lost", ok_s=15), quick=True),
     imu_gap(1, expected=fault("DEGRADED", reason="gaps|lost", gap_s=1.5, worst_m=4, ok_s=KEPT_S + 10, back_s=1)),
     imu_gap(10, after_s=100, expected=fault("DEGRADED", "FAULT", reason=NO_IMU + r" \(nothing comes", gap_s=13, **AFTER_GAP)),
     Row("imu-zeros", "IMU sends zeros for 20 s", end_s=80, after_s=100,
         change=lambda row, messages: stream.imu_zeros(row.begin_s, row.end_s)(messages),
-        expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=23, **AFTER_GAP)),
+        expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=23, **{**AFTER_GAP, "health_changes": REJECTS_AND_ALIGNS})),
     Row("imu-repeats", "IMU sends the same message for 10 s", end_s=70, after_s=100,
         change=lambda row, messages: stream.imu_repeated(row.begin_s, row.end_s)(messages),
         expected=fault("DEGRADED", "FAULT", reason=NO_IMU, gap_s=13, **AFTER_GAP)),
@@ -75,9 +78,10 @@ ROWS = [
         expected=fault("DEGRADED", "FAULT", reason=NO_IMU + ".*not_sane", gap_s=13, **AFTER_GAP)),
     Row("heading-off", "a heading that is taken for known to a degree is 150 degrees off", begin_s=STANDING_S, end_s=STANDING_S, after_s=130,
         heading_off_deg=150, settled_s=STANDING_S, judge=begins_anew,
-        expected=fault("DEGRADED", reason="the heading contradicts the motion", worst_m=12, sigmas=6, ok_s=KEPT_S + 10)),
+        expected=fault("DEGRADED", reason="the heading contradicts the motion", worst_m=12, sigmas=6, ok_s=KEPT_S + 10,
+                       health_changes=ALIGNING_CHANGES)),
     Row("junk", "junk at ten times the nominal rate on all input channels for 20 s", end_s=80, after_s=40,
         change=lambda row, messages: stream.junk(row.begin_s, row.end_s, 10)(messages), judge=junk_costs_little,
         actions=((60 - BEFORE_S, measure_journal), (60, measure_journal), (80, measure_journal)),
-        expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=25), quick=True),
+        expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=25, health_changes=8), quick=True),
 ]

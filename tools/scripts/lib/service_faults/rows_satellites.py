@@ -2,10 +2,10 @@
 import math
 import statistics
 
-from service_faults import stream
+from service_faults import judge, stream
 from service_faults.drive import GPS, LEO
 from service_faults.replayed import innovations_of
-from service_faults.row import Expected, Row, fault
+from service_faults.row import ALIGNING_CHANGES, Expected, Row, fault
 
 MEDIUM = ("gps", "galileo", "beidou")
 FREQUENT_NODES = tuple(f"satellites.{system}.node_interval_s=30" for system in MEDIUM)
@@ -91,6 +91,22 @@ def whole_system(run, outputs, result):
     result.at_most("event `clock_step` of Galileo", run.note_event(outputs, CLOCK_STEP, (GALILEO_CLOCK,), "clock_step"), 30)
 
 
+def arm_is_told(run, outputs, result):
+    """How HEALTH, error and sigma go on until the mistake has its name, and to the end."""
+    ok_s = next((one.t for one in outputs.health if one.status == "OK"), math.inf)
+    first = next((one for one in outputs.health if one.t > ok_s and one.status != "OK"), None)
+    named_s = next((one.t for one in outputs.health if "the antenna moves as if" in one.why), None)
+    result.must(first, "HEALTH is OK to the end")
+    if not first:
+        return
+    known = [(t, error, sigma) for t, error, sigma in zip(outputs.t, outputs.error, outputs.sigma) if t >= first.t and math.isfinite(error)]
+    _, error, sigma = known[0]
+    errors, sigmas = [one[1] for one in known], [one[2] for one in known]
+    run.notes.append(f"HEALTH is OK until {first.t:.0f} s, then `{judge.first_reason(first.why)}`: error {error:.1f} m, sigma {sigma:.1f} m; "
+                     f"{f'it names the arm after {named_s:.0f} s' if named_s else 'it does not name the arm'}; from the first on errors "
+                     f"{min(errors):.1f} to {max(errors):.1f} m, sigma down to {min(sigmas):.2f} m")
+
+
 CONTRADICTS = "contradict|off by a metre|drift away"
 ROWS = [
     Row("gnss-lost-60s", "no satellite for 60 s", end_s=120, after_s=100, scenario=all_measured(60, 120),
@@ -101,7 +117,8 @@ ROWS = [
         judge=leo_is_gone, expected=Expected()),
     Row("no-ephemerides", "no ephemerides, orbits and models in the first 60 s", begin_s=0, after_s=100, knows_heading=False, settled_s=90,
         change=lambda row, messages: stream.products_late(row.end_s)(messages),
-        expected=fault("FAULT", reason="most satellites have no ephemeris", told_s=20, stays=True, ok_s=90, worst_m=6)),
+        expected=fault("FAULT", reason="most satellites have no ephemeris", told_s=20, stays=True, ok_s=90, worst_m=6,
+                       health_changes=ALIGNING_CHANGES)),
     Row("orbits-stale", "no precise orbits and clocks for 2 min", end_s=180, after_s=60, scenario=FREQUENT_NODES,
         change=lambda row, messages: stream.orbits_stop(row.begin_s, row.end_s)(messages),
         expected=fault("DEGRADED", reason="no precise orbit or correction", told_s=60, worst_m=4, ok_s=30)),
@@ -125,5 +142,5 @@ ROWS = [
         options=("--set", "vehicle.lever_arm_b_m=[2, 0, -1.2]"),
         # The sigma does not cover it: an arm that is wrong from the start looks like a position until the vehicle has turned.
         expected=fault("DEGRADED", reason="innovations are twice as large|the antenna moves as if", told_s=120, stays=True, worst_m=4, sigmas=20,
-                       ok_s=None, back_s=None)),
+                       health_changes=8, ok_s=None, back_s=None), judge=arm_is_told),
 ]

@@ -9,8 +9,12 @@ PRIORITY = 99
 
 
 def probe(processor, path, end):
+    """Writes its stalls to a file when it is told to end; none where the priority is not allowed."""
     os.sched_setaffinity(0, {processor})
-    os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+    except PermissionError:
+        return
     stalls = []
     while not end.is_set():
         due = time.monotonic_ns() + round(PERIOD_S * 1e9)
@@ -25,45 +29,55 @@ def probe(processor, path, end):
 
 
 class StallProbes:
-    """Probes of all processors; where their priority is not allowed they find nothing."""
+    """Probes of all processors."""
 
     def __init__(self, path):
         self.path, self.processes, self.end = path, [], multiprocessing.Event()
 
     def start(self):
-        self.processes = [(multiprocessing.Process(target=probe, args=(processor, f"{self.path}.{processor}", self.end)),
-                           f"{self.path}.{processor}") for processor in sorted(os.sched_getaffinity(0))]
-        for process, path in self.processes:
-            open(path, "w", encoding="ascii").close()
+        self.processes = [(processor, multiprocessing.Process(target=probe, args=(processor, self.path_of(processor), self.end)))
+                          for processor in sorted(os.sched_getaffinity(0))]
+        for processor, process in self.processes:
+            self.path_of(processor).unlink(missing_ok=True)
             process.start()
 
+    def path_of(self, processor):
+        return self.path.with_name(f"{self.path.name}.{processor}")
+
     def stop(self):
-        """Ends the probes; returns (begin, end) of all stalls, ns of the wall clock, in order of time, and writes them."""
+        """Ends the probes, and writes what they found; returns for each processor the (begin, end) of its stalls, ns of the wall clock,
+        in order of time. None: their priority is not allowed here, so that nothing is known."""
         self.end.set()
-        stalls = []
-        for process, path in self.processes:
+        stalls = {}
+        for processor, process in self.processes:
             process.join()
-            with open(path, encoding="ascii") as file:
-                stalls += [tuple(map(int, line.split(","))) for line in file]
-            os.unlink(path)
-        stalls.sort()
+            if self.path_of(processor).exists():
+                lines = self.path_of(processor).read_text().splitlines()
+                stalls[processor] = [tuple(map(int, line.split(","))) for line in lines]
+                self.path_of(processor).unlink()
+        rows = sorted((begin, end, processor) for processor, spans in stalls.items() for begin, end in spans)
         with open(self.path, "w", encoding="ascii") as file:
-            print("begin_unix_ns,end_unix_ns", *(f"{begin},{end}" for begin, end in stalls), sep="\n", file=file)
-        return stalls
+            print("begin_unix_ns,end_unix_ns,processor", *(",".join(map(str, row)) for row in rows), sep="\n", file=file)
+        return list(stalls.values()) if len(stalls) == len(self.processes) else None
 
     def kill(self):
-        for process, _ in self.processes:
+        for _, process in self.processes:
             if process.is_alive():
                 process.kill()
                 process.join()
 
 
-def overlap_ns(stalls, begin, end):
-    """How much of a time span one processor or several stood still; the union of their stalls."""
-    total, covered = 0, begin
-    for first, last in stalls:
-        first, last = max(first, covered), min(last, end)
-        if last > first:
-            total += last - first
-            covered = last
+def stood_still_ns(stalls, begin, end, least=1):
+    """How much of a time span so many processors, or more, stood still at once. `stalls`: of each processor."""
+    steps = []
+    for spans in stalls:
+        for first, last in spans:
+            first, last = max(first, begin), min(last, end)
+            if first < last:
+                steps += [(first, 1), (last, -1)]
+    total, standing, since = 0, 0, begin
+    for at, step in sorted(steps):
+        if standing >= least:
+            total += at - since
+        standing, since = standing + step, at
     return total
