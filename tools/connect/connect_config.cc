@@ -90,6 +90,18 @@ void read_corrections(ConfigReader& group, CorrectionOptions* options,
   group.number("return_s", {0.0, 3600.0}, &services->return_s);
 }
 
+// Whether orbits of mass centres come without what leads to the antennas. Pages of HAS and of
+// PPP-B2b say themselves that theirs are of antennas.
+bool lacks_antenna_models(const ConnectConfig& config, const FileProducts& products) {
+  const auto brings_ssr = [](const StreamConfig& stream) {
+    return stream.format == FormatKind::kRtcm3;
+  };
+  const auto is_of_satellite = [](const AntennaPattern& pattern) { return !pattern.is_receiver; };
+  return !config.corrections.at_antenna &&
+         std::any_of(config.streams.begin(), config.streams.end(), brings_ssr) &&
+         std::none_of(products.antennas.begin(), products.antennas.end(), is_of_satellite);
+}
+
 }  // namespace
 
 bool has_only_files(const ConnectConfig& config) {
@@ -157,10 +169,11 @@ ConnectConfig load_connect_config(const std::string& path,
     refuse_conflicts(root, config.streams);
     refuse_lonely_pulse(root, config);
   });
-  if (!config.corrections.at_antenna && products->antennas.empty()) {
+  if (lacks_antenna_models(config, *products)) {
     products->report.warnings.push_back(
-        "corrections.point is mass_centre, and no corrections.antenna_models say where the "
-        "satellites' antennas are: ranges are off by up to metres, most of it common to all");
+        "corrections.point is mass_centre, and no model of corrections.antenna_models says where a "
+        "satellite's antennas are: unless another program sends ANTENNA, ranges are off by up to "
+        "metres, most of it common to all");
   }
   config.products = products;
   return config;

@@ -26,6 +26,7 @@
 #include "tools/connect/formats/inertial/xsens_format.h"
 #include "tools/connect/formats/outputs/message_output.h"
 #include "tools/connect/formats/outputs/product_output.h"
+#include "tools/connect/formats/outputs/product_watch.h"
 #include "tools/connect/formats/pages/page_format.h"
 #include "tools/connect/formats/receivers/oem7_format.h"
 #include "tools/connect/formats/receivers/rtcm3_format.h"
@@ -111,6 +112,7 @@ struct Connector::State {
   LcmPublisher publisher;
   MessageOutput output;
   ProductOutput products;
+  ProductWatch product_watch;
   SharedCorrections corrections;
   // One of each stream, also of those without corrections: their ephemerides are corrected.
   std::map<std::string, CorrectionOutput> correction_outputs;
@@ -125,7 +127,6 @@ struct Connector::State {
   ServiceManager manager;
   std::uint64_t seconds = 0;
   bool host_was_wrong = false;  // by the receiver's epochs
-  std::optional<ProductOutput::Holding> told_products;
   bool was_stopped = false;
 };
 
@@ -249,27 +250,11 @@ void Connector::State::watch_host() {
   }
 }
 
-// Once the time is known, and whenever files have no more that holds.
 void Connector::State::tell_products() {
-  if (!products.has_begun()) return;
-  const ProductOutput::Holding now = products.holding();
-  if (!told_products) {
-    spdlog::info(
-        "of files hold now: {} models of antennas' bands, biases of {} signals, {} sets of "
-        "elements "
-        "of LEO satellites",
-        now.antennas, now.biases, now.leo_elements);
+  if (!products.time().is_set()) return;
+  for (const auto& [is_warning, text] : product_watch.look(products.holding(), products.time())) {
+    spdlog::log(is_warning ? spdlog::level::warn : spdlog::level::info, "{}", text);
   }
-  const auto warn = [](bool is_given, std::size_t before, std::size_t holding, const char* what) {
-    if (!is_given || holding > 0 || before == 0) return;
-    spdlog::warn("{}: none holds now; give files of this day and start leonav-connect again", what);
-  };
-  const ProductOutput::Holding before = told_products.value_or(ProductOutput::Holding{1, 1, 1});
-  const FileProducts& given = *config.products;
-  warn(!given.antennas.empty(), before.antennas, now.antennas, "corrections.antenna_models");
-  warn(!given.biases.empty(), before.biases, now.biases, "corrections.biases");
-  warn(!given.leo_elements.empty(), before.leo_elements, now.leo_elements, "leo_elements");
-  told_products = now;
 }
 
 void Connector::State::publish_status() {

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "drivers/antex/antex_reader.h"
-#include "drivers/csv/leo_elements_csv.h"
 #include "drivers/text/line_reader.h"
 #include "tools/connect/in_folder.h"
 #include "tools/import/antenna_models.h"
 #include "tools/import/bias_files.h"
+#include "tools/import/leo_element_files.h"
 
 namespace leonav {
 namespace {
@@ -96,11 +96,8 @@ void read_correction_files(ConfigReader& group, const ProductKeys& keys, FilePro
 void read_leo_files(ConfigReader& root, const ProductKeys& keys, FileProducts* products) {
   for (const std::string& path : read_paths(root, kLeoElements, keys.folder)) {
     attempt(root, kLeoElements, keys, [&] {
-      const LeoElementsCsv file = read_leo_elements_csv(path);
-      products->report.skip(file.report.problems.empty() ? path : file.report.problems.front(),
-                            "unusable row", file.report.skipped);
-      products->leo_elements.insert(products->leo_elements.end(), file.ephemerides.begin(),
-                                    file.ephemerides.end());
+      const std::vector<Ephemeris> read = read_leo_element_file(path, &products->report);
+      products->leo_elements.insert(products->leo_elements.end(), read.begin(), read.end());
     });
   }
 }

@@ -13,7 +13,6 @@
 
 #include "drivers/clk/clock_reader.h"
 #include "drivers/csv/imu_csv.h"
-#include "drivers/csv/leo_elements_csv.h"
 #include "drivers/rinex/navigation_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/parse.h"
@@ -28,6 +27,7 @@
 #include "tools/import/internal/rtcm3_file.h"
 #include "tools/import/internal/sbf_file.h"
 #include "tools/import/internal/ubx_file.h"
+#include "tools/import/leo_element_files.h"
 #include "tools/import/log_output.h"
 #include "tools/import/product_schedule.h"
 
@@ -215,10 +215,8 @@ void Import::load_navigation() {
 
 void Import::load_leo_elements() {
   for (const std::string& path : dataset_.leo_elements) {
-    const LeoElementsCsv file = read_leo_elements_csv(path);
-    report_.skip(file.report.problems.empty() ? path : file.report.problems.front(), "unusable row",
-                 file.report.skipped);
-    navigation_.insert(navigation_.end(), file.ephemerides.begin(), file.ephemerides.end());
+    const std::vector<Ephemeris> read = read_leo_element_file(path, &report_);
+    navigation_.insert(navigation_.end(), read.begin(), read.end());
   }
 }
 

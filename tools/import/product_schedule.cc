@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <map>
 #include <set>
 #include <tuple>
@@ -11,13 +10,9 @@
 namespace leonav {
 namespace {
 
-constexpr int kIssuesAtStart = 2;
-
 bool is_valid_at(const Ephemeris& e, GpsTime time) {
-  // Elements of low orbits are useless after two hours, whatever `max_age_leo_s` allows.
-  constexpr double kLeo_s = 7200.0;
   const EphemerisConfig limits;
-  double max_age_s = kLeo_s;
+  double max_age_s = kLongestLeoAge_s;
   switch (e.satellite.system) {
     case System::kGps:
       max_age_s = limits.max_age_gps_s;
@@ -99,7 +94,7 @@ EphemerisSchedule schedule_ephemerides(std::vector<Ephemeris> ephemerides, GpsTi
     }
   }
   for (auto& [stream, list] : at_start) {
-    const std::size_t excess = list.size() > kIssuesAtStart ? list.size() - kIssuesAtStart : 0;
+    const std::size_t excess = list.size() > kIssuesInUse ? list.size() - kIssuesInUse : 0;
     schedule.superseded += static_cast<long>(excess);
     for (std::size_t i = excess; i < list.size(); ++i) schedule.items.push_back({start, list[i]});
   }

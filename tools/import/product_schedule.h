@@ -1,6 +1,7 @@
 // This unit schedules the products of a recording at the times at which a live system would receive
 // them.
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "core/base/gps_time.h"
@@ -22,6 +23,11 @@ struct EphemerisSchedule {
   long expired = 0;                       // no longer valid at the start
   long superseded = 0;                    // more than two newer ones had arrived at the start
 };
+
+// Of what a satellite has sent so many of the newest serve.
+inline constexpr std::size_t kIssuesInUse = 2;
+// Elements of low orbits are useless after two hours, whatever `max_age_leo_s` of leonavd allows.
+inline constexpr double kLongestLeoAge_s = 7200.0;
 
 // Schedules every ephemeris at its transmission time, but not before `start`.
 //

@@ -228,6 +228,7 @@ def products_of_files(work):
     streams = "streams:\n  - {name: receiver, source: file, path: receiver.leoraw, format: ubx, repeat_ephemerides_s: 5}\n"
     run = Run(work, "files", f"playback_speed: 4\nleo_elements: export/leo_elements.csv\ncorrections:\n  {keys.format('  ')}{streams}")
     found = run.finish(stop=False)
+    run.says("2 antenna models of the receiver and 2 of satellites (one for each band), biases of 2 signals")
     plain = Run(work, "no_files", f"playback_speed: 4\n{streams}")
     if {"LEONAV_ANTENNA", "LEONAV_BIASES"} & set(plain.finish(stop=False)):
         fail("antenna models or biases come without a file")

@@ -3,6 +3,7 @@
 #include "tools/connect/product_keys.h"
 
 #include <fstream>
+#include <iterator>
 
 #include "daemon/config/load_config.h"
 #include "support/catch.h"
@@ -21,6 +22,16 @@ std::string seed(const std::string& name) { return LEONAV_SOURCE_DIR "/test/fuzz
 ConnectConfig load(const std::string& text) {
   const test::TemporaryFile file("connect.yaml", text + kStreams);
   return load_connect_config(file.path(), {});
+}
+
+// The seed's header and its last antenna, which is a receiver's.
+std::string receivers_alone() {
+  std::ifstream file(seed("antex/three"));
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  const auto begin_of_line = [&](std::size_t at) { return all.rfind('\n', at) + 1; };
+  const std::string begin = "START OF ANTENNA";
+  return all.substr(0, begin_of_line(all.find(begin))) +
+         all.substr(begin_of_line(all.rfind(begin)));
 }
 
 std::string error_of(const std::string& text) {
@@ -68,7 +79,29 @@ TEST_CASE("What is missing beside antenna models is told with what will be worse
   CHECK_THAT(warning(models), Contains("receiver_antenna") && Contains("15 cm"));
   CHECK_THAT(warning(models + ", receiver_antenna: OTHER"), Contains("OTHER"));
   CHECK_THAT(warning(models + ", receiver_antenna: TRM59800.00 SCIS"), Contains("radome"));
-  CHECK_THAT(warning("point: mass_centre"), Contains("antenna_models"));
+}
+
+TEST_CASE("Orbits of mass centres without a satellite's antenna model are told of, where SSR comes",
+          "[connect]") {
+  const auto warnings = [](const std::string& keys, const std::string& format) {
+    const test::TemporaryFile file(
+        "connect.yaml", "corrections: {" + keys +
+                            "}\nstreams:\n  - {name: a, source: stdin, format: ubx}\n  - "
+                            "{name: s, source: tcp, host: h, port: 1, format: " +
+                            format + "}\n");
+    return load_connect_config(file.path(), {}).products->report.warnings;
+  };
+  const std::string ssr = "rtcm3, corrections: true", point = "point: mass_centre";
+  REQUIRE(warnings(point, ssr).size() == 1);
+  CHECK_THAT(warnings(point, ssr)[0], Contains("antenna_models") && Contains("unless another"));
+  CHECK(warnings(point, "has").empty());  // whose orbits are of antennas
+  CHECK(warnings("point: antenna", ssr).empty());
+  const std::string receiver = ", receiver_antenna: TRM59800.00 NONE, antenna_models: ";
+  CHECK(warnings(point + receiver + seed("antex/three"), ssr).empty());
+  // The receiver's model alone does not help.
+  const test::TemporaryFile alone("alone.atx", receivers_alone());
+  REQUIRE(warnings(point + receiver + alone.path(), ssr).size() == 1);
+  CHECK_THAT(warnings(point + receiver + alone.path(), ssr)[0], Contains("mass_centre"));
 }
 
 TEST_CASE("Errors of all files are told at once, with file, line and key", "[connect]") {

@@ -1,18 +1,16 @@
 #include "tools/connect/formats/outputs/product_output.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
-#include "tools/import/bias_files.h"
+#include "core/gnss/orbits/ephemeris_store.h"
 #include "tools/import/product_schedule.h"
 
 namespace leonav {
 namespace {
-
-// Issues of a satellite that serve at once: as an import sends them (product_schedule.h).
-constexpr std::size_t kIssues = 2;
 
 bool holds(GpsTime from, GpsTime until, GpsTime now) {
   return !(from.is_set() && now < from) && !(until.is_set() && now >= until);
@@ -22,106 +20,93 @@ bool holds(GpsTime from, GpsTime until, GpsTime now) {
 
 ProductOutput::ProductOutput(std::shared_ptr<const FileProducts> products, double repeat_s,
                              MessageOutput* output)
-    : products_(std::move(products)), repeat_s_(repeat_s), output_(output) {
+    : products_(std::move(products)),
+      repeat_s_(repeat_s),
+      output_(output),
+      biases_(products_->biases) {
   for (std::size_t i = 0; i < products_->antennas.size(); ++i) {
     const AntennaPattern& pattern = products_->antennas[i];
-    items_.push_back({Kind::kAntenna, i, 1, pattern.valid_from, pattern.valid_until});
+    items_.push_back({Kind::kAntenna, i, pattern.valid_from, pattern.valid_until});
   }
-  add_biases();
+  const std::span<const FileBiases::Message> messages = biases_.messages();
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    items_.push_back({Kind::kBiases, i, messages[i].from, messages[i].until});
+  }
   add_elements();
 }
 
-// A message holds biases of one validity.
-void ProductOutput::add_biases() {
-  biases_ = products_->biases;
-  const auto validity = [](const SignalBias& one) {
-    return std::tuple(one.valid_from, one.valid_until);
-  };
-  std::stable_sort(biases_.begin(), biases_.end(), [&](const SignalBias& a, const SignalBias& b) {
-    return validity(a) < validity(b);
-  });
-  for (std::size_t i = 0; i < biases_.size(); ++i) {
-    const bool continues = i > 0 && validity(biases_[i]) == validity(biases_[i - 1]) &&
-                           items_.back().count < kBiasesOfMessage;
-    if (continues) {
-      ++items_.back().count;
-      continue;
-    }
-    const GpsTime from = biases_[i].valid_from;
-    items_.push_back({Kind::kBiases, i, 1, from.is_set() ? from.plus_seconds(-kBiasLead_s) : from,
-                      biases_[i].valid_until});
-  }
-}
-
-// Elements are sent from their transmission on, until the second next ones have come.
+// Elements are sent from their transmission on, until the second next ones have come. Of rows that
+// repeat a set the first counts.
 void ProductOutput::add_elements() {
   std::map<SatelliteId, std::vector<std::size_t>> issues;
+  std::set<std::tuple<SatelliteId, GpsTime, std::uint16_t>> known;
   const std::vector<Ephemeris>& all = products_->leo_elements;
-  for (std::size_t i = 0; i < all.size(); ++i) issues[all[i].satellite].push_back(i);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (known.emplace(all[i].satellite, all[i].toe, all[i].issue).second) {
+      issues[all[i].satellite].push_back(i);
+    }
+  }
   for (auto& [satellite, own] : issues) {
     std::stable_sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) {
       return transmission_time(all[a]) < transmission_time(all[b]);
     });
     for (std::size_t k = 0; k < own.size(); ++k) {
-      GpsTime until = all[own[k]].toe.plus_seconds(kLongestElements_s);
-      if (k + kIssues < own.size()) {
-        until = std::min(until, transmission_time(all[own[k + kIssues]]));
+      GpsTime until = all[own[k]].toe.plus_seconds(kLongestLeoAge_s);
+      if (k + kIssuesInUse < own.size()) {
+        until = std::min(until, transmission_time(all[own[k + kIssuesInUse]]));
       }
-      items_.push_back({Kind::kElements, own[k], 1, transmission_time(all[own[k]]), until});
+      items_.push_back({Kind::kElements, own[k], transmission_time(all[own[k]]), until});
     }
   }
 }
 
 void ProductOutput::yield_to(std::span<const SignalBias> biases) {
-  for (const SignalBias& bias : biases) {
-    if (bias.kind != BiasKind::kCode) continue;
-    of_service_[bias.satellite] =
-        bias.valid_until.is_set() ? bias.valid_until : bias.time.plus_seconds(kLongestBiasAge_s);
+  const std::vector<SignalBias> ends = biases_.yield_to(biases, time());
+  for (std::size_t i = 0; i < ends.size(); i += FileBiases::kOfMessage) {
+    output_->send(std::span<const SignalBias>(ends).subspan(
+        i, std::min(FileBiases::kOfMessage, ends.size() - i)));
+  }
+  if (ends.empty()) return;
+  for (Item& item : items_) {
+    if (item.kind == Kind::kBiases) item.is_sent = biases_.is_whole(item.index);
   }
 }
 
-bool ProductOutput::is_due(const Item& item) const { return holds(item.from, item.until, last_); }
+bool ProductOutput::is_due(const Item& item) const { return holds(item.from, item.until, time()); }
 
 // Returns whether there was anything to send.
-bool ProductOutput::send(Item* item) {
-  item->is_sent = true;
+bool ProductOutput::send(Item* item, bool missing_only) {
   switch (item->kind) {
     case Kind::kAntenna:
-      output_->send(products_->antennas[item->index], last_);
-      return true;
+      output_->send(products_->antennas[item->index], time());
+      break;
     case Kind::kElements: {
       Ephemeris sent = products_->leo_elements[item->index];
       sent.transmission_time = transmission_time(sent);
       output_->send(sent);
-      return true;
-    }
-    case Kind::kBiases:
       break;
+    }
+    case Kind::kBiases: {
+      const std::vector<SignalBias> sent = biases_.take(item->index, time(), missing_only);
+      item->is_sent = biases_.is_whole(item->index);
+      if (!sent.empty()) output_->send(std::span<const SignalBias>(sent));
+      return !sent.empty();
+    }
   }
-  std::vector<SignalBias> sent;
-  for (std::size_t i = item->index; i < item->index + item->count; ++i) {
-    const auto service = of_service_.find(biases_[i].satellite);
-    if (service != of_service_.end() && last_ < service->second) continue;
-    sent.push_back(biases_[i]);
-    sent.back().time = last_;
-  }
-  if (sent.empty()) return false;
-  output_->send(std::span<const SignalBias>(sent));
+  item->is_sent = true;
   return true;
 }
 
 int ProductOutput::send_due(GpsTime now) {
   if (items_.empty()) return 0;
-  // A receiver whose time was set back must not silence what is due.
-  const double elapsed_s = last_.is_set() ? std::abs(seconds_between(now, last_)) : kStep_s;
-  if (elapsed_s < kStep_s) return 0;
-  last_ = now;
+  const std::optional<double> elapsed_s = pace_.advance(now);
+  if (!elapsed_s) return 0;
   int count = 0;
   for (Item& item : items_) {
     if (count == kMostAtOnce) return count;
-    if (!item.is_sent && is_due(item)) count += send(&item);
+    if (!item.is_sent && is_due(item)) count += send(&item, true);
   }
-  return count + repeat(elapsed_s, kMostAtOnce - count);
+  return count + repeat(*elapsed_s, kMostAtOnce - count);
 }
 
 // One after the other, so that a round takes the interval.
@@ -136,19 +121,33 @@ int ProductOutput::repeat(double elapsed_s, int most) {
     Item& item = items_[next_];
     next_ = (next_ + 1) % items_.size();
     if (!is_due(item)) continue;
-    count += send(&item);
+    count += send(&item, false);
     credit_ -= 1.0;
   }
   return count;
 }
 
+ProductOutput::Count* ProductOutput::count_of(const Item& item, Holding* holding) const {
+  if (item.kind == Kind::kBiases) return &holding->biases;
+  if (item.kind == Kind::kElements) return &holding->leo_elements;
+  return products_->antennas[item.index].is_receiver ? &holding->receiver_antennas
+                                                     : &holding->satellite_antennas;
+}
+
 ProductOutput::Holding ProductOutput::holding() const {
+  const double max_age_leo_s = EphemerisConfig().max_age_leo_s;
   Holding holding;
   for (const Item& item : items_) {
-    if (!is_due(item)) continue;
-    if (item.kind == Kind::kAntenna) ++holding.antennas;
-    if (item.kind == Kind::kBiases) holding.biases += item.count;
-    if (item.kind == Kind::kElements) ++holding.leo_elements;
+    Count* count = count_of(item, &holding);
+    const bool is_old =
+        item.kind == Kind::kElements &&
+        seconds_between(time(), products_->leo_elements[item.index].toe) > max_age_leo_s;
+    const std::size_t many = item.kind == Kind::kBiases ? biases_.messages()[item.index].count : 1;
+    count->given += many;
+    if (is_due(item) && !is_old) count->holding += many;
+    if (time() < item.from && (!count->next.is_set() || item.from < count->next)) {
+      count->next = item.from;
+    }
   }
   return holding;
 }

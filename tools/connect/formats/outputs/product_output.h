@@ -2,13 +2,14 @@
 // signals, elements of LEO satellites.
 #pragma once
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/gnss/propagation/antenna_model.h"
+#include "tools/connect/formats/outputs/file_biases.h"
 #include "tools/connect/formats/outputs/message_output.h"
+#include "tools/connect/formats/outputs/product_pace.h"
 #include "tools/import/import_report.h"
 
 namespace leonav {
@@ -27,56 +28,57 @@ class ProductOutput {
  public:
   // More could find no room in the receiving socket.
   static constexpr int kMostAtOnce = 20;
-  static constexpr double kStep_s = 0.1;  // from one time that so many are sent to the next
-  // Few enough for a datagram that the network does not split.
-  static constexpr std::size_t kBiasesOfMessage = 40;
-  // Elements serve no longer, whatever `max_age_leo_s` of leonavd allows.
-  static constexpr double kLongestElements_s = 7200.0;
 
   // `repeat_s`: from one time that something is sent to the next; 0: never again. `output` must
   // outlive this object.
   ProductOutput(std::shared_ptr<const FileProducts> products, double repeat_s,
                 MessageOutput* output);
 
-  // To be called whenever something shows that it is `now`: sends what is due. Returns the number
-  // of messages.
+  // To be called whenever something shows that it is `now`: sends what is due, at most once in
+  // ProductPace::kStep_s. Returns the number of messages.
   int send_due(GpsTime now);
 
-  // Takes biases that a correction service has sent. Those of the files are not sent for its
-  // satellites while its own hold: they belong to the clocks of another provider.
+  // Takes biases that a correction service is about to send, and sends ends of those of the files
+  // that its own replace (file_biases.h).
   void yield_to(std::span<const SignalBias> biases);
 
-  // How many hold at the last time; of biases signals.
+  // Of one kind: how many the files give, how many of them hold at time(), and when the first of
+  // the others begins to (unset: none will).
+  struct Count {
+    std::size_t given = 0, holding = 0;
+    GpsTime next;
+  };
+  // Biases are counted by signals, models by bands. Elements of LEO satellites hold as long as
+  // leonavd uses them by default.
   struct Holding {
-    std::size_t antennas = 0, biases = 0, leo_elements = 0;
+    Count receiver_antennas, satellite_antennas, biases, leo_elements;
   };
   Holding holding() const;
-  // Whether the time is known.
-  bool has_begun() const { return last_.is_set(); }
+  // Unset before the first time is known.
+  GpsTime time() const { return pace_.time(); }
 
  private:
   enum class Kind : std::uint8_t { kAntenna, kBiases, kElements };
-  // A message: one of `antennas` or `leo_elements`, or `count` of `biases_`.
+  // A message: one of `antennas` or `leo_elements`, or one of biases_.messages().
   struct Item {
     Kind kind;
-    std::size_t index, count;
-    GpsTime from, until;  // unset: always, for good
-    bool is_sent = false;
+    std::size_t index;
+    GpsTime from, until;   // unset: always, for good
+    bool is_sent = false;  // whole, and not ended since
   };
 
-  void add_biases();
   void add_elements();
   bool is_due(const Item& item) const;
-  bool send(Item* item);
+  bool send(Item* item, bool missing_only);
   int repeat(double elapsed_s, int most);
+  Count* count_of(const Item& item, Holding* holding) const;
 
   std::shared_ptr<const FileProducts> products_;
   double repeat_s_;
   MessageOutput* output_;
-  std::vector<SignalBias> biases_;  // by validity
+  FileBiases biases_;
   std::vector<Item> items_;
-  std::map<SatelliteId, GpsTime> of_service_;  // until when its biases are a service's
-  GpsTime last_;
+  ProductPace pace_;
   std::size_t next_ = 0;  // of those that are repeated
   double credit_ = 0.0;   // of messages that may be repeated
 };

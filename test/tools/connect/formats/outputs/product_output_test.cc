@@ -1,5 +1,5 @@
 // Models, biases and elements of files are sent once they hold, and again and again, a few at a
-// time.
+// time; and what of them holds is told.
 #include "tools/connect/formats/outputs/product_output.h"
 
 #include <map>
@@ -7,6 +7,7 @@
 
 #include "drivers/lcm/decode.h"
 #include "support/catch.h"
+#include "tools/connect/formats/outputs/product_watch.h"
 
 namespace leonav {
 namespace {
@@ -89,7 +90,7 @@ TEST_CASE("Everything that holds is sent within seconds, and then once in an int
   std::set<std::uint16_t> satellites;
   for (const AntennaPattern& one : receiver.antennas) satellites.insert(one.satellite.number);
   CHECK(satellites.size() == 50);  // the one whose validity has ended is not among them
-  CHECK(sender.holding().antennas == 50);
+  CHECK(sender.holding().satellite_antennas.holding == 50);
 
   // A round takes the interval, and nothing comes at once.
   const std::size_t before = receiver.antennas.size();
@@ -124,7 +125,7 @@ TEST_CASE("A receiver whose time was set back does not silence what is due", "[c
   MessageOutput output(&receiver);
   ProductOutput sender(products, 30.0, &output);
   sender.send_due(kNow);
-  for (double at = 0.0; at <= 31.0; at += 1.0) sender.send_due(kNow.plus_seconds(-1e6 + at));
+  for (double at = 0.0; at <= 40.0; at += 1.0) sender.send_due(kNow.plus_seconds(-1e6 + at));
   CHECK(receiver.antennas.size() >= 2);
 }
 
@@ -142,7 +143,7 @@ TEST_CASE("Biases come a minute before they hold, and not after", "[connect]") {
   CHECK(sender.send_due(kNow) == 2);  // 64 of one validity, 40 of them in a message
   CHECK(receiver.biases.size() == 64);
   CHECK(receiver.biases.front().time == kNow);
-  CHECK(sender.holding().biases == 64);
+  CHECK(sender.holding().biases.holding == 64);
   const auto later = [&] {
     return std::count_if(receiver.biases.begin(), receiver.biases.end(),
                          [&](const SignalBias& one) { return one.valid_from == change; });
@@ -154,25 +155,6 @@ TEST_CASE("Biases come a minute before they hold, and not after", "[connect]") {
   receiver.biases.clear();
   for (double at = 200.0; at < 300.0; at += 1.0) sender.send_due(kNow.plus_seconds(at));
   CHECK(later() == static_cast<std::ptrdiff_t>(receiver.biases.size()));
-}
-
-TEST_CASE("Biases of files give way to those of a service, as long as its own hold", "[connect]") {
-  auto products = std::make_shared<FileProducts>();
-  products->biases = {bias(1, 'C', {}, {}), bias(2, 'C', {}, {})};
-  Receiver receiver;
-  MessageOutput output(&receiver);
-  ProductOutput sender(products, 10.0, &output);
-  const SignalBias of_service[] = {bias(1, 'W', {}, kNow.plus_seconds(100.0))};
-  sender.yield_to(of_service);
-  const auto of_first = [&] {
-    return std::count_if(receiver.biases.begin(), receiver.biases.end(),
-                         [](const SignalBias& one) { return one.satellite.number == 1; });
-  };
-  for (double at = 0.0; at < 100.0; at += 1.0) sender.send_due(kNow.plus_seconds(at));
-  CHECK(of_first() == 0);
-  CHECK(receiver.biases.size() >= 9);
-  for (double at = 100.0; at < 130.0; at += 1.0) sender.send_due(kNow.plus_seconds(at));
-  CHECK(of_first() >= 2);
 }
 
 TEST_CASE("Of elements the two newest issues of a satellite are sent, none before its time",
@@ -198,6 +180,126 @@ TEST_CASE("Of elements the two newest issues of a satellite are sent, none befor
     reference_times.insert(seconds_between(one.toe, kNow));
   }
   CHECK(reference_times == std::set<double>{0.0, 600.0});
+}
+
+TEST_CASE("Times that interleave do not make the repeats more frequent", "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  for (std::uint16_t number = 1; number <= 10; ++number) {
+    products->antennas.push_back(antenna(number));
+  }
+  Receiver receiver;
+  MessageOutput output(&receiver);
+  ProductOutput sender(products, 10.0, &output);
+  // Samples at 100 Hz, epochs at 10 Hz that come 0.2 s late, and a stream whose time is a day
+  // wrong.
+  for (int i = 0; i < 10'000; ++i) {
+    const double at = 0.01 * i;
+    sender.send_due(kNow.plus_seconds(at));
+    if (i % 10 == 0) sender.send_due(kNow.plus_seconds(at - 0.2));
+    if (i % 100 == 0) sender.send_due(kNow.plus_seconds(at - 86'400.0));
+    if (i % 100 == 50) sender.send_due(kNow.plus_seconds(at + 100.0 * 86'400.0));
+  }
+  CHECK(receiver.antennas.size() >= 105);
+  CHECK(receiver.antennas.size() <= 115);
+  CHECK(std::abs(seconds_between(sender.time(), kNow.plus_seconds(100.0))) < 0.2);
+}
+
+TEST_CASE("A row of elements that repeats a set is not sent beside it", "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  products->leo_elements = {low(7, -600.0), low(7, 0.0), low(7, 0.0), low(7, 0.0)};
+  Receiver receiver;
+  MessageOutput output(&receiver);
+  ProductOutput sender(products, 0.0, &output);
+  CHECK(sender.send_due(kNow) == 2);
+  std::set<double> reference_times;
+  for (const Ephemeris& one : receiver.elements) {
+    reference_times.insert(seconds_between(one.toe, kNow));
+  }
+  CHECK(reference_times == std::set<double>{-600.0, 0.0});
+}
+
+namespace {
+
+struct WatchRig {
+  explicit WatchRig(std::shared_ptr<FileProducts> products) : sender(products, 30.0, &output) {}
+  // Returns what is told in some seconds, in lines; warnings begin with "!".
+  std::string run(double begin_s, double end_s) {
+    std::string lines;
+    for (double at = begin_s; at < end_s; at += 1.0) {
+      sender.send_due(kNow.plus_seconds(at));
+      for (const auto& [is_warning, text] : watch.look(sender.holding(), sender.time())) {
+        lines += (is_warning ? "!" : "") + text + "\n";
+      }
+    }
+    return lines;
+  }
+  Receiver receiver;
+  MessageOutput output{&receiver};
+  ProductOutput sender;
+  ProductWatch watch;
+};
+
+AntennaPattern receiver_antenna() {
+  AntennaPattern pattern = antenna(1);
+  pattern.is_receiver = true;
+  pattern.satellite = {};
+  return pattern;
+}
+
+}  // namespace
+
+TEST_CASE("What holds is told at the first time, and a warning when satellites' models have ended",
+          "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  products->antennas = {receiver_antenna(), antenna(1, {}, kNow.plus_seconds(100.0)), antenna(2)};
+  products->antennas[2].valid_until = kNow.plus_seconds(50.0);
+  products->biases = {bias(1, 'C', {}, {})};
+  WatchRig rig(products);
+  CHECK(rig.watch.look(rig.sender.holding(), rig.sender.time()).empty());  // no time yet
+  CHECK_THAT(rig.run(0.0, 100.0), Catch::Contains("1 antenna models of the receiver and 2 of") &&
+                                      Catch::Contains("biases of 1 signals, 0 sets") &&
+                                      !Catch::Contains("!"));
+  // The receiver's model holds for good, which does not help.
+  CHECK(rig.run(100.0, 104.0).empty());
+  const std::string told = rig.run(104.0, 200.0);
+  CHECK_THAT(told, Catch::StartsWith("!corrections.antenna_models, of satellites: none holds") &&
+                       Catch::Contains(text_of(kNow.plus_seconds(104.0)) + " GPS time"));
+  CHECK(std::count(told.begin(), told.end(), '\n') == 1);
+}
+
+TEST_CASE("Products that begin later are no fault, also where the receiver has no date yet",
+          "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  products->biases = {bias(1, 'C', kNow, kNow.plus_seconds(1000.0))};
+  WatchRig rig(products);
+  const std::string early = rig.run(-1e8, -1e8 + 20.0);
+  CHECK_THAT(early, !Catch::Contains("!") && Catch::Contains("corrections.biases: none holds at") &&
+                        Catch::Contains("the first begins at"));
+  CHECK_THAT(rig.run(0.0, 20.0), Catch::Equals("corrections.biases: 1 of 1 hold at " +
+                                               text_of(kNow.plus_seconds(9.0)) + " GPS time\n"));
+  CHECK(rig.run(20.0, 999.0).empty());
+  CHECK_THAT(rig.run(999.0, 1100.0), Catch::StartsWith("!corrections.biases"));
+  CHECK_THAT(rig.run(500.0, 600.0), Catch::Contains("1 of 1 hold"));
+}
+
+TEST_CASE("A wrong time for some seconds is not blamed on the files", "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  products->biases = {bias(1, 'C', kNow.plus_seconds(-1000.0), kNow.plus_seconds(1000.0))};
+  WatchRig rig(products);
+  const std::string told = rig.run(1e8, 1e8 + 4.0) + rig.run(0.0, 100.0);
+  CHECK(std::count(told.begin(), told.end(), '!') == 0);
+}
+
+TEST_CASE("The end of elements is told when leonavd uses them no more", "[connect]") {
+  auto products = std::make_shared<FileProducts>();
+  products->leo_elements = {low(7, 0.0)};
+  WatchRig rig(products);
+  CHECK_THAT(rig.run(0.0, 900.0), !Catch::Contains("!"));
+  CHECK_THAT(rig.run(901.0, 910.0), Catch::StartsWith("!leo_elements: none holds any more"));
+  // A longer age can be configured there.
+  rig.receiver.elements.clear();
+  rig.run(910.0, 1000.0);
+  CHECK(rig.receiver.elements.size() >= 2);
 }
 
 }  // namespace leonav
