@@ -9,9 +9,9 @@
 namespace leonav {
 
 // Whoever reads the lines may have stopped: a pipe that is full, a journald that is stuck, a file
-// on a disk that does not answer. A thread of its own writes what write() puts into a queue. What
-// finds no room there is dropped and counted, and so is all that follows until the thread has
-// written the queue and said so ("log: 12 lines lost"). So the lines are in order.
+// on a disk that is full or does not answer. A thread of its own writes what write() puts into a
+// queue. What finds no room there is dropped and counted, and so is all that follows until the
+// thread has written the queue and said so ("log: 12 lines lost"). So the lines are in order.
 //
 // Before start() and after finish() there is no thread, and write() itself waits a moment at most.
 class LogWriter {
