@@ -33,7 +33,7 @@ namespace {
 using namespace leonav;
 
 // Of which the journal may take Journal::kLongestEnd_s, then the checkpoint
-// CheckpointWriter::kLongestEnd_s, and the log LogWriter::kLongestEnd_s. A service manager waits
+// CheckpointWriter::kLongestEnd_s, and the log LogThread::kLongestEnd_s. A service manager waits
 // for 20 s.
 constexpr unsigned kLongestEnd_s = 15;
 

@@ -1,5 +1,5 @@
 // Lines of the log, whether somebody reads them or not.
-#include "daemon/log/log_writer.h"
+#include "daemon/log/log_thread.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -94,7 +94,7 @@ class Pipe {
 std::string line_of(int number) { return "line " + std::to_string(number) + "\n"; }
 
 // More than pipe and queue have room for.
-int write_too_much(LogWriter* writer) {
+int write_too_much(LogThread* writer) {
   constexpr int kLines = 20'000;
   for (int i = 0; i < kLines; ++i) writer->write(line_of(i));
   return kLines;
@@ -146,7 +146,7 @@ bool comes(Is is) {
 
 TEST_CASE("the lines of the log come out in order, before and after the writer has its thread") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.write("first\n");
   writer.start();
   writer.write("second\n");
@@ -158,7 +158,7 @@ TEST_CASE("the lines of the log come out in order, before and after the writer h
 
 TEST_CASE("a log that nobody reads lets nobody wait, and says what was lost once it is read") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   const Stopwatch watch;
   const int written = write_too_much(&writer);
@@ -180,7 +180,7 @@ TEST_CASE("a log that nobody reads lets nobody wait, and says what was lost once
 
 TEST_CASE("the end of a log that nobody reads comes in time") {
   Pipe pipe;
-  auto writer = std::make_unique<LogWriter>(pipe.in(), "program");
+  auto writer = std::make_unique<LogThread>(pipe.in(), "program");
   writer->start();
   write_too_much(writer.get());
   const Stopwatch watch;
@@ -188,13 +188,13 @@ TEST_CASE("the end of a log that nobody reads comes in time") {
   writer->write("too late\n");
   CHECK(writer->lost() > 0);
   writer.reset();
-  CHECK(seconds_since(watch) < LogWriter::kLongestEnd_s + 1.0);
+  CHECK(seconds_since(watch) < LogThread::kLongestEnd_s + 1.0);
   pipe.lines_until("lost");  // lets the thread go
 }
 
 TEST_CASE("the end of a log that is read waits until all is written") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   for (int i = 0; i < 300; ++i) writer.write(line_of(i));
   writer.finish();
@@ -203,7 +203,7 @@ TEST_CASE("the end of a log that is read waits until all is written") {
 
 TEST_CASE("without a thread a log that nobody reads costs a moment, and tells what was lost") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   const Stopwatch watch;
   const int written = write_too_much(&writer);
   CHECK(seconds_since(watch) < 2.0);
@@ -227,7 +227,7 @@ TEST_CASE("lines that a full disk refuses are counted, and told once there is ro
   constexpr std::size_t kWhole = 300;
   std::size_t room = 3;  // of the line that is torn
   for (std::size_t i = 0; i < kWhole; ++i) room += line_of(static_cast<int>(i)).size();
-  LogWriter writer(descriptor, "program");
+  LogThread writer(descriptor, "program");
   {
     const FullDisk full(room);
     if (has_thread) writer.start();
@@ -251,7 +251,7 @@ TEST_CASE("lines that a full disk refuses are counted, and told once there is ro
 TEST_CASE("a disk that stays full does not keep a log from its end") {
   const int descriptor = open("/dev/full", O_WRONLY | O_CLOEXEC);
   REQUIRE(descriptor >= 0);
-  LogWriter writer(descriptor, "program");
+  LogThread writer(descriptor, "program");
   writer.start();
   for (int i = 0; i < 10; ++i) writer.write(line_of(i));
   const Stopwatch watch;
@@ -264,7 +264,7 @@ TEST_CASE("a disk that stays full does not keep a log from its end") {
 TEST_CASE("a reader that has gone ends no program that logs") {
   Pipe pipe;
   pipe.close_reader();
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();  // the test has not set SIGPIPE aside: the thread blocks it
   for (int i = 0; i < 10; ++i) writer.write(line_of(i));
   writer.finish();
@@ -273,7 +273,7 @@ TEST_CASE("a reader that has gone ends no program that logs") {
 
 TEST_CASE("a log allocates nothing once it has begun") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   start_counting_allocations();
   for (int i = 0; i < 20'000; ++i) writer.write("a line that is always the same\n");

@@ -1,4 +1,4 @@
-#include "daemon/log/patient_write.h"
+#include "daemon/log/descriptor_write.h"
 
 #include <poll.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "daemon/log/log_writer.h"
+#include "daemon/log/log_thread.h"
 
 #include <pthread.h>
 
@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "daemon/log/patient_write.h"
+#include "daemon/log/descriptor_write.h"
 #include "daemon/threads/counters.h"
 #include "daemon/threads/leave_to_process.h"
 #include "daemon/threads/realtime_thread.h"
@@ -33,7 +33,7 @@ double seconds_of(const Stopwatch& watch) {
 }  // namespace
 
 // What the thread uses, which may outlive the writer.
-class LogWriter::State {
+class LogThread::State {
  public:
   State(int of_log, std::string name);
 
@@ -78,7 +78,7 @@ class LogWriter::State {
   bool in_line_ = false, is_torn_ = false, skips_to_end_ = false;
 };
 
-LogWriter::State::State(int of_log, std::string name) : descriptor(of_log), name_(std::move(name)) {
+LogThread::State::State(int of_log, std::string name) : descriptor(of_log), name_(std::move(name)) {
   tzset();  // it allocates
   // Every page is touched once, so that the process does not grow as the queue goes round.
   while (queue_.push(part_.data(), part_.size()) > 0) {
@@ -87,7 +87,7 @@ LogWriter::State::State(int of_log, std::string name) : descriptor(of_log), name
 }
 
 // Signals are for `main`, and a pipe without a reader must be the failure of a write.
-void LogWriter::State::start() {
+void LogThread::State::start() {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -101,7 +101,7 @@ void LogWriter::State::start() {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-void LogWriter::State::push(std::string_view line) {
+void LogThread::State::push(std::string_view line) {
   if (has_untold() || queue_.write_available() < line.size())
     drop_lines(1);
   else
@@ -109,18 +109,18 @@ void LogWriter::State::push(std::string_view line) {
   wakeup_.notify();
 }
 
-void LogWriter::State::drop_lines(std::uint64_t count) {
+void LogThread::State::drop_lines(std::uint64_t count) {
   lost_.fetch_add(count, std::memory_order_relaxed);
   untold_.fetch_add(count, std::memory_order_release);
 }
 
-void LogWriter::State::ask_for_end() {
+void LogThread::State::ask_for_end() {
   stop_.store(true, std::memory_order_release);
   wakeup_.notify();
 }
 
 template <typename Write>
-bool LogWriter::State::tell_lost(Write write) {
+bool LogThread::State::tell_lost(Write write) {
   const std::uint64_t count = untold_.exchange(0, std::memory_order_acq_rel);
   if (count == 0 || write_on(note(count), write).empty()) return true;
   untold_.fetch_add(count, std::memory_order_release);
@@ -128,7 +128,7 @@ bool LogWriter::State::tell_lost(Write write) {
 }
 
 template <typename Write>
-std::string_view LogWriter::State::write_on(std::string_view text, Write write) {
+std::string_view LogThread::State::write_on(std::string_view text, Write write) {
   if (is_torn_) {
     if (!write("\n").empty()) return text;
     in_line_ = is_torn_ = false;
@@ -139,7 +139,7 @@ std::string_view LogWriter::State::write_on(std::string_view text, Write write) 
   return rest;
 }
 
-std::string_view LogWriter::State::note(std::uint64_t count) {
+std::string_view LogThread::State::note(std::uint64_t count) {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
   tm local{};
@@ -153,7 +153,7 @@ std::string_view LogWriter::State::note(std::uint64_t count) {
 }
 
 // Counts the lines of which not all was written.
-void LogWriter::State::write_part(std::string_view part) {
+void LogThread::State::write_part(std::string_view part) {
   if (skips_to_end_) {
     const std::size_t end = part.find('\n');
     if (end == part.npos) return;
@@ -169,7 +169,7 @@ void LogWriter::State::write_part(std::string_view part) {
 
 // Where the system refuses even the line about those that were lost, it is tried again as the next
 // line comes, and that one is dropped.
-void LogWriter::State::run() {
+void LogThread::State::run() {
   for (;;) {
     const std::uint32_t ticket = wakeup_.ticket();
     // Read before looking for lines, so that what was pushed before it was set is still written.
@@ -187,22 +187,22 @@ void LogWriter::State::run() {
   }
 }
 
-LogWriter::LogWriter(int descriptor, std::string name)
+LogThread::LogThread(int descriptor, std::string name)
     : state_(std::make_unique<State>(descriptor, std::move(name))) {}
 
 // A thread that its reader holds goes on using its state, for as long as the process lives.
-LogWriter::~LogWriter() {
+LogThread::~LogThread() {
   finish();
   if (abandoned_) leave_to_process(state_.release());
 }
 
-void LogWriter::start() {
+void LogThread::start() {
   if (is_running_ || abandoned_) return;
   state_->start();
   is_running_ = true;
 }
 
-void LogWriter::write(std::string_view line) {
+void LogThread::write(std::string_view line) {
   if (is_running_)
     state_->push(line);
   else if (abandoned_)
@@ -212,7 +212,7 @@ void LogWriter::write(std::string_view line) {
 }
 
 // Once nobody has read for a moment, the next lines are not waited for.
-void LogWriter::write_directly(std::string_view line) {
+void LogThread::write_directly(std::string_view line) {
   const int longest_ms = state_->is_blocked ? 0 : kLongestDirectWait_ms;
   state_->is_blocked = !wait_for_room(state_->descriptor, longest_ms);
   const auto write = [&](std::string_view text) {
@@ -223,7 +223,7 @@ void LogWriter::write_directly(std::string_view line) {
   if (state_->is_blocked) state_->drop_lines(1);
 }
 
-void LogWriter::finish() {
+void LogThread::finish() {
   if (!std::exchange(is_running_, false)) return;
   state_->ask_for_end();
   const Stopwatch watch;
@@ -234,6 +234,6 @@ void LogWriter::finish() {
   state_->thread.detach();
 }
 
-std::uint64_t LogWriter::lost() const { return state_->lost(); }
+std::uint64_t LogThread::lost() const { return state_->lost(); }
 
 }  // namespace leonav
