@@ -10,6 +10,7 @@
 namespace leonav {
 
 EngineHooks drill_hooks(const DaemonConfig& config) {
+  if (config.navigator.estimator != Estimator::kSmoother) return {};
   const SmootherConfig& smoother = config.navigator.smoother;
   if (smoother.drill_failure_every > 0)
     spdlog::warn("drill: the solve of the smoother fails at every {}. epoch",

@@ -4,8 +4,8 @@
 
 namespace leonav {
 
-// Empty hooks where the configuration asks for no delay. Says which drills are on, those without a
-// delay too.
+// Empty hooks where the configuration asks for no delay, or has no smoother. Says which drills are
+// on, those without a delay too.
 EngineHooks drill_hooks(const DaemonConfig& config);
 
 }  // namespace leonav

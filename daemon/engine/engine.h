@@ -74,6 +74,7 @@ class Engine final : private StageInputs {
   // journal is incomplete; journal().error() says why.
   bool finish();
 
+  const DaemonConfig& config() const { return config_; }  // that it was made with
   EngineCounters& counters() { return counters_; }
   RingStatistics inertial_ring() const { return inertial_ring_.statistics(); }
   RingStatistics gnss_ring() const { return gnss_ring_.statistics(); }

@@ -21,12 +21,19 @@ std::int64_t refused_for_time(const EngineCounters& counters, Channel channel) {
 bool AnswerMonitor::stands_still(bool expects_imu) {
   EngineCounters& counters = engine_->counters();
   const std::int64_t solution_ns = counters.solution_time_ns.get();
-  const std::int64_t imu = counters.accepted_imu.get() + refused_for_time(counters, Channel::kImu);
-  const std::int64_t epochs = counters.accepted_epochs.get() + counters.late_epochs.get() +
-                              refused_for_time(counters, Channel::kGnssEpoch);
-  const bool is_new = std::exchange(solution_ns_, solution_ns) != solution_ns;
-  const bool has_imu = std::exchange(imu_, imu) != imu || !expects_imu;
-  const bool has_epoch = std::exchange(epochs_, epochs) != epochs;
+  const auto grows = [](std::int64_t* last, std::int64_t count) {
+    return std::exchange(*last, count) != count;
+  };
+  const bool is_new = grows(&solution_ns_, solution_ns);
+  const bool uses_imu = grows(&imu_, counters.accepted_imu.get()),
+             uses_epoch = grows(&epochs_, counters.accepted_epochs.get()),
+             refuses_imu = grows(&refused_imu_, refused_for_time(counters, Channel::kImu)),
+             refuses_epoch =
+                 grows(&refused_epochs_, refused_for_time(counters, Channel::kGnssEpoch) +
+                                             counters.late_epochs.get());
+  const bool uses_none = !uses_imu && !uses_epoch;
+  const bool has_imu = uses_imu || (uses_none && refuses_imu) || !expects_imu;
+  const bool has_epoch = uses_epoch || (uses_none && refuses_epoch);
   const bool uses_satellites =
       std::any_of(counters.satellites_used.begin(), counters.satellites_used.end(),
                   [](const Gauge& used) { return used.get() > 0; });

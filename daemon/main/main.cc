@@ -32,8 +32,9 @@ namespace {
 
 using namespace leonav;
 
-// Of which the journal may take Journal::kLongestEnd_s, and then the checkpoint
-// CheckpointWriter::kLongestEnd_s. A service manager waits for 20 s.
+// Of which the journal may take Journal::kLongestEnd_s, then the checkpoint
+// CheckpointWriter::kLongestEnd_s, and the log LogThread::kLongestEnd_s. A service manager waits
+// for 20 s.
 constexpr unsigned kLongestEnd_s = 15;
 
 // OpenBLAS would have started its threads by main().
@@ -82,7 +83,8 @@ int run(const CommandLine& command_line) {
   warn_of(manager.problem());
   LcmPublisher publisher(config.lcm);
   Engine engine(config, &publisher, drill_hooks(config));
-  // Before any thread is started. Where the start fails, a signal ends what waits in ~Engine.
+  // Before the engine's threads are started; that of the log takes no signal. Where the start
+  // fails, a signal ends what waits in ~Engine.
   std::optional<ProcessSignals> signals(std::in_place);
   LcmReceiver receiver(config.lcm, config.threads.io, &engine, gate.get());
   warn_of(receiver.refused());

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "daemon/log/patient_write.h"
+#include "daemon/log/descriptor_write.h"
 
 namespace leonav {
 namespace {

@@ -9,17 +9,17 @@ std::string_view reset_text(ResetCause cause) {
     case ResetCause::kTimeBase:
       return "the time of the inputs has stepped";
     case ResetCause::kPrediction:
-      return "a point solution contradicts it";
+      return "a point solution contradicts the filter";
     case ResetCause::kOutage:
       return "an outage has lost the position";
     case ResetCause::kNotFinite:
       return "a number was not finite";
     case ResetCause::kLockedOut:
-      return "it has rejected nearly all measurements for long";
+      return "the filter has rejected nearly all measurements for long";
     case ResetCause::kHeading:
       return "the heading contradicts the motion";
     case ResetCause::kWindow:
-      return "it has taken over the smoother's state";
+      return "the filter has taken over the smoother's state";
   }
   return "unknown";
 }

@@ -112,7 +112,9 @@ struct EngineCounters {
   // Findings of the GNSS stage, by Convention, and those of the Sequencer, which come again each
   // minute while the mistake lasts.
   std::array<ConventionGauge, kConventionCount> conventions, lasting_conventions;
-  Gauge reset_cause;  // of the last event kFilterReset: ResetCause
+  // Events kFilterReset without those of cause kWindow, each of which follows another one by some
+  // seconds; the ResetCause of the last.
+  Gauge filter_starts, reset_cause;
   // main
   Gauge unpublished;  // messages of HEALTH that found no room
   // out

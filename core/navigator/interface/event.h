@@ -19,7 +19,7 @@ enum class EventKind : std::uint8_t {
   kEmptyEpoch = 6,     // value: index of the epoch
   kSolutionJump = 7,   // code: 1 if beyond three of its sigmas before; value: m
   kCapacity = 8,       // a fixed table was full; code: which, by stage
-  kImprobable = 9,     // code: 0 codes, 1 Dopplers; value: mean ratio of innovations to sigmas
+  kImprobable = 9,     // code: Improbable; value: mean ratio of innovations to sigmas
   // A satellite's broadcast elements replace its precise state. code: System, value: its number.
   kOrbitFallback = 10,
   kOrbitReturn = 11,  // a precise state replaces broadcast elements; code, value: as 10
@@ -63,6 +63,9 @@ enum class CommandResult : std::uint8_t {
 };
 // Returns the name of a kind as outputs show it, for instance "filter_reset".
 std::string_view to_string(EventKind kind);
+
+// Codes of EventKind::kImprobable. On the wire: append only.
+enum class Improbable : std::uint8_t { kCodes = 0, kDopplers = 1 };
 
 // Codes of EventKind::kClockStep. On the wire: append only.
 enum class ClockStep : std::uint8_t {

@@ -67,13 +67,24 @@ void count_convention(const Event& event, EngineCounters* counters) {
   gauge.events.add(1);
 }
 
-// Where the time of the inputs has stepped, what a stage has found before holds no more: it looks
-// anew, and finds again what is still wrong.
+// What wrong stamps can look like. Wrong stamps of epochs displace the satellites on their orbits.
+constexpr std::array kOfStamps = {Convention::kLeapSeconds, Convention::kStampOffset,
+                                  Convention::kOrbits};
+
+// Where the time of the inputs has stepped, what a stage has found about stamps holds no more: it
+// looks anew, and finds again what is still wrong. Axes, units and lever arms are as they were.
 void note_reset(const Event& event, EngineCounters* counters) {
-  counters->reset_cause.set(event.code);
-  if (event.code != static_cast<std::uint8_t>(ResetCause::kTimeBase)) return;
-  for (ConventionGauge& gauge : conventions_of(event.stage, counters))
+  const auto cause = static_cast<ResetCause>(event.code);
+  if (cause != ResetCause::kWindow) {
+    counters->reset_cause.set(event.code);
+    counters->filter_starts.add(1);
+  }
+  if (cause != ResetCause::kTimeBase) return;
+  for (const Convention convention : kOfStamps) {
+    ConventionGauge& gauge =
+        conventions_of(event.stage, counters)[static_cast<std::size_t>(convention)];
     gauge.void_events.set(gauge.events.get());
+  }
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ std::span<const Finding> EstimatorMonitor::look() {
 }
 
 void EstimatorMonitor::look_at_starts() {
-  const std::int64_t starts = event_count(*counters_, EventKind::kFilterReset);
+  const std::int64_t starts = counters_->filter_starts.get();
   if (std::exchange(starts_, starts) == starts) return;
   epochs_at_start_ = counters_->accepted_epochs.get();
   received_at_start_ = counters_->received[index_of(Channel::kGnssEpoch)].get();

@@ -84,7 +84,23 @@ TEST_CASE("the counters know of steps that were shortened and of solves left to 
   CHECK(counters.smoother_left_to_chain.get() == 1);
 }
 
-TEST_CASE("a time step voids what its stage has found, and nothing that another has") {
+TEST_CASE("the cause of a start stays when the filter takes over the smoother's window after it") {
+  Wakeup wakeup;
+  EngineCounters counters;
+  StageSink sink(1 << 20, &wakeup, &counters);
+  Event event;
+  event.stage = Stage::kGnss;
+  event.kind = EventKind::kFilterReset;
+  for (const ResetCause cause : {ResetCause::kHeading, ResetCause::kWindow}) {
+    event.code = static_cast<std::uint8_t>(cause);
+    sink.on_event(event);
+    CHECK(counters.reset_cause.get() == static_cast<int>(ResetCause::kHeading));
+    CHECK(counters.filter_starts.get() == 1);
+  }
+  CHECK(counters.events[static_cast<std::size_t>(EventKind::kFilterReset)].get() == 2);
+}
+
+TEST_CASE("a time step voids what its stage has found about stamps, and nothing else") {
   Wakeup wakeup;
   EngineCounters counters;
   StageSink sink(1 << 20, &wakeup, &counters);
@@ -114,4 +130,10 @@ TEST_CASE("a time step voids what its stage has found, and nothing that another 
   CHECK(once.events.get() == 2);
   CHECK(once.void_events.get() == 1);
   CHECK(lasting.events.get() == 1);
+  for (const Convention other : {Convention::kMirrored, Convention::kLeverArm,
+                                 Convention::kGyroUnit, Convention::kDopplerSign}) {
+    emit(Stage::kGnss, EventKind::kConventionSuspect, other);
+    emit(Stage::kGnss, EventKind::kFilterReset, ResetCause::kTimeBase);
+    CHECK(counters.conventions[static_cast<std::size_t>(other)].void_events.get() == 0);
+  }
 }

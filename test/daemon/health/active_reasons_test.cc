@@ -2,7 +2,10 @@
 #include "daemon/health/active_reasons.h"
 
 #include <set>
+#include <string>
 
+#include "daemon/text/convention_text.h"
+#include "daemon/text/reset_text.h"
 #include "support/catch.h"
 
 using namespace leonav;
@@ -37,8 +40,17 @@ TEST_CASE("every reason has a sentence of its own, and what to do or a detail th
   for (const HealthReasonEntry& entry : health_reasons()) {
     CHECK(texts.insert(entry.text).second);
     CHECK(entry.status != HealthStatus::kOk);
-    CHECK(entry.text.find(';') == std::string_view::npos);  // stands between reasons
+    for (const std::string_view part : {entry.text, entry.remedy})
+      CHECK(part.find(';') == std::string_view::npos);  // stands between reasons
     CHECK(entry_of(entry.reason).text == entry.text);
   }
   CHECK(texts.size() == kHealthReasonCount);
+}
+
+TEST_CASE("what stands between reasons is in no sentence that a reason has as its detail") {
+  for (std::size_t i = 0; i < kConventionCount; ++i)
+    for (const double value : {-18.0, 18.0})
+      CHECK(convention_text(static_cast<Convention>(i), value).find(';') == std::string::npos);
+  for (int cause = 0; cause <= static_cast<int>(ResetCause::kWindow); ++cause)
+    CHECK(reset_text(static_cast<ResetCause>(cause)).find(';') == std::string_view::npos);
 }

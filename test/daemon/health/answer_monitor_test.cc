@@ -33,6 +33,19 @@ class Looks {
     reject(Channel::kGnssEpoch, epochs, 1);
     return monitor_.stands_still(true);
   }
+  // Both streams come, and one is used.
+  bool look_rejecting_epochs(InputFault fault) {
+    receive(200, 1);
+    engine_.counters().accepted_imu.add(200);
+    reject(Channel::kGnssEpoch, fault, 1);
+    return look();
+  }
+  bool look_rejecting_imu(InputFault fault) {
+    receive(200, 1);
+    engine_.counters().accepted_epochs.add(1);
+    reject(Channel::kImu, fault, 200);
+    return look();
+  }
   // Both streams come, and are refused as they are decoded.
   bool look_refusing() {
     receive(200, 1);
@@ -43,6 +56,7 @@ class Looks {
   }
   EngineCounters& counters() { return engine_.counters(); }
   bool look() { return monitor_.stands_still(true); }
+  bool look_without_imu() { return monitor_.stands_still(false); }
 
  private:
   void receive(std::int64_t imu, std::int64_t epochs) {
@@ -83,17 +97,31 @@ TEST_CASE("an answer that ends because all inputs are rejected for their time is
   }
 }
 
-TEST_CASE("epochs that are all too late are found like others that are rejected for their time") {
+// With an IMU, empty epochs would be issued in their place.
+TEST_CASE("without an IMU, epochs that are all too late are found as those of a wrong time are") {
   Looks looks;
   looks.look(true, true);
   bool found = false;
   for (int second = 1; second <= 60; ++second) {
     CHECK_FALSE(found);
-    looks.counters().accepted_imu.add(200);
     looks.counters().late_epochs.add(1);
-    found = looks.look();
+    found = looks.look_without_imu();
   }
   CHECK(found);
+}
+
+TEST_CASE("one stream that is used and another of another time are nothing that a restart mends") {
+  for (const InputFault fault : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
+    Looks imu, epochs, late;
+    for (Looks* looks : {&imu, &epochs, &late}) looks->look(true, true);
+    for (int second = 0; second < 200; ++second) {
+      CHECK_FALSE(imu.look_rejecting_epochs(fault));
+      CHECK_FALSE(epochs.look_rejecting_imu(fault));
+      late.counters().accepted_imu.add(200);
+      late.counters().late_epochs.add(1);
+      CHECK_FALSE(late.look());
+    }
+  }
 }
 
 TEST_CASE("no answer without inputs or satellites is nothing that a restart mends") {

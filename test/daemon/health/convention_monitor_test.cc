@@ -17,7 +17,7 @@ void tell(EngineCounters* counters, Convention convention, double value, bool co
   gauges[i].events.add(1);
 }
 
-// What a StageSink does at a time step.
+// What a StageSink does at a time step with what stamps can look like.
 void void_all(std::array<ConventionGauge, kConventionCount>* gauges) {
   for (ConventionGauge& gauge : *gauges) gauge.void_events.set(gauge.events.get());
 }
@@ -71,7 +71,7 @@ TEST_CASE("a time step of the inputs ends what the stage had found, until it fin
 TEST_CASE("what was found and ended by a time step between two looks is never told") {
   EngineCounters counters;
   ConventionMonitor monitor(&counters);
-  tell(&counters, Convention::kTurned, 170.0, false);
+  tell(&counters, Convention::kStampOffset, 25.0, false);
   void_all(&counters.conventions);
   CHECK(monitor.look(1.0).empty());
 }

@@ -14,7 +14,7 @@ void set_source(Source source, EngineCounters* counters) {
 
 void start_over(ResetCause cause, EngineCounters* counters) {
   counters->reset_cause.set(static_cast<std::int64_t>(cause));
-  counters->events[static_cast<std::size_t>(EventKind::kFilterReset)].add(1);
+  counters->filter_starts.add(1);
 }
 
 }  // namespace

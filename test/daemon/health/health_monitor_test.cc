@@ -191,7 +191,7 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
     CHECK(before == "OK: ekf");
     const std::string started_over =
         "the filter has started over (by the command restart): normal once after an outage or a "
-        "command; the events filter_reset have the numbers";
+        "command, the events filter_reset have the numbers";
     CHECK(after.find("FAULT: no solution yet (") == 0);
     CHECK(after.find(started_over + "none") != std::string::npos);
     const bool inertial = motion == MotionModel::kInertial;
@@ -290,7 +290,7 @@ TEST_CASE("an input that does not follow a convention stays a reason, with the r
     const std::string said = watched.at(now_s);
     CAPTURE(said);
     CHECK(said.find("DEGRADED: ") == 0);
-    CHECK(said.find("accelerations in g; multiply them by 9.80665") != std::string::npos);
+    CHECK(said.find("accelerations in g, multiply them by 9.80665") != std::string::npos);
   }
 }
 

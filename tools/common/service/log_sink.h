@@ -1,4 +1,4 @@
-// The LogSink hands what spdlog logs to a LogWriter.
+// The LogSink hands what spdlog logs to a LogThread.
 #pragma once
 #include <spdlog/sinks/base_sink.h>
 
@@ -7,13 +7,13 @@
 #include <string_view>
 #include <utility>
 
-#include "daemon/log/log_writer.h"
+#include "daemon/log/log_thread.h"
 
 namespace leonav {
 
 class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  explicit LogSink(std::shared_ptr<LogWriter> writer) : writer_(std::move(writer)) {}
+  explicit LogSink(std::shared_ptr<LogThread> writer) : writer_(std::move(writer)) {}
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
@@ -23,7 +23,7 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   }
   void flush_() override {}
 
-  std::shared_ptr<LogWriter> writer_;
+  std::shared_ptr<LogThread> writer_;
 };
 
 }  // namespace leonav

@@ -13,8 +13,8 @@
 
 #include "daemon/config/load_config.h"
 #include "daemon/link/open_lcm.h"
-#include "daemon/log/log_writer.h"
-#include "daemon/log/patient_write.h"
+#include "daemon/log/descriptor_write.h"
+#include "daemon/log/log_thread.h"
 #include "drivers/lcm/event_log.h"
 #include "tools/common/arguments.h"
 #include "tools/common/service/log_sink.h"
@@ -38,7 +38,7 @@ const char* text_of(const std::exception& error) {
 }
 
 // Of the process; made before anything is logged.
-std::shared_ptr<LogWriter> log_writer;
+std::shared_ptr<LogThread> log_thread;
 
 // An end must come, whether somebody reads or not.
 void write_text(const char* text) {
@@ -80,9 +80,9 @@ void require_memory_to_begin() {
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv)) {
   std::set_terminate(end_at_once);
   require_memory_to_begin();
-  log_writer = std::make_shared<LogWriter>(STDERR_FILENO, name);
+  log_thread = std::make_shared<LogThread>(STDERR_FILENO, name);
   spdlog::set_default_logger(
-      std::make_shared<spdlog::logger>(name, std::make_shared<LogSink>(log_writer)));
+      std::make_shared<spdlog::logger>(name, std::make_shared<LogSink>(log_thread)));
   spdlog::set_pattern(std::string(name) + " %H:%M:%S.%e %l: %v");
   int code = 0;
   try {
@@ -91,10 +91,10 @@ int service_main(const char* name, int argc, char** argv, int (*body)(int argc, 
     spdlog::error("{}", text_of(error));
     code = exit_code_of(error);
   }
-  log_writer->finish();
+  log_thread->finish();
   return code;
 }
 
-void start_log_thread() { log_writer->start(); }
+void start_log_thread() { log_thread->start(); }
 
 }  // namespace leonav

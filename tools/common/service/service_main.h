@@ -16,7 +16,7 @@ inline constexpr int kExitFailure = 1, kExitUsage = 2, kExitConfig = 3, kExitLcm
 // lines are lost then, and counted.
 int service_main(const char* name, int argc, char** argv, int (*body)(int argc, char** argv));
 
-// For `body`, where not even a moment may be lost: from here on a thread of its own (LogWriter)
+// For `body`, where not even a moment may be lost: from here on a thread of its own (LogThread)
 // writes the log.
 void start_log_thread();
 

@@ -106,9 +106,9 @@ void EpochReporter::publish(Source source, const AlignmentNeed& alignment,
 // measurement is an outlier.
 void EpochReporter::report_consistency(const std::array<std::optional<double>, 2>& improbable,
                                        GpsTime time) {
-  for (std::size_t i = 0; i < improbable.size(); ++i)
-    if (improbable[i])
-      emit(EventKind::kImprobable, static_cast<std::uint8_t>(i), *improbable[i], time);
+  for (const Improbable code : {Improbable::kCodes, Improbable::kDopplers})
+    if (const auto& ratio = improbable[static_cast<std::size_t>(code)])
+      emit(EventKind::kImprobable, static_cast<std::uint8_t>(code), *ratio, time);
 }
 
 // A step that the clock states have taken up costs no accuracy. But users of the receiver's time

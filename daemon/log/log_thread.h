@@ -1,4 +1,4 @@
-// The LogWriter writes lines to standard error, and lets nobody who has a line wait for its reader.
+// The LogThread writes lines to standard error, and lets nobody who has a line wait for its reader.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,21 +9,21 @@
 namespace leonav {
 
 // Whoever reads the lines may have stopped: a pipe that is full, a journald that is stuck, a file
-// on a disk that does not answer. A thread of its own writes what write() puts into a queue. What
-// finds no room there is dropped and counted, and so is all that follows until the thread has
-// written the queue and said so ("log: 12 lines lost"). So the lines are in order.
+// on a disk that is full or does not answer. A thread of its own writes what write() puts into a
+// queue. What finds no room there is dropped and counted, and so is all that follows until the
+// thread has written the queue and said so ("log: 12 lines lost"). So the lines are in order.
 //
 // Before start() and after finish() there is no thread, and write() itself waits a moment at most.
-class LogWriter {
+class LogThread {
  public:
   static constexpr std::size_t kQueueBytes = 64 << 10;  // some 700 lines
   static constexpr double kLongestEnd_s = 2.0;
 
   // `name` begins the line about lost ones, as it begins the others.
-  LogWriter(int descriptor, std::string name);
-  ~LogWriter();
-  LogWriter(const LogWriter&) = delete;
-  LogWriter& operator=(const LogWriter&) = delete;
+  LogThread(int descriptor, std::string name);
+  ~LogThread();
+  LogThread(const LogThread&) = delete;
+  LogThread& operator=(const LogThread&) = delete;
 
   // Throws std::runtime_error if no thread can be made. It allocates nothing, has no priority, and
   // takes no signal.

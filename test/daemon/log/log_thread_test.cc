@@ -1,11 +1,16 @@
 // Lines of the log, whether somebody reads them or not.
-#include "daemon/log/log_writer.h"
+#include "daemon/log/log_thread.h"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -14,6 +19,8 @@
 
 #include "daemon/threads/counters.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
+#include "support/wait_a_moment.h"
 #include "tools/common/allocations/allocation_counter.h"
 
 namespace {
@@ -64,6 +71,22 @@ class Pipe {
     return lines;
   }
 
+  // Reads until `last` has come, for 10 s at most, and returns whether it has. Allocates nothing.
+  bool has_until(std::string_view last) const {
+    const Stopwatch watch;
+    char part[4096];
+    std::size_t kept = 0;  // of the end of what was read before, in which `last` may begin
+    while (seconds_since(watch) < 10.0) {
+      pollfd place{ends_[0], POLLIN, 0};
+      if (poll(&place, 1, 100) <= 0) continue;
+      const std::string_view text(part, kept + read_some(part + kept, sizeof part - kept));
+      if (text.find(last) != text.npos) return true;
+      kept = std::min(text.size(), last.size() - 1);
+      std::copy(text.end() - static_cast<std::ptrdiff_t>(kept), text.end(), part);
+    }
+    return false;
+  }
+
  private:
   int ends_[2] = {-1, -1};
 };
@@ -71,17 +94,59 @@ class Pipe {
 std::string line_of(int number) { return "line " + std::to_string(number) + "\n"; }
 
 // More than pipe and queue have room for.
-int write_too_much(LogWriter* writer) {
+int write_too_much(LogThread* writer) {
   constexpr int kLines = 20'000;
   for (int i = 0; i < kLines; ++i) writer->write(line_of(i));
   return kLines;
+}
+
+// A file that takes `bytes` only, as on a disk that is full then, as long as this lives.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before_) == 0);
+    const rlimit limit{bytes, before_.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_DFL);
+  }
+
+ private:
+  rlimit before_{};
+};
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::vector<std::string> lines;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+// How many lines are said to be lost.
+std::uint64_t told_of(const std::vector<std::string>& lines) {
+  constexpr std::string_view kBegin = " warning: log: ";
+  std::uint64_t told = 0;
+  for (const std::string& line : lines)
+    if (const std::size_t at = line.find(kBegin); at != line.npos)
+      told += std::stoull(line.substr(at + kBegin.size()));
+  return told;
+}
+
+template <typename Is>
+bool comes(Is is) {
+  const Stopwatch watch;
+  while (!is() && seconds_since(watch) < 10.0) test::wait_a_moment();
+  return is();
 }
 
 }  // namespace
 
 TEST_CASE("the lines of the log come out in order, before and after the writer has its thread") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.write("first\n");
   writer.start();
   writer.write("second\n");
@@ -93,7 +158,7 @@ TEST_CASE("the lines of the log come out in order, before and after the writer h
 
 TEST_CASE("a log that nobody reads lets nobody wait, and says what was lost once it is read") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   const Stopwatch watch;
   const int written = write_too_much(&writer);
@@ -115,7 +180,7 @@ TEST_CASE("a log that nobody reads lets nobody wait, and says what was lost once
 
 TEST_CASE("the end of a log that nobody reads comes in time") {
   Pipe pipe;
-  auto writer = std::make_unique<LogWriter>(pipe.in(), "program");
+  auto writer = std::make_unique<LogThread>(pipe.in(), "program");
   writer->start();
   write_too_much(writer.get());
   const Stopwatch watch;
@@ -123,13 +188,13 @@ TEST_CASE("the end of a log that nobody reads comes in time") {
   writer->write("too late\n");
   CHECK(writer->lost() > 0);
   writer.reset();
-  CHECK(seconds_since(watch) < LogWriter::kLongestEnd_s + 1.0);
+  CHECK(seconds_since(watch) < LogThread::kLongestEnd_s + 1.0);
   pipe.lines_until("lost");  // lets the thread go
 }
 
 TEST_CASE("the end of a log that is read waits until all is written") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   for (int i = 0; i < 300; ++i) writer.write(line_of(i));
   writer.finish();
@@ -138,7 +203,7 @@ TEST_CASE("the end of a log that is read waits until all is written") {
 
 TEST_CASE("without a thread a log that nobody reads costs a moment, and tells what was lost") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   const Stopwatch watch;
   const int written = write_too_much(&writer);
   CHECK(seconds_since(watch) < 2.0);
@@ -152,10 +217,54 @@ TEST_CASE("without a thread a log that nobody reads costs a moment, and tells wh
   CHECK(lines[1] == "it goes on");
 }
 
+TEST_CASE("lines that a full disk refuses are counted, and told once there is room again") {
+  const bool has_thread = GENERATE(true, false);
+  CAPTURE(has_thread);
+  const test::TemporaryFile file("log", "");
+  const int descriptor = open(file.path().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  REQUIRE(descriptor >= 0);
+  constexpr int kLines = 1000;  // several parts of the queue
+  constexpr std::size_t kWhole = 300;
+  std::size_t room = 3;  // of the line that is torn
+  for (std::size_t i = 0; i < kWhole; ++i) room += line_of(static_cast<int>(i)).size();
+  LogThread writer(descriptor, "program");
+  {
+    const FullDisk full(room);
+    if (has_thread) writer.start();
+    for (int i = 0; i < kLines; ++i) writer.write(line_of(i));
+    CHECK(comes([&] { return writer.lost() == kLines - kWhole; }));
+  }
+  writer.write("there is room again\n");  // dropped, if the others are not yet told
+  CHECK(comes([&] { return told_of(lines_of(file.path())) == writer.lost(); }));
+  writer.write("it goes on\n");
+  writer.finish();
+  close(descriptor);
+  const std::vector<std::string> lines = lines_of(file.path());
+  REQUIRE(lines.size() > kWhole + 2);
+  for (std::size_t i = 0; i < kWhole; ++i) CHECK(lines[i] + "\n" == line_of(static_cast<int>(i)));
+  CHECK(lines[kWhole] == "lin");
+  CHECK(lines[kWhole + 1].starts_with("program "));
+  CHECK(lines.back() == "it goes on");
+  CHECK(told_of(lines) == writer.lost());
+}
+
+TEST_CASE("a disk that stays full does not keep a log from its end") {
+  const int descriptor = open("/dev/full", O_WRONLY | O_CLOEXEC);
+  REQUIRE(descriptor >= 0);
+  LogThread writer(descriptor, "program");
+  writer.start();
+  for (int i = 0; i < 10; ++i) writer.write(line_of(i));
+  const Stopwatch watch;
+  writer.finish();
+  CHECK(seconds_since(watch) < 1.0);
+  CHECK(writer.lost() == 10);
+  close(descriptor);
+}
+
 TEST_CASE("a reader that has gone ends no program that logs") {
   Pipe pipe;
   pipe.close_reader();
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();  // the test has not set SIGPIPE aside: the thread blocks it
   for (int i = 0; i < 10; ++i) writer.write(line_of(i));
   writer.finish();
@@ -164,16 +273,13 @@ TEST_CASE("a reader that has gone ends no program that logs") {
 
 TEST_CASE("a log allocates nothing once it has begun") {
   Pipe pipe;
-  LogWriter writer(pipe.in(), "program");
+  LogThread writer(pipe.in(), "program");
   writer.start();
   start_counting_allocations();
   for (int i = 0; i < 20'000; ++i) writer.write("a line that is always the same\n");
   CHECK(stop_counting_allocations() == 0);
   REQUIRE(writer.lost() > 0);
   start_counting_allocations();
-  char part[4096];
-  const Stopwatch watch;
-  for (std::string_view text; text.find("lost") == text.npos && seconds_since(watch) < 10.0;)
-    text = {part, pipe.read_some(part, sizeof part)};
+  CHECK(pipe.has_until("lost"));
   CHECK(stop_counting_allocations() == 0);
 }

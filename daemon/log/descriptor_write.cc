@@ -1,4 +1,4 @@
-#include "daemon/log/patient_write.h"
+#include "daemon/log/descriptor_write.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ bool wait_for_room(int descriptor, int longest_ms) {
   return ready > 0 && (place.revents & POLLOUT) != 0;
 }
 
-void write_whole(int descriptor, std::string_view text) {
+std::string_view write_whole(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());
     if (written > 0)
@@ -25,22 +25,23 @@ void write_whole(int descriptor, std::string_view text) {
     else if (written < 0 && errno == EAGAIN)
       wait_for_room(descriptor, -1);
     else if (written == 0 || errno != EINTR)
-      return;
+      break;
   }
+  return text;
 }
 
 // A pipe that has any room takes PIPE_BUF bytes at once.
-bool write_where_there_is_room(int descriptor, std::string_view text, int longest_ms) {
+std::string_view write_where_there_is_room(int descriptor, std::string_view text, int longest_ms) {
   while (!text.empty()) {
-    if (!wait_for_room(descriptor, longest_ms)) return false;
+    if (!wait_for_room(descriptor, longest_ms)) break;
     const ssize_t written =
         write(descriptor, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
     if (written > 0)
       text.remove_prefix(static_cast<std::size_t>(written));
     else if (written == 0 || (errno != EINTR && errno != EAGAIN))
-      return false;
+      break;
   }
-  return true;
+  return text;
 }
 
 }  // namespace leonav
