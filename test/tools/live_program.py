@@ -13,7 +13,7 @@ def require_log_thread(process):
     """The program writes its log in a thread of its own, so that nobody who reads it holds up the others."""
     tasks = pathlib.Path(f"/proc/{process.pid}/task")
     names = [(task / "comm").read_text(encoding="ascii").strip() for task in tasks.iterdir()]
-    if "log" not in names:
+    if "leonav-log" not in names:
         fail(f"no thread writes the log; there are {names}")
 
 
